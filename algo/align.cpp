@@ -1,0 +1,175 @@
+#include "algo/align.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mdof::algo {
+namespace {
+
+template <class T>
+void append_or_take(std::vector<T>& to, std::vector<T>& from) {
+  if (to.empty()) {
+    to.swap(from);
+  } else {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+}
+
+void append_quality(std::vector<Quality>& to, std::size_t before, std::vector<Quality>* from,
+                    std::size_t n) {
+  const bool marked = from && !from->empty();
+  if (!marked && to.empty()) return;
+  to.resize(before, Quality::good);
+  if (marked) {
+    to.insert(to.end(), from->begin(), from->end());
+  } else {
+    to.resize(before + n, Quality::good);
+  }
+}
+
+std::int64_t to_ns(double s) {
+  return static_cast<std::int64_t>(s * 1e9);
+}
+
+}  // namespace
+
+Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids) : options_(options) {
+  encoder_.id = kEncoderChannel;
+  for (auto& id : probe_ids) probes_.push_back({std::move(id), {}, INT64_MIN});
+}
+
+// Finds the rig's channels in the block; -1 where it has none.
+bool Aligner::whole(const SampleBlock& block) {
+  if (block.channels != known_channels_) {
+    known_channels_ = block.channels;
+    channel_of_.assign(probes_.size() + 1, -1);
+    for (std::size_t c = 0; c < block.channels.size(); ++c) {
+      const std::string& id = block.channels[c].id;
+      for (std::size_t k = 0; k < probes_.size(); ++k) {
+        if (probes_[k].id == id) channel_of_[k] = static_cast<int>(c);
+      }
+      if (id == encoder_.id) channel_of_.back() = static_cast<int>(c);
+    }
+  }
+  return std::find(channel_of_.begin(), channel_of_.end(), -1) == channel_of_.end();
+}
+
+void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
+  const std::size_t before = out.size(), n = block.scans();
+  for (std::size_t k = 0; k < probes_.size(); ++k) {
+    const auto c = static_cast<std::size_t>(channel_of_[k]);
+    append_or_take(out.probe_m[k], block.value[c]);
+    append_quality(out.probe_quality[k], before,
+                   block.quality.empty() ? nullptr : &block.quality[c], n);
+  }
+  append_or_take(out.encoder_m, block.value[static_cast<std::size_t>(channel_of_.back())]);
+  append_or_take(out.time_ns, block.time_ns);
+}
+
+Status Aligner::push(SampleBlock& block, FrameBlock& out) {
+  out.probe_m.resize(probes_.size());
+  out.probe_quality.resize(probes_.size());
+  if (block.scans() == 0) return {};
+  if (!whole(block)) {
+    MDOF_CHECK(enqueue(block));
+    emit(out, false);
+    return {};
+  }
+  if (block.time_ns.front() <= encoder_.newest_ns) {
+    return bad_input("device \"" + block.device + "\": time goes backwards, from " +
+                     std::to_string(encoder_.newest_ns) + " ns to " +
+                     std::to_string(block.time_ns.front()) + " ns");
+  }
+  encoder_.newest_ns = block.time_ns.back();
+  take_whole(block, out);
+  return {};
+}
+
+Status Aligner::enqueue(const SampleBlock& block) {
+  for (std::size_t c = 0; c < block.channels.size(); ++c) {
+    Track* track = block.channels[c].id == encoder_.id ? &encoder_ : nullptr;
+    for (Track& probe : probes_) {
+      if (probe.id == block.channels[c].id) track = &probe;
+    }
+    if (track) MDOF_CHECK(enqueue_channel(block, c, *track));
+  }
+  newest_ns_ = std::max(newest_ns_, block.time_ns.back());
+  return {};
+}
+
+Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track) {
+  for (std::size_t i = 0; i < block.scans(); ++i) {
+    const std::int64_t t = block.time_ns[i];
+    if (t <= track.newest_ns) {
+      return bad_input("device \"" + block.device + "\", channel " + track.id +
+                       ": time goes backwards, from " + std::to_string(track.newest_ns) +
+                       " ns to " + std::to_string(t) + " ns");
+    }
+    track.newest_ns = t;
+    track.readings.push_back({t, block.value[channel][i], block.quality_at(channel, i)});
+  }
+  return {};
+}
+
+// The reading of a track at an instant it has reached; drops what no later instant can need.
+Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
+  auto& readings = track.readings;
+  while (readings.size() >= 2 && readings[1].time_ns <= time_ns) readings.pop_front();
+  const Reading nothing{time_ns, kNaN, Quality::missing};
+  if (readings.empty() || readings.front().time_ns > time_ns) return nothing;
+  const Reading& a = readings.front();
+  if (a.time_ns == time_ns) return a;
+  if (readings.size() < 2) return nothing;
+  const Reading& b = readings[1];
+  if (b.time_ns - a.time_ns > to_ns(options_.max_gap_s)) return nothing;
+  const double share =
+      static_cast<double>(time_ns - a.time_ns) / static_cast<double>(b.time_ns - a.time_ns);
+  return {time_ns, a.value + (b.value - a.value) * share, std::max(a.quality, b.quality)};
+}
+
+void Aligner::emit(FrameBlock& out, bool at_end) {
+  while (!encoder_.readings.empty()) {
+    const Reading at = encoder_.readings.front();
+    const bool overdue = at_end || newest_ns_ - at.time_ns > to_ns(options_.lag_bound_s);
+    const bool reached = std::all_of(probes_.begin(), probes_.end(), [&](const Track& probe) {
+      return probe.newest_ns >= at.time_ns;
+    });
+    if (!reached && !overdue) return;
+    encoder_.readings.pop_front();
+    const std::size_t row = out.size();
+    for (std::size_t k = 0; k < probes_.size(); ++k) {
+      const Reading r = value_at(probes_[k], at.time_ns);
+      given_up_ += r.quality == Quality::missing;
+      out.probe_m[k].push_back(r.value);
+      if (r.quality != Quality::good || !out.probe_quality[k].empty()) {
+        out.probe_quality[k].resize(row, Quality::good);
+        out.probe_quality[k].push_back(r.quality);
+      }
+    }
+    out.time_ns.push_back(at.time_ns);
+    out.encoder_m.push_back(at.value);
+  }
+}
+
+void Aligner::flush(FrameBlock& out) {
+  out.probe_m.resize(probes_.size());
+  out.probe_quality.resize(probes_.size());
+  emit(out, true);
+}
+
+std::optional<std::string> Aligner::waiting_for() const {
+  if (encoder_.readings.empty()) {
+    const bool silent = newest_ns_ > encoder_.newest_ns &&
+                        (encoder_.newest_ns == INT64_MIN ||
+                         newest_ns_ - encoder_.newest_ns > to_ns(options_.lag_bound_s));
+    return silent ? std::optional(encoder_.id) : std::nullopt;
+  }
+  const auto latest =
+      std::min_element(probes_.begin(), probes_.end(),
+                       [](const Track& a, const Track& b) { return a.newest_ns < b.newest_ns; });
+  return latest->newest_ns < encoder_.readings.front().time_ns ? std::optional(latest->id)
+                                                               : std::nullopt;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,69 @@
+// Samples of several devices -> frames on the encoder's time line.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schema/result.h"
+#include "schema/sample.h"
+
+namespace mdof::algo {
+
+struct AlignOptions {
+  // A probe silent for longer than this behind the encoder is given up for those instants
+  // (missing), so that one dead device does not hold up the rest.
+  double lag_bound_s = 0.2;
+  // Two samples further apart than this have a gap between them: nothing is interpolated into it.
+  double max_gap_s = 0.05;
+};
+
+// Takes calibrated blocks (Unit::metre). Where one device gives the encoder and all probes, its
+// scans are the frames, bit for bit. Otherwise each probe is interpolated linearly between its two
+// samples around the encoder's instant; quality is the worse of the two. Thread-bound.
+class Aligner {
+ public:
+  Aligner(AlignOptions options, std::vector<std::string> probe_ids);
+
+  // Takes the block's columns (they are moved from). Frames that became complete are appended to
+  // `out`. Error: time of a channel goes backwards (names channel and times).
+  Status push(SampleBlock& block, FrameBlock& out);
+  // End of the data: what waits is given out, missing where nothing more came.
+  void flush(FrameBlock& out);
+
+  // The channel that holds up the frames now, if any.
+  std::optional<std::string> waiting_for() const;
+  std::uint64_t given_up() const { return given_up_; }  // probe values that never came
+
+ private:
+  struct Reading {
+    std::int64_t time_ns;
+    double value;
+    Quality quality;
+  };
+  struct Track {
+    std::string id;
+    std::deque<Reading> readings;
+    std::int64_t newest_ns = INT64_MIN;
+  };
+
+  bool whole(const SampleBlock& block);
+  void take_whole(SampleBlock& block, FrameBlock& out);
+  Status enqueue(const SampleBlock& block);
+  Status enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track);
+  void emit(FrameBlock& out, bool at_end);
+  Reading value_at(Track& track, std::int64_t time_ns);
+
+  AlignOptions options_;
+  Track encoder_;
+  std::vector<Track> probes_;
+  std::vector<int> channel_of_;  // of known_channels_: [probe..., encoder]
+  std::vector<Channel> known_channels_;
+  std::int64_t newest_ns_ = INT64_MIN;
+  std::uint64_t given_up_ = 0;
+};
+
+}  // namespace mdof::algo

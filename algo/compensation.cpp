@@ -1,0 +1,148 @@
+#include "algo/compensation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algo/line_fit.h"
+#include "algo/series.h"
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kSameTargetShare = 0.02;
+
+double smallest_step(const std::vector<double>& x) {
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < x.size(); ++i) step = std::min(step, x[i] - x[i - 1]);
+  return step;
+}
+
+// All points of all runs with targets numbered on the first run's grid.
+Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
+                                               const std::vector<double>& grid) {
+  std::vector<MeasuredPoint> points;
+  const double window = kSameTargetShare * smallest_step(grid);
+  for (const Run& run : runs) {
+    for (MeasuredPoint p : run.points) {
+      if (!p.errors.valid) continue;
+      const auto near = std::min_element(grid.begin(), grid.end(), [&](double a, double b) {
+        return std::abs(a - p.point.position_m) < std::abs(b - p.point.position_m);
+      });
+      if (std::abs(*near - p.point.position_m) > window) {
+        return bad_input("run " + std::to_string(run.header.id) + " stops at " +
+                         std::to_string(p.point.position_m * 1e3) + " mm where run " +
+                         std::to_string(runs.front().header.id) +
+                         " has no target; build one table from runs of the same targets");
+      }
+      p.target = static_cast<int>(near - grid.begin()) + 1;
+      points.push_back(std::move(p));
+    }
+  }
+  return points;
+}
+
+// What is subtracted from each named error: a line for straightness, the start for angles.
+std::array<Line, 5> references(Axis axis, const std::vector<TargetMean>& mean,
+                               const TableOptions& options) {
+  std::array<Line, 5> lines{};
+  const auto x = positions(mean);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const auto y = column(mean, k);
+    if (error_names(axis)[k].angle) {
+      lines[k].intercept = y.front();
+    } else if (options.remove_slope) {
+      lines[k] = least_squares_line(x, y);
+    }
+  }
+  return lines;
+}
+
+void fill_side(Axis axis, const std::vector<MeasuredPoint>& points, Approach approach,
+               const std::vector<TargetMean>& grid, const std::array<Line, 5>& reference,
+               std::array<std::vector<double>, 5>& values, std::array<std::vector<double>, 5>& u) {
+  const auto series = target_means(axis, points, approach);
+  const double window = kSameTargetShare * smallest_step(positions(grid));
+  for (std::size_t k = 0; k < 5; ++k) {
+    values[k].assign(grid.size(), kNaN);
+    u[k].assign(grid.size(), kNaN);
+    for (const TargetMean& m : series) {
+      for (std::size_t i = 0; i < grid.size(); ++i) {
+        if (std::abs(grid[i].position_m - m.position_m) > window) continue;
+        values[k][i] = m.named[k] - reference[k].at(m.position_m);
+        u[k][i] = m.u[k];
+      }
+    }
+  }
+}
+
+// Linear interpolation over the grid points that have a value; NaN if none has.
+double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  std::size_t below = x.size(), above = x.size();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(y[i])) continue;
+    if (x[i] <= at) below = i;
+    if (x[i] >= at && above == x.size()) above = i;
+  }
+  if (below == x.size() && above == x.size()) return kNaN;
+  if (below == x.size()) return y[above];
+  if (above == x.size() || above == below) return y[below];
+  const double share = (at - x[below]) / (x[above] - x[below]);
+  return y[below] + (y[above] - y[below]) * share;
+}
+
+}  // namespace
+
+Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options) {
+  if (runs.empty()) return bad_input("a compensation table needs at least one run");
+  CompensationTable table;
+  table.axis = runs.front().header.axis;
+  table.slope_removed = options.remove_slope;
+  for (const Run& run : runs) {
+    if (run.header.axis != table.axis) {
+      return bad_input("run " + std::to_string(run.header.id) + " is of axis " +
+                       letter(run.header.axis) + ", run " + std::to_string(runs.front().header.id) +
+                       " of " + letter(table.axis) + "; a table is of one axis");
+    }
+    table.runs.push_back(run.header.id);
+    table.simulated = table.simulated || run.header.simulated;
+  }
+  const auto first = target_means(table.axis, runs.front().points, Approach::both);
+  if (first.size() < 3 || !can_fit(positions(first))) {
+    return bad_input("run " + std::to_string(runs.front().header.id) + " has " +
+                     std::to_string(first.size()) +
+                     " solved targets; a compensation table needs at least three");
+  }
+  MDOF_TRY(const auto points, on_one_grid(runs, positions(first)));
+  const auto grid = target_means(table.axis, points, Approach::both);
+  const auto reference = references(table.axis, grid, options);
+  table.position_m = positions(grid);
+  fill_side(table.axis, points, Approach::forward, grid, reference, table.forward, table.u_forward);
+  fill_side(table.axis, points, Approach::reverse, grid, reference, table.reverse, table.u_reverse);
+  return table;
+}
+
+TableValue table_at(const CompensationTable& table, double position_m, TableSide side) {
+  TableValue value;
+  const auto& x = table.position_m;
+  value.inside = position_m >= x.front() && position_m <= x.back();
+  for (std::size_t k = 0; k < 5; ++k) {
+    const double forward = interpolate(x, table.forward[k], position_m);
+    const double reverse = interpolate(x, table.reverse[k], position_m);
+    const double u_forward = interpolate(x, table.u_forward[k], position_m);
+    const double u_reverse = interpolate(x, table.u_reverse[k], position_m);
+    if (side == TableSide::mean && std::isfinite(forward) && std::isfinite(reverse)) {
+      value.error[k] = 0.5 * (forward + reverse);
+      value.u[k] = 0.5 * std::sqrt(u_forward * u_forward + u_reverse * u_reverse);
+    } else if (side == TableSide::reverse || (side == TableSide::mean && !std::isfinite(forward))) {
+      value.error[k] = reverse;
+      value.u[k] = u_reverse;
+    } else {
+      value.error[k] = forward;
+      value.u[k] = u_forward;
+    }
+  }
+  return value;
+}
+
+}  // namespace mdof::algo

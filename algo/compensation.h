@@ -1,0 +1,30 @@
+// Runs -> one-axis compensation table, and the table's value at a position.
+#pragma once
+
+#include <vector>
+
+#include "schema/compensation_table.h"
+#include "schema/result.h"
+#include "schema/run.h"
+
+namespace mdof::algo {
+
+// Mean errors at each target over all runs given (one axis, the same targets), forward and reverse
+// apart; angles referred to the first target of the mean of both approaches, straightness to its
+// least-squares line (`remove_slope`: the slope belongs to squareness) or as measured. Targets of
+// different runs are one where they lie within 2 % of the smallest step, else it is an error.
+struct TableOptions {
+  bool remove_slope = true;
+};
+Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
+
+// The errors at a position: linear between grid points, the end value held outside and said so.
+struct TableValue {
+  Errors5 error{};  // named; NaN where the table has no value
+  Errors5 u{};
+  bool inside = true;  // false: the end value is held
+};
+enum class TableSide { forward, reverse, mean };
+TableValue table_at(const CompensationTable& table, double position_m, TableSide side);
+
+}  // namespace mdof::algo

@@ -1,0 +1,333 @@
+#include "algo/dwell.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "algo/robust_mean.h"
+#include "schema/json_writer.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kSlotsPerWindow = 4;
+constexpr double kAutoTolerance_m = 2e-6;
+// Noise of sd σ, voted by three, stays within 5 σ over a window; the σ found is that of the
+// quietest slot, up to a third below the true one.
+constexpr double kAutoNoiseFactor = 8;
+// Mean |second difference| of white noise over its σ: √6 · √(2/π).
+constexpr double kBendOfNoise = 1.9544;
+constexpr double kCreepFactor = 5.0;  // a stop that wanders by more tolerances than this is none
+constexpr std::size_t kRowsForPeriod = 33;
+constexpr std::size_t kMinScansPerSlot = 4;
+constexpr int kGapPeriods = 3;
+constexpr std::size_t kPathLength = 64;
+constexpr std::size_t kDropRows = 16384;  // rows no longer needed before the buffer is moved up
+constexpr std::size_t kMinScans = 5;      // of a dwell, and of a probe in it
+
+double median3(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+void append(FrameBlock& to, const FrameBlock& from, std::size_t first, std::size_t last) {
+  const auto range = [&](const auto& column, auto& target) {
+    target.insert(target.end(), column.begin() + static_cast<std::ptrdiff_t>(first),
+                  column.begin() + static_cast<std::ptrdiff_t>(last));
+  };
+  const std::size_t before = to.size();
+  range(from.time_ns, to.time_ns);
+  range(from.encoder_m, to.encoder_m);
+  for (std::size_t k = 0; k < from.probe_m.size(); ++k) {
+    range(from.probe_m[k], to.probe_m[k]);
+    const bool marked = !from.probe_quality.empty() && !from.probe_quality[k].empty();
+    auto& quality = to.probe_quality[k];
+    if (marked) {
+      quality.resize(before, Quality::good);
+      range(from.probe_quality[k], quality);
+    } else if (!quality.empty()) {
+      quality.resize(before + last - first, Quality::good);
+    }
+  }
+}
+
+template <class Column>
+void drop_front(Column& column, std::size_t n) {
+  if (!column.empty())
+    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(n));
+}
+
+FrameBlock empty_frames(std::size_t probes) {
+  FrameBlock frames;
+  frames.probe_m.resize(probes);
+  frames.probe_quality.resize(probes);
+  return frames;
+}
+
+void add_flag(Point& point, const std::string& flag) {
+  if (std::find(point.flags.begin(), point.flags.end(), flag) == point.flags.end()) {
+    point.flags.push_back(flag);
+  }
+}
+
+}  // namespace
+
+std::string DwellOptions::json() const {
+  JsonWriter json;
+  json.begin_object()
+      .field("tolerance_um", to_um(tolerance_m))
+      .field("window_s", window_s)
+      .field("settle_s", settle_s)
+      .field("min_length_s", min_length_s)
+      .field("approach_um", to_um(approach_m))
+      .field("max_scans", static_cast<std::uint64_t>(max_scans))
+      .end_object();
+  return json.take();
+}
+
+DwellDetector::DwellDetector(DwellOptions options, std::vector<std::string> probe_ids,
+                             std::vector<double> probe_range_m)
+    : options_(options),
+      probe_ids_(std::move(probe_ids)),
+      probe_range_m_(std::move(probe_range_m)),
+      early_(empty_frames(probe_ids_.size())),
+      buffer_(empty_frames(probe_ids_.size())) {
+  assert(probe_ids_.size() == probe_range_m_.size());
+}
+
+void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
+  std::size_t from = 0;
+  if (period_ns_ == 0) {
+    from = std::min(frames.size(), kRowsForPeriod - early_.size());
+    append(early_, frames, 0, from);
+    if (early_.size() < kRowsForPeriod) return;
+    learn_period(early_);
+    const FrameBlock early = std::move(early_);
+    early_ = empty_frames(probe_ids_.size());
+    push(early, out);
+  }
+  while (from < frames.size()) {
+    const std::int64_t index = (frames.time_ns[from] - origin_ns_) / slot_ns_;
+    if (slot_open_ && index != open_.index) close_slot(out);
+    if (!slot_open_) {
+      open_ = Slot{};
+      open_.index = index;
+      open_.first_row = buffer_.size();
+      slot_open_ = true;
+    }
+    const std::int64_t slot_end_ns = origin_ns_ + (index + 1) * slot_ns_;
+    std::size_t to = from + 1;
+    while (to < frames.size() && frames.time_ns[to] < slot_end_ns) ++to;
+    add_rows(frames, from, to);
+    from = to;
+  }
+}
+
+void DwellDetector::learn_period(const FrameBlock& frames) {
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    steps.push_back(frames.time_ns[i] - frames.time_ns[i - 1]);
+  }
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                   steps.end());
+  period_ns_ = std::max<std::int64_t>(1, steps[steps.size() / 2]);
+  const auto quarter_ns = static_cast<std::int64_t>(options_.window_s * 1e9) /
+                          static_cast<std::int64_t>(kSlotsPerWindow);
+  slot_ns_ = std::max<std::int64_t>(quarter_ns, kMinScansPerSlot * period_ns_);
+  origin_ns_ = last_ns_ = frames.time_ns.front();
+  encoder_before_ = {frames.encoder_m.front(), frames.encoder_m.front()};
+  summary_.period_s = ns_to_s(period_ns_);
+  summary_.encoder_min_m = summary_.encoder_max_m = frames.encoder_m.front();
+}
+
+void DwellDetector::add_rows(const FrameBlock& frames, std::size_t from, std::size_t to) {
+  double low = open_.rows ? open_.min_m : std::numeric_limits<double>::infinity();
+  double high = open_.rows ? open_.max_m : -low;
+  double bend = open_.bend_m;
+  auto [before2, before1] = encoder_before_;
+  for (std::size_t i = from; i < to; ++i) {
+    const double encoder = frames.encoder_m[i];
+    const double voted = median3(before2, before1, encoder);
+    low = std::min(low, voted);
+    high = std::max(high, voted);
+    bend += std::abs(encoder - 2 * before1 + before2);
+    before2 = before1;
+    before1 = encoder;
+  }
+  encoder_before_ = {before2, before1};
+  for (std::size_t i = from; i < to; ++i) {
+    summary_.gaps += frames.time_ns[i] - last_ns_ > kGapPeriods * period_ns_;
+    last_ns_ = frames.time_ns[i];
+  }
+  if (open_.rows == 0) open_.begin_ns = frames.time_ns[from];
+  open_.end_ns = last_ns_;
+  open_.min_m = low;
+  open_.max_m = high;
+  open_.bend_m = bend;
+  open_.rows += to - from;
+  summary_.scans += to - from;
+  if (dwelling_ && buffer_.size() > dwell_row_ + options_.max_scans) {
+    truncated_ = true;  // the dwell goes on, what is averaged of it does not
+  } else {
+    append(buffer_, frames, from, to);
+  }
+}
+
+bool DwellDetector::window_still() const {
+  if (slots_.size() < kSlotsPerWindow) return false;
+  double low = slots_.front().min_m, high = slots_.front().max_m;
+  for (const Slot& slot : slots_) {
+    low = std::min(low, slot.min_m);
+    high = std::max(high, slot.max_m);
+  }
+  return high - low <= summary_.tolerance_m;
+}
+
+void DwellDetector::remember_path(double position_m) {
+  if (!path_.empty() && std::abs(path_.back() - position_m) < options_.approach_m) return;
+  path_.push_back(position_m);
+  if (path_.size() > kPathLength) path_.pop_front();
+}
+
+int DwellDetector::direction_to(double position_m) const {
+  for (auto it = path_.rbegin(); it != path_.rend(); ++it) {
+    if (std::abs(*it - position_m) > options_.approach_m) return *it < position_m ? 1 : -1;
+  }
+  return 0;
+}
+
+void DwellDetector::close_slot(std::vector<Point>& out) {
+  slot_open_ = false;
+  slots_.push_back(open_);
+  if (slots_.size() > kSlotsPerWindow) slots_.pop_front();
+  summary_.encoder_min_m = std::min(summary_.encoder_min_m, open_.min_m);
+  summary_.encoder_max_m = std::max(summary_.encoder_max_m, open_.max_m);
+  const double noise_m = open_.bend_m / static_cast<double>(open_.rows) / kBendOfNoise;
+  if (open_.rows >= kMinScansPerSlot && (encoder_noise_m_ < 0 || noise_m < encoder_noise_m_)) {
+    encoder_noise_m_ = noise_m;
+  }
+  summary_.tolerance_m = options_.tolerance_m > 0
+                             ? options_.tolerance_m
+                             : std::max(kAutoTolerance_m, kAutoNoiseFactor * encoder_noise_m_);
+  remember_path(open_.middle());
+  const bool still = window_still();
+  if (still && !dwelling_) begin_dwell();
+  if (!still && dwelling_) end_dwell(out);
+  if (!dwelling_ && !slots_.empty()) drop_rows_before(slots_.front().first_row);
+}
+
+void DwellDetector::begin_dwell() {
+  dwelling_ = true;
+  truncated_ = false;
+  still_since_ns_ = slots_.front().begin_ns;
+  direction_ = direction_to(slots_.back().middle());
+  drop_rows_before(slots_.front().first_row);
+  dwell_row_ = slots_.front().first_row;
+}
+
+// The newest slot has left the window; the one before it may hold the start of the motion.
+void DwellDetector::end_dwell(std::vector<Point>& out) {
+  dwelling_ = false;
+  const std::size_t end_row = truncated_ ? buffer_.size() : slots_[slots_.size() - 2].first_row;
+  const double still_s = ns_to_s(slots_[slots_.size() - 2].begin_ns - still_since_ns_);
+  summary_.longest_still_s = std::max(summary_.longest_still_s, still_s);
+  const auto settled_ns = still_since_ns_ + static_cast<std::int64_t>(options_.settle_s * 1e9);
+  const auto first = std::lower_bound(buffer_.time_ns.begin(), buffer_.time_ns.end(), settled_ns);
+  const auto first_row = static_cast<std::size_t>(first - buffer_.time_ns.begin());
+  const bool long_enough =
+      still_s >= options_.settle_s + options_.min_length_s && end_row >= first_row + kMinScans;
+  if (long_enough) {
+    Point point = average(first_row, end_row);
+    const auto [low, high] =
+        std::minmax_element(buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(first_row),
+                            buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(end_row));
+    const bool spiky =
+        std::find(point.flags.begin(), point.flags.end(), "spike:encoder") != point.flags.end();
+    if (*high - *low <= kCreepFactor * summary_.tolerance_m || spiky)
+      out.push_back(std::move(point));
+  }
+  if (truncated_) {  // the rows after the cut were not kept: start afresh
+    drop_rows(buffer_.size());
+    slots_.clear();
+  }
+}
+
+Point DwellDetector::average(std::size_t from, std::size_t to) {
+  Point point;
+  point.begin_ns = buffer_.time_ns[from];
+  point.end_ns = buffer_.time_ns[to - 1];
+  point.samples = to - from;
+  const std::span<const double> encoder(&buffer_.encoder_m[from], to - from);
+  const RobustMean position = robust_mean(encoder, summary_.tolerance_m, scratch_);
+  point.position_m = position.mean;
+  point.direction = direction_;
+  if (position.rejected > 0) add_flag(point, "spike:encoder");
+  for (std::size_t k = 0; k < probe_ids_.size(); ++k) average_probe(k, from, to, point);
+  for (std::size_t i = from + 1; i < to; ++i) {
+    if (buffer_.time_ns[i] - buffer_.time_ns[i - 1] > kGapPeriods * period_ns_) {
+      add_flag(point, "gap");
+    }
+  }
+  if (truncated_) add_flag(point, "truncated");
+  return point;
+}
+
+void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size_t to,
+                                  Point& point) {
+  std::size_t over_range = 0;
+  finite_.clear();
+  const bool marked = !buffer_.probe_quality[probe].empty();
+  for (std::size_t i = from; i < to; ++i) {
+    const double x = buffer_.probe_m[probe][i];
+    const Quality q = marked ? buffer_.quality_at(probe, i) : Quality::good;
+    over_range += q == Quality::over_range;
+    if (usable(q) && std::isfinite(x)) finite_.push_back(x);
+  }
+  const std::string& id = probe_ids_[probe];
+  if (over_range > 0) add_flag(point, "saturated:" + id);
+  if (finite_.size() < kMinScans || 2 * finite_.size() < to - from) {
+    add_flag(point, "lost:" + id);
+    point.probe_m.push_back(kNaN);
+    point.probe_u_m.push_back(kNaN);
+    return;
+  }
+  if (finite_.size() + over_range < to - from) add_flag(point, "missing:" + id);
+  const RobustMean mean = robust_mean(finite_, 1e-3 * probe_range_m_[probe], scratch_);
+  if (mean.rejected > 0) add_flag(point, "spike:" + id);
+  point.probe_m.push_back(mean.mean);
+  point.probe_u_m.push_back(mean.u);
+}
+
+void DwellDetector::drop_rows_before(std::size_t row) {
+  if (row >= kDropRows) drop_rows(row);
+}
+
+void DwellDetector::drop_rows(std::size_t row) {
+  drop_front(buffer_.time_ns, row);
+  drop_front(buffer_.encoder_m, row);
+  for (auto& column : buffer_.probe_m) drop_front(column, row);
+  for (auto& column : buffer_.probe_quality) {
+    if (!column.empty()) drop_front(column, row);
+  }
+  for (Slot& slot : slots_) slot.first_row -= std::min(slot.first_row, row);
+}
+
+void DwellDetector::flush(std::vector<Point>& out) {
+  if (period_ns_ == 0 && early_.size() >= 2) {
+    learn_period(early_);
+    const FrameBlock early = std::move(early_);
+    early_ = empty_frames(probe_ids_.size());
+    push(early, out);
+  }
+  if (slot_open_) close_slot(out);
+  if (!dwelling_) return;
+  // Nothing moved at the end: an empty slot after the data stands for the one that left the window.
+  Slot after = slots_.back();
+  after.first_row = buffer_.size();
+  after.begin_ns = last_ns_;
+  slots_.push_back(after);
+  slots_.push_back(after);
+  end_dwell(out);
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,102 @@
+// Frames -> Points: finds where the axis stands still and averages there.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "schema/point.h"
+#include "schema/sample.h"
+
+namespace mdof::algo {
+
+// Defaults need no tuning on logs of stages that settle within a tenth of a second.
+struct DwellOptions {
+  // The axis stands still while the encoder stays within this over `window_s`. 0: 2 µm, or 2.5
+  // times the quietest quarter of a window seen so far where the encoder is noisier than that.
+  double tolerance_m = 0;
+  double window_s = 0.05;
+  double settle_s = 0.1;      // left out at the start of each stop
+  double min_length_s = 0.1;  // to be averaged; a shorter stop (a reversal) is no dwell
+  double approach_m = 50e-6;  // travel from which a direction of approach counts
+  std::size_t max_scans = std::size_t{1} << 19;  // averaged of one dwell; bounds memory
+
+  std::string json() const;  // for the provenance of a result
+};
+
+// Streaming and deterministic: the same frames give the same points however they are cut into
+// blocks. Thread-bound. Memory is bounded by max_scans.
+class DwellDetector {
+ public:
+  // `probe_ids` and `probe_range_m` in the order of the frames' probes.
+  DwellDetector(DwellOptions options, std::vector<std::string> probe_ids,
+                std::vector<double> probe_range_m);
+
+  // Appends the points that became complete. The encoder's single-sample spikes are voted out by a
+  // median of three.
+  void push(const FrameBlock& frames, std::vector<Point>& out);
+  // End of the data: the dwell under way is complete as well.
+  void flush(std::vector<Point>& out);
+
+  struct Summary {
+    std::uint64_t scans = 0;
+    double encoder_min_m = 0, encoder_max_m = 0;
+    double period_s = 0;         // median of the first intervals
+    std::uint64_t gaps = 0;      // intervals over three periods
+    double longest_still_s = 0;  // to explain why nothing was found
+    double tolerance_m = 0;      // in force at the end
+  };
+  const Summary& summary() const { return summary_; }
+  bool still() const { return dwelling_; }
+
+ private:
+  // A quarter of the window: the grain of detection.
+  struct Slot {
+    std::int64_t index = 0;
+    std::size_t first_row = 0, rows = 0;  // in buffer_
+    std::int64_t begin_ns = 0, end_ns = 0;
+    double min_m = 0, max_m = 0;
+    double bend_m = 0;  // sum of |second differences|: noise, whatever the speed
+    double middle() const { return 0.5 * (min_m + max_m); }
+  };
+
+  void learn_period(const FrameBlock& frames);
+  void add_rows(const FrameBlock& frames, std::size_t from, std::size_t to);
+  void add_to_slot(std::size_t row, double encoder_m);
+  void close_slot(std::vector<Point>& out);
+  bool window_still() const;
+  void remember_path(double position_m);
+  int direction_to(double position_m) const;
+  void begin_dwell();
+  void end_dwell(std::vector<Point>& out);
+  Point average(std::size_t from, std::size_t to);
+  void average_probe(std::size_t probe, std::size_t from, std::size_t to, Point& point);
+  void drop_rows_before(std::size_t row);  // when it is worth moving the rest up
+  void drop_rows(std::size_t row);
+
+  DwellOptions options_;
+  std::vector<std::string> probe_ids_;
+  std::vector<double> probe_range_m_;
+  Summary summary_;
+
+  FrameBlock early_;  // until the period is known
+  std::int64_t period_ns_ = 0, slot_ns_ = 0, origin_ns_ = 0, last_ns_ = 0;
+  std::array<double, 2> encoder_before_{};  // for the median of three
+  FrameBlock buffer_;                       // rows of the slots below and of the dwell under way
+  std::deque<Slot> slots_;                  // the last window, newest at the back
+  Slot open_;
+  bool slot_open_ = false;
+  double encoder_noise_m_ = -1;  // sd, of the quietest slot so far; below 0: not known
+  std::deque<double> path_;      // positions at least approach_m apart, newest at the back
+
+  bool dwelling_ = false, truncated_ = false;
+  std::int64_t still_since_ns_ = 0;
+  std::size_t dwell_row_ = 0;  // first row of the dwell under way
+  int direction_ = 0;          // of approach, taken before the axis leaves again
+  std::vector<double> scratch_, finite_;
+};
+
+}  // namespace mdof::algo

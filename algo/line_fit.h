@@ -1,0 +1,30 @@
+// Straight lines through measured series.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace mdof::algo {
+
+struct Line {
+  double intercept = 0, slope = 0;
+  double u_intercept = 0, u_slope = 0;  // standard uncertainties from the residuals, n - 2 degrees
+  double residual_sd = 0;
+  double at(double x) const { return intercept + slope * x; }
+};
+
+// Ordinary least squares; x and y of one length, at least two different x (asserted: callers check
+// with can_fit()). Sums about the means, in order.
+Line least_squares_line(std::span<const double> x, std::span<const double> y);
+bool can_fit(std::span<const double> x);
+
+// The line through the first and the last point (ISO 230-1 end-point reference line).
+Line end_point_line(std::span<const double> x, std::span<const double> y);
+
+struct Deviations {
+  double peak_to_valley = 0;
+  std::size_t peak = 0, valley = 0;  // indices
+};
+Deviations deviations_from(const Line& line, std::span<const double> x, std::span<const double> y);
+
+}  // namespace mdof::algo

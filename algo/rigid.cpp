@@ -1,0 +1,144 @@
+#include "algo/rigid.h"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "algo/small_rotation.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr int kMaxIterations = 30;
+// Convergence is quadratic: after a step below these the next one is at rounding.
+constexpr double kStepDone_m = 1e-12, kStepDone_rad = 1e-10;
+
+struct Surface {
+  Eigen::Vector3d n_M;  // normal of the plane, turned
+  double across;        // n_M · u
+  double s;             // displacement along u
+};
+
+Eigen::Vector3d carriage_position(double travel_m, const Errors5& local) {
+  return {travel_m, local[kDy], local[kDz]};
+}
+
+// Where the probe's line meets the surface; with a height map by fixed-point iteration, which
+// contracts by the slope of the surface (1e-3 and less).
+Surface meet(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC, const Eigen::Vector3d& t) {
+  Surface surface;
+  surface.n_M = R_MC * probe.n_C;
+  surface.across = surface.n_M.dot(probe.u_M);
+  const double gap = probe.plane_offset_m - surface.n_M.dot(probe.p_MP - t);
+  surface.s = gap / surface.across;
+  if (probe.flatness.empty()) return surface;
+  Eigen::Index normal_axis = 0;
+  probe.n_C.cwiseAbs().maxCoeff(&normal_axis);
+  const Eigen::Index first = normal_axis == 0 ? 1 : 0;
+  const Eigen::Index second = normal_axis == 2 ? 1 : 2;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d c = R_MC.transpose() * (probe.p_MP + surface.s * probe.u_M - t);
+    surface.s = (gap + height_at(probe.flatness, c(first), c(second))) / surface.across;
+  }
+  return surface;
+}
+
+// The rotations follow one another about the machine's axes, A first, whichever axis moves. With L
+// the local axes in machine coordinates, angles turn like vectors: e_machine = L e, and R = Lᵀ
+// Rz(C) Ry(B) Rx(A) L. L only exchanges coordinates and signs, so nothing is rounded.
+Rotation rotation_in_local_frame(Axis axis, const Errors5& local) {
+  const auto axes = local_axes(axis);
+  Eigen::Matrix3d L;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j)
+      L(i, j) = axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  }
+  const Eigen::Vector3d e = L * Eigen::Vector3d(local[kEx], local[kEy], local[kEz]);
+  const Rotation machine = rotation(e.x(), e.y(), e.z());
+  Rotation r;
+  r.R_MC = L.transpose() * machine.R_MC * L;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Eigen::Vector3d about = L.col(static_cast<Eigen::Index>(j));
+    r.dR_MC[j] = L.transpose() *
+                 (about.x() * machine.dR_MC[0] + about.y() * machine.dR_MC[1] +
+                  about.z() * machine.dR_MC[2]) *
+                 L;
+  }
+  return r;
+}
+
+}  // namespace
+
+Eigen::VectorXd rigid_readings(const Fixture& fixture, double travel_m, const Errors5& local) {
+  const Rotation r = rotation_in_local_frame(fixture.axis, local);
+  const Eigen::Vector3d t = carriage_position(travel_m, local);
+  Eigen::VectorXd readings(static_cast<Eigen::Index>(fixture.probes.size()));
+  Eigen::Index i = 0;
+  for (const auto& probe : fixture.probes) readings(i++) = meet(probe, r.R_MC, t).s;
+  return readings;
+}
+
+Eigen::MatrixXd rigid_jacobian(const Fixture& fixture, double travel_m, const Errors5& local) {
+  const Rotation r = rotation_in_local_frame(fixture.axis, local);
+  const Eigen::Vector3d t = carriage_position(travel_m, local);
+  Eigen::MatrixXd J(static_cast<Eigen::Index>(fixture.probes.size()), kErrorCount);
+  Eigen::Index i = 0;
+  for (const auto& probe : fixture.probes) {
+    const Surface at = meet(probe, r.R_MC, t);
+    J(i, kDy) = at.n_M.y() / at.across;
+    J(i, kDz) = at.n_M.z() / at.across;
+    // s across = k - n_M·(P - t)  =>  ds = -dn_M·(P - t + s u)/across
+    const Eigen::Vector3d arm = probe.p_MP - t + at.s * probe.u_M;
+    for (std::size_t e = 0; e < 3; ++e) {
+      J(i, kEx + static_cast<int>(e)) = -(r.dR_MC[e] * probe.n_C).dot(arm) / at.across;
+    }
+    ++i;
+  }
+  return J;
+}
+
+AxisErrors solve_rigid(const Fixture& fixture, double travel_m,
+                       const std::vector<double>& readings_m, const std::vector<double>& weights) {
+  const auto n = static_cast<Eigen::Index>(fixture.probes.size());
+  Eigen::VectorXd root_weight(n), readings(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    root_weight(i) = std::sqrt(weights[k]);
+    readings(i) = weights[k] > 0 ? readings_m[k] : 0.0;
+  }
+  AxisErrors result;
+  Errors5 e{};
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const Eigen::VectorXd misfit = readings - rigid_readings(fixture, travel_m, e);
+    const Eigen::MatrixXd J = rigid_jacobian(fixture, travel_m, e);
+    const Eigen::VectorXd step = (root_weight.asDiagonal() * J)
+                                     .colPivHouseholderQr()
+                                     .solve(root_weight.asDiagonal() * misfit);
+    for (std::size_t k = 0; k < e.size(); ++k) e[k] += step(static_cast<Eigen::Index>(k));
+    const bool inside = std::abs(e[kEx]) < kSmallAngleMax_rad &&
+                        std::abs(e[kEy]) < kSmallAngleMax_rad &&
+                        std::abs(e[kEz]) < kSmallAngleMax_rad;
+    if (!inside) {
+      result.reason =
+          "the readings ask for a rotation beyond 0.25 rad; check the rig's positions, "
+          "directions and units";
+      return result;
+    }
+    const bool done = std::abs(step(0)) <= kStepDone_m && std::abs(step(1)) <= kStepDone_m &&
+                      step.tail(3).cwiseAbs().maxCoeff() <= kStepDone_rad;
+    if (done) break;
+  }
+  double sum = 0, count = 0;
+  const Eigen::VectorXd left = readings - rigid_readings(fixture, travel_m, e);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (root_weight(i) <= 0) continue;
+    sum += left(i) * left(i);
+    count += 1;
+  }
+  result.local = e;
+  result.residual_m = std::sqrt(sum / count);
+  result.valid = true;
+  result.reason.clear();
+  return result;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,25 @@
+// The mean of a dwell's readings that a few spikes do not move.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace mdof::algo {
+
+struct RobustMean {
+  double mean = 0;
+  double sd = 0;  // of single readings that were kept
+  double u = 0;   // standard uncertainty of the mean, see below
+  std::size_t used = 0, rejected = 0;
+};
+
+// Readings further than 6 robust standard deviations (1.4826 · median absolute deviation) from the
+// median are left out; where more than half of the readings are the same number, further than
+// `coarse`. The mean of the rest is summed in order. u = sd/√n · √((1 + ρ)/(1 - ρ)), with ρ the
+// lag-1 correlation where positive (GUM 4.2.3 for readings that are not independent).
+// `readings` are finite; `scratch` is reused memory.
+RobustMean robust_mean(std::span<const double> readings, double coarse,
+                       std::vector<double>& scratch);
+
+}  // namespace mdof::algo

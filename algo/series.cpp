@@ -1,0 +1,91 @@
+#include "algo/series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace mdof::algo {
+namespace {
+
+TargetMean mean_of(Axis axis, const std::vector<const MeasuredPoint*>& points) {
+  TargetMean mean;
+  mean.n = points.size();
+  const auto n = static_cast<double>(points.size());
+  std::vector<Errors5> named;
+  Errors5 noise2{};
+  for (const MeasuredPoint* p : points) {
+    mean.position_m += p->point.position_m / n;
+    named.push_back(named_from_local(axis, p->errors.local));
+    const Covariance5 cov = named_from_local(axis, p->errors.covariance);
+    for (std::size_t k = 0; k < 5; ++k) noise2[k] += cov[6 * k];
+  }
+  for (std::size_t k = 0; k < 5; ++k) {
+    double sum = 0;
+    for (const Errors5& e : named) sum += e[k];
+    mean.named[k] = sum / n;
+    double square = 0;
+    for (const Errors5& e : named) square += (e[k] - mean.named[k]) * (e[k] - mean.named[k]);
+    const double scatter = points.size() > 1 ? std::sqrt(square / (n - 1) / n) : 0.0;
+    mean.u[k] = std::max(scatter, std::sqrt(noise2[k]) / n);
+  }
+  return mean;
+}
+
+TargetMean mean_of(const TargetMean& forward, const TargetMean& reverse) {
+  TargetMean mean;
+  mean.n = forward.n + reverse.n;
+  mean.position_m = 0.5 * (forward.position_m + reverse.position_m);
+  for (std::size_t k = 0; k < 5; ++k) {
+    mean.named[k] = 0.5 * (forward.named[k] + reverse.named[k]);
+    mean.u[k] = 0.5 * std::sqrt(forward.u[k] * forward.u[k] + reverse.u[k] * reverse.u[k]);
+  }
+  return mean;
+}
+
+using ByTarget = std::map<int, TargetMean>;
+
+ByTarget one_way(Axis axis, const std::vector<MeasuredPoint>& points, int direction) {
+  std::map<int, std::vector<const MeasuredPoint*>> groups;
+  for (const auto& p : points) {
+    if (p.errors.valid && p.point.direction == direction) groups[p.target].push_back(&p);
+  }
+  ByTarget means;
+  for (const auto& [target, group] : groups) means[target] = mean_of(axis, group);
+  return means;
+}
+
+}  // namespace
+
+const char* to_string(Approach approach) {
+  return approach == Approach::forward   ? "forward"
+         : approach == Approach::reverse ? "reverse"
+                                         : "mean";
+}
+
+std::vector<TargetMean> target_means(Axis axis, const std::vector<MeasuredPoint>& points,
+                                     Approach approach) {
+  ByTarget means = one_way(axis, points, approach == Approach::reverse ? -1 : 1);
+  if (approach == Approach::both) {
+    for (const auto& [target, reverse] : one_way(axis, points, -1)) {
+      const auto forward = means.find(target);
+      means[target] = forward == means.end() ? reverse : mean_of(forward->second, reverse);
+    }
+  }
+  std::vector<TargetMean> series;
+  for (const auto& [target, mean] : means) series.push_back(mean);
+  return series;
+}
+
+std::vector<double> positions(const std::vector<TargetMean>& series) {
+  std::vector<double> x;
+  for (const TargetMean& m : series) x.push_back(m.position_m);
+  return x;
+}
+
+std::vector<double> column(const std::vector<TargetMean>& series, std::size_t named) {
+  std::vector<double> y;
+  for (const TargetMean& m : series) y.push_back(m.named[named]);
+  return y;
+}
+
+}  // namespace mdof::algo

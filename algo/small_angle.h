@@ -1,0 +1,59 @@
+// The seed's small-angle models (DESIGN §3): exact outputs (Eq. 2-7), the simplified solution
+// (Eq. 8-12) and the exact solution. Local frame of the axis; m and rad.
+//
+// A fixture of three top probes (along ±z, on z = 0) and two side probes (along ±y, on y = h).
+// Both output formulas are linear in the probe's own position,
+//   Δz = c + q y - p x,   Δy (1 + εy²) = ... + x (εz - εx εy) - z (εx + εy εz),
+// so any three top probes not in a line give p, q, c, and any two side probes apart along x give
+// the side slope r: the seed's l, l', l'' are one case of it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "algo/fixture.h"
+#include "schema/point.h"
+#include "schema/result.h"
+
+namespace mdof::algo {
+
+// Constants of a five-probe fixture; probes A B C are the top ones, D E the side ones (D the one
+// with the smaller x), each in the order of the rig.
+struct SmallAngleFixture {
+  std::array<std::size_t, 5> probe;  // index in the rig of A B C D E
+  std::array<double, 5> sign;        // of the probe's direction along +z or +y
+  // p, q, c = Σ weight · (A, B, C)
+  std::array<double, 3> p_weight, q_weight, c_weight;
+  double side_per_m;  // 1 / (xE - xD)
+  double side_rise;   // (zE - zD) / (xE - xD); 0 in the seed's fixture
+  double x_D, z_D;
+  double h;                         // y of the side plane
+  std::array<double, 5> x, across;  // x, and y (top) or z (side), of each probe
+};
+
+// Refuses, with the reason and the remedy, a fixture that is not of this kind.
+Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture);
+
+// Exact outputs of the probes, in the order A B C D E, each along its own direction.
+// dx_m is the encoder's error δx.
+std::array<double, 5> exact_outputs(const SmallAngleFixture& f, double travel_m,
+                                    const Errors5& local, double dx_m = 0.0);
+
+// n frames at once. `readings`: five columns A B C D E of n values; `out`: five columns in the
+// order δy δz εx εy εz. In place is not allowed. The same bits whatever n and the instruction set.
+struct BatchIn {
+  const double* travel_m;
+  std::array<const double*, 5> reading_m;
+};
+struct BatchOut {
+  std::array<double*, 5> local;
+};
+void solve_batch(Model model, const SmallAngleFixture& f, const BatchIn& in, const BatchOut& out,
+                 std::size_t n);
+
+// One frame, through the same code.
+Errors5 solve_small_angle(Model model, const SmallAngleFixture& f, double travel_m,
+                          const std::array<double, 5>& reading_m);
+
+}  // namespace mdof::algo

@@ -1,0 +1,35 @@
+#include "algo/small_rotation.h"
+
+namespace mdof::algo {
+
+SinCos small_sin_cos(double x) {
+  // Horner form of x - x³/3! + x⁵/5! ...; the terms left out are below 2^-53 of the result.
+  const double z = x * x;
+  const double s =
+      x * (1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110 * (1 - z / 156))))));
+  const double c =
+      1 - z / 2 * (1 - z / 12 * (1 - z / 30 * (1 - z / 56 * (1 - z / 90 * (1 - z / 132)))));
+  return {s, c};
+}
+
+Rotation rotation(double ex, double ey, double ez) {
+  const auto [sx, cx] = small_sin_cos(ex);
+  const auto [sy, cy] = small_sin_cos(ey);
+  const auto [sz, cz] = small_sin_cos(ez);
+  Eigen::Matrix3d Rx, Ry, Rz, dRx, dRy, dRz;
+  Rx << 1, 0, 0, 0, cx, -sx, 0, sx, cx;
+  Ry << cy, 0, sy, 0, 1, 0, -sy, 0, cy;
+  Rz << cz, -sz, 0, sz, cz, 0, 0, 0, 1;
+  dRx << 0, 0, 0, 0, -sx, -cx, 0, cx, -sx;
+  dRy << -sy, 0, cy, 0, 0, 0, -cy, 0, -sy;
+  dRz << -sz, -cz, 0, cz, -sz, 0, 0, 0, 0;
+  const Eigen::Matrix3d RzRy = Rz * Ry;
+  Rotation r;
+  r.R_MC = RzRy * Rx;
+  r.dR_MC[0] = RzRy * dRx;
+  r.dR_MC[1] = Rz * dRy * Rx;
+  r.dR_MC[2] = dRz * Ry * Rx;
+  return r;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,101 @@
+#include "algo/solver.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "algo/rigid.h"
+
+namespace mdof::algo {
+namespace {
+
+// 1/u² where every u is known, else all alike; 0 for a lost probe.
+std::vector<double> make_weights(const std::vector<bool>& use, const std::vector<double>& u_m) {
+  bool known = u_m.size() == use.size();
+  for (std::size_t i = 0; known && i < use.size(); ++i) known = !use[i] || u_m[i] > 0;
+  std::vector<double> weights(use.size());
+  for (std::size_t i = 0; i < use.size(); ++i) {
+    weights[i] = !use[i] ? 0.0 : known ? 1 / (u_m[i] * u_m[i]) : 1.0;
+  }
+  return weights;
+}
+
+AxisErrors not_seen(const Fixture& fixture, const std::vector<bool>& use, const Visibility& seen) {
+  AxisErrors errors;
+  errors.reason = describe_unseen(fixture, use, seen);
+  return errors;
+}
+
+}  // namespace
+
+Result<Solver> Solver::create(const Rig& rig, Model model) {
+  Solver solver;
+  solver.model_ = model;
+  MDOF_TRY(solver.fixture_, make_fixture(rig));
+  const std::vector<bool> all(rig.probes.size(), true);
+  solver.seen_ = visibility(solver.fixture_, all);
+  if (!solver.seen_.complete()) {
+    return bad_input(rig.source + ": " + describe_unseen(solver.fixture_, all, solver.seen_));
+  }
+  if (model != Model::rigid) {
+    auto fixture = make_small_angle_fixture(solver.fixture_);
+    if (!fixture) return in_context(rig.source, fixture.error());
+    solver.small_angle_ = *fixture;
+  }
+  return solver;
+}
+
+AxisErrors Solver::solve(double travel_m, const std::vector<double>& readings_m,
+                         const std::vector<double>& u_m) const {
+  assert(readings_m.size() == fixture_.probes.size());
+  std::vector<bool> use(readings_m.size());
+  for (std::size_t i = 0; i < use.size(); ++i) use[i] = std::isfinite(readings_m[i]);
+  const bool complete = std::all_of(use.begin(), use.end(), [](bool u) { return u; });
+  if (!complete) {
+    const Visibility seen = visibility(fixture_, use);
+    if (!seen.complete()) return not_seen(fixture_, use, seen);
+  }
+  const auto weights = make_weights(use, u_m);
+  AxisErrors errors;
+  if (model_ == Model::rigid) {
+    errors = solve_rigid(fixture_, travel_m, readings_m, weights);
+  } else {
+    std::array<double, 5> m{};
+    for (std::size_t k = 0; k < 5; ++k) m[k] = readings_m[small_angle_->probe[k]];
+    errors.local = solve_small_angle(model_, *small_angle_, travel_m, m);
+    errors.valid = true;
+    errors.reason.clear();
+  }
+  if (errors.valid && u_m.size() == use.size()) {
+    errors.covariance = covariance(travel_m, errors, use, weights, u_m);
+  }
+  return errors;
+}
+
+// First-order propagation, GUM 5.1.2: with K the weighted pseudo-inverse of the Jacobian,
+// cov(e) = K diag(u²) Kᵀ. The small-angle models use the same Jacobian at zero error; what that
+// leaves out is of the order of an angle, 1e-3 of the uncertainty.
+Covariance5 Solver::covariance(double travel_m, const AxisErrors& errors,
+                               const std::vector<bool>& use, const std::vector<double>& weights,
+                               const std::vector<double>& u_m) const {
+  const Errors5 at = model_ == Model::rigid ? errors.local : Errors5{};
+  const Eigen::MatrixXd J = rigid_jacobian(fixture_, travel_m, at);
+  const auto n = J.rows();
+  Eigen::VectorXd root_weight(n), u2(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    root_weight(i) = std::sqrt(weights[k]);
+    u2(i) = use[k] ? u_m[k] * u_m[k] : 0.0;
+  }
+  const Eigen::MatrixXd weighted = root_weight.asDiagonal() * J;
+  const Eigen::MatrixXd K =
+      weighted.colPivHouseholderQr().solve(Eigen::MatrixXd(root_weight.asDiagonal()));
+  const Eigen::MatrixXd cov = K * u2.asDiagonal() * K.transpose();
+  Covariance5 out{};
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    for (Eigen::Index j = 0; j < 5; ++j) out[static_cast<std::size_t>(5 * i + j)] = cov(i, j);
+  }
+  return out;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,44 @@
+// Readings of one instant or dwell -> five errors with covariance: one face over the three models.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "algo/fixture.h"
+#include "algo/small_angle.h"
+#include "algo/visibility.h"
+#include "schema/point.h"
+#include "schema/rig.h"
+
+namespace mdof::algo {
+
+class Solver {
+ public:
+  // Refuses a rig whose probes cannot see all five errors (naming them) or, for the small-angle
+  // models, one that is not of the seed's kind.
+  static Result<Solver> create(const Rig& rig, Model model);
+
+  // `readings_m`: displacement of each probe in the order of the rig, NaN where it is lost.
+  // `u_m`: standard uncertainty of each, empty or 0 where not known (covariance is then 0).
+  // A lost probe leaves the errors unsolved, with the reason, unless the others see all five.
+  AxisErrors solve(double travel_m, const std::vector<double>& readings_m,
+                   const std::vector<double>& u_m) const;
+
+  Model model() const { return model_; }
+  const Fixture& fixture() const { return fixture_; }
+  const Visibility& seen() const { return seen_; }
+  // Set for the small-angle models: for solve_batch().
+  const std::optional<SmallAngleFixture>& small_angle() const { return small_angle_; }
+
+ private:
+  Solver() = default;
+  Covariance5 covariance(double travel_m, const AxisErrors& errors, const std::vector<bool>& use,
+                         const std::vector<double>& weights, const std::vector<double>& u_m) const;
+
+  Model model_ = Model::exact;
+  Fixture fixture_;
+  Visibility seen_;
+  std::optional<SmallAngleFixture> small_angle_;
+};
+
+}  // namespace mdof::algo

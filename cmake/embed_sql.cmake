@@ -1,0 +1,33 @@
+# embed_sql(FOLDER OUTPUT): writes OUTPUT, a source file for schema/sql.h with the texts of
+# FOLDER/NNN_*.sql (migrations, in order) and FOLDER/recording.sql as raw strings. Runs again when
+# one of them changes.
+function(embed_sql folder output)
+  file(GLOB files CONFIGURE_DEPENDS ${folder}/*.sql)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
+  file(GLOB migrations ${folder}/[0-9][0-9][0-9]_*.sql)
+  list(SORT migrations)
+  foreach(file ${migrations})
+    get_filename_component(name ${file} NAME)
+    string(REGEX MATCH "^0*([0-9]+)_" unused ${name})
+    set(version ${CMAKE_MATCH_1})
+    file(READ ${file} text)
+    string(APPEND rows "    {${version}, \"${name}\", R\"sql(${text})sql\"},\n")
+  endforeach()
+  file(READ ${folder}/recording.sql recording)
+  file(CONFIGURE OUTPUT ${output} @ONLY CONTENT [[
+// Generated from schema/sql/ by cmake/embed_sql.cmake.
+#include "schema/sql.h"
+
+namespace mdof::sql {
+namespace {
+constexpr Migration kMigrations[] = {
+@rows@};
+constexpr char kRecording[] = R"sql(@recording@)sql";
+}  // namespace
+
+std::span<const Migration> migrations() { return kMigrations; }
+const char* recording() { return kRecording; }
+
+}  // namespace mdof::sql
+]])
+endfunction()

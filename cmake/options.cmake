@@ -1,0 +1,29 @@
+# Every target links mdof_options: C++20, warnings as errors, hardening, and arithmetic that gives
+# the same bits from every compiler and build type: no contraction into fused multiply-add, and
+# Eigen without vectorised reductions, so that the order of each sum is the order in the source.
+add_library(mdof_options INTERFACE)
+target_include_directories(mdof_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_definitions(mdof_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY
+                           $<$<CONFIG:Release>:EIGEN_NO_DEBUG>)
+target_compile_options(mdof_options INTERFACE
+  -ffp-contract=off
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Werror
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # false alarms of g++ 12 on std::string + (GCC bug 105329)
+  -fstack-protector-strong)
+target_link_options(mdof_options INTERFACE -Wl,-z,relro,-z,now)
+
+# Assertions guard against bugs and stay on in Release.
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g1")
+set(CMAKE_C_FLAGS_RELEASE "-O3 -g1")
+if(MDOF_SANITIZE)
+  target_compile_options(mdof_options INTERFACE -fsanitize=${MDOF_SANITIZE}
+                         -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(mdof_options INTERFACE -fsanitize=${MDOF_SANITIZE})
+else()
+  target_compile_definitions(mdof_options INTERFACE $<$<CONFIG:Release>:_FORTIFY_SOURCE=2>
+                             _GLIBCXX_ASSERTIONS)
+endif()
+find_program(MOLD mold)
+if(MOLD)
+  target_link_options(mdof_options INTERFACE -fuse-ld=mold)
+endif()

@@ -1,0 +1,145 @@
+#include "daemon/app.h"
+
+#include <csignal>
+#include <cstdio>
+
+#include "daemon/methods.h"
+#include "daemon/paths.h"
+#include "daemon/rpc/server.h"
+#include "daemon/systemd/notify.h"
+#include "daemon/version.h"
+#include "schema/json_writer.h"
+
+namespace mdof::daemon {
+namespace {
+
+// A thread that has not come round for so long keeps the watchdog from being fed.
+constexpr std::chrono::seconds kThreadDeadline{8};
+
+std::string recorded_json(std::int64_t run, std::int64_t seq) {
+  JsonWriter json;
+  json.begin_object().field("type", "recorded").field("run", run).field("chunk", seq).end_object();
+  return json.take();
+}
+
+}  // namespace
+
+// Destroyed from the bottom up: stations stop, the server closes, the keeper writes what waits.
+struct App::Parts {
+  explicit Parts(Config c)
+      : config(std::move(c)), table("mdofd", kVersion), server(loop, table, {}) {}
+
+  Config config;
+  rpc::EventLoop loop;
+  std::unique_ptr<Storekeeper> keeper;
+  std::unique_ptr<store::Store> reader;
+  ActiveTables active;
+  std::vector<std::unique_ptr<Station>> stations;
+  std::unique_ptr<Methods> methods;
+  rpc::MethodTable table;
+  rpc::Server server;
+
+  ~Parts() {
+    stations.clear();
+    keeper.reset();
+  }
+  Status open_store();
+  void start_stations();
+  Status listen();
+  void watch();
+};
+
+Status App::Parts::open_store() {
+  Storekeeper::Events events;
+  events.recorded = [this](std::int64_t run, std::int64_t seq) {
+    loop.post([this, run, seq] { (void)server.publish(kRunTopic, recorded_json(run, seq)); });
+  };
+  events.failed = [this](std::int64_t run, const Error& error) {
+    loop.post([this, run, error] {
+      std::fprintf(stderr, "run %lld: %s\n", static_cast<long long>(run), error.message.c_str());
+      for (auto& station : stations) {
+        if (station->run() == run) station->storage_failed(run, error);
+      }
+    });
+  };
+  MDOF_TRY(keeper, Storekeeper::start({config.database, config.durability, config.commit_interval},
+                                      std::move(events)));
+  MDOF_TRY(auto opened, store::Store::open(config.database, store::Access::read_only));
+  reader = std::make_unique<store::Store>(std::move(opened));
+  MDOF_TRY(active, load_active(*reader));
+  return {};
+}
+
+void App::Parts::start_stations() {
+  StationEvents events;
+  events.live = [this](std::string json) {
+    loop.post([this, json = std::move(json)] { (void)server.publish(kLiveTopic, json); });
+  };
+  events.run_event = [this](std::string json) {
+    loop.post([this, json = std::move(json)] { (void)server.publish(kRunTopic, json); });
+  };
+  for (auto& axis : config.axes) {
+    stations.push_back(std::make_unique<Station>(axis, config.measure, config.text,
+                                                 config.recordings, *keeper, events));
+  }
+}
+
+Status App::Parts::listen() {
+  server.add_topic({.name = kLiveTopic});
+  server.add_topic(
+      {.name = kRunTopic, .event = true, .min_interval = std::chrono::milliseconds(0)});
+  methods.reset(new Methods{loop, *keeper, *reader, stations, active, config.database.string(),
+                            utc_now(), std::chrono::steady_clock::now()});
+  add_server_methods(table, *methods);
+  add_run_methods(table, *methods);
+  add_compensation_methods(table, *methods);
+  MDOF_TRY(const auto handed_over, systemd::take_listen_sockets());
+  for (const int fd : handed_over) MDOF_CHECK(server.listen_fd(fd));
+  if (handed_over.empty()) MDOF_CHECK(server.listen_unix(config.socket));
+  if (config.tcp_port) {
+    MDOF_TRY(const auto port, server.listen_tcp("127.0.0.1", *config.tcp_port));
+    (void)port;
+  }
+  return {};
+}
+
+// The watchdog is fed by the work: this loop turned, and every thread came round in time.
+void App::Parts::watch() {
+  loop.call_every(std::chrono::milliseconds(20), [this] {
+    const bool wanted = server.has_subscribers(kLiveTopic);
+    for (auto& station : stations) station->watch(wanted);
+  });
+  if (const auto interval = systemd::watchdog_interval()) {
+    loop.call_every(*interval, [this] {
+      const auto now = std::chrono::steady_clock::now();
+      bool all = now - keeper->last_turn() < kThreadDeadline;
+      for (const auto& station : stations) all = all && station->healthy(kThreadDeadline);
+      if (all) systemd::feed_watchdog();
+    });
+  }
+  loop.on_signal({SIGTERM, SIGINT}, [this](int) {
+    systemd::notify_stopping("stopping");
+    loop.stop();
+  });
+}
+
+App::App(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+App::~App() = default;
+
+Result<std::unique_ptr<App>> App::create(Config config) {
+  auto parts = std::make_unique<Parts>(std::move(config));
+  MDOF_CHECK(parts->open_store());
+  parts->start_stations();
+  MDOF_CHECK(parts->listen());
+  parts->watch();
+  return std::unique_ptr<App>(new App(std::move(parts)));
+}
+
+void App::run() {
+  const std::string where = "serving on " + parts_->config.socket;
+  systemd::notify_ready(where);
+  std::fprintf(stderr, "%s: %s\n", kVersion, where.c_str());
+  parts_->loop.run();
+}
+
+}  // namespace mdof::daemon

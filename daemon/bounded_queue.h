@@ -1,0 +1,87 @@
+// A queue between two threads with a bound; what does not fit is counted, never waited for unless
+// the caller says so.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+
+namespace mdof::daemon {
+
+// Thread-safe.
+template <class T>
+class BoundedQueue {
+ public:
+  explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
+
+  // False, and one drop counted, if it is full or closed.
+  bool try_push(T value) {
+    const std::lock_guard lock(mutex_);
+    if (closed_ || items_.size() >= capacity_) {
+      ++dropped_;
+      return false;
+    }
+    items_.push_back(std::move(value));
+    filled_.notify_one();
+    return true;
+  }
+
+  // Waits for room; false if the queue was closed.
+  bool push(T value) {
+    std::unique_lock lock(mutex_);
+    emptied_.wait(lock, [&] { return closed_ || items_.size() < capacity_; });
+    if (closed_) return false;
+    items_.push_back(std::move(value));
+    filled_.notify_one();
+    return true;
+  }
+
+  // Whatever the bound: for the few commands that must not wait behind it.
+  void push_always(T value) {
+    const std::lock_guard lock(mutex_);
+    if (closed_) return;
+    items_.push_back(std::move(value));
+    filled_.notify_one();
+  }
+
+  // The oldest; nothing if none came in time or the queue is closed and empty.
+  std::optional<T> pop(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    filled_.wait_for(lock, timeout, [&] { return closed_ || !items_.empty(); });
+    if (items_.empty()) return std::nullopt;
+    std::optional<T> value(std::move(items_.front()));
+    items_.pop_front();
+    emptied_.notify_one();
+    return value;
+  }
+
+  // No more pushes; what is inside can still be popped.
+  void close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    filled_.notify_all();
+    emptied_.notify_all();
+  }
+
+  bool closed_and_empty() const {
+    const std::lock_guard lock(mutex_);
+    return closed_ && items_.empty();
+  }
+  std::uint64_t dropped() const {
+    const std::lock_guard lock(mutex_);
+    return dropped_;
+  }
+
+ private:
+  const std::size_t capacity_;
+  mutable std::mutex mutex_;
+  std::condition_variable filled_, emptied_;
+  std::deque<T> items_;
+  std::uint64_t dropped_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace mdof::daemon

@@ -1,0 +1,135 @@
+#include "daemon/config.h"
+
+#include <Eigen/Core>
+
+#include "algo/rigid.h"
+#include "daemon/paths.h"
+#include "schema/files.h"
+#include "schema/toml_reader.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+// What the simulator's probes would read: the rigid model of this very rig.
+drivers::ForwardModel forward_model(const algo::Fixture& fixture) {
+  return [fixture](double travel_m, const Errors5& local, std::span<double> probe_m) {
+    const Eigen::VectorXd readings = algo::rigid_readings(fixture, travel_m, local);
+    for (std::size_t i = 0; i < probe_m.size(); ++i) {
+      probe_m[i] = readings(static_cast<Eigen::Index>(i));
+    }
+  };
+}
+
+Status read_store(TomlTable& root, Config& config) {
+  auto table = root.table("store");
+  if (table) {
+    config.database = table->string("database", "");
+    config.recordings = table->string("recordings", "");
+    const std::string durability = table->string("durability", "full");
+    if (durability == "normal") {
+      config.durability = store::Durability::normal;
+    } else if (durability != "full") {
+      table->reject("durability", "must be \"full\" (survives a power cut) or \"normal\"");
+    }
+    const auto interval_ms = table->integer("commit_interval_ms", 50);
+    if (interval_ms < 1 || interval_ms > 10000) {
+      table->reject("commit_interval_ms", "must be from 1 to 10000");
+    }
+    config.commit_interval = std::chrono::milliseconds(interval_ms);
+  }
+  if (config.database.empty()) {
+    MDOF_TRY(config.database, default_database());
+  }
+  if (config.recordings.empty()) config.recordings = config.database.parent_path() / "recordings";
+  return {};
+}
+
+void read_rpc(TomlTable& root, Config& config) {
+  config.socket = default_socket();
+  auto table = root.table("rpc");
+  if (!table) return;
+  config.socket = table->string("socket", config.socket);
+  if (!table->has("tcp_port")) return;
+  const auto port = table->integer("tcp_port");
+  if (port < 1 || port > 65535) table->reject("tcp_port", "must be from 1 to 65535");
+  config.tcp_port = static_cast<std::uint16_t>(port);
+}
+
+void read_measure(TomlTable& root, Config& config) {
+  auto table = root.table("measure");
+  if (!table) return;
+  PipelineOptions& m = config.measure;
+  const std::string model = table->string("model", to_string(m.model));
+  if (!model_from(model, m.model)) {
+    table->reject("model", "must be \"simplified\", \"exact\" or \"rigid\"");
+  }
+  const auto positive = [&](const char* key, double fallback) {
+    const double x = table->number(key, fallback);
+    if (x < 0) table->reject(key, "must not be negative");
+    return x;
+  };
+  m.dwell.tolerance_m = from_um(positive("tolerance_um", to_um(m.dwell.tolerance_m)));
+  m.dwell.settle_s = positive("settle_s", m.dwell.settle_s);
+  m.dwell.min_length_s = positive("min_length_s", m.dwell.min_length_s);
+  m.dwell.approach_m = from_um(positive("approach_um", to_um(m.dwell.approach_m)));
+  m.align.lag_bound_s = positive("lag_bound_s", m.align.lag_bound_s);
+}
+
+// The rig must be one that the model can solve: said now, not at the first run.
+Result<Rig> read_rig(TomlTable& table, const std::filesystem::path& base, Model model) {
+  const std::string name = table.string("rig");
+  if (name.empty()) return Rig{};  // the table has kept its own error
+  MDOF_TRY(Rig rig, load_rig(base / name));
+  MDOF_TRY(const auto solver, algo::Solver::create(rig, model));
+  return rig;
+}
+
+Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& config) {
+  AxisConfig axis;
+  MDOF_TRY(axis.rig, read_rig(table, base, config.measure.model));
+  auto device = table.table("device");
+  if (!device) {
+    table.reject("device", "is missing; add [axis.device] with driver = \"...\"");
+    return table.finish();
+  }
+  const std::string driver = device->string("driver");
+  const std::string axis_letter(1, letter(axis.rig.axis));
+  drivers::DriverContext context;
+  context.name = device->string("name", driver + "-" + axis_letter);
+  context.rig = axis.rig;
+  context.base_path = base.string();
+  MDOF_TRY(const auto fixture, algo::make_fixture(axis.rig));
+  context.forward = forward_model(fixture);
+  MDOF_TRY(axis.device, drivers::configure_driver(driver, *device, context));
+  for (const auto& other : config.axes) {
+    if (other.rig.axis == axis.rig.axis) {
+      table.reject("rig", "a second rig for axis " + axis_letter + "; one [[axis]] an axis");
+    }
+    if (other.device.name == axis.device.name) {
+      table.reject("device", "two devices are called \"" + axis.device.name + "\"; name them");
+    }
+  }
+  config.axes.push_back(std::move(axis));
+  return {};
+}
+
+}  // namespace
+
+Result<Config> load_config(const std::filesystem::path& file) {
+  MDOF_TRY(std::string text, read_text_file(file));
+  MDOF_TRY(auto root, TomlTable::parse(text, file.string()));
+  Config config;
+  config.text = std::move(text);
+  MDOF_CHECK(read_store(root, config));
+  read_rpc(root, config);
+  read_measure(root, config);
+  const auto base = std::filesystem::absolute(file).parent_path();
+  for (auto& axis : root.tables("axis")) {
+    MDOF_CHECK(read_axis(axis, base, config));
+  }
+  MDOF_CHECK(root.finish());
+  return config;
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,37 @@
+// mdofd.toml: one validated struct before anything is opened.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/pipeline.h"
+#include "daemon/store/store.h"
+#include "drivers/registry.h"
+#include "schema/result.h"
+
+namespace mdof::daemon {
+
+struct AxisConfig {
+  Rig rig;
+  drivers::DriverSpec device;
+};
+
+struct Config {
+  std::filesystem::path database, recordings;
+  store::Durability durability = store::Durability::full;
+  std::chrono::milliseconds commit_interval{50};
+  std::string socket;
+  std::optional<std::uint16_t> tcp_port;  // loopback; off unless configured
+  PipelineOptions measure;
+  std::vector<AxisConfig> axes;
+  std::string text;  // the TOML itself: provenance
+};
+
+// Errors name file, line and key; unknown keys the nearest known one.
+Result<Config> load_config(const std::filesystem::path& file);
+
+}  // namespace mdof::daemon

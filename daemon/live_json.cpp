@@ -1,0 +1,84 @@
+#include "daemon/live_json.h"
+
+#include "schema/json_writer.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+
+std::string device_json(const DeviceStatus& s) {
+  JsonWriter json;
+  json.begin_object()
+      .field("device", s.info.name)
+      .field("driver", s.info.driver)
+      .field("description", s.info.description)
+      .field("state", s.state)
+      .field("simulated", s.info.simulated)
+      .field("rate_hz", s.info.rate_hz)
+      .field("scans", s.scans)
+      .field("blocks_dropped", s.dropped)
+      .field("reopened", s.reopened);
+  json.key("error");
+  s.error.empty() ? json.null() : json.value(s.error);
+  json.key("channels").begin_array();
+  for (const auto& channel : s.info.channels) {
+    json.begin_object().field("id", channel.id).field("unit", suffix(channel.unit)).end_object();
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
+namespace {
+
+void write_errors(JsonWriter& json, const Rig& rig, const Pipeline& pipeline) {
+  const FrameBlock& now = pipeline.newest();
+  std::vector<double> readings;
+  for (std::size_t k = 0; k < rig.probes.size(); ++k) {
+    readings.push_back(usable(now.quality_at(k, 0)) ? now.probe_m[k][0] : kNaN);
+  }
+  const AxisErrors errors = pipeline.solver().solve(now.encoder_m[0], readings, {});
+  if (!errors.valid) {
+    json.null();
+    return;
+  }
+  const Errors5 named = named_from_local(rig.axis, errors.local);
+  json.begin_object();
+  for (std::size_t k = 0; k < 5; ++k) {
+    json.field(error_names(rig.axis)[k].key, to_key_unit(named[k]));
+  }
+  json.end_object();
+}
+
+}  // namespace
+
+std::string live_json(const Rig& rig, const Pipeline& pipeline, bool simulated, std::int64_t run) {
+  const FrameBlock& now = pipeline.newest();
+  JsonWriter json;
+  json.begin_object()
+      .field("axis", std::string(1, letter(rig.axis)))
+      .field("time_ns", now.time_ns[0])
+      .field("encoder_mm", to_mm(now.encoder_m[0]))
+      .field("still", pipeline.still())
+      .field("simulated", simulated);
+  json.key("waiting_for");
+  const auto waiting = pipeline.waiting_for();
+  waiting ? json.value(*waiting) : json.null();
+  json.key("probes").begin_array();
+  for (std::size_t k = 0; k < rig.probes.size(); ++k) {
+    const Quality quality = now.quality_at(k, 0);
+    json.begin_object()
+        .field("id", rig.probes[k].id)
+        .field("um", to_um(now.probe_m[k][0]))
+        .field("quality", to_string(quality))
+        .field("range_um", to_um(rig.probes[k].range_m))
+        .end_object();
+  }
+  json.end_array();
+  json.key("errors");
+  write_errors(json, rig, pipeline);
+  json.key("run");
+  run > 0 ? json.value(run) : json.null();
+  json.end_object();
+  return json.take();
+}
+
+}  // namespace mdof::daemon

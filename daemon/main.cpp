@@ -1,0 +1,46 @@
+// mdofd: the measuring daemon. See daemon/README.md.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+
+#include "daemon/app.h"
+#include "daemon/version.h"
+
+namespace {
+
+int failed(const mdof::Error& error) {
+  std::fprintf(stderr, "mdofd: %s\n", error.message.c_str());
+  return error.code == mdof::ErrorCode::io ? 4 : error.code == mdof::ErrorCode::usage ? 2 : 3;
+}
+
+int run(const std::string& config_file, bool check_only) {
+  auto config = mdof::daemon::load_config(config_file);
+  if (!config) return failed(config.error());
+  if (check_only) {
+    std::printf("%s: ok, %zu axes\n", config_file.c_str(), config->axes.size());
+    return 0;
+  }
+  auto app = mdof::daemon::App::create(std::move(*config));
+  if (!app) return failed(app.error());
+  (*app)->run();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  CLI::App cli("mdofd: reads probes and encoder, solves the five errors of an axis, serves them");
+  std::string config_file = "/etc/mdof/mdofd.toml";
+  bool check_only = false;
+  cli.add_option("--config", config_file, "configuration, TOML")->capture_default_str();
+  cli.add_flag("--check-config", check_only, "read the configuration, say what is wrong, and end");
+  cli.set_version_flag("--version", mdof::daemon::kVersion);
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = cli.exit(e);
+    return code == 0 ? 0 : 2;
+  }
+  return run(config_file, check_only);
+}

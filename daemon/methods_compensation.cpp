@@ -1,0 +1,210 @@
+// compensation.build, activate, status, grid, at.
+#include <cmath>
+
+#include "algo/compensation.h"
+#include "daemon/methods.h"
+#include "daemon/paths.h"
+#include "schema/json_writer.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+using rpc::Params;
+using rpc::ParamType;
+using rpc::Reply;
+
+constexpr std::int64_t kMaxGridPage = 60;  // of about 700 bytes: under the limit of a reply line
+
+std::string actor_of(const Params& params) {
+  const auto who = params.caller().credentials();
+  if (!who) return "tcp";
+  return "uid " + std::to_string(who->uid) + " pid " + std::to_string(who->pid);
+}
+
+Result<const store::ActiveTable*> active_table(const Methods& m, const Params& params) {
+  MDOF_TRY(const Axis axis, axis_param(params));
+  const auto& table = m.active[static_cast<std::size_t>(axis)];
+  if (table) return table.get();
+  return fail(ErrorCode::not_found,
+              std::string("no compensation table is active for axis ") + letter(axis) +
+                  "; build one from runs with compensation.build and activate it");
+}
+
+void build(Methods& m, const Params& params, Reply reply) {
+  const auto ids = params.integers("runs");
+  if (!ids) return reply(tl::unexpected(ids.error()));
+  algo::TableOptions options;
+  options.remove_slope = !params.boolean("keep_slope", false);
+  answer_from_store(m, std::move(reply),
+                    [ids = *ids, options](store::Store& store) -> Result<std::string> {
+                      std::vector<Run> runs;
+                      for (const std::int64_t id : ids) {
+                        MDOF_TRY(Run run, store.run(id));
+                        runs.push_back(std::move(run));
+                      }
+                      MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
+                      table.created_utc = utc_now();
+                      table.sha256 = table_sha256(table);
+                      MDOF_TRY(table.id, store.add_table(table));
+                      JsonWriter json;
+                      json.begin_object();
+                      write_table_members(json, table);
+                      json.end_object();
+                      return json.take();
+                    });
+}
+
+// On the disk first, then in force for everybody at once on the main thread, then the answer.
+void activate(Methods& m, const Params& params, Reply reply) {
+  const std::int64_t id = params.integer("table");
+  auto shared = std::make_shared<Reply>(std::move(reply));
+  const bool posted =
+      m.keeper.post([&m, id, actor = actor_of(params), shared](store::Store& store) {
+        const auto generation = store.activate(id, actor, utc_now());
+        if (!generation) return (*shared)(tl::unexpected(generation.error()));
+        auto tables = load_active(store);
+        if (!tables) return (*shared)(tl::unexpected(tables.error()));
+        m.loop.post([&m, id, generation = *generation, tables = std::move(*tables), shared] {
+          m.active = tables;
+          JsonWriter json;
+          json.begin_object().field("table", id).field("generation", generation).end_object();
+          (*shared)(json.take());
+        });
+      });
+  if (!posted) (*shared)(io_error("the store is behind with its work; try again"));
+}
+
+std::string status(const Methods& m) {
+  JsonWriter json;
+  std::int64_t generation = 0;
+  for (const auto& a : m.active) generation = std::max(generation, a ? a->generation : 0);
+  json.begin_object().field("generation", generation).key("axes").begin_object();
+  for (const auto& active : m.active) {
+    if (!active) continue;
+    json.key(std::string(1, letter(active->table.axis))).begin_object();
+    write_table_members(json, active->table);
+    json.field("generation", active->generation)
+        .field("activated_utc", active->activated_utc)
+        .field("activated_by", active->actor)
+        .end_object();
+  }
+  json.end_object().end_object();
+  return json.take();
+}
+
+Result<std::string> grid(const Methods& m, const Params& params) {
+  MDOF_TRY(const auto* active, active_table(m, params));
+  const std::int64_t offset = params.integer("offset", 0);
+  const std::int64_t count = params.integer("count", kMaxGridPage);
+  if (offset < 0 || count < 1 || count > kMaxGridPage) {
+    return fail(ErrorCode::usage,
+                "offset must be 0 or more and count from 1 to " + std::to_string(kMaxGridPage));
+  }
+  if (params.has("generation") && params.integer("generation") != active->generation) {
+    return fail(ErrorCode::conflict, "generation changed to " + std::to_string(active->generation) +
+                                         "; read the grid again from offset 0");
+  }
+  JsonWriter json;
+  json.begin_object();
+  write_table_members(json, active->table);
+  json.field("generation", active->generation).field("offset", offset).key("points").begin_array();
+  const auto total = static_cast<std::int64_t>(active->table.position_m.size());
+  for (std::int64_t i = offset; i < std::min(total, offset + count); ++i) {
+    write_table_row(json, active->table, static_cast<std::size_t>(i));
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
+void write_values(JsonWriter& json, const char* key, Axis axis, const Errors5& values,
+                  double sign) {
+  json.key(key).begin_object();
+  for (std::size_t k = 0; k < 5; ++k) {
+    json.field(error_names(axis)[k].key, sign * to_key_unit(values[k]));
+  }
+  json.end_object();
+}
+
+Result<std::string> at(const Methods& m, const Params& params) {
+  MDOF_TRY(const auto* active, active_table(m, params));
+  const std::int64_t direction = params.integer("direction", 0);
+  if (direction < -1 || direction > 1) {
+    return fail(ErrorCode::usage, "direction must be 1 (forward), -1 (reverse) or 0 (their mean)");
+  }
+  const auto side = direction > 0   ? algo::TableSide::forward
+                    : direction < 0 ? algo::TableSide::reverse
+                                    : algo::TableSide::mean;
+  const double position_mm = params.number("position_mm");
+  const CompensationTable& table = active->table;
+  const algo::TableValue value = algo::table_at(table, from_mm(position_mm), side);
+  JsonWriter json;
+  json.begin_object()
+      .field("axis", std::string_view(&"XYZ"[static_cast<std::size_t>(table.axis)], 1))
+      .field("position_mm", position_mm)
+      .field("direction", direction)
+      .field("sense", "correction = -error is added to the command");
+  write_values(json, "correction", table.axis, value.error, -1.0);
+  write_values(json, "u", table.axis, value.u, 1.0);
+  json.field("inside", value.inside)
+      .field("simulated", table.simulated)
+      .field("table", table.id)
+      .field("generation", active->generation)
+      .end_object();
+  return json.take();
+}
+
+}  // namespace
+
+void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
+  const rpc::Param axis{"axis", ParamType::string, "X, Y or Z", true};
+  table.add(
+      {.name = "compensation.build",
+       .summary = "Builds and stores a one-axis table from runs; it is not yet in force.",
+       .params = {{"runs", ParamType::array, "ids of runs of one axis and the same targets", true},
+                  {"keep_slope", ParamType::boolean,
+                   "leave the slope in the straightness (by default squareness holds it)", false,
+                   "false"}},
+       .result = "table, axis, range, sense, sha256",
+       .example = R"({"runs": [1]})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
+  table.add({.name = "compensation.activate",
+             .summary = "Puts a stored table in force on its axis, at once and for everybody.",
+             .params = {{"table", ParamType::integer, "id of the table", true}},
+             .result = "table, generation: the new one",
+             .example = R"({"table": 1})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
+  table.add({.name = "compensation.status",
+             .summary = "The tables in force by axis, with the generation that tells of a change.",
+             .result = "generation; axes: table, runs, range, sense, simulated, who and when",
+             .handler = [&m](const Params&) -> Result<std::string> { return status(m); }});
+  table.add(
+      {.name = "compensation.grid",
+       .summary = "The grid of the table in force, a page at a time: errors, forward and "
+                  "reverse apart.",
+       .params = {axis,
+                  {"offset", ParamType::integer, "points to leave out", false, "0"},
+                  {"count", ParamType::integer, "points at the most", false, "60"},
+                  {"generation", ParamType::integer,
+                   "of the pages before: error -32001 if it has changed", false}},
+       .result = "table members, generation, points: errors (actual - nominal) in um and urad",
+       .example = R"({"axis": "X", "offset": 0, "count": 20})",
+       .handler = [&m](const Params& p) { return grid(m, p); }});
+  table.add({.name = "compensation.at",
+             .summary = "The correction at a position: linear between grid points, the end value "
+                        "outside, and it says so.",
+             .params = {axis,
+                        {"position_mm", ParamType::number, "of the axis", true},
+                        {"direction", ParamType::integer, "1 forward, -1 reverse, 0 their mean",
+                         false, "0"}},
+             .result =
+                 "correction in um and urad, to be added to the command; u; inside; simulated; "
+                 "generation",
+             .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
+             .handler = [&m](const Params& p) { return at(m, p); }});
+}
+
+}  // namespace mdof::daemon

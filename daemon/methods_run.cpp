@@ -1,0 +1,219 @@
+// run.start, run.stop, run.list, run.get, run.points, squareness.fit.
+#include "algo/straightness.h"
+#include "daemon/methods.h"
+#include "daemon/paths.h"
+#include "schema/json_writer.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+using rpc::Params;
+using rpc::ParamType;
+using rpc::Reply;
+
+constexpr std::int64_t kMaxPointsPage = 60;  // of about 700 bytes: under the limit of a reply line
+constexpr std::int64_t kMaxRunsPage = 40;
+
+std::string run_reply(std::int64_t id, Axis axis) {
+  JsonWriter json;
+  json.begin_object().field("run", id).field("axis", std::string(1, letter(axis))).end_object();
+  return json.take();
+}
+
+// Answers a station's callback, which comes on another thread.
+std::function<void(Result<std::int64_t>)> answer_with_run(Reply reply, Axis axis) {
+  auto shared = std::make_shared<Reply>(std::move(reply));
+  return [shared, axis](const Result<std::int64_t>& id) {
+    (*shared)(id ? Result<std::string>(run_reply(*id, axis)) : tl::unexpected(id.error()));
+  };
+}
+
+Result<RunRequest> read_request(const Params& params) {
+  RunRequest request;
+  request.note = params.string("note");
+  request.repeats = static_cast<int>(params.integer("repeats", 0));
+  MDOF_TRY(const auto targets_mm, params.numbers("targets_mm"));
+  for (const double target_mm : targets_mm) {
+    if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
+      return fail(ErrorCode::usage, "targets_mm must ascend");
+    }
+    request.targets_m.push_back(from_mm(target_mm));
+  }
+  if (request.repeats < 0 || (request.repeats > 0 && request.targets_m.empty())) {
+    return fail(ErrorCode::usage, "repeats goes with targets_mm and must not be negative");
+  }
+  return request;
+}
+
+void start_run(Methods& m, const Params& params, Reply reply) {
+  const auto axis = axis_param(params);
+  if (!axis) return reply(tl::unexpected(axis.error()));
+  const auto station = station_of(m, *axis);
+  if (!station) return reply(tl::unexpected(station.error()));
+  const auto request = read_request(params);
+  if (!request) return reply(tl::unexpected(request.error()));
+  (*station)->start_run(*request, answer_with_run(std::move(reply), *axis));
+}
+
+void stop_run(Methods& m, const Params& params, Reply reply) {
+  const std::int64_t id = params.integer("run");
+  for (auto& station : m.stations) {
+    if (station->run() != id) continue;
+    return station->stop_run(params.boolean("abort"),
+                             answer_with_run(std::move(reply), station->config().rig.axis));
+  }
+  reply(fail(ErrorCode::not_found,
+             "run " + std::to_string(id) + " is not under way; server.info tells which are"));
+}
+
+struct Page {
+  std::int64_t offset, count;
+};
+Result<Page> page_of(const Params& params, std::int64_t most) {
+  const Page page{params.integer("offset", 0), params.integer("count", most)};
+  if (page.offset < 0 || page.count < 1 || page.count > most) {
+    return fail(ErrorCode::usage,
+                "offset must be 0 or more and count from 1 to " + std::to_string(most));
+  }
+  return page;
+}
+
+Result<std::string> list_runs(Methods& m, const Params& params) {
+  MDOF_TRY(const Page page, page_of(params, kMaxRunsPage));
+  std::optional<Axis> axis;
+  if (params.has("axis")) {
+    MDOF_TRY(axis, axis_param(params));
+  }
+  MDOF_TRY(const auto headers, m.reader.list_runs(page.offset, page.count, axis));
+  MDOF_TRY(const auto total, m.reader.count_runs(axis));
+  JsonWriter json;
+  json.begin_object().field("total", total).field("offset", page.offset).key("runs").begin_array();
+  for (const auto& header : headers) {
+    json.begin_object();
+    write_header_members(json, header);
+    json.end_object();
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
+Result<std::string> get_run(Methods& m, const Params& params) {
+  MDOF_TRY(const auto run, m.reader.run(params.integer("run")));
+  JsonWriter json;
+  json.begin_object();
+  write_header_members(json, run.header);
+  json.field("points_total", static_cast<std::uint64_t>(run.points.size())).key("straightness");
+  write_straightness(json, run.straightness);
+  json.key("angles");
+  write_angles(json, run.angles);
+  json.end_object();
+  return json.take();
+}
+
+Result<std::string> run_points(Methods& m, const Params& params) {
+  MDOF_TRY(const Page page, page_of(params, kMaxPointsPage));
+  const std::int64_t id = params.integer("run");
+  MDOF_TRY(const auto header, m.reader.run_header(id));
+  MDOF_TRY(const auto total, m.reader.count_points(id));
+  MDOF_TRY(const auto points, m.reader.points(id, page.offset, page.count));
+  JsonWriter json;
+  json.begin_object()
+      .field("run", id)
+      .field("axis", std::string(1, letter(header.axis)))
+      .field("total", total)
+      .field("offset", page.offset)
+      .key("points")
+      .begin_array();
+  for (const auto& p : points) write_point(json, header.axis, p);
+  json.end_array().end_object();
+  return json.take();
+}
+
+void fit_squareness(Methods& m, const Params& params, Reply reply) {
+  const std::int64_t x = params.integer("run_x"), y = params.integer("run_y");
+  const double u_artefact_rad = from_urad(params.number("u_artefact_urad", 0));
+  std::optional<double> artefact_rad;
+  if (params.has("artefact_angle_error_urad")) {
+    artefact_rad = from_urad(params.number("artefact_angle_error_urad"));
+  }
+  answer_from_store(m, std::move(reply), [=](store::Store& store) -> Result<std::string> {
+    MDOF_TRY(const Run run_x, store.run(x));
+    MDOF_TRY(const Run run_y, store.run(y));
+    MDOF_TRY(const Rig rig, parse_rig(run_x.header.provenance.rig_text, "rig of run_x"));
+    MDOF_TRY(Squareness s,
+             algo::squareness(run_x, run_y, artefact_rad.value_or(rig.artefact_angle_error_rad),
+                              u_artefact_rad));
+    s.created_utc = utc_now();
+    MDOF_TRY(s.id, store.add_squareness(s));
+    return squareness_json(s);
+  });
+}
+
+}  // namespace
+
+void add_run_methods(rpc::MethodTable& table, Methods& m) {
+  const rpc::Param axis{"axis", ParamType::string, "X, Y or Z", true};
+  const rpc::Param run{"run", ParamType::integer, "id of the run", true};
+  const rpc::Param offset{"offset", ParamType::integer, "rows to leave out", false, "0"};
+  const rpc::Param count{"count", ParamType::integer, "rows at the most", false};
+  table.add(
+      {.name = "run.start",
+       .summary = "Starts a run of an axis: its samples are recorded, its dwells become points.",
+       .params = {axis,
+                  {"targets_mm", ParamType::array,
+                   "nominal positions, ascending; without "
+                   "them targets are recognised",
+                   false, "[]"},
+                  {"repeats", ParamType::integer,
+                   "with targets_mm: the run is complete after "
+                   "so many, both ways; 0: until run.stop",
+                   false, "0"},
+                  {"note", ParamType::string, "for people", false, "\"\""}},
+       .result = "run, axis: the run is on the disk and measuring",
+       .example = R"({"axis": "X", "note": "after scraping"})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});
+  table.add({.name = "run.stop",
+             .summary = "Ends the run under way and evaluates it.",
+             .params = {run, {"abort", ParamType::boolean, "mark it as aborted", false, "false"}},
+             .result = "run: the one to read, which supersedes the one asked for where the "
+                       "sequence turned out otherwise",
+             .example = R"({"run": 1})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) { stop_run(m, p, std::move(r)); }});
+  table.add({.name = "run.list",
+             .summary = "Runs, newest first, a page at a time.",
+             .params = {offset, count, {"axis", ParamType::string, "of this axis only", false}},
+             .result = "total, runs: header and provenance of each",
+             .example = R"({"offset": 0, "count": 10})",
+             .handler = [&m](const Params& p) { return list_runs(m, p); }});
+  table.add({.name = "run.get",
+             .summary = "A run without its points: header, provenance, straightness, angles.",
+             .params = {run},
+             .result = "the run; straightness in um, slopes and angles in urad",
+             .example = R"({"run": 1})",
+             .handler = [&m](const Params& p) { return get_run(m, p); }});
+  table.add({.name = "run.points",
+             .summary = "The points of a run in the order measured, a page at a time.",
+             .params = {run, offset, count},
+             .result = "total, points: position_mm, five errors in um and urad, u, flags",
+             .example = R"({"run": 1, "offset": 0, "count": 20})",
+             .handler = [&m](const Params& p) { return run_points(m, p); }});
+  table.add(
+      {.name = "squareness.fit",
+       .summary = "Squareness EC0Y of a run along X and one along Y, stored with its "
+                  "standard uncertainty.",
+       .params = {{"run_x", ParamType::integer, "id of the run along X", true},
+                  {"run_y", ParamType::integer, "id of the run along Y", true},
+                  {"artefact_angle_error_urad", ParamType::number,
+                   "of the square: its angle is 90 deg + this; from the rig if not given", false},
+                  {"u_artefact_urad", ParamType::number, "its standard uncertainty", false, "0"}},
+       .result = "EC0Y_urad, u_EC0Y_urad and both slopes",
+       .example = R"({"run_x": 1, "run_y": 2})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) { fit_squareness(m, p, std::move(r)); }});
+}
+
+}  // namespace mdof::daemon

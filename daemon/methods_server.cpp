@@ -1,0 +1,146 @@
+// server.info, device.list, live.subscribe, live.unsubscribe; and what all groups share.
+#include "daemon/live_json.h"
+#include "daemon/methods.h"
+#include "daemon/version.h"
+#include "schema/json_writer.h"
+#include "schema/run_json.h"
+
+namespace mdof::daemon {
+namespace {
+
+using rpc::Params;
+using rpc::ParamType;
+
+std::string server_info(const Methods& m) {
+  const auto up = std::chrono::steady_clock::now() - m.started;
+  std::int64_t generation = 0;
+  for (const auto& table : m.active) {
+    if (table) generation = std::max(generation, table->generation);
+  }
+  JsonWriter json;
+  json.begin_object()
+      .field("server", "mdofd")
+      .field("version", kVersion)
+      .field("protocol", "1.0")
+      .field("started_utc", m.started_utc)
+      .field("uptime_s", std::chrono::duration<double>(up).count())
+      .field("database", m.database)
+      .field("generation", generation)
+      .field("store_jobs_dropped", m.keeper.dropped_blocks());
+  json.key("axes").begin_array();
+  for (const auto& station : m.stations) {
+    json.begin_object()
+        .field("axis", std::string(1, letter(station->config().rig.axis)))
+        .field("rig", station->config().rig.name)
+        .field("device", station->config().device.name)
+        .field("simulated", station->config().device.simulated);
+    json.key("run");
+    station->run() > 0 ? json.value(station->run()) : json.null();
+    json.end_object();
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string device_list(const Methods& m) {
+  JsonWriter json;
+  json.begin_object().key("devices").begin_array();
+  for (const auto& station : m.stations) {
+    // The device's own object with the axis put first.
+    const std::string device = device_json(station->status());
+    json.raw(std::string("{\"axis\":\"") + letter(station->config().rig.axis) + "\"," +
+             device.substr(1));
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
+Result<std::string> subscribe(const Params& params) {
+  const std::chrono::milliseconds interval(params.integer("interval_ms", 100));
+  MDOF_CHECK(params.caller().subscribe(kLiveTopic, interval));
+  if (params.boolean("events", true)) {
+    MDOF_CHECK(params.caller().subscribe(kRunTopic, std::chrono::milliseconds(0)));
+  }
+  JsonWriter json;
+  json.begin_object()
+      .field("subscribed", true)
+      .field("interval_ms", static_cast<std::int64_t>(interval.count()))
+      .end_object();
+  return json.take();
+}
+
+}  // namespace
+
+Result<Axis> axis_param(const Params& params) {
+  if (const auto axis = axis_from(params.string("axis"))) return *axis;
+  return fail(ErrorCode::usage,
+              "axis \"" + std::string(params.string("axis")) + "\" is none of X, Y, Z");
+}
+
+Result<Station*> station_of(Methods& m, Axis axis) {
+  for (auto& station : m.stations) {
+    if (station->config().rig.axis == axis) return station.get();
+  }
+  return fail(ErrorCode::not_found, std::string("no rig is configured for axis ") + letter(axis) +
+                                        "; add an [[axis]] to mdofd.toml");
+}
+
+void answer_from_store(Methods& m, rpc::Reply reply,
+                       std::function<Result<std::string>(store::Store&)> work) {
+  // std::function wants copies: the one right to answer is shared with the job alone.
+  auto shared = std::make_shared<rpc::Reply>(std::move(reply));
+  const bool posted = m.keeper.post(
+      [shared, work = std::move(work)](store::Store& store) { (*shared)(work(store)); });
+  if (!posted) (*shared)(io_error("the store is behind with its work; try again"));
+}
+
+Result<ActiveTables> load_active(store::Store& store) {
+  ActiveTables tables;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    auto active = store.active(axis);
+    if (active && table_sha256(active->table) != active->table.sha256) {
+      return fail(ErrorCode::check, store.file().string() + ": compensation table " +
+                                        std::to_string(active->table.id) +
+                                        " is not what was stored (its hash differs) and is not "
+                                        "served; restore the database or activate another table");
+    }
+    if (active) {
+      tables[static_cast<std::size_t>(axis)] =
+          std::make_shared<const store::ActiveTable>(std::move(*active));
+    } else if (active.error().code != ErrorCode::not_found) {
+      return tl::unexpected(active.error());
+    }
+  }
+  return tables;
+}
+
+void add_server_methods(rpc::MethodTable& table, Methods& m) {
+  table.add({.name = "server.info",
+             .summary = "Version, uptime, axes and the compensation generation in force.",
+             .result = "identity of the daemon; axes with their device and the run under way",
+             .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
+  table.add({.name = "device.list",
+             .summary = "Every device with its axis, state, last error, channels and counts.",
+             .result = "devices",
+             .handler = [&m](const Params&) -> Result<std::string> { return device_list(m); }});
+  table.add(
+      {.name = "live.subscribe",
+       .summary = "Sends live.update notifications, newest value wins, and run.event for "
+                  "each step of a run once it is on the disk.",
+       .params = {{"interval_ms", ParamType::integer, "least time between two updates", false,
+                   "100"},
+                  {"events", ParamType::boolean, "whether run.event comes too", false, "true"}},
+       .result = "the subscription as it holds",
+       .example = R"({"interval_ms": 200})",
+       .handler = [](const Params& params) { return subscribe(params); }});
+  table.add({.name = "live.unsubscribe",
+             .summary = "Ends both subscriptions of this connection.",
+             .result = "an empty object",
+             .handler = [](const Params& params) -> Result<std::string> {
+               MDOF_CHECK(params.caller().unsubscribe(kLiveTopic));
+               MDOF_CHECK(params.caller().unsubscribe(kRunTopic));
+               return std::string("{}");
+             }});
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,73 @@
+// Raw blocks of one axis -> a run: calibrate, align, find dwells, solve, put in sequence, evaluate.
+// The one path for live measuring, replay and the command line, so that all give the same bits.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algo/align.h"
+#include "algo/dwell.h"
+#include "algo/sequence.h"
+#include "algo/solver.h"
+#include "drivers/calibration.h"
+#include "schema/result.h"
+#include "schema/rig.h"
+#include "schema/run.h"
+#include "schema/sample.h"
+
+namespace mdof::daemon {
+
+struct PipelineOptions {
+  Model model = Model::rigid;
+  algo::AlignOptions align;
+  algo::DwellOptions dwell;
+  algo::SequenceOptions sequence;
+  bool detect = true;  // false: only newest() is kept up, for a view without a run
+
+  std::string json() const;  // for the provenance
+};
+
+// Thread-bound.
+class Pipeline {
+ public:
+  // Refuses a rig that cannot see the five errors, or that the model does not fit.
+  static Result<Pipeline> create(const Rig& rig, const PipelineOptions& options);
+
+  // The block is used up. Error: it cannot be calibrated, or its time goes backwards.
+  Status push(SampleBlock& raw);
+
+  // The points complete so far, in sequence, solved. Targets are as far as known until finish().
+  const std::vector<MeasuredPoint>& points();
+  // The newest instant, calibrated, for the live view; size 0 before the first.
+  const FrameBlock& newest() const { return newest_; }
+  bool still() const { return dwell_.still(); }
+  std::optional<std::string> waiting_for() const { return aligner_.waiting_for(); }
+  const algo::Solver& solver() const { return solver_; }
+
+  // End of the data. Fills points, figures, scans and warnings of a run; the header's identity and
+  // provenance are the caller's. Error: nothing was measured, with the reason: the encoder stood
+  // still, no dwell was long enough, a probe was at the end of its range throughout.
+  Result<Run> finish();
+
+ private:
+  Pipeline(Rig rig, PipelineOptions options, algo::Solver solver);
+  void take_points();
+  bool moved() const;
+  Status explain_nothing() const;
+  Status reject_dead_probes() const;
+
+  Rig rig_;
+  PipelineOptions options_;
+  drivers::Calibrator calibrator_;
+  algo::Aligner aligner_;
+  algo::DwellDetector dwell_;
+  algo::Solver solver_;
+  FrameBlock frames_, newest_;
+  std::vector<Point> found_;
+  std::size_t taken_ = 0;  // of found_: those that sequence_ was made of
+  algo::Sequence sequence_;
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace mdof::daemon

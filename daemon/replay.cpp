@@ -1,0 +1,154 @@
+#include "daemon/replay.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "daemon/version.h"
+
+namespace mdof::daemon {
+namespace {
+
+using drivers::ReadState;
+
+constexpr std::string_view kRecordingMagic{"SQLite format 3\0", 16};
+constexpr std::chrono::milliseconds kReadTimeout{1000};
+
+bool is_recording(const std::string& path) {
+  std::string beginning(kRecordingMagic.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  return file && beginning == kRecordingMagic;
+}
+
+std::string column_name(const Channel& channel) {
+  const std::string unit = suffix(channel.unit);
+  return unit.empty() ? channel.id : channel.id + "_" + unit;
+}
+
+bool has_channel(const std::vector<Channel>& channels, const std::string& id) {
+  return std::any_of(channels.begin(), channels.end(),
+                     [&](const Channel& c) { return c.id == id; });
+}
+
+// "X" of "axis: X"; empty where no comment says it.
+std::string stated_axis(const std::vector<std::string>& comments) {
+  constexpr std::string_view kKey = "axis:";
+  for (const std::string& comment : comments) {
+    if (!comment.starts_with(kKey)) continue;
+    const auto begin = comment.find_first_not_of(" \t", kKey.size());
+    if (begin == std::string::npos) continue;
+    return comment.substr(begin, comment.find_first_of(" \t", begin) - begin);
+  }
+  return "";
+}
+
+Status read_through(ReplayLog& log, Pipeline& pipeline, const ReplayProgress& progress) {
+  SampleBlock block;
+  for (;;) {
+    MDOF_TRY(const ReadState state, log.driver().read(block, kReadTimeout));
+    if (block.scans() > 0) {
+      if (const Status taken = pipeline.push(block); !taken)
+        return in_context(log.path(), taken.error());
+    }
+    if (progress) progress(log.progress());
+    if (state == ReadState::end) return {};
+  }
+}
+
+Provenance provenance_of(const ReplayLog& log, const Rig& rig, const PipelineOptions& options) {
+  Provenance from;
+  from.recording_kind = log.kind();
+  std::error_code ec;
+  from.recording_path =
+      log.path() == "-" ? log.path() : std::filesystem::absolute(log.path(), ec).string();
+  from.recording_sha256 = log.sha256();
+  from.rig_text = rig.text;
+  from.model = to_string(options.model);
+  from.software_version = kVersion;
+  from.options_json = options.json();
+  return from;
+}
+
+}  // namespace
+
+Result<ReplayLog> ReplayLog::open(const std::string& path) {
+  ReplayLog log(path);
+  if (path != "-" && is_recording(path)) {
+    auto recording = std::make_unique<drivers::RecordingLog>("recording", path);
+    log.recording_ = recording.get();
+    log.driver_ = std::move(recording);
+  } else {
+    auto csv = std::make_unique<drivers::CsvLog>(path);
+    log.csv_ = csv.get();
+    log.driver_ = std::move(csv);
+  }
+  MDOF_CHECK(log.driver_->open());
+  return log;
+}
+
+std::string ReplayLog::rig_text() const {
+  return recording_ ? recording_->rig_text() : "";
+}
+
+std::string ReplayLog::started_utc() const {
+  return recording_ ? recording_->header().started_utc : "";
+}
+
+std::vector<std::string> ReplayLog::comments() const {
+  return csv_ ? csv_->comments() : std::vector<std::string>();
+}
+
+double ReplayLog::progress() const {
+  if (recording_) return recording_->progress();
+  const auto total = static_cast<double>(csv_->bytes_total());
+  return total > 0 ? static_cast<double>(csv_->bytes()) / total : 0;
+}
+
+std::string ReplayLog::sha256() const {
+  return recording_ ? recording_->sha256() : csv_->sha256();
+}
+
+std::vector<std::string> ReplayLog::warnings() const {
+  return recording_ ? recording_->warnings() : csv_->warnings();
+}
+
+Status check_axis(const std::string& source, const std::vector<std::string>& comments,
+                  const Rig& rig) {
+  const std::string stated = stated_axis(comments), of_rig(1, letter(rig.axis));
+  if (stated.empty() || stated == of_rig) return {};
+  return bad_input(source + ": is of the axis " + stated + ", and the rig " + rig.source +
+                   " is for the axis " + of_rig + "; give the rig of " + stated);
+}
+
+Status check_channels(const std::string& source, const std::vector<Channel>& channels,
+                      const Rig& rig) {
+  std::string columns;
+  for (const Channel& c : channels) columns += (columns.empty() ? "" : ", ") + column_name(c);
+  for (const Probe& probe : rig.probes) {
+    if (has_channel(channels, probe.id)) continue;
+    return bad_input(source + ": has no column of the probe \"" + probe.id + "\" of " + rig.source +
+                     " (" + probe.id + "_um or " + probe.id + "_V); its columns are " + columns +
+                     ". Correct the rig or the header");
+  }
+  if (has_channel(channels, kEncoderChannel)) return {};
+  return bad_input(source + ": has no axis position (encoder_mm); its columns are " + columns);
+}
+
+Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& options,
+                   const ReplayProgress& progress) {
+  MDOF_CHECK(check_axis(log.path(), log.comments(), rig));
+  MDOF_CHECK(check_channels(log.path(), log.driver().info().channels, rig));
+  MDOF_TRY(Pipeline pipeline, Pipeline::create(rig, options));
+  MDOF_CHECK(read_through(log, pipeline, progress));
+  auto run = pipeline.finish();
+  if (!run) return in_context(log.path(), run.error());
+  run->header.simulated = log.driver().info().simulated;
+  run->header.started_utc = log.started_utc();
+  run->header.provenance = provenance_of(log, rig, options);
+  const auto more = log.warnings();
+  run->header.warnings.insert(run->header.warnings.end(), more.begin(), more.end());
+  return run;
+}
+
+}  // namespace mdof::daemon

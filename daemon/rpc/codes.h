@@ -1,0 +1,27 @@
+// The error codes of the RPC interface: one table, read in both directions.
+#pragma once
+
+#include "schema/result.h"
+
+namespace mdof::rpc {
+
+// Of the JSON-RPC 2.0 specification.
+inline constexpr int kParseError = -32700;
+inline constexpr int kInvalidRequest = -32600;
+inline constexpr int kMethodNotFound = -32601;
+inline constexpr int kInvalidParams = -32602;
+inline constexpr int kInternalError = -32603;
+// Of this server.
+inline constexpr int kBusy = -32000;       // too many connections; the line is followed by a close
+inline constexpr int kChanged = -32001;    // generation changed, a run is under way
+inline constexpr int kForbidden = -32003;  // this transport may only read
+inline constexpr int kNotFound = -32004;   // the named run, table, device does not exist
+inline constexpr int kBadInput = -32010;   // a file, a document or a value in it
+inline constexpr int kIo = -32011;         // device, file system, database
+inline constexpr int kCheck = -32012;      // a result exists and fails its check
+inline constexpr int kReplyTooLarge = -32013;  // page it: offset, count
+
+int code_of(ErrorCode code);
+ErrorCode error_code_of(int code);  // what a client makes of a code
+
+}  // namespace mdof::rpc

@@ -1,0 +1,167 @@
+#include "daemon/rpc/dispatcher.h"
+
+#include <simdjson.h>
+
+#include <string_view>
+#include <utility>
+
+#include "daemon/rpc/codes.h"
+#include "daemon/rpc/message.h"
+#include "daemon/rpc/param_values.h"
+#include "daemon/rpc/request.h"
+
+namespace mdof::rpc {
+
+static_assert(Dispatcher::kPadding >= simdjson::SIMDJSON_PADDING);
+
+struct Dispatcher::Parser {
+  Parser(std::shared_ptr<EventLoop::Core> loop, const MethodTable& methods,
+         const ServerOptions& limits)
+      : core(std::move(loop)), table(methods), options(limits) {}
+
+  // One line's way through the calls below.
+  struct Line {
+    std::string_view text;
+    Caller& caller;
+    std::weak_ptr<LineSink> sink;
+    std::string& out;
+  };
+
+  Handled handle(const Line& line);
+  Handled handle_single(const Line& line, const simdjson::dom::element& message);
+  Handled handle_batch(const Line& line, const simdjson::dom::array& batch);
+  void call_member(const Line& line, const Request& request,
+                   const std::shared_ptr<Exchange>& exchange);
+  // The row and its checked parameters (in `values`), or what is wrong with the request.
+  struct Refusal {
+    int code;
+    std::string message, data;
+  };
+  tl::expected<const Method*, Refusal> prepare(const Request& request, const Caller& caller);
+
+  ReplyLimits limits() const { return {options.max_reply_bytes, options.max_id_bytes}; }
+
+  std::shared_ptr<EventLoop::Core> core;
+  const MethodTable& table;
+  const ServerOptions& options;
+  simdjson::dom::parser json;
+  ParamValues values;
+};
+
+namespace {
+
+std::string reason(simdjson::error_code error, const ServerOptions& options) {
+  switch (error) {
+    case simdjson::UTF8_ERROR:
+      return "the line is not UTF-8";
+    case simdjson::DEPTH_ERROR:
+      return "nested deeper than " + std::to_string(options.max_depth) + " levels";
+    case simdjson::NUMBER_ERROR:
+      return "a number is malformed or larger than its type";
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+Handled Dispatcher::Parser::handle(const Line& line) {
+  simdjson::dom::element message;
+  const auto error =
+      json.parse(line.text.data(), line.text.size(), /*realloc_if_needed=*/false).get(message);
+  if (error) {
+    append_error(line.out, "null", kParseError, "Parse error", reason(error, options));
+    line.out += '\n';
+    return {};
+  }
+  simdjson::dom::array batch;
+  return message.get(batch) ? handle_single(line, message) : handle_batch(line, batch);
+}
+
+tl::expected<const Method*, Dispatcher::Parser::Refusal> Dispatcher::Parser::prepare(
+    const Request& request, const Caller& caller) {
+  if (request.invalid)
+    return tl::unexpected(Refusal{kInvalidRequest, "Invalid Request", *request.invalid});
+  const Method* method = table.find(request.method);
+  if (method == nullptr) {
+    const std::string near = table.nearest(request.method);
+    return tl::unexpected(Refusal{kMethodNotFound, "Method not found",
+                                  near.empty() ? "" : "did you mean " + in_quotes(near) + "?"});
+  }
+  if (method->writes && !caller.may_write())
+    return tl::unexpected(
+        Refusal{kForbidden, method->name + " changes something: call it over the Unix socket", ""});
+  if (const Status status = check_params(*method, request.params, values); !status)
+    return tl::unexpected(Refusal{kInvalidParams, status.error().message, ""});
+  return method;
+}
+
+// The way of nearly every call: no allocation of its own.
+Handled Dispatcher::Parser::handle_single(const Line& line, const simdjson::dom::element& message) {
+  const Request request = read_request(message, {line.text, std::nullopt}, options.max_id_bytes);
+  const auto method = prepare(request, line.caller);
+  const auto* sync = method ? std::get_if<SyncHandler>(&(*method)->handler) : nullptr;
+  if (method && sync == nullptr) {
+    auto exchange = std::make_shared<Exchange>(limits(), 1, false, line.sink);
+    call_member(line, request, exchange);
+    return {1, !exchange->seal(line.out)};
+  }
+  const std::size_t begin = line.out.size();
+  if (method) {
+    const Result<std::string> result = (*sync)(Params(values, line.caller));
+    if (!request.id.empty()) append_reply(line.out, request.id, result, options.max_reply_bytes);
+  } else if (!request.id.empty()) {
+    const Refusal& no = method.error();
+    append_error(line.out, request.id, no.code, no.message, no.data);
+  }
+  if (line.out.size() > begin) line.out += '\n';
+  return {};
+}
+
+Handled Dispatcher::Parser::handle_batch(const Line& line, const simdjson::dom::array& batch) {
+  const std::size_t members = batch.size();
+  if (members == 0 || members > options.max_batch) {
+    append_error(line.out, "null", kInvalidRequest, "Invalid Request",
+                 members == 0 ? ""
+                              : "a batch may have " + std::to_string(options.max_batch) +
+                                    " members: send it in parts");
+    line.out += '\n';
+    return {};
+  }
+  auto exchange = std::make_shared<Exchange>(limits(), members, true, line.sink);
+  std::size_t i = 0;
+  for (const simdjson::dom::element message : batch)
+    call_member(line, read_request(message, {line.text, i++}, options.max_id_bytes), exchange);
+  return {members, !exchange->seal(line.out)};
+}
+
+void Dispatcher::Parser::call_member(const Line& line, const Request& request,
+                                     const std::shared_ptr<Exchange>& exchange) {
+  const auto method = prepare(request, line.caller);
+  if (!method) {
+    const Refusal& no = method.error();
+    return exchange->answer_error(request.id, no.code, no.message, no.data);
+  }
+  const Params params(values, line.caller);
+  if (const auto* sync = std::get_if<SyncHandler>(&(*method)->handler))
+    return exchange->answer(request.id, (*sync)(params));
+  auto slot = std::make_unique<Reply::Slot>(Reply::Slot{core, exchange, request.id});
+  std::get<AsyncHandler>((*method)->handler)(params, Reply(std::move(slot)));
+}
+
+Dispatcher::Dispatcher(std::shared_ptr<EventLoop::Core> core, const MethodTable& table,
+                       const ServerOptions& options)
+    : parser_(std::make_unique<Parser>(std::move(core), table, options)) {
+  [[maybe_unused]] const auto error =
+      parser_->json.allocate(options.max_line_bytes, options.max_depth);
+  assert(!error && "no memory for the parser");
+}
+
+Dispatcher::~Dispatcher() = default;
+
+Handled Dispatcher::handle(std::string_view line, Caller& caller, std::weak_ptr<LineSink> sink,
+                           std::string& out) {
+  return parser_->handle({line, caller, std::move(sink), out});
+}
+
+}  // namespace mdof::rpc

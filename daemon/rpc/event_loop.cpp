@@ -1,0 +1,88 @@
+#include "daemon/rpc/event_loop.h"
+
+#include <utility>
+
+#include "daemon/rpc/event_loop_core.h"
+
+namespace mdof::rpc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Keeps itself alive through its own pending wait.
+struct Ticker : std::enable_shared_from_this<Ticker> {
+  Ticker(asio::io_context& context, Clock::duration every, std::function<void()> call)
+      : timer(context), period(every), work(std::move(call)), due(Clock::now()) {}
+
+  void wait() {
+    const auto now = Clock::now();
+    due += period;
+    if (due < now) due += (now - due) / period * period + period;
+    timer.expires_at(due);
+    timer.async_wait([self = shared_from_this()](const std::error_code& error) {
+      if (error) return;
+      self->work();
+      self->wait();
+    });
+  }
+
+  asio::steady_timer timer;
+  Clock::duration period;
+  std::function<void()> work;
+  Clock::time_point due;
+};
+
+struct SignalWatch : std::enable_shared_from_this<SignalWatch> {
+  SignalWatch(asio::io_context& context, std::function<void(int)> call)
+      : set(context), work(std::move(call)) {}
+
+  void wait() {
+    set.async_wait([self = shared_from_this()](const std::error_code& error, int number) {
+      if (error) return;
+      self->work(number);
+      self->wait();
+    });
+  }
+
+  asio::signal_set set;
+  std::function<void(int)> work;
+};
+
+}  // namespace
+
+EventLoop::EventLoop() : core_(std::make_shared<Core>()) {}
+
+EventLoop::~EventLoop() {
+  {
+    const std::scoped_lock lock(core_->mutex);
+    core_->open = false;
+  }
+  core_->context.reset();  // outside the lock: what it destroys may try to post
+}
+
+void EventLoop::run() {
+  const auto stay = asio::make_work_guard(*core_->context);
+  core_->context->restart();
+  core_->context->run();
+}
+
+void EventLoop::stop() {
+  const std::scoped_lock lock(core_->mutex);
+  if (core_->open) core_->context->stop();
+}
+
+void EventLoop::post(std::function<void()> work) {
+  core_->post(std::move(work));
+}
+
+void EventLoop::call_every(std::chrono::nanoseconds period, std::function<void()> work) {
+  std::make_shared<Ticker>(*core_->context, period, std::move(work))->wait();
+}
+
+void EventLoop::on_signal(const std::vector<int>& signals, std::function<void(int)> work) {
+  auto watch = std::make_shared<SignalWatch>(*core_->context, std::move(work));
+  for (const int number : signals) watch->set.add(number);
+  watch->wait();
+}
+
+}  // namespace mdof::rpc

@@ -1,0 +1,37 @@
+// Received bytes, cut into lines. Private header.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace mdof::rpc {
+
+class LineBuffer {
+ public:
+  // `padding` bytes after each line may be read by whoever gets it.
+  LineBuffer(std::size_t max_line_bytes, std::size_t padding);
+
+  // Where to receive; not empty unless the next line is too long. Ends what next() gave.
+  std::span<char> space();
+  void received(std::size_t bytes) { end_ += bytes; }
+  void discard() { begin_ = scanned_ = end_; }
+
+  struct Line {
+    std::string_view text;  // without LF or CR LF
+    bool too_long = false;  // then nothing can follow
+  };
+  bool has_line();             // one more is there, or is too long
+  std::optional<Line> next();  // valid until space()
+  bool partial() { return begin_ < end_ && !has_line(); }
+
+ private:
+  std::size_t max_line_, capacity_;
+  std::unique_ptr<char[]> bytes_;
+  std::size_t begin_ = 0, end_ = 0;  // what is not yet taken
+  std::size_t scanned_ = 0;          // no LF in [begin_, scanned_)
+};
+
+}  // namespace mdof::rpc

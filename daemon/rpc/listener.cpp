@@ -1,0 +1,62 @@
+#include "daemon/rpc/listener.h"
+
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <utility>
+
+namespace mdof::rpc {
+namespace {
+
+constexpr int kAcceptsPerTurn = 16;
+constexpr auto kPause = std::chrono::milliseconds(100);
+
+}  // namespace
+
+Listener::Listener(EventLoop::Core& loop, Descriptor socket, std::function<void(int)> adopt,
+                   std::function<void(const std::string&)> log)
+    : socket_(*loop.context, socket.release()),
+      pause_(*loop.context),
+      adopt_(std::move(adopt)),
+      log_(std::move(log)) {}
+
+void Listener::start() {
+  socket_.async_wait(asio::posix::stream_descriptor::wait_read,
+                     [self = shared_from_this()](const std::error_code& error) {
+                       if (!error) self->accept_some();
+                     });
+}
+
+void Listener::stop() {
+  adopt_ = nullptr;
+  std::error_code ignored;
+  socket_.close(ignored);
+  pause_.cancel();
+}
+
+void Listener::accept_some() {
+  for (int i = 0; i < kAcceptsPerTurn && adopt_; ++i) {
+    const int fd =
+        ::accept4(socket_.native_handle(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (fd < 0 && (errno == ECONNABORTED || errno == EINTR)) continue;
+    if (fd < 0 && errno != EAGAIN) return wait_a_little(errno);
+    if (fd < 0) break;
+    const int on = 1;  // fails on a Unix socket, which has no such delay
+    (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    adopt_(fd);
+  }
+  if (adopt_) start();
+}
+
+// Out of descriptors or memory: the waiting client would wake the loop without end.
+void Listener::wait_a_little(int why) {
+  log_("cannot accept a client, trying again: " + system_error_text(why));
+  pause_.expires_after(kPause);
+  pause_.async_wait([self = shared_from_this()](const std::error_code& error) {
+    if (!error && self->adopt_) self->start();
+  });
+}
+
+}  // namespace mdof::rpc

@@ -1,0 +1,34 @@
+// Accepts clients on one listening socket. Private header.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "daemon/rpc/asio.h"
+#include "daemon/rpc/event_loop_core.h"
+#include "daemon/rpc/socket.h"
+
+namespace mdof::rpc {
+
+// Thread-bound: the loop.
+class Listener : public std::enable_shared_from_this<Listener> {
+ public:
+  // Gives each connected, non-blocking socket to `adopt`, which owns it from then on.
+  Listener(EventLoop::Core& loop, Descriptor socket, std::function<void(int)> adopt,
+           std::function<void(const std::string&)> log);
+
+  void start();
+  void stop();
+
+ private:
+  void accept_some();
+  void wait_a_little(int why);
+
+  asio::posix::stream_descriptor socket_;
+  asio::steady_timer pause_;
+  std::function<void(int)> adopt_;
+  std::function<void(const std::string&)> log_;
+};
+
+}  // namespace mdof::rpc

@@ -1,0 +1,119 @@
+#include "daemon/rpc/method_table.h"
+
+#include <cassert>
+
+#include "schema/json_writer.h"
+#include "schema/toml_reader.h"
+
+namespace mdof::rpc {
+namespace {
+
+constexpr std::size_t kEnvelopeBytes =
+    512;  // of the JSON-RPC reply around the document, id included
+
+std::string describe(const Param& param) {
+  JsonWriter json;
+  json.begin_object().field("name", param.name).field("description", param.description);
+  json.field("required", param.required).key("schema").begin_object();
+  json.field("type", to_string(param.type));
+  if (!param.default_text.empty()) json.key("default").raw(param.default_text);
+  json.end_object().end_object();
+  return json.take();
+}
+
+// "x-example-params", since an OpenRPC example pairing needs a result, which depends on the data.
+std::string describe(const Method& method) {
+  JsonWriter json;
+  json.begin_object().field("name", method.name).field("summary", method.summary);
+  json.field("paramStructure", "either").key("params").begin_array();
+  for (const Param& param : method.params) json.raw(describe(param));
+  json.end_array().key("result").begin_object().field("name", "result");
+  json.field("description", method.result).key("schema").raw(method.result_schema).end_object();
+  json.field("x-writes", method.writes).key("x-example-params").raw(method.example);
+  json.end_object();
+  return json.take();
+}
+
+Method discover_method(const MethodTable& table) {
+  return {.name = "rpc.discover",
+          .summary = "Describes every method: an OpenRPC 1.2.6 document.",
+          .params = {{"offset", ParamType::integer, "first method of this page", false, "0"},
+                     {"max_bytes", ParamType::integer, "of the reply's line", false, "49152"}},
+          .result = "the document; with x-next-offset where methods are left for another page",
+          .result_schema = R"({"type":"object"})",
+          .example = R"({"offset":0})",
+          .handler = [&table](const Params& params) -> Result<std::string> {
+            const std::int64_t offset = params.integer("offset");
+            const std::int64_t bytes = params.integer("max_bytes", 49152);
+            if (offset < 0) return fail(ErrorCode::usage, "offset: must not be negative");
+            if (bytes < 4096 || bytes > 49152)
+              return fail(ErrorCode::usage, "max_bytes: must be 4096 ... 49152");
+            return table.openrpc(static_cast<std::size_t>(offset),
+                                 static_cast<std::size_t>(bytes) - kEnvelopeBytes);
+          }};
+}
+
+}  // namespace
+
+const char* to_string(ParamType type) {
+  switch (type) {
+    case ParamType::string:
+      return "string";
+    case ParamType::number:
+      return "number";
+    case ParamType::integer:
+      return "integer";
+    case ParamType::boolean:
+      return "boolean";
+    case ParamType::array:
+      return "array";
+    case ParamType::object:
+      return "object";
+  }
+  return "";
+}
+
+MethodTable::MethodTable(std::string title, std::string version)
+    : title_(std::move(title)), version_(std::move(version)) {
+  add(discover_method(*this));
+}
+
+void MethodTable::add(Method method) {
+  std::string name = method.name;
+  [[maybe_unused]] const bool added = methods_.emplace(std::move(name), std::move(method)).second;
+  assert(added && "a method of this name exists");
+}
+
+const Method* MethodTable::find(std::string_view name) const {
+  const auto found = methods_.find(name);
+  return found == methods_.end() ? nullptr : &found->second;
+}
+
+std::string MethodTable::nearest(std::string_view name) const {
+  if (name.size() > 64) return {};  // the distance of long texts is costly and says nothing
+  std::vector<std::string> names;
+  for (const auto& [known, method] : methods_) names.push_back(known);
+  return nearest_of(name, names);
+}
+
+std::string MethodTable::openrpc(std::size_t offset, std::size_t max_bytes) const {
+  JsonWriter json;
+  json.begin_object().field("openrpc", "1.2.6").key("info").begin_object();
+  json.field("title", title_).field("version", version_).end_object();
+  json.field("x-total", static_cast<std::uint64_t>(methods_.size())).key("methods").begin_array();
+  std::size_t i = 0;
+  std::optional<std::size_t> next;
+  for (const auto& [name, method] : methods_) {
+    if (next || i++ < offset) continue;
+    const std::string text = describe(method);
+    if (i > offset + 1 && json.text().size() + text.size() > max_bytes)
+      next = i - 1;
+    else
+      json.raw(text);
+  }
+  json.end_array();
+  if (next) json.field("x-next-offset", static_cast<std::uint64_t>(*next));
+  return json.end_object().take();
+}
+
+}  // namespace mdof::rpc

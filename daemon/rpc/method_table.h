@@ -1,0 +1,68 @@
+// The methods: one row each, from which come dispatch, checks of parameters and rpc.discover.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "daemon/rpc/params.h"
+#include "daemon/rpc/reply.h"
+#include "schema/result.h"
+
+namespace mdof::rpc {
+
+enum class ParamType { string, number, integer, boolean, array, object };
+const char* to_string(ParamType type);  // as in JSON Schema
+
+struct Param {
+  std::string name;  // ends in its unit where it has one
+  ParamType type = ParamType::string;
+  std::string description;
+  bool required = false;
+  std::string default_text = {};  // what absence means, as JSON: "0", "\"exact\""
+};
+
+// Gives the result as JSON text (one value, UTF-8; a line feed in it is turned into a space).
+using SyncHandler = std::function<Result<std::string>(const Params&)>;
+// Keeps the Reply until the result is known; Params end with the call.
+using AsyncHandler = std::function<void(const Params&, Reply)>;
+
+struct Method {
+  std::string name;     // "run.list"
+  std::string summary;  // one sentence
+  std::vector<Param> params = {};
+  std::string result;                // what comes back, with units
+  std::string result_schema = "{}";  // JSON Schema of it
+  std::string example = "{}";        // params by name
+  bool writes = false;               // changes something: refused where a client may only read
+  std::variant<SyncHandler, AsyncHandler> handler;
+};
+
+// Built once, then only read; must outlive the server and stay where it is.
+class MethodTable {
+ public:
+  // What rpc.discover says of the whole; the table brings that method itself.
+  MethodTable(std::string title, std::string version);
+  MethodTable(const MethodTable&) = delete;
+  MethodTable& operator=(const MethodTable&) = delete;
+
+  // A name twice, or an example or schema that is not JSON, is a bug.
+  void add(Method method);
+
+  const Method* find(std::string_view name) const;
+  std::string nearest(std::string_view name) const;  // empty: none is near
+  const std::map<std::string, Method, std::less<>>& methods() const { return methods_; }
+
+  // The OpenRPC 1.2.6 document from the method at `offset` on, as many as fit into `max_bytes`:
+  // "x-total" is the number of methods, "x-next-offset" is there when some are left.
+  std::string openrpc(std::size_t offset, std::size_t max_bytes) const;
+
+ private:
+  std::string title_, version_;
+  std::map<std::string, Method, std::less<>> methods_;
+};
+
+}  // namespace mdof::rpc

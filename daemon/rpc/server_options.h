@@ -1,0 +1,38 @@
+// Every limit of the server, with its default.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace mdof::rpc {
+
+struct ServerOptions {
+  using milliseconds = std::chrono::milliseconds;
+
+  // Of a line and a message.
+  std::size_t max_line_bytes = 64 * 1024;   // of a request, without its line end
+  std::size_t max_reply_bytes = 48 * 1024;  // of any line sent, with its line end
+  std::size_t max_depth = 32;               // nesting of a request
+  std::size_t max_batch = 100;              // members
+  std::size_t max_id_bytes = 256;           // of an id, as JSON text
+
+  // Of a client.
+  std::size_t max_unsent_bytes = 1024 * 1024;  // no request is begun whose reply may not fit
+  std::size_t requests_per_turn = 64;          // then the other clients have theirs
+  std::size_t max_subscriptions = 32;
+  std::size_t max_queued_events = 64;  // a subscription to events; then the oldest are dropped
+  milliseconds request_timeout{5000};  // for a whole line, from its first byte
+  milliseconds stall_timeout{10000};   // unsent output of which the client takes nothing
+  milliseconds idle_timeout{0};        // neither request nor subscription; 0: for ever
+  milliseconds drain_timeout{1000};    // for the client to take the last line before a close
+
+  // Of the server.
+  std::size_t max_connections = 64;
+  bool tcp_may_write = false;  // methods that write, over loopback TCP
+
+  std::function<void(const std::string&)> log;  // one line; empty: to stderr
+};
+
+}  // namespace mdof::rpc

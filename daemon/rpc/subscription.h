@@ -1,0 +1,43 @@
+// One client's subscription to one topic: what waits to be sent, and when it may. Private header.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "daemon/rpc/topic.h"
+
+namespace mdof::rpc {
+
+// Pure: time comes in from outside.
+class Subscription {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using Value = std::shared_ptr<const std::string>;  // JSON; shared by all who wait for it
+
+  // The topic must stay.
+  Subscription(const Topic& topic, std::chrono::milliseconds interval, std::size_t max_queued);
+
+  const Topic& topic() const { return topic_; }
+  void set_interval(std::chrono::milliseconds interval) { interval_ = interval; }
+
+  // A value takes the place of the one that waits; an event queues, and the oldest goes when full.
+  void offer(Value value);
+  // When the next message may be sent; nothing: none waits.
+  std::optional<Time> due() const;
+  // Appends that message with its line end.
+  void take(Time now, std::string& out);
+
+ private:
+  const Topic& topic_;
+  std::chrono::milliseconds interval_;
+  std::size_t max_queued_;
+  std::deque<Value> waiting_;
+  std::uint64_t missed_ = 0;
+  Time next_{};
+};
+
+}  // namespace mdof::rpc

@@ -1,0 +1,112 @@
+#include "daemon/rpc/topic_hub.h"
+
+#include <algorithm>
+#include <cassert>
+#include <memory>
+#include <utility>
+
+#include "daemon/rpc/message.h"
+#include "schema/toml_reader.h"
+
+namespace mdof::rpc {
+namespace {
+
+constexpr std::size_t kEnvelopeBytes = 128;  // around a value, less the topic's name
+
+}  // namespace
+
+void TopicHub::add(Topic topic) {
+  std::string name = topic.name;
+  [[maybe_unused]] const bool added =
+      rows_.emplace(std::move(name), Row{std::move(topic), {}}).second;
+  assert(added && "a topic of this name exists");
+}
+
+bool TopicHub::has_subscribers(std::string_view topic) const {
+  const auto found = rows_.find(topic);
+  return found != rows_.end() && !found->second.subscribers.empty();
+}
+
+Result<TopicHub::Row*> TopicHub::row(std::string_view topic) {
+  if (const auto found = rows_.find(topic); found != rows_.end()) return &found->second;
+  std::vector<std::string> names;
+  std::string list;
+  for (const auto& [name, row] : rows_) {
+    names.push_back(name);
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  const std::string near = topic.size() <= 64 ? nearest_of(topic, names) : "";
+  return fail(ErrorCode::not_found, "no topic " + in_quotes(topic) +
+                                        (near.empty() ? "; there are: " + list
+                                                      : "; did you mean " + in_quotes(near) + "?"));
+}
+
+Status TopicHub::publish(std::string_view topic, std::string json) {
+  MDOF_TRY(Row* const found, row(topic));
+  const std::size_t line = json.size() + topic.size() + kEnvelopeBytes;
+  if (line > options_.max_reply_bytes)
+    return fail(ErrorCode::usage, "topic " + in_quotes(topic) + ": a value of " +
+                                      std::to_string(json.size()) +
+                                      " bytes does not fit into a reply line");
+  if (found->subscribers.empty()) return {};
+  const auto value = std::make_shared<const std::string>(std::move(json));
+  for (const auto& [who, entry] : found->subscribers) {
+    entry->offer(value);
+    who->wake();
+  }
+  return {};
+}
+
+Status TopicHub::subscribe(Subscriber& who, std::string_view topic,
+                           std::chrono::milliseconds interval) {
+  MDOF_TRY(Row* const found, row(topic));
+  if (const auto least = found->topic.min_interval; !found->topic.event && interval < least)
+    return fail(ErrorCode::usage, "interval_ms: " + std::to_string(interval.count()) +
+                                      " is below the topic's minimum of " +
+                                      std::to_string(least.count()));
+  for (const auto& [other, entry] : found->subscribers)
+    if (other == &who) return entry->set_interval(interval), Status{};
+  if (who.subscriptions.size() >= options_.max_subscriptions)
+    return fail(ErrorCode::usage, "a connection may have " +
+                                      std::to_string(options_.max_subscriptions) +
+                                      " subscriptions: unsubscribe from one first");
+  who.subscriptions.emplace_back(found->topic, interval, options_.max_queued_events);
+  found->subscribers.emplace_back(&who, std::prev(who.subscriptions.end()));
+  return {};
+}
+
+void TopicHub::drop(Row& row, Subscriber& who) {
+  std::erase_if(row.subscribers, [&](const auto& entry) { return entry.first == &who; });
+}
+
+Status TopicHub::unsubscribe(Subscriber& who, std::string_view topic) {
+  MDOF_TRY(Row* const found, row(topic));
+  drop(*found, who);
+  who.subscriptions.remove_if([&](const Subscription& s) { return &s.topic() == &found->topic; });
+  return {};
+}
+
+void TopicHub::forget(Subscriber& who) {
+  if (who.subscriptions.empty()) return;
+  for (auto& [name, row] : rows_) drop(row, who);
+  who.subscriptions.clear();
+}
+
+std::optional<Subscription::Time> take_due(Subscriber& who, Subscription::Time now,
+                                           std::size_t max_bytes, std::string& out) {
+  std::optional<Subscription::Time> next;
+  auto& all = who.subscriptions;
+  const std::size_t begin = out.size();
+  for (std::size_t i = all.size(); i > 0; --i) {
+    Subscription& first = all.front();
+    while (first.due() && *first.due() <= now) {
+      if (out.size() - begin >= max_bytes) return next;  // and it is the first the next time
+      first.take(now, out);
+    }
+    if (const auto due = first.due()) next = std::min(next.value_or(*due), *due);
+    all.splice(all.end(), all, all.begin());
+  }
+  return next;
+}
+
+}  // namespace mdof::rpc

@@ -1,0 +1,199 @@
+// The thread "measure-X" of a station: samples in, points out.
+#include <pthread.h>
+
+#include <algorithm>
+
+#include "daemon/live_json.h"
+#include "daemon/open_run.h"
+#include "daemon/station.h"
+#include "daemon/store/result_hash.h"
+#include "schema/json_writer.h"
+#include "schema/run_json.h"
+
+namespace mdof::daemon {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kPopTimeout{100};
+constexpr milliseconds kLiveInterval{20};
+
+PipelineOptions without_detection(PipelineOptions options) {
+  options.detect = false;
+  return options;
+}
+
+// What of a run's rows the store has already acknowledged is the result to the last bit.
+bool same_points(const std::vector<MeasuredPoint>& stored,
+                 const std::vector<MeasuredPoint>& result) {
+  store::ResultHash a, b;
+  for (const auto& p : stored) a.add(p);
+  for (const auto& p : result) b.add(p);
+  return a.hex() == b.hex();
+}
+
+// Each target has been measured as often as was asked for, both ways.
+bool all_asked_for(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
+  if (request.repeats == 0) return false;
+  std::vector<int> forward(request.targets_m.size()), reverse(request.targets_m.size());
+  for (const auto& p : points) {
+    ++(p.point.direction > 0 ? forward : reverse)[static_cast<std::size_t>(p.target) - 1];
+  }
+  const auto enough = [&](int n) { return n >= request.repeats; };
+  return std::all_of(forward.begin(), forward.end(), enough) &&
+         std::all_of(reverse.begin(), reverse.end(), enough);
+}
+
+std::string event_json(const char* type, std::int64_t run, Axis axis) {
+  JsonWriter json;
+  json.begin_object()
+      .field("type", type)
+      .field("run", run)
+      .field("axis", std::string(1, letter(axis)))
+      .end_object();
+  return json.take();
+}
+
+std::string points_json(std::int64_t run, Axis axis, const std::vector<MeasuredPoint>& points,
+                        std::size_t first_row) {
+  JsonWriter json;
+  json.begin_object()
+      .field("type", "points")
+      .field("run", run)
+      .field("axis", std::string(1, letter(axis)))
+      .field("offset", static_cast<std::uint64_t>(first_row));
+  json.key("points").begin_array();
+  for (const auto& p : points) write_point(json, axis, p);
+  json.end_array().end_object();
+  return json.take();
+}
+
+}  // namespace
+
+void Station::measure() {
+  const std::string name = std::string("measure-") + letter(config_.rig.axis);
+  pthread_setname_np(pthread_self(), name.c_str());
+  while (!shared_->queue.closed_and_empty()) {
+    measure_turn_ = steady_clock::now();
+    if (auto item = shared_->queue.pop(kPopTimeout)) handle(*item);
+  }
+}
+
+void Station::handle(Item& item) {
+  switch (item.kind) {
+    case Item::Kind::samples:
+      return take_samples(item.block);
+    case Item::Kind::attach:
+      return attach(item);
+    case Item::Kind::stop:
+      if (!open_) return item.done(fail(ErrorCode::not_found, "the run has just ended"));
+      return finish(item.abort ? RunState::aborted : RunState::complete,
+                    item.abort ? "aborted" : "", item.source, item.done);
+    case Item::Kind::ended:
+      if (!open_) return;
+      return finish(item.reason.empty() ? RunState::complete : RunState::failed, item.reason,
+                    item.source, {});
+    case Item::Kind::storage_failed:
+      if (!open_ || open_->id != item.run) return;
+      return finish(RunState::failed, item.reason, item.source, {});
+  }
+}
+
+void Station::attach(Item& item) {
+  PipelineOptions options = options_;
+  options.sequence.targets_m = item.request.targets_m;
+  auto pipeline = Pipeline::create(config_.rig, options);
+  if (!pipeline) {  // the configuration was checked with the same rig: only given targets differ
+    shared_->run = 0;
+    return item.done(tl::unexpected(pipeline.error()));
+  }
+  open_.reset(new OpenRun{item.run, item.request, std::move(*pipeline), {}, 0, {}});
+  shared_->run = item.run;
+  shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
+  item.done(item.run);
+  if (!config_.device.live) start_acquiring();
+}
+
+void Station::take_samples(SampleBlock& block) {
+  if (!open_) {
+    if (!view_) {
+      auto view = Pipeline::create(config_.rig, without_detection(options_));
+      if (!view) return;  // checked with the configuration
+      view_.emplace(std::move(*view));
+    }
+    // A view that trips over its input starts afresh with the next block.
+    if (!view_->push(block)) view_.reset();
+    return show_live();
+  }
+  view_.reset();
+  if (config_.device.recorded && !keeper_.record(open_->id, block, !config_.device.live)) {
+    ++open_->blocks_not_recorded;
+  }
+  if (const Status pushed = open_->pipeline.push(block); !pushed) {
+    return finish(RunState::failed, pushed.error().message, {}, {});
+  }
+  keep_new_points();
+  show_live();
+}
+
+void Station::keep_new_points() {
+  const auto& points = open_->pipeline.points();
+  const std::size_t first = open_->stored.size();
+  if (points.size() <= first) return;
+  std::vector<MeasuredPoint> fresh(points.begin() + static_cast<std::ptrdiff_t>(first),
+                                   points.end());
+  open_->stored.insert(open_->stored.end(), fresh.begin(), fresh.end());
+  const std::int64_t run = open_->id;
+  std::string json = points_json(run, config_.rig.axis, fresh, first);
+  // Told to clients only once it is on the disk.
+  keeper_.append_points(run, std::move(fresh), [this, json = std::move(json)](const Status& kept) {
+    if (kept) shared_->events.run_event(json);
+  });
+  if (all_asked_for(open_->request, points)) finish(RunState::complete, "", {}, {});
+}
+
+void Station::finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
+                     std::function<void(Result<std::int64_t>)> done) {
+  const std::unique_ptr<OpenRun> open = std::move(open_);
+  auto result = open->pipeline.finish();
+  Run run;
+  if (result) {
+    run = std::move(*result);
+  } else {
+    run.header.warnings.push_back(result.error().message);
+    if (state == RunState::complete) state = RunState::failed;
+  }
+  run.header.state = state;
+  run.header.provenance.recording_sha256 = source.sha256;
+  run.header.warnings.insert(run.header.warnings.end(), source.warnings.begin(),
+                             source.warnings.end());
+  if (!why.empty()) run.header.warnings.push_back(why);
+  if (open->blocks_not_recorded > 0) {
+    run.header.warnings.push_back(std::to_string(open->blocks_not_recorded) +
+                                  " blocks of samples are missing in the recording: the disk was "
+                                  "too slow; a replay of it gives other results");
+  }
+  const bool differs = result && !same_points(open->stored, run.points);
+  const std::int64_t id = open->id;
+  const Axis axis = config_.rig.axis;
+  keeper_.end_run(
+      id, std::move(run), differs,
+      [shared = shared_, id, axis, done = std::move(done)](const Result<std::int64_t>& stored) {
+        shared->run = 0;
+        shared->events.run_event(event_json("ended", stored ? *stored : id, axis));
+        if (done) done(stored);
+      });
+}
+
+void Station::show_live() {
+  const Pipeline* pipeline = open_ ? &open_->pipeline : view_ ? &*view_ : nullptr;
+  if (!watched_ || !pipeline || pipeline->newest().size() == 0) return;
+  const auto now = steady_clock::now();
+  if (now - last_live_ < kLiveInterval) return;
+  last_live_ = now;
+  shared_->events.live(
+      live_json(config_.rig, *pipeline, config_.device.simulated, open_ ? open_->id : 0));
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,30 @@
+// Doubles as the bytes of a column, and back: 8-byte little-endian IEEE 754, one after the other.
+#pragma once
+
+#include <bit>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace mdof::store {
+
+static_assert(std::endian::native == std::endian::little, "bytes of doubles are taken as they lie");
+
+inline std::string_view bytes_of(std::span<const double> x) {
+  return {reinterpret_cast<const char*>(x.data()), x.size_bytes()};
+}
+
+// Copies as many doubles as both sides hold.
+inline void doubles_from(std::string_view bytes, std::span<double> x) {
+  const std::size_t n = std::min(x.size(), bytes.size() / sizeof(double));
+  if (n > 0) std::memcpy(x.data(), bytes.data(), n * sizeof(double));
+}
+
+inline std::vector<double> doubles_from(std::string_view bytes) {
+  std::vector<double> x(bytes.size() / sizeof(double));
+  doubles_from(bytes, x);
+  return x;
+}
+
+}  // namespace mdof::store

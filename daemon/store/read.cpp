@@ -1,0 +1,239 @@
+// Store: what reads runs.
+#include <algorithm>
+
+#include "daemon/store/bytes.h"
+#include "daemon/store/result_hash.h"
+#include "daemon/store/store.h"
+
+namespace mdof::store {
+
+using sqlite::Statement;
+
+namespace {
+
+constexpr std::string_view kHeader =
+    "SELECT run.id, run.axis, run.simulated, run.started_utc, run.note, run.supersedes, "
+    "recording.kind, recording.path, recording.sha256, rig.text, run.model, run.software_version, "
+    "options.text, configuration.text, run_end.state, run_end.scans, run_end.scans_lost, "
+    "run_end.warnings "
+    "FROM run LEFT JOIN run_end ON run_end.run = run.id "
+    "JOIN recording ON recording.id = coalesce(run_end.recording, run.recording) "
+    "JOIN document AS rig ON rig.id = run.rig "
+    "JOIN document AS options ON options.id = run.options "
+    "JOIN document AS configuration ON configuration.id = run.configuration ";
+
+constexpr std::string_view kPoints =
+    "SELECT target, target_m, repetition, direction, begin_ns, end_ns, position_m, samples, flags, "
+    "probe_m, probe_u_m, reason, dy_m, dz_m, ex_rad, ey_rad, ez_rad, residual_m, covariance_m_rad "
+    "FROM point WHERE id BETWEEN (?1 << 32) + ?2 AND (?1 << 32) + 4294967295 ORDER BY id LIMIT ?3";
+
+std::uint64_t natural(std::int64_t x) {
+  return static_cast<std::uint64_t>(x);
+}
+
+RunState state_from(std::string_view name) {
+  for (const RunState state : {RunState::complete, RunState::aborted})
+    if (name == to_string(state)) return state;
+  return RunState::failed;
+}
+
+Provenance provenance_of(const Statement& row) {
+  Provenance from;
+  from.recording_kind = row.text(6);
+  from.recording_path = row.text(7);
+  from.recording_sha256 = row.text(8);
+  from.rig_text = row.text(9);
+  from.model = row.text(10);
+  from.software_version = row.text(11);
+  from.options_json = row.text(12);
+  from.configuration = row.text(13);
+  return from;
+}
+
+AxisErrors errors_of(const Statement& row, int first) {
+  AxisErrors errors;
+  errors.valid = row.is_null(first);  // no reason why there are none
+  errors.reason = row.text(first);
+  if (!errors.valid) return errors;
+  for (int k = 0; k < kErrorCount; ++k)
+    errors.local[static_cast<std::size_t>(k)] = row.real(first + 1 + k);
+  errors.residual_m = row.real(first + 6);
+  doubles_from(row.bytes(first + 7), errors.covariance);
+  return errors;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> Store::texts(std::string_view json_array) {
+  std::vector<std::string> list;
+  if (json_array == "[]") return list;
+  MDOF_TRY(Statement rows, connection_.prepare("SELECT value FROM json_each(?)"));
+  rows.bind(json_array);
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return list;
+    list.emplace_back(rows.text(0));
+  }
+}
+
+Status Store::check_exists(std::string_view sql, const char* what, std::int64_t id) {
+  MDOF_TRY(Statement row, connection_.prepare(sql));
+  MDOF_TRY(const bool found, row.bind(id).step());
+  if (found) return {};
+  return fail(ErrorCode::not_found,
+              file().string() + ": no " + what + " " + std::to_string(id) + "; list what there is");
+}
+
+Result<RunHeader> Store::header_of(Statement& row) {
+  RunHeader header;
+  header.id = row.integer(0);
+  header.axis = axis_from(row.text(1)).value_or(Axis::x);
+  header.simulated = row.integer(2) != 0;
+  header.started_utc = row.text(3);
+  header.note = row.text(4);
+  if (!row.is_null(5)) header.supersedes = row.integer(5);
+  header.provenance = provenance_of(row);
+  if (!row.is_null(14)) {
+    header.state = state_from(row.text(14));
+    header.scans = natural(row.integer(15));
+    header.scans_lost = natural(row.integer(16));
+    MDOF_TRY(header.warnings, texts(row.text(17)));
+  } else if (!open_runs_.contains(header.id) && !WriterLock::held(file())) {
+    header.state = RunState::aborted;  // as the next writer will put down
+    header.warnings = {"interrupted"};
+  }
+  return header;
+}
+
+Result<std::vector<RunHeader>> Store::headers(std::string_view where, std::int64_t a,
+                                              std::int64_t b, std::optional<Axis> axis) {
+  MDOF_TRY(Statement rows, connection_.prepare(std::string(kHeader) + std::string(where)));
+  const char letter_of_axis = axis ? letter(*axis) : ' ';
+  rows.bind(a).bind(b);
+  if (axis) rows.bind(std::string_view(&letter_of_axis, 1));
+  std::vector<RunHeader> list;
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return list;
+    MDOF_TRY(RunHeader header, header_of(rows));
+    list.push_back(std::move(header));
+  }
+}
+
+Result<RunHeader> Store::run_header(std::int64_t run) {
+  MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_TRY(auto list, headers("WHERE run.id BETWEEN ?1 AND ?2", run, run, std::nullopt));
+  if (list.empty())
+    return bad_input(file().string() + ": run " + std::to_string(run) +
+                     " has lost a row that it refers to; restore the database from a backup");
+  return std::move(list.front());
+}
+
+Result<std::vector<RunHeader>> Store::list_runs(std::int64_t offset, std::int64_t count,
+                                                std::optional<Axis> axis) {
+  return axis ? headers("WHERE run.axis = ?3 ORDER BY run.id DESC LIMIT ?2 OFFSET ?1", offset,
+                        count, axis)
+              : headers("ORDER BY run.id DESC LIMIT ?2 OFFSET ?1", offset, count, axis);
+}
+
+Result<std::int64_t> Store::count_runs(std::optional<Axis> axis) {
+  if (!axis) return connection_.integer("SELECT count(*) FROM run");
+  MDOF_TRY(Statement row, connection_.prepare("SELECT count(*) FROM run WHERE axis = ?"));
+  const char letter_of_axis = letter(*axis);
+  MDOF_CHECK(row.bind(std::string_view(&letter_of_axis, 1)).step());
+  return row.integer(0);
+}
+
+Result<MeasuredPoint> Store::point_of(Statement& row) {
+  MeasuredPoint point;
+  point.target = static_cast<int>(row.integer(0));
+  point.target_m = row.real(1);
+  point.run = static_cast<int>(row.integer(2));
+  Point& p = point.point;
+  p.direction = static_cast<int>(row.integer(3));
+  p.begin_ns = row.integer(4);
+  p.end_ns = row.integer(5);
+  p.position_m = row.real(6);
+  p.samples = natural(row.integer(7));
+  MDOF_TRY(p.flags, texts(row.text(8)));
+  p.probe_m = doubles_from(row.bytes(9));
+  p.probe_u_m = doubles_from(row.bytes(10));
+  point.errors = errors_of(row, 11);
+  return point;
+}
+
+Result<std::vector<MeasuredPoint>> Store::points(std::int64_t run, std::int64_t offset,
+                                                 std::int64_t count) {
+  MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_TRY(Statement rows, connection_.prepare(kPoints));
+  rows.bind(run).bind(std::max<std::int64_t>(offset, 0)).bind(count);
+  std::vector<MeasuredPoint> list;
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return list;
+    MDOF_TRY(MeasuredPoint point, point_of(rows));
+    list.push_back(std::move(point));
+  }
+}
+
+Result<std::int64_t> Store::count_points(std::int64_t run) {
+  MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_TRY(Statement row,
+           connection_.prepare(
+               "SELECT count(*) FROM point WHERE id BETWEEN ?1 << 32 AND (?1 << 32) + 4294967295"));
+  MDOF_CHECK(row.bind(run).step());
+  return row.integer(0);
+}
+
+Result<std::vector<StraightnessFigure>> Store::straightness(std::int64_t run) {
+  MDOF_TRY(Statement rows,
+           connection_.prepare("SELECT * FROM straightness WHERE run = ? ORDER BY row"));
+  rows.bind(run);
+  std::vector<StraightnessFigure> list;
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return list;
+    list.push_back({std::string(rows.text(2)), std::string(rows.text(3)), rows.real(4),
+                    rows.real(5), rows.real(6), rows.real(7), rows.real(8), rows.real(9),
+                    rows.real(10)});
+  }
+}
+
+Result<std::vector<AngleFigure>> Store::angles(std::int64_t run) {
+  MDOF_TRY(Statement rows, connection_.prepare("SELECT * FROM angle WHERE run = ? ORDER BY row"));
+  rows.bind(run);
+  std::vector<AngleFigure> list;
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return list;
+    list.push_back({std::string(rows.text(2)), std::string(rows.text(3)), rows.real(4),
+                    rows.real(5), rows.real(6)});
+  }
+}
+
+Result<Run> Store::run(std::int64_t run) {
+  Run whole;
+  MDOF_TRY(whole.header, run_header(run));
+  MDOF_TRY(whole.points, points(run, 0, -1));  // a negative limit is none
+  MDOF_TRY(whole.straightness, straightness(run));
+  MDOF_TRY(whole.angles, angles(run));
+  return whole;
+}
+
+Result<std::string> Store::result_sha256(std::int64_t run) {
+  MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  ResultHash hash;
+  constexpr std::int64_t kPage = 4096;
+  for (std::int64_t offset = 0;; offset += kPage) {
+    MDOF_TRY(const auto page, points(run, offset, kPage));
+    for (const MeasuredPoint& point : page) hash.add(point);
+    if (page.size() < kPage) break;
+  }
+  MDOF_TRY(const auto straight, straightness(run));
+  for (const StraightnessFigure& figure : straight) hash.add(figure);
+  MDOF_TRY(const auto angular, angles(run));
+  for (const AngleFigure& figure : angular) hash.add(figure);
+  return hash.hex();
+}
+
+}  // namespace mdof::store

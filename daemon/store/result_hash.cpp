@@ -1,0 +1,109 @@
+#include "daemon/store/result_hash.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "daemon/store/bytes.h"
+
+namespace mdof::store {
+namespace {
+
+constexpr double kCanonicalNaN = std::bit_cast<double>(std::uint64_t{0x7ff8000000000000});
+
+void put(std::string& row, std::int64_t x) {
+  row.append(reinterpret_cast<const char*>(&x), sizeof x);
+}
+void put(std::string& row, std::uint64_t x) {
+  put(row, static_cast<std::int64_t>(x));
+}
+void put(std::string& row, int x) {
+  put(row, static_cast<std::int64_t>(x));
+}
+
+void put(std::string& row, double x) {
+  const double canonical = std::isnan(x) ? kCanonicalNaN : x;
+  row.append(reinterpret_cast<const char*>(&canonical), sizeof canonical);
+}
+
+void put(std::string& row, std::span<const double> values) {
+  for (const double x : values) put(row, x);
+}
+
+void put(std::string& row, std::string_view text) {
+  put(row, static_cast<std::uint64_t>(text.size()));
+  row.append(text);
+}
+
+void put_counted(std::string& row, const std::vector<double>& values) {
+  put(row, static_cast<std::uint64_t>(values.size()));
+  put(row, std::span(values));
+}
+
+void put(std::string& row, const AxisErrors& errors) {
+  put(row, errors.valid ? 1 : 0);
+  if (!errors.valid) return put(row, std::string_view(errors.reason));
+  put(row, std::span<const double>(errors.local));
+  put(row, errors.residual_m);
+  put(row, std::span<const double>(errors.covariance));
+}
+
+void put(std::string& row, const Point& point) {
+  put(row, point.direction);
+  put(row, point.begin_ns);
+  put(row, point.end_ns);
+  put(row, point.position_m);
+  put(row, point.samples);
+  put(row, static_cast<std::uint64_t>(point.flags.size()));
+  for (const std::string& flag : point.flags) put(row, std::string_view(flag));
+  put_counted(row, point.probe_m);
+  put_counted(row, point.probe_u_m);
+}
+
+}  // namespace
+
+void ResultHash::add(const MeasuredPoint& point) {
+  row_.clear();
+  put(row_, point.target);
+  put(row_, point.target_m);
+  put(row_, point.run);
+  put(row_, point.point);
+  put(row_, point.errors);
+  hash_.update(row_);
+}
+
+void ResultHash::add(const StraightnessFigure& figure) {
+  row_.clear();
+  put(row_, std::string_view(figure.error_key));
+  put(row_, std::string_view(figure.approach));
+  for (const double x :
+       {figure.slope_least_squares_rad, figure.slope_end_point_rad,
+        figure.u_slope_least_squares_rad, figure.straightness_least_squares_m,
+        figure.straightness_end_point_m, figure.peak_position_m, figure.valley_position_m})
+    put(row_, x);
+  hash_.update(row_);
+}
+
+void ResultHash::add(const AngleFigure& figure) {
+  row_.clear();
+  put(row_, std::string_view(figure.error_key));
+  put(row_, std::string_view(figure.approach));
+  for (const double x : {figure.start_rad, figure.min_rad, figure.max_rad}) put(row_, x);
+  hash_.update(row_);
+}
+
+std::string ResultHash::hex() const {
+  return hash_.hex();
+}
+
+std::string result_sha256(const Run& run) {
+  ResultHash hash;
+  for (const MeasuredPoint& point : run.points) hash.add(point);
+  for (const StraightnessFigure& figure : run.straightness) hash.add(figure);
+  for (const AngleFigure& figure : run.angles) hash.add(figure);
+  return hash.hex();
+}
+
+}  // namespace mdof::store

@@ -1,0 +1,38 @@
+// The SHA-256 of a run's result rows: two runs have the same hash when, and only when, every point,
+// straightness and angle figure is the same to the last bit, whatever machine, compiler or file
+// they came from. Provenance, names of files and times of day are left out.
+//
+// Bytes hashed, in the order in which the rows stand (all points, then straightness, then angles);
+// i: 8-byte little-endian integer; d: 8-byte little-endian IEEE 754, every NaN as
+// 0x7ff8000000000000; s: i length, then the bytes:
+//   point         i target, d target_m, i repetition, i direction, i begin_ns, i end_ns, d
+//   position_m,
+//                 i samples, i number of flags, s each flag, i n, d probe_m[n], i n, d
+//                 probe_u_m[n], then either i 1, d 5 local errors, d residual_m, d 25 covariance or
+//                 i 0, s reason
+//   straightness  s error_key, s approach, d its seven figures in the order of schema/run.h
+//   angle         s error_key, s approach, d start_rad, d min_rad, d max_rad
+#pragma once
+
+#include <string>
+
+#include "schema/run.h"
+#include "schema/sha256.h"
+
+namespace mdof::store {
+
+class ResultHash {
+ public:
+  void add(const MeasuredPoint& point);
+  void add(const StraightnessFigure& figure);
+  void add(const AngleFigure& figure);
+  std::string hex() const;
+
+ private:
+  Sha256 hash_;
+  std::string row_;  // reused
+};
+
+std::string result_sha256(const Run& run);
+
+}  // namespace mdof::store

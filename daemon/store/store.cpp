@@ -1,0 +1,85 @@
+#include "daemon/store/store.h"
+
+#include "daemon/store/migrate.h"
+#include "schema/sql.h"
+
+namespace mdof::store {
+
+namespace fs = std::filesystem;
+using sqlite::Connection;
+using sqlite::OpenMode;
+
+namespace {
+
+int known_version() {
+  return sql::migrations().back().version;
+}
+
+bool absent_or_empty(const fs::path& file) {
+  std::error_code ec;
+  return !fs::exists(file, ec) || (fs::is_regular_file(file, ec) && fs::file_size(file, ec) == 0);
+}
+
+Status make_parent(const fs::path& file) {
+  if (!file.has_parent_path()) return {};
+  std::error_code ec;
+  fs::create_directories(file.parent_path(), ec);
+  if (ec && !fs::is_directory(file.parent_path()))
+    return io_error(file.parent_path().string() + ": the database's folder cannot be made: " +
+                    ec.message() + "; make it, or name another place");
+  return {};
+}
+
+Result<Connection> open_reader(const fs::path& file, int busy_timeout_ms) {
+  MDOF_TRY(Connection connection, Connection::open(file, OpenMode::read_only, busy_timeout_ms));
+  MDOF_CHECK(check_kind(connection, known_version()));
+  return connection;
+}
+
+Status check_schema_is_current(Connection& connection) {
+  MDOF_TRY(const std::int64_t version, connection.integer("PRAGMA user_version"));
+  if (version == known_version()) return {};
+  return bad_input(connection.file().string() + ": has schema version " + std::to_string(version) +
+                   " and must be brought to " + std::to_string(known_version()) +
+                   " first: open it once for writing (start mdofd, or store a run)");
+}
+
+Status set_up_writer(Connection& connection, Durability durability) {
+  MDOF_CHECK(connection.execute("PRAGMA journal_mode = WAL"));
+  MDOF_CHECK(connection.execute(std::string("PRAGMA synchronous = ") + to_string(durability)));
+  MDOF_CHECK(connection.execute("PRAGMA foreign_keys = ON"));
+  return connection.execute("PRAGMA journal_size_limit = 67108864");
+}
+
+Result<Connection> open_writer(const fs::path& file, const StoreOptions& options) {
+  MDOF_TRY(Connection connection,
+           Connection::open(file, OpenMode::create, options.busy_timeout_ms));
+  MDOF_CHECK(check_kind(connection, known_version()));
+  MDOF_CHECK(set_up_writer(connection, options.durability));
+  MDOF_CHECK(migrate(connection, sql::migrations()));
+  return connection;
+}
+
+}  // namespace
+
+Result<Store> Store::open(const fs::path& file, Access access, StoreOptions options) {
+  if (access == Access::read_only) {
+    std::error_code ec;
+    if (!fs::exists(file, ec))
+      return fail(ErrorCode::not_found,
+                  file.string() + ": no such database; it is made when the first run is stored");
+    MDOF_TRY(Connection connection, open_reader(file, options.busy_timeout_ms));
+    MDOF_CHECK(check_schema_is_current(connection));
+    return Store(WriterLock(), std::move(connection), access);
+  }
+  // Looked at before anything is written, so that a file named by mistake stays as it is.
+  if (!absent_or_empty(file)) MDOF_CHECK(open_reader(file, options.busy_timeout_ms));
+  MDOF_CHECK(make_parent(file));
+  MDOF_TRY(WriterLock lock, WriterLock::acquire(file, options.busy_timeout_ms));
+  MDOF_TRY(Connection connection, open_writer(file, options));
+  Store store(std::move(lock), std::move(connection), access);
+  MDOF_CHECK(store.end_interrupted_runs());
+  return store;
+}
+
+}  // namespace mdof::store

@@ -1,0 +1,143 @@
+// The database of runs, squareness and compensation tables: schema/sql/*.sql behind typed calls.
+// Append only. Everything that returns ok is on the disk, as the durability says.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/store/writer_lock.h"
+#include "schema/compensation_table.h"
+#include "schema/result.h"
+#include "schema/run.h"
+#include "schema/sqlite.h"
+#include "schema/squareness.h"
+
+namespace mdof::store {
+
+using sqlite::Durability;
+
+enum class Access {
+  read_only,   // the file must exist; any number of readers, also while a writer is at work
+  read_write,  // made where absent, brought to the newest schema; one writer at a time
+};
+
+struct StoreOptions {
+  Durability durability = Durability::full;
+  int busy_timeout_ms = 5000;  // how long to wait for another writer to end
+};
+
+// What is known of a run only when it has ended.
+struct RunEnd {
+  RunState state = RunState::complete;  // not open
+  std::uint64_t scans = 0, scans_lost = 0;
+  std::vector<std::string> warnings;
+  std::string recording_sha256;  // of a recording that was still being written at the start
+  std::vector<StraightnessFigure> straightness;
+  std::vector<AngleFigure> angles;
+};
+
+// A table in force.
+struct ActiveTable {
+  CompensationTable table;
+  std::int64_t generation = 0;
+  std::string actor;
+  std::string activated_utc;
+};
+
+// Thread-bound. A message names the file; not_found names the run or table that is not there.
+// Doubles come back with the bits that they went in with; a NaN comes back as a NaN.
+class Store {
+ public:
+  static Result<Store> open(const std::filesystem::path& file, Access access,
+                            StoreOptions options = {});
+
+  // ---- runs ----
+  // A whole run in one transaction: all of it is stored or nothing. The header's id is not used;
+  // its state must not be open. Gives the run's id.
+  Result<std::int64_t> add_run(const Run& run);
+  // A run that is being measured: begun, filled and ended, each call durable on return. Only this
+  // store can fill it; if it ends before the run does, the run is `aborted` and says "interrupted".
+  Result<std::int64_t> begin_run(const RunHeader& header);
+  Status append_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
+  Status end_run(std::int64_t run, const RunEnd& end);
+
+  Result<RunHeader> run_header(std::int64_t run);
+  // Newest first; `axis` narrows it to the runs of one axis.
+  Result<std::vector<RunHeader>> list_runs(std::int64_t offset, std::int64_t count,
+                                           std::optional<Axis> axis = std::nullopt);
+  Result<std::int64_t> count_runs(std::optional<Axis> axis = std::nullopt);
+  // Rows offset ... offset + count - 1 in the order measured, as many as there are.
+  Result<std::vector<MeasuredPoint>> points(std::int64_t run, std::int64_t offset,
+                                            std::int64_t count);
+  Result<std::int64_t> count_points(std::int64_t run);
+  Result<Run> run(std::int64_t run);
+  // Of the result rows as they are stored now; see result_hash.h for the bytes.
+  Result<std::string> result_sha256(std::int64_t run);
+
+  // ---- squareness ----
+  Result<std::int64_t> add_squareness(const Squareness& squareness);
+  Result<std::vector<Squareness>> list_squareness(std::int64_t offset, std::int64_t count);
+
+  // ---- compensation tables ----
+  Result<std::int64_t> add_table(const CompensationTable& table);
+  Result<CompensationTable> table(std::int64_t id);
+  Result<std::vector<CompensationTable>> list_tables(std::int64_t offset, std::int64_t count,
+                                                     std::optional<Axis> axis = std::nullopt);
+  // Puts a table in force on its axis; gives the new generation. Generations rise strictly over all
+  // axes, so that one number tells a client whether anything has changed.
+  Result<std::int64_t> activate(std::int64_t table, const std::string& actor,
+                                const std::string& utc);
+  Result<ActiveTable> active(Axis axis);  // not_found where none was ever activated
+  Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
+
+  // ---- integrity ----
+  // Checks the file, its references, the hash of every text and of every run's result rows. One
+  // sentence a finding; none: sound.
+  Result<std::vector<std::string>> verify();
+
+  const std::filesystem::path& file() const { return connection_.file(); }
+
+ private:
+  Store(WriterLock lock, sqlite::Connection connection, Access access)
+      : lock_(std::move(lock)), connection_(std::move(connection)), access_(access) {}
+
+  // write.cpp
+  Status end_interrupted_runs();
+  Result<std::int64_t> insert_run(const RunHeader& header);
+  Result<std::int64_t> document_id(const std::string& text);
+  Result<std::int64_t> recording_id(const std::string& sha256, const std::string& kind,
+                                    const std::string& path);
+  Status insert_points(std::int64_t run, std::int64_t first_row,
+                       const std::vector<MeasuredPoint>& points);
+  Status insert_figures(std::int64_t run, const RunEnd& end);
+  Result<std::optional<std::int64_t>> final_recording(std::int64_t run, const RunEnd& end);
+  Status insert_end(std::int64_t run, const RunEnd& end, const std::string& sha256);
+  Status check_open(std::int64_t run) const;
+  // read.cpp
+  Result<std::vector<RunHeader>> headers(std::string_view where, std::int64_t a, std::int64_t b,
+                                         std::optional<Axis> axis);
+  Result<RunHeader> header_of(sqlite::Statement& row);
+  Result<MeasuredPoint> point_of(sqlite::Statement& row);
+  Result<std::vector<StraightnessFigure>> straightness(std::int64_t run);
+  Result<std::vector<AngleFigure>> angles(std::int64_t run);
+  Result<std::vector<std::string>> texts(std::string_view json_array);
+  Status check_exists(std::string_view sql, const char* what, std::int64_t id);
+  // tables.cpp
+  Result<CompensationTable> table_of(sqlite::Statement& row);
+  Result<std::vector<std::int64_t>> sources(std::int64_t table);
+  // verify.cpp
+  Status verify_file(std::vector<std::string>& findings);
+  Status verify_documents(std::vector<std::string>& findings);
+  Status verify_runs(std::vector<std::string>& findings);
+
+  WriterLock lock_;  // first made, last given back
+  sqlite::Connection connection_;
+  Access access_;
+  std::map<std::int64_t, std::int64_t> open_runs_;  // run begun here -> its next row
+};
+
+}  // namespace mdof::store

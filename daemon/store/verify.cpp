@@ -1,0 +1,62 @@
+// Store: is everything as it was stored?
+#include "daemon/store/store.h"
+#include "schema/sha256.h"
+
+namespace mdof::store {
+
+using sqlite::Statement;
+
+Result<std::vector<std::string>> Store::verify() {
+  std::vector<std::string> findings;
+  for (const auto check : {&Store::verify_file, &Store::verify_documents, &Store::verify_runs}) {
+    const Status done = (this->*check)(findings);
+    if (done) continue;
+    if (done.error().code != ErrorCode::bad_input) return tl::unexpected(done.error());
+    findings.push_back(done.error().message);  // damage that keeps the check from reading on
+  }
+  return findings;
+}
+
+Status Store::verify_file(std::vector<std::string>& findings) {
+  {
+    MDOF_TRY(Statement rows, connection_.prepare("PRAGMA integrity_check"));
+    for (;;) {
+      MDOF_TRY(const bool row, rows.step());
+      if (!row) break;
+      if (rows.text(0) != "ok") findings.push_back("integrity: " + std::string(rows.text(0)));
+    }
+  }
+  MDOF_TRY(Statement rows, connection_.prepare("PRAGMA foreign_key_check"));
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return {};
+    findings.push_back("table " + std::string(rows.text(0)) + ": row " + std::string(rows.text(1)) +
+                       " refers to a row of " + std::string(rows.text(2)) + " that is not there");
+  }
+}
+
+Status Store::verify_documents(std::vector<std::string>& findings) {
+  MDOF_TRY(Statement rows, connection_.prepare("SELECT id, sha256, text FROM document"));
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return {};
+    if (sha256_hex(rows.text(2)) != rows.text(1))
+      findings.push_back("document " + std::to_string(rows.integer(0)) +
+                         " (a rig, options or a configuration) is not what was stored");
+  }
+}
+
+Status Store::verify_runs(std::vector<std::string>& findings) {
+  MDOF_TRY(Statement rows, connection_.prepare("SELECT run, result_sha256 FROM run_end"));
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return {};
+    const std::int64_t run = rows.integer(0);
+    MDOF_TRY(const std::string sha256, result_sha256(run));
+    if (sha256 != rows.text(1))
+      findings.push_back("run " + std::to_string(run) +
+                         ": its result rows are not those that were stored; replay its recording");
+  }
+}
+
+}  // namespace mdof::store

@@ -1,0 +1,29 @@
+// One writer a database: SQLite before 3.51.3 can damage a WAL database when two connections write
+// or checkpoint at the same moment, so a second one is never opened. The lock is on a file of its
+// own, "FILE-lock", since closing any descriptor of the database itself would drop SQLite's locks.
+#pragma once
+
+#include <filesystem>
+
+#include "schema/result.h"
+
+namespace mdof::store {
+
+class WriterLock {
+ public:
+  // Waits up to `timeout_ms` for another writer to end; then `conflict`.
+  static Result<WriterLock> acquire(const std::filesystem::path& database, int timeout_ms);
+  // Whether some process, or another lock of this one, holds it.
+  static bool held(const std::filesystem::path& database);
+
+  WriterLock() = default;  // holds nothing
+  WriterLock(WriterLock&& other) noexcept;
+  WriterLock& operator=(WriterLock&& other) noexcept;
+  ~WriterLock();
+
+ private:
+  explicit WriterLock(int fd) : fd_(fd) {}
+  int fd_ = -1;
+};
+
+}  // namespace mdof::store

@@ -1,0 +1,160 @@
+#include "daemon/storekeeper.h"
+
+#include <pthread.h>
+
+#include "daemon/paths.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr std::size_t kQueueLength = 4096;  // jobs: blocks of samples, points, calls of clients
+
+store::RunEnd end_of(const Run& run) {
+  store::RunEnd end;
+  end.state = run.header.state;
+  end.scans = run.header.scans;
+  end.scans_lost = run.header.scans_lost;
+  end.warnings = run.header.warnings;
+  end.recording_sha256 = run.header.provenance.recording_sha256;
+  end.straightness = run.straightness;
+  end.angles = run.angles;
+  return end;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Storekeeper>> Storekeeper::start(const Options& options, Events events) {
+  store::StoreOptions how;
+  how.durability = options.durability;
+  MDOF_TRY(auto database, store::Store::open(options.database, store::Access::read_write, how));
+  return std::unique_ptr<Storekeeper>(
+      new Storekeeper(std::move(database), options, std::move(events)));
+}
+
+Storekeeper::Storekeeper(store::Store database, const Options& options, Events events)
+    : store_(std::move(database)),
+      options_(options),
+      events_(std::move(events)),
+      queue_(kQueueLength),
+      last_turn_(std::chrono::steady_clock::now()),
+      thread_([this] { work(); }) {}
+
+Storekeeper::~Storekeeper() {
+  queue_.close();
+  thread_.join();
+}
+
+void Storekeeper::work() {
+  pthread_setname_np(pthread_self(), "store");
+  auto next_commit = std::chrono::steady_clock::now() + options_.commit_interval;
+  while (!queue_.closed_and_empty()) {
+    if (const auto job = queue_.pop(options_.commit_interval)) (*job)();
+    const auto now = std::chrono::steady_clock::now();
+    last_turn_.store(now);
+    if (now < next_commit) continue;
+    commit_recordings();
+    if (!unended_.empty()) end_what_can_be();
+    next_commit = now + options_.commit_interval;
+  }
+  commit_recordings();
+}
+
+// One transaction a recording and interval: durable at the price of one disk flush.
+void Storekeeper::commit_recordings() {
+  for (auto& [run, recording] : recordings_) {
+    if (!recording.waiting) continue;
+    const auto seq = recording.writer.commit();
+    if (!seq) {
+      events_.failed(run, seq.error());
+      continue;
+    }
+    recording.waiting = false;
+    events_.recorded(run, *seq);
+  }
+}
+
+// Runs whose end the disk refused: tried again until it takes it.
+void Storekeeper::end_what_can_be() {
+  std::erase_if(unended_, [&](Unended& waiting) {
+    waiting.end.state = RunState::failed;
+    return store_.end_run(waiting.run, waiting.end).has_value();
+  });
+}
+
+bool Storekeeper::post(Job job) {
+  return queue_.try_push([this, job = std::move(job)] { job(store_); });
+}
+
+Result<std::int64_t> Storekeeper::begin(NewRun& run) {
+  if (run.recording.empty()) return store_.begin_run(run.header);
+  MDOF_TRY(auto writer, store::RecordingWriter::create(run.recording, run.recording_header,
+                                                       options_.durability));
+  MDOF_TRY(const std::int64_t id, store_.begin_run(run.header));
+  recordings_.emplace(id, Recording{std::move(writer)});
+  return id;
+}
+
+bool Storekeeper::begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done) {
+  auto shared = std::make_shared<NewRun>(std::move(run));
+  return queue_.try_push([this, shared, done = std::move(done)] { done(begin(*shared)); });
+}
+
+bool Storekeeper::record(std::int64_t run, SampleBlock block, bool wait) {
+  auto shared = std::make_shared<SampleBlock>(std::move(block));
+  auto job = [this, run, shared] {
+    const auto recording = recordings_.find(run);
+    if (recording == recordings_.end()) return;  // it has failed or ended
+    const Status kept = recording->second.writer.append(*shared);
+    if (!kept) events_.failed(run, kept.error());
+    recording->second.waiting = true;
+  };
+  return wait ? queue_.push(std::move(job)) : queue_.try_push(std::move(job));
+}
+
+void Storekeeper::append_points(std::int64_t run, std::vector<MeasuredPoint> points,
+                                std::function<void(Status)> done) {
+  auto shared = std::make_shared<std::vector<MeasuredPoint>>(std::move(points));
+  queue_.push_always([this, run, shared, done = std::move(done)] {
+    const Status kept = store_.append_points(run, *shared);
+    if (!kept) events_.failed(run, kept.error());
+    done(kept);
+  });
+}
+
+Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, bool differs) {
+  if (const auto recording = recordings_.find(run); recording != recordings_.end()) {
+    auto sealed = recording->second.writer.finish(utc_now());
+    recordings_.erase(recording);
+    if (!sealed) {
+      result.header.state = RunState::failed;
+      result.header.warnings.push_back(sealed.error().message);
+    } else {
+      result.header.provenance.recording_sha256 = *sealed;
+    }
+  }
+  const store::RunEnd whole = end_of(result);
+  if (!differs) {
+    MDOF_CHECK(store_.end_run(run, whole));
+    return run;
+  }
+  store::RunEnd provisional = whole;
+  provisional.straightness.clear();
+  provisional.angles.clear();
+  provisional.warnings.emplace_back(
+      "the sequence was recognised differently once all was known; superseded by the next run");
+  MDOF_CHECK(store_.end_run(run, provisional));
+  MDOF_TRY(RunHeader header, store_.run_header(run));
+  header.supersedes = run;
+  header.warnings = whole.warnings;
+  result.header = std::move(header);
+  return store_.add_run(result);
+}
+
+void Storekeeper::end_run(std::int64_t run, Run result, bool differs,
+                          std::function<void(Result<std::int64_t>)> done) {
+  auto shared = std::make_shared<Run>(std::move(result));
+  queue_.push_always(
+      [this, run, shared, differs, done = std::move(done)] { done(end(run, *shared, differs)); });
+}
+
+}  // namespace mdof::daemon

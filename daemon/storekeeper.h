@@ -1,0 +1,96 @@
+// The thread "store": the one writer of the database and of recordings. Everything that touches the
+// disk for writing is a job in its queue; the measuring path never waits for it.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <thread>
+
+#include "daemon/bounded_queue.h"
+#include "daemon/store/recording_writer.h"
+#include "daemon/store/store.h"
+#include "schema/result.h"
+#include "schema/run.h"
+#include "schema/sample.h"
+
+namespace mdof::daemon {
+
+// What a run that is being measured needs on the disk.
+struct NewRun {
+  RunHeader header;
+  std::filesystem::path recording;  // empty: not recorded (a replay)
+  RecordingHeader recording_header;
+};
+
+class Storekeeper {
+ public:
+  struct Options {
+    std::filesystem::path database;
+    store::Durability durability = store::Durability::full;
+    std::chrono::milliseconds commit_interval{50};
+  };
+  // All called on the store thread.
+  struct Events {
+    // Chunks up to `seq` of this run's recording are on the disk.
+    std::function<void(std::int64_t run, std::int64_t seq)> recorded;
+    // The disk refused (full, gone): the run can no longer be kept.
+    std::function<void(std::int64_t run, const Error& error)> failed;
+  };
+
+  // Opens the database (errors as Store::open) and starts the thread.
+  static Result<std::unique_ptr<Storekeeper>> start(const Options& options, Events events);
+  // Ends the queue, writes out what waits, joins.
+  ~Storekeeper();
+
+  // Thread-safe from here on. Callbacks run on the store thread.
+  using Job = std::function<void(store::Store&)>;
+  // False: the queue is full or closing; the job is not kept.
+  bool post(Job job);
+  bool begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done);
+  // `wait`: for a source that can wait; otherwise a full queue drops the block, counted.
+  bool record(std::int64_t run, SampleBlock block, bool wait);
+  void append_points(std::int64_t run, std::vector<MeasuredPoint> points,
+                     std::function<void(Status)> done);
+  // Seals the recording and ends the run. If `result` differs from the points already stored, they
+  // stay, and the whole result is stored as a new run that supersedes them; gives the id to read.
+  void end_run(std::int64_t run, Run result, bool differs,
+               std::function<void(Result<std::int64_t>)> done);
+
+  std::uint64_t dropped_blocks() const { return queue_.dropped(); }
+  // When the thread last came round; for the watchdog.
+  std::chrono::steady_clock::time_point last_turn() const { return last_turn_.load(); }
+
+ private:
+  Storekeeper(store::Store database, const Options& options, Events events);
+  void work();
+  void commit_recordings();
+  void end_what_can_be();
+  Result<std::int64_t> begin(NewRun& run);
+  Result<std::int64_t> end(std::int64_t run, Run& result, bool differs);
+
+  struct Recording {
+    store::RecordingWriter writer;
+    bool waiting = false;  // holds blocks that are not committed yet
+  };
+
+  struct Unended {
+    std::int64_t run;
+    store::RunEnd end;
+  };
+
+  store::Store store_;
+  Options options_;
+  Events events_;
+  std::map<std::int64_t, Recording> recordings_;
+  std::vector<Unended> unended_;
+  BoundedQueue<std::function<void()>> queue_;
+  std::atomic<std::chrono::steady_clock::time_point> last_turn_;
+  std::thread thread_;  // last: starts when all else is there
+};
+
+}  // namespace mdof::daemon

@@ -1,0 +1,112 @@
+#include "drivers/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/units.h"
+
+namespace mdof::drivers {
+namespace {
+
+constexpr double kRangeUsed = 0.9995;  // beyond this share of the range a reading is at its end
+
+double linearity_um(const Calibration& c, double reading_um) {
+  const auto& table = c.linearity;
+  if (table.empty()) return 0.0;
+  if (reading_um <= table.front()[0]) return table.front()[1];
+  if (reading_um >= table.back()[0]) return table.back()[1];
+  const auto above =
+      std::upper_bound(table.begin(), table.end(), reading_um,
+                       [](double x, const std::array<double, 2>& row) { return x < row[0]; });
+  const auto& [x1, y1] = *above;
+  const auto& [x0, y0] = *(above - 1);
+  return y0 + (y1 - y0) * ((reading_um - x0) / (x1 - x0));
+}
+
+// Raw readings in µm outside these are at the end of the probe's range.
+struct Window {
+  double low_um, high_um;
+};
+Window valid_window(const Probe& probe) {
+  const double range_um = to_um(probe.range_m);
+  if (probe.calibration.reads_gap) return {(1 - kRangeUsed) * range_um, kRangeUsed * range_um};
+  return {-kRangeUsed * range_um / 2, kRangeUsed * range_um / 2};
+}
+
+void mark(SampleBlock& block, std::size_t channel, std::size_t scan, Quality quality) {
+  if (block.quality.empty()) block.quality.resize(block.channels.size());
+  auto& column = block.quality[channel];
+  if (column.empty()) column.assign(block.scans(), Quality::good);
+  column[scan] = std::max(column[scan], quality);
+}
+
+}  // namespace
+
+double displacement_m(const Calibration& c, double raw_um) {
+  const double reading_um = raw_um - c.offset_um;
+  const double displacement_um = reading_um + linearity_um(c, reading_um);
+  return from_um(c.reads_gap ? -displacement_um : displacement_um);
+}
+
+Calibrator::Calibrator(const Rig& rig) : rig_source_(rig.source) {
+  for (const auto& probe : rig.probes) probes_.emplace(probe.id, probe);
+}
+
+Status Calibrator::apply_probe(const Probe& probe, std::size_t channel, SampleBlock& block) const {
+  const Unit unit = block.channels[channel].unit;
+  const Calibration& c = probe.calibration;
+  double um_per_unit = 1.0;
+  if (unit == Unit::volt) {
+    if (!c.um_per_V) {
+      return bad_input(rig_source_ + ": probe \"" + probe.id +
+                       "\" is logged in volts; give its um_per_V");
+    }
+    um_per_unit = *c.um_per_V;
+  } else if (unit == Unit::mm) {
+    um_per_unit = 1e3;
+  } else if (unit != Unit::um) {
+    return bad_input("channel \"" + probe.id +
+                     "\" is a probe of the rig but its unit is no length; "
+                     "name its column " +
+                     probe.id + "_um or " + probe.id + "_V");
+  }
+  const auto [low_um, high_um] = valid_window(probe);
+  const bool plain = c.offset_um == 0.0 && c.linearity.empty() && !c.reads_gap;
+  auto& column = block.value[channel];
+  bool outside = false;  // or NaN; counted without a branch, so that the loop becomes vectors
+  for (double& value : column) {
+    const double raw_um = value * um_per_unit;
+    outside |= !(raw_um > low_um) | !(raw_um < high_um);
+    value = plain ? from_um(raw_um) : displacement_m(c, raw_um);
+  }
+  if (!outside) return {};
+  // The rare second pass: the raw value is asked again through its displacement.
+  const double low_m = displacement_m(c, low_um), high_m = displacement_m(c, high_um);
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (std::isnan(column[i])) {
+      mark(block, channel, i, Quality::missing);
+    } else if (column[i] <= std::min(low_m, high_m) || column[i] >= std::max(low_m, high_m)) {
+      mark(block, channel, i, Quality::over_range);
+    }
+  }
+  return {};
+}
+
+Status Calibrator::apply(SampleBlock& block) const {
+  for (std::size_t channel = 0; channel < block.channels.size(); ++channel) {
+    const Channel& what = block.channels[channel];
+    if (what.unit == Unit::metre) continue;
+    if (what.id == kEncoderChannel) {
+      const double per_metre = what.unit == Unit::um ? 1e6 : 1e3;
+      for (double& value : block.value[channel]) value /= per_metre;
+    } else if (const auto probe = probes_.find(what.id); probe != probes_.end()) {
+      MDOF_CHECK(apply_probe(probe->second, channel, block));
+    } else {
+      continue;
+    }
+    block.channels[channel].unit = Unit::metre;
+  }
+  return {};
+}
+
+}  // namespace mdof::drivers

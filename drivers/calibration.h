@@ -1,0 +1,35 @@
+// Raw numbers of a device -> metres of displacement, with the quality each value has earned. The
+// last step of every driver; nothing after it knows volts or gaps.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+
+#include "schema/result.h"
+#include "schema/rig.h"
+#include "schema/sample.h"
+
+namespace mdof::drivers {
+
+// Displacement along `measures` in m for a raw reading in µm (schema/rig.h, Calibration).
+double displacement_m(const Calibration& calibration, double raw_um);
+
+// Reentrant; holds a copy of what it needs of the rig.
+class Calibrator {
+ public:
+  explicit Calibrator(const Rig& rig);
+
+  // Turns the probes and the encoder of `block` into Unit::metre, in place. A reading at the end of
+  // its probe's range (within 0.05 % of it) becomes Quality::over_range, a NaN Quality::missing.
+  // Channels the rig does not know are left as they are. Error: volts without um_per_V, a probe in
+  // a unit that is no length.
+  Status apply(SampleBlock& block) const;
+
+ private:
+  Status apply_probe(const Probe& probe, std::size_t channel, SampleBlock& block) const;
+
+  std::unordered_map<std::string, Probe> probes_;
+  std::string rig_source_;
+};
+
+}  // namespace mdof::drivers

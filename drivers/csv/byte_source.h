@@ -1,0 +1,55 @@
+// The bytes of a file or of the standard input, unpacked where they are gzip, hashed as stored.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/result.h"
+#include "schema/sha256.h"
+
+namespace mdof::drivers {
+
+class Gunzip;
+
+// An open file descriptor, read in order.
+class ByteSource {
+ public:
+  // "-" is the standard input. With `hash` the SHA-256 is computed on the way.
+  static Result<std::unique_ptr<ByteSource>> open(const std::string& path, bool hash);
+  ~ByteSource();
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+
+  // Fills `to` with up to `capacity` bytes of text; 0: the end. Errors: reading failed, gzip data
+  // damaged or ending too early.
+  Result<std::size_t> read(char* to, std::size_t capacity);
+
+  const std::string& name() const { return name_; }           // for messages
+  std::uint64_t bytes() const { return bytes_.load(); }       // stored bytes read; any thread
+  std::uint64_t bytes_total() const { return bytes_total_; }  // 0: not known (a pipe)
+  // Of the stored bytes, once read() gave 0; "" without hash.
+  std::string sha256() const { return hash_ ? hash_->hex() : ""; }
+
+ private:
+  ByteSource(int descriptor, std::string name, std::uint64_t bytes_total, bool hash);
+  Result<std::size_t> read_stored(char* to, std::size_t capacity);
+  Result<std::size_t> read_unpacked(char* to, std::size_t capacity);
+  Status refill();
+  Status look_for_gzip();
+
+  int descriptor_;
+  std::string name_;
+  std::uint64_t bytes_total_;
+  std::atomic<std::uint64_t> bytes_{0};
+  std::unique_ptr<Sha256> hash_;
+  std::vector<char> buffer_;        // stored bytes: the file's beginning; all of a gzip file
+  std::string_view pending_;        // of buffer_: not used yet
+  std::unique_ptr<Gunzip> gunzip_;  // nullptr: plain
+};
+
+}  // namespace mdof::drivers

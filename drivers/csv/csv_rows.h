@@ -1,0 +1,56 @@
+// Reads a CSV file of the bench in blocks: header first, then rows in the order of the file.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/driver.h"
+#include "schema/csv_row_parser.h"
+#include "schema/probe_log.h"
+#include "schema/result.h"
+#include "schema/sample.h"
+
+namespace mdof::drivers {
+
+struct CsvRowsOptions {
+  CsvKind kind = CsvKind::probe_log;
+  CsvLimits limits;                                // bad_lines = 0 where rows must map one to one
+  bool sha256 = true;                              // costs as much time as parsing, on another core
+  std::size_t chunk_bytes = std::size_t{1} << 20;  // no effect on what comes out
+};
+
+// Thread-bound but for bytes(). Two threads of its own, from open() to the end of the file or to
+// the destructor: "csv read" reads, hashes and unpacks, "csv parse" makes blocks; each is ahead of
+// its reader by a few blocks at the most, so that memory stays at some MB whatever the file's
+// length. Blocks do not depend on timing or on chunk_bytes.
+class CsvRows {
+ public:
+  // Opens `path` ("-": standard input), plain or gzip by its first bytes, and parses its header.
+  static Result<std::unique_ptr<CsvRows>> open(const std::string& path,
+                                               const CsvRowsOptions& options);
+  ~CsvRows();
+
+  const CsvHeader& header() const;
+  // Replaces `block` (its memory is reused); empty where nothing came within `timeout`. An error is
+  // final, and comes after all rows before it.
+  Result<ReadState> next(SampleBlock& block, std::chrono::milliseconds timeout);
+  Result<ReadState> next(SampleBlock& block);  // waits as long as it takes
+
+  // After the end, else empty. Of the bytes as stored; also empty without options.sha256.
+  std::string sha256() const;
+  // After the end or an error, else empty: one line of text for each line skipped.
+  std::vector<std::string> warnings() const;
+  std::uint64_t bytes() const;        // stored bytes read so far
+  std::uint64_t bytes_total() const;  // 0: not known
+
+ private:
+  class Threads;
+  explicit CsvRows(std::unique_ptr<Threads> threads);
+  std::unique_ptr<Threads> threads_;
+};
+
+}  // namespace mdof::drivers

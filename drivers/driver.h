@@ -1,0 +1,41 @@
+// A driver turns a device into SampleBlocks. Three calls and a destructor; simulator and replay are
+// drivers like any other, so everything after a driver runs without hardware.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "schema/result.h"
+#include "schema/sample.h"
+
+namespace mdof::drivers {
+
+struct DeviceInfo {
+  std::string name;               // from the configuration, unique
+  std::string driver;             // "simulator", "csv", "recording"
+  std::string description;        // one line for people
+  std::vector<Channel> channels;  // empty until open() where the device has to be asked
+  double rate_hz = 0;             // scans a second; 0: not known
+  bool simulated = false;         // no machine behind it: said on every result
+};
+
+enum class ReadState {
+  more,  // block holds scans, or is empty because nothing came within the time-out
+  end,   // the source has ended (a file); nothing more will come
+};
+
+// Thread-bound: made, used and destroyed on its reader's thread.
+class Driver {
+ public:
+  virtual ~Driver() = default;  // releases the device; never throws
+  virtual DeviceInfo info() const = 0;
+  // May be called again after an error of read().
+  virtual Status open() = 0;
+  // Replaces `block` (its capacity is reused). Waits at most `timeout`. An error means the device
+  // is gone or its stream is not to be trusted; the caller closes, backs off and opens again.
+  virtual Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) = 0;
+};
+
+}  // namespace mdof::drivers

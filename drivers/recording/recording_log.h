@@ -1,0 +1,64 @@
+// A recording (schema/recording.h) as a driver: what it read live it gives again, chunk by chunk,
+// bit for bit. Writes nothing, neither to the file nor, for a sealed one, beside it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/driver.h"
+#include "schema/recording.h"
+#include "schema/sqlite.h"
+
+namespace mdof::drivers {
+
+// Thread-bound. Errors of open(): not_found; bad_input for what is not a recording, is one of a
+// newer format, or has a damaged header. Errors of read(): bad_input for a damaged chunk; the
+// message names it, its time span and the chunks that are whole. A file without a seal (its writer
+// was interrupted, or is at work) reads up to the last chunk that was committed when it was opened,
+// with a warning.
+class RecordingLog : public Driver {
+ public:
+  RecordingLog(std::string name, std::filesystem::path file);
+
+  DeviceInfo info() const override { return info_; }
+  Status open() override;
+  Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+
+  // The rest holds once open() has succeeded.
+  const RecordingHeader& header() const { return header_; }
+  const std::string& rig_text() const { return header_.rig_text; }
+  bool simulated() const { return header_.simulated; }
+  // Of the chain of chunks; proven once read() has said `end`.
+  const std::string& sha256() const { return sha256_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  double progress() const;  // 0 ... 1: the part of the chunks that were read
+
+ private:
+  Status check_kind();
+  Status read_header();
+  Status read_seal();
+  Status read_extent();
+  Status find_channels();
+  // Reads and checks one chunk; an error tells only what is wrong with it.
+  Status load(std::int64_t seq, RecordingChunk& chunk, SampleBlock& block);
+  Result<std::string> hash_before(std::int64_t seq);
+  Status check_end();
+  tl::unexpected<Error> damaged(const RecordingChunk& chunk, const Error& why);
+  std::string span_of(const RecordingChunk& chunk) const;
+  std::string whole_chunks();
+  std::vector<std::int64_t> chunk_numbers();
+
+  std::filesystem::path file_;
+  DeviceInfo info_;
+  std::optional<sqlite::Connection> connection_;
+  RecordingHeader header_;
+  std::optional<RecordingSeal> seal_;
+  std::string sha256_;
+  std::vector<std::string> warnings_;
+  std::int64_t chunks_ = 0, next_ = 1, start_ns_ = 0;
+};
+
+}  // namespace mdof::drivers

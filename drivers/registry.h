@@ -1,0 +1,50 @@
+// Every driver by the name it has in the configuration: one row each in registry.cpp.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/driver.h"
+#include "drivers/simulator/machine.h"
+#include "schema/result.h"
+#include "schema/rig.h"
+#include "schema/toml_reader.h"
+
+namespace mdof::drivers {
+
+struct DriverContext {
+  std::string name;  // of the device
+  Rig rig;
+  ForwardModel forward;   // for the simulator
+  std::string base_path;  // folder of the configuration, to which file names are relative
+};
+
+// What a source that is a file knows of itself once it has been read to its end.
+struct SourceInfo {
+  std::string sha256;
+  std::vector<std::string> warnings;
+};
+
+// A driver as configured, ready to be made on the thread that will own it.
+struct DriverSpec {
+  std::string driver, name;
+  bool live = true;      // samples come as time passes; false: as fast as they are taken
+  bool recorded = true;  // its samples go into a recording; false: they come from one
+  bool simulated = false;
+  std::string source_path;  // of a replay
+  std::function<Result<std::unique_ptr<Driver>>()> make;
+  std::function<SourceInfo(const Driver&)> source_info;  // of the driver that make() made
+};
+
+// Reads the driver's keys from `table` (whose `driver` and `name` the caller has taken) and
+// finishes it. Errors name file, line and key; for an unknown driver the known ones.
+Result<DriverSpec> configure_driver(const std::string& driver, TomlTable& table,
+                                    const DriverContext& context);
+std::vector<std::string> known_drivers();
+
+// The driver that reads a log: a recording (by its magic), else CSV, plain or gzip.
+DriverSpec log_driver(const std::string& name, const std::string& path);
+
+}  // namespace mdof::drivers

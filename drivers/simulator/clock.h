@@ -1,0 +1,25 @@
+// Time as the simulator sees it; tests hand in their own.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <thread>
+
+namespace mdof::drivers {
+
+struct Clock {
+  std::function<std::int64_t()> now_ns;            // monotonic
+  std::function<void(std::int64_t ns)> sleep_for;  // at least so long
+};
+
+inline Clock steady_clock() {
+  using std::chrono::nanoseconds;
+  return {[] {
+            const auto since = std::chrono::steady_clock::now().time_since_epoch();
+            return std::int64_t{std::chrono::duration_cast<nanoseconds>(since).count()};
+          },
+          [](std::int64_t ns) { std::this_thread::sleep_for(nanoseconds(ns)); }};
+}
+
+}  // namespace mdof::drivers

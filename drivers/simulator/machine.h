@@ -1,0 +1,55 @@
+// The simulated machine and its sensors: what each scan reads, as a pure function of its number.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "drivers/simulator/motion.h"
+#include "drivers/simulator/options.h"
+#include "schema/axis.h"
+#include "schema/rig.h"
+#include "schema/sample.h"
+
+namespace mdof::drivers {
+
+// Displacement of the target along each probe of the rig, in its order, at this travel with these
+// errors. Handed in, as drivers know no mathematics of the fixture.
+using ForwardModel =
+    std::function<void(double travel_m, const Errors5& local, std::span<double> probe_m)>;
+
+class Machine {
+ public:
+  // Options as fit_to_rig() leaves them.
+  Machine(Rig rig, SimulatorOptions options, ForwardModel model);
+
+  // The probes in the order of the rig, raw µm as a device with the rig's calibration gives them;
+  // then the encoder, mm.
+  std::vector<Channel> channels() const;
+  // One value and quality a channel; the caller has the columns and adds the time. `t_ns` is that
+  // of the scan since the start.
+  void append_scan(SampleBlock& block, std::uint64_t scan, std::int64_t t_ns);
+  bool in_gap(std::int64_t t_ns) const;  // the scan never comes
+
+  Errors5 truth_at(double travel_m, int direction) const;  // local frame
+  const Motion& motion() const { return motion_; }
+
+ private:
+  struct Reading {
+    double um;
+    Quality quality;
+  };
+  Reading probe_reading(std::size_t probe, std::uint64_t scan, std::int64_t t_ns,
+                        double displacement_m) const;
+  double encoder_mm(std::uint64_t scan, double travel_m) const;
+  bool is_lost(std::size_t probe, std::int64_t t_ns) const;
+
+  Rig rig_;
+  SimulatorOptions options_;
+  ForwardModel model_;
+  Motion motion_;
+  std::vector<double> probe_m_;  // scratch of append_scan
+};
+
+}  // namespace mdof::drivers

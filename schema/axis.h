@@ -1,0 +1,53 @@
+// The machine axis, its local frame and the ISO 230-1 names of its errors.
+//
+// Local frame of an axis: x along the motion, z "up" (normal of the top target plane), y = z × x.
+//   X: local (x, y, z) = (+X, +Y, +Z)      Y: (+Y, -X, +Z)      Z: (+Z, +X, +Y), the cyclic turn
+// Five errors in the local frame (DESIGN §3): δy, δz, εx, εy, εz. Their ISO names by axis:
+//   X: EYX = δy   EZX = δz   EAX = εx   EBX = εy   ECX = εz
+//   Y: EXY = -δy  EZY = δz   EAY = -εy  EBY = εx   ECY = εz
+//   Z: EXZ = δy   EYZ = δz   EAZ = εy   EBZ = εz   ECZ = εx
+// Error = actual - nominal.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mdof {
+
+enum class Axis { x, y, z };
+char letter(Axis axis);                                  // 'X'
+std::optional<Axis> axis_from(std::string_view letter);  // "X", "Y", "Z"
+
+// Local errors in this order everywhere: m, m, rad, rad, rad.
+enum LocalError { kDy = 0, kDz = 1, kEx = 2, kEy = 3, kEz = 4 };
+inline constexpr int kErrorCount = 5;
+using Errors5 = std::array<double, 5>;
+using Covariance5 = std::array<double, 25>;  // row-major, symmetric
+
+// One named error of an axis, in the order in which results list them:
+// the two straightness errors, then rotations about A, B, C.
+struct ErrorName {
+  const char* name;  // "EYX"
+  const char* key;   // "EYX_um" or "EAX_urad": the name with its unit
+  LocalError local;
+  double sign;  // named = sign * local
+  bool angle;
+};
+const std::array<ErrorName, 5>& error_names(Axis axis);
+
+// Columns: the local axes in machine coordinates; p_machine = axes * p_local.
+std::array<std::array<double, 3>, 3> local_axes(Axis axis);
+std::array<double, 3> to_local(Axis axis, const std::array<double, 3>& v_machine);
+
+Errors5 named_from_local(Axis axis, const Errors5& local);
+Errors5 local_from_named(Axis axis, const Errors5& named);
+Covariance5 named_from_local(Axis axis, const Covariance5& local);
+
+// SI to the unit of the key: µm or µrad, both a factor of 1e6.
+inline double to_key_unit(double si) {
+  return si * 1e6;
+}
+
+}  // namespace mdof

@@ -1,0 +1,30 @@
+// A one-axis compensation table: the measured errors against position, forward and reverse apart.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schema/axis.h"
+
+namespace mdof {
+
+// Sense: the table holds errors (actual - nominal); what a controller adds to its command is
+// correction = -error, and every reply and export states which of the two it shows.
+struct CompensationTable {
+  std::int64_t id = 0;  // 0 until stored
+  Axis axis = Axis::x;
+  bool simulated = false;          // built from simulated data, wholly or in part
+  bool slope_removed = true;       // straightness is about its least-squares line
+  std::vector<std::int64_t> runs;  // built from
+  std::vector<double> position_m;  // strictly increasing
+  // [named error in the order of error_names()][position]; NaN: no value there
+  std::array<std::vector<double>, 5> forward, reverse;
+  std::array<std::vector<double>, 5> u_forward, u_reverse;  // standard uncertainty
+  std::string created_utc;
+  std::string sha256;  // of the canonical JSON of the above
+};
+
+}  // namespace mdof

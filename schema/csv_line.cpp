@@ -1,0 +1,121 @@
+#include "schema/csv_line.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/number.h"
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+using State = CsvLine::State;
+constexpr double kMaxSeconds = 9.2e9;
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    fields.push_back(trimmed(line.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return fields;
+}
+
+std::string_view without_plus(std::string_view field) {
+  const bool plus = field.size() > 1 && field[0] == '+' && field[1] != '-';
+  return field.substr(plus ? 1 : 0);
+}
+
+bool parse_whole_field(std::string_view field, double& x) {
+  const char* const end = field.data() + field.size();
+  return !field.empty() && parse_double(field.data(), end, x) == end;
+}
+
+// What a message shows of a field: short and printable.
+std::string quoted(std::string_view field) {
+  std::string text = "\"";
+  for (const char c : field.substr(0, 40)) text += c >= ' ' && c < 127 ? c : '?';
+  return text + (field.size() > 40 ? "...\"" : "\"");
+}
+
+// Empty: it is a finite number.
+std::string reason_against(std::string_view field, bool parsed, double x) {
+  if (field.empty()) return "is empty";
+  if (!parsed) return quoted(field) + " is not a number";
+  if (!std::isfinite(x)) return quoted(field) + " is not a finite number";
+  return {};
+}
+
+CsvLine wrong_count(std::string_view line, std::size_t fields, std::size_t columns) {
+  CsvLine result;
+  result.state = State::bad;
+  result.reason = std::to_string(fields) + " fields where the header has " +
+                  std::to_string(columns) + " columns";
+  if (fields == 1 && line.find(';') != line.npos) {
+    result.state = State::fatal;
+    result.reason +=
+        ": columns are separated by semicolons; save the file with commas between "
+        "columns and '.' in numbers, not a decimal comma";
+  } else if (2 * fields > 3 * columns && line.find('.') == line.npos) {
+    result.state = State::fatal;
+    result.reason += ": numbers have a decimal comma; save the file with '.' in numbers";
+  }
+  return result;
+}
+
+}  // namespace
+
+bool parse_seconds(std::string_view field, std::int64_t& time_ns) {
+  double seconds = 0;
+  if (!parse_whole_field(field, seconds) || !(std::abs(seconds) < kMaxSeconds)) return false;
+  if (field.find_first_not_of("-.0123456789") != field.npos) {  // an exponent
+    time_ns = std::llround(seconds * static_cast<double>(kNsPerS));
+    return true;
+  }
+  const std::size_t sign = field[0] == '-';
+  const std::size_t point = std::min(field.find('.'), field.size());
+  std::int64_t ns = 0;
+  for (const char c : field.substr(sign, point - sign)) ns = ns * 10 + (c - '0');
+  for (std::size_t i = point + 1; i <= point + 9; ++i)
+    ns = ns * 10 + (i < field.size() ? field[i] - '0' : 0);
+  if (point + 10 < field.size() && field[point + 10] >= '5') ++ns;
+  time_ns = sign ? -ns : ns;
+  return true;
+}
+
+CsvLine parse_csv_line(std::string_view line, const CsvHeader& header) {
+  CsvLine result;
+  line = trimmed(line);
+  if (line.empty()) {
+    result.state = State::blank;
+    return result;
+  }
+  const std::vector<std::string_view> fields = split(line);
+  if (fields.size() != header.columns.size())
+    return wrong_count(line, fields.size(), header.columns.size());
+  for (std::size_t column = 0; column < fields.size(); ++column) {
+    const std::string_view field = without_plus(fields[column]);
+    double x = 0;
+    const bool parsed = parse_whole_field(field, x);
+    std::string reason = reason_against(field, parsed, x);
+    if (static_cast<int>(column) != header.time_column) {
+      result.values.push_back(x);
+    } else if (reason.empty() && !parse_seconds(field, result.time_ns)) {
+      reason = quoted(field) + " s is no time; give seconds from the start of the recording";
+    }
+    if (reason.empty()) continue;
+    result.state = State::bad;
+    result.reason = "column " + header.columns[column] + ": " + reason;
+    return result;
+  }
+  return result;
+}
+
+}  // namespace mdof

@@ -1,0 +1,236 @@
+#include "schema/csv_row_parser.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "schema/csv_line.h"
+#include "schema/csv_stops.h"
+#include "schema/number.h"
+#include "schema/number_scan.h"
+
+namespace mdof {
+namespace {
+
+static_assert(kCsvMargin >= kScanMargin && kCsvMargin >= kStopsMargin);
+constexpr std::size_t kBatchRows = 256;
+
+// A field that is not plain, for instance with an exponent.
+[[gnu::noinline, gnu::cold]] bool read_any_number(const char* p, const char* end, double& x) {
+  return p != end && parse_double(p, end, x) == end && std::isfinite(x);
+}
+
+inline bool read_number(const char* p, const char* end, double& x) {
+  ScannedNumber number;
+  if (!scan_number(p, end, number)) return read_any_number(p, end, x);
+  x = to_double(number);
+  return true;
+}
+
+inline bool read_time(const char* p, const char* end, std::int64_t& time_ns) {
+  ScannedNumber number;
+  if (!scan_number(p, end, number) || number.fraction_digits > 9 ||
+      number.mantissa >= kPowersOfTen[9 + number.fraction_digits])
+    return parse_seconds({p, static_cast<std::size_t>(end - p)}, time_ns);
+  const std::uint64_t ns = number.mantissa * kPowersOfTen[9 - number.fraction_digits];
+  time_ns = static_cast<std::int64_t>(number.negative ? -ns : ns);
+  return true;
+}
+
+}  // namespace
+
+CsvRowParser::CsvRowParser(CsvHeader header, CsvLimits limits)
+    : header_(std::move(header)),
+      limits_(limits),
+      line_(header_.lines + 1),
+      last_time_ns_(std::numeric_limits<std::int64_t>::min()) {
+  assert(limits_.scans_per_block > 0);
+  prepare_block();
+}
+
+void CsvRowParser::prepare_block() {
+  block_.channels = header_.channels;
+  block_.time_ns.resize(limits_.scans_per_block);
+  block_.value.resize(header_.channels.size());
+  for (std::vector<double>& column : block_.value) column.resize(limits_.scans_per_block);
+  block_.quality.clear();
+  block_.lost = 0;
+}
+
+void CsvRowParser::give(std::string_view lines) {
+  assert(begin_ == text_.size() && (lines.empty() || lines.back() == '\n'));
+  text_ = lines;
+  begin_ = next_stop_ = 0;
+  find_stops(lines, stops_);
+}
+
+Result<bool> CsvRowParser::next(SampleBlock& block) {
+  while (begin_ < text_.size()) {
+    parse_plain_rows();
+    if (row_ < limits_.scans_per_block && begin_ < text_.size()) MDOF_CHECK(parse_one_line());
+    if (row_ == limits_.scans_per_block || block_ends_) {
+      hand_over(block);
+      return true;
+    }
+  }
+  return false;
+}
+
+Result<bool> CsvRowParser::last(SampleBlock& block) {
+  if (rows() == 0)
+    return bad_input(header_.source +
+                     (bad_lines_.empty() ? ": a header but no rows; was the recording saved?"
+                                         : ": no good row; the first line says: " + bad_lines_[0]));
+  if (row_ == 0) return false;
+  hand_over(block);
+  return true;
+}
+
+void CsvRowParser::hand_over(SampleBlock& block) {
+  block_.time_ns.resize(row_);
+  for (std::vector<double>& column : block_.value) column.resize(row_);
+  std::swap(block, block_);
+  rows_before_ += row_;
+  row_ = 0;
+  block_ends_ = false;
+  prepare_block();
+}
+
+// As many rows as follow one another without anything odd. Column by column in batches: text and
+// stops stay in the nearest cache, and numbers of one kind follow one another.
+void CsvRowParser::parse_plain_rows() {
+  if (blank_lines_) return;  // the next line reports them first
+  const std::size_t columns = header_.columns.size();
+  for (;;) {
+    if (next_stop_ + columns + 1 >= stops_.size()) return;
+    const bool crlf = text_[stops_[next_stop_ + columns]] == '\r';
+    const std::size_t stride = columns + crlf;
+    const std::size_t wanted = plain_rows_ahead(stride);
+    const std::size_t rows = read_times(read_columns(wanted, stride), stride);
+    if (row_ == 0 && rows > 0) block_.lost = std::exchange(lost_, 0);
+    row_ += rows;
+    line_ += rows;
+    next_stop_ += rows * stride;
+    begin_ = stops_[next_stop_] + 1u;
+    if (rows == 0 || rows < wanted) return;
+  }
+}
+
+// How many of the next lines have the right number of fields and end in LF, or CR LF where `stride`
+// says so; at most a batch, and what the block has room for.
+std::size_t CsvRowParser::plain_rows_ahead(std::size_t stride) const {
+  const std::size_t columns = header_.columns.size();
+  const std::size_t room = std::min(kBatchRows, limits_.scans_per_block - row_);
+  const std::size_t most = std::min(room, (stops_.size() - 1 - next_stop_) / stride);
+  const std::uint32_t* stop = stops_.data() + next_stop_ + 1;
+  const char* const text = text_.data();
+  for (std::size_t row = 0; row < most; ++row, stop += stride) {
+    for (std::size_t column = 0; column + 1 < columns; ++column)
+      if (text[stop[column]] != ',') return row;
+    const char* const end = text + stop[columns - 1];
+    const bool good = stride == columns ? *end == '\n' : *end == '\r' && end[1] == '\n';
+    if (!good) return row;
+  }
+  return most;
+}
+
+// Reads all channels of the next rows; gives the number of rows before the first odd field.
+std::size_t CsvRowParser::read_columns(std::size_t rows, std::size_t stride) {
+  const char* const text = text_.data();
+  for (std::size_t channel = 0; channel < header_.channels.size(); ++channel) {
+    const std::uint32_t* stop = stops_.data() + next_stop_ + header_.channel_columns[channel];
+    double* const out = block_.value[channel].data() + row_;
+    for (std::size_t row = 0; row < rows; ++row, stop += stride)
+      if (!read_number(text + (stop[0] + 1u), text + stop[1], out[row])) rows = row;
+  }
+  return rows;
+}
+
+// The same for the times; they end where time does not grow.
+std::size_t CsvRowParser::read_times(std::size_t rows, std::size_t stride) {
+  std::int64_t* const out = block_.time_ns.data() + row_;
+  if (header_.time_column < 0) {
+    std::iota(out, out + rows, static_cast<std::int64_t>(this->rows()));
+    return rows;
+  }
+  const char* const text = text_.data();
+  const std::uint32_t* stop =
+      stops_.data() + next_stop_ + static_cast<std::size_t>(header_.time_column);
+  for (std::size_t row = 0; row < rows; ++row, stop += stride) {
+    const bool good = read_time(text + (stop[0] + 1u), text + stop[1], out[row]);
+    if (!good || out[row] <= last_time_ns_) return row;
+    last_time_ns_ = out[row];
+  }
+  return rows;
+}
+
+// The line at begin_, whatever it is.
+Status CsvRowParser::parse_one_line() {
+  const std::size_t end = text_.find('\n', begin_);
+  const CsvLine line = parse_csv_line(text_.substr(begin_, end - begin_), header_);
+  if (line.state == CsvLine::State::fatal) return bad_input(where(line_) + line.reason);
+  if (line.state == CsvLine::State::blank) {
+    ++blank_lines_;
+  } else {
+    MDOF_CHECK(report_blank_lines());
+    if (block_ends_) return {};  // comes again after the block was handed over
+    if (line.state == CsvLine::State::bad) {
+      MDOF_CHECK(report_bad(line_, line.reason));
+    } else {
+      MDOF_CHECK(store(line));
+    }
+  }
+  ++line_;
+  begin_ = end + 1;
+  do ++next_stop_;
+  while (stops_[next_stop_] != end);
+  return {};
+}
+
+Status CsvRowParser::store(const CsvLine& line) {
+  const std::int64_t time_ns =
+      header_.time_column >= 0 ? line.time_ns : static_cast<std::int64_t>(rows());
+  if (time_ns <= last_time_ns_) {
+    const char* const what = time_ns == last_time_ns_ ? "stands still" : "runs backwards";
+    return bad_input(where(line_) + "column time_s: time " + what + " (" + std::to_string(time_ns) +
+                     " ns after " + std::to_string(last_time_ns_) +
+                     " ns); a log is one recording in order of time: split or repair it");
+  }
+  if (row_ == 0) block_.lost = std::exchange(lost_, 0);
+  block_.time_ns[row_] = last_time_ns_ = time_ns;
+  for (std::size_t channel = 0; channel < line.values.size(); ++channel)
+    block_.value[channel][row_] = line.values[channel];
+  ++row_;
+  return {};
+}
+
+// Blank lines that turn out not to be the end of the file.
+Status CsvRowParser::report_blank_lines() {
+  for (; blank_lines_ > 0; --blank_lines_)
+    MDOF_CHECK(report_bad(line_ - blank_lines_, "empty line"));
+  return {};
+}
+
+Status CsvRowParser::report_bad(std::uint64_t line, const std::string& reason) {
+  bad_lines_.push_back(where(line) + reason);
+  if (limits_.bad_lines == 0)
+    return bad_input(bad_lines_[0] + "; repair the line, no row may be left out here");
+  if (bad_lines_.size() > limits_.bad_lines) {
+    std::string message = header_.source + ": more than " + std::to_string(limits_.bad_lines) +
+                          " bad lines; repair the file. The first:";
+    for (std::size_t k = 0; k < bad_lines_.size() && k < 3; ++k) message += "\n  " + bad_lines_[k];
+    return bad_input(message);
+  }
+  ++lost_;
+  block_ends_ = row_ > 0;
+  return {};
+}
+
+std::string CsvRowParser::where(std::uint64_t line) const {
+  return header_.source + ":" + std::to_string(line) + ": ";
+}
+
+}  // namespace mdof

@@ -1,0 +1,46 @@
+// Writes JSON text straight into a string: no tree, no locale, shortest doubles that read back to
+// the same bits (std::to_chars), non-finite numbers as null. Bytes of a string that are not UTF-8
+// are written as U+FFFD, so that the output is always valid.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace mdof {
+
+class JsonWriter {
+ public:
+  JsonWriter& begin_object();
+  JsonWriter& end_object();
+  JsonWriter& begin_array();
+  JsonWriter& end_array();
+  JsonWriter& key(std::string_view name);
+  JsonWriter& value(double x);
+  JsonWriter& value(std::int64_t x);
+  JsonWriter& value(std::uint64_t x);
+  JsonWriter& value(int x) { return value(static_cast<std::int64_t>(x)); }
+  JsonWriter& value(bool x);
+  JsonWriter& value(std::string_view text);
+  JsonWriter& value(const char* text) { return value(std::string_view(text)); }
+  JsonWriter& null();
+  JsonWriter& raw(std::string_view json);  // a value that is already JSON
+
+  // key and value in one
+  template <class T>
+  JsonWriter& field(std::string_view name, const T& x) {
+    key(name);
+    return value(x);
+  }
+
+  const std::string& text() const { return text_; }
+  std::string take() { return std::move(text_); }
+
+ private:
+  void separate();  // a comma where one is due
+  std::string text_;
+  bool need_comma_ = false;
+};
+
+}  // namespace mdof

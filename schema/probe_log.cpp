@@ -1,0 +1,152 @@
+#include "schema/probe_log.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace mdof {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr const char* kTimeColumn = "time_s";
+constexpr const char* kEncoderColumn = "encoder_mm";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string> split(std::string_view line, char separator) {
+  std::vector<std::string> fields;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(separator, begin), line.size());
+    fields.emplace_back(trimmed(line.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return fields;
+}
+
+std::string where(const CsvHeader& header) {
+  return header.source + ":" + std::to_string(header.lines) + ": ";
+}
+
+std::string where(const CsvHeader& header, std::size_t column) {
+  return where(header) + "column " + std::to_string(column + 1) + " \"" + header.columns[column] +
+         "\": ";
+}
+
+// The channel of a column; nothing where the unit is not known.
+std::optional<Channel> channel_of(const std::string& name) {
+  static constexpr std::array kRead = {Unit::um, Unit::mm, Unit::volt, Unit::deg_c};
+  static constexpr std::array kKept = {"s", "hz", "urad", "percent", "hPa"};
+  const std::size_t bar = name.rfind('_');
+  if (bar == name.npos) return Channel{name, Unit::other};
+  const std::string unit = name.substr(bar + 1);
+  for (const Unit known : kRead)
+    if (unit == suffix(known)) return Channel{name.substr(0, bar), known};
+  if (std::find(kKept.begin(), kKept.end(), unit) != kKept.end()) return Channel{name, Unit::other};
+  return std::nullopt;
+}
+
+// What is not comma separated text, said so that the user knows which box to tick.
+Status check_separator(const CsvHeader& header, std::string_view line) {
+  if (line.find(',') != line.npos) return {};
+  if (line.find(';') != line.npos)
+    return bad_input(where(header) +
+                     "columns are separated by semicolons, which goes with a decimal comma; save "
+                     "the file with commas between columns and '.' in numbers");
+  if (line.find('\t') != line.npos)
+    return bad_input(where(header) + "columns are separated by tabs; save the file with commas");
+  return {};
+}
+
+Status check_first_name(const CsvHeader& header) {
+  const std::string& name = header.columns[0];
+  if (name.empty() || (name[0] != '-' && (name[0] < '0' || name[0] > '9'))) return {};
+  return bad_input(where(header) + "a row of numbers where the header must be; put a line like \"" +
+                   (header.kind == CsvKind::probe_log ? "time_s," : "") +
+                   "encoder_mm,A_um,B_um\" before it");
+}
+
+Status add_column(CsvHeader& header, std::size_t column) {
+  const std::string& name = header.columns[column];
+  if (name.empty())
+    return bad_input(where(header, column) + "no name; name the column or take its comma away");
+  if (name == kTimeColumn && header.kind == CsvKind::probe_log) {
+    if (header.time_column >= 0)
+      return bad_input(where(header, column) + "there twice; take one away");
+    header.time_column = static_cast<int>(column);
+    return {};
+  }
+  const std::optional<Channel> channel = channel_of(name);
+  if (!channel || channel->id.empty())
+    return bad_input(where(header, column) +
+                     "unknown unit; known are _um _mm _V _C (and _s _hz _urad _percent _hPa, kept "
+                     "unread): convert or rename the column");
+  for (std::size_t k = 0; k < header.channels.size(); ++k)
+    if (header.channels[k].id == channel->id)
+      return bad_input(where(header, column) + "channel \"" + channel->id + "\" is there twice (" +
+                       header.columns[header.channel_columns[k]] + "); take one away");
+  header.channels.push_back(*channel);
+  header.channel_columns.push_back(column);
+  return {};
+}
+
+Status check_required(const CsvHeader& header) {
+  auto missing = [&](const char* name) {
+    std::string found;
+    for (const std::string& column : header.columns) found += (found.empty() ? "" : ", ") + column;
+    return bad_input(where(header) + "no column " + name + " among: " + found +
+                     "; add it or rename the one that holds it");
+  };
+  if (header.kind == CsvKind::probe_log && header.time_column < 0) return missing(kTimeColumn);
+  const Channel encoder{kEncoderChannel, Unit::mm};
+  if (std::find(header.channels.begin(), header.channels.end(), encoder) == header.channels.end())
+    return missing(kEncoderColumn);
+  if (header.channels.size() < 2)
+    return bad_input(where(header) + "no column of a probe; add columns like A_um");
+  return {};
+}
+
+Status parse_names(CsvHeader& header, std::string_view line) {
+  MDOF_CHECK(check_separator(header, line));
+  header.columns = split(line, ',');
+  MDOF_CHECK(check_first_name(header));
+  for (std::size_t column = 0; column < header.columns.size(); ++column)
+    MDOF_CHECK(add_column(header, column));
+  return check_required(header);
+}
+
+Status check_encoding(std::string_view text, const std::string& source) {
+  if (text.empty()) return bad_input(source + ": the file is empty; was the recording saved?");
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    return bad_input(source + ": the file is UTF-16; save it as plain CSV (UTF-8)");
+  return {};
+}
+
+}  // namespace
+
+Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const std::string& source) {
+  MDOF_CHECK(check_encoding(text, source));
+  CsvHeader header;
+  header.kind = kind;
+  header.source = source;
+  if (text.starts_with(kByteOrderMark)) header.bytes = kByteOrderMark.size();
+  while (header.bytes < text.size()) {
+    const std::size_t end = std::min(text.find('\n', header.bytes), text.size());
+    const std::string_view line = trimmed(text.substr(header.bytes, end - header.bytes));
+    header.bytes = std::min(end + 1, text.size());
+    ++header.lines;
+    if (line.starts_with('#')) {
+      header.comments.emplace_back(trimmed(line.substr(1)));
+    } else if (!line.empty()) {
+      MDOF_CHECK(parse_names(header, line));
+      return header;
+    }
+  }
+  return bad_input(source + ": no header line in the first " + std::to_string(header.lines) +
+                   " lines, only comments; the header names the columns: time_s,encoder_mm,A_um");
+}
+
+}  // namespace mdof

@@ -1,0 +1,44 @@
+// The CSV files of the bench: what their header says, and the errors it can have.
+//
+//   # any comment                                   no or more such lines
+//   time_s,encoder_mm,A_um,B_um,temperature_C       probe log: time_s and encoder_mm must be there
+//   encoder_mm,A_um,B_um                            frames: encoder_mm must be there
+//
+// Columns in any order; comma separated, '.' decimal, LF or CRLF, a UTF-8 byte order mark is
+// skipped. A column "A_um" is channel "A" in micrometres. Suffixes: _um _mm _V _C; a column that
+// ends in another unit of the project (_s _hz _urad _percent _hPa) or in none is kept as
+// Unit::other under its whole name; any other suffix is an error.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/result.h"
+#include "schema/sample.h"
+
+namespace mdof {
+
+enum class CsvKind {
+  probe_log,  // samples against time: time_s must grow from row to row
+  frames,     // positions and readings in any order; time_s, if there, is a column like any other
+};
+
+struct CsvHeader {
+  CsvKind kind = CsvKind::probe_log;
+  std::string source;                        // file name, for messages
+  std::vector<std::string> comments;         // without '#' and outer spaces
+  std::vector<std::string> columns;          // names as in the file
+  int time_column = -1;                      // -1: none (frames)
+  std::vector<Channel> channels;             // all other columns, in their order
+  std::vector<std::size_t> channel_columns;  // [channel] -> column
+  std::uint64_t lines = 0;                   // of the file, header included
+  std::size_t bytes = 0;                     // of the file, header included
+};
+
+// `text` is the beginning of a file, or all of it; it must reach beyond the header line.
+Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const std::string& source);
+
+}  // namespace mdof

@@ -1,0 +1,64 @@
+// Errors of the outside world are values: Result<T>, and a message a user can act on.
+// Bugs are assert()s; input of any kind never trips an assertion.
+#pragma once
+
+#include <cassert>
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+namespace mdof {
+
+enum class ErrorCode {
+  usage,      // the call itself is wrong: unknown option, method, parameter
+  bad_input,  // a file, a document or a value in it
+  not_found,  // the named run, table, device does not exist
+  check,      // a result exists and fails its check
+  io,         // device, file system, database
+  conflict,   // true a moment ago, no longer: generation changed, a run is under way
+};
+
+// `message` names the place (file, line, key, device, register) and the remedy.
+struct Error {
+  ErrorCode code = ErrorCode::bad_input;
+  std::string message;
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+using Status = Result<void>;
+
+inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
+  return tl::unexpected<Error>(Error{code, std::move(message)});
+}
+inline tl::unexpected<Error> bad_input(std::string message) {
+  return fail(ErrorCode::bad_input, std::move(message));
+}
+inline tl::unexpected<Error> io_error(std::string message) {
+  return fail(ErrorCode::io, std::move(message));
+}
+
+// Passes an error on with the place put before it: "rig.toml: probe \"A\": ...".
+inline tl::unexpected<Error> in_context(const std::string& place, Error error) {
+  error.message = place + ": " + error.message;
+  return tl::unexpected<Error>(std::move(error));
+}
+
+}  // namespace mdof
+
+// `lhs` may be a declaration, which no parentheses may surround.
+// NOLINTBEGIN(bugprone-macro-parentheses)
+// Evaluates a Result expression; hands its error to the caller or gives the value.
+#define MDOF_CONCAT_INNER(a, b) a##b
+#define MDOF_CONCAT(a, b) MDOF_CONCAT_INNER(a, b)
+#define MDOF_TRY_IMPL(tmp, lhs, expr)                      \
+  auto tmp = (expr);                                       \
+  if (!tmp) return tl::unexpected(std::move(tmp.error())); \
+  lhs = std::move(*tmp)
+#define MDOF_TRY(lhs, expr) MDOF_TRY_IMPL(MDOF_CONCAT(mdof_try_, __LINE__), lhs, expr)
+#define MDOF_CHECK(expr)                                     \
+  do {                                                       \
+    if (auto mdof_status = (expr); !mdof_status)             \
+      return tl::unexpected(std::move(mdof_status.error())); \
+  } while (false)
+// NOLINTEND(bugprone-macro-parentheses)

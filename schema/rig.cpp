@@ -1,0 +1,173 @@
+#include "schema/rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/files.h"
+#include "schema/toml_reader.h"
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+Vec3 unit_vector(Vec3 v) {
+  const double norm = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  return {v[0] / norm, v[1] / norm, v[2] / norm};
+}
+
+// "+Z", "-X", or a vector [x, y, z] of any length.
+Vec3 read_direction(TomlTable& table, std::string_view key) {
+  const std::string text = table.string(key);
+  if (text.size() == 2 && (text[0] == '+' || text[0] == '-')) {
+    if (const auto axis = axis_from(text.substr(1))) {
+      Vec3 direction{};
+      direction[static_cast<std::size_t>(*axis)] = text[0] == '-' ? -1.0 : 1.0;
+      return direction;
+    }
+  }
+  table.reject(key, "\"" + text +
+                        "\" is not a direction; use \"+X\" \"-X\" \"+Y\" \"-Y\" \"+Z\" \"-Z\""
+                        " or direction = [x, y, z]");
+  return {0, 0, 1};
+}
+
+Vec3 read_vector_direction(TomlTable& table, std::string_view key) {
+  const Vec3 v = table.vector3(key);
+  if (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] == 0.0) {
+    table.reject(key, "must not be a zero vector");
+    return {0, 0, 1};
+  }
+  return unit_vector(v);
+}
+
+bool is_date(const std::string& text) {
+  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
+}
+
+Calibration read_calibration(TomlTable& table) {
+  Calibration c;
+  const std::string reads = table.string("reads", "displacement");
+  if (reads != "displacement" && reads != "gap") {
+    table.reject("reads", "must be \"displacement\" or \"gap\"");
+  }
+  c.reads_gap = reads == "gap";
+  if (table.has("um_per_V")) c.um_per_V = table.number("um_per_V");
+  if (c.um_per_V && *c.um_per_V == 0.0) table.reject("um_per_V", "must not be zero");
+  c.offset_um = table.number("offset_um", 0.0);
+  for (const auto& row : table.matrix("linearity")) {
+    if (row.size() != 2 || (!c.linearity.empty() && row[0] <= c.linearity.back()[0])) {
+      table.reject("linearity", "must be pairs [reading_um, correction_um], readings ascending");
+      break;
+    }
+    c.linearity.push_back({row[0], row[1]});
+  }
+  c.certificate = table.string("certificate", "");
+  c.due = table.string("due", "");
+  if (!c.due.empty() && !is_date(c.due)) table.reject("due", "must be a date, YYYY-MM-DD");
+  return c;
+}
+
+Probe read_probe(TomlTable& table) {
+  Probe probe;
+  probe.id = table.string("id");
+  if (probe.id.empty()) table.reject("id", "must not be empty");
+  const Vec3 mm = table.vector3("position_mm");
+  probe.position_m = {from_mm(mm[0]), from_mm(mm[1]), from_mm(mm[2])};
+  probe.direction = table.has("direction") ? read_vector_direction(table, "direction")
+                                           : read_direction(table, "measures");
+  const double range_um = table.number("range_um");
+  if (range_um <= 0) table.reject("range_um", "must be greater than zero");
+  probe.range_m = from_um(range_um);
+  probe.calibration = read_calibration(table);
+  return probe;
+}
+
+HeightMap read_flatness(TomlTable& table) {
+  HeightMap map;
+  for (const double x : table.numbers("flatness_first_mm", std::vector<double>{})) {
+    map.first_m.push_back(from_mm(x));
+  }
+  for (const double x : table.numbers("flatness_second_mm", std::vector<double>{})) {
+    map.second_m.push_back(from_mm(x));
+  }
+  const auto rows = table.matrix("flatness_um");
+  bool regular = rows.size() == map.first_m.size() &&
+                 std::is_sorted(map.first_m.begin(), map.first_m.end()) &&
+                 std::is_sorted(map.second_m.begin(), map.second_m.end());
+  for (const auto& row : rows) {
+    regular = regular && row.size() == map.second_m.size();
+    for (const double h_um : row) map.height_m.push_back(from_um(h_um));
+  }
+  if (!regular) {
+    table.reject("flatness_um",
+                 "must be one row for each flatness_first_mm with one height for each "
+                 "flatness_second_mm, both ascending");
+    return {};
+  }
+  return map;
+}
+
+TargetPlane read_plane(TomlTable& table) {
+  TargetPlane plane;
+  plane.id = table.string("id", "");
+  plane.normal = table.has("normal_vector") ? read_vector_direction(table, "normal_vector")
+                                            : read_direction(table, "normal");
+  if (table.has("offset_mm")) plane.offset_m = from_mm(table.number("offset_mm"));
+  plane.flatness = read_flatness(table);
+  return plane;
+}
+
+void reject_doubles(TomlTable& table, const std::vector<Probe>& probes) {
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (probes[i].id == probes[j].id) {
+        table.reject("probe",
+                     "two probes are called \"" + probes[i].id + "\"; give each its own id");
+      }
+      if (probes[i].position_m == probes[j].position_m &&
+          probes[i].direction == probes[j].direction) {
+        table.reject("probe", "probes \"" + probes[j].id + "\" and \"" + probes[i].id +
+                                  "\" have the same position and direction; correct position_mm");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<std::size_t> Rig::probe_index(std::string_view id) const {
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (probes[i].id == id) return i;
+  }
+  return std::nullopt;
+}
+
+Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name) {
+  MDOF_TRY(auto table, TomlTable::parse(toml_text, source_name));
+  Rig rig;
+  rig.text = std::string(toml_text);
+  rig.source = source_name;
+  rig.name = table.string("name");
+  const std::string axis_text = table.string("axis");
+  if (const auto axis = axis_from(axis_text)) {
+    rig.axis = *axis;
+  } else {
+    table.reject("axis", "\"" + axis_text + "\" is not an axis; use \"X\", \"Y\" or \"Z\"");
+  }
+  rig.artefact_angle_error_rad = from_urad(table.number("artefact_angle_error_urad", 0.0));
+  for (auto& probe : table.tables("probe")) rig.probes.push_back(read_probe(probe));
+  for (auto& plane : table.tables("plane")) rig.planes.push_back(read_plane(plane));
+  if (rig.probes.empty()) table.reject("probe", "the rig has no probes; add [[probe]] tables");
+  reject_doubles(table, rig.probes);
+  MDOF_CHECK(table.finish());
+  return rig;
+}
+
+Result<Rig> load_rig(const std::filesystem::path& file) {
+  MDOF_TRY(const std::string text, read_text_file(file));
+  return parse_rig(text, file.string());
+}
+
+}  // namespace mdof

@@ -1,0 +1,74 @@
+// The fixture: which probe sits where, looks where, and how its numbers are to be read.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/axis.h"
+#include "schema/result.h"
+
+namespace mdof {
+
+using Vec3 = std::array<double, 3>;
+
+// From the raw number of a channel to the displacement of the target along `measures`:
+//   raw_um = raw (or raw_V * um_per_V);   t = raw_um - offset_um;   t += linearity(t);
+//   displacement = reads_gap ? -t : t
+struct Calibration {
+  bool reads_gap = false;          // reads = "gap": the raw number grows as the target recedes
+  std::optional<double> um_per_V;  // needed where the log has volts
+  double offset_um = 0;            // raw reading at the nominal surface
+  std::vector<std::array<double, 2>>
+      linearity;            // [reading_um, correction_um], ascending; ends held
+  std::string certificate;  // number of the calibration certificate
+  std::string due;          // YYYY-MM-DD
+};
+
+struct Probe {
+  std::string id;
+  Vec3 position_m{};  // point of M where the probe's line meets the nominal target surface at d = 0
+  Vec3 direction{};   // unit vector in M, machine axes: the probe reads displacement along it
+  double range_m = 0;  // full range; saturated at ±range/2 (a gap probe: at 0 and range)
+  Calibration calibration;
+};
+
+// Known flatness of a target plane: height above the plane on a grid, bilinear between, ends held.
+// Coordinates along the plane are two axes of C, in the order x, y, z with the normal's left out.
+struct HeightMap {
+  std::vector<double> first_m, second_m;
+  std::vector<double> height_m;  // [first][second], row-major
+  bool empty() const { return height_m.empty(); }
+};
+
+// A target plane in C: normal · p = offset. Each probe looks at the plane whose normal is nearest
+// to its direction.
+struct TargetPlane {
+  std::string id;
+  Vec3 normal{};
+  std::optional<double> offset_m;  // default: where the probes' positions lie
+  HeightMap flatness;
+};
+
+struct Rig {
+  std::string name;
+  Axis axis = Axis::x;
+  std::vector<Probe> probes;
+  std::vector<TargetPlane> planes;      // empty: planes normal to the probes' directions
+  double artefact_angle_error_rad = 0;  // of the square: its angle is 90° + this
+  std::string text;                     // the TOML itself: provenance
+  std::string source;                   // file name, for messages
+
+  std::optional<std::size_t> probe_index(std::string_view id) const;
+};
+
+// Reads a rig (DESIGN §6). Errors name the file, line and key, and for an unknown key the nearest
+// known one.
+Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name);
+Result<Rig> load_rig(const std::filesystem::path& file);
+
+}  // namespace mdof

@@ -1,0 +1,68 @@
+// A run as it is stored: what was measured, from which recording, by which software, with what
+// result. Rows are never changed; a correction is a new run that supersedes an old one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schema/axis.h"
+#include "schema/point.h"
+
+namespace mdof {
+
+// Everything needed to come to the same bits again.
+struct Provenance {
+  std::string recording_kind;    // "csv", "recording", "live"
+  std::string recording_path;    // absolute
+  std::string recording_sha256;  // of the file's bytes (csv) or of the chain of chunks (recording)
+  std::string rig_text;          // rig and calibration as TOML
+  std::string model;
+  std::string software_version;
+  std::string options_json;   // detection options in force, one JSON object
+  std::string configuration;  // mdofd.toml for a live run, else empty
+};
+
+enum class RunState { open, complete, aborted, failed };
+const char* to_string(RunState state);
+
+// A reference line through a straightness series and what is left of it.
+struct StraightnessFigure {
+  std::string error_key;  // "EYX_um"
+  std::string approach;   // "forward", "reverse", "mean"
+  double slope_least_squares_rad = 0, slope_end_point_rad = 0;
+  double u_slope_least_squares_rad = 0;
+  double straightness_least_squares_m = 0, straightness_end_point_m = 0;  // peak to valley
+  double peak_position_m = 0, valley_position_m = 0;  // of the least-squares residuals
+};
+
+// Range of an angle over the travel, referred to its value at the first target.
+struct AngleFigure {
+  std::string error_key;  // "EAX_urad"
+  std::string approach;
+  double start_rad = 0;  // what was subtracted
+  double min_rad = 0, max_rad = 0;
+};
+
+struct RunHeader {
+  std::int64_t id = 0;  // 0 until stored
+  Axis axis = Axis::x;
+  RunState state = RunState::open;
+  bool simulated = false;
+  std::string started_utc;  // ISO 8601, for people
+  std::string note;
+  std::optional<std::int64_t> supersedes;
+  Provenance provenance;
+  std::uint64_t scans = 0, scans_lost = 0;
+  std::vector<std::string> warnings;
+};
+
+struct Run {
+  RunHeader header;
+  std::vector<MeasuredPoint> points;
+  std::vector<StraightnessFigure> straightness;
+  std::vector<AngleFigure> angles;
+};
+
+}  // namespace mdof

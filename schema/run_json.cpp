@@ -1,0 +1,205 @@
+#include "schema/run_json.h"
+
+#include <cmath>
+
+#include "schema/sha256.h"
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+constexpr const char* kTableSense =
+    "errors: actual - nominal; a controller adds correction = -error to its command";
+
+// Figures of one error follow one another by approach; they become nested objects.
+template <class Figure, class Write>
+void write_by_key(JsonWriter& json, const std::vector<Figure>& figures, Write write_figure) {
+  json.begin_object();
+  std::vector<std::string> done;
+  for (const auto& first : figures) {
+    bool again = false;
+    for (const auto& key : done) again = again || key == first.error_key;
+    if (again) continue;
+    done.push_back(first.error_key);
+    json.key(first.error_key).begin_object();
+    for (const auto& figure : figures) {
+      if (figure.error_key != first.error_key) continue;
+      json.key(figure.approach).begin_object();
+      write_figure(figure);
+      json.end_object();
+    }
+    json.end_object();
+  }
+  json.end_object();
+}
+
+void write_strings(JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
+  json.key(key).begin_array();
+  for (const auto& text : texts) json.value(text);
+  json.end_array();
+}
+
+void write_side(JsonWriter& json, Axis axis, const std::array<std::vector<double>, 5>& values,
+                const std::array<std::vector<double>, 5>& u, std::size_t row) {
+  json.begin_object();
+  for (std::size_t k = 0; k < 5; ++k) {
+    json.field(error_names(axis)[k].key, to_key_unit(values[k][row]));
+  }
+  json.key("u").begin_object();
+  for (std::size_t k = 0; k < 5; ++k) {
+    json.field(error_names(axis)[k].key, to_key_unit(u[k][row]));
+  }
+  json.end_object().end_object();
+}
+
+}  // namespace
+
+void write_point(JsonWriter& json, Axis axis, const MeasuredPoint& p) {
+  json.begin_object()
+      .field("target", p.target)
+      .field("target_mm", to_mm(p.target_m))
+      .field("run", p.run)
+      .field("direction", p.point.direction)
+      .field("position_mm", to_mm(p.point.position_m));
+  const Errors5 named = named_from_local(axis, p.errors.local);
+  const Covariance5 cov = named_from_local(axis, p.errors.covariance);
+  for (std::size_t k = 0; k < 5; ++k) {
+    json.key(error_names(axis)[k].key);
+    p.errors.valid ? json.value(to_key_unit(named[k])) : json.null();
+  }
+  json.key("u").begin_object();
+  for (std::size_t k = 0; k < 5; ++k) {
+    json.key(error_names(axis)[k].key);
+    p.errors.valid ? json.value(to_key_unit(std::sqrt(cov[6 * k]))) : json.null();
+  }
+  json.end_object();
+  json.field("residual_um", p.errors.valid ? to_um(p.errors.residual_m) : std::nan(""))
+      .field("samples", p.point.samples);
+  write_strings(json, "flags", p.point.flags);
+  if (!p.errors.valid) json.field("reason", p.errors.reason);
+  json.end_object();
+}
+
+void write_header_members(JsonWriter& json, const RunHeader& h) {
+  const std::string axis(1, letter(h.axis));
+  json.field("run", h.id)
+      .field("axis", axis)
+      .field("model", h.provenance.model)
+      .field("state", to_string(h.state))
+      .field("simulated", h.simulated)
+      .field("started_utc", h.started_utc)
+      .field("note", h.note);
+  json.key("supersedes");
+  h.supersedes ? json.value(*h.supersedes) : json.null();
+  json.field("scans", h.scans).field("scans_lost", h.scans_lost);
+  json.key("recording")
+      .begin_object()
+      .field("kind", h.provenance.recording_kind)
+      .field("path", h.provenance.recording_path)
+      .field("sha256", h.provenance.recording_sha256)
+      .end_object();
+  json.field("software_version", h.provenance.software_version);
+  json.key("options");
+  h.provenance.options_json.empty() ? json.null() : json.raw(h.provenance.options_json);
+  write_strings(json, "warnings", h.warnings);
+}
+
+void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures) {
+  write_by_key(json, figures, [&](const StraightnessFigure& f) {
+    json.field("least_squares_um", to_um(f.straightness_least_squares_m))
+        .field("end_point_um", to_um(f.straightness_end_point_m))
+        .field("slope_least_squares_urad", to_urad(f.slope_least_squares_rad))
+        .field("u_slope_least_squares_urad", to_urad(f.u_slope_least_squares_rad))
+        .field("slope_end_point_urad", to_urad(f.slope_end_point_rad))
+        .field("peak_mm", to_mm(f.peak_position_m))
+        .field("valley_mm", to_mm(f.valley_position_m));
+  });
+}
+
+void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures) {
+  write_by_key(json, figures, [&](const AngleFigure& f) {
+    json.field("start_urad", to_urad(f.start_rad))
+        .field("min_urad", to_urad(f.min_rad))
+        .field("max_urad", to_urad(f.max_rad))
+        .field("range_urad", to_urad(f.max_rad - f.min_rad));
+  });
+}
+
+std::string run_json(const Run& run) {
+  JsonWriter json;
+  json.begin_object();
+  write_header_members(json, run.header);
+  json.key("points").begin_array();
+  for (const auto& p : run.points) write_point(json, run.header.axis, p);
+  json.end_array();
+  json.key("straightness");
+  write_straightness(json, run.straightness);
+  json.key("angles");
+  write_angles(json, run.angles);
+  json.end_object();
+  return json.take();
+}
+
+std::string squareness_json(const Squareness& s) {
+  JsonWriter json;
+  json.begin_object()
+      .field("squareness", s.id)
+      .field("run_x", s.run_x)
+      .field("run_y", s.run_y)
+      .field("EC0Y_urad", to_urad(s.EC0Y_rad))
+      .field("u_EC0Y_urad", to_urad(s.u_EC0Y_rad))
+      .field("slope_EYX_urad", to_urad(s.slope_EYX_rad))
+      .field("u_slope_EYX_urad", to_urad(s.u_slope_EYX_rad))
+      .field("slope_EXY_urad", to_urad(s.slope_EXY_rad))
+      .field("u_slope_EXY_urad", to_urad(s.u_slope_EXY_rad))
+      .field("artefact_angle_error_urad", to_urad(s.artefact_angle_error_rad))
+      .field("sense", "the angle from +X to +Y is 90 deg + EC0Y")
+      .field("simulated", s.simulated)
+      .field("created_utc", s.created_utc)
+      .end_object();
+  return json.take();
+}
+
+void write_table_row(JsonWriter& json, const CompensationTable& t, std::size_t row) {
+  json.begin_object().field("position_mm", to_mm(t.position_m[row]));
+  json.key("forward");
+  write_side(json, t.axis, t.forward, t.u_forward, row);
+  json.key("reverse");
+  write_side(json, t.axis, t.reverse, t.u_reverse, row);
+  json.end_object();
+}
+
+void write_table_members(JsonWriter& json, const CompensationTable& t) {
+  const std::string axis(1, letter(t.axis));
+  json.field("table", t.id).field("axis", axis).field("simulated", t.simulated);
+  json.key("runs").begin_array();
+  for (const auto id : t.runs) json.value(id);
+  json.end_array();
+  json.field("sense", kTableSense)
+      .field("straightness_reference", t.slope_removed ? "least squares line" : "as measured")
+      .field("angle_reference", "first target, mean of both approaches")
+      .field("first_mm", to_mm(t.position_m.front()))
+      .field("last_mm", to_mm(t.position_m.back()))
+      .field("points_total", static_cast<std::uint64_t>(t.position_m.size()))
+      .field("created_utc", t.created_utc)
+      .field("sha256", t.sha256);
+}
+
+std::string table_json(const CompensationTable& t) {
+  JsonWriter json;
+  json.begin_object();
+  write_table_members(json, t);
+  json.key("points").begin_array();
+  for (std::size_t i = 0; i < t.position_m.size(); ++i) write_table_row(json, t, i);
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string table_sha256(CompensationTable table) {
+  table.id = 0;
+  table.sha256.clear();
+  table.created_utc.clear();
+  return sha256_hex(table_json(table));
+}
+
+}  // namespace mdof

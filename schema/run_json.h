@@ -1,0 +1,36 @@
+// The JSON of runs, squareness and compensation tables: one form for the command line and the RPC.
+#pragma once
+
+#include "schema/compensation_table.h"
+#include "schema/json_writer.h"
+#include "schema/run.h"
+#include "schema/squareness.h"
+
+namespace mdof {
+
+// {"target", "target_mm", "run", "direction", "position_mm", five errors, "u": {...}, "samples",
+//  "flags"}; an unsolved point has null errors and its "reason".
+void write_point(JsonWriter& json, Axis axis, const MeasuredPoint& point);
+
+// Identity, state and provenance, without points; the members of an open object.
+void write_header_members(JsonWriter& json, const RunHeader& header);
+
+// The whole run as `mdof replay --json` prints it (DESIGN §6).
+std::string run_json(const Run& run);
+
+// {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}
+void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures);
+void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
+
+std::string squareness_json(const Squareness& squareness);
+
+// One grid point: {"position_mm", "forward": {...}, "reverse": {...}}: errors, with "u" inside.
+void write_table_row(JsonWriter& json, const CompensationTable& table, std::size_t row);
+// What holds for the whole table; the members of an open object.
+void write_table_members(JsonWriter& json, const CompensationTable& table);
+// The whole table: members, then "points".
+std::string table_json(const CompensationTable& table);
+// SHA-256 of table_json() before the table has an id, a hash and a date: of what it says.
+std::string table_sha256(CompensationTable table);
+
+}  // namespace mdof

@@ -1,0 +1,18 @@
+// The SQL of schema/sql/, embedded when the project is built: nothing is looked up at run time.
+#pragma once
+
+#include <span>
+
+namespace mdof::sql {
+
+// One step of the database's schema: a file NNN_name.sql, applied in one transaction.
+struct Migration {
+  int version;       // NNN: user_version once applied
+  const char* name;  // "001_runs.sql"
+  const char* text;
+};
+
+std::span<const Migration> migrations();  // ascending: versions 1, 2, 3, ...
+const char* recording();                  // recording.sql: the tables of a recording file
+
+}  // namespace mdof::sql

@@ -1,0 +1,42 @@
+-- A recording (*.mdofrec): the raw samples of one session, written before any opinion. Append only;
+-- every chunk carries the hash of all that came before it, and a seal closes the file.
+-- schema/recording.h says over which bytes the hashes run.
+
+CREATE TABLE header (
+  key TEXT PRIMARY KEY,
+  value TEXT NOT NULL
+) STRICT;
+
+CREATE TABLE chunk (
+  seq INTEGER PRIMARY KEY,  -- 1, 2, ... without gaps
+  device TEXT NOT NULL,
+  first_ns INTEGER NOT NULL,
+  last_ns INTEGER NOT NULL,
+  scans INTEGER NOT NULL,
+  lost INTEGER NOT NULL,
+  sha256 TEXT NOT NULL,
+  payload BLOB NOT NULL     -- schema/chunk.h
+) STRICT;
+
+-- One row, when the recording has ended in good order.
+CREATE TABLE seal (
+  id INTEGER PRIMARY KEY CHECK (id = 1),
+  chunks INTEGER NOT NULL,
+  scans INTEGER NOT NULL,
+  lost INTEGER NOT NULL,
+  finished_utc TEXT NOT NULL,
+  sha256 TEXT NOT NULL
+) STRICT;
+
+CREATE TRIGGER header_no_update BEFORE UPDATE ON header
+BEGIN SELECT raise(ABORT, 'header is append only'); END;
+CREATE TRIGGER header_no_delete BEFORE DELETE ON header
+BEGIN SELECT raise(ABORT, 'header is append only'); END;
+CREATE TRIGGER chunk_no_update BEFORE UPDATE ON chunk
+BEGIN SELECT raise(ABORT, 'chunk is append only'); END;
+CREATE TRIGGER chunk_no_delete BEFORE DELETE ON chunk
+BEGIN SELECT raise(ABORT, 'chunk is append only'); END;
+CREATE TRIGGER seal_no_update BEFORE UPDATE ON seal
+BEGIN SELECT raise(ABORT, 'seal is append only'); END;
+CREATE TRIGGER seal_no_delete BEFORE DELETE ON seal
+BEGIN SELECT raise(ABORT, 'seal is append only'); END;

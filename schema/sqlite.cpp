@@ -1,0 +1,300 @@
+#include "schema/sqlite.h"
+
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <limits>
+#include <map>
+
+namespace mdof::sqlite {
+
+namespace fs = std::filesystem;
+
+struct Session {
+  fs::path file;
+  sqlite3* database = nullptr;
+  std::map<std::string, sqlite3_stmt*, std::less<>> statements;
+
+  ~Session() {
+    for (const auto& [text, statement] : statements) sqlite3_finalize(statement);
+    sqlite3_close(database);
+  }
+};
+
+namespace {
+
+struct Advice {
+  int code;
+  const char* name;
+  ErrorCode meaning;
+  const char* remedy;
+};
+
+constexpr Advice kAdvice[] = {
+    {SQLITE_FULL, "SQLITE_FULL", ErrorCode::io,
+     "The disk is full: free some space and try again; what was stored before is unharmed."},
+    {SQLITE_READONLY, "SQLITE_READONLY", ErrorCode::io,
+     "The file or its folder cannot be written: check their owner and mode and that the file "
+     "system "
+     "is not mounted read-only, or choose another place."},
+    {SQLITE_CANTOPEN, "SQLITE_CANTOPEN", ErrorCode::io,
+     "Check that the folder exists and that this user may read and write it and the file."},
+    {SQLITE_NOTADB, "SQLITE_NOTADB", ErrorCode::bad_input,
+     "This is not a SQLite database: name the right file."},
+    {SQLITE_CORRUPT, "SQLITE_CORRUPT", ErrorCode::bad_input,
+     "The file is damaged: keep a copy, then restore it from a backup or rebuild it from the "
+     "recordings."},
+    {SQLITE_IOERR, "SQLITE_IOERR", ErrorCode::io,
+     "The disk reported an error: check its health and free space (also quotas) and the system "
+     "log."},
+    {SQLITE_BUSY, "SQLITE_BUSY", ErrorCode::conflict,
+     "Another program holds the database: try again when it is done."},
+    {SQLITE_TOOBIG, "SQLITE_TOOBIG", ErrorCode::bad_input, "A value is too large to be stored."},
+    {SQLITE_CONSTRAINT, "SQLITE_CONSTRAINT", ErrorCode::bad_input,
+     "The record breaks a rule of the database and was not stored."},
+};
+
+tl::unexpected<Error> error_of(const Session& session, std::string_view doing) {
+  const int code = sqlite3_errcode(session.database) & 0xff;
+  const int extended = sqlite3_extended_errcode(session.database);
+  std::string text = session.file.string() + ": cannot " + std::string(doing) + ": " +
+                     sqlite3_errmsg(session.database);
+  for (const Advice& advice : kAdvice) {
+    if (advice.code != code) continue;
+    text += " (" + std::string(advice.name) + ", " + std::to_string(extended) + "). ";
+    return fail(advice.meaning, text + advice.remedy);
+  }
+  return io_error(text + " (SQLite error " + std::to_string(extended) + ")");
+}
+
+// A reader needs the -shm file beside a database in WAL mode, and makes it. Where the folder does
+// not let it, and nothing waits in a -wal file, the database cannot change under us.
+bool needs_immutable(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::error_code ec;
+  const auto wal_bytes = fs::file_size(file.string() + "-wal", ec);
+  return (ec || wal_bytes == 0) && access(folder.c_str(), W_OK) != 0;
+}
+
+std::string immutable_uri(const fs::path& file) {
+  std::string uri = "file:";
+  for (const char c : fs::absolute(file).string()) {
+    constexpr char kHex[] = "0123456789ABCDEF";
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '?' || c == '#' || c == '%')
+      uri.append({'%', kHex[byte >> 4], kHex[byte & 15]});
+    else
+      uri.push_back(c);
+  }
+  return uri + "?immutable=1";
+}
+
+int open_flags(OpenMode mode) {
+  switch (mode) {
+    case OpenMode::read_only:
+      return SQLITE_OPEN_READONLY;
+    case OpenMode::read_write:
+      return SQLITE_OPEN_READWRITE;
+    case OpenMode::create:
+      break;
+  }
+  return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+}
+
+int rollback(sqlite3* database) {
+  return sqlite3_get_autocommit(database)
+             ? SQLITE_OK
+             : sqlite3_exec(database, "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+}  // namespace
+
+const char* to_string(Durability durability) {
+  switch (durability) {
+    case Durability::full:
+      return "full";
+    case Durability::normal:
+      return "normal";
+    case Durability::off:
+      break;
+  }
+  return "off";
+}
+
+// ---- Statement ----
+
+Statement::Statement(Session& session, sqlite3_stmt* statement)
+    : session_(&session), statement_(statement) {}
+
+Statement::Statement(Statement&& other) noexcept
+    : session_(other.session_),
+      statement_(std::exchange(other.statement_, nullptr)),
+      next_parameter_(other.next_parameter_) {}
+
+Statement::~Statement() {
+  if (!statement_) return;
+  sqlite3_reset(statement_);
+  sqlite3_clear_bindings(statement_);
+}
+
+Statement& Statement::bind(std::int64_t x) {
+  sqlite3_bind_int64(statement_, next_parameter_++, x);
+  return *this;
+}
+
+Statement& Statement::bind(double x) {
+  sqlite3_bind_double(statement_, next_parameter_++, x);
+  return *this;
+}
+
+Statement& Statement::bind(std::string_view text) {
+  // A null pointer would bind NULL; an empty text is not that.
+  const char* data = text.data() ? text.data() : "";
+  sqlite3_bind_text64(statement_, next_parameter_++, data, text.size(), SQLITE_STATIC, SQLITE_UTF8);
+  return *this;
+}
+
+Statement& Statement::bind_bytes(std::string_view bytes) {
+  const char* data = bytes.data() ? bytes.data() : "";
+  sqlite3_bind_blob64(statement_, next_parameter_++, data, bytes.size(), SQLITE_STATIC);
+  return *this;
+}
+
+Statement& Statement::bind_null() {
+  sqlite3_bind_null(statement_, next_parameter_++);
+  return *this;
+}
+
+Result<bool> Statement::step() {
+  const int code = sqlite3_step(statement_);
+  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_DONE) return false;
+  const auto error = error_of(*session_, sqlite3_stmt_readonly(statement_) ? "read" : "write");
+  sqlite3_reset(statement_);
+  return error;
+}
+
+Status Statement::run() {
+  for (;;) {
+    MDOF_TRY(const bool row, step());
+    if (!row) break;
+  }
+  sqlite3_reset(statement_);
+  next_parameter_ = 1;
+  return {};
+}
+
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_, column);
+}
+
+double Statement::real(int column) const {
+  return is_null(column) ? std::numeric_limits<double>::quiet_NaN()
+                         : sqlite3_column_double(statement_, column);
+}
+
+std::string_view Statement::text(int column) const {
+  const auto* data = sqlite3_column_text(statement_, column);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
+  return data ? std::string_view(reinterpret_cast<const char*>(data), size) : std::string_view();
+}
+
+std::string_view Statement::bytes(int column) const {
+  const void* data = sqlite3_column_blob(statement_, column);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
+  return data ? std::string_view(static_cast<const char*>(data), size) : std::string_view();
+}
+
+bool Statement::is_null(int column) const {
+  return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+}
+
+// ---- Connection ----
+
+Connection::Connection(std::unique_ptr<Session> session) : session_(std::move(session)) {}
+Connection::Connection(Connection&&) noexcept = default;
+Connection& Connection::operator=(Connection&&) noexcept = default;
+Connection::~Connection() = default;
+
+Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int busy_timeout_ms) {
+  auto session = std::make_unique<Session>();
+  session->file = file;
+  const bool immutable = mode == OpenMode::read_only && needs_immutable(file);
+  const std::string name = immutable ? immutable_uri(file) : file.string();
+  const int flags = open_flags(mode) | SQLITE_OPEN_NOMUTEX | (immutable ? SQLITE_OPEN_URI : 0);
+  if (sqlite3_open_v2(name.c_str(), &session->database, flags, nullptr) != SQLITE_OK)
+    return error_of(*session, "open");
+  sqlite3_extended_result_codes(session->database, 1);
+  sqlite3_busy_timeout(session->database, busy_timeout_ms);
+  return Connection(std::move(session));
+}
+
+Status Connection::execute(const std::string& sql) {
+  if (sqlite3_exec(session_->database, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+    return error("execute");
+  return {};
+}
+
+Result<Statement> Connection::prepare(std::string_view sql) {
+  auto found = session_->statements.find(sql);
+  if (found == session_->statements.end()) {
+    sqlite3_stmt* statement = nullptr;
+    const int size = static_cast<int>(sql.size());
+    if (sqlite3_prepare_v3(session_->database, sql.data(), size, SQLITE_PREPARE_PERSISTENT,
+                           &statement, nullptr) != SQLITE_OK)
+      return error("read");
+    found = session_->statements.emplace(sql, statement).first;
+  }
+  assert(!sqlite3_stmt_busy(found->second));
+  return Statement(*session_, found->second);
+}
+
+Result<std::int64_t> Connection::integer(std::string_view sql) {
+  MDOF_TRY(Statement statement, prepare(sql));
+  MDOF_TRY(const bool row, statement.step());
+  return row ? statement.integer(0) : 0;
+}
+
+std::int64_t Connection::last_insert_rowid() const {
+  return sqlite3_last_insert_rowid(session_->database);
+}
+
+tl::unexpected<Error> Connection::error(std::string_view doing) const {
+  return error_of(*session_, doing);
+}
+
+const fs::path& Connection::file() const {
+  return session_->file;
+}
+sqlite3* Connection::handle() const {
+  return session_->database;
+}
+
+// ---- Transaction ----
+
+Transaction::Transaction(Session& session) : session_(&session) {}
+
+Result<Transaction> Transaction::begin(Connection& connection) {
+  MDOF_CHECK(connection.execute("BEGIN IMMEDIATE"));
+  return Transaction(*connection.session_);
+}
+
+Transaction::Transaction(Transaction&& other) noexcept
+    : session_(std::exchange(other.session_, nullptr)) {}
+
+Transaction::~Transaction() {
+  if (session_) rollback(session_->database);
+}
+
+Status Transaction::commit() {
+  if (sqlite3_exec(session_->database, "COMMIT", nullptr, nullptr, nullptr) != SQLITE_OK) {
+    const auto error = error_of(*session_, "commit");
+    rollback(session_->database);
+    session_ = nullptr;
+    return error;
+  }
+  session_ = nullptr;
+  return {};
+}
+
+}  // namespace mdof::sqlite

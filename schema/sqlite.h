@@ -1,0 +1,111 @@
+// A thin, typed skin over SQLite's C API: a connection with a cache of prepared statements, and a
+// transaction that knows when SQLite has rolled back by itself. It lies in schema/ because the
+// store (daemon/) and the recording reader (drivers/) both speak it.
+//
+// Thread-bound: a connection and all that comes from it belong to one thread.
+// Errors name the file and what was being done, carry SQLite's own text, and say what to do.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "schema/result.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace mdof::sqlite {
+
+enum class OpenMode {
+  read_only,   // writes nothing, not even beside the file where the folder refuses it
+  read_write,  // the file must exist
+  create,      // read_write, made where absent
+};
+
+// How much a commit waits for; see SQLite's "PRAGMA synchronous".
+enum class Durability {
+  full,    // on the medium before commit returns: survives a power cut
+  normal,  // survives the end of the process; a power cut may take the last commits
+  off,     // for benchmarks and throw-away files
+};
+const char* to_string(Durability durability);
+
+struct Session;  // the open database and its cache of statements; stays put when its owner is moved
+
+// Borrowed from its connection's cache; given back, reset, by the destructor.
+// Parameters are bound from the left, one call each; bound text and bytes are not copied and must
+// outlive the statement's last step. A NaN is stored as NULL and read back as NaN.
+class Statement {
+ public:
+  Statement(Statement&& other) noexcept;
+  Statement& operator=(Statement&&) = delete;
+  ~Statement();
+
+  Statement& bind(std::int64_t x);
+  Statement& bind(double x);
+  Statement& bind(std::string_view text);
+  Statement& bind_bytes(std::string_view bytes);
+  Statement& bind_null();
+  Statement& bind(std::optional<std::int64_t> x) { return x ? bind(*x) : bind_null(); }
+
+  Result<bool> step();  // true: a row is there
+  Status run();         // to the end; then ready to be bound again
+
+  std::int64_t integer(int column) const;
+  double real(int column) const;
+  std::string_view text(int column) const;   // valid until the next step
+  std::string_view bytes(int column) const;  // valid until the next step
+  bool is_null(int column) const;
+
+ private:
+  friend class Connection;
+  Statement(Session& session, sqlite3_stmt* statement);
+  Session* session_;
+  sqlite3_stmt* statement_;
+  int next_parameter_ = 1;
+};
+
+class Connection {
+ public:
+  static Result<Connection> open(const std::filesystem::path& file, OpenMode mode,
+                                 int busy_timeout_ms = 5000);
+  Connection(Connection&&) noexcept;
+  Connection& operator=(Connection&&) noexcept;
+  ~Connection();
+
+  Status execute(const std::string& sql);              // one or more statements without results
+  Result<Statement> prepare(std::string_view sql);     // cached by its text; not twice at a time
+  Result<std::int64_t> integer(std::string_view sql);  // first column of the first row; none: 0
+  std::int64_t last_insert_rowid() const;
+
+  // The last error as an Error: "FILE: cannot DOING: ... (SQLITE_FULL). Remedy".
+  tl::unexpected<Error> error(std::string_view doing) const;
+  const std::filesystem::path& file() const;
+  sqlite3* handle() const;
+
+ private:
+  friend class Transaction;
+  explicit Connection(std::unique_ptr<Session> session);
+  std::unique_ptr<Session> session_;
+};
+
+// BEGIN IMMEDIATE ... COMMIT; rolls back unless committed. After a full disk SQLite has rolled back
+// by itself, and a second ROLLBACK would be an error: the guard asks first.
+class Transaction {
+ public:
+  static Result<Transaction> begin(Connection& connection);
+  Transaction(Transaction&& other) noexcept;
+  Transaction& operator=(Transaction&&) = delete;
+  ~Transaction();
+  Status commit();
+
+ private:
+  explicit Transaction(Session& session);
+  Session* session_;
+};
+
+}  // namespace mdof::sqlite

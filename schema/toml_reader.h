@@ -1,0 +1,56 @@
+// Reads a TOML document strictly: each key is asked for by name and type, every key that nobody
+// asked for is an error that names it and the nearest known one. Messages carry file and line.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/result.h"
+
+namespace mdof {
+
+// One table of a document. The first error met is kept; later calls do nothing and return their
+// default, so that a reader is a straight list of calls with one check at its end.
+class TomlTable {
+ public:
+  // `source_name` is what messages call the document.
+  static Result<TomlTable> parse(std::string_view text, const std::string& source_name);
+
+  bool has(std::string_view key);
+  std::string string(std::string_view key, std::optional<std::string> fallback = std::nullopt);
+  double number(std::string_view key, std::optional<double> fallback = std::nullopt);
+  std::int64_t integer(std::string_view key, std::optional<std::int64_t> fallback = std::nullopt);
+  bool boolean(std::string_view key, std::optional<bool> fallback = std::nullopt);
+  std::vector<double> numbers(std::string_view key,
+                              std::optional<std::vector<double>> fallback = std::nullopt);
+  std::array<double, 3> vector3(std::string_view key);
+  std::vector<std::vector<double>> matrix(std::string_view key);  // absent: empty
+  std::vector<std::string> strings(std::string_view key);         // absent: empty
+  std::vector<TomlTable> tables(std::string_view key);            // [[key]]; absent: none
+  std::optional<TomlTable> table(std::string_view key);           // [key]
+
+  // Records an error of the caller's at this key ("position_mm: outside the target").
+  void reject(std::string_view key, const std::string& why);
+  // Ok, or the first error of this document, unknown keys of this table and its sub-tables
+  // included. To be called once, after all keys were asked for.
+  Status finish();
+  std::string where(std::string_view key) const;  // "rig.toml:12: probe.range_um"
+
+ private:
+  struct Document;
+  struct Node;
+  TomlTable(std::shared_ptr<Document> document, std::shared_ptr<Node> node);
+  void missing(std::string_view key, const char* form);
+  std::shared_ptr<Document> document_;  // shared by the tables of one document
+  std::shared_ptr<Node> node_;
+};
+
+// The candidate with the smallest edit distance to `word`; empty if none is near.
+std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace mdof

@@ -1,0 +1,34 @@
+// The only place where a power of ten is written. Inside: SI (m, rad, s, V; time in integer ns).
+// At every edge a scalar's name ends in its unit: _um _mm _urad _s _hz _V.
+#pragma once
+
+#include <cstdint>
+
+namespace mdof {
+
+inline constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+// Division by an exact power of ten is rounded once: 200 µm in and out is 200 µm again.
+inline constexpr double from_um(double x_um) {
+  return x_um / 1e6;
+}
+inline constexpr double from_mm(double x_mm) {
+  return x_mm / 1e3;
+}
+inline constexpr double from_urad(double x_urad) {
+  return x_urad / 1e6;
+}
+inline constexpr double to_um(double x_m) {
+  return x_m * 1e6;
+}
+inline constexpr double to_mm(double x_m) {
+  return x_m * 1e3;
+}
+inline constexpr double to_urad(double x_rad) {
+  return x_rad * 1e6;
+}
+inline constexpr double ns_to_s(std::int64_t t_ns) {
+  return static_cast<double>(t_ns) * 1e-9;
+}
+
+}  // namespace mdof

@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/align.h"
+
+namespace mdof::algo {
+namespace {
+
+SampleBlock block(const std::string& device, std::vector<std::string> ids,
+                  const std::vector<std::int64_t>& times_ms, double slope) {
+  SampleBlock b;
+  b.device = device;
+  for (auto& id : ids) b.channels.push_back({id, Unit::metre});
+  b.value.resize(ids.size());
+  for (const auto t : times_ms) {
+    b.time_ns.push_back(t * 1'000'000);
+    for (auto& column : b.value) column.push_back(slope * static_cast<double>(t));
+  }
+  return b;
+}
+
+TEST(Aligner, OneDeviceGoesThroughBitForBitInTheRigsOrder) {
+  Aligner aligner({}, {"A", "B"});
+  SampleBlock b = block("dev", {"B", "extra", "encoder", "A"}, {0, 1, 2}, 0.1);
+  b.value[0] = {7, 8, 9};
+  FrameBlock out;
+  ASSERT_TRUE(aligner.push(b, out));
+  EXPECT_EQ(out.size(), 3u);
+  EXPECT_EQ(out.probe_m[1], (std::vector<double>{7, 8, 9}));
+  EXPECT_EQ(out.probe_m[0], (std::vector<double>{0, 0.1, 0.2}));
+}
+
+TEST(Aligner, InterpolatesOtherDevicesToTheEncodersInstants) {
+  Aligner aligner({}, {"A"});
+  FrameBlock out;
+  SampleBlock probe = block("p", {"A"}, {0, 4, 8, 12}, 2.0);
+  SampleBlock encoder = block("e", {"encoder"}, {1, 4, 7, 11}, 1.0);
+  ASSERT_TRUE(aligner.push(encoder, out));
+  EXPECT_EQ(out.size(), 0u);
+  EXPECT_EQ(aligner.waiting_for(), "A");
+  ASSERT_TRUE(aligner.push(probe, out));
+  EXPECT_EQ(out.probe_m[0], (std::vector<double>{2, 8, 14, 22}));
+  EXPECT_EQ(aligner.waiting_for(), std::nullopt);
+}
+
+TEST(Aligner, DoesNotInterpolateIntoAGap) {
+  Aligner aligner({.max_gap_s = 0.01}, {"A"});
+  FrameBlock out;
+  SampleBlock probe = block("p", {"A"}, {0, 50}, 1.0), encoder = block("e", {"encoder"}, {20}, 1.0);
+  ASSERT_TRUE(aligner.push(probe, out));
+  ASSERT_TRUE(aligner.push(encoder, out));
+  ASSERT_EQ(out.size(), 1u);
+  EXPECT_TRUE(std::isnan(out.probe_m[0][0]));
+  EXPECT_EQ(out.quality_at(0, 0), Quality::missing);
+}
+
+TEST(Aligner, GivesUpASilentProbeAfterTheLagBoundAndNamesIt) {
+  Aligner aligner({.lag_bound_s = 0.1}, {"A", "B"});
+  FrameBlock out;
+  for (int t = 0; t < 300; t += 10) {
+    SampleBlock a = block("a", {"A"}, {t}, 1.0), e = block("e", {"encoder"}, {t}, 1.0);
+    ASSERT_TRUE(aligner.push(a, out));
+    ASSERT_TRUE(aligner.push(e, out));
+  }
+  EXPECT_EQ(aligner.waiting_for(), "B");
+  EXPECT_GE(out.size(), 15u);
+  EXPECT_LT(out.size(), 25u);
+  EXPECT_EQ(out.quality_at(1, 3), Quality::missing);
+  EXPECT_EQ(out.probe_m[0][3], 30.0);
+  EXPECT_EQ(aligner.given_up(), out.size());
+}
+
+TEST(Aligner, RefusesTimeThatGoesBackwards) {
+  Aligner aligner({}, {"A"});
+  FrameBlock out;
+  SampleBlock b = block("dev", {"A", "encoder"}, {5, 6}, 1.0),
+              again = block("dev", {"A", "encoder"}, {6, 7}, 1.0);
+  ASSERT_TRUE(aligner.push(b, out));
+  const auto refused = aligner.push(again, out);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("dev"), std::string::npos);
+}
+
+TEST(Aligner, FlushGivesOutWhatWaits) {
+  Aligner aligner({}, {"A"});
+  FrameBlock out;
+  SampleBlock e = block("e", {"encoder"}, {1, 2}, 1.0);
+  ASSERT_TRUE(aligner.push(e, out));
+  aligner.flush(out);
+  EXPECT_EQ(out.size(), 2u);
+  EXPECT_EQ(out.quality_at(0, 1), Quality::missing);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,258 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "algo/dwell.h"
+#include "algo/sequence.h"
+
+namespace mdof::algo {
+namespace {
+
+// A stepping axis: moves at `speed`, stops at each position, one probe that reads 1 µm a mm.
+struct Stepper {
+  double rate_hz = 1000, dwell_s = 0.5, speed_m_s = 0.02, noise_m = 10e-9;
+  FrameBlock frames;
+  double x = -1e-3;
+  std::int64_t t_ns = 0;
+  std::mt19937_64 rng{1};
+
+  Stepper() {
+    frames.probe_m.resize(1);
+    frames.probe_quality.resize(1);
+  }
+  void scan() {
+    std::normal_distribution<> unit;
+    const auto gauss = [&](auto& r) { return noise_m * unit(r); };
+    frames.time_ns.push_back(t_ns);
+    frames.encoder_m.push_back(x + gauss(rng));
+    frames.probe_m[0].push_back(1e-3 * x + gauss(rng));
+    t_ns += static_cast<std::int64_t>(1e9 / rate_hz);
+  }
+  void move_to(double target) {
+    const double step = speed_m_s / rate_hz;
+    while (std::abs(target - x) > step) {
+      x += target > x ? step : -step;
+      scan();
+    }
+    x = target;
+  }
+  void dwell() {
+    for (int i = 0; i < dwell_s * rate_hz; ++i) scan();
+  }
+  // Over the targets and back, with an overrun past both ends.
+  void passes(const std::vector<double>& targets, int n) {
+    for (int k = 0; k < n; ++k) {
+      for (const double t : targets) move_to(t), dwell();
+      move_to(targets.back() + 1e-3);
+      for (auto t = targets.rbegin(); t != targets.rend(); ++t) move_to(*t), dwell();
+      move_to(targets.front() - 1e-3);
+    }
+  }
+};
+
+std::vector<Point> detect(const FrameBlock& frames, std::size_t block, DwellOptions options = {}) {
+  DwellDetector detector(options, {"A"}, {200e-6});
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < frames.size(); i += block) {
+    const std::size_t n = std::min(block, frames.size() - i);
+    const auto cut = [&](const auto& c) {
+      using Column = std::decay_t<decltype(c)>;
+      if (c.empty()) return Column{};
+      return Column(c.begin() + static_cast<std::ptrdiff_t>(i),
+                    c.begin() + static_cast<std::ptrdiff_t>(i + n));
+    };
+    FrameBlock part{cut(frames.time_ns),
+                    cut(frames.encoder_m),
+                    {cut(frames.probe_m[0])},
+                    {cut(frames.probe_quality[0])}};
+    detector.push(part, points);
+  }
+  detector.flush(points);
+  return points;
+}
+
+const std::vector<double> kTargets = {0, 2e-3, 4.1e-3, 5.9e-3, 8e-3};
+
+TEST(Dwell, FindsEveryStopAndInventsNone) {
+  for (const double rate : {200.0, 1000.0, 4000.0}) {
+    Stepper axis;
+    axis.rate_hz = rate;
+    axis.passes(kTargets, 2);
+    const auto points = detect(axis.frames, 1000);
+    ASSERT_EQ(points.size(), 20u) << rate;
+    for (const auto& p : points) {
+      double off = 1;
+      for (const double t : kTargets) off = std::min(off, std::abs(t - p.position_m));
+      EXPECT_LT(off, 5e-9);
+      EXPECT_NEAR(p.probe_m[0], 1e-3 * p.position_m, 5e-9);
+      EXPECT_TRUE(p.flags.empty());
+    }
+  }
+}
+
+TEST(Dwell, GivesTheSameBitsHoweverTheDataAreCut) {
+  Stepper axis;
+  axis.passes(kTargets, 1);
+  const auto whole = detect(axis.frames, axis.frames.size());
+  for (const std::size_t block : {1u, 17u, 1000u}) {
+    const auto cut = detect(axis.frames, block);
+    ASSERT_EQ(cut.size(), whole.size());
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+      EXPECT_EQ(cut[i].position_m, whole[i].position_m);
+      EXPECT_EQ(cut[i].probe_m, whole[i].probe_m);
+      EXPECT_EQ(cut[i].probe_u_m, whole[i].probe_u_m);
+      EXPECT_EQ(cut[i].begin_ns, whole[i].begin_ns);
+    }
+  }
+}
+
+TEST(Dwell, FollowsAnEncoderNoisierThanTheDefaultTolerance) {
+  Stepper axis;
+  axis.noise_m = 2e-6;
+  axis.passes(kTargets, 1);
+  EXPECT_EQ(detect(axis.frames, 1000).size(), 10u);
+}
+
+TEST(Dwell, AShortStopIsNoDwell) {
+  Stepper axis;
+  axis.dwell_s = 0.15;
+  axis.passes(kTargets, 1);
+  EXPECT_TRUE(detect(axis.frames, 1000).empty());
+}
+
+TEST(Dwell, ACreepingAxisIsNoDwell) {
+  Stepper axis;
+  axis.noise_m = 0;
+  axis.speed_m_s = 35e-6;  // 1.75 µm in the window: within the tolerance at any moment
+  axis.move_to(-0.9e-3);
+  EXPECT_TRUE(detect(axis.frames, 1000).empty());
+}
+
+TEST(Dwell, FlagsGapsSpikesSaturationAndLoss) {
+  Stepper axis;
+  axis.passes(kTargets, 1);
+  auto& f = axis.frames;
+  const auto clean = detect(f, 1000);
+  const auto inside = [&](std::size_t point, std::size_t offset) {
+    const auto at = std::lower_bound(f.time_ns.begin(), f.time_ns.end(), clean[point].begin_ns);
+    return static_cast<std::size_t>(at - f.time_ns.begin()) + offset;
+  };
+  f.probe_m[0][inside(1, 20)] += 25e-6;
+  f.probe_quality[0].assign(f.size(), Quality::good);
+  for (std::size_t i = 0; i < 20; ++i) f.probe_quality[0][inside(2, 30 + i)] = Quality::over_range;
+  for (std::size_t i = 0; i < 400; ++i) f.probe_quality[0][inside(3, i)] = Quality::missing;
+  f.encoder_m[inside(4, 50)] += 1e-3;
+  const auto gap = static_cast<std::ptrdiff_t>(inside(5, 40));
+  for (auto* column : {&f.encoder_m, &f.probe_m[0]})
+    column->erase(column->begin() + gap, column->begin() + gap + 10);
+  f.time_ns.erase(f.time_ns.begin() + gap, f.time_ns.begin() + gap + 10);
+  f.probe_quality[0].erase(f.probe_quality[0].begin() + gap, f.probe_quality[0].begin() + gap + 10);
+  const auto points = detect(f, 1000);
+  ASSERT_EQ(points.size(), 10u);
+  using Flags = std::vector<std::string>;
+  EXPECT_EQ(points[0].flags, Flags{});
+  EXPECT_EQ(points[1].flags, Flags{"spike:A"});
+  EXPECT_EQ(points[2].flags, Flags{"saturated:A"});
+  EXPECT_EQ(points[3].flags, Flags{"lost:A"});
+  EXPECT_TRUE(std::isnan(points[3].probe_m[0]));
+  EXPECT_EQ(points[4].flags, Flags{"spike:encoder"});
+  EXPECT_EQ(points[5].flags, Flags{"gap"});
+  for (const std::size_t i : {1u, 2u, 4u, 5u}) {
+    EXPECT_NEAR(points[i].probe_m[0], clean[i].probe_m[0], 1e-9) << i;
+    EXPECT_NEAR(points[i].position_m, clean[i].position_m, 2e-9) << i;
+  }
+}
+
+TEST(Dwell, AnEndlessStopKeepsMemoryBoundedAndSaysSo) {
+  Stepper axis;
+  axis.dwell_s = 60;
+  axis.passes({0.0, 2e-3}, 1);
+  DwellOptions options;
+  options.max_scans = 10000;
+  const auto points = detect(axis.frames, 1000, options);
+  ASSERT_EQ(points.size(), 4u);
+  for (const auto& p : points) {
+    EXPECT_LE(p.samples, 11000u);
+    EXPECT_NE(std::find(p.flags.begin(), p.flags.end(), "truncated"), p.flags.end());
+  }
+}
+
+TEST(Sequence, RecognisesTargetsRunsAndApproaches) {
+  Stepper axis;
+  axis.passes(kTargets, 3);
+  const Sequence s = recognise_sequence(detect(axis.frames, 1000), {});
+  EXPECT_EQ(s.targets, 5);
+  EXPECT_EQ(s.runs, 3);
+  ASSERT_EQ(s.points.size(), 30u);
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    const std::size_t in_run = i % 10;
+    EXPECT_EQ(s.points[i].run, static_cast<int>(i / 10) + 1);
+    EXPECT_EQ(s.points[i].point.direction, in_run < 5 ? 1 : -1);
+    EXPECT_EQ(s.points[i].target, static_cast<int>(in_run < 5 ? in_run + 1 : 10 - in_run));
+  }
+}
+
+TEST(Sequence, AMissedStopDoesNotShiftTheRuns) {
+  Stepper axis;
+  axis.passes(kTargets, 3);
+  auto points = detect(axis.frames, 1000);
+  points.erase(points.begin() + 12);  // run 2, forward, target 3
+  const Sequence s = recognise_sequence(points, {});
+  EXPECT_EQ(s.points.back().run, 3);
+  EXPECT_EQ(
+      std::count_if(s.points.begin(), s.points.end(), [](const auto& p) { return p.run == 2; }), 9);
+}
+
+TEST(Sequence, OneWayPassesWithoutStopsOnTheReturnAreRuns) {
+  Stepper axis;
+  for (int k = 0; k < 3; ++k) {
+    for (const double t : kTargets) axis.move_to(t), axis.dwell();
+    axis.move_to(-1e-3);
+  }
+  const Sequence s = recognise_sequence(detect(axis.frames, 1000), {});
+  ASSERT_EQ(s.points.size(), 15u);
+  EXPECT_EQ(s.runs, 3);
+  for (const auto& p : s.points) EXPECT_EQ(p.point.direction, 1);
+}
+
+TEST(Sequence, NominalTargetsLeaveOtherStopsOutAndSaySo) {
+  Stepper axis;
+  axis.passes(kTargets, 1);
+  SequenceOptions options;
+  options.targets_m = {0, 4e-3, 8e-3};
+  const Sequence s = recognise_sequence(detect(axis.frames, 1000), options);
+  EXPECT_EQ(s.points.size(), 6u);
+  EXPECT_EQ(s.warnings.size(), 4u);
+  EXPECT_EQ(s.points[1].target_m, 4e-3);
+}
+
+TEST(Sequence, ALogThatBeginsAtRestTakesTheApproachOfTheMotionThatFollows) {
+  Stepper axis;
+  axis.x = 0;
+  for (const double t : kTargets) axis.move_to(t), axis.dwell();
+  const Sequence s = recognise_sequence(detect(axis.frames, 1000), {});
+  ASSERT_EQ(s.points.size(), 5u);
+  EXPECT_EQ(s.points[0].point.direction, 1);
+  EXPECT_EQ(s.points[0].point.flags, std::vector<std::string>{"approach_assumed"});
+  EXPECT_EQ(s.runs, 1);
+}
+
+TEST(Sequence, AnInterruptedStopCountsOnce) {
+  Stepper axis;
+  axis.move_to(0);
+  axis.dwell();
+  axis.move_to(40e-6);  // a knock
+  for (int i = 0; i < 20; ++i) axis.scan();
+  axis.move_to(0);
+  axis.dwell();
+  axis.move_to(2e-3);
+  axis.dwell();
+  const Sequence s = recognise_sequence(detect(axis.frames, 1000), {});
+  ASSERT_EQ(s.points.size(), 2u);
+  EXPECT_EQ(s.points[0].point.flags, std::vector<std::string>{"interrupted"});
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,168 @@
+// Known answers from outside: a laser interferometer manual's worked squareness, NIST StRD Norris.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "algo/compensation.h"
+#include "algo/line_fit.h"
+#include "algo/robust_mean.h"
+#include "algo/series.h"
+#include "algo/straightness.h"
+
+namespace mdof::algo {
+namespace {
+
+const std::vector<double> kAxis1_m = {0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+const std::vector<double> kAxis1_um = {-0.3, 0.9, 1.5, 2.5, 2.9, 3.6, 4.2, 5.1, 5.9, 7.2};
+const std::vector<double> kAxis2_m = {0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45};
+const std::vector<double> kAxis2_um = {-0.5, -1.2, -2.5, -3.8, -4.0, -4.8, -5.9, -6.2, -7.4, -8.8};
+
+TEST(LineFit, GivesTheManualsLines) {
+  const Line one = least_squares_line(kAxis1_m, kAxis1_um);
+  EXPECT_NEAR(one.slope, 7.654545, 1e-6);
+  EXPECT_NEAR(one.intercept, -0.094545, 1e-6);
+  EXPECT_NEAR(deviations_from(one, kAxis1_m, kAxis1_um).peak_to_valley, 0.703636, 1e-6);
+  const Line ends = end_point_line(kAxis1_m, kAxis1_um);
+  EXPECT_NEAR(ends.slope, 8.333333, 1e-6);
+  EXPECT_NEAR(deviations_from(ends, kAxis1_m, kAxis1_um).peak_to_valley, 0.866667, 1e-6);
+  const Line two = least_squares_line(kAxis2_m, kAxis2_um);
+  EXPECT_NEAR(two.slope, -17.418182, 1e-6);
+  EXPECT_NEAR(deviations_from(two, kAxis2_m, kAxis2_um).peak_to_valley, 1.083636, 1e-6);
+  EXPECT_NEAR(two.slope - one.slope, -25.0727, 1e-4);  // the manual's squareness, µrad
+}
+
+TEST(LineFit, AgreesWithNistNorris) {
+  const std::vector<double> y = {0.1,   338.8, 118.1, 888.0, 9.2,   228.1, 668.5, 998.5, 449.1,
+                                 778.9, 559.2, 0.3,   0.1,   778.1, 668.8, 339.3, 448.9, 10.8,
+                                 557.7, 228.3, 998.0, 888.8, 119.6, 0.3,   0.6,   557.6, 339.3,
+                                 888.0, 998.5, 778.9, 10.2,  117.6, 228.9, 668.4, 449.2, 0.2};
+  const std::vector<double> x = {0.2,   337.4, 118.2, 884.6, 10.1,  226.5, 666.3, 996.3, 448.6,
+                                 777.0, 558.2, 0.4,   0.6,   775.5, 666.9, 338.0, 447.5, 11.6,
+                                 556.0, 228.1, 995.8, 887.6, 120.2, 0.3,   0.3,   556.8, 339.1,
+                                 887.2, 999.0, 779.0, 11.1,  118.3, 229.2, 669.1, 448.9, 0.5};
+  const Line line = least_squares_line(x, y);
+  EXPECT_NEAR(line.intercept, -0.262323073774029, 1e-12);
+  EXPECT_NEAR(line.u_intercept, 0.232818234301152, 1e-12);
+  EXPECT_NEAR(line.slope, 1.00211681802045, 1e-13);
+  EXPECT_NEAR(line.u_slope, 4.29796848199937e-4, 1e-15);
+  EXPECT_NEAR(line.residual_sd, 0.884796396144373, 1e-12);
+}
+
+// A run whose first named error is the given series, both ways alike.
+mdof::Run run_of(Axis axis, const std::vector<double>& x_m, const std::vector<double>& y_um) {
+  mdof::Run run;
+  run.header.axis = axis;
+  run.header.id = axis == Axis::x ? 1 : 2;
+  for (const int direction : {1, -1}) {
+    for (std::size_t i = 0; i < x_m.size(); ++i) {
+      MeasuredPoint p;
+      p.target = static_cast<int>(i) + 1;
+      p.run = 1;
+      p.point.direction = direction;
+      p.point.position_m = p.target_m = x_m[i];
+      p.errors.valid = true;
+      p.errors.local =
+          local_from_named(axis, {y_um[i] * 1e-6, 0, 1e-6 * static_cast<double>(i), 0, 0});
+      run.points.push_back(p);
+    }
+  }
+  return run;
+}
+
+TEST(Squareness, IsMinusBothSlopesAndTheArtefact) {
+  const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um),
+                  y = run_of(Axis::y, kAxis2_m, kAxis2_um);
+  const Squareness s = squareness(x, y, 2e-6, 0.5e-6).value();
+  EXPECT_NEAR(s.EC0Y_rad * 1e6, 17.418182 - 7.654545 - 2, 1e-5);
+  EXPECT_NEAR(s.slope_EXY_rad * 1e6, -17.418182, 1e-6);
+  const double expected = std::sqrt(s.u_slope_EYX_rad * s.u_slope_EYX_rad +
+                                    s.u_slope_EXY_rad * s.u_slope_EXY_rad + 0.25e-12);
+  EXPECT_DOUBLE_EQ(s.u_EC0Y_rad, expected);
+  EXPECT_GT(s.u_EC0Y_rad, 0.5e-6);
+}
+
+TEST(Squareness, NamesTheRunOfTheWrongAxis) {
+  const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um);
+  const auto refused = squareness(x, x, 0, 0);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("run 1 is of axis X"), std::string::npos);
+}
+
+TEST(Straightness, ReportsBothReferenceLinesForEachApproach) {
+  const mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
+  const auto figures = straightness(Axis::x, run.points);
+  ASSERT_EQ(figures.size(), 6u);  // two errors, three approaches
+  EXPECT_EQ(figures[0].error_key, "EYX_um");
+  EXPECT_NEAR(figures[0].straightness_least_squares_m * 1e6, 0.703636, 1e-6);
+  EXPECT_NEAR(figures[0].straightness_end_point_m * 1e6, 0.866667, 1e-6);
+}
+
+TEST(Angles, AreReferredToTheStart) {
+  const mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
+  for (const auto& f : angles(Axis::x, run.points)) {
+    EXPECT_EQ(f.min_rad, 0);
+    EXPECT_NEAR(f.max_rad, f.error_key == "EAX_urad" ? 9e-6 : 0, 1e-18);
+  }
+}
+
+TEST(Compensation, KeepsTheApproachesApartAndHoldsTheEnds) {
+  mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
+  for (auto& p : run.points) {
+    if (p.point.direction < 0) p.errors.local[kDz] = 5e-6;
+  }
+  const CompensationTable table = build_table({run}, {}).value();
+  ASSERT_EQ(table.position_m.size(), 10u);
+  EXPECT_NEAR(table.reverse[1][3] - table.forward[1][3], 5e-6, 1e-15);
+  const TableValue at = table_at(table, 0.35, TableSide::forward);
+  EXPECT_TRUE(at.inside);
+  EXPECT_NEAR(at.error[0], 0.5 * (table.forward[0][3] + table.forward[0][4]), 1e-18);
+  const TableValue beyond = table_at(table, 1.5, TableSide::forward);
+  EXPECT_FALSE(beyond.inside);
+  EXPECT_EQ(beyond.error[0], table.forward[0].back());
+  EXPECT_EQ(table_at(table, -1, TableSide::reverse).error[0], table.reverse[0].front());
+}
+
+TEST(Compensation, LeavesTheSlopeToSquareness) {
+  const mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
+  const CompensationTable table = build_table({run}, {}).value();
+  EXPECT_NEAR(least_squares_line(table.position_m, table.forward[0]).slope, 0, 1e-18);
+  const CompensationTable raw = build_table({run}, {.remove_slope = false}).value();
+  EXPECT_NEAR(raw.forward[0][9], 7.2e-6, 1e-18);
+}
+
+TEST(Compensation, RefusesRunsOfTwoAxesAndOfOtherTargets) {
+  const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um),
+                  y = run_of(Axis::y, kAxis2_m, kAxis2_um);
+  EXPECT_FALSE(build_table({x, y}, {}));
+  mdof::Run shifted = x;
+  for (auto& p : shifted.points) p.point.position_m += 0.02;
+  EXPECT_NE(build_table({x, shifted}, {}).error().message.find("no target"), std::string::npos);
+  EXPECT_FALSE(build_table({}, {}));
+}
+
+TEST(RobustMean, SpikesDoNotMoveIt) {
+  std::vector<double> readings, scratch;
+  for (int i = 0; i < 200; ++i) readings.push_back(1e-6 + 1e-9 * ((i * 7) % 11 - 5));
+  const RobustMean clean = robust_mean(readings, 1e-7, scratch);
+  readings[50] = 25e-6;
+  readings[120] = -25e-6;
+  const RobustMean spiked = robust_mean(readings, 1e-7, scratch);
+  EXPECT_EQ(spiked.rejected, 2u);
+  EXPECT_NEAR(spiked.mean, clean.mean, 2e-11);
+  EXPECT_NEAR(spiked.sd, clean.sd, 1e-10);
+}
+
+TEST(RobustMean, SlowNoiseHasTheLargerUncertainty) {
+  std::vector<double> slow, fast, scratch;
+  for (int i = 0; i < 400; ++i) {
+    slow.push_back(std::sin(0.05 * i));
+    fast.push_back(std::sin(2.2 * i));
+  }
+  const RobustMean s = robust_mean(slow, 1, scratch), f = robust_mean(fast, 1, scratch);
+  EXPECT_NEAR(s.sd, f.sd, 0.05);
+  EXPECT_GT(s.u, 5 * f.u);
+}
+
+}  // namespace
+}  // namespace mdof::algo

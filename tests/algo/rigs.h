@@ -1,0 +1,51 @@
+// Fixtures for tests, written as a user writes them.
+#pragma once
+
+#include <string>
+
+#include "schema/rig.h"
+
+namespace mdof::test {
+
+// The default fixture of DESIGN §3 with its three lengths, axis X.
+inline std::string rig_x_toml(double l_mm = 10, double h_mm = 15, double z_mm = 20) {
+  const auto probe = [](const std::string& id, double x, double y, double z, const char* measures) {
+    return "[[probe]]\nid = \"" + id + "\"\nposition_mm = [" + std::to_string(x) + ", " +
+           std::to_string(y) + ", " + std::to_string(z) + "]\nmeasures = \"" + measures +
+           "\"\nrange_um = 200\n";
+  };
+  return "name = \"test\"\naxis = \"X\"\n" + probe("A", l_mm, 0, 0, "+Z") +
+         probe("B", 0, l_mm, 0, "+Z") + probe("C", 0, -l_mm, 0, "+Z") +
+         probe("D", 0, h_mm, z_mm, "+Y") + probe("E", l_mm, h_mm, z_mm, "+Y");
+}
+
+inline Rig rig_x(double l_mm = 10, double h_mm = 15, double z_mm = 20) {
+  return parse_rig(rig_x_toml(l_mm, h_mm, z_mm), "rig_X.toml").value();
+}
+
+// Seven probes in general positions and directions, no two alike.
+inline Rig rig_oblique() {
+  return parse_rig(R"(
+name = "oblique"
+axis = "X"
+probe = [
+  {id = "P1", position_mm = [12, 3, 0], measures = "+Z", range_um = 200},
+  {id = "P2", position_mm = [-4, 11, 0], measures = "-Z", range_um = 200},
+  {id = "P3", position_mm = [2, -9, 0], measures = "+Z", range_um = 200},
+  {id = "P4", position_mm = [1, 15, 18], measures = "+Y", range_um = 200},
+  {id = "P5", position_mm = [13, 15, 25], measures = "-Y", range_um = 200},
+  {id = "P6", position_mm = [5, 5, 0], direction = [0.1, 0.0, 1.0], range_um = 200},
+  {id = "P7", position_mm = [7, 15, 30], direction = [0.05, 1.0, 0.1], range_um = 200},
+]
+[[plane]]
+id = "top"
+normal = "+Z"
+[[plane]]
+id = "side"
+normal = "+Y"
+)",
+                   "oblique.toml")
+      .value();
+}
+
+}  // namespace mdof::test

@@ -1,0 +1,90 @@
+#include "daemon/config.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace mdof::daemon {
+namespace {
+
+const std::string kData = MDOF_TEST_DATA;
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::temp_directory_path() / ("mdof_config_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+    for (const char* axis : {"X", "Y"}) {
+      const std::string rig = std::string("rig_") + axis + ".toml";
+      std::filesystem::copy_file(kData + "/five-probe/" + rig, folder_ / rig,
+                                 std::filesystem::copy_options::overwrite_existing);
+    }
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  Result<Config> load(const std::string& text) {
+    std::ofstream(folder_ / "mdofd.toml") << "[store]\ndatabase = \"x.db\"\n" << text;
+    return load_config(folder_ / "mdofd.toml");
+  }
+  std::string refusal(const std::string& text) {
+    const auto config = load(text);
+    return config ? "accepted" : config.error().message;
+  }
+
+  std::filesystem::path folder_;
+};
+
+const std::string kAxis = "[[axis]]\nrig = \"rig_X.toml\"\n[axis.device]\ndriver = \"simulator\"\n";
+
+TEST_F(ConfigFile, AGoodOneIsRead) {
+  const auto config = load("[measure]\nmodel = \"exact\"\nsettle_s = 0.2\n" + kAxis);
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->axes.size(), 1u);
+  EXPECT_EQ(config->measure.model, Model::exact);
+  EXPECT_EQ(config->measure.dwell.settle_s, 0.2);
+  EXPECT_TRUE(config->axes[0].device.simulated);
+}
+
+TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
+  const struct {
+    std::string text, says;
+  } cases[] = {
+      {"[stroe]\ndatabase = \"y\"\n", "did you mean \"store\""},
+      {"[measure]\nmodle = \"exact\"\n", "did you mean \"model\""},
+      {"[measure]\nmodel = \"exakt\"\n", "mdofd.toml:4: measure.model: must be"},
+      {"[measure]\nsettle_s = -1\n", "must not be negative"},
+      {"[rpc]\ntcp_port = 70000\n", "from 1 to 65535"},
+      {"[rpc\n", "mdofd.toml:3: not valid TOML"},
+      {kAxis + "rate_hz = \"fast\"\n", "rate_hz"},
+      {kAxis + "rate_hzz = 5\n", "did you mean \"rate_hz\""},
+      {kAxis + kAxis, "a second rig for axis X"},
+      {"[[axis]]\nrig = \"rig_X.toml\"\n", "add [axis.device]"},
+      {"[[axis]]\nrig = \"nowhere.toml\"\n[axis.device]\ndriver = \"simulator\"\n",
+       "nowhere.toml: cannot be read"},
+      {"[[axis]]\nrig = \"rig_X.toml\"\n[axis.device]\ndriver = \"simulatr\"\n",
+       "known are: replay simulator"},
+      {"[[axis]]\nrig = \"rig_X.toml\"\n[axis.device]\ndriver = \"replay\"\nfile = \"no.csv\"\n",
+       "no.csv"},
+  };
+  for (const auto& c : cases) {
+    EXPECT_NE(refusal(c.text).find(c.says), std::string::npos) << refusal(c.text);
+  }
+}
+
+TEST_F(ConfigFile, ARigThatCannotSeeIsRefusedAtStartUp) {
+  std::ifstream in(folder_ / "rig_X.toml");
+  std::string rig((std::istreambuf_iterator<char>(in)), {});
+  rig = rig.substr(0, rig.rfind("[[probe]]"));
+  std::ofstream(folder_ / "four.toml") << rig;
+  const std::string says =
+      refusal("[[axis]]\nrig = \"four.toml\"\n[axis.device]\ndriver = \"simulator\"\n");
+  EXPECT_NE(says.find("four.toml"), std::string::npos) << says;
+  EXPECT_NE(says.find("ECX"), std::string::npos) << says;
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -1,0 +1,174 @@
+#!/usr/bin/python3
+"""mdofd from outside: runs, live view, squareness, compensation, and the same bits from a replay.
+
+usage: end_to_end_test.py MDOFD MDOF"""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from mdofd import DATA, Client, Daemon, RpcError, replay, simulator  # noqa: E402
+
+MDOFD, MDOF = sys.argv[1:3]
+TARGETS = [0, 2, 4.1, 6.2]
+
+
+def mdof(*words):
+    done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+class EndToEnd(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        config = simulator("X", targets_mm=TARGETS) + replay(
+            "Y", os.path.join(DATA, "five-probe", "log_Y.csv.gz"))
+        cls.daemon = Daemon(MDOFD, cls.folder.name, config)
+        cls.client = cls.daemon.start()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.daemon.stop()
+        cls.folder.cleanup()
+
+    def measured(self, **params):
+        """Starts a run, waits for its end, gives its id."""
+        watcher = Client(self.daemon.socket)
+        watcher.call("live.subscribe", interval_ms=1000)
+        run = self.client.call("run.start", **params)["run"]
+        while True:
+            value = watcher.next_note()["params"]["value"]
+            if value.get("type") == "ended" and value["axis"] == params["axis"]:
+                return value["run"]
+
+    def test_a_live_run_is_replayed_to_the_same_bits(self):
+        run = self.measured(axis="X", targets_mm=TARGETS, repeats=2)
+        header = self.client.call("run.get", run=run)
+        self.assertEqual(header["state"], "complete")
+        self.assertTrue(header["simulated"])
+        points = self.client.points(run)
+        self.assertGreaterEqual(len(points), 16)
+        self.assertTrue(all(p["flags"] == [] or p["flags"] == ["approach_assumed"] for p in points))
+        code, out, err = mdof("replay", header["recording"]["path"], "--no-store", "--json",
+                              "--targets-mm", *TARGETS)
+        self.assertEqual(code, 0, err)
+        again = json.loads(out)
+        self.assertEqual(again["points"], points)
+        self.assertEqual(again["straightness"], header["straightness"])
+        self.assertEqual(again["recording"]["sha256"], header["recording"]["sha256"])
+
+    def test_a_replayed_log_gives_what_the_command_line_gives(self):
+        run = self.measured(axis="Y")
+        code, out, err = mdof("replay", os.path.join(DATA, "five-probe", "log_Y.csv.gz"), "--rig",
+                              os.path.join(DATA, "five-probe", "rig_Y.toml"), "--no-store", "--json")
+        self.assertEqual(code, 0, err)
+        self.assertEqual(json.loads(out)["points"], self.client.points(run))
+        self.assertFalse(self.client.call("run.get", run=run)["simulated"])
+
+    def test_compensation_is_built_activated_and_served(self):
+        run = self.measured(axis="X", targets_mm=TARGETS, repeats=1)
+        built = self.client.call("compensation.build", runs=[run])
+        self.assertTrue(built["simulated"])
+        before = self.client.call("server.info")["generation"]
+        active = self.client.call("compensation.activate", table=built["table"])
+        self.assertGreater(active["generation"], before)
+        grid = self.client.call("compensation.grid", axis="X")
+        self.assertEqual([round(p["position_mm"], 3) for p in grid["points"]], TARGETS)
+        for side, direction in (("forward", 1), ("reverse", -1)):
+            for point in grid["points"]:
+                at = self.client.call("compensation.at", axis="X", direction=direction,
+                                      position_mm=point["position_mm"])
+                self.assertTrue(at["simulated"])
+                for key, correction in at["correction"].items():
+                    self.assertAlmostEqual(correction, -point[side][key], 9)
+        inside, beyond = (self.client.call("compensation.at", axis="X", position_mm=x, direction=1)
+                          for x in (grid["points"][-1]["position_mm"], 1000))
+        self.assertTrue(inside["inside"])
+        self.assertFalse(beyond["inside"])
+        self.assertEqual(inside["correction"], beyond["correction"])
+        with self.assertRaises(RpcError) as changed:
+            self.client.call("compensation.grid", axis="X", generation=active["generation"] - 1)
+        self.assertEqual(changed.exception.code, -32001)
+
+    def test_a_table_survives_a_restart(self):
+        run = self.measured(axis="X", targets_mm=TARGETS, repeats=1)
+        table = self.client.call("compensation.build", runs=[run])["table"]
+        self.client.call("compensation.activate", table=table)
+        before = self.client.call("compensation.at", axis="X", position_mm=3)
+        self.daemon.stop()
+        type(self).client = self.daemon.start()
+        self.assertEqual(self.client.call("compensation.at", axis="X", position_mm=3), before)
+
+    def test_squareness_has_its_uncertainty(self):
+        x = self.measured(axis="X", targets_mm=TARGETS, repeats=1)
+        y = self.measured(axis="Y")
+        s = self.client.call("squareness.fit", run_x=x, run_y=y)
+        self.assertAlmostEqual(s["EC0Y_urad"], -s["slope_EYX_urad"] - s["slope_EXY_urad"], 9)
+        self.assertAlmostEqual(s["u_EC0Y_urad"], math.hypot(s["u_slope_EYX_urad"], s["u_slope_EXY_urad"]), 9)
+        self.assertTrue(s["simulated"])
+        with self.assertRaises(RpcError):
+            self.client.call("squareness.fit", run_x=y, run_y=x)
+
+    def test_one_run_an_axis_at_a_time(self):
+        run = self.client.call("run.start", axis="X")["run"]
+        with self.assertRaises(RpcError) as refused:
+            self.client.call("run.start", axis="X")
+        self.assertEqual(refused.exception.code, -32001)
+        self.client.call("run.stop", run=run, abort=True)
+        self.assertEqual(self.client.call("run.get", run=run)["state"], "aborted")
+        with self.assertRaises(RpcError):
+            self.client.call("run.stop", run=run)
+
+    def test_the_live_view_shows_probes_errors_and_that_all_is_simulated(self):
+        watcher = Client(self.daemon.socket)
+        watcher.call("live.subscribe", interval_ms=20, events=False)
+        value = watcher.next_note()["params"]["value"]
+        self.assertEqual([p["id"] for p in value["probes"]], list("ABCDE"))
+        self.assertTrue(value["simulated"])
+        self.assertEqual(value["probes"][0]["quality"], "simulated")
+        self.assertEqual(value["probes"][0]["range_um"], 200)
+        self.assertEqual(sorted(value["errors"]), ["EAX_urad", "EBX_urad", "ECX_urad", "EYX_um", "EZX_um"])
+
+    def test_bad_calls_say_what_is_wrong(self):
+        for method, params, words in (
+                ("run.start", {"axis": "Z"}, "no rig is configured"),
+                ("run.start", {"axis": "Q"}, "none of X, Y, Z"),
+                ("run.start", {"axis": "X", "targets_mm": [2, 1]}, "ascend"),
+                ("run.start", {"axis": "X", "tagets_mm": [1]}, "targets_mm"),
+                ("run.get", {"run": 4711}, "4711"),
+                ("compensation.build", {"runs": []}, "at least one run"),
+                ("compensation.activate", {"table": 4711}, "4711"),
+                ("compensation.at", {"axis": "Y", "position_mm": 0}, "no compensation table"),
+                ("compensation.at", {"axis": "X"}, "position_mm"),
+                ("run.points", {"run": 1, "count": 100000}, "count")):
+            with self.subTest(method=method, params=params), self.assertRaisesRegex(RpcError, words):
+                self.client.call(method, **params)
+
+    def test_discovery_lists_every_method_with_a_working_example(self):
+        methods, offset = [], 0
+        while offset is not None:
+            page = self.client.call("rpc.discover", offset=offset)
+            methods += page["methods"]
+            offset = page.get("x-next-offset")
+        names = [m["name"] for m in methods]
+        for name in ("server.info device.list live.subscribe run.start run.stop run.list run.get "
+                     "run.points squareness.fit compensation.build compensation.activate "
+                     "compensation.status compensation.grid compensation.at rpc.discover").split():
+            self.assertIn(name, names)
+
+    def test_a_second_daemon_on_the_database_is_refused(self):
+        other = Daemon(MDOFD, os.path.join(self.folder.name, "other"), "")
+        text = open(other.config).read().replace(other.database, self.daemon.database)
+        open(other.config, "w").write(text)
+        with self.assertRaisesRegex(RuntimeError, "(?i)writ|lock"):
+            other.start()
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2, warnings="ignore")

@@ -1,0 +1,120 @@
+"""A daemon under test: starts mdofd with a configuration in a folder of its own and talks to it.
+
+Standard library only. Messages of JSON-RPC are lines; notifications are kept apart from answers."""
+import json
+import os
+import signal
+import socket
+import subprocess
+import time
+
+DATA = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data")
+RIG = {axis: os.path.join(DATA, "five-probe", f"rig_{axis}.toml") for axis in "XY"}
+
+SIMULATOR = """
+[[axis]]
+rig = "{rig}"
+[axis.device]
+driver = "simulator"
+rate_hz = {rate_hz}
+dwell_s = {dwell_s}
+speed_mm_s = 100
+acceleration_mm_s2 = 4000
+targets_mm = {targets_mm}
+repeats = 3
+{extra}
+"""
+
+
+def simulator(axis="X", rate_hz=2000, dwell_s=0.3, targets_mm=(0, 2, 4.1, 6.2), extra=""):
+    return SIMULATOR.format(rig=RIG[axis], rate_hz=rate_hz, dwell_s=dwell_s,
+                            targets_mm=list(targets_mm), extra=extra)
+
+
+def replay(axis, log):
+    return f'\n[[axis]]\nrig = "{RIG[axis]}"\n[axis.device]\ndriver = "replay"\nfile = "{log}"\n'
+
+
+class RpcError(Exception):
+    def __init__(self, error):
+        super().__init__(error["message"])
+        self.code = error["code"]
+
+
+class Client:
+    def __init__(self, path, timeout_s=30):
+        self.socket = socket.socket(socket.AF_UNIX)
+        self.socket.settimeout(timeout_s)
+        self.socket.connect(path)
+        self.file = self.socket.makefile("rwb")
+        self.notes = []
+        self.id = 0
+
+    def call(self, method, **params):
+        self.id += 1
+        request = {"jsonrpc": "2.0", "id": self.id, "method": method, "params": params}
+        self.file.write(json.dumps(request).encode() + b"\n")
+        self.file.flush()
+        while True:
+            reply = self.read()
+            if reply.get("id") == self.id:
+                if "error" in reply:
+                    raise RpcError(reply["error"])
+                return reply["result"]
+            self.notes.append(reply)
+
+    def read(self):
+        line = self.file.readline()
+        if not line:
+            raise ConnectionError("mdofd closed the connection")
+        assert len(line) <= 48 * 1024, "a reply line over 48 KiB"
+        return json.loads(line)
+
+    def next_note(self):
+        return self.notes.pop(0) if self.notes else self.read()
+
+    def points(self, run):
+        points, offset = [], 0
+        while True:
+            page = self.call("run.points", run=run, offset=offset)
+            points += page["points"]
+            offset += len(page["points"])
+            if offset >= page["total"]:
+                return points
+
+
+class Daemon:
+    def __init__(self, program, folder, config, durability="full"):
+        self.program, self.folder = program, folder
+        os.makedirs(folder, exist_ok=True)
+        self.socket = os.path.join(folder, "s")
+        self.database = os.path.join(folder, "mdof.db")
+        self.config = os.path.join(folder, "mdofd.toml")
+        with open(self.config, "w") as f:
+            f.write(f'[store]\ndatabase = "{self.database}"\ndurability = "{durability}"\n'
+                    f'[rpc]\nsocket = "{self.socket}"\n' + config)
+        self.process = None
+
+    def start(self, timeout_s=10):
+        self.log = open(os.path.join(self.folder, "stderr"), "ab")
+        self.process = subprocess.Popen([self.program, "--config", self.config], stderr=self.log,
+                                        stdout=self.log)
+        end = time.monotonic() + timeout_s
+        while True:
+            try:
+                return Client(self.socket)
+            except OSError:
+                if self.process.poll() is not None:
+                    raise RuntimeError(open(self.log.name).read())
+                if time.monotonic() > end:
+                    raise
+                time.sleep(0.005)
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()
+
+    def stop(self):
+        self.process.terminate()
+        code = self.process.wait(20)
+        assert code == 0, f"mdofd ended with {code}: {open(self.log.name).read()[-2000:]}"

@@ -1,0 +1,222 @@
+#include <atomic>
+
+#include "daemon/rpc/client.h"
+#include "daemon/rpc/subscription.h"
+#include "tests/daemon/rpc/rpc_fixture.h"
+
+namespace mdof::rpc::test {
+namespace {
+
+const Topic kValue{"live.frame", false, 20ms};
+const Topic kEvent{"run.event", true};
+
+Subscription::Value value(int i) {
+  return std::make_shared<const std::string>(std::to_string(i));
+}
+
+std::string message(const std::string& topic, int missed, const std::string& text) {
+  return R"({"jsonrpc":"2.0","method":")" + topic + R"(","params":{"missed":)" +
+         std::to_string(missed) + R"(,"value":)" + text + "}}";
+}
+
+TEST(Subscription, TheNewestValueWins) {
+  Subscription subscription(kValue, 100ms, 64);
+  EXPECT_FALSE(subscription.due());
+  for (int i = 1; i <= 5; ++i) subscription.offer(value(i));
+  std::string out;
+  const Subscription::Time now(10s);
+  EXPECT_LE(*subscription.due(), now);
+  subscription.take(now, out);
+  EXPECT_EQ(out, message("live.frame", 4, "5") + "\n");
+  EXPECT_FALSE(subscription.due());
+  subscription.offer(value(6));
+  EXPECT_EQ(*subscription.due(), now + 100ms);
+}
+
+TEST(Subscription, EventsQueueAndTheOldestGoesWhenFullAndIsCounted) {
+  Subscription subscription(kEvent, 0ms, 3);
+  for (int i = 1; i <= 5; ++i) subscription.offer(value(i));
+  std::string out;
+  while (subscription.due()) subscription.take(Subscription::Time(10s), out);
+  EXPECT_EQ(out, message("run.event", 2, "3") + "\n" + message("run.event", 0, "4") + "\n" +
+                     message("run.event", 0, "5") + "\n");
+}
+
+class Subscriptions : public ::testing::Test {
+ protected:
+  static ServerOptions options() {
+    ServerOptions o;
+    o.stall_timeout = 500ms;
+    o.max_subscriptions = 3;
+    return o;
+  }
+  Subscriptions() : server_(options()) {
+    const std::vector<Param> params = {{"topic", ParamType::string, "its name", true},
+                                       {"interval_ms", ParamType::integer, "ms", false, "100"}};
+    server_.table.add(
+        {.name = "live.subscribe",
+         .summary = "Subscribes.",
+         .params = params,
+         .result = "true",
+         .handler = [](const Params& p) -> Result<std::string> {
+           MDOF_CHECK(p.caller().subscribe(
+               p.string("topic"), std::chrono::milliseconds(p.integer("interval_ms", 100))));
+           return "true";
+         }});
+    server_.table.add({.name = "live.unsubscribe",
+                       .summary = "Ends a subscription.",
+                       .params = {params[0]},
+                       .result = "true",
+                       .handler = [](const Params& p) -> Result<std::string> {
+                         MDOF_CHECK(p.caller().unsubscribe(p.string("topic")));
+                         return "true";
+                       }});
+    for (const Topic& topic : {kValue, kEvent, Topic{"a"}, Topic{"b"}})
+      server_.server->add_topic(topic);
+    server_.start();
+  }
+  static std::string subscribe(const std::string& topic, int interval_ms) {
+    return R"({"jsonrpc":"2.0","method":"live.subscribe","params":[")" + topic + "\"," +
+           std::to_string(interval_ms) + R"(],"id":1})";
+  }
+  void publish(const std::string& topic, const std::string& json) {
+    server_.on_loop([&] {
+      EXPECT_TRUE(server_.server->publish(topic, json).has_value());
+      return 0;
+    });
+  }
+  bool wanted(const std::string& topic) {
+    return server_.on_loop([&] { return server_.server->has_subscribers(topic); });
+  }
+  bool becomes_unwanted(const std::string& topic) {
+    for (int i = 0; i < 2000 && wanted(topic); ++i) std::this_thread::sleep_for(5ms);
+    return !wanted(topic);
+  }
+  TestServer server_;
+};
+
+TEST_F(Subscriptions, ValuesComeNoFasterThanAsked) {
+  RawClient client(server_.path);
+  ASSERT_EQ(at(client.ask(subscribe("live.frame", 100)), "/result"), "true");
+  std::atomic<bool> stop = false;
+  std::thread publisher([&] {
+    for (int i = 0; !stop; ++i, std::this_thread::sleep_for(1ms))
+      publish("live.frame", std::to_string(i));
+  });
+  client.line();
+  const auto begin = Clock::now();
+  for (int i = 0; i < 5; ++i) EXPECT_NE(at(client.line(), "/params/missed"), "0");
+  EXPECT_GE(Clock::now() - begin, 450ms);
+  stop = true;
+  publisher.join();
+}
+
+TEST_F(Subscriptions, TheLastValueComesThoughNoneFollows) {
+  RawClient client(server_.path);
+  client.ask(subscribe("live.frame", 50));
+  for (int i = 1; i <= 3; ++i) publish("live.frame", std::to_string(i));
+  std::string last;
+  while (at(last, "/params/value") != "3") {
+    last = client.line();
+    ASSERT_NE(last[0], '<') << last;
+  }
+}
+
+TEST_F(Subscriptions, EventsComeInOrderAndAtOnce) {
+  RawClient client(server_.path);
+  client.ask(subscribe("run.event", 0));
+  for (int i = 0; i < 30; ++i) publish("run.event", std::to_string(i));
+  for (int i = 0; i < 30; ++i) EXPECT_EQ(client.line(), message("run.event", 0, std::to_string(i)));
+}
+
+TEST_F(Subscriptions, AreRefusedWithAReason) {
+  RawClient client(server_.path);
+  auto reply = client.ask(subscribe("live.fram", 100));
+  EXPECT_EQ(at(reply, "/error/code"), "-32004");
+  EXPECT_NE(reply.find("did you mean"), std::string::npos) << reply;
+  reply = client.ask(subscribe("live.frame", 5));
+  EXPECT_EQ(at(reply, "/error/code"), "-32602");
+  EXPECT_EQ(at(reply, "/error/message"), R"("interval_ms: 5 is below the topic's minimum of 20")");
+  for (const char* topic : {"live.frame", "live.frame", "a", "b"})
+    EXPECT_EQ(at(client.ask(subscribe(topic, 100)), "/result"), "true");
+  EXPECT_EQ(at(client.ask(subscribe("run.event", 100)), "/error/code"), "-32602");
+}
+
+TEST_F(Subscriptions, EndWithUnsubscribeAndWithTheConnection) {
+  {
+    RawClient client(server_.path);
+    client.ask(subscribe("live.frame", 100));
+    EXPECT_TRUE(wanted("live.frame"));
+    client.ask(R"({"jsonrpc":"2.0","method":"live.unsubscribe","params":["live.frame"],"id":1})");
+    EXPECT_FALSE(wanted("live.frame"));
+    client.ask(subscribe("live.frame", 100));
+    EXPECT_TRUE(wanted("live.frame"));
+  }
+  EXPECT_TRUE(becomes_unwanted("live.frame"));
+  publish("live.frame", "1");
+}
+
+// As of a shell's pipe into a socket tool.
+TEST_F(Subscriptions, StayWhereTheClientHasOnlyDoneSending) {
+  auto client = std::make_unique<RawClient>(server_.path);
+  client->send(subscribe("live.frame", 20) + "\n");
+  ::shutdown(client->fd(), SHUT_WR);
+  EXPECT_EQ(at(client->line(), "/result"), "true");
+  publish("live.frame", "7");
+  EXPECT_EQ(client->line(), message("live.frame", 0, "7"));
+  client.reset();
+  EXPECT_TRUE(becomes_unwanted("live.frame"));
+}
+
+TEST_F(Subscriptions, ASubscriberThatNeverReadsHoldsUpNobodyAndIsDropped) {
+  RawClient slow(server_.path), other(server_.path);
+  slow.ask(subscribe("live.frame", 20));
+  slow.ask(subscribe("run.event", 0));
+  other.ask(subscribe("run.event", 0));
+  const std::string big = '"' + std::string(40000, 'x') + '"';
+  for (int i = 0; i < 200; ++i) {
+    publish("live.frame", big);
+    publish("run.event", big);
+    ASSERT_EQ(other.line().size(), message("run.event", 0, big).size());
+  }
+  EXPECT_TRUE(server_.connections_become(1)) << server_.log();
+  EXPECT_NE(server_.log().find("dropped: it took none of"), std::string::npos);
+}
+
+TEST_F(Subscriptions, ASlowSubscriberIsToldWhatItMissed) {
+  RawClient slow(server_.path);
+  slow.ask(subscribe("run.event", 0));
+  const std::string big = '"' + std::string(40000, 'x') + '"';
+  for (int i = 0; i < 200; ++i) publish("run.event", big);
+  int got = 0, missed = 0;
+  for (; got + missed < 200; ++got) {
+    const auto n = at(slow.line(), "/params/missed");
+    ASSERT_NE(n, "");
+    missed += std::stoi(n);
+  }
+  EXPECT_GT(missed, 0);
+  EXPECT_EQ(got + missed, 200);
+}
+
+TEST_F(Subscriptions, AValueTooLargeForALineIsTheCallersError) {
+  server_.on_loop([&] {
+    EXPECT_FALSE(server_.server->publish("a", std::string(49152, '1')).has_value());
+    EXPECT_FALSE(server_.server->publish("nothing", "1").has_value());
+    return 0;
+  });
+}
+
+TEST_F(Subscriptions, TheClientKeepsNotificationsThatComeBetween) {
+  auto client = Client::connect(server_.path);
+  ASSERT_TRUE(client.has_value());
+  ASSERT_TRUE(client->call("live.subscribe", R"({"topic":"run.event"})").has_value());
+  for (int i = 0; i < 3; ++i) publish("run.event", std::to_string(i));
+  EXPECT_EQ(*client->call("get_data"), R"(["hello",5])");
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(client->next_notification(20s).value_or("none"),
+              message("run.event", 0, std::to_string(i)));
+  EXPECT_FALSE(client->next_notification(20ms).has_value());
+}
+
+}  // namespace
+}  // namespace mdof::rpc::test

@@ -1,0 +1,130 @@
+// A folder of its own for each test, runs to store, and what a test may do to a file system.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include "daemon/store/store.h"
+
+namespace mdof::store {
+
+namespace fs = std::filesystem;
+
+class StoreTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "mdof-store-XXXXXX").string();
+    ASSERT_TRUE(mkdtemp(name.data()));
+    folder_ = name;
+    file_ = folder_ / "mdof.db";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  Result<Store> writer() { return Store::open(file_, Access::read_write, {Durability::full, 50}); }
+  Result<Store> reader() { return Store::open(file_, Access::read_only, {Durability::full, 50}); }
+  // SQL from outside, as a careless hand or a failing disk would.
+  void tamper(const std::string& sql) {
+    auto connection = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
+    ASSERT_TRUE(connection);
+    const Status done = connection->execute(sql);
+    ASSERT_TRUE(done) << done.error().message;
+  }
+  fs::path folder_, file_;
+};
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+inline MeasuredPoint make_point(int target, int repetition) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(1000 * repetition + target));
+  const auto any = [&] { return static_cast<double>(random()) * 1e-25 - 1e-6; };
+  MeasuredPoint point;
+  point.target = target;
+  point.target_m = 0.01 * target;
+  point.run = repetition;
+  point.point.begin_ns = 1'000'000'000LL * target;
+  point.point.end_ns = point.point.begin_ns + 500'000'000;
+  point.point.position_m = 0.01 * target + any();
+  point.point.direction = repetition % 2 ? 1 : -1;
+  point.point.samples = 2000;
+  for (int k = 0; k < 5; ++k) {
+    point.point.probe_m.push_back(any());
+    point.point.probe_u_m.push_back(1e-9);
+  }
+  if (target % 7 == 0) point.point.flags = {"spike:A", "saturated:\"B\""};
+  point.errors.valid = true;
+  point.errors.reason.clear();
+  for (double& x : point.errors.local) x = any();
+  for (double& x : point.errors.covariance) x = any() * 1e-6;
+  return point;
+}
+
+inline Run make_run(int points = 22, Axis axis = Axis::x) {
+  Run run;
+  run.header.axis = axis;
+  run.header.state = RunState::complete;
+  run.header.simulated = true;
+  run.header.started_utc = "2026-11-21T04:00:00Z";
+  run.header.note = "after shimming";
+  run.header.scans = 123456;
+  run.header.scans_lost = 7;
+  run.header.warnings = {"probe \"B\" saturated", "gap of 12 ms"};
+  run.header.provenance = {"csv",   "/data/log.csv", std::string(64, 'a'),  "name = \"rig\"\n",
+                           "exact", "0.1.0",         R"({"settle_s":0.2})", ""};
+  for (int i = 0; i < points; ++i) run.points.push_back(make_point(1 + i / 2, 1 + i % 2));
+  run.straightness = {{"EYX_um", "forward", 1e-6, 2e-6, 3e-9, 4e-7, 5e-7, 0.01, -0.0}};
+  run.angles = {{"EAX_urad", "mean", 1e-5, -2e-6, 3e-6}};
+  return run;
+}
+
+inline CompensationTable make_table(std::vector<std::int64_t> runs, Axis axis = Axis::x) {
+  CompensationTable table;
+  table.axis = axis;
+  table.runs = std::move(runs);
+  table.position_m = {0.0, 0.01, 0.02};
+  double x = 1e-7;
+  for (auto* group : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
+    for (auto& series : *group) series = {x += 1e-7, -0.0, x += 1e-7};
+  table.created_utc = "2026-11-21T05:00:00Z";
+  table.sha256 = std::string(64, 'b');
+  return table;
+}
+
+inline constexpr int kCannot = 77;  // exit code of a child that this machine does not let work
+
+// Runs `body` in a child with mounts of its own, after `prepare` has made them.
+// Skips the test where this machine does not let us.
+template <class Prepare, class Body>
+void with_private_mounts(Prepare prepare, Body body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (unshare(CLONE_NEWNS) != 0 ||
+        mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 || !prepare())
+      _exit(kCannot);
+    _exit(body() ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kCannot)
+    GTEST_SKIP() << "mounting needs root; not tested here";
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "see the messages above";
+}
+
+inline bool mount_read_only(const fs::path& folder) {
+  return mount(folder.c_str(), folder.c_str(), nullptr, MS_BIND, nullptr) == 0 &&
+         mount("none", folder.c_str(), nullptr, MS_REMOUNT | MS_BIND | MS_RDONLY, nullptr) == 0;
+}
+
+inline bool mount_small_disk(const fs::path& folder, const char* size) {
+  return mount("tmpfs", folder.c_str(), "tmpfs", 0, size) == 0;
+}
+
+}  // namespace mdof::store

@@ -1,0 +1,144 @@
+// What a store does with files that are not, not yet, or no longer its own.
+#include <fstream>
+
+#include "daemon/store/migrate.h"
+#include "daemon/store/store.h"
+#include "tests/daemon/store/fixtures.h"
+
+namespace mdof::store {
+namespace {
+
+std::string contents(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST_F(StoreTest, MakesTheFolderAndTheFile) {
+  file_ = folder_ / "state" / "mdof" / "mdof.db";
+  auto store = writer();
+  ASSERT_TRUE(store) << store.error().message;
+  auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_only);
+  EXPECT_EQ(db->integer("PRAGMA application_id").value(), kApplication);
+  EXPECT_EQ(db->integer("PRAGMA user_version").value(), sql::migrations().back().version);
+}
+
+TEST_F(StoreTest, ReadingAnAbsentFileIsNotFoundAndMakesNothing) {
+  const auto store = reader();
+  ASSERT_FALSE(store);
+  EXPECT_EQ(store.error().code, ErrorCode::not_found);
+  EXPECT_EQ(files_in(folder_), 0u);
+}
+
+TEST_F(StoreTest, ANewerSchemaIsRefusedWithBothVersions) {
+  { ASSERT_TRUE(writer()); }
+  tamper("PRAGMA user_version = 42");
+  for (const auto& store : {writer(), reader()}) {
+    ASSERT_FALSE(store);
+    EXPECT_EQ(store.error().code, ErrorCode::bad_input);
+    EXPECT_TRUE(contains(store.error().message, "version 42"));
+    EXPECT_TRUE(contains(store.error().message,
+                         "up to " + std::to_string(sql::migrations().back().version)));
+  }
+}
+
+TEST_F(StoreTest, ANonDatabaseIsRefusedAndLeftAsItIs) {
+  const std::string text(3000, 'x');
+  std::ofstream(file_) << text;
+  for (const auto& store : {writer(), reader()}) {
+    ASSERT_FALSE(store);
+    EXPECT_EQ(store.error().code, ErrorCode::bad_input);
+    EXPECT_TRUE(contains(store.error().message, "not a SQLite database"));
+  }
+  EXPECT_EQ(contents(file_), text);
+  EXPECT_EQ(files_in(folder_), 1u);
+}
+
+TEST_F(StoreTest, AnotherApplicationsDatabaseIsRefusedAndLeftAsItIs) {
+  ASSERT_TRUE(sqlite::Connection::open(file_, sqlite::OpenMode::create)
+                  ->execute("CREATE TABLE bookmarks (url)"));
+  const std::string before = contents(file_);
+  for (const auto& store : {writer(), reader()}) {
+    ASSERT_FALSE(store);
+    EXPECT_EQ(store.error().code, ErrorCode::bad_input);
+    EXPECT_TRUE(contains(store.error().message, "another application"));
+  }
+  EXPECT_EQ(contents(file_), before);
+  EXPECT_EQ(files_in(folder_), 1u);
+}
+
+TEST_F(StoreTest, AFolderIsNoDatabase) {
+  file_ = folder_;
+  EXPECT_FALSE(writer());
+  EXPECT_FALSE(reader());
+}
+
+TEST_F(StoreTest, ASecondWriterIsRefused) {
+  auto first = writer();
+  const auto second = writer();
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::conflict);
+  EXPECT_TRUE(contains(second.error().message, "another program"));
+  first = tl::unexpected(Error{});
+  EXPECT_TRUE(writer());
+}
+
+TEST_F(StoreTest, AReaderCannotWrite) {
+  { ASSERT_TRUE(writer()); }
+  const auto added = reader()->add_run(make_run(1));
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.error().code, ErrorCode::io);
+}
+
+constexpr char kOne[] = "CREATE TABLE a (x INTEGER) STRICT; INSERT INTO a VALUES (1);";
+constexpr char kTwo[] = "ALTER TABLE a RENAME TO b; CREATE TABLE c (y INTEGER) STRICT;";
+constexpr char kBroken[] = "ALTER TABLE b RENAME TO d; CREATE TABLE nonsense (z NOTHING) STRICT;";
+
+TEST_F(StoreTest, AMigrationKeepsABackupFirst) {
+  auto db = sqlite::Connection::open(file_, sqlite::OpenMode::create);
+  const sql::Migration steps[] = {{1, "001", kOne}, {2, "002", kTwo}};
+  ASSERT_TRUE(migrate(*db, std::span(steps, 1)));
+  EXPECT_EQ(files_in(folder_), 1u);  // nothing was there to back up
+  ASSERT_TRUE(migrate(*db, steps));
+  EXPECT_EQ(db->integer("SELECT x FROM b").value(), 1);
+  EXPECT_EQ(db->integer("PRAGMA user_version").value(), 2);
+  const fs::path backup = file_.string() + ".schema-1.backup";
+  auto old = sqlite::Connection::open(backup, sqlite::OpenMode::read_only);
+  ASSERT_TRUE(old);
+  EXPECT_EQ(old->integer("SELECT x FROM a").value(), 1);
+  EXPECT_EQ(old->integer("PRAGMA user_version").value(), 1);
+  EXPECT_EQ(old->integer("PRAGMA application_id").value(), kApplication);
+}
+
+TEST_F(StoreTest, AFailingMigrationChangesNothing) {
+  auto db = sqlite::Connection::open(file_, sqlite::OpenMode::create);
+  const sql::Migration steps[] = {{1, "001", kOne}, {2, "002", kTwo}, {3, "003_broken", kBroken}};
+  ASSERT_TRUE(migrate(*db, std::span(steps, 1)));
+  for (int turn = 0; turn < 2; ++turn) {  // a backup from the first turn is not in the way
+    const Status done = migrate(*db, steps);
+    ASSERT_FALSE(done);
+    EXPECT_TRUE(contains(done.error().message, "003_broken")) << done.error().message;
+    EXPECT_EQ(db->integer("PRAGMA user_version").value(), 2);
+    EXPECT_EQ(db->integer("SELECT x FROM b").value(), 1);
+  }
+}
+
+TEST_F(StoreTest, AReadOnlyFolderIsReadButNotWritten) {
+  { ASSERT_TRUE(writer()->add_run(make_run())); }
+  with_private_mounts([&] { return mount_read_only(folder_); },
+                      [&] {
+                        auto store = reader();
+                        const auto refused = writer();
+                        if (!refused) fprintf(stderr, "%s\n", refused.error().message.c_str());
+                        return store && store->run(1) && store->verify()->empty() && !refused &&
+                               refused.error().code == ErrorCode::io &&
+                               contains(refused.error().message, "must be writable");
+                      });
+}
+
+}  // namespace
+}  // namespace mdof::store

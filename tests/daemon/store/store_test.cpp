@@ -1,0 +1,343 @@
+#include "daemon/store/store.h"
+
+#include <bit>
+#include <cmath>
+
+#include "daemon/store/result_hash.h"
+#include "schema/sample.h"
+#include "tests/daemon/store/fixtures.h"
+
+namespace mdof::store {
+namespace {
+
+using Bits = std::vector<std::uint64_t>;
+
+template <class Values>
+Bits bits(const Values& values) {
+  Bits all;
+  for (const double x : values) all.push_back(std::bit_cast<std::uint64_t>(x));
+  return all;
+}
+
+void expect_same(const MeasuredPoint& a, const MeasuredPoint& b) {
+  EXPECT_EQ(a.target, b.target);
+  EXPECT_EQ(a.run, b.run);
+  EXPECT_EQ(a.point.begin_ns, b.point.begin_ns);
+  EXPECT_EQ(a.point.end_ns, b.point.end_ns);
+  EXPECT_EQ(a.point.direction, b.point.direction);
+  EXPECT_EQ(a.point.samples, b.point.samples);
+  EXPECT_EQ(a.point.flags, b.point.flags);
+  EXPECT_EQ(bits(a.point.probe_m), bits(b.point.probe_m));
+  EXPECT_EQ(bits(a.point.probe_u_m), bits(b.point.probe_u_m));
+  EXPECT_EQ(bits(std::vector{a.target_m, a.point.position_m, a.errors.residual_m}),
+            bits(std::vector{b.target_m, b.point.position_m, b.errors.residual_m}));
+  EXPECT_EQ(a.errors.valid, b.errors.valid);
+  EXPECT_EQ(a.errors.reason, b.errors.reason);
+  EXPECT_EQ(bits(a.errors.local), bits(b.errors.local));
+  EXPECT_EQ(bits(a.errors.covariance), bits(b.errors.covariance));
+}
+
+void expect_same(const RunHeader& a, const RunHeader& b) {
+  EXPECT_EQ(a.axis, b.axis);
+  EXPECT_EQ(a.state, b.state);
+  EXPECT_EQ(a.simulated, b.simulated);
+  EXPECT_EQ(a.started_utc, b.started_utc);
+  EXPECT_EQ(a.note, b.note);
+  EXPECT_EQ(a.supersedes, b.supersedes);
+  EXPECT_EQ(a.scans, b.scans);
+  EXPECT_EQ(a.scans_lost, b.scans_lost);
+  EXPECT_EQ(a.warnings, b.warnings);
+  const Provenance &p = a.provenance, &q = b.provenance;
+  EXPECT_EQ(std::tie(p.recording_kind, p.recording_path, p.recording_sha256, p.rig_text, p.model),
+            std::tie(q.recording_kind, q.recording_path, q.recording_sha256, q.rig_text, q.model));
+  EXPECT_EQ(std::tie(p.software_version, p.options_json, p.configuration),
+            std::tie(q.software_version, q.options_json, q.configuration));
+}
+
+TEST_F(StoreTest, GivesARunBackToTheLastBit) {
+  mdof::Run run = make_run();
+  run.points[0].errors.local = {-0.0, 5e-324, 3.0, -1e300, 0.1};
+  run.points[1].target_m = -0.0;
+  run.points[2].point.probe_m[3] = kNaN;
+  run.points[3].errors = AxisErrors{};
+  run.points[3].errors.reason = "probe \"C\" lost";
+  auto store = writer();
+  ASSERT_TRUE(store) << store.error().message;
+  const auto id = store->add_run(run);
+  ASSERT_TRUE(id) << id.error().message;
+  const auto back = store->run(*id);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->header.id, *id);
+  expect_same(run.header, back->header);
+  ASSERT_EQ(back->points.size(), run.points.size());
+  for (std::size_t i = 0; i < run.points.size(); ++i) expect_same(run.points[i], back->points[i]);
+  EXPECT_EQ(result_sha256(run), result_sha256(*back));
+  EXPECT_EQ(result_sha256(run), store->result_sha256(*id).value());
+}
+
+TEST_F(StoreTest, KeepsFigures) {
+  auto store = writer();
+  const mdof::Run run = make_run();
+  const mdof::Run back = store->run(store->add_run(run).value()).value();
+  ASSERT_EQ(back.straightness.size(), 1u);
+  EXPECT_EQ(back.straightness[0].error_key, "EYX_um");
+  EXPECT_EQ(back.straightness[0].approach, "forward");
+  EXPECT_EQ(back.straightness[0].straightness_end_point_m, 5e-7);
+  EXPECT_TRUE(std::signbit(back.straightness[0].valley_position_m));
+  ASSERT_EQ(back.angles.size(), 1u);
+  EXPECT_EQ(back.angles[0].error_key, "EAX_urad");
+  EXPECT_EQ(back.angles[0].max_rad, 3e-6);
+}
+
+TEST_F(StoreTest, AnUnknownScalarStaysUnknown) {
+  mdof::Run run = make_run(1);
+  run.points[0].target_m = kNaN;
+  run.points[0].errors.local[2] = kNaN;
+  auto store = writer();
+  const mdof::Run back = store->run(store->add_run(run).value()).value();
+  EXPECT_TRUE(std::isnan(back.points[0].target_m));
+  EXPECT_TRUE(std::isnan(back.points[0].errors.local[2]));
+  EXPECT_EQ(result_sha256(back), result_sha256(run));
+}
+
+TEST_F(StoreTest, TheResultHashSeesOneBitAnywhere) {
+  const mdof::Run run = make_run();
+  const std::string hash = result_sha256(run);
+  const auto changed = [&](auto change) {
+    mdof::Run other = run;
+    change(other);
+    return result_sha256(other) != hash;
+  };
+  EXPECT_TRUE(changed([](mdof::Run& r) {
+    r.points[5].errors.local[3] = std::nextafter(r.points[5].errors.local[3], 1);
+  }));
+  EXPECT_TRUE(changed([](mdof::Run& r) { r.points[5].errors.covariance[24] *= -1; }));
+  EXPECT_TRUE(changed([](mdof::Run& r) { r.points[5].point.flags.push_back("gap"); }));
+  EXPECT_TRUE(changed([](mdof::Run& r) { r.points[5].point.probe_m.pop_back(); }));
+  EXPECT_TRUE(changed([](mdof::Run& r) { r.points.pop_back(); }));
+  EXPECT_TRUE(changed([](mdof::Run& r) { std::swap(r.points[0], r.points[1]); }));
+  EXPECT_TRUE(changed([](mdof::Run& r) { r.straightness[0].valley_position_m = 0.0; }));
+  EXPECT_TRUE(changed([](mdof::Run& r) { r.angles[0].approach = "forward"; }));
+  EXPECT_FALSE(changed([](mdof::Run& r) { r.header.note = "another"; }));
+}
+
+TEST_F(StoreTest, ALiveRunIsFilledInPieces) {
+  const mdof::Run run = make_run(30);
+  auto store = writer();
+  RunHeader header = run.header;
+  header.provenance.recording_kind = "live";
+  header.provenance.recording_sha256.clear();
+  const std::int64_t id = store->begin_run(header).value();
+  EXPECT_EQ(store->run_header(id)->state, RunState::open);
+  EXPECT_EQ(reader()->run_header(id)->state, RunState::open);  // from another process, too
+  for (std::size_t i = 0; i < 30; i += 10) {
+    const auto at = run.points.begin() + static_cast<std::ptrdiff_t>(i);
+    ASSERT_TRUE(store->append_points(id, {at, at + 10}));
+  }
+  RunEnd end{RunState::complete, 99, 1, {"w"}, std::string(64, 'c'), run.straightness, run.angles};
+  ASSERT_TRUE(store->end_run(id, end));
+  const RunHeader back = store->run_header(id).value();
+  EXPECT_EQ(back.state, RunState::complete);
+  EXPECT_EQ(back.scans, 99u);
+  EXPECT_EQ(back.provenance.recording_sha256, std::string(64, 'c'));
+  EXPECT_EQ(back.provenance.recording_path, header.provenance.recording_path);
+  EXPECT_EQ(store->result_sha256(id).value(), result_sha256(run));
+  EXPECT_EQ(store->append_points(id, run.points).error().code, ErrorCode::conflict);
+  EXPECT_TRUE(store->verify()->empty());
+}
+
+TEST_F(StoreTest, ARunWithoutItsEndIsAbortedAndSaysSo) {
+  const mdof::Run run = make_run();
+  {
+    auto store = writer();
+    ASSERT_TRUE(store->append_points(store->begin_run(run.header).value(), run.points));
+  }
+  const RunHeader seen = reader()->run_header(1).value();  // before anyone writes again
+  EXPECT_EQ(seen.state, RunState::aborted);
+  EXPECT_EQ(seen.warnings, std::vector<std::string>{"interrupted"});
+  auto store = writer();
+  EXPECT_EQ(store->run_header(1)->state, RunState::aborted);
+  EXPECT_EQ(store->run_header(1)->warnings, std::vector<std::string>{"interrupted"});
+  EXPECT_EQ(store->points(1, 0, 100)->size(), run.points.size());
+  EXPECT_TRUE(store->verify()->empty());
+}
+
+TEST_F(StoreTest, ListsRunsNewestFirstByPageAndAxis) {
+  auto store = writer();
+  for (int i = 0; i < 6; ++i) ASSERT_TRUE(store->add_run(make_run(1, i % 2 ? Axis::y : Axis::x)));
+  const auto ids = [](const std::vector<RunHeader>& list) {
+    std::vector<std::int64_t> all;
+    for (const auto& header : list) all.push_back(header.id);
+    return all;
+  };
+  EXPECT_EQ(ids(store->list_runs(0, 3).value()), (std::vector<std::int64_t>{6, 5, 4}));
+  EXPECT_EQ(ids(store->list_runs(4, 3).value()), (std::vector<std::int64_t>{2, 1}));
+  EXPECT_EQ(ids(store->list_runs(1, 9, Axis::y).value()), (std::vector<std::int64_t>{4, 2}));
+  EXPECT_EQ(store->count_runs().value(), 6);
+  EXPECT_EQ(store->count_runs(Axis::y).value(), 3);
+  EXPECT_EQ(store->count_runs(Axis::z).value(), 0);
+}
+
+TEST_F(StoreTest, PagesPoints) {
+  const mdof::Run run = make_run(25);
+  auto store = writer();
+  ASSERT_TRUE(store->add_run(run));
+  EXPECT_EQ(store->count_points(1).value(), 25);
+  const auto page = store->points(1, 20, 10).value();
+  ASSERT_EQ(page.size(), 5u);
+  expect_same(page[0], run.points[20]);
+  EXPECT_TRUE(store->points(1, 25, 10)->empty());
+}
+
+TEST_F(StoreTest, SharesRigsAndRecordings) {
+  auto store = writer();
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(store->add_run(make_run(1)));
+  auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_only);
+  EXPECT_EQ(db->integer("SELECT count(*) FROM recording").value(), 1);
+  EXPECT_EQ(db->integer("SELECT count(*) FROM document").value(), 3);  // rig, options, ""
+}
+
+TEST_F(StoreTest, ACorrectionSupersedesAndMustNameAnExistingRun) {
+  auto store = writer();
+  mdof::Run run = make_run(1);
+  ASSERT_TRUE(store->add_run(run));
+  run.header.supersedes = 1;
+  EXPECT_EQ(store->run_header(store->add_run(run).value())->supersedes, 1);
+  run.header.supersedes = 77;
+  const auto refused = store->add_run(run);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::not_found);
+  EXPECT_EQ(store->count_runs().value(), 2);  // nothing half-stored
+}
+
+TEST_F(StoreTest, WhatIsNotThereIsNotFoundByName) {
+  auto store = writer();
+  for (const Error& error :
+       {store->run(5).error(), store->points(5, 0, 1).error(), store->result_sha256(5).error(),
+        store->table(5).error(), store->activate(5, "me", "now").error()}) {
+    EXPECT_EQ(error.code, ErrorCode::not_found);
+    EXPECT_TRUE(contains(error.message, "mdof.db") && contains(error.message, "5"));
+  }
+  EXPECT_EQ(store->active(Axis::x).error().code, ErrorCode::not_found);
+}
+
+TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
+  {
+    auto store = writer();
+    ASSERT_TRUE(store->add_run(make_run()));
+    ASSERT_TRUE(store->add_squareness({0, 1, 1, 0, 0, 0, 0, 0, 0, 0, false, "utc"}));
+    ASSERT_TRUE(store->activate(store->add_table(make_table({1})).value(), "me", "now"));
+  }
+  auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
+  int tables = 0;
+  auto names = db->prepare(
+      "SELECT m.name, c.name FROM sqlite_schema AS m JOIN pragma_table_info(m.name) AS c "
+      "WHERE m.type = 'table' AND c.cid = 0");
+  while (names->step().value()) {
+    ++tables;
+    const std::string name(names->text(0)), column(names->text(1));
+    for (const std::string& sql :
+         {"DELETE FROM " + name, "UPDATE " + name + " SET " + column + " = " + column}) {
+      const Status done = db->execute(sql);
+      ASSERT_FALSE(done) << sql;
+      EXPECT_TRUE(contains(done.error().message, "append only")) << done.error().message;
+    }
+  }
+  EXPECT_EQ(tables, 11);
+}
+
+TEST_F(StoreTest, KeepsSquareness) {
+  auto store = writer();
+  ASSERT_TRUE(store->add_run(make_run(1)));
+  ASSERT_TRUE(store->add_run(make_run(1, Axis::y)));
+  const Squareness s{0, 1, 2, 1e-5, 2e-7, 3e-6, 4e-8, -5e-6, 6e-8, 7e-7, true, "utc"};
+  EXPECT_EQ(store->add_squareness(s).value(), 1);
+  const auto list = store->list_squareness(0, 10).value();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].run_y, 2);
+  EXPECT_EQ(list[0].EC0Y_rad, 1e-5);
+  EXPECT_EQ(list[0].u_slope_EXY_rad, 6e-8);
+  EXPECT_EQ(list[0].artefact_angle_error_rad, 7e-7);
+  EXPECT_TRUE(list[0].simulated);
+  EXPECT_EQ(store->add_squareness({0, 1, 9, 0, 0, 0, 0, 0, 0, 0, false, "utc"}).error().code,
+            ErrorCode::not_found);
+}
+
+TEST_F(StoreTest, GivesACompensationTableBackToTheLastBit) {
+  auto store = writer();
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(store->add_run(make_run(1)));
+  CompensationTable table = make_table({2, 1});
+  table.reverse[4][1] = kNaN;
+  const CompensationTable back = store->table(store->add_table(table).value()).value();
+  EXPECT_EQ(back.id, 1);
+  EXPECT_EQ(back.runs, table.runs);
+  EXPECT_EQ(bits(back.position_m), bits(table.position_m));
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(bits(back.forward[k]), bits(table.forward[k]));
+    EXPECT_EQ(bits(back.reverse[k]), bits(table.reverse[k]));
+    EXPECT_EQ(bits(back.u_forward[k]), bits(table.u_forward[k]));
+    EXPECT_EQ(bits(back.u_reverse[k]), bits(table.u_reverse[k]));
+  }
+  table.forward[2].pop_back();
+  EXPECT_EQ(store->add_table(table).error().code, ErrorCode::usage);
+}
+
+TEST_F(StoreTest, GenerationsRiseOverAllAxes) {
+  auto store = writer();
+  ASSERT_TRUE(store->add_run(make_run(1)));
+  for (const Axis axis : {Axis::x, Axis::x, Axis::y})
+    ASSERT_TRUE(store->add_table(make_table({1}, axis)));
+  EXPECT_EQ(store->generation().value(), 0);
+  EXPECT_EQ(store->activate(2, "anna", "t1").value(), 1);
+  EXPECT_EQ(store->activate(3, "anna", "t2").value(), 2);
+  EXPECT_EQ(store->activate(1, "ben", "t3").value(), 3);
+  const ActiveTable x = store->active(Axis::x).value();
+  EXPECT_EQ(x.table.id, 1);
+  EXPECT_EQ(x.generation, 3);
+  EXPECT_EQ(x.actor, "ben");
+  EXPECT_EQ(x.activated_utc, "t3");
+  EXPECT_EQ(store->active(Axis::y)->generation, 2);
+  EXPECT_EQ(store->generation().value(), 3);
+  EXPECT_EQ(store->list_tables(0, 9).value().size(), 3u);
+  EXPECT_EQ(store->list_tables(0, 9, Axis::y).value().at(0).id, 3);
+}
+
+TEST_F(StoreTest, ViewsNameErrorsByAxisWithTheirSigns) {
+  auto store = writer();
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    const mdof::Run run = make_run(1, axis);
+    const std::int64_t id = store->add_run(run).value();
+    auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_only);
+    for (const ErrorName& error : error_names(axis)) {
+      const char view = static_cast<char>(std::tolower(letter(axis)));
+      auto row = db->prepare("SELECT " + std::string(error.key) + " FROM v_points_" + view +
+                             " WHERE run = " + std::to_string(id));
+      ASSERT_TRUE(row) << error.key;
+      ASSERT_TRUE(row->step().value());
+      EXPECT_EQ(row->real(0), error.sign * to_key_unit(run.points[0].errors.local[error.local]));
+    }
+  }
+}
+
+TEST_F(StoreTest, VerifyFindsChangedResultsAndTexts) {
+  {
+    auto store = writer();
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(store->add_run(make_run()));
+    EXPECT_TRUE(store->verify()->empty());
+  }
+  tamper(
+      "DROP TRIGGER point_no_update; UPDATE point SET ey_rad = ey_rad * 1.0000001 WHERE run = 2 "
+      "AND row = 3; DROP TRIGGER document_no_update; UPDATE document SET text = 'x' WHERE id = 1;"
+      "PRAGMA foreign_keys = OFF; DROP TRIGGER recording_no_delete; DELETE FROM recording");
+  const auto findings = reader()->verify();
+  ASSERT_TRUE(findings) << findings.error().message;
+  std::string all;
+  for (const std::string& finding : *findings) all += finding + "\n";
+  EXPECT_TRUE(contains(all, "run 2:")) << all;
+  EXPECT_FALSE(contains(all, "run 1:")) << all;
+  EXPECT_TRUE(contains(all, "document 1 ")) << all;
+  EXPECT_TRUE(contains(all, "refers to a row of recording")) << all;
+}
+
+}  // namespace
+}  // namespace mdof::store

@@ -1,0 +1,126 @@
+// The parts of the simulator, each alone: arithmetic, motion, raw readings.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "drivers/calibration.h"
+#include "drivers/simulator/arithmetic.h"
+#include "drivers/simulator/motion.h"
+#include "drivers/simulator/raw.h"
+#include "schema/units.h"
+
+namespace mdof::drivers {
+namespace {
+
+SimulatorOptions short_travel() {
+  SimulatorOptions options;
+  options.targets_mm = {0, 10, 20};
+  options.dwell_s = 0.1;
+  return options;
+}
+
+TEST(SimulatorArithmetic, PhiloxGivesThePublishedAnswers) {
+  EXPECT_EQ(philox({0, 0, 0, 0}, 0), (Philox{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+  EXPECT_EQ(philox({~0u, ~0u, ~0u, ~0u}, ~0ull),
+            (Philox{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+  EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, 0x299f31d0a4093822),
+            (Philox{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+}
+
+TEST(SimulatorArithmetic, SineIsWithinARoundingOfTheLibrary) {
+  for (int i = -100'000; i <= 100'000; ++i) {
+    const double turns = i * 3.7e-5;
+    EXPECT_NEAR(sine_of_turns(turns), std::sin(2 * M_PI * turns), 3e-15) << turns;
+  }
+  EXPECT_EQ(sine_of_turns(0), 0);
+  EXPECT_NEAR(sine_of_turns(0.25), 1, 2e-16);
+  EXPECT_NEAR(sine_of_turns(-0.25), -1, 2e-16);
+}
+
+TEST(SimulatorArithmetic, GaussianInvertsTheDistributionOutToEightSigma) {
+  for (int i = -800; i <= 500; ++i) {
+    const double x = i * 0.01;
+    const double p = std::erfc(-x / std::sqrt(2.0)) / 2;
+    EXPECT_NEAR(gaussian(p), x, 1e-9) << x;
+  }
+  EXPECT_NEAR(gaussian(0.975), 1.959963984540054, 1e-14);
+  EXPECT_GT(uniform(0, 0), 0);
+  EXPECT_LT(uniform(~0u, ~0u), 1);
+}
+
+TEST(SimulatorMotion, RestsAtEveryTargetBothWaysAndNowhereElse) {
+  SimulatorOptions options = short_travel();
+  options.targets_mm = {-5, 1, 20};
+  const Motion motion(options);
+  std::vector<double> rests_mm;
+  AxisState last;
+  for (std::int64_t t_ns = 0; t_ns < motion.cycle_ns(); t_ns += 1'000'000) {
+    const AxisState state = motion.at(t_ns);
+    if (state.resting && (!last.resting || state.direction != last.direction))
+      rests_mm.push_back(state.direction * to_mm(state.travel_m));
+    last = state;
+  }
+  ASSERT_EQ(rests_mm.size(), 6u);
+  const std::vector<double> expected = {-5, 1, 20, -20, -1, 5};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(rests_mm[i], expected[i], 1e-9);
+}
+
+TEST(SimulatorMotion, KeepsItsSpeedAndAccelerationAndRunsPastBothEnds) {
+  const SimulatorOptions options = short_travel();
+  const Motion motion(options);
+  const double dt_s = 1e-3;
+  double low_mm = 0, high_mm = 0, speed_mm_s = 0, acceleration_mm_s2 = 0;
+  for (std::int64_t i = 0; i * 1'000'000 < 2 * motion.cycle_ns(); ++i) {
+    const auto x_mm = [&](std::int64_t k) {
+      return to_mm(motion.at((i + k) * 1'000'000).travel_m);
+    };
+    low_mm = std::min(low_mm, x_mm(0));
+    high_mm = std::max(high_mm, x_mm(0));
+    speed_mm_s = std::max(speed_mm_s, std::abs(x_mm(1) - x_mm(0)) / dt_s);
+    acceleration_mm_s2 =
+        std::max(acceleration_mm_s2, std::abs(x_mm(2) - 2 * x_mm(1) + x_mm(0)) / (dt_s * dt_s));
+  }
+  EXPECT_NEAR(low_mm, -2, 1e-3);
+  EXPECT_NEAR(high_mm, 22, 1e-3);
+  EXPECT_NEAR(speed_mm_s, 20, 0.1);
+  EXPECT_NEAR(acceleration_mm_s2, 200, 3);
+}
+
+TEST(SimulatorMotion, AnAxisThatCannotMoveStands) {
+  SimulatorOptions options = short_travel();
+  options.targets_mm = {7};
+  options.overrun_mm = 0;
+  options.dwell_s = 0;
+  EXPECT_EQ(Motion(options).at(123'456'789).travel_m, from_mm(7));
+}
+
+TEST(SimulatorRaw, TheRigsCalibrationTakesTheRawReadingBackToTheDisplacement) {
+  Probe probe;
+  probe.range_m = 200e-6;
+  probe.calibration.reads_gap = true;
+  probe.calibration.offset_um = 100;
+  probe.calibration.linearity = {{-50, 0.4}, {0, 0}, {60, -0.3}};
+  for (int i = -128; i <= 128; ++i) {
+    const double displacement_um = i * 0.7;
+    const RawReading raw = raw_reading(probe, from_um(displacement_um));
+    EXPECT_NEAR(to_um(displacement_m(probe.calibration, raw.um)), displacement_um, 1e-10);
+    EXPECT_FALSE(raw.over_range);
+  }
+}
+
+TEST(SimulatorRaw, HoldsAtTheEndOfTheRange) {
+  Probe probe;
+  probe.range_m = 200e-6;
+  EXPECT_EQ(raw_reading(probe, 150e-6).um, 100);
+  EXPECT_TRUE(raw_reading(probe, 150e-6).over_range);
+  EXPECT_EQ(raw_reading(probe, -150e-6).um, -100);
+  probe.calibration.reads_gap = true;
+  EXPECT_EQ(raw_reading(probe, 150e-6).um, 0);
+  EXPECT_EQ(raw_reading(probe, -250e-6).um, 200);
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -1,0 +1,241 @@
+#include "schema/csv_row_parser.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace mdof {
+namespace {
+
+struct Parsed {
+  std::vector<SampleBlock> blocks;
+  std::vector<std::string> bad_lines;
+  std::string error;  // empty: none
+
+  std::vector<std::int64_t> times() const {
+    std::vector<std::int64_t> all;
+    for (const SampleBlock& b : blocks) all.insert(all.end(), b.time_ns.begin(), b.time_ns.end());
+    return all;
+  }
+  std::vector<double> column(std::size_t channel) const {
+    std::vector<double> all;
+    for (const SampleBlock& b : blocks)
+      all.insert(all.end(), b.value[channel].begin(), b.value[channel].end());
+    return all;
+  }
+};
+
+// Gives `text` to the parser in pieces of at most `piece` bytes, each in memory of its own.
+Parsed parse(std::string text, CsvLimits limits = {}, CsvKind kind = CsvKind::probe_log,
+             std::size_t piece = 1'000'000) {
+  Parsed result;
+  auto header = parse_csv_header(text, kind, "x.csv");
+  if (!header) return {{}, {}, header.error().message};
+  text.erase(0, header->bytes);
+  if (!text.empty() && text.back() != '\n') text += '\n';
+  CsvRowParser parser(*header, limits);
+  auto take = [&](Result<bool> (CsvRowParser::*next)(SampleBlock&)) {
+    SampleBlock block;
+    const Result<bool> more = (parser.*next)(block);
+    if (!more) result.error = more.error().message;
+    if (more && *more) result.blocks.push_back(block);
+    return more && *more;
+  };
+  while (!text.empty() && result.error.empty()) {
+    std::size_t size = text.rfind('\n', std::max<std::size_t>(piece, 1) - 1);
+    size = (size == text.npos ? text.find('\n') : size) + 1;
+    const std::string margin(kCsvMargin, '5');
+    const std::string padded = margin + text.substr(0, size) + margin;
+    text.erase(0, size);
+    parser.give(std::string_view(padded).substr(kCsvMargin, size));
+    while (take(&CsvRowParser::next)) {
+    }
+  }
+  if (result.error.empty()) take(&CsvRowParser::last);
+  result.bad_lines = parser.bad_lines();
+  return result;
+}
+
+const std::string kHeader = "time_s,encoder_mm,A_um\n";
+
+void expect_contains(const std::string& text, std::vector<std::string> words) {
+  for (const std::string& word : words)
+    EXPECT_NE(text.find(word), text.npos) << text << "\nlacks: " << word;
+}
+
+TEST(CsvRowParser, ReadsRowsIntoColumns) {
+  const Parsed p = parse(kHeader + "0.000000,-1.5,0.25\n0.002500,-1.25,1e-3\n0.005,3,.5");
+  ASSERT_EQ(p.error, "");
+  ASSERT_EQ(p.blocks.size(), 1u);
+  EXPECT_EQ(p.times(), (std::vector<std::int64_t>{0, 2'500'000, 5'000'000}));
+  EXPECT_EQ(p.column(0), (std::vector<double>{-1.5, -1.25, 3}));
+  EXPECT_EQ(p.column(1), (std::vector<double>{0.25, 1e-3, 0.5}));
+  EXPECT_EQ(p.blocks[0].channels[1], (Channel{"A", Unit::um}));
+  EXPECT_EQ(p.blocks[0].lost, 0u);
+}
+
+TEST(CsvRowParser, ReadsCarriageReturnsAlsoMixed) {
+  const Parsed p =
+      parse("time_s,encoder_mm,A_um\r\n0,1.0,2.0\r\n1,1.0,2.0\r\n2,1.0,2.0\n3,1.0,2.5\r\n");
+  ASSERT_EQ(p.error, "");
+  EXPECT_EQ(p.times().size(), 4u);
+  EXPECT_EQ(p.column(1), (std::vector<double>{2, 2, 2, 2.5}));
+  EXPECT_TRUE(p.bad_lines.empty());
+}
+
+TEST(CsvRowParser, ReadsColumnsInAnyOrder) {
+  const Parsed p = parse("A_um,temperature_C,time_s,encoder_mm\n1.5,20.1,0.25,7.75\n");
+  ASSERT_EQ(p.error, "");
+  EXPECT_EQ(p.times(), std::vector<std::int64_t>{250'000'000});
+  EXPECT_EQ(p.column(1), std::vector<double>{20.1});
+  EXPECT_EQ(p.column(2), std::vector<double>{7.75});
+}
+
+TEST(CsvRowParser, RoundsTimesToTheNearestNanosecond) {
+  const Parsed p = parse(kHeader +
+                         "-1.5,0,0\n-0.0000000014,0,0\n0.0000000005,0,0\n1.0000000004,0,0\n"
+                         "2e0,0,0\n3.25e0,0,0\n12345678.123456789,0,0\n1700000000.123456789,0,0\n"
+                         "1700000000.1234567895,0,0\n");
+  ASSERT_EQ(p.error, "");
+  EXPECT_EQ(p.times(), (std::vector<std::int64_t>{-1'500'000'000, -1, 1, 1'000'000'000,
+                                                  2'000'000'000, 3'250'000'000, 12345678123456789,
+                                                  1700000000123456789, 1700000000123456790}));
+}
+
+TEST(CsvRowParser, ToleratesSpacesAndPlusSigns) {
+  const Parsed p = parse(kHeader + "0, 1.5 ,+2.5\n 1,\t1.5,-2.5 \n");
+  ASSERT_EQ(p.error, "");
+  EXPECT_EQ(p.column(1), (std::vector<double>{2.5, -2.5}));
+}
+
+TEST(CsvRowParser, ReportsAndSkipsBadLines) {
+  const Parsed p = parse(kHeader +
+                         "0,1.0,2.0\n1,abc,2.0\n2,1.0\n3,1.0,2.0,3.0\n4,1.0,nan\n5,inf,2.0\n"
+                         "6,1.0,1e999\n7,,2.0\n8,1.0,1/5\n9,1.0,2.0\n\n10,1.0,2.0\n");
+  ASSERT_EQ(p.error, "");
+  EXPECT_EQ(p.times(), (std::vector<std::int64_t>{0, 9'000'000'000, 10'000'000'000}));
+  ASSERT_EQ(p.bad_lines.size(), 9u);
+  expect_contains(p.bad_lines[0], {"x.csv:3: ", "encoder_mm", "\"abc\" is not a number"});
+  expect_contains(p.bad_lines[1], {"x.csv:4: ", "2 fields", "3 columns"});
+  expect_contains(p.bad_lines[2], {"x.csv:5: ", "4 fields"});
+  expect_contains(p.bad_lines[3], {"x.csv:6: ", "A_um", "not a finite"});
+  expect_contains(p.bad_lines[4], {"x.csv:7: ", "encoder_mm", "not a finite"});
+  expect_contains(p.bad_lines[5], {"x.csv:8: ", "A_um", "not a finite"});
+  expect_contains(p.bad_lines[6], {"x.csv:9: ", "encoder_mm", "is empty"});
+  expect_contains(p.bad_lines[7], {"x.csv:10: ", "A_um", "\"1/5\""});
+  expect_contains(p.bad_lines[8], {"x.csv:12: ", "empty line"});
+}
+
+TEST(CsvRowParser, CountsSkippedLinesAsLostBeforeTheNextBlock) {
+  const Parsed p = parse(kHeader + "x\n0,1,2\n1,1,2\nx\nx\n2,1,2\nx\n");
+  ASSERT_EQ(p.blocks.size(), 2u);
+  EXPECT_EQ(p.blocks[0].lost, 1u);
+  EXPECT_EQ(p.blocks[0].scans(), 2u);
+  EXPECT_EQ(p.blocks[1].lost, 2u);
+  EXPECT_EQ(p.blocks[1].scans(), 1u);
+}
+
+TEST(CsvRowParser, DoesNotMindBlankLinesAtTheEnd) {
+  const Parsed p = parse(kHeader + "0,1,2\n\n\r\n  \n\n", {.bad_lines = 0});
+  EXPECT_EQ(p.error, "");
+  EXPECT_TRUE(p.bad_lines.empty());
+  EXPECT_EQ(p.times().size(), 1u);
+}
+
+TEST(CsvRowParser, GivesUpAfterTheStatedNumberOfBadLines) {
+  std::string text = kHeader + "0,1,2\n";
+  for (int i = 0; i < 5; ++i) text += "bad\n";
+  EXPECT_EQ(parse(text, {.bad_lines = 5}).error, "");
+  expect_contains(parse(text, {.bad_lines = 4}).error,
+                  {"more than 4 bad lines", "x.csv:3: ", "x.csv:5: "});
+  expect_contains(parse(text, {.bad_lines = 0}).error, {"x.csv:3: ", "repair"});
+}
+
+TEST(CsvRowParser, RefusesTimeThatDoesNotGrow) {
+  expect_contains(parse(kHeader + "0,1,2\n1,1,2\n0.5,1,2\n").error,
+                  {"x.csv:4: ", "time_s", "backwards"});
+  expect_contains(parse(kHeader + "0,1,2\n1,1,2\n1.0,1,2\n").error,
+                  {"x.csv:4: ", "time_s", "stands still"});
+}
+
+TEST(CsvRowParser, RecognisesADecimalComma) {
+  expect_contains(parse(kHeader + "0,000,1,500,2,250\n").error, {"x.csv:2: ", "decimal comma"});
+  expect_contains(parse(kHeader + "0,000;1,500;2,250\n").error, {"x.csv:2: "});
+  expect_contains(parse(kHeader + "0.000;1.500;2.250\n").error, {"x.csv:2: ", "semicolon"});
+  // two lines run together are a bad line only
+  EXPECT_EQ(parse(kHeader + "0.1,1.0,2.00.2,1.0,2.0\n0.3,1.0,2.0\n").bad_lines.size(), 1u);
+}
+
+TEST(CsvRowParser, RefusesAFileWithoutAGoodRow) {
+  expect_contains(parse(kHeader).error, {"x.csv", "no rows"});
+  expect_contains(parse(kHeader + "\n\n").error, {"x.csv", "no rows"});
+  expect_contains(parse(kHeader + "a,b,c\n").error, {"no good row", "x.csv:2: ", "\"a\""});
+}
+
+TEST(CsvRowParser, NumbersTheRowsOfAFramesFile) {
+  const Parsed p = parse("encoder_mm,A_um\n5,1\n4,2\n4,3\n", {.bad_lines = 0, .scans_per_block = 2},
+                         CsvKind::frames);
+  ASSERT_EQ(p.error, "");
+  ASSERT_EQ(p.blocks.size(), 2u);
+  EXPECT_EQ(p.times(), (std::vector<std::int64_t>{0, 1, 2}));
+  EXPECT_EQ(p.column(0), (std::vector<double>{5, 4, 4}));
+}
+
+// A log with every kind of field and line end, and now and then a bad line.
+std::string wild_log(int rows) {
+  std::mt19937_64 random(7);
+  std::string text = "# c\nA_um,time_s,encoder_mm,B_um\n";
+  char line[200];
+  for (int i = 0; i < rows; ++i) {
+    const double x = static_cast<double>(random() % 2'000'000) * 1e-4 - 100;
+    const char* const formats[] = {"%.6f,%d.%03d,%.4f,%.17g", "%.17g,%d.%03d,%.0f,%.17g",
+                                   "%.3e,%d.%03d,%g,%.12f", " %f,%d.%03d,%f,+%f", "%f;%d,%d,%f %f"};
+    const std::uint64_t kind = random() % 1000;
+    std::snprintf(line, sizeof line, formats[kind < 4 ? kind : kind % 2], x, i / 1000, i % 1000,
+                  x / 3, std::abs(x) / 7);
+    text += kind == 10 ? "bad" : line;
+    text += random() % 100 ? "\n" : "\r\n";
+  }
+  return text;
+}
+
+TEST(CsvRowParser, GivesTheSameBlocksHoweverTheTextIsCut) {
+  const std::string text = wild_log(3000);
+  const CsvLimits limits{.bad_lines = 1000, .scans_per_block = 100};
+  const Parsed whole = parse(text, limits);
+  ASSERT_EQ(whole.error, "");
+  EXPECT_GT(whole.blocks.size(), 30u);
+  EXPECT_GT(whole.bad_lines.size(), 0u);
+  EXPECT_EQ(whole.times().size() + whole.bad_lines.size(), 3000u);
+  for (const std::size_t piece : {1u, 70u, 1000u, 4096u, 50'000u}) {
+    const Parsed cut = parse(text, limits, CsvKind::probe_log, piece);
+    ASSERT_EQ(cut.blocks.size(), whole.blocks.size()) << piece;
+    EXPECT_EQ(cut.bad_lines, whole.bad_lines);
+    for (std::size_t b = 0; b < cut.blocks.size(); ++b) {
+      EXPECT_EQ(cut.blocks[b].time_ns, whole.blocks[b].time_ns);
+      EXPECT_EQ(cut.blocks[b].value, whole.blocks[b].value);
+      EXPECT_EQ(cut.blocks[b].lost, whole.blocks[b].lost);
+    }
+  }
+}
+
+TEST(CsvRowParser, SurvivesAnyBytes) {
+  std::mt19937_64 random(11);
+  const std::string good = wild_log(60);
+  for (int round = 0; round < 3000; ++round) {
+    std::string text = good;
+    for (std::uint64_t n = random() % 20; n > 0; --n)
+      text[35 + random() % (text.size() - 35)] = static_cast<char>(random());
+    const Parsed p = parse(text, {.bad_lines = 1000, .scans_per_block = 16}, CsvKind::probe_log,
+                           1 + random() % 500);
+    for (const SampleBlock& block : p.blocks)
+      for (const auto& column : block.value) EXPECT_EQ(column.size(), block.scans());
+  }
+}
+
+}  // namespace
+}  // namespace mdof

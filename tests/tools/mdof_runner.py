@@ -1,0 +1,37 @@
+"""Runs the mdof under test. The tests get it and the test data from ctest's environment."""
+import gzip
+import json
+import os
+import pathlib
+import subprocess
+
+MDOF = os.environ["MDOF"]
+MAKE_RECORDING = os.environ.get("MDOF_MAKE_RECORDING", "")
+DATA = pathlib.Path(os.environ["MDOF_TEST_DATA"])
+
+
+def run(*arguments, stdin=None, env=None):
+    """(exit code, standard output, standard error)."""
+    done = subprocess.run([MDOF, *map(str, arguments)], input=stdin, capture_output=True,
+                          timeout=120, env={**os.environ, **(env or {})})
+    return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+
+def run_json(*arguments):
+    """The one JSON document of a successful command."""
+    code, out, err = run(*arguments, "--json")
+    assert code == 0, f"mdof {arguments}: exit {code}: {err}"
+    return json.loads(out)
+
+
+def read_text(path):
+    path = pathlib.Path(path)
+    with (gzip.open(path, "rt") if path.suffix == ".gz" else open(path)) as file:
+        return file.read()
+
+
+def read_csv(text):
+    """Columns of numbers by name."""
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    rows = [[float(field) for field in line.split(",")] for line in lines[1:]]
+    return {name: [row[i] for row in rows] for i, name in enumerate(lines[0].split(","))}

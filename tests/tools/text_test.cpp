@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/sample.h"
+#include "tools/mdof/json_text.h"
+#include "tools/mdof/live_view.h"
+#include "tools/mdof/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr const char* kUpdate =
+    R"({"jsonrpc":"2.0","method":"live.update","params":{"missed":0,"value":{"axis":"X",)"
+    R"("time_ns":1,"encoder_mm":12.5,"still":true,"simulated":true,"probes":[)"
+    R"({"id":"A","um":50,"quality":"simulated","range_um":200},)"
+    R"({"id":"B","um":null,"quality":"missing","range_um":200}],)"
+    R"("errors":{"EYX_um":0.25,"EAX_urad":-3.5},"run":7}}})";
+
+TEST(TextTable, SetsNumbersToTheRightAndWordsToTheLeft) {
+  TextTable table({"error", "value/µm"});
+  table.add({"EYX", "-12.5000"});
+  table.add({"E", "3.0000"});
+  EXPECT_EQ(table.text(),
+            "error  value/µm\n"
+            "-----  --------\n"
+            "EYX    -12.5000\n"
+            "E        3.0000\n");
+}
+
+TEST(TextTable, CountsCharactersNotBytes) {
+  TextTable table({"a", "b"});
+  table.add({"±±", "x"});
+  table.add({"zz", "y"});
+  EXPECT_EQ(table.text(), "a   b\n--  -\n±±  x\nzz  y\n");
+}
+
+TEST(TextTable, WhatIsNotKnownIsADash) {
+  EXPECT_EQ(in_um(kNaN), "-");
+  EXPECT_EQ(with_u(in_um(kNaN), in_um(1e-9)), "-");
+  EXPECT_EQ(with_u(in_um(58.44e-9), in_um(2.1e-9)), "0.0584 ± 0.0021");
+  EXPECT_EQ(in_urad(-1.0005e-6), "-1.000");
+}
+
+TEST(RangeBar, ShowsWhereInItsRangeAProbeIs) {
+  EXPECT_EQ(range_bar(0, 200)[21], '#');
+  EXPECT_EQ(range_bar(-99.9, 200)[1], '#');
+  EXPECT_EQ(range_bar(99.9, 200)[41], '#');
+  EXPECT_EQ(range_bar(100, 200).back(), '>');
+  EXPECT_EQ(range_bar(-100, 200).front(), '<');
+  EXPECT_EQ(range_bar(1e300, 200).back(), '>');
+  EXPECT_EQ(range_bar(kNaN, 200).find_first_of("#<>."), std::string::npos);
+  EXPECT_EQ(range_bar(1, 0).find_first_of("#<>."), std::string::npos);
+}
+
+TEST(LiveUpdate, IsReadFromItsNotification) {
+  const auto update = read_update(kUpdate);
+  ASSERT_TRUE(update);
+  EXPECT_EQ(update->axis, "X");
+  EXPECT_EQ(update->encoder_mm, 12.5);
+  EXPECT_TRUE(update->still && update->simulated);
+  ASSERT_EQ(update->probes.size(), 2u);
+  EXPECT_EQ(update->probes[0].um, 50);
+  EXPECT_TRUE(std::isnan(update->probes[1].um));
+  ASSERT_EQ(update->errors.size(), 2u);
+  EXPECT_EQ(update->errors[1], (std::pair<std::string, double>("EAX_urad", -3.5)));
+  EXPECT_EQ(update->run, 7);
+}
+
+TEST(LiveUpdate, AnythingElseIsNone) {
+  for (const char* line :
+       {"", "{", "[]", "42", "null", "{\"method\":\"run.event\",\"params\":{\"value\":{}}}",
+        "{\"method\":\"live.update\"}", "{\"method\":\"live.update\",\"params\":[1]}"})
+    EXPECT_FALSE(read_update(line)) << line;
+  EXPECT_TRUE(read_update(R"({"method":"live.update","params":{"value":{}}})"));
+}
+
+TEST(LiveScreen, IsOneLineAnUpdateWhereThereIsNoTerminal) {
+  LiveScreen screen(false);
+  const std::string line = screen.next(*read_update(kUpdate));
+  EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1);
+  EXPECT_EQ(line.find('\x1b'), std::string::npos);
+  EXPECT_NE(line.find("SIMULATED"), std::string::npos);
+  EXPECT_NE(line.find("A 50.000 µm"), std::string::npos);
+}
+
+TEST(LiveScreen, DrawsAgainInPlaceOnATerminal) {
+  LiveScreen screen(true);
+  const std::string first = screen.next(*read_update(kUpdate));
+  const std::string second = screen.next(*read_update(kUpdate));
+  EXPECT_EQ(first.find("\x1b["), first.find("\x1b[K"));
+  const auto lines = std::count(first.begin(), first.end(), '\n');
+  EXPECT_TRUE(second.starts_with("\x1b[" + std::to_string(lines) + "A"));
+}
+
+TEST(JsonText, ShowsMembersAndTables) {
+  EXPECT_EQ(readable(R"({"a":1,"b":{"c":"x"},"d":[{"e":1,"f":null},{"e":20}],"g":[]})"),
+            "a: 1\nb.c: x\ng: -\n\nd\n e  f\n--  -\n 1  -\n20\n");
+}
+
+TEST(JsonText, WhatIsNoJsonComesBackAsItIs) {
+  EXPECT_EQ(readable("{"), "{\n");
+}
+
+}  // namespace
+}  // namespace mdof::tools

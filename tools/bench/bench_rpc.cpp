@@ -1,0 +1,195 @@
+// Round trip of a method like compensation.at against a bare echo, and requests a second with
+// pipelining: both servers on one loop, one kind of socket, the same message sizes, blocks in turn.
+//   bench_rpc [round trips] [pipelined requests]
+// Exit 1 when a bar is missed: ratio at most 1.5, at least 50,000 requests a second.
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "daemon/rpc/event_loop_core.h"
+#include "daemon/rpc/server.h"
+#include "daemon/rpc/socket.h"
+#include "schema/json_writer.h"
+
+namespace {
+
+using namespace mdof;
+using namespace mdof::rpc;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kMaxRatio = 1.5;
+constexpr double kMinRequestsPerS = 50e3;
+constexpr int kBlock = 1000;  // round trips before it is the other server's turn
+
+const std::string kRequest =
+    R"({"jsonrpc":"2.0","method":"compensation.at","params":{"axis":"X","position_mm":12.3},"id":1})"
+    "\n";
+
+// Linear between 61 nodes: the work and the size of the reply of the real method.
+Result<std::string> compensation_at(const Params& params) {
+  static const std::vector<double> table = [] {
+    std::vector<double> nodes(61 * 5);
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = std::sin(0.1 * double(i));
+    return nodes;
+  }();
+  constexpr std::array keys = {"EYX_um", "EZX_um", "EAX_urad", "EBX_urad", "ECX_urad"};
+  const double x_mm = std::clamp(params.number("position_mm"), 0.0, 59.999);
+  const auto node = static_cast<std::size_t>(x_mm);
+  const double f = x_mm - double(node);
+  JsonWriter json;
+  json.begin_object().field("axis", params.string("axis")).field("position_mm", x_mm);
+  json.field("generation", 7).field("sense", "correction").field("outside", false);
+  json.field("simulated", true).key("forward").begin_object();
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    json.field(keys[k], (1 - f) * table[5 * node + k] + f * table[5 * node + 5 + k]);
+  return json.end_object().end_object().take();
+}
+
+// Gives a fixed reply to whatever it reads.
+struct Echo : std::enable_shared_from_this<Echo> {
+  Echo(EventLoop& loop, int fd, std::string text)
+      : socket(*loop.core()->context, fd), reply(std::move(text)) {}
+
+  void read() {
+    socket.async_read_some(asio::buffer(buffer), [self = shared_from_this()](auto error, auto) {
+      if (error) return;
+      (void)!::write(self->socket.native_handle(), self->reply.data(), self->reply.size());
+      self->read();
+    });
+  }
+
+  asio::posix::stream_descriptor socket;
+  std::string reply;
+  std::array<char, 65536> buffer;
+};
+
+struct Bench {
+  std::string path =
+      std::filesystem::temp_directory_path() / ("mdof-bench-rpc-" + std::to_string(::getpid()));
+  MethodTable table{"bench", "1"};
+  EventLoop loop;
+  Server server{loop, table};
+  Descriptor rpc, echo;
+  std::string reply;
+  std::thread thread;
+};
+
+[[noreturn]] void give_up(const std::string& what) {
+  std::fprintf(stderr, "bench_rpc: %s\n", what.c_str());
+  std::exit(4);
+}
+
+void send_all(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (n <= 0) give_up("the server closed the connection");
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+std::size_t receive(int fd, std::vector<char>& buffer) {
+  const ssize_t n = ::recv(fd, buffer.data(), buffer.size(), 0);
+  if (n <= 0) give_up("the server closed the connection");
+  return static_cast<std::size_t>(n);
+}
+
+double round_trip_us(int fd, std::size_t reply_bytes, std::vector<char>& buffer) {
+  const auto begin = Clock::now();
+  send_all(fd, kRequest);
+  for (std::size_t n = 0; n < reply_bytes;) n += receive(fd, buffer);
+  return std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
+}
+
+double median(std::vector<double>& x) {
+  std::nth_element(x.begin(), x.begin() + std::ptrdiff_t(x.size() / 2), x.end());
+  return x[x.size() / 2];
+}
+
+void start(Bench& bench) {
+  bench.table.add({.name = "compensation.at",
+                   .summary = "The five errors at a position.",
+                   .params = {{"axis", ParamType::string, "X, Y or Z", true},
+                              {"position_mm", ParamType::number, "mm", true}},
+                   .result = "errors",
+                   .handler = compensation_at});
+  if (const auto status = bench.server.listen_unix(bench.path); !status)
+    give_up(status.error().message);
+  bench.thread = std::thread([&bench] { bench.loop.run(); });
+  auto connected = connect_to_unix(bench.path);
+  if (!connected) give_up(system_error_text(connected.error()));
+  bench.rpc = std::move(*connected);
+  std::vector<char> buffer(65536);
+  send_all(bench.rpc.get(), kRequest);
+  do bench.reply.append(buffer.data(), receive(bench.rpc.get(), buffer));
+  while (!bench.reply.ends_with('\n'));
+  std::array<int, 2> pair{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair.data()) != 0)
+    give_up("no socket pair");
+  bench.echo = Descriptor(pair[0]);
+  auto echo = std::make_shared<Echo>(bench.loop, pair[1], bench.reply);
+  bench.loop.post([echo] { echo->read(); });
+}
+
+// The ratio of the medians.
+double compare_round_trips(const Bench& bench, int count) {
+  std::vector<char> buffer(65536);
+  std::vector<double> rpc_us, echo_us;
+  for (int i = 0; i < count; ++i) {
+    const bool rpc = i / kBlock % 2 != 0;
+    const int fd = rpc ? bench.rpc.get() : bench.echo.get();
+    const double us = round_trip_us(fd, bench.reply.size(), buffer);
+    if (i >= 2 * kBlock)
+      (rpc ? rpc_us : echo_us).push_back(us);  // after a block of each to warm up
+  }
+  const double rpc = median(rpc_us), echo = median(echo_us);
+  std::printf("round trip, median of %zu each, %zu bytes there, %zu back\n", rpc_us.size(),
+              kRequest.size(), bench.reply.size());
+  std::printf("  compensation.at  %7.2f us\n  bare echo        %7.2f us\n", rpc, echo);
+  std::printf("  ratio            %7.3f   (bar: %.1f)\n", rpc / echo, kMaxRatio);
+  return rpc / echo;
+}
+
+double pipelined_per_s(const Bench& bench, int count) {
+  constexpr int kChunk = 128, kAhead = 8;  // requests a send, sends ahead of the replies
+  std::string chunk;
+  for (int i = 0; i < kChunk; ++i) chunk += kRequest;
+  const std::size_t chunk_reply = kChunk * bench.reply.size();
+  std::vector<char> buffer(1 << 18);
+  const int chunks = std::max(1, count / kChunk);
+  int sent = 0;
+  const auto begin = Clock::now();
+  for (std::size_t got = 0; got < chunk_reply * std::size_t(chunks);) {
+    for (; sent < chunks && std::size_t(sent) < got / chunk_reply + kAhead; ++sent)
+      send_all(bench.rpc.get(), chunk);
+    got += receive(bench.rpc.get(), buffer);
+  }
+  const double s = std::chrono::duration<double>(Clock::now() - begin).count();
+  const double per_s = double(chunks) * kChunk / s;
+  std::printf("pipelined, one connection: %.0f requests a second   (bar: %.0f)\n", per_s,
+              kMinRequestsPerS);
+  return per_s;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int trips = std::max(4 * kBlock, argc > 1 ? std::atoi(argv[1]) : 100 * kBlock);
+  const int pipelined = argc > 2 ? std::atoi(argv[2]) : 500'000;
+  Bench bench;
+  start(bench);
+  const double ratio = compare_round_trips(bench, trips);
+  const double per_s = pipelined_per_s(bench, pipelined);
+  bench.loop.stop();
+  bench.thread.join();
+  return ratio <= kMaxRatio && per_s >= kMinRequestsPerS ? 0 : 1;
+}

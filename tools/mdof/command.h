@@ -1,0 +1,29 @@
+// The commands of mdof, one file each. add_X() declares the command and its options; when it is the
+// one that was called, `chosen` becomes what it does.
+#pragma once
+
+#include <functional>
+
+#include "schema/result.h"
+
+namespace CLI {
+class App;
+}
+
+namespace mdof::tools {
+
+using Action = std::function<Status()>;
+
+void add_solve(CLI::App& app, Action& chosen);
+void add_replay(CLI::App& app, Action& chosen);
+void add_runs(CLI::App& app, Action& chosen);
+void add_show(CLI::App& app, Action& chosen);
+void add_analyse(CLI::App& app, Action& chosen);
+void add_squareness(CLI::App& app, Action& chosen);
+void add_compensation(CLI::App& app, Action& chosen);
+void add_verify(CLI::App& app, Action& chosen);
+void add_status(CLI::App& app, Action& chosen);
+void add_live(CLI::App& app, Action& chosen);
+void add_selftest(CLI::App& app, Action& chosen);
+
+}  // namespace mdof::tools

@@ -1,0 +1,93 @@
+#include "tools/mdof/compensation_text.h"
+
+#include "schema/run_json.h"
+#include "tools/mdof/run_tables.h"
+#include "tools/mdof/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+using Columns = std::array<std::vector<double>, 5>;
+
+void write_state(JsonWriter& json, std::int64_t generation) {
+  json.field("in_force", generation > 0).key("generation");
+  generation > 0 ? json.value(generation) : json.null();
+}
+
+std::string side_text(const CompensationTable& t, const Columns& values, const Columns& u) {
+  std::vector<std::string> head{"position/mm"};
+  for (const auto& name : error_names(t.axis)) head.push_back(error_label(name.key));
+  TextTable out(std::move(head));
+  for (std::size_t i = 0; i < t.position_m.size(); ++i) {
+    std::vector<std::string> row{in_mm(t.position_m[i])};
+    for (std::size_t k = 0; k < 5; ++k) {
+      const auto show = error_names(t.axis)[k].angle ? in_urad : in_um;
+      row.push_back(with_u(show(values[k][i]), show(u[k][i])));
+    }
+    out.add(std::move(row));
+  }
+  return out.text();
+}
+
+std::string runs_of(const CompensationTable& t) {
+  std::vector<std::string> ids;
+  for (const auto id : t.runs) ids.push_back(std::to_string(id));
+  return joined(ids, " ");
+}
+
+std::string state_of(std::int64_t generation) {
+  return generation > 0 ? "in force, generation " + std::to_string(generation) : "not in force";
+}
+
+}  // namespace
+
+std::string table_document(const CompensationTable& t, std::int64_t generation) {
+  JsonWriter json;
+  json.begin_object();
+  write_table_members(json, t);
+  write_state(json, generation);
+  json.key("points").begin_array();
+  for (std::size_t i = 0; i < t.position_m.size(); ++i) write_table_row(json, t, i);
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string table_text(const CompensationTable& t, std::int64_t generation) {
+  return simulated_notice(t.simulated) + "table " + std::to_string(t.id) + ", axis " +
+         letter(t.axis) + ", " + state_of(generation) + ", of the runs " + runs_of(t) + ", " +
+         t.created_utc +
+         "\nerrors: actual - nominal; a controller adds correction = -error\nstraightness " +
+         (t.slope_removed ? "about its least-squares line" : "as measured") +
+         ", angles from the first target\n\nforward\n" + side_text(t, t.forward, t.u_forward) +
+         "\nreverse\n" + side_text(t, t.reverse, t.u_reverse);
+}
+
+std::string list_document(const std::vector<CompensationTable>& tables,
+                          const std::vector<std::int64_t>& generations) {
+  JsonWriter json;
+  json.begin_object().key("tables").begin_array();
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    json.begin_object();
+    write_table_members(json, tables[i]);
+    write_state(json, generations[i]);
+    json.end_object();
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string list_text(const std::vector<CompensationTable>& tables,
+                      const std::vector<std::int64_t>& generations) {
+  TextTable out(
+      {"table", "axis", "state", "data", "runs", "points", "from/mm", "to/mm", "created"});
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const auto& t = tables[i];
+    out.add({std::to_string(t.id), std::string(1, letter(t.axis)), state_of(generations[i]),
+             t.simulated ? "SIMULATED" : "measured", runs_of(t),
+             std::to_string(t.position_m.size()), in_mm(t.position_m.front()),
+             in_mm(t.position_m.back()), t.created_utc});
+  }
+  return out.text();
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,20 @@
+// Which database a command means, and who may write it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "daemon/store/store.h"
+#include "schema/result.h"
+
+namespace mdof::tools {
+
+// `option`: what --db gave; empty: the default of DESIGN §6.
+Result<std::filesystem::path> database_path(const std::string& option);
+Result<store::Store> open_to_read(const std::string& option);
+Result<store::Store> open_to_write(const std::string& option);
+
+// mdofd, or another mdof, is writing it now.
+Result<bool> somebody_writes(const std::string& option);
+
+}  // namespace mdof::tools

@@ -1,0 +1,102 @@
+#include "tools/mdof/error_rows.h"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "schema/number.h"
+#include "tools/mdof/output.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::size_t kMostOfAKey = 16;  // ,"EYX_um":
+constexpr std::size_t kMostOfARow = 5 * (kDouble17Size + kMostOfAKey) + 8;
+constexpr int kPipeBytes = 1 << 20;
+
+char* append(char* out, std::string_view text) {
+  std::memcpy(out, text.data(), text.size());
+  return out + text.size();
+}
+
+double in_key_unit(const ErrorName& name, const SolvedRows& rows, std::size_t row) {
+  return to_key_unit(name.sign * rows.local[name.local][row]);
+}
+
+}  // namespace
+
+ErrorRows::ErrorRows(RowForm form, Axis axis, Model model)
+    : form_(form), names_(error_names(axis)) {
+  for (std::size_t k = 0; k < 5; ++k) {
+    json_keys_[k] = std::string(k == 0 ? "{\"" : ",\"") + names_[k].key + "\":";
+    head_ += std::string(k == 0 ? "" : ",") + names_[k].key;
+  }
+  head_ += '\n';
+  if (form == RowForm::json) {
+    head_ = "{\"axis\":\"" + std::string(1, letter(axis)) + "\",\"model\":\"" + to_string(model) +
+            "\",\"rows\":[";
+  }
+  ::fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kPipeBytes);  // where it is a pipe: fewer changes of turn
+  thread_ = std::thread([this] { work(); });
+  ::pthread_setname_np(thread_.native_handle(), "write rows");
+}
+
+ErrorRows::~ErrorRows() {
+  blocks_.stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+Status ErrorRows::finish() {
+  blocks_.finish();
+  thread_.join();
+  return status_;
+}
+
+void ErrorRows::work() {
+  status_ = write_all();
+  blocks_.stop();
+}
+
+Status ErrorRows::write_all() {
+  MDOF_CHECK(write_out(head_));
+  while (const SolvedRows* const rows = blocks_.begin_read()) {
+    text_.resize(std::max(text_.size(), rows->size() * kMostOfARow));
+    char* const begin = text_.data();
+    char* const end = form_ == RowForm::csv ? append_csv(*rows, begin) : append_json(*rows, begin);
+    blocks_.end_read();
+    MDOF_CHECK(write_out({begin, static_cast<std::size_t>(end - begin)}));
+  }
+  return form_ == RowForm::json ? write_out("]}\n") : Status();
+}
+
+char* ErrorRows::append_csv(const SolvedRows& rows, char* out) const {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const ErrorName& name : names_) {
+      const double x = in_key_unit(name, rows, i);
+      if (std::isfinite(x)) out = write_double_17(out, x);
+      *out++ = ',';
+    }
+    out[-1] = '\n';
+  }
+  return out;
+}
+
+char* ErrorRows::append_json(const SolvedRows& rows, char* out) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!first_row_) *out++ = ',';
+    first_row_ = false;
+    for (std::size_t k = 0; k < 5; ++k) {
+      const double x = in_key_unit(names_[k], rows, i);
+      out = append(out, json_keys_[k]);
+      out = std::isfinite(x) ? write_double_17(out, x) : append(out, "null");
+    }
+    *out++ = '}';
+  }
+  return out;
+}
+
+}  // namespace mdof::tools

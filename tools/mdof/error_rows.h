@@ -1,0 +1,52 @@
+// Solved rows -> text on the standard output, on a thread of its own: writing 17 digits takes as
+// long as reading them, and has a core to itself.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <thread>
+
+#include "drivers/csv/hand_over.h"
+#include "schema/axis.h"
+#include "schema/point.h"
+#include "schema/result.h"
+#include "tools/mdof/frame_solver.h"
+
+namespace mdof::tools {
+
+enum class RowForm {
+  csv,   // a header of the error keys, then a line a row; empty fields where it is not solved
+  json,  // {"axis", "model", "rows": [{"EYX_um": ...}, ...]}; null where it is not solved
+};
+
+// Thread-bound, but for its own thread "write rows". Memory: a few blocks.
+class ErrorRows {
+ public:
+  ErrorRows(RowForm form, Axis axis, Model model);
+  ~ErrorRows();  // ends without the rest
+
+  // The next block to fill; nullptr: nothing can be written any more, finish() knows why.
+  SolvedRows* next() { return blocks_.begin_write(); }
+  void put() { blocks_.end_write(); }
+  // Writes what is left; error: the standard output refused.
+  Status finish();
+
+ private:
+  void work();
+  Status write_all();
+  void write_head();
+  char* append_csv(const SolvedRows& rows, char* out) const;
+  char* append_json(const SolvedRows& rows, char* out);
+
+  const RowForm form_;
+  const std::array<ErrorName, 5> names_;
+  std::array<std::string, 5> json_keys_;  // {"EYX_um":
+  std::string head_;
+  bool first_row_ = true;
+  std::vector<char> text_;
+  drivers::HandOver<SolvedRows, 4> blocks_;
+  Status status_;       // of the thread, once it has ended
+  std::thread thread_;  // last: starts when all else is there
+};
+
+}  // namespace mdof::tools

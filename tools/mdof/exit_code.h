@@ -1,0 +1,26 @@
+// What the caller's script sees (DESIGN §6).
+#pragma once
+
+#include "schema/result.h"
+
+namespace mdof::tools {
+
+enum ExitCode { kOk = 0, kFailedCheck = 1, kUsage = 2, kBadInput = 3, kDeviceOrIo = 4 };
+
+inline ExitCode exit_code_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::usage:
+      return kUsage;
+    case ErrorCode::bad_input:
+    case ErrorCode::not_found:
+    case ErrorCode::conflict:
+      return kBadInput;
+    case ErrorCode::check:
+      return kFailedCheck;
+    case ErrorCode::io:
+      break;
+  }
+  return kDeviceOrIo;
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,72 @@
+#include "tools/mdof/frame_solver.h"
+
+#include <algorithm>
+
+namespace mdof::tools {
+namespace {
+
+std::size_t index_of(const std::vector<Channel>& channels, const std::string& id) {
+  const auto found =
+      std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.id == id; });
+  assert(found != channels.end());
+  return static_cast<std::size_t>(found - channels.begin());
+}
+
+}  // namespace
+
+Result<FrameSolver> FrameSolver::create(const Rig& rig, Model model,
+                                        std::vector<Channel> channels) {
+  MDOF_TRY(algo::Solver solver, algo::Solver::create(rig, model));
+  return FrameSolver(rig, std::move(solver), std::move(channels));
+}
+
+FrameSolver::FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels)
+    : solver_(std::move(solver)), calibrator_(rig), channels_(std::move(channels)) {
+  encoder_ = index_of(channels_, kEncoderChannel);
+  for (const Probe& probe : rig.probes) probes_.push_back(index_of(channels_, probe.id));
+}
+
+Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
+  raw.channels = channels_;  // an earlier block's were turned into metres
+  raw.quality.clear();
+  MDOF_CHECK(calibrator_.apply(raw));
+  count_over_range(raw);
+  for (auto& column : out.local) column.resize(raw.scans());
+  solver_.small_angle() ? solve_columns(raw, out) : solve_singly(raw, out);
+  rows_ += raw.scans();
+  return {};
+}
+
+void FrameSolver::solve_columns(const SampleBlock& block, SolvedRows& out) const {
+  const algo::SmallAngleFixture& fixture = *solver_.small_angle();
+  algo::BatchIn in{block.value[encoder_].data(), {}};
+  algo::BatchOut to{};
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    in.reading_m[k] = block.value[probes_[fixture.probe[k]]].data();
+    to.local[k] = out.local[k].data();
+  }
+  algo::solve_batch(solver_.model(), fixture, in, to, block.scans());
+}
+
+void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
+  std::vector<double> readings_m(probes_.size());
+  for (std::size_t i = 0; i < block.scans(); ++i) {
+    for (std::size_t p = 0; p < probes_.size(); ++p) readings_m[p] = block.value[probes_[p]][i];
+    const AxisErrors errors = solver_.solve(block.value[encoder_][i], readings_m, {});
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      out.local[k][i] = errors.valid ? errors.local[k] : kNaN;
+    if (errors.valid) continue;
+    if (unsolved_++ == 0)
+      why_unsolved_ = "row " + std::to_string(rows_ + i + 1) + ": " + errors.reason;
+  }
+}
+
+void FrameSolver::count_over_range(const SampleBlock& block) {
+  if (block.quality.empty()) return;
+  for (std::size_t i = 0; i < block.scans(); ++i) {
+    over_range_ += std::any_of(probes_.begin(), probes_.end(),
+                               [&](std::size_t c) { return !usable(block.quality_at(c, i)); });
+  }
+}
+
+}  // namespace mdof::tools

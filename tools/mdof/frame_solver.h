@@ -1,0 +1,53 @@
+// Rows of a frames file -> five errors each, a block of columns at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "algo/solver.h"
+#include "drivers/calibration.h"
+#include "schema/result.h"
+#include "schema/rig.h"
+#include "schema/sample.h"
+
+namespace mdof::tools {
+
+// One value a row in each column; m and rad in the axis' local frame, all NaN where not solved.
+struct SolvedRows {
+  std::array<std::vector<double>, kErrorCount> local;
+  std::size_t size() const { return local[0].size(); }
+};
+
+// Thread-bound.
+class FrameSolver {
+ public:
+  // `channels` as the file's header has them. Errors: the rig cannot see the five errors, or does
+  // not fit the model or the channels.
+  static Result<FrameSolver> create(const Rig& rig, Model model, std::vector<Channel> channels);
+
+  // `raw` is used up, `out` replaced (its memory is reused). Rows keep their order.
+  Status solve(SampleBlock& raw, SolvedRows& out);
+
+  std::uint64_t rows() const { return rows_; }
+  std::uint64_t over_range() const { return over_range_; }  // rows with a probe at its range's end
+  std::uint64_t unsolved() const { return unsolved_; }
+  const std::string& why_unsolved() const { return why_unsolved_; }  // of the first such row
+
+ private:
+  FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels);
+  void solve_columns(const SampleBlock& block, SolvedRows& out) const;
+  void solve_singly(const SampleBlock& block, SolvedRows& out);
+  void count_over_range(const SampleBlock& block);
+
+  algo::Solver solver_;
+  drivers::Calibrator calibrator_;
+  std::vector<Channel> channels_;
+  std::size_t encoder_ = 0;
+  std::vector<std::size_t> probes_;  // [probe of the rig] -> channel
+  std::uint64_t rows_ = 0, over_range_ = 0, unsolved_ = 0;
+  std::string why_unsolved_;
+};
+
+}  // namespace mdof::tools

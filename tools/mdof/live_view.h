@@ -1,0 +1,46 @@
+// One instant of the bench as text.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mdof::tools {
+
+// The value of a "live.update" notification; NaN: not known.
+struct LiveUpdate {
+  struct Probe {
+    std::string id, quality;
+    double um = 0, range_um = 0;
+  };
+  std::string axis;
+  double encoder_mm = 0;
+  bool still = false, simulated = false;
+  std::vector<Probe> probes;
+  std::vector<std::pair<std::string, double>> errors;  // "EYX_um"; empty: not solved
+  std::optional<std::int64_t> run;                     // under way
+  std::string json;                                    // all of it
+};
+
+// nullopt: the line is something else.
+std::optional<LiveUpdate> read_update(std::string_view notification);
+
+// "|.....#....+.........|": the reading within -range/2 ... range/2, '+' the middle; '<' or '>'
+// beyond an end; blank where it is not known.
+std::string range_bar(double um, double range_um);
+
+// On a terminal a block of lines for each axis, drawn again in place; else a line per update.
+class LiveScreen {
+ public:
+  explicit LiveScreen(bool terminal) : terminal_(terminal) {}
+  std::string next(const LiveUpdate& update);
+
+ private:
+  bool terminal_;
+  std::map<std::string, std::string> blocks_;  // by axis
+  std::size_t lines_ = 0;                      // drawn last
+};
+
+}  // namespace mdof::tools

@@ -1,0 +1,77 @@
+// mdof: the command line of the bench (DESIGN §6).
+#include <csignal>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/version.h"
+#include "tools/mdof/command.h"
+#include "tools/mdof/exit_code.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/usage.h"
+
+namespace {
+
+using namespace mdof;
+using namespace mdof::tools;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  mdof selftest\n"
+    "  mdof replay log_X.csv.gz --rig rig_X.toml     a recorded log becomes a stored run\n"
+    "  mdof show 1                                   its points with uncertainty and flags\n"
+    "  mdof squareness 1 2                           of the runs 1 (X) and 2 (Y)\n"
+    "  mdof compensation build 1                     a table for the controller\n"
+    "  mdof live                                     the probes now, from mdofd\n"
+    "Exit codes: 0 ok, 1 a result fails its check, 2 usage, 3 bad input, 4 device or I/O.";
+
+void declare(CLI::App& app, Action& chosen) {
+  app.set_version_flag("--version", daemon::kVersion);
+  app.set_help_flag("-h,--help", "Print this help and end");
+  app.footer(kExamples);
+  add_solve(app, chosen);
+  add_replay(app, chosen);
+  add_runs(app, chosen);
+  add_show(app, chosen);
+  add_analyse(app, chosen);
+  add_squareness(app, chosen);
+  add_compensation(app, chosen);
+  add_verify(app, chosen);
+  add_status(app, chosen);
+  add_live(app, chosen);
+  add_selftest(app, chosen);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Straightness, angles and squareness of machine axes from five-probe logs.", "mdof"};
+  Action chosen;
+  declare(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    say("mdof: " + usage_message(app, error));
+    return kUsage;
+  }
+  if (!chosen) {
+    say("mdof: which command? See mdof --help");
+    return kUsage;
+  }
+  const Status done = chosen();
+  if (done) return kOk;
+  say("mdof: " + done.error().message);
+  return exit_code_of(done.error().code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // write_out() sees EPIPE
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {  // memory is used up, or a bug
+    say(std::string("mdof: ") + error.what());
+    return kDeviceOrIo;
+  }
+}

@@ -1,0 +1,37 @@
+#include "tools/mdof/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/paths.h"
+
+namespace mdof::tools {
+
+void add_json_flag(CLI::App& command, bool& json) {
+  command.add_flag("--json", json, "Print one JSON document");
+}
+
+void add_database_option(CLI::App& command, std::string& database) {
+  command
+      .add_option("--db", database,
+                  "Database of runs [default: $STATE_DIRECTORY/mdof.db, else "
+                  "$XDG_STATE_HOME/mdof/mdof.db]")
+      ->type_name("FILE");
+}
+
+void add_socket_option(CLI::App& command, std::string& socket) {
+  socket = daemon::default_socket();
+  command
+      .add_option("--socket", socket,
+                  "Socket of mdofd [default: $RUNTIME_DIRECTORY/mdof.sock, else "
+                  "$XDG_RUNTIME_DIR/mdof.sock]")
+      ->type_name("PATH");
+}
+
+void add_model_option(CLI::App& command, std::string& model) {
+  command.add_option("--model", model, "simplified, exact or rigid")
+      ->check(CLI::IsMember({"simplified", "exact", "rigid"}))
+      ->type_name("MODEL")
+      ->capture_default_str();
+}
+
+}  // namespace mdof::tools

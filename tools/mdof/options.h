@@ -1,0 +1,17 @@
+// Options that several commands have, said the same way by each.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace mdof::tools {
+
+void add_json_flag(CLI::App& command, bool& json);
+void add_database_option(CLI::App& command, std::string& database);
+void add_socket_option(CLI::App& command, std::string& socket);  // sets the default
+void add_model_option(CLI::App& command, std::string& model);    // one of the three names
+
+}  // namespace mdof::tools

@@ -1,0 +1,57 @@
+#include "tools/mdof/output.h"
+
+#include <simdjson.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "tools/mdof/exit_code.h"
+
+namespace mdof::tools {
+
+Status write_out(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(STDOUT_FILENO, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EPIPE) std::_Exit(kOk);
+    if (n < 0) {
+      return io_error(std::string("standard output: cannot be written: ") + std::strerror(errno) +
+                      "; make room, or name another file");
+    }
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return {};
+}
+
+Status write_line(std::string_view text) {
+  return write_out(std::string(text) + '\n');
+}
+
+// A message may quote a damaged file: nothing of that may reach a terminal as a command.
+void say(std::string_view message) {
+  const bool utf8 = simdjson::validate_utf8(message.data(), message.size());
+  std::string line(message);
+  for (char& c : line) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f || (byte >= 0x80 && !utf8)) c = '?';
+  }
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+void warn(std::string_view message) {
+  say("warning: " + std::string(message));
+}
+
+bool out_is_terminal() {
+  return ::isatty(STDOUT_FILENO) == 1;
+}
+
+bool messages_are_on_terminal() {
+  return ::isatty(STDERR_FILENO) == 1;
+}
+
+}  // namespace mdof::tools

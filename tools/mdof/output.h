@@ -1,0 +1,21 @@
+// The two ways out: results to the standard output, messages for people to the standard error.
+#pragma once
+
+#include <string_view>
+
+#include "schema/result.h"
+
+namespace mdof::tools {
+
+// Writes all of it, unbuffered. A reader who has gone (mdof ... | head) ends the program quietly
+// with success: nobody is left to tell.
+Status write_out(std::string_view text);
+Status write_line(std::string_view text);  // and a line end
+
+void say(std::string_view message);   // a line on the standard error
+void warn(std::string_view message);  // the same, marked as a warning
+
+bool out_is_terminal();
+bool messages_are_on_terminal();
+
+}  // namespace mdof::tools

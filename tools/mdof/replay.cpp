@@ -1,0 +1,102 @@
+// mdof replay LOG: a recorded log becomes a stored run.
+#include "daemon/replay.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "daemon/paths.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+#include "tools/mdof/command.h"
+#include "tools/mdof/database.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/progress.h"
+#include "tools/mdof/run_tables.h"
+
+namespace mdof::tools {
+namespace {
+
+struct ReplayCommand {
+  std::string log, rig, database, model = "rigid", note;
+  double tolerance_um = 0, settle_s = 0.1, min_length_s = 0.1;
+  std::vector<double> targets_mm;
+  bool json = false, keep_out = false;
+};
+
+daemon::PipelineOptions pipeline_options(const ReplayCommand& command) {
+  daemon::PipelineOptions options;
+  model_from(command.model, options.model);
+  options.dwell.tolerance_m = from_um(command.tolerance_um);
+  options.dwell.settle_s = command.settle_s;
+  options.dwell.min_length_s = command.min_length_s;
+  for (const double t : command.targets_mm) options.sequence.targets_m.push_back(from_mm(t));
+  std::sort(options.sequence.targets_m.begin(), options.sequence.targets_m.end());
+  return options;
+}
+
+Result<Rig> rig_of(const ReplayCommand& command, const daemon::ReplayLog& log) {
+  if (!command.rig.empty()) return load_rig(command.rig);
+  const std::string text = log.rig_text();
+  if (!text.empty()) return parse_rig(text, command.log + " (its rig)");
+  return fail(ErrorCode::usage,
+              command.log + ": is a CSV log, which has no rig in it; give one with --rig RIG.toml");
+}
+
+Result<Run> replay_log(const ReplayCommand& command) {
+  MDOF_TRY(daemon::ReplayLog log, daemon::ReplayLog::open(command.log));
+  MDOF_TRY(const Rig rig, rig_of(command, log));
+  std::error_code ec;
+  const auto size = std::filesystem::file_size(command.log, ec);
+  Progress progress("replay", ec ? 0 : size);
+  return daemon::replay(log, rig, pipeline_options(command),
+                        [&](double share) { progress.show(share); });
+}
+
+Status store_run(const ReplayCommand& command, Run& run) {
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(run.header.id, store.add_run(run));
+  return {};
+}
+
+Status replay(const ReplayCommand& command) {
+  MDOF_TRY(Run run, replay_log(command));
+  if (run.header.started_utc.empty()) run.header.started_utc = daemon::utc_now();
+  run.header.note = command.note;
+  if (!command.keep_out) MDOF_CHECK(store_run(command, run));
+  for (const auto& warning : run.header.warnings) warn(warning);
+  if (command.json) return write_line(run_json(run));
+  run.header.warnings.clear();  // said already
+  return write_out(head_text(run.header) + "\n" + points_text(run) + "\n" +
+                   straightness_text(run.straightness) + "\n" + angles_text(run.angles));
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& chosen) {
+  const auto o = std::make_shared<ReplayCommand>();
+  auto* command = app.add_subcommand("replay", "Turn a recorded log into a stored run");
+  command->add_option("LOG", o->log, "Probe log (CSV, CSV.gz, - for standard input) or .mdofrec")
+      ->required()
+      ->type_name("");
+  command->add_option("--rig", o->rig, "Fixture; a recording has its own")->type_name("RIG.toml");
+  add_database_option(*command, o->database);
+  add_model_option(*command, o->model);
+  command->add_option("--note", o->note, "Kept with the run")->type_name("TEXT");
+  command->add_flag("--no-store", o->keep_out, "Only show the result");
+  command->add_option("--targets-mm", o->targets_mm, "Nominal positions [default: recognised]")
+      ->delimiter(',');
+  command->add_option("--tolerance-um", o->tolerance_um, "Encoder at rest; 0: by itself")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--settle-s", o->settle_s, "Left out at the start of a stop")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--min-length-s", o->min_length_s, "Averaged of a stop at least")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_json_flag(*command, o->json);
+  command->footer("Example:\n  mdof replay log_X.csv.gz --rig rig_X.toml --json > run.json");
+  command->callback([o, &chosen] { chosen = [o] { return replay(*o); }; });
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,80 @@
+// mdof show RUN, mdof analyse RUN: a stored run, whole or its figures.
+#include <CLI/CLI.hpp>
+
+#include "schema/run_json.h"
+#include "tools/mdof/command.h"
+#include "tools/mdof/database.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/run_tables.h"
+
+namespace mdof::tools {
+namespace {
+
+struct ShowCommand {
+  std::string database;
+  std::int64_t run = 0;
+  bool json = false;
+};
+
+// run_json() with one member more.
+std::string with_result_hash(std::string json, const std::string& sha256) {
+  json.pop_back();
+  return json + ",\"result_sha256\":\"" + sha256 + "\"}";
+}
+
+Status show(const ShowCommand& command) {
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const Run run, store.run(command.run));
+  MDOF_TRY(const std::string sha256, store.result_sha256(command.run));
+  if (command.json) return write_line(with_result_hash(run_json(run), sha256));
+  return write_out(head_text(run.header) + "result     sha256 " + sha256 + "\n\n" +
+                   points_text(run));
+}
+
+std::string analysis_json(const Run& run) {
+  JsonWriter json;
+  json.begin_object()
+      .field("run", run.header.id)
+      .field("axis", std::string_view(std::string(1, letter(run.header.axis))))
+      .field("model", run.header.provenance.model)
+      .field("simulated", run.header.simulated);
+  json.key("straightness");
+  write_straightness(json, run.straightness);
+  json.key("angles");
+  write_angles(json, run.angles);
+  json.end_object();
+  return json.take();
+}
+
+Status analyse(const ShowCommand& command) {
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const Run run, store.run(command.run));
+  if (command.json) return write_line(analysis_json(run));
+  return write_out(head_text(run.header) + "\n" + straightness_text(run.straightness) + "\n" +
+                   angles_text(run.angles));
+}
+
+CLI::App* declare(CLI::App& app, const char* name, const char* what, ShowCommand& o) {
+  auto* command = app.add_subcommand(name, what);
+  command->add_option("RUN", o.run, "Number of the run, see mdof runs")->required()->type_name("");
+  add_database_option(*command, o.database);
+  add_json_flag(*command, o.json);
+  return command;
+}
+
+}  // namespace
+
+void add_show(CLI::App& app, Action& chosen) {
+  const auto o = std::make_shared<ShowCommand>();
+  auto* command = declare(app, "show", "Show the points of a run with uncertainty and flags", *o);
+  command->callback([o, &chosen] { chosen = [o] { return show(*o); }; });
+}
+
+void add_analyse(CLI::App& app, Action& chosen) {
+  const auto o = std::make_shared<ShowCommand>();
+  auto* command = declare(app, "analyse", "Show straightness by both lines, and angles", *o);
+  command->callback([o, &chosen] { chosen = [o] { return analyse(*o); }; });
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,48 @@
+#include "tools/mdof/usage.h"
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "schema/toml_reader.h"
+
+namespace mdof::tools {
+namespace {
+
+// The innermost command that was recognised.
+CLI::App* innermost(CLI::App* app) {
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().back();
+  return app;
+}
+
+std::vector<std::string> known_words(CLI::App* command, bool options) {
+  std::vector<std::string> words;
+  if (options) {
+    for (const CLI::Option* option : command->get_options()) {
+      for (const auto& name : option->get_lnames()) words.push_back("--" + name);
+    }
+  } else {
+    for (const CLI::App* sub : command->get_subcommands(nullptr)) words.push_back(sub->get_name());
+  }
+  return words;
+}
+
+std::string full_name(const CLI::App* command) {
+  const CLI::App* parent = command->get_parent();
+  return parent ? full_name(parent) + " " + command->get_name() : "mdof";
+}
+
+}  // namespace
+
+std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
+  CLI::App* command = innermost(&app);
+  const std::string help = "; see " + full_name(command) + " --help";
+  const auto unknown = app.remaining(true);
+  if (unknown.empty()) return error.what() + help;
+  const std::string word = unknown.front().substr(0, unknown.front().find('='));
+  const bool option = word.starts_with("-");
+  const std::string nearest = nearest_of(word, known_words(command, option));
+  return std::string("unknown ") + (option ? "option" : "command or argument") + " \"" + word +
+         "\"" + (nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)") + help;
+}
+
+}  // namespace mdof::tools

@@ -7,9 +7,11 @@
 namespace mdof::algo {
 namespace {
 
+// Columns of an empty frame block may hold anything: they are swapped whole, and their memory goes
+// back to the driver.
 template <class T>
-void append_or_take(std::vector<T>& to, std::vector<T>& from) {
-  if (to.empty()) {
+void append_or_take(std::vector<T>& to, std::vector<T>& from, bool empty) {
+  if (empty) {
     to.swap(from);
   } else {
     to.insert(to.end(), from.begin(), from.end());
@@ -18,6 +20,7 @@ void append_or_take(std::vector<T>& to, std::vector<T>& from) {
 
 void append_quality(std::vector<Quality>& to, std::size_t before, std::vector<Quality>* from,
                     std::size_t n) {
+  if (before == 0) to.clear();
   const bool marked = from && !from->empty();
   if (!marked && to.empty()) return;
   to.resize(before, Quality::good);
@@ -26,6 +29,12 @@ void append_quality(std::vector<Quality>& to, std::size_t before, std::vector<Qu
   } else {
     to.resize(before + n, Quality::good);
   }
+}
+
+void clear_columns(FrameBlock& frames) {
+  frames.encoder_m.clear();
+  for (auto& column : frames.probe_m) column.clear();
+  for (auto& column : frames.probe_quality) column.clear();
 }
 
 std::int64_t to_ns(double s) {
@@ -59,12 +68,13 @@ void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
   const std::size_t before = out.size(), n = block.scans();
   for (std::size_t k = 0; k < probes_.size(); ++k) {
     const auto c = static_cast<std::size_t>(channel_of_[k]);
-    append_or_take(out.probe_m[k], block.value[c]);
+    append_or_take(out.probe_m[k], block.value[c], before == 0);
     append_quality(out.probe_quality[k], before,
                    block.quality.empty() ? nullptr : &block.quality[c], n);
   }
-  append_or_take(out.encoder_m, block.value[static_cast<std::size_t>(channel_of_.back())]);
-  append_or_take(out.time_ns, block.time_ns);
+  append_or_take(out.encoder_m, block.value[static_cast<std::size_t>(channel_of_.back())],
+                 before == 0);
+  append_or_take(out.time_ns, block.time_ns, before == 0);
 }
 
 Status Aligner::push(SampleBlock& block, FrameBlock& out) {
@@ -72,6 +82,7 @@ Status Aligner::push(SampleBlock& block, FrameBlock& out) {
   out.probe_quality.resize(probes_.size());
   if (block.scans() == 0) return {};
   if (!whole(block)) {
+    if (out.size() == 0) clear_columns(out);
     MDOF_CHECK(enqueue(block));
     emit(out, false);
     return {};
@@ -155,6 +166,7 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
 void Aligner::flush(FrameBlock& out) {
   out.probe_m.resize(probes_.size());
   out.probe_quality.resize(probes_.size());
+  if (out.size() == 0) clear_columns(out);
   emit(out, true);
 }
 

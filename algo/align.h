@@ -28,8 +28,9 @@ class Aligner {
  public:
   Aligner(AlignOptions options, std::vector<std::string> probe_ids);
 
-  // Takes the block's columns (they are moved from). Frames that became complete are appended to
-  // `out`. Error: time of a channel goes backwards (names channel and times).
+  // Takes the block's columns (they are swapped or moved from). Frames that became complete are
+  // appended to `out`; where its time_ns is empty, whatever its other columns hold is given up.
+  // Error: time of a channel goes backwards (names channel and times).
   Status push(SampleBlock& block, FrameBlock& out);
   // End of the data: what waits is given out, missing where nothing more came.
   void flush(FrameBlock& out);

@@ -76,8 +76,23 @@ void fill_side(Axis axis, const std::vector<MeasuredPoint>& points, Approach app
   }
 }
 
-// Linear interpolation over the grid points that have a value; NaN if none has.
-double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
+// Where a position lies on the grid: between `below` and `below` + 1, at a share of the way; held
+// at the ends.
+struct Place {
+  std::size_t below = 0;
+  double share = 0;
+};
+
+Place place_on(const std::vector<double>& x, double at) {
+  if (!(at > x.front()) || x.size() == 1) return {0, 0.0};
+  if (at >= x.back()) return {x.size() - 2, 1.0};
+  const auto above = std::upper_bound(x.begin(), x.end(), at);
+  const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
+  return {i, (at - x[i]) / (x[i + 1] - x[i])};
+}
+
+// The rare way, for a series with holes: linear over the grid points that have a value.
+double over_holes(const std::vector<double>& x, const std::vector<double>& y, double at) {
   std::size_t below = x.size(), above = x.size();
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isfinite(y[i])) continue;
@@ -87,8 +102,14 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   if (below == x.size() && above == x.size()) return kNaN;
   if (below == x.size()) return y[above];
   if (above == x.size() || above == below) return y[below];
-  const double share = (at - x[below]) / (x[above] - x[below]);
-  return y[below] + (y[above] - y[below]) * share;
+  return y[below] + (y[above] - y[below]) * ((at - x[below]) / (x[above] - x[below]));
+}
+
+double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at,
+                   const Place& place) {
+  const double low = y[place.below], high = y[std::min(place.below + 1, y.size() - 1)];
+  if (!std::isfinite(low) || !std::isfinite(high)) return over_holes(x, y, at);
+  return place.share == 1.0 ? high : low + (high - low) * place.share;
 }
 
 }  // namespace
@@ -126,20 +147,22 @@ TableValue table_at(const CompensationTable& table, double position_m, TableSide
   TableValue value;
   const auto& x = table.position_m;
   value.inside = position_m >= x.front() && position_m <= x.back();
+  const Place place = place_on(x, position_m);
+  const auto at = [&](const std::vector<double>& y) {
+    return interpolate(x, y, position_m, place);
+  };
   for (std::size_t k = 0; k < 5; ++k) {
-    const double forward = interpolate(x, table.forward[k], position_m);
-    const double reverse = interpolate(x, table.reverse[k], position_m);
-    const double u_forward = interpolate(x, table.u_forward[k], position_m);
-    const double u_reverse = interpolate(x, table.u_reverse[k], position_m);
-    if (side == TableSide::mean && std::isfinite(forward) && std::isfinite(reverse)) {
-      value.error[k] = 0.5 * (forward + reverse);
-      value.u[k] = 0.5 * std::sqrt(u_forward * u_forward + u_reverse * u_reverse);
-    } else if (side == TableSide::reverse || (side == TableSide::mean && !std::isfinite(forward))) {
-      value.error[k] = reverse;
-      value.u[k] = u_reverse;
+    const bool forward = side != TableSide::reverse, reverse = side != TableSide::forward;
+    const double f = forward ? at(table.forward[k]) : kNaN;
+    const double r = reverse ? at(table.reverse[k]) : kNaN;
+    if (std::isfinite(f) && std::isfinite(r)) {
+      const double u_f = at(table.u_forward[k]), u_r = at(table.u_reverse[k]);
+      value.error[k] = 0.5 * (f + r);
+      value.u[k] = 0.5 * std::sqrt(u_f * u_f + u_r * u_r);
     } else {
-      value.error[k] = forward;
-      value.u[k] = u_forward;
+      const bool take_forward = forward && (std::isfinite(f) || !reverse);
+      value.error[k] = take_forward ? f : r;
+      value.u[k] = at(take_forward ? table.u_forward[k] : table.u_reverse[k]);
     }
   }
   return value;

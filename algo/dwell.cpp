@@ -23,8 +23,8 @@ constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
 constexpr int kGapPeriods = 3;
 constexpr std::size_t kPathLength = 64;
-constexpr std::size_t kDropRows = 16384;  // rows no longer needed before the buffer is moved up
-constexpr std::size_t kMinScans = 5;      // of a dwell, and of a probe in it
+constexpr std::size_t kDropRows = 4096;  // rows no longer needed before the buffer is moved up
+constexpr std::size_t kMinScans = 5;     // of a dwell, and of a probe in it
 
 double median3(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -106,21 +106,22 @@ void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
     early_ = empty_frames(probe_ids_.size());
     push(early, out);
   }
-  while (from < frames.size()) {
-    const std::int64_t index = (frames.time_ns[from] - origin_ns_) / slot_ns_;
+  append(buffer_, frames, from, frames.size());
+  while (row_ < buffer_.size()) {
+    const std::int64_t index = (buffer_.time_ns[row_] - origin_ns_) / slot_ns_;
     if (slot_open_ && index != open_.index) close_slot(out);
     if (!slot_open_) {
       open_ = Slot{};
       open_.index = index;
-      open_.first_row = buffer_.size();
+      open_.first_row = row_;
       slot_open_ = true;
     }
-    const std::int64_t slot_end_ns = origin_ns_ + (index + 1) * slot_ns_;
-    std::size_t to = from + 1;
-    while (to < frames.size() && frames.time_ns[to] < slot_end_ns) ++to;
-    add_rows(frames, from, to);
-    from = to;
+    const auto begin = buffer_.time_ns.begin() + static_cast<std::ptrdiff_t>(row_);
+    const auto end =
+        std::lower_bound(begin, buffer_.time_ns.end(), origin_ns_ + (index + 1) * slot_ns_);
+    add_rows(row_ + static_cast<std::size_t>(end - begin));
   }
+  if (dwelling_ && truncated_) drop_cut_rows();
 }
 
 void DwellDetector::learn_period(const FrameBlock& frames) {
@@ -140,13 +141,14 @@ void DwellDetector::learn_period(const FrameBlock& frames) {
   summary_.encoder_min_m = summary_.encoder_max_m = frames.encoder_m.front();
 }
 
-void DwellDetector::add_rows(const FrameBlock& frames, std::size_t from, std::size_t to) {
+// Rows row_ ... to - 1 belong to the open slot.
+void DwellDetector::add_rows(std::size_t to) {
   double low = open_.rows ? open_.min_m : std::numeric_limits<double>::infinity();
   double high = open_.rows ? open_.max_m : -low;
   double bend = open_.bend_m;
   auto [before2, before1] = encoder_before_;
-  for (std::size_t i = from; i < to; ++i) {
-    const double encoder = frames.encoder_m[i];
+  for (std::size_t i = row_; i < to; ++i) {
+    const double encoder = buffer_.encoder_m[i];
     const double voted = median3(before2, before1, encoder);
     low = std::min(low, voted);
     high = std::max(high, voted);
@@ -155,22 +157,17 @@ void DwellDetector::add_rows(const FrameBlock& frames, std::size_t from, std::si
     before1 = encoder;
   }
   encoder_before_ = {before2, before1};
-  for (std::size_t i = from; i < to; ++i) {
-    summary_.gaps += frames.time_ns[i] - last_ns_ > kGapPeriods * period_ns_;
-    last_ns_ = frames.time_ns[i];
+  for (std::size_t i = row_; i < to; ++i) {
+    summary_.gaps += buffer_.time_ns[i] - last_ns_ > kGapPeriods * period_ns_;
+    last_ns_ = buffer_.time_ns[i];
   }
-  if (open_.rows == 0) open_.begin_ns = frames.time_ns[from];
-  open_.end_ns = last_ns_;
+  if (open_.rows == 0) open_.begin_ns = buffer_.time_ns[row_];
   open_.min_m = low;
   open_.max_m = high;
   open_.bend_m = bend;
-  open_.rows += to - from;
-  summary_.scans += to - from;
-  if (dwelling_ && buffer_.size() > dwell_row_ + options_.max_scans) {
-    truncated_ = true;  // the dwell goes on, what is averaged of it does not
-  } else {
-    append(buffer_, frames, from, to);
-  }
+  open_.rows += to - row_;
+  summary_.scans += to - row_;
+  row_ = to;
 }
 
 bool DwellDetector::window_still() const {
@@ -213,7 +210,11 @@ void DwellDetector::close_slot(std::vector<Point>& out) {
   const bool still = window_still();
   if (still && !dwelling_) begin_dwell();
   if (!still && dwelling_) end_dwell(out);
-  if (!dwelling_ && !slots_.empty()) drop_rows_before(slots_.front().first_row);
+  if (dwelling_) {
+    truncated_ = truncated_ || slots_.back().first_row >= cut_row_;
+  } else {
+    drop_rows_before(slots_.front().first_row);
+  }
 }
 
 void DwellDetector::begin_dwell() {
@@ -222,13 +223,13 @@ void DwellDetector::begin_dwell() {
   still_since_ns_ = slots_.front().begin_ns;
   direction_ = direction_to(slots_.back().middle());
   drop_rows_before(slots_.front().first_row);
-  dwell_row_ = slots_.front().first_row;
+  cut_row_ = slots_.front().first_row + options_.max_scans;
 }
 
 // The newest slot has left the window; the one before it may hold the start of the motion.
 void DwellDetector::end_dwell(std::vector<Point>& out) {
   dwelling_ = false;
-  const std::size_t end_row = truncated_ ? buffer_.size() : slots_[slots_.size() - 2].first_row;
+  const std::size_t end_row = std::min(slots_[slots_.size() - 2].first_row, cut_row_);
   const double still_s = ns_to_s(slots_[slots_.size() - 2].begin_ns - still_since_ns_);
   summary_.longest_still_s = std::max(summary_.longest_still_s, still_s);
   const auto settled_ns = still_since_ns_ + static_cast<std::int64_t>(options_.settle_s * 1e9);
@@ -245,10 +246,6 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
         std::find(point.flags.begin(), point.flags.end(), "spike:encoder") != point.flags.end();
     if (*high - *low <= kCreepFactor * summary_.tolerance_m || spiky)
       out.push_back(std::move(point));
-  }
-  if (truncated_) {  // the rows after the cut were not kept: start afresh
-    drop_rows(buffer_.size());
-    slots_.clear();
   }
 }
 
@@ -274,25 +271,28 @@ Point DwellDetector::average(std::size_t from, std::size_t to) {
 
 void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size_t to,
                                   Point& point) {
+  const auto& column = buffer_.probe_m[probe];
+  const auto& quality = buffer_.probe_quality[probe];
+  std::span<const double> readings(&column[from], to - from);
   std::size_t over_range = 0;
-  finite_.clear();
-  const bool marked = !buffer_.probe_quality[probe].empty();
-  for (std::size_t i = from; i < to; ++i) {
-    const double x = buffer_.probe_m[probe][i];
-    const Quality q = marked ? buffer_.quality_at(probe, i) : Quality::good;
-    over_range += q == Quality::over_range;
-    if (usable(q) && std::isfinite(x)) finite_.push_back(x);
+  if (!quality.empty()) {  // where nothing is marked, every value is finite and usable
+    finite_.clear();
+    for (std::size_t i = from; i < to; ++i) {
+      over_range += quality[i] == Quality::over_range;
+      if (usable(quality[i]) && std::isfinite(column[i])) finite_.push_back(column[i]);
+    }
+    readings = finite_;
   }
   const std::string& id = probe_ids_[probe];
   if (over_range > 0) add_flag(point, "saturated:" + id);
-  if (finite_.size() < kMinScans || 2 * finite_.size() < to - from) {
+  if (readings.size() < kMinScans || 2 * readings.size() < to - from) {
     add_flag(point, "lost:" + id);
     point.probe_m.push_back(kNaN);
     point.probe_u_m.push_back(kNaN);
     return;
   }
-  if (finite_.size() + over_range < to - from) add_flag(point, "missing:" + id);
-  const RobustMean mean = robust_mean(finite_, 1e-3 * probe_range_m_[probe], scratch_);
+  if (readings.size() + over_range < to - from) add_flag(point, "missing:" + id);
+  const RobustMean mean = robust_mean(readings, 1e-3 * probe_range_m_[probe], scratch_);
   if (mean.rejected > 0) add_flag(point, "spike:" + id);
   point.probe_m.push_back(mean.mean);
   point.probe_u_m.push_back(mean.u);
@@ -310,6 +310,24 @@ void DwellDetector::drop_rows(std::size_t row) {
     if (!column.empty()) drop_front(column, row);
   }
   for (Slot& slot : slots_) slot.first_row -= std::min(slot.first_row, row);
+  row_ -= row;
+}
+
+// The dwell goes on, what is averaged of it does not: its closed slots beyond the cut are not kept.
+void DwellDetector::drop_cut_rows() {
+  const std::size_t end = slot_open_ ? open_.first_row : row_;
+  const auto erase = [&](auto& column) {
+    if (column.empty()) return;
+    column.erase(column.begin() + static_cast<std::ptrdiff_t>(cut_row_),
+                 column.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  erase(buffer_.time_ns);
+  erase(buffer_.encoder_m);
+  for (auto& column : buffer_.probe_m) erase(column);
+  for (auto& column : buffer_.probe_quality) erase(column);
+  for (Slot& slot : slots_) slot.first_row = std::min(slot.first_row, cut_row_);
+  row_ -= end - cut_row_;
+  open_.first_row -= end - cut_row_;
 }
 
 void DwellDetector::flush(std::vector<Point>& out) {

@@ -57,15 +57,14 @@ class DwellDetector {
   struct Slot {
     std::int64_t index = 0;
     std::size_t first_row = 0, rows = 0;  // in buffer_
-    std::int64_t begin_ns = 0, end_ns = 0;
+    std::int64_t begin_ns = 0;
     double min_m = 0, max_m = 0;
     double bend_m = 0;  // sum of |second differences|: noise, whatever the speed
     double middle() const { return 0.5 * (min_m + max_m); }
   };
 
   void learn_period(const FrameBlock& frames);
-  void add_rows(const FrameBlock& frames, std::size_t from, std::size_t to);
-  void add_to_slot(std::size_t row, double encoder_m);
+  void add_rows(std::size_t to);
   void close_slot(std::vector<Point>& out);
   bool window_still() const;
   void remember_path(double position_m);
@@ -76,6 +75,7 @@ class DwellDetector {
   void average_probe(std::size_t probe, std::size_t from, std::size_t to, Point& point);
   void drop_rows_before(std::size_t row);  // when it is worth moving the rest up
   void drop_rows(std::size_t row);
+  void drop_cut_rows();
 
   DwellOptions options_;
   std::vector<std::string> probe_ids_;
@@ -87,6 +87,7 @@ class DwellDetector {
   std::array<double, 2> encoder_before_{};  // for the median of three
   FrameBlock buffer_;                       // rows of the slots below and of the dwell under way
   std::deque<Slot> slots_;                  // the last window, newest at the back
+  std::size_t row_ = 0;                     // of buffer_: the next that belongs to no slot yet
   Slot open_;
   bool slot_open_ = false;
   double encoder_noise_m_ = -1;  // sd, of the quietest slot so far; below 0: not known
@@ -94,8 +95,8 @@ class DwellDetector {
 
   bool dwelling_ = false, truncated_ = false;
   std::int64_t still_since_ns_ = 0;
-  std::size_t dwell_row_ = 0;  // first row of the dwell under way
-  int direction_ = 0;          // of approach, taken before the axis leaves again
+  std::size_t cut_row_ = 0;  // of the dwell under way: what comes after is not averaged
+  int direction_ = 0;        // of approach, taken before the axis leaves again
   std::vector<double> scratch_, finite_;
 };
 

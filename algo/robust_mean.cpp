@@ -9,7 +9,7 @@ namespace {
 constexpr double kReject = 6.0;
 constexpr double kMadToSd = 1.4826;
 // Median and deviation of a long dwell are taken from at most this many readings, evenly spread.
-constexpr std::size_t kSubsample = 1024;
+constexpr std::size_t kSubsample = 512;
 constexpr double kMaxCorrelation = 0.98;
 
 // Puts the values for which `first` holds before the others; gives their end. Without branches, as

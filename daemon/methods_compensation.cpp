@@ -139,7 +139,7 @@ Result<std::string> at(const Methods& m, const Params& params) {
   const double position_mm = params.number("position_mm");
   const CompensationTable& table = active->table;
   const algo::TableValue value = algo::table_at(table, from_mm(position_mm), side);
-  JsonWriter json;
+  JsonWriter json(768);
   json.begin_object()
       .field("axis", std::string_view(&"XYZ"[static_cast<std::size_t>(table.axis)], 1))
       .field("position_mm", position_mm)

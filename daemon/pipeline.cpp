@@ -24,13 +24,6 @@ std::vector<double> probe_ranges(const Rig& rig) {
   return ranges;
 }
 
-void clear(FrameBlock& frames) {
-  frames.time_ns.clear();
-  frames.encoder_m.clear();
-  for (auto& column : frames.probe_m) column.clear();
-  for (auto& column : frames.probe_quality) column.clear();
-}
-
 // The last instant of `frames`, into `newest`.
 void keep_last(const FrameBlock& frames, FrameBlock& newest) {
   const std::size_t last = frames.size() - 1;
@@ -87,7 +80,7 @@ Status Pipeline::push(SampleBlock& raw) {
   if (frames_.size() == 0) return {};
   keep_last(frames_, newest_);
   if (options_.detect) dwell_.push(frames_, found_);
-  clear(frames_);
+  frames_.time_ns.clear();
   return {};
 }
 
@@ -156,7 +149,7 @@ Status Pipeline::reject_dead_probes() const {
 Result<Run> Pipeline::finish() {
   aligner_.flush(frames_);
   dwell_.push(frames_, found_);
-  clear(frames_);
+  frames_.time_ns.clear();
   dwell_.flush(found_);
   take_points();
   if (sequence_.points.empty() || !moved()) MDOF_CHECK(explain_nothing());

@@ -3,6 +3,7 @@
 // are written as U+FFFD, so that the output is always valid.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,6 +13,8 @@ namespace mdof {
 
 class JsonWriter {
  public:
+  // `reserve_bytes`: for what is written often and known to be about so long.
+  explicit JsonWriter(std::size_t reserve_bytes = 0) { text_.reserve(reserve_bytes); }
   JsonWriter& begin_object();
   JsonWriter& end_object();
   JsonWriter& begin_array();

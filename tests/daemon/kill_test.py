@@ -82,7 +82,7 @@ def main():
     totals = {"points": 0, "chunks": 0}
     slowest_s = 0.0
     with tempfile.TemporaryDirectory() as folder:
-        config = simulator("X", rate_hz=4000, dwell_s=0.21, targets_mm=(0, 0.5, 1.1, 1.6))
+        config = simulator("X", rate_hz=4000, dwell_s=0.3, targets_mm=(0, 0.5, 1.1, 1.6))
         daemon = Daemon(options.mdofd, folder, config, options.durability)
         atexit.register(lambda: daemon.process and daemon.process.kill())
         client = daemon.start()
@@ -92,7 +92,9 @@ def main():
             acknowledged = Acknowledged()
             listener = threading.Thread(target=acknowledged.listen, args=(client,))
             listener.start()
-            time.sleep(4 if options.break_it else chance.uniform(0.05, 2.5))
+            time.sleep(chance.uniform(0.05, 2.5))
+            while options.break_it and not acknowledged.points:
+                time.sleep(0.1)
             daemon.kill()
             listener.join()
             if options.break_it and acknowledged.points:

@@ -1,4 +1,4 @@
-// Round trip of a method like compensation.at against a bare echo, and requests a second with
+// Round trip of compensation.at, the daemon's own, against a bare echo, and requests a second with
 // pipelining: both servers on one loop, one kind of socket, the same message sizes, blocks in turn.
 //   bench_rpc [round trips] [pipelined requests]
 // Exit 1 when a bar is missed: ratio at most 1.5, at least 50,000 requests a second.
@@ -16,10 +16,10 @@
 #include <thread>
 #include <vector>
 
+#include "daemon/methods.h"
 #include "daemon/rpc/event_loop_core.h"
 #include "daemon/rpc/server.h"
 #include "daemon/rpc/socket.h"
-#include "schema/json_writer.h"
 
 namespace {
 
@@ -35,24 +35,32 @@ const std::string kRequest =
     R"({"jsonrpc":"2.0","method":"compensation.at","params":{"axis":"X","position_mm":12.3},"id":1})"
     "\n";
 
-// Linear between 61 nodes: the work and the size of the reply of the real method.
-Result<std::string> compensation_at(const Params& params) {
-  static const std::vector<double> table = [] {
-    std::vector<double> nodes(61 * 5);
-    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = std::sin(0.1 * double(i));
-    return nodes;
-  }();
-  constexpr std::array keys = {"EYX_um", "EZX_um", "EAX_urad", "EBX_urad", "ECX_urad"};
-  const double x_mm = std::clamp(params.number("position_mm"), 0.0, 59.999);
-  const auto node = static_cast<std::size_t>(x_mm);
-  const double f = x_mm - double(node);
-  JsonWriter json;
-  json.begin_object().field("axis", params.string("axis")).field("position_mm", x_mm);
-  json.field("generation", 7).field("sense", "correction").field("outside", false);
-  json.field("simulated", true).key("forward").begin_object();
-  for (std::size_t k = 0; k < keys.size(); ++k)
-    json.field(keys[k], (1 - f) * table[5 * node + k] + f * table[5 * node + 5 + k]);
-  return json.end_object().end_object().take();
+[[noreturn]] void give_up(const std::string& what) {
+  std::fprintf(stderr, "bench_rpc: %s\n", what.c_str());
+  std::exit(4);
+}
+
+template <class T>
+T must(Result<T> result) {
+  if (!result) give_up(result.error().message);
+  return std::move(*result);
+}
+
+// A table of 61 points, 1 mm apart, in force on the X axis.
+daemon::ActiveTables table_in_force() {
+  store::ActiveTable active;
+  active.generation = 7;
+  for (int i = 0; i < 61; ++i) {
+    active.table.position_m.push_back(1e-3 * i);
+    for (std::size_t k = 0; k < 5; ++k) {
+      const double error = 1e-6 * std::sin(0.1 * i + double(k));
+      active.table.forward[k].push_back(error);
+      active.table.reverse[k].push_back(error + 1e-7);
+      active.table.u_forward[k].push_back(1e-8);
+      active.table.u_reverse[k].push_back(1e-8);
+    }
+  }
+  return {std::make_shared<const store::ActiveTable>(std::move(active)), nullptr, nullptr};
 }
 
 // Gives a fixed reply to whatever it reads.
@@ -74,20 +82,24 @@ struct Echo : std::enable_shared_from_this<Echo> {
 };
 
 struct Bench {
-  std::string path =
+  const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("mdof-bench-rpc-" + std::to_string(::getpid()));
-  MethodTable table{"bench", "1"};
   EventLoop loop;
+  std::unique_ptr<daemon::Storekeeper> keeper =
+      must(daemon::Storekeeper::start({folder / "mdof.db"}, {[](std::int64_t, std::int64_t) {},
+                                                             [](std::int64_t, const Error&) {}}));
+  store::Store reader = must(store::Store::open(folder / "mdof.db", store::Access::read_only));
+  std::vector<std::unique_ptr<daemon::Station>> stations;
+  daemon::ActiveTables active = table_in_force();
+  daemon::Methods methods{loop, *keeper, reader, stations, active, "", "", Clock::now()};
+  MethodTable table{"bench", "1"};
   Server server{loop, table};
   Descriptor rpc, echo;
   std::string reply;
   std::thread thread;
-};
 
-[[noreturn]] void give_up(const std::string& what) {
-  std::fprintf(stderr, "bench_rpc: %s\n", what.c_str());
-  std::exit(4);
-}
+  ~Bench() { std::filesystem::remove_all(folder); }
+};
 
 void send_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -116,16 +128,11 @@ double median(std::vector<double>& x) {
 }
 
 void start(Bench& bench) {
-  bench.table.add({.name = "compensation.at",
-                   .summary = "The five errors at a position.",
-                   .params = {{"axis", ParamType::string, "X, Y or Z", true},
-                              {"position_mm", ParamType::number, "mm", true}},
-                   .result = "errors",
-                   .handler = compensation_at});
-  if (const auto status = bench.server.listen_unix(bench.path); !status)
-    give_up(status.error().message);
+  daemon::add_compensation_methods(bench.table, bench.methods);
+  const std::string path = bench.folder / "socket";
+  if (const auto status = bench.server.listen_unix(path); !status) give_up(status.error().message);
   bench.thread = std::thread([&bench] { bench.loop.run(); });
-  auto connected = connect_to_unix(bench.path);
+  auto connected = connect_to_unix(path);
   if (!connected) give_up(system_error_text(connected.error()));
   bench.rpc = std::move(*connected);
   std::vector<char> buffer(65536);

@@ -79,7 +79,8 @@ Status Pipeline::push(SampleBlock& raw) {
   MDOF_CHECK(aligner_.push(raw, frames_));
   if (frames_.size() == 0) return {};
   keep_last(frames_, newest_);
-  if (options_.detect) dwell_.push(frames_, found_);
+  dwell_.push(frames_, found_);
+  if (!options_.keep_points) found_.clear();
   frames_.time_ns.clear();
   return {};
 }

@@ -23,7 +23,7 @@ struct PipelineOptions {
   algo::AlignOptions align;
   algo::DwellOptions dwell;
   algo::SequenceOptions sequence;
-  bool detect = true;  // false: only newest() is kept up, for a view without a run
+  bool keep_points = true;  // false: for a view without a run
 
   std::string json() const;  // for the provenance
 };

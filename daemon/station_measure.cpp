@@ -19,8 +19,8 @@ using std::chrono::steady_clock;
 constexpr milliseconds kPopTimeout{100};
 constexpr milliseconds kLiveInterval{20};
 
-PipelineOptions without_detection(PipelineOptions options) {
-  options.detect = false;
+PipelineOptions without_points(PipelineOptions options) {
+  options.keep_points = false;
   return options;
 }
 
@@ -118,7 +118,7 @@ void Station::attach(Item& item) {
 void Station::take_samples(SampleBlock& block) {
   if (!open_) {
     if (!view_) {
-      auto view = Pipeline::create(config_.rig, without_detection(options_));
+      auto view = Pipeline::create(config_.rig, without_points(options_));
       if (!view) return;  // checked with the configuration
       view_.emplace(std::move(*view));
     }

@@ -5,6 +5,8 @@ usage: end_to_end_test.py MDOFD MDOF"""
 import json
 import math
 import os
+import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -161,6 +163,29 @@ class EndToEnd(unittest.TestCase):
                      "run.points squareness.fit compensation.build compensation.activate "
                      "compensation.status compensation.grid compensation.at rpc.discover").split():
             self.assertIn(name, names)
+
+    def test_systemd_is_told_when_it_serves_and_that_it_works(self):
+        with tempfile.TemporaryDirectory() as folder:
+            told = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+            told.bind(os.path.join(folder, "notify"))
+            told.settimeout(5)
+            other = Daemon(MDOFD, os.path.join(folder, "d"), simulator("X"))
+            other.environment = {"NOTIFY_SOCKET": os.path.join(folder, "notify"),
+                                 "WATCHDOG_USEC": "400000"}
+            other.start()
+            messages = [told.recv(4096).decode() for _ in range(4)]
+            other.stop()
+            self.assertIn("READY=1", messages[0])
+            self.assertTrue(all("WATCHDOG=1" in m for m in messages[1:]), messages)
+
+    @unittest.skipUnless(shutil.which("systemd-socket-activate"), "no systemd-socket-activate")
+    def test_systemd_hands_the_socket_over(self):
+        with tempfile.TemporaryDirectory() as folder:
+            other = Daemon("/usr/bin/systemd-socket-activate", os.path.join(folder, "d"), simulator("X"))
+            other.arguments = ["-l", other.socket, MDOFD]
+            client = other.start()  # starts mdofd by connecting
+            self.assertEqual(client.call("server.info")["server"], "mdofd")
+            other.stop()
 
     def test_a_second_daemon_on_the_database_is_refused(self):
         other = Daemon(MDOFD, os.path.join(self.folder.name, "other"), "")

@@ -94,11 +94,13 @@ class Daemon:
             f.write(f'[store]\ndatabase = "{self.database}"\ndurability = "{durability}"\n'
                     f'[rpc]\nsocket = "{self.socket}"\n' + config)
         self.process = None
+        self.arguments, self.environment = [], {}
 
     def start(self, timeout_s=10):
         self.log = open(os.path.join(self.folder, "stderr"), "ab")
-        self.process = subprocess.Popen([self.program, "--config", self.config], stderr=self.log,
-                                        stdout=self.log)
+        self.process = subprocess.Popen([self.program, *self.arguments, "--config", self.config],
+                                        stderr=self.log, stdout=self.log,
+                                        env={**os.environ, **self.environment})
         end = time.monotonic() + timeout_s
         while True:
             try:

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 
 #include "daemon/app.h"
 #include "daemon/version.h"
@@ -28,7 +29,7 @@ int run(const std::string& config_file, bool check_only) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::signal(SIGPIPE, SIG_IGN);
   CLI::App cli("mdofd: reads probes and encoder, solves the five errors of an axis, serves them");
   std::string config_file = "/etc/mdof/mdofd.toml";
@@ -43,4 +44,7 @@ int main(int argc, char** argv) {
     return code == 0 ? 0 : 2;
   }
   return run(config_file, check_only);
+} catch (const std::exception& e) {
+  std::fprintf(stderr, "mdofd: %s\n", e.what());
+  return 4;
 }

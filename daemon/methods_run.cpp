@@ -23,7 +23,7 @@ std::string run_reply(std::int64_t id, Axis axis) {
 }
 
 // Answers a station's callback, which comes on another thread.
-std::function<void(Result<std::int64_t>)> answer_with_run(Reply reply, Axis axis) {
+RunDone answer_with_run(Reply reply, Axis axis) {
   auto shared = std::make_shared<Reply>(std::move(reply));
   return [shared, axis](const Result<std::int64_t>& id) {
     (*shared)(id ? Result<std::string>(run_reply(*id, axis)) : tl::unexpected(id.error()));

@@ -174,7 +174,7 @@ NewRun Station::describe_run(const RunRequest& request) const {
   return run;
 }
 
-void Station::start_run(const RunRequest& request, std::function<void(Result<std::int64_t>)> done) {
+void Station::start_run(const RunRequest& request, const RunDone& done) {
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1)) {
     return done(fail(ErrorCode::conflict, std::string("a run of axis ") + letter(config_.rig.axis) +
@@ -199,7 +199,7 @@ void Station::start_run(const RunRequest& request, std::function<void(Result<std
   done(io_error("the store is behind; try again"));
 }
 
-void Station::stop_run(bool abort, std::function<void(Result<std::int64_t>)> done) {
+void Station::stop_run(bool abort, RunDone done) {
   if (shared_->run <= 0) {
     return done(fail(ErrorCode::not_found,
                      std::string("no run of axis ") + letter(config_.rig.axis) + " is under way"));

@@ -44,6 +44,10 @@ struct StationEvents {
   std::function<void(std::string json)> run_event;  // for run.event
 };
 
+// Told the id of a run, once it is on the disk, or why there is none; on the store's or a station's
+// thread.
+using RunDone = std::function<void(Result<std::int64_t>)>;
+
 // Calls from the main thread only, but for status().
 class Station {
  public:
@@ -51,10 +55,9 @@ class Station {
           std::filesystem::path recordings, Storekeeper& keeper, StationEvents events);
   ~Station();  // an open run ends as aborted
 
-  // `done` is called on another thread with the run's id once it exists on the disk.
-  void start_run(const RunRequest& request, std::function<void(Result<std::int64_t>)> done);
+  void start_run(const RunRequest& request, const RunDone& done);
   // `done`: the id of the run to read (see Storekeeper::end_run), once it is on the disk.
-  void stop_run(bool abort, std::function<void(Result<std::int64_t>)> done);
+  void stop_run(bool abort, RunDone done);
   // The run under way: 0 none, -1 about to begin.
   std::int64_t run() const { return shared_->run.load(); }
   // The store gave up on this run.
@@ -75,7 +78,7 @@ class Station {
     bool abort = false;
     std::string reason;
     drivers::SourceInfo source;
-    std::function<void(Result<std::int64_t>)> done;
+    RunDone done;
   };
   struct OpenRun;
   // What the store's callbacks may still need when the station itself has gone.
@@ -100,7 +103,7 @@ class Station {
   void keep_new_points();
   void attach(Item& item);
   void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
-              std::function<void(Result<std::int64_t>)> done);
+              RunDone done);
   void show_live();
 
   const AxisConfig config_;

@@ -108,7 +108,8 @@ void Station::attach(Item& item) {
     shared_->run = 0;
     return item.done(tl::unexpected(pipeline.error()));
   }
-  open_.reset(new OpenRun{item.run, item.request, std::move(*pipeline), {}, 0, {}});
+  open_ =
+      std::make_unique<OpenRun>(OpenRun{item.run, item.request, std::move(*pipeline), {}, 0, {}});
   shared_->run = item.run;
   shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
   item.done(item.run);
@@ -154,7 +155,7 @@ void Station::keep_new_points() {
 }
 
 void Station::finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
-                     std::function<void(Result<std::int64_t>)> done) {
+                     RunDone done) {
   const std::unique_ptr<OpenRun> open = std::move(open_);
   auto result = open->pipeline.finish();
   Run run;

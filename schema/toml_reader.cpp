@@ -108,7 +108,7 @@ bool TomlTable::has(std::string_view key) {
   return node_->table->contains(key);
 }
 
-std::string TomlTable::string(std::string_view key, std::optional<std::string> fallback) {
+std::string TomlTable::string(std::string_view key, const std::optional<std::string>& fallback) {
   node_->asked.emplace(key);
   const auto* node = node_->table->get(key);
   if (!node) {
@@ -158,7 +158,7 @@ bool TomlTable::boolean(std::string_view key, std::optional<bool> fallback) {
 }
 
 std::vector<double> TomlTable::numbers(std::string_view key,
-                                       std::optional<std::vector<double>> fallback) {
+                                       const std::optional<std::vector<double>>& fallback) {
   node_->asked.emplace(key);
   const auto* node = node_->table->get(key);
   if (!node) {

@@ -22,12 +22,13 @@ class TomlTable {
   static Result<TomlTable> parse(std::string_view text, const std::string& source_name);
 
   bool has(std::string_view key);
-  std::string string(std::string_view key, std::optional<std::string> fallback = std::nullopt);
+  std::string string(std::string_view key,
+                     const std::optional<std::string>& fallback = std::nullopt);
   double number(std::string_view key, std::optional<double> fallback = std::nullopt);
   std::int64_t integer(std::string_view key, std::optional<std::int64_t> fallback = std::nullopt);
   bool boolean(std::string_view key, std::optional<bool> fallback = std::nullopt);
   std::vector<double> numbers(std::string_view key,
-                              std::optional<std::vector<double>> fallback = std::nullopt);
+                              const std::optional<std::vector<double>>& fallback = std::nullopt);
   std::array<double, 3> vector3(std::string_view key);
   std::vector<std::vector<double>> matrix(std::string_view key);  // absent: empty
   std::vector<std::string> strings(std::string_view key);         // absent: empty

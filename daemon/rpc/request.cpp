@@ -6,7 +6,6 @@ namespace mdof::rpc {
 namespace {
 
 using simdjson::dom::element;
-using simdjson::dom::element_type;
 using MaybeElement = std::optional<element>;
 
 struct Members {

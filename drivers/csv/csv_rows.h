@@ -20,7 +20,7 @@ struct CsvRowsOptions {
   CsvKind kind = CsvKind::probe_log;
   CsvLimits limits;                                // bad_lines = 0 where rows must map one to one
   bool sha256 = true;                              // costs as much time as parsing, on another core
-  std::size_t chunk_bytes = std::size_t{1} << 20;  // no effect on what comes out
+  std::size_t chunk_bytes = std::size_t{1} << 19;  // no effect on what comes out
 };
 
 // Thread-bound but for bytes(). Two threads of its own, from open() to the end of the file or to

@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-SampleBlock block(const std::string& device, std::vector<std::string> ids,
+SampleBlock block(const std::string& device, const std::vector<std::string>& ids,
                   const std::vector<std::int64_t>& times_ms, double slope) {
   SampleBlock b;
   b.device = device;

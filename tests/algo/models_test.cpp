@@ -2,8 +2,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <random>
 
 #include "algo/rigid.h"
@@ -134,7 +135,8 @@ TEST(SmallAngle, BatchGivesTheBitsOfOneByOne) {
         const Errors5 one =
             solve_small_angle(model, f, travel[i], {m[0][i], m[1][i], m[2][i], m[3][i], m[4][i]});
         for (std::size_t k = 0; k < 5; ++k) {
-          ASSERT_EQ(std::memcmp(&one[k], &out[k][i], sizeof(double)), 0) << n << " " << i;
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(one[k]), std::bit_cast<std::uint64_t>(out[k][i]))
+              << n << " " << i;
         }
       }
     }

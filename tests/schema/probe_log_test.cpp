@@ -20,7 +20,7 @@ std::string error_of(std::string_view text, CsvKind kind = CsvKind::probe_log) {
   return header.error().message;
 }
 
-void expect_error(std::string_view text, std::vector<std::string> words) {
+void expect_error(std::string_view text, const std::vector<std::string>& words) {
   const std::string message = error_of(text);
   for (const std::string& word : words)
     EXPECT_NE(message.find(word), message.npos) << message << "\nlacks: " << word;

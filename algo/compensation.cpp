@@ -120,6 +120,10 @@ Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableO
   table.axis = runs.front().header.axis;
   table.slope_removed = options.remove_slope;
   for (const Run& run : runs) {
+    if (run.header.state != RunState::complete) {
+      return bad_input("run " + std::to_string(run.header.id) + " is " +
+                       to_string(run.header.state) + "; build a table from complete runs");
+    }
     if (run.header.axis != table.axis) {
       return bad_input("run " + std::to_string(run.header.id) + " is of axis " +
                        letter(run.header.axis) + ", run " + std::to_string(runs.front().header.id) +

@@ -221,7 +221,10 @@ void DwellDetector::begin_dwell() {
   dwelling_ = true;
   truncated_ = false;
   still_since_ns_ = slots_.front().begin_ns;
-  direction_ = direction_to(slots_.back().middle());
+  // A knock or a glitch of the encoder in the midst of a stop is no approach.
+  const bool same_stop = left_ns_ != 0 && slots_.front().begin_ns - left_ns_ <= 2 * slot_ns_ &&
+                         std::abs(slots_.back().middle() - left_m_) < options_.approach_m;
+  if (!same_stop) direction_ = direction_to(slots_.back().middle());
   drop_rows_before(slots_.front().first_row);
   cut_row_ = slots_.front().first_row + options_.max_scans;
 }
@@ -229,6 +232,8 @@ void DwellDetector::begin_dwell() {
 // The newest slot has left the window; the one before it may hold the start of the motion.
 void DwellDetector::end_dwell(std::vector<Point>& out) {
   dwelling_ = false;
+  left_ns_ = slots_.back().begin_ns;
+  left_m_ = slots_[slots_.size() - 3].middle();
   const std::size_t end_row = std::min(slots_[slots_.size() - 2].first_row, cut_row_);
   const double still_s = ns_to_s(slots_[slots_.size() - 2].begin_ns - still_since_ns_);
   summary_.longest_still_s = std::max(summary_.longest_still_s, still_s);

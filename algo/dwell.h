@@ -95,8 +95,10 @@ class DwellDetector {
 
   bool dwelling_ = false, truncated_ = false;
   std::int64_t still_since_ns_ = 0;
-  std::size_t cut_row_ = 0;  // of the dwell under way: what comes after is not averaged
-  int direction_ = 0;        // of approach, taken before the axis leaves again
+  std::size_t cut_row_ = 0;   // of the dwell under way: what comes after is not averaged
+  std::int64_t left_ns_ = 0;  // when and where the last stop ended; 0: none yet
+  double left_m_ = 0;
+  int direction_ = 0;  // of approach, taken before the axis leaves again
   std::vector<double> scratch_, finite_;
 };
 

@@ -38,6 +38,10 @@ Result<Line> horizontal_slope(const Run& run, Axis axis) {
                      ", squareness needs the run of " + letter(axis) +
                      " in this place: squareness RUN_X RUN_Y");
   }
+  if (run.header.state != RunState::complete) {
+    return bad_input(name + " is " + to_string(run.header.state) +
+                     "; squareness needs complete runs");
+  }
   const auto series = target_means(axis, run.points, Approach::both);
   const auto x = positions(series);
   if (series.size() < 3 || !can_fit(x)) {

@@ -29,6 +29,17 @@ class BoundedQueue {
     return true;
   }
 
+  // Waits for room as long as `timeout`; false, and `value` untouched, if there is none or the
+  // queue was closed.
+  bool push_for(T& value, std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    emptied_.wait_for(lock, timeout, [&] { return closed_ || items_.size() < capacity_; });
+    if (closed_ || items_.size() >= capacity_) return false;
+    items_.push_back(std::move(value));
+    filled_.notify_one();
+    return true;
+  }
+
   // Waits for room; false if the queue was closed.
   bool push(T value) {
     std::unique_lock lock(mutex_);

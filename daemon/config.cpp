@@ -4,6 +4,7 @@
 
 #include "algo/rigid.h"
 #include "daemon/paths.h"
+#include "daemon/replay.h"
 #include "schema/files.h"
 #include "schema/toml_reader.h"
 #include "schema/units.h"
@@ -102,6 +103,10 @@ Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& co
   MDOF_TRY(const auto fixture, algo::make_fixture(axis.rig));
   context.forward = forward_model(fixture);
   MDOF_TRY(axis.device, drivers::configure_driver(driver, *device, context));
+  if (!axis.device.recorded) {
+    MDOF_TRY(ReplayLog log, ReplayLog::open(axis.device.source_path));
+    MDOF_CHECK(check_axis(axis.device.source_path, log.comments(), axis.rig));
+  }
   for (const auto& other : config.axes) {
     if (other.rig.axis == axis.rig.axis) {
       table.reject("rig", "a second rig for axis " + axis_letter + "; one [[axis]] an axis");

@@ -33,7 +33,11 @@ RunDone answer_with_run(Reply reply, Axis axis) {
 Result<RunRequest> read_request(const Params& params) {
   RunRequest request;
   request.note = params.string("note");
-  request.repeats = static_cast<int>(params.integer("repeats", 0));
+  const std::int64_t repeats = params.integer("repeats", 0);
+  if (repeats < 0 || repeats > 10000) {
+    return fail(ErrorCode::usage, "repeats must be from 0 to 10000");
+  }
+  request.repeats = static_cast<int>(repeats);
   MDOF_TRY(const auto targets_mm, params.numbers("targets_mm"));
   for (const double target_mm : targets_mm) {
     if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
@@ -41,8 +45,8 @@ Result<RunRequest> read_request(const Params& params) {
     }
     request.targets_m.push_back(from_mm(target_mm));
   }
-  if (request.repeats < 0 || (request.repeats > 0 && request.targets_m.empty())) {
-    return fail(ErrorCode::usage, "repeats goes with targets_mm and must not be negative");
+  if (request.repeats > 0 && request.targets_m.empty()) {
+    return fail(ErrorCode::usage, "repeats goes with targets_mm");
   }
   return request;
 }
@@ -168,7 +172,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                    false, "[]"},
                   {"repeats", ParamType::integer,
                    "with targets_mm: the run is complete after "
-                   "so many, both ways; 0: until run.stop",
+                   "so many, both ways: the axis must overrun both ends; 0: until run.stop",
                    false, "0"},
                   {"note", ParamType::string, "for people", false, "\"\""}},
        .result = "run, axis: the run is on the disk and measuring",

@@ -1,4 +1,6 @@
 // server.info, device.list, live.subscribe, live.unsubscribe; and what all groups share.
+#include <cstdio>
+
 #include "daemon/live_json.h"
 #include "daemon/methods.h"
 #include "daemon/version.h"
@@ -99,10 +101,12 @@ Result<ActiveTables> load_active(store::Store& store) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     auto active = store.active(axis);
     if (active && table_sha256(active->table) != active->table.sha256) {
-      return fail(ErrorCode::check, store.file().string() + ": compensation table " +
-                                        std::to_string(active->table.id) +
-                                        " is not what was stored (its hash differs) and is not "
-                                        "served; restore the database or activate another table");
+      std::fprintf(
+          stderr,
+          "%s: compensation table %lld of axis %c is not what was stored (its hash differs) "
+          "and is not served; restore the database or activate another table\n",
+          store.file().c_str(), static_cast<long long>(active->table.id), letter(axis));
+      continue;
     }
     if (active) {
       tables[static_cast<std::size_t>(axis)] =

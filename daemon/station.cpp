@@ -48,10 +48,10 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
 }
 
 Station::~Station() {
-  stop_acquiring();
-  if (shared_->run > 0) stop_run(true, [](const Result<std::int64_t>&) {});
+  if (config_.device.live) stop_acquiring();
   shared_->queue.close();
-  measure_thread_.join();
+  measure_thread_.join();  // an open run ends there; from here nobody else starts or joins a reader
+  stop_acquiring();
 }
 
 // ---- acquire thread ----
@@ -60,7 +60,7 @@ void Station::start_acquiring() {
   stop_acquiring();
   acquiring_ = true;
   acquire_turn_ = steady_clock::now();
-  acquire_thread_ = std::thread([this] { acquire(); });
+  acquire_thread_ = std::thread([this, pass = ++pass_] { acquire(pass); });
 }
 
 void Station::stop_acquiring() {
@@ -74,7 +74,7 @@ void Station::set_state(const std::string& state, const std::string& error) {
   if (!error.empty()) status_.error = error;
 }
 
-void Station::acquire() {
+void Station::acquire(std::uint64_t pass) {
   name_thread("acquire", config_.rig.axis);
   auto driver = config_.device.make();
   milliseconds backoff = kFirstBackoff;
@@ -89,7 +89,7 @@ void Station::acquire() {
       }
       set_state("open");
       backoff = kFirstBackoff;
-      ended = read_until_trouble(**driver);
+      ended = read_until_trouble(**driver, pass);
       if (ended || !acquiring_) break;
     } else {
       set_state("failed: reopening", opened.error().message);
@@ -98,7 +98,9 @@ void Station::acquire() {
     if (!config_.device.live) {
       Item item;
       item.kind = Item::Kind::ended;
+      item.pass = pass;
       item.reason = status().error;
+      set_state("ended");
       shared_->queue.push_always(std::move(item));
       return;
     }
@@ -115,15 +117,17 @@ void Station::acquire() {
   set_state("ended");
   Item item;
   item.kind = Item::Kind::ended;
+  item.pass = pass;
   item.source = config_.device.source_info(**driver);
   shared_->queue.push_always(std::move(item));
 }
 
 // True: the source has come to its end. False: an error (kept in the status) or no longer wanted.
-bool Station::read_until_trouble(drivers::Driver& driver) {
+bool Station::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
   while (acquiring_) {
     acquire_turn_ = steady_clock::now();
     Item item;
+    item.pass = pass;
     const auto state = driver.read(item.block, kReadTimeout);
     if (!state) {
       set_state("failed: reopening", state.error().message);
@@ -137,7 +141,9 @@ bool Station::read_until_trouble(drivers::Driver& driver) {
       if (config_.device.live) {
         shared_->queue.try_push(std::move(item));
       } else {
-        shared_->queue.push(std::move(item));
+        while (acquiring_ && !shared_->queue.push_for(item, kReadTimeout)) {
+          acquire_turn_ = steady_clock::now();
+        }
       }
     }
     if (*state == drivers::ReadState::end) return true;

@@ -78,6 +78,7 @@ class Station {
     bool abort = false;
     std::string reason;
     drivers::SourceInfo source;
+    std::uint64_t pass = 0;  // of a source that is read once a run
     RunDone done;
   };
   struct OpenRun;
@@ -92,15 +93,16 @@ class Station {
 
   void start_acquiring();
   void stop_acquiring();
-  void acquire();
-  bool read_until_trouble(drivers::Driver& driver);
+  void acquire(std::uint64_t pass);
+  bool read_until_trouble(drivers::Driver& driver, std::uint64_t pass);
   void set_state(const std::string& state, const std::string& error = "");
   NewRun describe_run(const RunRequest& request) const;
 
   void measure();
   void handle(Item& item);
   void take_samples(SampleBlock& block);
-  void keep_new_points();
+  bool of_this_pass(const Item& item) const;
+  void keep_new_points(const std::vector<MeasuredPoint>& points);
   void attach(Item& item);
   void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
               RunDone done);
@@ -121,6 +123,7 @@ class Station {
   std::unique_ptr<OpenRun> open_;  // measure thread only
   std::optional<Pipeline> view_;   // measure thread only: between runs
   std::chrono::steady_clock::time_point last_live_{};
+  std::uint64_t pass_ = 0;  // readings begun; by whoever calls start_acquiring()
   std::thread acquire_thread_, measure_thread_;
 };
 

@@ -38,11 +38,20 @@ bool all_asked_for(const RunRequest& request, const std::vector<MeasuredPoint>& 
   if (request.repeats == 0) return false;
   std::vector<int> forward(request.targets_m.size()), reverse(request.targets_m.size());
   for (const auto& p : points) {
+    if (!p.errors.valid) continue;
     ++(p.point.direction > 0 ? forward : reverse)[static_cast<std::size_t>(p.target) - 1];
   }
   const auto enough = [&](int n) { return n >= request.repeats; };
   return std::all_of(forward.begin(), forward.end(), enough) &&
          std::all_of(reverse.begin(), reverse.end(), enough);
+}
+
+// The result is what the store has already got, and more.
+bool begins_with(const std::vector<MeasuredPoint>& result,
+                 const std::vector<MeasuredPoint>& stored) {
+  if (result.size() < stored.size()) return false;
+  const auto n = static_cast<std::ptrdiff_t>(stored.size());
+  return same_points(stored, {result.begin(), result.begin() + n});
 }
 
 std::string event_json(const char* type, std::int64_t run, Axis axis) {
@@ -78,11 +87,13 @@ void Station::measure() {
     measure_turn_ = steady_clock::now();
     if (auto item = shared_->queue.pop(kPopTimeout)) handle(*item);
   }
+  if (open_) finish(RunState::aborted, "the daemon was stopped", {}, {});
 }
 
 void Station::handle(Item& item) {
   switch (item.kind) {
     case Item::Kind::samples:
+      if (!of_this_pass(item)) return;
       return take_samples(item.block);
     case Item::Kind::attach:
       return attach(item);
@@ -91,13 +102,18 @@ void Station::handle(Item& item) {
       return finish(item.abort ? RunState::aborted : RunState::complete,
                     item.abort ? "aborted" : "", item.source, item.done);
     case Item::Kind::ended:
-      if (!open_) return;
+      if (!open_ || !of_this_pass(item)) return;
       return finish(item.reason.empty() ? RunState::complete : RunState::failed, item.reason,
                     item.source, {});
     case Item::Kind::storage_failed:
       if (!open_ || open_->id != item.run) return;
       return finish(RunState::failed, item.reason, item.source, {});
   }
+}
+
+// A replay is read once a run; what an earlier reading left in the queue is not of this run.
+bool Station::of_this_pass(const Item& item) const {
+  return config_.device.live || item.pass == pass_;
 }
 
 void Station::attach(Item& item) {
@@ -134,12 +150,13 @@ void Station::take_samples(SampleBlock& block) {
   if (const Status pushed = open_->pipeline.push(block); !pushed) {
     return finish(RunState::failed, pushed.error().message, {}, {});
   }
-  keep_new_points();
+  keep_new_points(open_->pipeline.points());
+  if (all_asked_for(open_->request, open_->stored)) finish(RunState::complete, "", {}, {});
   show_live();
 }
 
-void Station::keep_new_points() {
-  const auto& points = open_->pipeline.points();
+// Hands to the store what it has not got of these points.
+void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   const std::size_t first = open_->stored.size();
   if (points.size() <= first) return;
   std::vector<MeasuredPoint> fresh(points.begin() + static_cast<std::ptrdiff_t>(first),
@@ -148,16 +165,19 @@ void Station::keep_new_points() {
   const std::int64_t run = open_->id;
   std::string json = points_json(run, config_.rig.axis, fresh, first);
   // Told to clients only once it is on the disk.
-  keeper_.append_points(run, std::move(fresh), [this, json = std::move(json)](const Status& kept) {
-    if (kept) shared_->events.run_event(json);
-  });
-  if (all_asked_for(open_->request, points)) finish(RunState::complete, "", {}, {});
+  keeper_.append_points(run, std::move(fresh),
+                        [shared = shared_, json = std::move(json)](const Status& kept) {
+                          if (kept) shared->events.run_event(json);
+                        });
 }
 
 void Station::finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
                      RunDone done) {
+  if (!config_.device.live) acquiring_ = false;  // what is still on its way belongs to this pass
+  auto result = open_->pipeline.finish();
+  // The stop at which the run ended has become a point only now.
+  if (result && begins_with(result->points, open_->stored)) keep_new_points(result->points);
   const std::unique_ptr<OpenRun> open = std::move(open_);
-  auto result = open->pipeline.finish();
   Run run;
   if (result) {
     run = std::move(*result);

@@ -2,11 +2,14 @@
 
 #include <pthread.h>
 
+#include <algorithm>
+
 #include "daemon/paths.h"
 
 namespace mdof::daemon {
 namespace {
 
+constexpr std::chrono::milliseconds kLongestPop{500};  // the watchdog wants to see the thread
 constexpr std::size_t kQueueLength = 4096;  // jobs: blocks of samples, points, calls of clients
 
 store::RunEnd end_of(const Run& run) {
@@ -48,7 +51,7 @@ void Storekeeper::work() {
   pthread_setname_np(pthread_self(), "store");
   auto next_commit = std::chrono::steady_clock::now() + options_.commit_interval;
   while (!queue_.closed_and_empty()) {
-    if (const auto job = queue_.pop(options_.commit_interval)) (*job)();
+    if (const auto job = queue_.pop(std::min(options_.commit_interval, kLongestPop))) (*job)();
     const auto now = std::chrono::steady_clock::now();
     last_turn_.store(now);
     if (now < next_commit) continue;
@@ -57,6 +60,7 @@ void Storekeeper::work() {
     next_commit = now + options_.commit_interval;
   }
   commit_recordings();
+  end_what_can_be();
 }
 
 // One transaction a recording and interval: durable at the price of one disk flush.
@@ -115,8 +119,12 @@ void Storekeeper::append_points(std::int64_t run, std::vector<MeasuredPoint> poi
                                 std::function<void(Status)> done) {
   auto shared = std::make_shared<std::vector<MeasuredPoint>>(std::move(points));
   queue_.push_always([this, run, shared, done = std::move(done)] {
+    if (incomplete_.contains(run)) return done(io_error("an earlier point was not kept"));
     const Status kept = store_.append_points(run, *shared);
-    if (!kept) events_.failed(run, kept.error());
+    if (!kept) {
+      incomplete_.insert(run);
+      events_.failed(run, kept.error());
+    }
     done(kept);
   });
 }
@@ -132,22 +140,32 @@ Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, bool differ
       result.header.provenance.recording_sha256 = *sealed;
     }
   }
+  if (incomplete_.erase(run) > 0) differs = !result.points.empty();
   const store::RunEnd whole = end_of(result);
   if (!differs) {
-    MDOF_CHECK(store_.end_run(run, whole));
+    MDOF_CHECK(end_or_wait(run, whole));
     return run;
   }
   store::RunEnd provisional = whole;
+  provisional.state = RunState::failed;  // of use to nobody: the next run has it all
   provisional.straightness.clear();
   provisional.angles.clear();
   provisional.warnings.emplace_back(
-      "the sequence was recognised differently once all was known; superseded by the next run");
-  MDOF_CHECK(store_.end_run(run, provisional));
+      "once all was known the points turned out otherwise; the run that supersedes this one has "
+      "them");
+  MDOF_CHECK(end_or_wait(run, provisional));
   MDOF_TRY(RunHeader header, store_.run_header(run));
   header.supersedes = run;
   header.warnings = whole.warnings;
   result.header = std::move(header);
   return store_.add_run(result);
+}
+
+// A refused end is not given up: it is tried again until the disk takes it.
+Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
+  Status ended = store_.end_run(run, end);
+  if (!ended) unended_.push_back({run, end});
+  return ended;
 }
 
 void Storekeeper::end_run(std::int64_t run, Run result, bool differs,

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "daemon/bounded_queue.h"
@@ -72,6 +73,7 @@ class Storekeeper {
   void end_what_can_be();
   Result<std::int64_t> begin(NewRun& run);
   Result<std::int64_t> end(std::int64_t run, Run& result, bool differs);
+  Status end_or_wait(std::int64_t run, const store::RunEnd& end);
 
   struct Recording {
     store::RecordingWriter writer;
@@ -88,6 +90,7 @@ class Storekeeper {
   Events events_;
   std::map<std::int64_t, Recording> recordings_;
   std::vector<Unended> unended_;
+  std::set<std::int64_t> incomplete_;  // runs of which a point could not be kept
   BoundedQueue<std::function<void()>> queue_;
   std::atomic<std::chrono::steady_clock::time_point> last_turn_;
   std::thread thread_;  // last: starts when all else is there

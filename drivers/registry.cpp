@@ -49,7 +49,11 @@ Result<DriverSpec> configure_replay(TomlTable& table, const DriverContext& conte
   if (!std::filesystem::is_regular_file(path)) {
     return bad_input(table.where("file") + ": " + path.string() + " is no file that can be read");
   }
-  return log_driver(context.name, path.string());
+  DriverSpec spec = log_driver(context.name, path.string());
+  MDOF_TRY(const auto log, spec.make());
+  MDOF_CHECK(log->open());
+  spec.simulated = log->info().simulated;  // a recorded simulation stays one
+  return spec;
 }
 
 struct Row {

@@ -165,6 +165,21 @@ TEST(Dwell, FlagsGapsSpikesSaturationAndLoss) {
   }
 }
 
+TEST(Dwell, AGlitchOfTheEncoderIsNoApproach) {
+  Stepper axis;
+  axis.passes(kTargets, 1);
+  const auto clean = detect(axis.frames, 1000);
+  const auto at = std::lower_bound(axis.frames.time_ns.begin(), axis.frames.time_ns.end(),
+                                   clean[2].begin_ns + 150'000'000) -
+                  axis.frames.time_ns.begin();
+  for (const auto i : {at, at + 1, at + 2})
+    axis.frames.encoder_m[static_cast<std::size_t>(i)] += 0.3e-3;
+  const Sequence s = recognise_sequence(detect(axis.frames, 1000), {});
+  ASSERT_EQ(s.points.size(), 10u);
+  EXPECT_EQ(s.runs, 1);
+  EXPECT_EQ(s.points[2].point.direction, 1);
+}
+
 TEST(Dwell, AnEndlessStopKeepsMemoryBoundedAndSaysSo) {
   Stepper axis;
   axis.dwell_s = 60;

@@ -53,6 +53,7 @@ TEST(LineFit, AgreesWithNistNorris) {
 mdof::Run run_of(Axis axis, const std::vector<double>& x_m, const std::vector<double>& y_um) {
   mdof::Run run;
   run.header.axis = axis;
+  run.header.state = RunState::complete;
   run.header.id = axis == Axis::x ? 1 : 2;
   for (const int direction : {1, -1}) {
     for (std::size_t i = 0; i < x_m.size(); ++i) {

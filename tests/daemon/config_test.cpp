@@ -75,6 +75,22 @@ TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
   }
 }
 
+TEST_F(ConfigFile, AReplayOfAnotherAxisIsRefusedAtStartUp) {
+  const std::string says =
+      refusal("[[axis]]\nrig = \"rig_Y.toml\"\n[axis.device]\ndriver = \"replay\"\nfile = \"" +
+              kData + "/five-probe/log_X.csv.gz\"\n");
+  EXPECT_NE(says.find("axis"), std::string::npos) << says;
+  EXPECT_NE(says.find("log_X"), std::string::npos) << says;
+}
+
+TEST_F(ConfigFile, AReplayedSimulationStaysOne) {
+  std::ofstream(folder_ / "made.csv") << "# simulated by a test\ntime_s,encoder_mm,A_um\n0,0,0\n";
+  const auto config = load(
+      "[[axis]]\nrig = \"rig_X.toml\"\n[axis.device]\ndriver = \"replay\"\nfile = \"made.csv\"\n");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_TRUE(config->axes[0].device.simulated);
+}
+
 TEST_F(ConfigFile, ARigThatCannotSeeIsRefusedAtStartUp) {
   std::ifstream in(folder_ / "rig_X.toml");
   std::string rig((std::istreambuf_iterator<char>(in)), {});

@@ -73,6 +73,21 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(json.loads(out)["points"], self.client.points(run))
         self.assertFalse(self.client.call("run.get", run=run)["simulated"])
 
+    def test_a_run_stopped_in_a_dwell_keeps_its_id_and_that_point(self):
+        watcher = Client(self.daemon.socket)
+        watcher.call("live.subscribe", interval_ms=20, events=True)
+        run = self.client.call("run.start", axis="X")["run"]
+        points = 0
+        while points < 3:
+            value = watcher.next_note()["params"]["value"]
+            points += len(value["points"]) if value.get("type") == "points" else 0
+        while not (value.get("still") and value.get("run") == run):
+            value = watcher.next_note()["params"]["value"]
+        stopped = self.client.call("run.stop", run=run)
+        self.assertEqual(stopped["run"], run)
+        self.assertEqual(self.client.call("run.get", run=run)["state"], "complete")
+        self.assertIsNone(self.client.call("run.list", count=1)["runs"][0]["supersedes"])
+
     def test_compensation_is_built_activated_and_served(self):
         run = self.measured(axis="X", targets_mm=TARGETS, repeats=1)
         built = self.client.call("compensation.build", runs=[run])
@@ -124,6 +139,8 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(refused.exception.code, -32001)
         self.client.call("run.stop", run=run, abort=True)
         self.assertEqual(self.client.call("run.get", run=run)["state"], "aborted")
+        with self.assertRaisesRegex(RpcError, "is aborted"):
+            self.client.call("compensation.build", runs=[run])
         with self.assertRaises(RpcError):
             self.client.call("run.stop", run=run)
 

@@ -88,8 +88,9 @@ Status App::Parts::listen() {
   server.add_topic({.name = kLiveTopic});
   server.add_topic(
       {.name = kRunTopic, .event = true, .min_interval = std::chrono::milliseconds(0)});
-  methods.reset(new Methods{loop, *keeper, *reader, stations, active, config.database.string(),
-                            utc_now(), std::chrono::steady_clock::now()});
+  methods = std::make_unique<Methods>(Methods{loop, *keeper, *reader, stations, active,
+                                              config.database.string(), utc_now(),
+                                              std::chrono::steady_clock::now()});
   add_server_methods(table, *methods);
   add_run_methods(table, *methods);
   add_compensation_methods(table, *methods);

@@ -33,6 +33,12 @@ bool same_points(const std::vector<MeasuredPoint>& stored,
   return a.hex() == b.hex();
 }
 
+// The motion that follows will tell the approach of this point; it is not yet to be stored.
+bool approach_assumed(const MeasuredPoint& p) {
+  const auto& flags = p.point.flags;
+  return std::find(flags.begin(), flags.end(), "approach_assumed") != flags.end();
+}
+
 // Each target has been measured as often as was asked for, both ways.
 bool all_asked_for(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
   if (request.repeats == 0) return false;
@@ -150,7 +156,8 @@ void Station::take_samples(SampleBlock& block) {
   if (const Status pushed = open_->pipeline.push(block); !pushed) {
     return finish(RunState::failed, pushed.error().message, {}, {});
   }
-  keep_new_points(open_->pipeline.points());
+  const auto& points = open_->pipeline.points();
+  if (!points.empty() && !approach_assumed(points.back())) keep_new_points(points);
   if (all_asked_for(open_->request, open_->stored)) finish(RunState::complete, "", {}, {});
   show_live();
 }

@@ -156,6 +156,7 @@ Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, bool differ
   MDOF_CHECK(end_or_wait(run, provisional));
   MDOF_TRY(RunHeader header, store_.run_header(run));
   header.supersedes = run;
+  header.state = whole.state;
   header.warnings = whole.warnings;
   result.header = std::move(header);
   return store_.add_run(result);

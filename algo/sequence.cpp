@@ -73,7 +73,7 @@ void assume_approaches(std::vector<MeasuredPoint>& points) {
     Point& p = points[i].point;
     if (p.direction != 0) continue;
     p.direction = i + 1 < points.size() && points[i + 1].target < points[i].target ? -1 : 1;
-    p.flags.emplace_back("approach_assumed");
+    p.flags.emplace_back(kApproachAssumed);
   }
 }
 

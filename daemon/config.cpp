@@ -106,6 +106,7 @@ Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& co
   if (!axis.device.recorded) {
     MDOF_TRY(ReplayLog log, ReplayLog::open(axis.device.source_path));
     MDOF_CHECK(check_axis(axis.device.source_path, log.comments(), axis.rig));
+    axis.device.simulated = log.driver().info().simulated;  // a recorded simulation stays one
   }
   for (const auto& other : config.axes) {
     if (other.rig.axis == axis.rig.axis) {

@@ -1,7 +1,6 @@
 // A run under way, as the measure thread holds it. Private to station*.cpp.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "daemon/station.h"
@@ -14,7 +13,6 @@ struct Station::OpenRun {
   Pipeline pipeline;
   std::vector<MeasuredPoint> stored;      // as handed to the store
   std::uint64_t blocks_not_recorded = 0;  // the store's queue was full
-  std::optional<std::string> failure;     // no more samples are taken
 };
 
 }  // namespace mdof::daemon

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "daemon/version.h"
 
@@ -11,15 +10,7 @@ namespace {
 
 using drivers::ReadState;
 
-constexpr std::string_view kRecordingMagic{"SQLite format 3\0", 16};
 constexpr std::chrono::milliseconds kReadTimeout{1000};
-
-bool is_recording(const std::string& path) {
-  std::string beginning(kRecordingMagic.size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  return file && beginning == kRecordingMagic;
-}
 
 std::string column_name(const Channel& channel) {
   const std::string unit = suffix(channel.unit);
@@ -74,7 +65,7 @@ Provenance provenance_of(const ReplayLog& log, const Rig& rig, const PipelineOpt
 
 Result<ReplayLog> ReplayLog::open(const std::string& path) {
   ReplayLog log(path);
-  if (path != "-" && is_recording(path)) {
+  if (path != "-" && drivers::is_recording(path)) {
     auto recording = std::make_unique<drivers::RecordingLog>("recording", path);
     log.recording_ = recording.get();
     log.driver_ = std::move(recording);

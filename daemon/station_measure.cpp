@@ -36,7 +36,7 @@ bool same_points(const std::vector<MeasuredPoint>& stored,
 // The motion that follows will tell the approach of this point; it is not yet to be stored.
 bool approach_assumed(const MeasuredPoint& p) {
   const auto& flags = p.point.flags;
-  return std::find(flags.begin(), flags.end(), "approach_assumed") != flags.end();
+  return std::find(flags.begin(), flags.end(), algo::kApproachAssumed) != flags.end();
 }
 
 // Each target has been measured as often as was asked for, both ways.
@@ -130,8 +130,7 @@ void Station::attach(Item& item) {
     shared_->run = 0;
     return item.done(tl::unexpected(pipeline.error()));
   }
-  open_ =
-      std::make_unique<OpenRun>(OpenRun{item.run, item.request, std::move(*pipeline), {}, 0, {}});
+  open_ = std::make_unique<OpenRun>(OpenRun{item.run, item.request, std::move(*pipeline), {}, 0});
   shared_->run = item.run;
   shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
   item.done(item.run);

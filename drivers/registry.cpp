@@ -1,9 +1,6 @@
 #include "drivers/registry.h"
 
-#include <array>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "drivers/csv/csv_log.h"
 #include "drivers/recording/recording_log.h"
@@ -11,13 +8,6 @@
 
 namespace mdof::drivers {
 namespace {
-
-bool is_recording(const std::string& path) {
-  std::array<char, 16> magic{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(magic.data(), magic.size());
-  return std::memcmp(magic.data(), "SQLite format 3", magic.size()) == 0;
-}
 
 template <class Log>
 SourceInfo info_of(const Driver& driver) {
@@ -49,11 +39,7 @@ Result<DriverSpec> configure_replay(TomlTable& table, const DriverContext& conte
   if (!std::filesystem::is_regular_file(path)) {
     return bad_input(table.where("file") + ": " + path.string() + " is no file that can be read");
   }
-  DriverSpec spec = log_driver(context.name, path.string());
-  MDOF_TRY(const auto log, spec.make());
-  MDOF_CHECK(log->open());
-  spec.simulated = log->info().simulated;  // a recorded simulation stays one
-  return spec;
+  return log_driver(context.name, path.string());
 }
 
 struct Row {

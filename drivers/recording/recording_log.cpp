@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 
 #include "schema/chunk.h"
 #include "schema/units.h"
@@ -231,6 +232,14 @@ std::vector<std::int64_t> RecordingLog::chunk_numbers() {
   for (auto row = rows->step(); row && *row; row = rows->step())
     numbers.push_back(rows->integer(0));
   return numbers;
+}
+
+bool is_recording(const std::string& path) {
+  constexpr std::string_view kMagic{"SQLite format 3\0", 16};
+  std::string beginning(kMagic.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  return file && beginning == kMagic;
 }
 
 }  // namespace mdof::drivers

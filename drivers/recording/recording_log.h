@@ -61,4 +61,7 @@ class RecordingLog : public Driver {
   std::int64_t chunks_ = 0, next_ = 1, start_ns_ = 0;
 };
 
+// Whether the file begins as a recording does (SQLite's magic); what cannot be read does not.
+bool is_recording(const std::string& path);
+
 }  // namespace mdof::drivers

@@ -16,7 +16,7 @@ struct RobustMean {
 
 // Readings further than 6 robust standard deviations (1.4826 · median absolute deviation) from the
 // median are left out; where more than half of the readings are the same number, further than
-// `coarse`. The mean of the rest is summed in order. u = sd/√n · √((1 + ρ)/(1 - ρ)), with ρ the
+// `coarse`. Sums have one order on every machine. u = sd/√n · √((1 + ρ)/(1 - ρ)), with ρ the
 // lag-1 correlation where positive (GUM 4.2.3 for readings that are not independent).
 // `readings` are finite; `scratch` is reused memory.
 RobustMean robust_mean(std::span<const double> readings, double coarse,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "schema/avx512.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {
@@ -48,6 +50,50 @@ double displacement_m(const Calibration& c, double raw_um) {
   return from_um(c.reads_gap ? -displacement_um : displacement_um);
 }
 
+namespace {
+
+// Raw values to displacements. True: some are outside the window, or NaN. Loops without branches,
+// so that they become vectors.
+using Displace = bool (*)(double um_per_unit, Window window, std::span<double> values);
+
+// For a probe without offset, linearity table or gap.
+[[gnu::always_inline]] inline bool scale(double um_per_unit, Window window,
+                                         std::span<double> values) {
+  unsigned outside = 0;
+  for (double& value : values) {
+    const double raw_um = value * um_per_unit;
+    outside |= !(raw_um > window.low_um) | !(raw_um < window.high_um);
+    value = from_um(raw_um);
+  }
+  return outside != 0;
+}
+
+bool scale_baseline(double um_per_unit, Window window, std::span<double> values) {
+  return scale(um_per_unit, window, values);
+}
+#ifdef MDOF_AVX512
+MDOF_AVX512 bool scale_avx512(double um_per_unit, Window window, std::span<double> values) {
+  return scale(um_per_unit, window, values);
+}
+const Displace kScale = has_avx512() ? scale_avx512 : scale_baseline;
+#else
+const Displace kScale = scale_baseline;
+#endif
+
+bool displace(const Calibration& c, double um_per_unit, Window window, std::span<double> values) {
+  if (c.offset_um == 0.0 && c.linearity.empty() && !c.reads_gap)
+    return kScale(um_per_unit, window, values);
+  bool outside = false;
+  for (double& value : values) {
+    const double raw_um = value * um_per_unit;
+    outside |= !(raw_um > window.low_um) || !(raw_um < window.high_um);
+    value = displacement_m(c, raw_um);
+  }
+  return outside;
+}
+
+}  // namespace
+
 Calibrator::Calibrator(const Rig& rig) : rig_source_(rig.source) {
   for (const auto& probe : rig.probes) probes_.emplace(probe.id, probe);
 }
@@ -70,18 +116,11 @@ Status Calibrator::apply_probe(const Probe& probe, std::size_t channel, SampleBl
                      "name its column " +
                      probe.id + "_um or " + probe.id + "_V");
   }
-  const auto [low_um, high_um] = valid_window(probe);
-  const bool plain = c.offset_um == 0.0 && c.linearity.empty() && !c.reads_gap;
   auto& column = block.value[channel];
-  bool outside = false;  // or NaN; counted without a branch, so that the loop becomes vectors
-  for (double& value : column) {
-    const double raw_um = value * um_per_unit;
-    outside |= !(raw_um > low_um) | !(raw_um < high_um);
-    value = plain ? from_um(raw_um) : displacement_m(c, raw_um);
-  }
-  if (!outside) return {};
+  if (!displace(c, um_per_unit, valid_window(probe), column)) return {};
   // The rare second pass: the raw value is asked again through its displacement.
-  const double low_m = displacement_m(c, low_um), high_m = displacement_m(c, high_um);
+  const Window window = valid_window(probe);
+  const double low_m = displacement_m(c, window.low_um), high_m = displacement_m(c, window.high_um);
   for (std::size_t i = 0; i < column.size(); ++i) {
     if (std::isnan(column[i])) {
       mark(block, channel, i, Quality::missing);

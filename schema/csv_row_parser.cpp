@@ -2,42 +2,27 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "schema/csv_line.h"
 #include "schema/csv_stops.h"
-#include "schema/number.h"
-#include "schema/number_scan.h"
+#include "schema/number_columns.h"
 
 namespace mdof {
 namespace {
 
-static_assert(kCsvMargin >= kScanMargin && kCsvMargin >= kStopsMargin);
+static_assert(kCsvMargin >= kColumnMargin && kCsvMargin >= kStopsMargin);
 constexpr std::size_t kBatchRows = 256;
 
-// A field that is not plain, for instance with an exponent.
-[[gnu::noinline, gnu::cold]] bool read_any_number(const char* p, const char* end, double& x) {
-  return p != end && parse_double(p, end, x) == end && std::isfinite(x);
-}
-
-inline bool read_number(const char* p, const char* end, double& x) {
-  ScannedNumber number;
-  if (!scan_number(p, end, number)) return read_any_number(p, end, x);
-  x = to_double(number);
-  return true;
-}
-
-inline bool read_time(const char* p, const char* end, std::int64_t& time_ns) {
-  ScannedNumber number;
-  if (!scan_number(p, end, number) || number.fraction_digits > 9 ||
-      number.mantissa >= kPowersOfTen[9 + number.fraction_digits])
-    return parse_seconds({p, static_cast<std::size_t>(end - p)}, time_ns);
-  const std::uint64_t ns = number.mantissa * kPowersOfTen[9 - number.fraction_digits];
-  time_ns = static_cast<std::int64_t>(number.negative ? -ns : ns);
-  return true;
+// The bytes that end the fields of a batch of good rows.
+std::string stops_of_rows(std::size_t columns, const std::string& line_end) {
+  const std::string row = std::string(columns - 1, ',') + line_end;
+  std::string rows;
+  for (std::size_t i = 0; i < kBatchRows; ++i) rows += row;
+  return rows;
 }
 
 }  // namespace
@@ -48,6 +33,8 @@ CsvRowParser::CsvRowParser(CsvHeader header, CsvLimits limits)
       line_(header_.lines + 1),
       last_time_ns_(std::numeric_limits<std::int64_t>::min()) {
   assert(limits_.scans_per_block > 0);
+  plain_rows_ = stops_of_rows(header_.columns.size(), "\n");
+  plain_crlf_rows_ = stops_of_rows(header_.columns.size(), "\r\n");
   prepare_block();
 }
 
@@ -105,46 +92,38 @@ void CsvRowParser::parse_plain_rows() {
   if (blank_lines_) return;  // the next line reports them first
   const std::size_t columns = header_.columns.size();
   for (;;) {
-    if (next_stop_ + columns + 1 >= stops_.size()) return;
-    const bool crlf = text_[stops_[next_stop_ + columns]] == '\r';
+    if (next_stop_ + columns + 1 >= stops_.count) return;
+    const bool crlf = stops_.byte[next_stop_ + columns] == '\r';
     const std::size_t stride = columns + crlf;
-    const std::size_t wanted = plain_rows_ahead(stride);
+    const std::size_t wanted = plain_rows_ahead(crlf);
     const std::size_t rows = read_times(read_columns(wanted, stride), stride);
     if (row_ == 0 && rows > 0) block_.lost = std::exchange(lost_, 0);
     row_ += rows;
     line_ += rows;
     next_stop_ += rows * stride;
-    begin_ = stops_[next_stop_] + 1u;
+    begin_ = stops_.at[next_stop_] + 1u;
     if (rows == 0 || rows < wanted) return;
   }
 }
 
-// How many of the next lines have the right number of fields and end in LF, or CR LF where `stride`
-// says so; at most a batch, and what the block has room for.
-std::size_t CsvRowParser::plain_rows_ahead(std::size_t stride) const {
-  const std::size_t columns = header_.columns.size();
+// How many of the next lines have the right number of fields and end in LF, or in CR LF; at most a
+// batch, and what the block has room for.
+std::size_t CsvRowParser::plain_rows_ahead(bool crlf) const {
+  const std::string& plain = crlf ? plain_crlf_rows_ : plain_rows_;
+  const std::size_t stride = plain.size() / kBatchRows;
   const std::size_t room = std::min(kBatchRows, limits_.scans_per_block - row_);
-  const std::size_t most = std::min(room, (stops_.size() - 1 - next_stop_) / stride);
-  const std::uint32_t* stop = stops_.data() + next_stop_ + 1;
-  const char* const text = text_.data();
-  for (std::size_t row = 0; row < most; ++row, stop += stride) {
-    for (std::size_t column = 0; column + 1 < columns; ++column)
-      if (text[stop[column]] != ',') return row;
-    const char* const end = text + stop[columns - 1];
-    const bool good = stride == columns ? *end == '\n' : *end == '\r' && end[1] == '\n';
-    if (!good) return row;
-  }
-  return most;
+  const std::size_t most = std::min(room, (stops_.count - 1 - next_stop_) / stride);
+  const char* const found = stops_.byte.get() + next_stop_ + 1;
+  if (std::memcmp(found, plain.data(), most * stride) == 0) return most;
+  const auto [odd, unused] = std::mismatch(found, found + most * stride, plain.data());
+  return static_cast<std::size_t>(odd - found) / stride;
 }
 
 // Reads all channels of the next rows; gives the number of rows before the first odd field.
 std::size_t CsvRowParser::read_columns(std::size_t rows, std::size_t stride) {
-  const char* const text = text_.data();
   for (std::size_t channel = 0; channel < header_.channels.size(); ++channel) {
-    const std::uint32_t* stop = stops_.data() + next_stop_ + header_.channel_columns[channel];
-    double* const out = block_.value[channel].data() + row_;
-    for (std::size_t row = 0; row < rows; ++row, stop += stride)
-      if (!read_number(text + (stop[0] + 1u), text + stop[1], out[row])) rows = row;
+    const std::uint32_t* stop = stops_.at.get() + next_stop_ + header_.channel_columns[channel];
+    rows = read_doubles({text_.data(), stop, stride}, rows, block_.value[channel].data() + row_);
   }
   return rows;
 }
@@ -156,12 +135,11 @@ std::size_t CsvRowParser::read_times(std::size_t rows, std::size_t stride) {
     std::iota(out, out + rows, static_cast<std::int64_t>(this->rows()));
     return rows;
   }
-  const char* const text = text_.data();
   const std::uint32_t* stop =
-      stops_.data() + next_stop_ + static_cast<std::size_t>(header_.time_column);
-  for (std::size_t row = 0; row < rows; ++row, stop += stride) {
-    const bool good = read_time(text + (stop[0] + 1u), text + stop[1], out[row]);
-    if (!good || out[row] <= last_time_ns_) return row;
+      stops_.at.get() + next_stop_ + static_cast<std::size_t>(header_.time_column);
+  rows = read_times_ns({text_.data(), stop, stride}, rows, out);
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (out[row] <= last_time_ns_) return row;
     last_time_ns_ = out[row];
   }
   return rows;
@@ -186,7 +164,7 @@ Status CsvRowParser::parse_one_line() {
   ++line_;
   begin_ = end + 1;
   do ++next_stop_;
-  while (stops_[next_stop_] != end);
+  while (stops_.at[next_stop_] != end);
   return {};
 }
 

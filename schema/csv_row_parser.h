@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/csv_stops.h"
 #include "schema/probe_log.h"
 #include "schema/result.h"
 #include "schema/sample.h"
@@ -43,7 +44,7 @@ class CsvRowParser {
 
  private:
   void parse_plain_rows();
-  std::size_t plain_rows_ahead(std::size_t stride) const;
+  std::size_t plain_rows_ahead(bool crlf) const;
   std::size_t read_columns(std::size_t rows, std::size_t stride);
   std::size_t read_times(std::size_t rows, std::size_t stride);
   Status parse_one_line();
@@ -56,8 +57,9 @@ class CsvRowParser {
 
   CsvHeader header_;
   CsvLimits limits_;
+  std::string plain_rows_, plain_crlf_rows_;  // CsvStops::byte of a batch of good rows
   std::string_view text_;
-  std::vector<std::uint32_t> stops_;
+  CsvStops stops_;
   std::size_t next_stop_ = 0;      // the one before the next line
   std::size_t begin_ = 0;          // of the next line in text_
   std::uint64_t line_ = 0;         // number of the next line

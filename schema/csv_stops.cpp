@@ -1,16 +1,26 @@
 #include "schema/csv_stops.h"
 
-#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
+
+#include "schema/avx512.h"
 
 namespace mdof {
 namespace {
 
 constexpr std::size_t kStep = kStopsMargin;  // bytes a round
+
+// Where the next stops go. They are written in groups, the last with some too many.
+struct Out {
+  std::uint32_t* at;
+  char* byte;
+};
+
+// All bits, or the first n where fewer than a round are left.
+std::uint64_t of_the_text(std::size_t n) {
+  return n < kStep ? (std::uint64_t{1} << n) - 1 : ~std::uint64_t{0};
+}
 
 // Bit i: byte p[i] is a stop, i < 64.
 std::uint64_t stop_bits(const char* p) {
@@ -35,32 +45,78 @@ std::uint64_t count_bits(std::uint64_t bits) {
   return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56;
 }
 
-// Appends the positions of the bits in groups of four, the last group with some too many: a loop of
-// unknown length is mispredicted at its end. Gives the new end.
-std::uint32_t* append_positions(std::uint64_t bits, std::uint32_t begin, std::uint32_t* out) {
-  std::uint32_t* const end = out + count_bits(bits);
+// In groups of four: a loop of unknown length is mispredicted at its end.
+Out append(const char* text, std::size_t begin, std::uint64_t bits, Out out) {
+  std::uint32_t* const end = out.at + count_bits(bits);
   do {
-    for (int k = 0; k < 4; ++k, bits &= bits - 1)
-      *out++ = begin + static_cast<std::uint32_t>(std::countr_zero(bits));
-  } while (out < end);
-  return end;
+    for (int k = 0; k < 4; ++k, bits &= bits - 1) {
+      const std::size_t at = begin + (static_cast<unsigned>(std::countr_zero(bits)) & 63u);
+      *out.at++ = static_cast<std::uint32_t>(at);
+      *out.byte++ = text[at];
+    }
+  } while (out.at < end);
+  return {end, out.byte - (out.at - end)};
+}
+
+[[maybe_unused]] Out append_all(std::string_view text, Out out) {
+  for (std::size_t begin = 0; begin < text.size(); begin += kStep) {
+    const std::uint64_t bits = stop_bits(text.data() + begin) & of_the_text(text.size() - begin);
+    out = append(text.data(), begin, bits, out);
+  }
+  return out;
+}
+
+#if defined(__x86_64__)
+constexpr std::array<char, kStep> kPlaces = [] {
+  std::array<char, kStep> places{};
+  for (std::size_t i = 0; i < kStep; ++i) places[i] = static_cast<char>(i);
+  return places;
+}();
+
+[[gnu::target("avx512f,avx512bw,avx512vbmi2,popcnt")]] Out append_all_avx512(std::string_view text,
+                                                                             Out out) {
+  const __m512i all_places = _mm512_loadu_si512(kPlaces.data());
+  for (std::size_t begin = 0; begin < text.size(); begin += kStep) {
+    const __m512i bytes = _mm512_loadu_si512(text.data() + begin);
+    const std::uint64_t bits =
+        _mm512_cmplt_epi8_mask(bytes, _mm512_set1_epi8('-')) & of_the_text(text.size() - begin);
+    const int count = __builtin_popcountll(bits);
+    _mm512_storeu_si512(out.byte, _mm512_maskz_compress_epi8(bits, bytes));
+    __m512i places = _mm512_maskz_compress_epi8(bits, all_places);
+    const __m512i first = _mm512_set1_epi32(static_cast<int>(begin));
+    for (int k = 0; k < count; k += 16) {
+      const __m512i sixteen = _mm512_maskz_cvtepu8_epi32(0xffff, _mm512_castsi512_si128(places));
+      _mm512_storeu_si512(out.at + k, _mm512_add_epi32(sixteen, first));
+      places = _mm512_maskz_alignr_epi32(0xffff, places, places, 4);
+    }
+    out = {out.at + count, out.byte + count};
+  }
+  return out;
+}
+#endif
+
+using AppendAll = Out (*)(std::string_view, Out);
+AppendAll choose() {
+#if defined(__x86_64__)
+  if (has_avx512()) return append_all_avx512;
+#endif
+  return append_all;
 }
 
 }  // namespace
 
-void find_stops(std::string_view text, std::vector<std::uint32_t>& stops) {
-  if (stops.empty()) stops.resize(1);
-  stops[0] = static_cast<std::uint32_t>(-1);
-  std::size_t count = 1;
-  for (std::size_t begin = 0; begin < text.size(); begin += kStep) {
-    if (stops.size() < count + kStep + 4) stops.resize(2 * (count + kStep));
-    std::uint64_t bits = stop_bits(text.data() + begin);
-    if (text.size() - begin < kStep) bits &= (std::uint64_t{1} << (text.size() - begin)) - 1;
-    std::uint32_t* const out = stops.data() + count;
-    count += static_cast<std::size_t>(
-        append_positions(bits, static_cast<std::uint32_t>(begin), out) - out);
+void find_stops(std::string_view text, CsvStops& stops) {
+  static const AppendAll kAppendAll = choose();
+  const std::size_t most = 1 + text.size() + kStep;
+  if (stops.room < most) {
+    stops.at.reset(new std::uint32_t[most]);
+    stops.byte.reset(new char[most]);
+    stops.room = most;
   }
-  stops.resize(count);
+  stops.at[0] = static_cast<std::uint32_t>(-1);
+  stops.byte[0] = '\n';
+  const Out end = kAppendAll(text, {stops.at.get() + 1, stops.byte.get() + 1});
+  stops.count = static_cast<std::size_t>(end.at - stops.at.get());
 }
 
 }  // namespace mdof

@@ -1,18 +1,27 @@
-// Where the fields of CSV text end: found sixteen bytes at a time, so that fields can be read
-// without waiting for the end of the one before.
+// Where the fields of CSV text end: found many bytes at a time, so that fields can be read without
+// waiting for the end of the one before.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
-#include <vector>
 
 namespace mdof {
 
-// Replaces `stops` with the positions of all bytes below '-': ',', LF, CR and what has no business
-// in a row of plain numbers (space, '#', '+', '"'). Before them -1 (mod 2^32), so that field k of
-// the text is [stops[k] + 1, stops[k + 1]). The text is below 4 GiB; reads up to kStopsMargin bytes
+// All bytes below '-' (as signed numbers): ',', LF, CR and what has no business in a row of plain
+// numbers (space, '#', '+', '"', bytes beyond ASCII). Field k of the text is
+// [at[k] + 1, at[k + 1]), for which at[0] is -1 (mod 2^32).
+struct CsvStops {
+  std::size_t count = 0;
+  std::unique_ptr<std::uint32_t[]> at;
+  std::unique_ptr<char[]> byte;  // [k]: the byte at at[k]; [0]: LF
+  std::size_t room = 0;          // of both; memory never touched costs nothing
+};
+
+// Replaces `stops` with those of the text, which is below 4 GiB; reads up to kStopsMargin bytes
 // behind it.
 inline constexpr int kStopsMargin = 64;
-void find_stops(std::string_view text, std::vector<std::uint32_t>& stops);
+void find_stops(std::string_view text, CsvStops& stops);
 
 }  // namespace mdof

@@ -13,7 +13,7 @@
 namespace mdof::drivers {
 
 // Thread-bound but for bytes() and bytes_total(), which any thread may call after open(). While
-// open it has the two threads of CsvRows, "csv read" and "csv parse", and no other.
+// open it has the thread of CsvRows, "csv read", and no other.
 class CsvLog : public Driver {
  public:
   // `path` "-" is the standard input, which can be opened once.

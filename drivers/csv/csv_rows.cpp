@@ -12,49 +12,53 @@
 
 namespace mdof::drivers {
 
-// "csv read" owns source_ and lines_, "csv parse" owns rows_ once both have started; what they
-// leave behind belongs to the next in line after finish() of the HandOver between them.
-class CsvRows::Threads {
+// "csv read" owns source_ and lines_ from its start until chunks_ has ended; all else is the
+// caller's.
+class CsvRows::Reading {
  public:
-  Threads(std::unique_ptr<ByteSource> source, std::size_t chunk_bytes)
+  Reading(std::unique_ptr<ByteSource> source, std::size_t chunk_bytes)
       : source_(std::move(source)), lines_(*source_, chunk_bytes) {}
-  ~Threads() {
+  ~Reading() {
     chunks_.stop();
-    blocks_.stop();
-    if (reader_.joinable()) reader_.join();
-    if (parser_.joinable()) parser_.join();
+    if (thread_.joinable()) thread_.join();
   }
 
   Status start(const CsvRowsOptions& options);
+  Result<ReadState> next(SampleBlock& block, std::chrono::milliseconds timeout);
+
+  const ByteSource& source() const { return *source_; }
+  const CsvRowParser& rows() const { return *rows_; }
+  bool ended() const { return ended_; }  // all was read, or an error came
+  bool complete() const { return ended_ && status_; }
+
+ private:
   void read_chunks();
-  void parse_chunks();
+  Result<bool> fill(SampleBlock& block, std::chrono::milliseconds timeout);
 
   std::unique_ptr<ByteSource> source_;
   LineReader lines_;
   LineChunk first_;  // holds the header
   std::optional<CsvRowParser> rows_;
-  Status read_status_, status_;  // of "csv read"; of all, once blocks_ has ended
   HandOver<LineChunk, 4> chunks_;
-  HandOver<SampleBlock, 4> blocks_;
-  std::thread reader_, parser_;
-
- private:
-  Status parse_all();
-  Status pass_on(std::string_view text);
+  Status read_status_;         // of "csv read"
+  bool chunk_in_use_ = false;  // the parser has the text of the oldest in chunks_
+  bool ended_ = false;
+  Status status_;
+  std::thread thread_;
 };
 
-Status CsvRows::Threads::start(const CsvRowsOptions& options) {
+Status CsvRows::Reading::start(const CsvRowsOptions& options) {
   MDOF_CHECK(lines_.read(first_));
   MDOF_TRY(CsvHeader header, parse_csv_header(first_.text(), options.kind, source_->name()));
+  const std::size_t header_bytes = header.bytes;
   rows_.emplace(std::move(header), options.limits);
-  reader_ = std::thread([this] { read_chunks(); });
-  parser_ = std::thread([this] { parse_chunks(); });
-  ::pthread_setname_np(reader_.native_handle(), "csv read");
-  ::pthread_setname_np(parser_.native_handle(), "csv parse");
+  rows_->give(first_.text().substr(header_bytes));
+  thread_ = std::thread([this] { read_chunks(); });
+  ::pthread_setname_np(thread_.native_handle(), "csv read");
   return {};
 }
 
-void CsvRows::Threads::read_chunks() {
+void CsvRows::Reading::read_chunks() {
   while (LineChunk* const chunk = chunks_.begin_write()) {
     read_status_ = lines_.read(*chunk);
     if (!read_status_ || chunk->text().empty()) break;
@@ -63,63 +67,58 @@ void CsvRows::Threads::read_chunks() {
   chunks_.finish();
 }
 
-void CsvRows::Threads::parse_chunks() {
-  status_ = parse_all();
-  chunks_.stop();  // where an error left some unread
-  blocks_.finish();
-}
-
-Status CsvRows::Threads::parse_all() {
-  MDOF_CHECK(pass_on(first_.text().substr(rows_->header().bytes)));
-  while (LineChunk* const chunk = chunks_.begin_read()) {
-    MDOF_CHECK(pass_on(chunk->text()));
-    chunks_.end_read();
+// True: `block` is filled. False: nothing came in time or, with ended_, that was all.
+Result<bool> CsvRows::Reading::fill(SampleBlock& block, std::chrono::milliseconds timeout) {
+  for (;;) {
+    MDOF_TRY(const bool complete, rows_->next(block));
+    if (complete) return true;
+    if (chunk_in_use_) chunks_.end_read();
+    const LineChunk* const chunk = chunks_.begin_read(timeout);
+    chunk_in_use_ = chunk != nullptr;
+    if (!chunk) break;
+    rows_->give(chunk->text());
   }
-  SampleBlock* const block = blocks_.begin_write();
-  if (!block) return {};
-  const Result<bool> more = rows_->last(*block);
-  if (more && *more) blocks_.end_write();
+  if (!chunks_.ended()) return false;
+  Result<bool> rest = rows_->last(block);
+  if (rest && *rest) return true;
+  ended_ = true;
   MDOF_CHECK(read_status_);  // says more than "no rows"
-  return more ? Status() : tl::unexpected(more.error());
+  return rest;
 }
 
-Status CsvRows::Threads::pass_on(std::string_view text) {
-  rows_->give(text);
-  while (SampleBlock* const block = blocks_.begin_write()) {
-    MDOF_TRY(const bool complete, rows_->next(*block));
-    if (!complete) break;
-    blocks_.end_write();
+Result<ReadState> CsvRows::Reading::next(SampleBlock& block, std::chrono::milliseconds timeout) {
+  if (!ended_) {
+    const Result<bool> filled = fill(block, timeout);
+    if (filled && *filled) return ReadState::more;
+    if (!filled) {
+      ended_ = true;
+      status_ = tl::unexpected(filled.error());
+    }
   }
-  return {};
+  block.time_ns.clear();
+  for (std::vector<double>& column : block.value) column.clear();
+  if (!ended_) return ReadState::more;
+  MDOF_CHECK(status_);
+  return ReadState::end;
 }
 
-CsvRows::CsvRows(std::unique_ptr<Threads> threads) : threads_(std::move(threads)) {}
+CsvRows::CsvRows(std::unique_ptr<Reading> reading) : reading_(std::move(reading)) {}
 CsvRows::~CsvRows() = default;
 
 Result<std::unique_ptr<CsvRows>> CsvRows::open(const std::string& path,
                                                const CsvRowsOptions& options) {
   MDOF_TRY(std::unique_ptr<ByteSource> source, ByteSource::open(path, options.sha256));
-  auto threads = std::make_unique<Threads>(std::move(source), options.chunk_bytes);
-  MDOF_CHECK(threads->start(options));
-  return std::unique_ptr<CsvRows>(new CsvRows(std::move(threads)));
+  auto reading = std::make_unique<Reading>(std::move(source), options.chunk_bytes);
+  MDOF_CHECK(reading->start(options));
+  return std::unique_ptr<CsvRows>(new CsvRows(std::move(reading)));
 }
 
 const CsvHeader& CsvRows::header() const {
-  return threads_->rows_->header();
+  return reading_->rows().header();
 }
 
 Result<ReadState> CsvRows::next(SampleBlock& block, std::chrono::milliseconds timeout) {
-  SampleBlock* const ready = threads_->blocks_.begin_read(timeout);
-  if (ready) {
-    std::swap(block, *ready);
-    threads_->blocks_.end_read();
-    return ReadState::more;
-  }
-  block.time_ns.clear();
-  for (std::vector<double>& column : block.value) column.clear();
-  if (!threads_->blocks_.ended()) return ReadState::more;
-  MDOF_CHECK(threads_->status_);
-  return ReadState::end;
+  return reading_->next(block, timeout);
 }
 
 Result<ReadState> CsvRows::next(SampleBlock& block) {
@@ -130,18 +129,18 @@ Result<ReadState> CsvRows::next(SampleBlock& block) {
 }
 
 std::string CsvRows::sha256() const {
-  return threads_->blocks_.ended() && threads_->status_ ? threads_->source_->sha256() : "";
+  return reading_->complete() ? reading_->source().sha256() : "";
 }
 
 std::vector<std::string> CsvRows::warnings() const {
-  return threads_->blocks_.ended() ? threads_->rows_->bad_lines() : std::vector<std::string>();
+  return reading_->ended() ? reading_->rows().bad_lines() : std::vector<std::string>();
 }
 
 std::uint64_t CsvRows::bytes() const {
-  return threads_->source_->bytes();
+  return reading_->source().bytes();
 }
 std::uint64_t CsvRows::bytes_total() const {
-  return threads_->source_->bytes_total();
+  return reading_->source().bytes_total();
 }
 
 }  // namespace mdof::drivers

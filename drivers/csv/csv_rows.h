@@ -20,13 +20,13 @@ struct CsvRowsOptions {
   CsvKind kind = CsvKind::probe_log;
   CsvLimits limits;                                // bad_lines = 0 where rows must map one to one
   bool sha256 = true;                              // costs as much time as parsing, on another core
-  std::size_t chunk_bytes = std::size_t{1} << 19;  // no effect on what comes out
+  std::size_t chunk_bytes = std::size_t{1} << 18;  // no effect on what comes out
 };
 
-// Thread-bound but for bytes(). Two threads of its own, from open() to the end of the file or to
-// the destructor: "csv read" reads, hashes and unpacks, "csv parse" makes blocks; each is ahead of
-// its reader by a few blocks at the most, so that memory stays at some MB whatever the file's
-// length. Blocks do not depend on timing or on chunk_bytes.
+// Thread-bound but for bytes(). One thread of its own, "csv read", from open() to the end of the
+// file or to the destructor: it reads, hashes and unpacks, a few chunks ahead of next(), which
+// makes the blocks, so that memory stays at some MB whatever the file's length. Blocks do not
+// depend on timing or on chunk_bytes.
 class CsvRows {
  public:
   // Opens `path` ("-": standard input), plain or gzip by its first bytes, and parses its header.
@@ -48,9 +48,9 @@ class CsvRows {
   std::uint64_t bytes_total() const;  // 0: not known
 
  private:
-  class Threads;
-  explicit CsvRows(std::unique_ptr<Threads> threads);
-  std::unique_ptr<Threads> threads_;
+  class Reading;
+  explicit CsvRows(std::unique_ptr<Reading> reading);
+  std::unique_ptr<Reading> reading_;
 };
 
 }  // namespace mdof::drivers

@@ -62,7 +62,7 @@ Parsed parse(std::string text, CsvLimits limits = {}, CsvKind kind = CsvKind::pr
 
 const std::string kHeader = "time_s,encoder_mm,A_um\n";
 
-void expect_contains(const std::string& text, std::vector<std::string> words) {
+void expect_contains(const std::string& text, const std::vector<std::string>& words) {
   for (const std::string& word : words)
     EXPECT_NE(text.find(word), text.npos) << text << "\nlacks: " << word;
 }

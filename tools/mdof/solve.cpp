@@ -1,6 +1,6 @@
 // mdof solve FRAMES.csv: positions and readings in, five errors a row out.
 //
-//   csv read -> csv parse -> here: calibrate and solve -> write rows      (threads; bounded memory)
+//   csv read -> here: parse, calibrate and solve -> write rows            (threads; bounded memory)
 #include <CLI/CLI.hpp>
 
 #include "daemon/replay.h"

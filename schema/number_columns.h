@@ -1,0 +1,29 @@
+// Columns of plain decimal numbers from CSV text whose field ends are known (schema/csv_stops.h).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mdof {
+
+// Fields of one column in rows that follow one another: field j is the text between
+// stop[j stride] and stop[j stride + 1], both excluded. kColumnMargin bytes before the first and
+// behind the last are readable.
+struct ColumnText {
+  const char* text;
+  const std::uint32_t* stop;
+  std::size_t stride;
+};
+inline constexpr int kColumnMargin = 64;
+
+// Reads up to n fields; gives the number of fields before the first that is not a finite decimal
+// number. The doubles are the nearest ones, as from parse_double(), whatever the processor.
+std::size_t read_doubles(const ColumnText& column, std::size_t n, double* out);
+// The same for decimal seconds to nanoseconds, as from parse_seconds().
+std::size_t read_times_ns(const ColumnText& column, std::size_t n, std::int64_t* out);
+
+// The portable form of both, for tests.
+std::size_t read_doubles_baseline(const ColumnText& column, std::size_t n, double* out);
+std::size_t read_times_ns_baseline(const ColumnText& column, std::size_t n, std::int64_t* out);
+
+}  // namespace mdof

@@ -38,28 +38,31 @@ Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::string& path, bo
   const bool known = ::fstat(descriptor, &state) == 0;
   const std::uint64_t size =
       known && S_ISREG(state.st_mode) ? static_cast<std::uint64_t>(state.st_size) : 0;
-  std::unique_ptr<ByteSource> source(new ByteSource(descriptor, name, size, hash));
+  std::unique_ptr<ByteSource> source(new ByteSource(descriptor, name, size));
   if (known && S_ISDIR(state.st_mode))
     return bad_input(name + ": is a directory; name the CSV file in it");
   ::posix_fadvise(descriptor, 0, 0, POSIX_FADV_SEQUENTIAL);
-  MDOF_CHECK(source->look_for_gzip());
+  MDOF_CHECK(source->look_for_gzip(hash));
   return source;
 }
 
-ByteSource::ByteSource(int descriptor, std::string name, std::uint64_t bytes_total, bool hash)
+ByteSource::ByteSource(int descriptor, std::string name, std::uint64_t bytes_total)
     : descriptor_(descriptor),
       name_(std::move(name)),
       bytes_total_(bytes_total),
-      hash_(hash ? std::make_unique<Sha256>() : nullptr),
       buffer_(kBufferBytes) {}
 
 ByteSource::~ByteSource() {
   ::close(descriptor_);
 }
 
-Status ByteSource::look_for_gzip() {
+Status ByteSource::look_for_gzip(bool hash) {
   MDOF_CHECK(refill());
-  if (Gunzip::recognises(pending_)) gunzip_ = std::make_unique<Gunzip>();
+  if (!Gunzip::recognises(pending_)) return {};
+  gunzip_ = std::make_unique<Gunzip>();
+  if (!hash) return {};
+  hash_ = std::make_unique<Sha256>();
+  hash_->update(pending_);
   return {};
 }
 

@@ -1,4 +1,4 @@
-// The bytes of a file or of the standard input, unpacked where they are gzip, hashed as stored.
+// The bytes of a file or of the standard input, unpacked where they are gzip.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,8 @@ class Gunzip;
 // An open file descriptor, read in order.
 class ByteSource {
  public:
-  // "-" is the standard input. With `hash` the SHA-256 is computed on the way.
+  // "-" is the standard input. With `hash` the SHA-256 of gzip data is computed on the way; that of
+  // plain text is left to the caller, who has all of it.
   static Result<std::unique_ptr<ByteSource>> open(const std::string& path, bool hash);
   ~ByteSource();
   ByteSource(const ByteSource&) = delete;
@@ -29,18 +30,19 @@ class ByteSource {
   // damaged or ending too early.
   Result<std::size_t> read(char* to, std::size_t capacity);
 
+  bool is_gzip() const { return gunzip_ != nullptr; }
   const std::string& name() const { return name_; }           // for messages
   std::uint64_t bytes() const { return bytes_.load(); }       // stored bytes read; any thread
   std::uint64_t bytes_total() const { return bytes_total_; }  // 0: not known (a pipe)
-  // Of the stored bytes, once read() gave 0; "" without hash.
+  // Of gzip data as stored, once read() gave 0; else "".
   std::string sha256() const { return hash_ ? hash_->hex() : ""; }
 
  private:
-  ByteSource(int descriptor, std::string name, std::uint64_t bytes_total, bool hash);
+  ByteSource(int descriptor, std::string name, std::uint64_t bytes_total);
   Result<std::size_t> read_stored(char* to, std::size_t capacity);
   Result<std::size_t> read_unpacked(char* to, std::size_t capacity);
   Status refill();
-  Status look_for_gzip();
+  Status look_for_gzip(bool hash);
 
   int descriptor_;
   std::string name_;

@@ -7,17 +7,24 @@
 #include <utility>
 
 #include "drivers/csv/byte_source.h"
-#include "drivers/csv/hand_over.h"
-#include "drivers/csv/line_reader.h"
+#include "drivers/csv/chunk_ring.h"
 
 namespace mdof::drivers {
+namespace {
 
-// "csv read" owns source_ and lines_ from its start until chunks_ has ended; all else is the
-// caller's.
+using Role = ChunkRing::Role;
+constexpr std::chrono::hours kForever{24 * 365};
+
+}  // namespace
+
 class CsvRows::Reading {
  public:
-  Reading(std::unique_ptr<ByteSource> source, std::size_t chunk_bytes)
-      : source_(std::move(source)), lines_(*source_, chunk_bytes) {}
+  Reading(std::unique_ptr<ByteSource> source, const CsvRowsOptions& options)
+      : source_(std::move(source)),
+        hash_(options.sha256 && !source_->is_gzip() ? std::make_unique<Sha256>() : nullptr),
+        // worth a thread: hashing, unpacking, and waiting for a pipe
+        companion_(options.sha256 || source_->is_gzip() || source_->bytes_total() == 0),
+        chunks_(*source_, options.chunk_bytes, companion_, source_->bytes_total() > 0) {}
   ~Reading() {
     chunks_.stop();
     if (thread_.joinable()) thread_.join();
@@ -29,42 +36,46 @@ class CsvRows::Reading {
   const ByteSource& source() const { return *source_; }
   const CsvRowParser& rows() const { return *rows_; }
   bool ended() const { return ended_; }  // all was read, or an error came
-  bool complete() const { return ended_ && status_; }
+  std::string sha256() const;
 
  private:
-  void read_chunks();
+  void go_along();
   Result<bool> fill(SampleBlock& block, std::chrono::milliseconds timeout);
+  Result<bool> finish(SampleBlock& block);
 
   std::unique_ptr<ByteSource> source_;
-  LineReader lines_;
-  LineChunk first_;  // holds the header
+  std::unique_ptr<Sha256> hash_;  // of "csv read" while it runs
+  bool companion_;
+  ChunkRing chunks_;
   std::optional<CsvRowParser> rows_;
-  HandOver<LineChunk, 4> chunks_;
-  Status read_status_;         // of "csv read"
-  bool chunk_in_use_ = false;  // the parser has the text of the oldest in chunks_
+  bool chunk_in_use_ = false;  // the parser has its text
   bool ended_ = false;
   Status status_;
   std::thread thread_;
 };
 
 Status CsvRows::Reading::start(const CsvRowsOptions& options) {
-  MDOF_CHECK(lines_.read(first_));
-  MDOF_TRY(CsvHeader header, parse_csv_header(first_.text(), options.kind, source_->name()));
+  if (companion_) {
+    thread_ = std::thread([this] { go_along(); });
+    ::pthread_setname_np(thread_.native_handle(), "csv read");
+  }
+  const LineChunk* const first = chunks_.next(Role::parser, kForever);
+  if (!first) MDOF_CHECK(chunks_.status());
+  const std::string_view text = first ? first->text() : std::string_view();
+  MDOF_TRY(CsvHeader header, parse_csv_header(text, options.kind, source_->name()));
   const std::size_t header_bytes = header.bytes;
   rows_.emplace(std::move(header), options.limits);
-  rows_->give(first_.text().substr(header_bytes));
-  thread_ = std::thread([this] { read_chunks(); });
-  ::pthread_setname_np(thread_.native_handle(), "csv read");
+  rows_->give(text.substr(header_bytes));
+  chunk_in_use_ = first != nullptr;
   return {};
 }
 
-void CsvRows::Reading::read_chunks() {
-  while (LineChunk* const chunk = chunks_.begin_write()) {
-    read_status_ = lines_.read(*chunk);
-    if (!read_status_ || chunk->text().empty()) break;
-    chunks_.end_write();
+// Keeps ahead of the parser, and hashes plain text.
+void CsvRows::Reading::go_along() {
+  while (const LineChunk* const chunk = chunks_.next(Role::companion, kForever)) {
+    if (hash_) hash_->update(chunk->read());
+    chunks_.done(Role::companion);
   }
-  chunks_.finish();
 }
 
 // True: `block` is filled. False: nothing came in time or, with ended_, that was all.
@@ -72,18 +83,27 @@ Result<bool> CsvRows::Reading::fill(SampleBlock& block, std::chrono::millisecond
   for (;;) {
     MDOF_TRY(const bool complete, rows_->next(block));
     if (complete) return true;
-    if (chunk_in_use_) chunks_.end_read();
-    const LineChunk* const chunk = chunks_.begin_read(timeout);
+    if (chunk_in_use_) chunks_.done(Role::parser);
+    const LineChunk* const chunk = chunks_.next(Role::parser, timeout);
     chunk_in_use_ = chunk != nullptr;
     if (!chunk) break;
     rows_->give(chunk->text());
   }
-  if (!chunks_.ended()) return false;
+  return chunks_.ended() ? finish(block) : Result<bool>(false);
+}
+
+Result<bool> CsvRows::Reading::finish(SampleBlock& block) {
   Result<bool> rest = rows_->last(block);
   if (rest && *rest) return true;
+  if (thread_.joinable()) thread_.join();
   ended_ = true;
-  MDOF_CHECK(read_status_);  // says more than "no rows"
+  MDOF_CHECK(chunks_.status());  // says more than "no rows"
   return rest;
+}
+
+std::string CsvRows::Reading::sha256() const {
+  if (!ended_ || !status_) return "";
+  return hash_ ? hash_->hex() : source_->sha256();
 }
 
 Result<ReadState> CsvRows::Reading::next(SampleBlock& block, std::chrono::milliseconds timeout) {
@@ -108,7 +128,7 @@ CsvRows::~CsvRows() = default;
 Result<std::unique_ptr<CsvRows>> CsvRows::open(const std::string& path,
                                                const CsvRowsOptions& options) {
   MDOF_TRY(std::unique_ptr<ByteSource> source, ByteSource::open(path, options.sha256));
-  auto reading = std::make_unique<Reading>(std::move(source), options.chunk_bytes);
+  auto reading = std::make_unique<Reading>(std::move(source), options);
   MDOF_CHECK(reading->start(options));
   return std::unique_ptr<CsvRows>(new CsvRows(std::move(reading)));
 }
@@ -129,7 +149,7 @@ Result<ReadState> CsvRows::next(SampleBlock& block) {
 }
 
 std::string CsvRows::sha256() const {
-  return reading_->complete() ? reading_->source().sha256() : "";
+  return reading_->sha256();
 }
 
 std::vector<std::string> CsvRows::warnings() const {

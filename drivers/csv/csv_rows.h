@@ -23,10 +23,10 @@ struct CsvRowsOptions {
   std::size_t chunk_bytes = std::size_t{1} << 18;  // no effect on what comes out
 };
 
-// Thread-bound but for bytes(). One thread of its own, "csv read", from open() to the end of the
-// file or to the destructor: it reads, hashes and unpacks, a few chunks ahead of next(), which
-// makes the blocks, so that memory stays at some MB whatever the file's length. Blocks do not
-// depend on timing or on chunk_bytes.
+// Thread-bound but for bytes(). Where there is something to be done beside parsing (hashing,
+// unpacking, waiting for a pipe) it has one thread of its own, "csv read", from open() to the end
+// of the file or to the destructor. Memory stays at some MB whatever the file's length. Blocks do
+// not depend on timing or on chunk_bytes.
 class CsvRows {
  public:
   // Opens `path` ("-": standard input), plain or gzip by its first bytes, and parses its header.

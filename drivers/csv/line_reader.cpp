@@ -24,6 +24,7 @@ Status LineReader::read(LineChunk& chunk) {
   char* const text = chunk.storage_.data() + kCsvMargin;
   std::copy(carry_.begin(), carry_.end(), text);
   MDOF_TRY(const std::size_t got, fill(text + carry_.size(), chunk_bytes_ - carry_.size()));
+  chunk.read_ = {text + carry_.size(), got};
   std::size_t size = carry_.size() + got;
   carry_.clear();
   if (ended_) {

@@ -14,11 +14,14 @@ namespace mdof::drivers {
 class LineChunk {
  public:
   std::string_view text() const { return text_; }
+  // What was read of the source for it: the text begins with what the chunk before had too much,
+  // and lacks what goes to the next.
+  std::string_view read() const { return read_; }
 
  private:
   friend class LineReader;
   std::vector<char> storage_;
-  std::string_view text_;
+  std::string_view text_, read_;
 };
 
 class LineReader {

@@ -6,11 +6,11 @@
 #include <string>
 #include <thread>
 
-#include "drivers/csv/hand_over.h"
 #include "schema/axis.h"
 #include "schema/point.h"
 #include "schema/result.h"
 #include "tools/mdof/frame_solver.h"
+#include "tools/mdof/hand_over.h"
 
 namespace mdof::tools {
 
@@ -44,7 +44,7 @@ class ErrorRows {
   std::string head_;
   bool first_row_ = true;
   std::vector<char> text_;
-  drivers::HandOver<SolvedRows, 4> blocks_;
+  HandOver<SolvedRows, 4> blocks_;
   Status status_;       // of the thread, once it has ended
   std::thread thread_;  // last: starts when all else is there
 };

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <mutex>
 
-namespace mdof::drivers {
+namespace mdof::tools {
 
 template <class T, std::size_t N>
 class HandOver {
@@ -68,4 +68,4 @@ class HandOver {
   bool finished_ = false, stopped_ = false;
 };
 
-}  // namespace mdof::drivers
+}  // namespace mdof::tools

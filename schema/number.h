@@ -2,6 +2,8 @@
 // standard library: 100 MB logs are read and written through these two.
 #pragma once
 
+#include <cstddef>
+
 namespace mdof {
 
 // Reads the longest number at `begin`: digits with an optional '-', '.' and exponent, or inf, nan;
@@ -14,5 +16,12 @@ const char* parse_double(const char* begin, const char* end, double& out);
 // At most kDouble17Size characters; may touch all of them.
 inline constexpr int kDouble17Size = 40;
 char* write_double_17(char* out, double x);
+
+// The same for many numbers, eight at a time where the processor can: out[i] is the text of x[i].
+struct DoubleText {
+  char text[kDouble17Size];
+  int size;
+};
+void write_doubles_17(const double* x, std::size_t n, DoubleText* out);
 
 }  // namespace mdof

@@ -13,6 +13,7 @@
 #include <initializer_list>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace mdof {
 namespace {
@@ -61,6 +62,17 @@ void expect_as_printf(double x) {
   std::snprintf(expected, sizeof expected, "%.17g", x);
   *write_double_17(got, x) = 0;
   ASSERT_STREQ(got, expected);
+}
+
+// The same text as one number at a time, whatever stands beside it.
+void expect_as_one_by_one(const std::vector<double>& x) {
+  std::vector<DoubleText> got(x.size());
+  write_doubles_17(x.data(), x.size(), got.data());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    char expected[kDouble17Size + 1];
+    *write_double_17(expected, x[i]) = 0;
+    ASSERT_EQ(std::string(got[i].text, static_cast<std::size_t>(got[i].size)), expected);
+  }
 }
 
 class Random {
@@ -244,6 +256,32 @@ TEST(WriteDouble17,
 
 TEST(WriteDouble17, WritesZeroAndWhatIsNoNumber) {
   for (double x : {0.0, -0.0, double{INFINITY}, -double{INFINITY}}) expect_as_printf(x);
+}
+
+TEST(WriteDoubles17, AgreesWithOneByOne) {
+  Random random;
+  std::vector<double> x;
+  for (int i = 0; i < 300'003; ++i) {
+    const double exponent = random.uniform(-110, 12);
+    switch (random.below(4)) {
+      case 0:
+        x.push_back(random.uniform(-60, 60));
+        break;
+      case 1:
+        x.push_back(random.uniform(-1, 1) * std::pow(10, exponent));
+        break;
+      case 2:
+        x.push_back(random.any_bits());
+        break;
+      default:
+        x.push_back(std::pow(10, std::floor(exponent)) * (random.below(2) ? 1 : -1));
+        break;
+    }
+    if (random.below(3) == 0) x.back() = std::nextafter(x.back(), random.below(2) ? 0.0 : 1e300);
+  }
+  for (const double y : {0.0, -0.0, 0.5, 0.1, 9999999.9999999981, 1e7, 1e-98, 1e-5, 1e-4, 99.999})
+    x.push_back(y);
+  expect_as_one_by_one(x);
 }
 
 }  // namespace

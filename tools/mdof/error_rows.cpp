@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMostOfAKey = 16;  // ,"EYX_um":
 constexpr std::size_t kMostOfARow = 5 * (kDouble17Size + kMostOfAKey) + 8;
+constexpr std::size_t kAtOnce = 8;
 constexpr int kPipeBytes = 1 << 20;
 
 char* append(char* out, std::string_view text) {
@@ -73,28 +74,56 @@ Status ErrorRows::write_all() {
   return form_ == RowForm::json ? write_out("]}\n") : Status();
 }
 
-char* ErrorRows::append_csv(const SolvedRows& rows, char* out) const {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const ErrorName& name : names_) {
-      const double x = in_key_unit(name, rows, i);
-      if (std::isfinite(x)) out = write_double_17(out, x);
-      *out++ = ',';
+// The texts of up to kAtOnce rows, error by error; empty where the row is not solved.
+struct ErrorRows::Texts {
+  std::array<std::array<DoubleText, kAtOnce>, 5> of;
+
+  void fill(const std::array<ErrorName, 5>& names, const SolvedRows& rows, std::size_t begin,
+            std::size_t n) {
+    std::array<double, kAtOnce> x;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      for (std::size_t j = 0; j < n; ++j) x[j] = in_key_unit(names[k], rows, begin + j);
+      write_doubles_17(x.data(), n, of[k].data());
+      for (std::size_t j = 0; j < n; ++j) of[k][j].size = std::isfinite(x[j]) ? of[k][j].size : 0;
     }
-    out[-1] = '\n';
+  }
+  // All of the text's room is copied: that has one length, and what is too much is written over.
+  char* append(char* out, std::size_t k, std::size_t j) const {
+    std::memcpy(out, of[k][j].text, kDouble17Size);
+    return out + of[k][j].size;
+  }
+};
+
+char* ErrorRows::append_csv(const SolvedRows& rows, char* out) const {
+  Texts texts;
+  for (std::size_t begin = 0; begin < rows.size(); begin += kAtOnce) {
+    const std::size_t n = std::min(kAtOnce, rows.size() - begin);
+    texts.fill(names_, rows, begin, n);
+    for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t k = 0; k < names_.size(); ++k) {
+        out = texts.append(out, k, j);
+        *out++ = ',';
+      }
+      out[-1] = '\n';
+    }
   }
   return out;
 }
 
 char* ErrorRows::append_json(const SolvedRows& rows, char* out) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!first_row_) *out++ = ',';
-    first_row_ = false;
-    for (std::size_t k = 0; k < 5; ++k) {
-      const double x = in_key_unit(names_[k], rows, i);
-      out = append(out, json_keys_[k]);
-      out = std::isfinite(x) ? write_double_17(out, x) : append(out, "null");
+  Texts texts;
+  for (std::size_t begin = 0; begin < rows.size(); begin += kAtOnce) {
+    const std::size_t n = std::min(kAtOnce, rows.size() - begin);
+    texts.fill(names_, rows, begin, n);
+    for (std::size_t j = 0; j < n; ++j) {
+      if (!first_row_) *out++ = ',';
+      first_row_ = false;
+      for (std::size_t k = 0; k < names_.size(); ++k) {
+        out = append(out, json_keys_[k]);
+        out = texts.of[k][j].size > 0 ? texts.append(out, k, j) : append(out, "null");
+      }
+      *out++ = '}';
     }
-    *out++ = '}';
   }
   return out;
 }

@@ -35,6 +35,7 @@ class ErrorRows {
   void work();
   Status write_all();
   void write_head();
+  struct Texts;
   char* append_csv(const SolvedRows& rows, char* out) const;
   char* append_json(const SolvedRows& rows, char* out);
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "algo/instruction_set.h"
 #include "algo/small_angle_kernel.h"
 
 namespace mdof::algo {
@@ -68,12 +69,15 @@ bool top_weights(SmallAngleFixture& f) {
   return true;
 }
 
-BatchKernels choose_kernels() {
-#if defined(__x86_64__)
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f")) return batch_kernels_avx512();
-  if (__builtin_cpu_supports("avx2")) return batch_kernels_avx2();
-#endif
+BatchKernels batch_kernels(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::avx512:
+      return batch_kernels_avx512();
+    case InstructionSet::avx2:
+      return batch_kernels_avx2();
+    case InstructionSet::baseline:
+      break;
+  }
   return batch_kernels_baseline();
 }
 
@@ -133,7 +137,7 @@ std::array<double, 5> exact_outputs(const SmallAngleFixture& f, double travel_m,
 void solve_batch(Model model, const SmallAngleFixture& f, const BatchIn& in, const BatchOut& out,
                  std::size_t n) {
   assert(model != Model::rigid);
-  static const BatchKernels kernels = choose_kernels();
+  static const BatchKernels kernels = batch_kernels(best_instruction_set());
   (model == Model::simplified ? kernels.simplified : kernels.exact)(f, in, out, n);
 }
 

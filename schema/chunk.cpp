@@ -6,14 +6,14 @@
 #include <cstdint>
 #include <memory>
 
+#include "schema/bytes.h"
+
 namespace mdof {
 namespace {
 
 constexpr std::string_view kMagic = "MDC1";
 constexpr std::size_t kHeadBytes = 8;
 constexpr int kLevel = 1;
-
-static_assert(std::endian::native == std::endian::little, "bytes of doubles are taken as they lie");
 
 std::uint64_t zigzag(std::uint64_t x) {
   return (x << 1) ^ (0 - (x >> 63));
@@ -23,16 +23,6 @@ std::uint64_t unzigzag(std::uint64_t x) {
 }
 
 // ---- writing ----
-
-void put_varint(std::string& out, std::uint64_t x) {
-  for (; x >= 0x80; x >>= 7) out.push_back(static_cast<char>(x | 0x80));
-  out.push_back(static_cast<char>(x));
-}
-
-void put_string(std::string& out, std::string_view text) {
-  put_varint(out, text.size());
-  out.append(text);
-}
 
 // Unsigned arithmetic: wraps without being undefined, and the reader wraps back.
 void put_times(std::string& out, const std::vector<std::int64_t>& time_ns) {
@@ -98,64 +88,24 @@ std::string pack(const SampleBlock& block) {
 
 // ---- reading ----
 
-// Takes values from the front of some bytes. Past the end every value is zero and ok() is false,
-// so that a reader is a straight list of calls with few checks.
-class Cursor {
- public:
-  explicit Cursor(std::string_view bytes) : rest_(bytes) {}
-  bool ok() const { return ok_; }
-  bool at_end() const { return ok_ && rest_.empty(); }
-  std::size_t left() const { return rest_.size(); }
-
-  std::string_view take(std::uint64_t size) {
-    if (size > rest_.size()) {
-      ok_ = false;
-      rest_ = {};
-      return {};
-    }
-    const std::string_view taken = rest_.substr(0, size);
-    rest_.remove_prefix(size);
-    return taken;
-  }
-  std::uint8_t byte() {
-    const std::string_view one = take(1);
-    return one.empty() ? 0 : static_cast<std::uint8_t>(one[0]);
-  }
-  std::uint64_t varint() {
-    std::uint64_t x = 0;
-    for (int shift = 0; shift < 64; shift += 7) {
-      const std::uint8_t b = byte();
-      x |= static_cast<std::uint64_t>(b & 0x7f) << shift;
-      if (b < 0x80) return x;
-    }
-    ok_ = false;
-    return 0;
-  }
-  std::string_view string() { return take(varint()); }
-
- private:
-  std::string_view rest_;
-  bool ok_ = true;
-};
-
 tl::unexpected<Error> damaged(const char* what) {
   return bad_input(std::string("damaged chunk: ") + what);
 }
 
-Status get_channels(Cursor& in, SampleBlock& block) {
+Status get_channels(ByteReader& in, SampleBlock& block) {
   const std::uint64_t count = in.varint();
   if (count > kMaxChunkChannels) return damaged("number of channels");
   block.channels.resize(count);
   for (Channel& channel : block.channels) {
     channel.id = in.string();
-    const std::uint8_t unit = in.byte();
+    const std::uint8_t unit = in.number<std::uint8_t>();
     if (unit > static_cast<std::uint8_t>(Unit::other)) return damaged("unknown unit");
     channel.unit = static_cast<Unit>(unit);
   }
   return {};
 }
 
-Status get_times(Cursor& in, std::vector<std::int64_t>& time_ns) {
+Status get_times(ByteReader& in, std::vector<std::int64_t>& time_ns) {
   const std::uint64_t count = in.varint();
   if (count > in.left()) return damaged("more scans than bytes");  // a byte each at least
   time_ns.resize(count);
@@ -180,7 +130,7 @@ void get_planes(std::string_view planes, std::vector<double>& values) {
   }
 }
 
-Status get_values(Cursor& in, SampleBlock& block) {
+Status get_values(ByteReader& in, SampleBlock& block) {
   block.value.resize(block.channels.size());
   for (auto& values : block.value) {
     const std::string_view planes = in.take(8 * block.scans());
@@ -191,9 +141,9 @@ Status get_values(Cursor& in, SampleBlock& block) {
   return {};
 }
 
-Status get_quality(Cursor& in, std::size_t scans, std::vector<Quality>& quality) {
+Status get_quality(ByteReader& in, std::size_t scans, std::vector<Quality>& quality) {
   quality.clear();
-  const std::uint8_t present = in.byte();
+  const std::uint8_t present = in.number<std::uint8_t>();
   if (present > 1) return damaged("quality mark");
   for (const char c : in.take(present * scans)) {
     const auto q = static_cast<std::uint8_t>(c);
@@ -203,9 +153,9 @@ Status get_quality(Cursor& in, std::size_t scans, std::vector<Quality>& quality)
   return {};
 }
 
-Status get_qualities(Cursor& in, SampleBlock& block) {
+Status get_qualities(ByteReader& in, SampleBlock& block) {
   block.quality.clear();
-  const std::uint8_t present = in.byte();
+  const std::uint8_t present = in.number<std::uint8_t>();
   if (present > 1) return damaged("quality mark");
   block.quality.resize(present * block.channels.size());
   for (auto& quality : block.quality) MDOF_CHECK(get_quality(in, block.scans(), quality));
@@ -213,7 +163,7 @@ Status get_qualities(Cursor& in, SampleBlock& block) {
 }
 
 Status unpack(std::string_view raw, SampleBlock& block) {
-  Cursor in(raw);
+  ByteReader in(raw);
   block.device = in.string();
   MDOF_CHECK(get_channels(in, block));
   block.lost = in.varint();

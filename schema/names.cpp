@@ -2,6 +2,7 @@
 #include "schema/point.h"
 #include "schema/run.h"
 #include "schema/sample.h"
+#include "schema/study.h"
 
 namespace mdof {
 
@@ -75,6 +76,10 @@ const char* to_string(RunState state) {
       break;
   }
   return "failed";
+}
+
+const char* to_string(StudyState state) {
+  return state == StudyState::complete ? "complete" : "interrupted";
 }
 
 }  // namespace mdof

@@ -1,4 +1,5 @@
-// The database of runs, squareness and compensation tables: schema/sql/*.sql behind typed calls.
+// The database of runs, squareness, compensation tables and sensitivity studies: schema/sql/*.sql
+// behind typed calls.
 // Append only. Everything that returns ok is on the disk, as the durability says.
 #pragma once
 
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/store/study_record.h"
 #include "daemon/store/writer_lock.h"
 #include "schema/compensation_table.h"
 #include "schema/result.h"
@@ -94,9 +96,23 @@ class Store {
   Result<ActiveTable> active(Axis axis);  // not_found where none was ever activated
   Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
 
+  // ---- sensitivity studies ----
+  // A study is begun, its checkpoint replaced as it goes on, and ended: complete, or interrupted
+  // with the checkpoint from which it can be continued. Each call is durable on return, and any
+  // store may make it: a study that takes hours need not keep its database open.
+  Result<std::int64_t> begin_study(const StudyRecord& study);  // its id is not used
+  Status save_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
+  Status end_study(std::int64_t study, const StudyOutcome& outcome,
+                   const std::optional<StudyCheckpoint>& checkpoint);  // none: removes the last
+  Result<StudyRecord> study(std::int64_t id);
+  Result<std::vector<StudyRecord>> list_studies(std::int64_t offset, std::int64_t count);
+  Result<std::int64_t> count_studies();
+  Result<std::optional<StudyOutcome>> study_outcome(std::int64_t study);  // the last
+  Result<std::optional<StudyCheckpoint>> study_checkpoint(std::int64_t study);
+
   // ---- integrity ----
-  // Checks the file, its references, the hash of every text and of every run's result rows. One
-  // sentence a finding; none: sound.
+  // Checks the file, its references, the hash of every text, of every run's result rows and of
+  // every study's figures and checkpoint. One sentence a finding; none: sound.
   Result<std::vector<std::string>> verify();
 
   const std::filesystem::path& file() const { return connection_.file(); }
@@ -129,6 +145,11 @@ class Store {
   // tables.cpp
   Result<CompensationTable> table_of(sqlite::Statement& row);
   Result<std::vector<std::int64_t>> sources(std::int64_t table);
+  // study_write.cpp
+  Status replace_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
+  Status insert_outcome(std::int64_t study, const StudyOutcome& outcome);
+  // study_read.cpp
+  Status verify_studies(std::vector<std::string>& findings);
   // verify.cpp
   Status verify_file(std::vector<std::string>& findings);
   Status verify_documents(std::vector<std::string>& findings);

@@ -8,7 +8,8 @@ using sqlite::Statement;
 
 Result<std::vector<std::string>> Store::verify() {
   std::vector<std::string> findings;
-  for (const auto check : {&Store::verify_file, &Store::verify_documents, &Store::verify_runs}) {
+  for (const auto check : {&Store::verify_file, &Store::verify_documents, &Store::verify_runs,
+                           &Store::verify_studies}) {
     const Status done = (this->*check)(findings);
     if (done) continue;
     if (done.error().code != ErrorCode::bad_input) return tl::unexpected(done.error());
@@ -42,7 +43,7 @@ Status Store::verify_documents(std::vector<std::string>& findings) {
     if (!row) return {};
     if (sha256_hex(rows.text(2)) != rows.text(1))
       findings.push_back("document " + std::to_string(rows.integer(0)) +
-                         " (a rig, options or a configuration) is not what was stored");
+                         " (a rig, a plan, options or a configuration) is not what was stored");
   }
 }
 

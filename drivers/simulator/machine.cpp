@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "drivers/simulator/arithmetic.h"
 #include "drivers/simulator/raw.h"
+#include "schema/random.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {

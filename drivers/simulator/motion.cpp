@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "drivers/simulator/arithmetic.h"
+#include "schema/random.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {

@@ -5,8 +5,8 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "drivers/simulator/arithmetic.h"
 #include "schema/axis.h"
+#include "schema/random.h"
 
 namespace mdof::drivers {
 namespace {

@@ -13,7 +13,7 @@ DATA = pathlib.Path(os.environ["MDOF_TEST_DATA"])
 def run(*arguments, stdin=None, env=None):
     """(exit code, standard output, standard error)."""
     done = subprocess.run([MDOF, *map(str, arguments)], input=stdin, capture_output=True,
-                          timeout=120, env={**os.environ, **(env or {})})
+                          timeout=600, env={**os.environ, **(env or {})})
     return done.returncode, done.stdout.decode(), done.stderr.decode()
 
 

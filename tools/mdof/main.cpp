@@ -22,6 +22,7 @@ constexpr const char* kExamples =
     "  mdof show 1                                   its points with uncertainty and flags\n"
     "  mdof squareness 1 2                           of the runs 1 (X) and 2 (Y)\n"
     "  mdof compensation build 1                     a table for the controller\n"
+    "  mdof sensitivity --preset simulation-2        what mounting errors do to the result\n"
     "  mdof live                                     the probes now, from mdofd\n"
     "Exit codes: 0 ok, 1 a result fails its check, 2 usage, 3 bad input, 4 device or I/O.";
 
@@ -36,6 +37,9 @@ void declare(CLI::App& app, Action& chosen) {
   add_analyse(app, chosen);
   add_squareness(app, chosen);
   add_compensation(app, chosen);
+  add_sensitivity(app, chosen);
+  add_studies(app, chosen);
+  add_study(app, chosen);
   add_verify(app, chosen);
   add_status(app, chosen);
   add_live(app, chosen);

@@ -11,11 +11,25 @@ namespace {
 constexpr std::chrono::milliseconds kPatience{1000}, kInterval{100};
 constexpr int kWidth = 30;
 
+// "145 M", "2.5 k", "12 ": three digits and an SI prefix.
+std::string with_prefix(double x) {
+  const char* prefix = "";
+  for (const char* next : {"k", "M", "G"}) {
+    if (x < 1000) break;
+    x /= 1000;
+    prefix = next;
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, x < 10 ? "%.2f %s" : x < 100 ? "%.1f %s" : "%.0f %s", x, prefix);
+  return text;
+}
+
 }  // namespace
 
-Progress::Progress(std::string what, std::uint64_t total_bytes)
+Progress::Progress(std::string what, std::string unit, double done)
     : what_(std::move(what)),
-      total_mb_(static_cast<double>(total_bytes) * 1e-6),
+      unit_(std::move(unit)),
+      done_(done),
       wanted_(messages_are_on_terminal()),
       begin_(Clock::now()),
       next_(begin_ + kPatience) {}
@@ -24,8 +38,8 @@ Progress::~Progress() {
   if (drawn_) std::fputs("\r\x1b[K", stderr);
 }
 
-void Progress::show(double share) {
-  if (!wanted_ || total_mb_ <= 0 || share <= 0) return;
+void Progress::show(double share, double total) {
+  if (!wanted_ || share * total <= done_) return;
   const auto now = Clock::now();
   if (now < next_) return;
   next_ = now + kInterval;
@@ -34,9 +48,9 @@ void Progress::show(double share) {
   const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * kWidth);
   const std::string bar = std::string(static_cast<std::size_t>(full), '#') +
                           std::string(static_cast<std::size_t>(kWidth - full), '.');
-  std::fprintf(stderr, "\r%s [%s] %3.0f %%  %.0f MB/s  %.0f s left\x1b[K", what_.c_str(),
-               bar.c_str(), share * 100, share * total_mb_ / elapsed_s,
-               elapsed_s * (1 - share) / share);
+  const double rate = (share * total - done_) / elapsed_s;
+  std::fprintf(stderr, "\r%s [%s] %3.0f %%  %s%s/s  %.0f s left\x1b[K", what_.c_str(), bar.c_str(),
+               share * 100, with_prefix(rate).c_str(), unit_.c_str(), (1 - share) * total / rate);
   std::fflush(stderr);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <string>
 
 namespace mdof::tools {
@@ -11,17 +10,20 @@ namespace mdof::tools {
 // the destructor wipes it away. Thread-bound.
 class Progress {
  public:
-  Progress(std::string what, std::uint64_t total_bytes);  // total 0: not known
+  // `unit` of the work, such as "B" or "trials"; `done` of it is there from before.
+  Progress(std::string what, std::string unit, double done = 0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void show(double share);  // 0 ... 1; cheap: draws at most ten times a second
+  // `share` of `total` units is done; total 0: not known, nothing is drawn. Cheap: draws at most
+  // ten times a second.
+  void show(double share, double total);
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::string what_;
-  double total_mb_;
+  std::string what_, unit_;
+  double done_;
   bool wanted_, drawn_ = false;
   Clock::time_point begin_, next_;
 };

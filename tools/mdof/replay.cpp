@@ -48,9 +48,10 @@ Result<Run> replay_log(const ReplayCommand& command) {
   MDOF_TRY(const Rig rig, rig_of(command, log));
   std::error_code ec;
   const auto size = std::filesystem::file_size(command.log, ec);
-  Progress progress("replay", ec ? 0 : size);
+  const double bytes = ec ? 0 : static_cast<double>(size);
+  Progress progress("replay", "B");
   return daemon::replay(log, rig, pipeline_options(command),
-                        [&](double share) { progress.show(share); });
+                        [&](double share) { progress.show(share, bytes); });
 }
 
 Status store_run(const ReplayCommand& command, Run& run) {

@@ -1,11 +1,11 @@
 // Random numbers and a sine that have the same bits from every compiler, build type and library:
-// only integers, + - * / and sqrt, which IEEE 754 rounds correctly.
+// only integers, + - * / and sqrt, which IEEE 754 rounds correctly. No state, any thread.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-namespace mdof::drivers {
+namespace mdof {
 
 // Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC11): a keyed hash
 // of a counter. Any number of any stream is there without those before it.
@@ -16,10 +16,10 @@ Philox philox(const Philox& counter, std::uint64_t key);
 double uniform(std::uint32_t high, std::uint32_t low);
 
 // Quantile of the standard normal distribution at p in (0, 1), to about 1e-15 relative.
-// Wichura's AS 241 (Applied Statistics 37, 1988), PPND16.
+// Wichura's AS 241 (Applied Statistics 37, 1988), PPND16; its logarithm is our own.
 double gaussian(double p);
 
 // sin(2π turns), to 1e-15 absolute for |turns| < 1e6.
 double sine_of_turns(double turns);
 
-}  // namespace mdof::drivers
+}  // namespace mdof

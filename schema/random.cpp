@@ -1,9 +1,9 @@
-#include "drivers/simulator/arithmetic.h"
+#include "schema/random.h"
 
 #include <cmath>
 #include <cstddef>
 
-namespace mdof::drivers {
+namespace mdof {
 namespace {
 
 // c[0] + c[1] x + c[2] x² ...
@@ -107,4 +107,4 @@ double sine_of_turns(double turns) {
   return x * sum;
 }
 
-}  // namespace mdof::drivers
+}  // namespace mdof

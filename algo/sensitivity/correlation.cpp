@@ -1,0 +1,44 @@
+#include "algo/sensitivity/correlation.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kLeastEigenvalue = 1e-10;  // below, rounding decides whether a factor exists
+
+tl::unexpected<Error> not_positive_definite(const PlannedCorrelation& group, double smallest) {
+  std::array<char, 32> number{};
+  std::snprintf(number.data(), number.size(), "%.3g", smallest);
+  std::string names;
+  for (const auto& name : group.quantities) names += (names.empty() ? "" : ", ") + name;
+  return bad_input(group.where + ": the correlation matrix of " + names +
+                   " is not positive definite: its smallest eigenvalue is " + number.data() +
+                   "; no random numbers are correlated like this, lower its coefficients");
+}
+
+}  // namespace
+
+Result<std::vector<double>> cholesky_factor(const PlannedCorrelation& group) {
+  const auto n = static_cast<Eigen::Index>(group.quantities.size());
+  const Eigen::MatrixXd matrix =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          group.matrix.data(), n, n);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);
+  const double smallest = eigen.eigenvalues().minCoeff();
+  const Eigen::LLT<Eigen::MatrixXd> llt(matrix);
+  if (llt.info() != Eigen::Success || smallest < kLeastEigenvalue)
+    return not_positive_definite(group, smallest);
+  const Eigen::MatrixXd L = llt.matrixL();
+  std::vector<double> factor(group.matrix.size(), 0.0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) factor[static_cast<std::size_t>(i * n + j)] = L(i, j);
+  }
+  return factor;
+}
+
+}  // namespace mdof::algo

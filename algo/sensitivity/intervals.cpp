@@ -1,0 +1,119 @@
+#include "algo/sensitivity/intervals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mdof::algo {
+namespace {
+
+// q of §7.7: ranks between the ends of an interval, within 0 ... M - 1.
+std::uint64_t covered(double coverage, std::uint64_t trials) {
+  const auto q =
+      static_cast<std::uint64_t>(std::floor(coverage * static_cast<double>(trials) + 0.5));
+  return std::min(q, trials - 1);
+}
+
+// Looks ranks up in ascending order, in constant time each.
+class Cursor {
+ public:
+  explicit Cursor(const OrderedTrials& trials) : trials_(&trials) {}
+  double value(std::uint64_t rank) {
+    const auto& slices = trials_->slices();
+    while (slices[at_].before + slices[at_].count < rank) ++at_;
+    return trials_->value(at_, rank);
+  }
+
+ private:
+  const OrderedTrials* trials_;
+  std::size_t at_ = 0;
+};
+
+struct Shortest {
+  double length = std::numeric_limits<double>::infinity();
+  std::uint64_t low = 1;
+};
+
+// Over the ranks r of one end of every slice; `shift`: r is that end less this.
+void look_at_ends(const OrderedTrials& trials, std::uint64_t q, std::uint64_t shift, bool last,
+                  Shortest& best) {
+  Cursor low(trials), high(trials);
+  for (const OrderedTrials::Slice& s : trials.slices()) {
+    const std::uint64_t end = s.before + (last ? s.count : 1);
+    if (end <= shift || end - shift + q > trials.size()) continue;
+    const std::uint64_t r = end - shift;
+    const double length = high.value(r + q) - low.value(r);
+    if (length < best.length || (length == best.length && r < best.low)) best = {length, r};
+  }
+}
+
+}  // namespace
+
+std::uint64_t quantile_rank(double p, std::uint64_t trials) {
+  const double rank = std::floor(p * static_cast<double>(trials) + 0.5);
+  return std::clamp<std::uint64_t>(static_cast<std::uint64_t>(rank), 1, trials);
+}
+
+IntervalRanks symmetric_ranks(double coverage, std::uint64_t trials) {
+  const std::uint64_t q = covered(coverage, trials);
+  const std::uint64_t rest = trials - q;
+  const std::uint64_t r = rest % 2 == 0 ? rest / 2 : (rest + 1) / 2;
+  return {r, r + q};
+}
+
+// Between the ends of slices y(r + q) - y(r) is linear in r, so that its least value is at one.
+IntervalRanks shortest_ranks(double coverage, const OrderedTrials& trials) {
+  const std::uint64_t q = covered(coverage, trials.size());
+  Shortest best;
+  for (const std::uint64_t shift : {std::uint64_t{0}, q}) {
+    look_at_ends(trials, q, shift, false, best);
+    look_at_ends(trials, q, shift, true, best);
+  }
+  return {best.low, best.low + q};
+}
+
+void summarise_order(const OrderedTrials& trials, double coverage,
+                     const std::vector<double>& quantiles, OutputSummary& summary) {
+  const auto value = [&](std::uint64_t rank) {
+    summary.resolution = std::max(summary.resolution, trials.resolution(rank));
+    return trials.value(rank);
+  };
+  for (const double p : quantiles) {
+    summary.quantiles.push_back({p, value(quantile_rank(p, trials.size()))});
+  }
+  const IntervalRanks symmetric = symmetric_ranks(coverage, trials.size());
+  const IntervalRanks shortest = shortest_ranks(coverage, trials);
+  summary.coverage = coverage;
+  summary.symmetric = {value(symmetric.low), value(symmetric.high)};
+  summary.shortest = {value(shortest.low), value(shortest.high)};
+}
+
+Histogram histogram_for_drawing(const OutputHistogram& counts, const OutputScale& scale,
+                                const OrderedTrials& trials) {
+  constexpr double kBars = 120;
+  const double q_low = trials.value(quantile_rank(0.001, trials.size()));
+  const double q_high = trials.value(quantile_rank(0.999, trials.size()));
+  const double more = (q_high - q_low) / 10;
+  // Whole bins of the core.
+  const auto bin = [&](double x) {
+    const double i = std::floor((x - scale.low) / scale.width);
+    return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(kCoreBins - 1)));
+  };
+  const auto& slices = trials.slices();
+  const std::size_t first = bin(std::max(q_low - more, slices.front().from));
+  const std::size_t last = bin(std::min(q_high + more, slices.back().to));
+  const auto group = static_cast<std::size_t>(
+      std::max(1.0, std::ceil(static_cast<double>(last - first + 1) / kBars)));
+  Histogram h;
+  h.from = scale.low + scale.width * static_cast<double>(first);
+  h.width = scale.width * static_cast<double>(group);
+  h.counts.assign((last - first) / group + 1, 0);
+  for (const auto& [key, n] : counts.tails()) (key < 0 ? h.below : h.above) += n;
+  for (std::size_t i = 0; i < kCoreBins; ++i) {
+    const std::size_t bar = i < first ? h.counts.size() : (i - first) / group;
+    (i < first ? h.below : bar < h.counts.size() ? h.counts[bar] : h.above) += counts.core(i);
+  }
+  return h;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,60 @@
+// The compiled kernels of one instruction set. Each is written once on vectors (vector.h) and
+// compiled for every set; the bits are the same from all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "algo/instruction_set.h"
+#include "algo/sensitivity/random.h"
+#include "algo/small_angle.h"
+
+namespace mdof::algo {
+
+// What a trial of the paper's simulations needs, SI.
+struct SimulationConstants {
+  Stream stream;
+  std::uint64_t bins;
+  double travel_from, travel_per_bin;
+  double angle_range, offset_range;
+  double x[5], across[5];  // A to E as installed: x, and y (top) or z (side)
+  double h;
+  double radius;   // 0: the angles are not drawn
+  double skew[5];  // of the unit: x += skew · Δacross, across -= skew · Δx
+  SmallAngleFixture nominal;
+};
+
+// What a trial drew; for one taken apart.
+struct SimulationDraws {
+  double *travel, *truth[5], *turns[5];
+};
+
+// Of one cell of trials, in fixed order: Σu, Σu² and the extremes of x.
+struct CellSums {
+  double power[2];
+  double min, max;
+};
+
+struct Kernels {
+  // draws 2 group and 2 group + 1 of trials first + step j
+  void (*draw_pairs)(const Stream&, std::uint64_t group, std::uint64_t first, std::uint64_t step,
+                     std::size_t n, double* even, double* odd);
+  // out: five errors (µm, µrad); draws: null, or where to put what was drawn
+  void (*simulate)(const SimulationConstants&, std::uint64_t first, std::uint64_t step,
+                   std::size_t n, double* const* out, const SimulationDraws* draws);
+  // x: n > 0 values, room for a multiple of 8. With t = (x - low) per_width and u = t / 4096 - 1:
+  // the sums of u and u², and index[j] = 1 + the histogram bin of x[j], 0 below and 8193
+  // above them (NaN: 0).
+  void (*scan)(double* x, std::size_t n, double low, double per_width, CellSums& sums,
+               std::uint64_t* index);
+};
+
+inline constexpr std::size_t kCoreBins = 8192;
+inline constexpr std::size_t kCellTrials = 512;
+
+const Kernels& kernels(InstructionSet set);
+const Kernels& kernels_baseline();
+const Kernels& kernels_avx2();
+const Kernels& kernels_avx512();
+
+}  // namespace mdof::algo

@@ -1,0 +1,11 @@
+#include "algo/sensitivity/moments_kernel.h"
+#include "algo/sensitivity/simulation_kernel.h"
+
+namespace mdof::algo {
+
+const Kernels& kernels_baseline() {
+  static constexpr Kernels kernels = {draw_pairs_kernel, simulate_kernel, scan_kernel};
+  return kernels;
+}
+
+}  // namespace mdof::algo

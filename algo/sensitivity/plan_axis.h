@@ -1,0 +1,76 @@
+// One axis of a plan: its trials from drawn numbers to solved errors, at a point and along a
+// series.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "algo/sensitivity/plan_draws.h"
+#include "algo/sensitivity/plan_mounting.h"
+#include "algo/solver.h"
+#include "schema/result.h"
+#include "schema/study_plan.h"
+
+namespace mdof::algo {
+
+// Trials of one request, [reading][error][trial] and [reading][trial]. Reading 0 is the point.
+struct AxisReadings {
+  std::size_t n = 0, probes = 0;
+  std::vector<double> truth, estimate;      // local; NaN where not solved
+  std::vector<double> travel_m, encoder_m;  // true and shown
+  std::vector<double> probe_m;              // [reading][probe][trial]
+  std::vector<double> square_rad;           // [trial]: error of the artefact's angle
+
+  std::size_t at(std::size_t reading, std::size_t error) const {
+    return (reading * kErrorCount + error) * n;
+  }
+};
+
+class PlanAxis {
+ public:
+  // `point`, `series`: whether those readings are needed.
+  static Result<PlanAxis> create(const StudyPlan& plan, const Rig& rig, const std::string& prefix,
+                                 bool point, bool series, std::vector<std::string>& causes);
+
+  // Any thread; `out` is resized.
+  void run(const DrawRequest& request, AxisReadings& out) const;
+
+  // What one trial of `numbers` mounts, and its true errors' amplitudes and phases (turns).
+  struct TrueErrors {
+    Errors5 amplitude{};
+    std::array<double, 5> phase_turns{};
+    Errors5 at(double travel_m, double period_m) const;  // local
+  };
+  void deviate(const DrawnNumbers& numbers, std::size_t j, Mounting& mounting,
+               TrueErrors& truth) const;
+  Mounting nominal_mounting() const;
+
+  const PlanDraws& draws() const { return draws_; }
+  const Solver& solver() const { return solver_; }
+  Axis axis() const { return solver_.fixture().axis; }
+  std::size_t positions() const { return positions_; }
+  double period_m() const { return period_m_; }
+  double flatness_length_m() const { return flatness_length_m_; }
+
+ private:
+  struct Trial;
+  PlanAxis(Solver solver, PlanDraws draws);
+  void simulate(const DrawnNumbers& numbers, std::size_t j, MountedFixture& fixture,
+                Mounting& mounting, AxisReadings& out) const;
+  void read(const Trial& trial, std::size_t reading, MountedFixture& fixture,
+            AxisReadings& out) const;
+  void solve(AxisReadings& out, std::size_t reading) const;
+  bool needed(std::size_t reading) const { return reading == 0 ? point_ : positions_ > 0; }
+
+  Solver solver_;
+  PlanDraws draws_;
+  Forward forward_ = Forward::rigid;
+  bool zero_at_start_ = true, point_ = true;
+  std::size_t positions_ = 0;  // of a series; 0: none
+  double from_m_ = 0, to_m_ = 0, period_m_ = 0, flatness_length_m_ = 0;
+  double fixture_per_K_ = 0, target_per_K_ = 0;
+};
+
+}  // namespace mdof::algo

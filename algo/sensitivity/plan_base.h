@@ -1,0 +1,55 @@
+// What every experiment made of a plan has in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algo/sensitivity/plan_draws.h"
+#include "algo/sensitivity/plan_experiment.h"
+
+namespace mdof::algo {
+
+class PlanBase : public ScalableExperiment {
+ public:
+  explicit PlanBase(const StudyPlan& plan) {
+    for (const auto& output : plan.outputs) outputs_.push_back(output.key);
+    for (const auto& quantity : plan.quantities) {
+      quantities_.push_back(quantity.name);
+      sizes_.push_back(QuantileFunction(quantity.distribution).size());
+      if (quantity.name == plan.binned_key)
+        binned_ = {plan.binned_key, quantity.distribution.low, quantity.distribution.high,
+                   plan.bins};
+    }
+  }
+
+  const std::vector<std::string>& outputs() const override { return outputs_; }
+  const BinnedQuantity& binned() const override { return binned_; }
+  const std::vector<std::string>& causes() const override { return causes_; }
+  const std::vector<std::string>& quantities() const override { return quantities_; }
+  const std::vector<double>& sizes() const override { return sizes_; }
+
+  void run(std::uint64_t first, std::uint64_t step, std::size_t n,
+           std::span<double* const> out) const override {
+    run_all({first, step, n, {}, {}}, out);
+  }
+  void run_mixed(std::span<const std::uint8_t> second, std::uint64_t first, std::uint64_t step,
+                 std::size_t n, std::span<double* const> out) const override {
+    run_all({first, step, n, second, {}}, out);
+  }
+  void run_scaled(std::span<const double> scale, std::uint64_t first, std::uint64_t step,
+                  std::size_t n, std::span<double* const> out) const override {
+    run_all({first, step, n, {}, scale}, out);
+  }
+
+ protected:
+  virtual void run_all(const DrawRequest& request, std::span<double* const> out) const = 0;
+
+  std::vector<std::string> causes_;  // filled by the making of its draws
+
+ private:
+  std::vector<std::string> outputs_, quantities_;
+  std::vector<double> sizes_;
+  BinnedQuantity binned_;
+};
+
+}  // namespace mdof::algo

@@ -1,0 +1,53 @@
+// Outputs of consecutive trials, one column each, for the sums over blocks.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mdof::algo {
+
+// Most trials of a block where a trial takes milliseconds.
+inline constexpr std::uint64_t kSlowSumBlock = 8;
+
+// Fewer blocks than these leave a standard error uncertain by more than 13 %, 1/√(2(blocks - 1)).
+inline constexpr std::uint64_t kFewSumBlocks = 30;
+
+class Columns {
+ public:
+  Columns(std::size_t outputs, std::size_t n) : n_(n), value_(outputs * n) {
+    for (std::size_t k = 0; k < outputs; ++k) place_.push_back(value_.data() + k * n);
+  }
+  Columns(Columns&&) = default;  // the places stay where they are
+  Columns(const Columns&) = delete;
+
+  std::span<double* const> place() const { return place_; }
+  double at(std::size_t output, std::size_t j) const { return value_[output * n_ + j]; }
+
+  // Of the trials that were solved; 0 if none was.
+  double mean(std::size_t output) const {
+    double sum = 0, count = 0;
+    for (std::size_t j = 0; j < n_; ++j) {
+      if (!std::isfinite(at(output, j))) continue;
+      sum += at(output, j);
+      count += 1;
+    }
+    return count > 0 ? sum / count : 0;
+  }
+
+ private:
+  std::size_t n_;
+  std::vector<double> value_;
+  std::vector<double*> place_;
+};
+
+// Trials of a block where `trials` in all are wanted: 64 blocks or more, as the standard errors
+// come from their scatter, or one a trial; and no longer than threads share well.
+inline std::uint64_t sum_block_trials(std::uint64_t trials) {
+  return std::clamp<std::uint64_t>(trials / 64, 1, 4096);
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,70 @@
+// A fixture and a target as they truly are, off their nominal ones, and what its probes read.
+// Local frame of the axis; m and rad.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "algo/fixture.h"
+#include "algo/sensitivity/plan_draws.h"
+#include "schema/study_plan.h"
+
+namespace mdof::algo {
+
+struct ProbeDeviation {
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  double circle_m = 0, circle_turns = 0;  // across the direction, seed Eq. 13-15
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  double tilt_rad = 0, tilt_turns = 0;
+  double gain = 1, zero_m = 0, drift_m = 0;
+};
+struct PartDeviation {
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+};
+// Height = highest to lowest/2 · Σ weight sin(2π (c·direction k/length + phase)) of waves k = 1 ...
+struct PlaneDeviation {
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  double map_scale = 1, flatness_m = 0;
+  std::array<double, kFlatnessWaves> along{}, across{}, phase_turns{};  // cosines of the direction
+};
+struct Mounting {
+  std::vector<ProbeDeviation> probe;
+  std::array<PartDeviation, 3> part{};                 // by Part
+  std::array<PlaneDeviation, 3> plane{};               // by Part; fixture: none
+  double fixture_expansion = 0, target_expansion = 0;  // share of each length, at the reading
+};
+
+// Where a trial is in its course: from the zero (0) to the end of drift and warming (1).
+class MountedFixture {
+ public:
+  MountedFixture(const Fixture& nominal, Forward forward, double flatness_length_m);
+
+  // False: an angle is beyond what the models take (0.25 rad).
+  bool mount(const Mounting& mounting);
+  // What the probes show: gain (displacement - zero) + zero error + drift. The zero is what
+  // mounting adds to the reading at d = 0 without errors of motion, or 0. False as mount().
+  bool read(double travel_m, const Errors5& local, double course, bool zero_at_start,
+            std::span<double> reading_m);
+  std::size_t probes() const { return nominal_.probes.size(); }
+
+ private:
+  void warm(double course);
+  double height(std::size_t probe, double travel_m, const Errors5& local) const;
+  bool displacements(double travel_m, const Errors5& local, std::span<double> out);
+
+  Fixture nominal_;
+  Fixture cold_;  // as mounted
+  Fixture now_;   // warmed
+  Forward forward_;
+  double flatness_length_m_;
+  std::vector<Part> part_;                       // of each probe: top, side or neither
+  std::vector<Eigen::Vector3d> first_, second_;  // across each nominal direction
+  Mounting mounting_;
+  std::vector<double> nominal_zero_m_, zero_m_;  // readings at d = 0: as planned, as mounted
+};
+
+Part part_of(const FixtureProbe& probe);
+
+}  // namespace mdof::algo

@@ -1,0 +1,87 @@
+// Order statistics from a histogram that loses no trial: equal bins over a core, and beyond it bins
+// that widen with the distance, out to the largest double.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "algo/sensitivity/kernels.h"
+
+namespace mdof::algo {
+
+// Core of the histogram of one output: `low` and the width of one of its 8192 bins.
+struct OutputScale {
+  double low = 0, width = 0;
+  double high() const { return low + width * static_cast<double>(kCoreBins); }
+  bool operator==(const OutputScale&) const = default;
+};
+
+// The core for these values (finite or not): twice as wide as their central 98 %, about its middle.
+// Values that are alike but for rounding say nothing of what will differ: 1/512 of them, or of the
+// unit if they are smaller. Sums then hold from pm and prad to beyond mm and mrad.
+OutputScale scale_for(std::vector<double> values);
+
+// Counts of one output. Core bin i is [low + i width, low + (i+1) width]; a value on an edge may be
+// in either. A tail has bins of relative width 1/64: bin j starts where 64 + distance / width has j
+// in the top bits of its double. Positive keys are above the core, negative ones below.
+class OutputHistogram {
+ public:
+  OutputHistogram() : recent_(kCoreBins + 2) {}
+
+  // A cell: indices from Kernels::scan; x is looked at only for what lies outside the core.
+  void add(std::span<const double> x, const std::uint64_t* index, const OutputScale& scale);
+  void add(const OutputHistogram& other);
+  void add_core(std::size_t bin, std::uint64_t n) { total_at(bin) += n; }
+  void add_tail(std::int32_t key, std::uint64_t n) { tails_[key] += n; }
+
+  std::uint64_t core(std::size_t bin) const {
+    return recent_[bin + 1] + (flushed_.empty() ? 0 : flushed_[bin]);
+  }
+  const std::map<std::int32_t, std::uint64_t>& tails() const { return tails_; }
+  static constexpr std::int32_t kLastTail = 65153;
+  std::size_t memory_bytes() const;
+
+ private:
+  void flush();
+  std::uint64_t& total_at(std::size_t bin);
+
+  std::vector<std::uint32_t> recent_;   // one below, core, one above; small, to stay in the cache
+  std::uint64_t recent_n_ = 0;          // flushed before a counter could overflow
+  std::vector<std::uint64_t> flushed_;  // empty until then
+  std::map<std::int32_t, std::uint64_t> tails_;
+};
+
+// The trials of one output in ascending order, as far as the histogram knows it.
+class OrderedTrials {
+ public:
+  OrderedTrials(const OutputHistogram& counts, const OutputScale& scale, double min, double max);
+
+  // `count` trials in [from, to], the first of them the one of rank before + 1.
+  struct Slice {
+    double from, to;
+    std::uint64_t before, count;
+  };
+  const std::vector<Slice>& slices() const { return slices_; }
+  std::uint64_t size() const { return n_; }
+  double min() const { return min_; }
+  double max() const { return max_; }
+
+  // Index of the slice of the trial of this rank, 1 <= rank <= size().
+  std::size_t find(std::uint64_t rank) const;
+  // Estimate of the rank-th smallest value, evenly spread within its slice.
+  double value(std::size_t slice, std::uint64_t rank) const;
+  double value(std::uint64_t rank) const { return value(find(rank), rank); }
+  // How far value() may be from the rank-th smallest value itself.
+  double resolution(std::uint64_t rank) const;
+
+ private:
+  void append(double from, double to, std::uint64_t count);
+
+  std::vector<Slice> slices_;
+  std::uint64_t n_ = 0;
+  double min_, max_;
+};
+
+}  // namespace mdof::algo

@@ -1,0 +1,39 @@
+// What StudyStatistics holds; for its two source files.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "algo/sensitivity/moments.h"
+#include "algo/sensitivity/quantile.h"
+#include "algo/sensitivity/statistics.h"
+
+namespace mdof::algo {
+
+// One output in one bin of the binned quantity.
+struct Accumulator {
+  std::uint64_t n = 0, unsolved = 0;
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+  PowerSums powers;
+  OutputHistogram histogram;
+
+  void add(const Accumulator& other);
+};
+
+struct StudyStatistics::Parts {
+  std::vector<std::string> outputs;
+  BinnedQuantity binned;
+  StudyScale scale;
+  InstructionSet set = InstructionSet::baseline;
+  std::uint64_t trials = 0;
+  std::vector<Accumulator> sums;  // [bin][output]
+
+  Accumulator& at(std::size_t bin, std::size_t output) {
+    return sums[bin * outputs.size() + output];
+  }
+};
+
+}  // namespace mdof::algo

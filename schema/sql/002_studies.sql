@@ -1,0 +1,47 @@
+-- Sensitivity studies: what was asked, what came out, and where an unfinished one stands. What was
+-- asked and what came out is append only; an interrupted result is superseded by a later row.
+
+CREATE TABLE study (
+  id INTEGER PRIMARY KEY,
+  name TEXT NOT NULL,
+  plan INTEGER NOT NULL REFERENCES document (id),      -- TOML: a user's plan, or a preset's options
+  source TEXT NOT NULL,                                -- file of the plan; empty for a preset
+  settings INTEGER NOT NULL REFERENCES document (id),  -- TOML: trials, coverage, adaptive rule
+  seed INTEGER NOT NULL,
+  trials_wanted INTEGER,      -- NULL: as many as the adaptive rule takes
+  fingerprint TEXT NOT NULL,  -- SHA-256 of its files and of the first trials, a line each
+  started_utc TEXT NOT NULL,
+  software_version TEXT NOT NULL
+) STRICT;
+
+-- What there was each time the study ended; the row with the highest id counts.
+CREATE TABLE study_result (
+  id INTEGER PRIMARY KEY,
+  study INTEGER NOT NULL REFERENCES study (id),
+  state TEXT NOT NULL CHECK (state IN ('complete', 'interrupted')),
+  trials INTEGER NOT NULL,
+  elapsed_s ANY NOT NULL,
+  ended_utc TEXT NOT NULL,
+  software_version TEXT NOT NULL,
+  figures TEXT NOT NULL,        -- JSON, the same bytes however the work was divided
+  figures_sha256 TEXT NOT NULL
+) STRICT;
+CREATE INDEX study_result_by_study ON study_result (study, id);
+
+-- The state of the work, from which it can be continued. No result: replaced as the study goes on
+-- and deleted when it is complete.
+CREATE TABLE study_checkpoint (
+  study INTEGER PRIMARY KEY REFERENCES study (id),
+  trials INTEGER NOT NULL,
+  sha256 TEXT NOT NULL,
+  bytes BLOB NOT NULL
+) STRICT;
+
+CREATE TRIGGER study_no_update BEFORE UPDATE ON study
+BEGIN SELECT raise(ABORT, 'study is append only'); END;
+CREATE TRIGGER study_no_delete BEFORE DELETE ON study
+BEGIN SELECT raise(ABORT, 'study is append only'); END;
+CREATE TRIGGER study_result_no_update BEFORE UPDATE ON study_result
+BEGIN SELECT raise(ABORT, 'study_result is append only'); END;
+CREATE TRIGGER study_result_no_delete BEFORE DELETE ON study_result
+BEGIN SELECT raise(ABORT, 'study_result is append only'); END;

@@ -1,0 +1,18 @@
+// The distribution of a planned quantity, read from its TOML table.
+#pragma once
+
+#include <filesystem>
+
+#include "schema/study_plan.h"
+#include "schema/toml_reader.h"
+
+namespace mdof {
+
+// Reads `distribution` and its parameters; paths of samples are relative to `folder`. What is wrong
+// is recorded in the table, but for a bad sample file, whose error is given.
+Result<Distribution> read_distribution(TomlTable& table, const std::filesystem::path& folder);
+
+// One column of numbers, `#` comments, and perhaps a heading; ascending. Errors name file and line.
+Result<std::vector<double>> load_sample(const std::filesystem::path& file);
+
+}  // namespace mdof

@@ -1,0 +1,114 @@
+#include "schema/study_plan.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "schema/axis.h"
+#include "schema/files.h"
+#include "schema/study_plan_parts.h"
+#include "schema/toml_reader.h"
+
+namespace mdof {
+namespace plan_parts {
+
+std::string known_or_list(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest_of(word, known);
+  if (!near.empty()) return "did you mean \"" + near + "\"?";
+  std::string list = "they are";
+  for (const auto& k : known) list += " " + k;
+  return list;
+}
+
+std::uint64_t read_count(TomlTable& table, std::string_view key, std::uint64_t fallback,
+                         std::int64_t least, std::int64_t most) {
+  const std::int64_t n = table.integer(key, static_cast<std::int64_t>(fallback));
+  if (n < least || n > most)
+    table.reject(key, "must be from " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<std::uint64_t>(n);
+}
+
+double read_share(TomlTable& table, std::string_view key, double fallback) {
+  const double p = table.number(key, fallback);
+  if (!(p > 0 && p < 1)) table.reject(key, "must lie between 0 and 1, both left out");
+  return p;
+}
+
+double read_above_zero(TomlTable& table, std::string_view key, double fallback) {
+  const double x = table.number(key, fallback);
+  if (!(x > 0)) table.reject(key, "must be greater than zero");
+  return x;
+}
+
+Rig read_rig(TomlTable& table, std::string_view key, const std::filesystem::path& folder) {
+  const std::string file = table.string(key);
+  if (file.empty()) {
+    table.reject(key, "must name a rig file");
+    return {};
+  }
+  auto rig = load_rig(folder / file);
+  if (!rig) {
+    table.reject(key, rig.error().message);
+    return {};
+  }
+  return std::move(*rig);
+}
+
+}  // namespace plan_parts
+
+namespace {
+
+using namespace plan_parts;
+using Path = std::filesystem::path;
+
+// Gives the place of `word` among the choices; the first where it is none of them.
+std::size_t read_choice(TomlTable& table, std::string_view key,
+                        const std::vector<std::string>& choices, std::size_t fallback) {
+  const std::string word = table.string(key, choices[fallback]);
+  const auto found = std::find(choices.begin(), choices.end(), word);
+  if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+  table.reject(key, "\"" + word + "\" is not known here; " + known_or_list(word, choices));
+  return fallback;
+}
+
+void read_head(TomlTable& table, const Path& folder, StudyPlan& plan) {
+  plan.name = table.string("name");
+  plan.rig = read_rig(table, "rig", folder);
+  if (auto squareness = table.table("squareness")) {
+    plan.rig_y = read_rig(*squareness, "rig_y", folder);
+    if (plan.rig.axis != Axis::x || plan.rig_y->axis != Axis::y)
+      squareness->reject("rig_y", "squareness needs rig of axis X and rig_y of axis Y");
+  }
+  plan.model = static_cast<Model>(read_choice(table, "model", {"simplified", "exact", "rigid"}, 1));
+  plan.forward = static_cast<Forward>(read_choice(table, "forward", {"rigid", "small-angle"}, 0));
+  plan.zero_at_start = table.boolean("zero_at_start", true);
+  plan.trials = read_count(table, "trials", plan.trials, 1, 1'000'000'000'000'000);
+  plan.seed = read_count(table, "seed", plan.seed, 0, std::numeric_limits<std::int64_t>::max());
+  plan.coverage = read_share(table, "coverage", plan.coverage);
+  plan.whole_run = read_choice(table, "output_of", {"point", "run"}, 0) == 1;
+}
+
+}  // namespace
+
+Result<StudyPlan> parse_study_plan(std::string_view toml_text, const std::string& source_name) {
+  MDOF_TRY(auto table, TomlTable::parse(toml_text, source_name));
+  const Path folder = Path(source_name).parent_path();
+  StudyPlan plan;
+  plan.source = source_name;
+  plan.text = std::string(toml_text);
+  read_head(table, folder, plan);
+  if (plan.rig.probes.empty()) return tl::unexpected(table.finish().error());
+  read_outputs(table, plan);
+  MDOF_CHECK(read_quantities(table, folder, plan));
+  read_dependence(table, plan);
+  read_settings(table, plan);
+  read_questions(table, folder, plan);
+  MDOF_CHECK(table.finish());
+  return plan;
+}
+
+Result<StudyPlan> load_study_plan(const Path& file) {
+  MDOF_TRY(const std::string text, read_text_file(file));
+  return parse_study_plan(text, file.string());
+}
+
+}  // namespace mdof

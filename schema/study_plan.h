@@ -1,0 +1,135 @@
+// A user's own sensitivity study: which quantities of which rig vary how, and what is asked.
+// The format is described in algo/sensitivity/PLAN.md.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/point.h"
+#include "schema/result.h"
+#include "schema/rig.h"
+#include "schema/study_quantity.h"
+
+namespace mdof {
+
+// JCGM 101 §6.4, by its parameters; values in the unit of the quantity.
+struct Distribution {
+  enum class Kind {
+    constant,
+    rectangular,
+    triangular,
+    trapezoidal,
+    u_shaped,
+    normal,
+    t,
+    empirical
+  };
+  Kind kind = Kind::constant;
+  double low = 0, high = 0;    // rectangular, triangular, trapezoidal, u_shaped
+  double mode = 0;             // triangular
+  double beta = 0;             // trapezoidal: width of the top by that of the base, 0 ... 1
+  double centre = 0;           // constant, normal, t
+  double spread = 0;           // normal: standard deviation; t: scale
+  double dof = 0;              // t
+  std::vector<double> sample;  // empirical: ascending
+};
+const char* to_string(Distribution::Kind kind);
+
+struct PlannedQuantity {
+  std::string name;  // as written, a star for all probes included
+  Distribution distribution;
+  std::string where;  // "plan.toml:12: quantity[2].name", for messages
+};
+
+// Joint distribution by a Gaussian copula; of the quantities with their stars written out.
+struct PlannedCorrelation {
+  std::vector<std::string> quantities;
+  std::vector<double> matrix;  // row-major, symmetric, ones on the diagonal
+  std::string where;
+};
+
+// What is asked of each trial.
+enum class OutputKind {
+  error,              // estimate minus truth of one of the five errors: "EYX_um"
+  straightness,       // error of a figure of a series: "EYX_straightness_um", least squares
+  straightness_ends,  // "EYX_straightness_end_point_um"
+  squareness,         // error of "EC0Y_urad", from a series of each axis
+  worst,              // of a whole run, the largest |error| of its points: "EYX_worst_um"
+};
+struct PlannedOutput {
+  std::string key;
+  OutputKind kind = OutputKind::error;
+  std::size_t error = 0;  // place in error_names() of the rig's axis
+};
+
+struct PlannedAdaptive {
+  int digits = 2;                            // where no tolerance is given
+  std::map<std::string, double> tolerances;  // numerical tolerance of an output, by key
+};
+
+struct PlannedIndices {
+  std::uint64_t trials = 65536;  // base trials; each costs two evaluations and one more a cause
+  bool each_probe = false;       // a star is one cause a probe, not one in all
+};
+
+struct PlannedAllocation {
+  std::string output;
+  double limit = 0;  // unit of the output
+  double probability = 0.95;
+  std::vector<std::string> tolerances;  // names of quantities, as in PlannedQuantity
+  std::uint64_t trials = 20000;
+  std::string where;
+};
+
+// A whole run: simulated samples of the perturbed rig through the real pipeline.
+struct PlannedRun {
+  std::vector<double> targets_mm;
+  double dwell_s = 0.4;
+  double rate_hz = 500;
+  double speed_mm_s = 20;
+};
+
+enum class Forward { rigid, small_angle };  // what the probes read: DESIGN §3
+
+struct StudyPlan {
+  std::string name;
+  std::string source;  // file name, for messages
+  std::string text;    // the TOML itself: provenance
+  Rig rig;
+  std::optional<Rig> rig_y;    // for squareness: the rig of the second axis
+  std::optional<Rig> compare;  // [compare] rig
+  Model model = Model::exact;
+  Forward forward = Forward::rigid;
+  bool zero_at_start = true;
+  std::uint64_t trials = 100000, seed = 1;
+  double coverage = 0.95;
+  std::vector<PlannedOutput> outputs;
+  bool whole_run = false;                   // output_of = "run"
+  std::vector<PlannedQuantity> quantities;  // [truth] first
+  std::vector<PlannedCorrelation> correlations;
+  std::string binned_key;  // "" : no bins
+  std::size_t bins = 1;
+  std::size_t series_positions = 11;
+  double series_period_mm = 0;  // of the true errors along the travel; 0: the whole travel
+  double fixture_per_K = 0, target_per_K = 0;  // expansion coefficients, 1/K
+  double flatness_length_mm = 30;              // longest wave of a random height
+  std::optional<PlannedAdaptive> adaptive;
+  std::optional<PlannedIndices> indices;
+  std::vector<PlannedAllocation> allocations;
+  PlannedRun run;
+};
+
+// Reads a plan, the rigs and the samples that it names (paths relative to the plan). Errors name
+// file, line and key, and for an unknown word the nearest known one. What only the mathematics
+// knows (a rig that cannot see an error, a correlation matrix that is none) make_plan_experiment()
+// tells.
+Result<StudyPlan> load_study_plan(const std::filesystem::path& file);
+Result<StudyPlan> parse_study_plan(std::string_view toml_text, const std::string& source_name);
+
+}  // namespace mdof

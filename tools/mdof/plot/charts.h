@@ -1,0 +1,26 @@
+// One function a plot: the figures of a study in, an SVG document out. Pure.
+#pragma once
+
+#include <string>
+
+#include "schema/study.h"
+
+namespace mdof::tools::plot {
+
+// Each says whether its plot has anything to show, and draws it then.
+bool has_histogram(const OutputSummary& output);
+std::string histogram_svg(const StudyResult& result, const OutputSummary& output);
+
+bool has_bins(const StudyResult& result);
+std::string bins_svg(const StudyResult& result);
+
+bool has_indices(const StudyResult& result);
+std::string indices_svg(const StudyResult& result);
+
+bool has_convergence(const StudyResult& result);
+std::string convergence_svg(const StudyResult& result);
+
+bool has_frontier(const StudyResult& result);
+std::string frontier_svg(const StudyResult& result);
+
+}  // namespace mdof::tools::plot

@@ -1,0 +1,72 @@
+// The parts plots have in common: a head, a legend, panels with axes side by side, stepped bands.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/study.h"
+#include "tools/mdof/plot/axis.h"
+#include "tools/mdof/plot/svg.h"
+
+namespace mdof::tools::plot {
+
+inline constexpr double kMarginPx = 24;  // around everything
+
+// Title and a quieter line below it; both end above kHeadPx.
+inline constexpr double kHeadPx = 60;
+void draw_head(Svg& svg, std::string_view title, std::string_view subtitle);
+
+// "simulation-1: what", of a study without a name what alone.
+std::string titled(const StudyResult& result, const std::string& what);
+
+// "Monte Carlo, 1 000 000 trials, seed 7", and that it was interrupted where it was.
+std::string study_line(const StudyResult& result);
+
+enum class LegendSign { line, area, dot };
+struct LegendItem {
+  LegendSign sign;
+  const char* mark;
+  std::string text;
+};
+// In rows of the plot's width from `top` down; gives where the rows end.
+double draw_legend(Svg& svg, double top, std::span<const LegendItem> items);
+
+// A rectangle with a quantity along each side.
+struct Panel {
+  Place corner;  // upper left
+  double width = 0, height = 0;
+  Axis x, y;
+  double px_x(double value) const { return corner.x + x.fraction(value) * width; }
+  double px_y(double value) const { return corner.y + (1 - y.fraction(value)) * height; }
+  Place at(double vx, double vy) const { return {px_x(vx), px_y(vy)}; }
+};
+// Grid lines, tick labels and the title of x below.
+void draw_axes(Svg& svg, const Panel& panel, std::string_view x_key);
+// The title of y, set level, above the upper left corner.
+void draw_y_title(Svg& svg, const Panel& panel, std::string_view y_key);
+
+// Panels of one size, two side by side where there are several; their left edges leave room for
+// the widest label of all.
+class Sheet {
+ public:
+  Sheet(double top_px, std::span<const Range> y_ranges, double panel_height_px);
+  Panel panel(std::size_t i, const Range& x, bool logarithmic_x) const;
+  double bottom() const;
+
+ private:
+  double top_, height_, left_ = 0;
+  std::size_t columns_;
+  std::vector<Axis> y_;
+};
+
+// A figure over an interval of x, from low to high (equal for a line). NaN leaves a gap.
+struct Step {
+  double from = 0, to = 0, low = 0, high = 0;
+};
+void draw_band(Svg& svg, const Panel& panel, std::string_view mark, std::span<const Step> steps);
+void draw_steps(Svg& svg, const Panel& panel, std::string_view mark, std::span<const Step> steps);
+
+}  // namespace mdof::tools::plot

@@ -1,0 +1,62 @@
+#include "tools/mdof/plot/style.h"
+
+#include <array>
+
+namespace mdof::tools::plot {
+namespace {
+
+constexpr std::array<Colour, 17> kColours = {{
+    {"paper", "fill", "#ffffff", "#0d1117"},
+    {"text", "fill", "#1f2328", "#e6edf3"},
+    {"quiet", "fill", "#59636e", "#9aa4af"},
+    {"grid", "stroke", "#e1e5ea", "#252c35"},
+    {"rule", "stroke", "#6e7781", "#7d8590"},
+    {"ink", "stroke", "#1f2328", "#e6edf3"},
+    {"ink-dot", "fill", "#1f2328", "#e6edf3"},
+    {"blue", "stroke", "#0066a8", "#56b4e9"},
+    {"blue-dot", "fill", "#0066a8", "#56b4e9"},
+    {"orange", "stroke", "#b84a00", "#f0a030"},
+    {"orange-dot", "fill", "#b84a00", "#f0a030"},
+    {"edge", "stroke", "#6e7781", "#7d8590"},
+    {"wide", "fill", "#d9e9f5", "#12324a"},
+    {"wide", "stroke", "#0066a8", "#56b4e9"},
+    {"narrow", "fill", "#a3cbe8", "#1f5d8a"},
+    {"narrow", "stroke", "#0066a8", "#56b4e9"},
+    {"halo", "stroke", "#ffffff", "#0d1117"},
+}};
+
+// What does not depend on light or dark.
+constexpr const char* kShapes =
+    ".mdof text{font-family:system-ui,'DejaVu Sans',Arial,sans-serif;font-size:12px}"
+    ".mdof .title{font-size:17px;font-weight:600}"
+    ".mdof .head{font-weight:600}"
+    ".mdof .tick{font-size:11px}"
+    ".mdof line,.mdof polyline{fill:none}"
+    ".mdof .grid,.mdof .rule{stroke-width:1}"
+    ".mdof .ink,.mdof .blue,.mdof .orange{stroke-width:1.6}"
+    ".mdof .edge{stroke-width:1.2}"
+    ".mdof .wide,.mdof .narrow{stroke-width:.8}"
+    ".mdof .halo{stroke-width:4;paint-order:stroke}"
+    ".mdof .dash{stroke-dasharray:6 3}"
+    ".mdof .dot{stroke-dasharray:1.5 3}";
+
+void append_rules(std::string& css, const char* Colour::*shade) {
+  for (const Colour& c : kColours)
+    css += std::string(".mdof .") + c.mark + "{" + c.property + ":" + c.*shade + "}";
+}
+
+}  // namespace
+
+std::span<const Colour> colours() {
+  return kColours;
+}
+
+std::string style_sheet() {
+  std::string css = kShapes;
+  append_rules(css, &Colour::light);
+  css += "@media (prefers-color-scheme:dark){";
+  append_rules(css, &Colour::dark);
+  return css + "}";
+}
+
+}  // namespace mdof::tools::plot

@@ -1,0 +1,183 @@
+// mdof sensitivity: how mounting errors become errors of the result, by Monte Carlo.
+//
+//   rank 0 reads the order ─▶ all ranks make the experiment ─▶ all run its trials ─▶ rank 0 answers
+//   the plan's questions, stores, draws and prints
+#include <CLI/CLI.hpp>
+
+#include "daemon/paths.h"
+#include "tools/mdof/command.h"
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/plot/study_plots.h"
+#include "tools/mdof/sensitivity_options.h"
+#include "tools/mdof/sensitivity_trial.h"
+#include "tools/mdof/study_json.h"
+#include "tools/mdof/study_output.h"
+#include "tools/mdof/study_questions.h"
+#include "tools/mdof/study_ranks.h"
+#include "tools/mdof/study_recorder.h"
+#include "tools/mdof/study_result.h"
+#include "tools/mdof/study_run_experiment.h"
+#include "tools/mdof/study_runner.h"
+
+namespace mdof::tools {
+namespace {
+
+// The study on this rank; what is stored is the business of rank 0.
+struct Job {
+  Study study;
+  StudyWork work;
+  StudyRecorder recorder;
+  std::string started_utc;
+};
+
+// What rank 0 knows from the command line and the database before the experiment is made.
+struct Start {
+  StudyOrder order;
+  std::optional<StoredStudy> stored;  // to be continued
+};
+
+Result<Start> start_of(const SensitivityCommand& command) {
+  if (!command.plots.empty()) MDOF_CHECK(check_plot_folder(command.plots));
+  if (!command.continued) {
+    MDOF_TRY(StudyOrder order, order_of(command));
+    return Start{std::move(order), std::nullopt};
+  }
+  MDOF_TRY(StoredStudy stored, study_to_continue(command.database, *command.continued));
+  return Start{stored.order, std::move(stored)};
+}
+
+Result<StudyOrder> share(StudyOrder order, Ranks& ranks) {
+  order.plan_toml = ranks.broadcast(std::move(order.plan_toml));
+  order.source = ranks.broadcast(std::move(order.source));
+  MDOF_TRY(order.settings, parse_settings(ranks.broadcast(settings_toml(order.settings))));
+  return order;
+}
+
+RunnerOptions runner_options(const SensitivityCommand& command, const Job& job) {
+  const StudySettings& settings = job.study.order.settings;
+  return {settings.trials,    settings.adaptive,
+          *settings.coverage, command.threads,
+          job.study.slow(),   [&job](const StudyWork& work) { job.recorder.checkpoint(work); }};
+}
+
+Status set_up_record(const SensitivityCommand& command, const std::optional<StoredStudy>& stored,
+                     Job& job) {
+  job.started_utc = stored ? stored->record.started_utc : daemon::utc_now();
+  if (stored) {
+    job.recorder = StudyRecorder(command.database, stored->record.id);
+  } else if (!command.database.empty()) {
+    MDOF_TRY(job.recorder, StudyRecorder::begin(command.database, job.study, job.started_utc));
+  }
+  return {};
+}
+
+Result<Job> make_job(Start start, unsigned threads, Ranks& ranks) {
+  const auto& stored = start.stored;
+  MDOF_TRY(StudyOrder order, share(std::move(start.order), ranks));
+  MDOF_TRY(Study study, make_study(std::move(order)));
+  if (stored) {
+    MDOF_TRY(StudyWork work, continued_work(*stored, study));
+    return Job{std::move(study), std::move(work), {}, {}};
+  }
+  const auto trials = study.order.settings.trials.value_or(algo::kPilotTrials);
+  const algo::Experiment& experiment = *study.experiment;
+  const algo::StudyScale scale =
+      study.slow()
+          ? algo::pilot_scale(DividedTrials(experiment, threads, [] { return true; }), trials)
+          : algo::pilot_scale(experiment, trials);
+  StudyWork work = empty_work(experiment, scale);
+  return Job{std::move(study), std::move(work), {}, {}};
+}
+
+Status draw(const SensitivityCommand& command, const StudyResult& result) {
+  return command.plots.empty() ? Status() : write_study_plots(result, command.plots);
+}
+
+// The key of an output that no trial gave; "": none.
+std::string unsolved_output(const StudyResult& result) {
+  for (const OutputSummary& s : result.outputs)
+    if (s.n == 0) return s.key;
+  return "";
+}
+
+// None of the trials gave this output: why, as far as the first of them tells.
+Status not_solved(const Study& study, const std::string& key, std::uint64_t trials) {
+  const Status first = study.slow() ? check_run_trial(*study.plan, 0) : Status();
+  return fail(ErrorCode::check, key + ": none of the " + std::to_string(trials) +
+                                    " trials could be solved, there are no figures; " +
+                                    (first ? "see what one draws with --trial 0"
+                                           : "trial 0: " + first.error().message));
+}
+
+// 1: a result is there, but not the one asked for.
+Status judge(const Study& study, const StudyResult& result, const StudyRecorder& recorder) {
+  if (result.state == StudyState::complete) {
+    const std::string key = unsolved_output(result);
+    return key.empty() ? Status() : not_solved(study, key, result.trials);
+  }
+  return fail(ErrorCode::check,
+              "interrupted after " + std::to_string(result.trials) + " trials; " +
+                  (recorder.id() ? "go on with " + recorder.how_to_continue()
+                                 : std::string("with --db FILE it could be continued")));
+}
+
+Status finish(const SensitivityCommand& command, Job& job, StudyState state, bool settled) {
+  StudyResult result = result_of(job.study, job.work, job.started_utc);
+  if (state == StudyState::complete && unsolved_output(result).empty()) {
+    MDOF_TRY(state, answer_questions(job.study, command.threads, result));
+  }
+  result.state = state;
+  if (state == StudyState::complete && !settled)
+    result.warnings.emplace_back("the adaptive rule has not settled within the trials allowed");
+  const std::string figures = study_figures_json(result);
+  MDOF_CHECK(job.recorder.end(result, figures, job.work));
+  for (const auto& warning : result.warnings) warn(warning);
+  MDOF_CHECK(draw(command, result));
+  MDOF_CHECK(print_study(result, figures, job.recorder.id(), command.form));
+  return judge(job.study, result, job.recorder);
+}
+
+Status run_study(const SensitivityCommand& command, Ranks& ranks) {
+  Result<Start> start = ranks.first() ? start_of(command) : Start{};
+  MDOF_CHECK(ranks.agree(start ? Status() : tl::unexpected(start.error())));
+  Result<Job> job = make_job(*start, command.threads, ranks);
+  MDOF_CHECK(ranks.agree(job ? Status() : tl::unexpected(job.error())));
+  Result<StudyRunner> runner =
+      StudyRunner::create(*job->study.experiment, runner_options(command, *job), ranks);
+  Status ready = runner ? Status() : tl::unexpected(runner.error());
+  if (ready && ranks.first()) ready = set_up_record(command, start->stored, *job);
+  MDOF_CHECK(ranks.agree(ready));
+  const Interrupt interrupt;
+  const StudyState state = runner->run(job->work);
+  return ranks.first() ? finish(command, *job, state, runner->settled()) : Status();
+}
+
+Status show_trial(const SensitivityCommand& command, const Ranks& ranks) {
+  if (!ranks.first()) return {};
+  MDOF_TRY(StudyOrder order, order_of(command));
+  MDOF_TRY(const Study study, make_study(std::move(order)));
+  return print_trial(study, *command.trial, command.form == StudyForm::json);
+}
+
+Status sensitivity(SensitivityCommand& command) {
+  MDOF_TRY(Ranks ranks, Ranks::join());
+  Status done = check_usage(command);  // the same on all
+  if (done) done = command.trial ? show_trial(command, ranks) : run_study(command, ranks);
+  const bool speaks = ranks.first();
+  ranks.leave();
+  // mpirun ends all processes once one has failed: the others must not keep rank 0 from saying why.
+  return speaks ? done : Status();
+}
+
+}  // namespace
+
+void add_sensitivity(CLI::App& app, Action& chosen) {
+  const auto o = std::make_shared<SensitivityCommand>();
+  auto* command = app.add_subcommand(
+      "sensitivity", "Find by Monte Carlo what mounting errors do to the measured errors");
+  declare_options(*command, *o);
+  command->callback([o, &chosen] { chosen = [o] { return sensitivity(*o); }; });
+}
+
+}  // namespace mdof::tools

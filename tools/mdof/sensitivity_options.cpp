@@ -1,0 +1,199 @@
+#include "tools/mdof/sensitivity_options.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+
+#include "schema/files.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/study_preset.h"
+#include "tools/mdof/study_workers.h"
+
+namespace mdof::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 63) - 1;  // SQLite and TOML end there
+constexpr double kMostTrials = 1e15;
+constexpr double kLongest_m = 10;  // beyond any machine that such a fixture measures
+
+std::string option_name(std::string key) {
+  std::replace(key.begin(), key.end(), '_', '-');
+  return "--" + key;
+}
+
+void declare_preset(CLI::App& command, SensitivityCommand& o) {
+  const std::string group = "Parameters of a preset";
+  for (const PresetNumber& number : preset_numbers()) {
+    command.add_option(option_name(number.key), o.numbers[number.key], number.help)
+        ->group(group)
+        ->type_name("X");
+  }
+  command.add_option("--travel-mm", o.travel_mm, "Travel: uniform between these")
+      ->expected(2)
+      ->group(group)
+      ->type_name("FROM TO");
+  command.add_option("--bins", o.bins, "Results also for so many parts of the travel")
+      ->check(CLI::Range(1, 1000))
+      ->group(group)
+      ->type_name("N");
+}
+
+void declare_trials(CLI::App& command, SensitivityCommand& o) {
+  command.add_option("--trials", o.trials, "Number of trials; with --adaptive, at most")
+      ->type_name("N");
+  command.add_option("--seed", o.seed, "Of the random numbers [default: 1, or the plan's]")
+      ->check(CLI::Range(std::uint64_t{0}, kLargestSeed))
+      ->type_name("S");
+  command.add_option("--coverage", o.coverage, "Of the intervals [default: 0.95, or the plan's]")
+      ->type_name("P");
+  auto* adaptive = command.add_flag("--adaptive", o.adaptive,
+                                    "As many trials as JCGM 101 7.9 takes to the tolerance");
+  command.add_option("--digits", o.digits, "Tolerance: so many digits of each sd [default: 2]")
+      ->needs(adaptive)
+      ->type_name("N");
+  command.add_option("--tolerance", o.tolerances, "Tolerance of one output: EBX_urad=0.01")
+      ->needs(adaptive)
+      ->type_name("KEY=VALUE");
+  command.add_option("--trial", o.trial, "Show this trial alone, what was drawn and what came out")
+      ->check(CLI::Range(0.0, kMostTrials))
+      ->type_name("INDEX");
+  o.threads = default_threads();
+  command.add_option("--threads", o.threads, "The figures do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str()
+      ->type_name("T");
+}
+
+void declare_results(CLI::App& command, SensitivityCommand& o) {
+  command.add_option("--db", o.database, "Store the study in this database; can be continued")
+      ->type_name("FILE");
+  command.add_option("--plot", o.plots, "Draw histograms and more as SVG")->type_name("DIR");
+  add_json_flag(command, o.json);
+  command.add_flag("--csv", o.csv, "Print one row an output and bin");
+}
+
+// A length is in micrometres or millimetres, as the option's name ends.
+Status check_number(const std::string& option, double x) {
+  if (!std::isfinite(x)) return fail(ErrorCode::usage, option + ": must be a finite number");
+  const bool um = option.ends_with("-um"), mm = option.ends_with("-mm");
+  const double longest = kLongest_m * (um ? 1e6 : 1e3);
+  if ((!um && !mm) || std::abs(x) <= longest) return {};
+  return fail(ErrorCode::usage, option + ": is longer than 10 m; must be within ±" +
+                                    std::to_string(std::llround(longest)) + (um ? " µm" : " mm"));
+}
+
+Result<algo::SimulationOptions> preset_options(const SensitivityCommand& command) {
+  MDOF_TRY(auto options, preset_defaults(command.preset));
+  for (const PresetNumber& number : preset_numbers()) {
+    const auto& given = command.numbers.at(number.key);
+    if (!given) continue;
+    MDOF_CHECK(check_number(option_name(number.key), *given));
+    options.*number.member = *given;
+  }
+  for (const double x : command.travel_mm) MDOF_CHECK(check_number("--travel-mm", x));
+  if (!command.travel_mm.empty()) {
+    options.travel_from_mm = command.travel_mm[0];
+    options.travel_to_mm = command.travel_mm[1];
+  }
+  if (command.bins) options.travel_bins = *command.bins;
+  return options;
+}
+
+bool any_of_preset(const SensitivityCommand& command) {
+  for (const auto& [key, value] : command.numbers)
+    if (value) return true;
+  return !command.travel_mm.empty() || command.bins;
+}
+
+bool any_setting(const SensitivityCommand& command) {
+  return command.trials || command.seed || command.coverage || command.adaptive || command.trial;
+}
+
+Status check_trials(const std::optional<double>& trials) {
+  if (!trials) return {};
+  if (*trials >= 1 && *trials <= kMostTrials && *trials == std::floor(*trials)) return {};
+  return fail(ErrorCode::usage, "--trials: must be a whole number from 1 to 1e15");
+}
+
+Status check_coverage(const std::optional<double>& coverage) {
+  if (!coverage || (*coverage > 0 && *coverage < 1)) return {};
+  return fail(ErrorCode::usage, "--coverage: must lie between 0 and 1, such as 0.95");
+}
+
+Result<StudySettings> settings_of(const SensitivityCommand& command) {
+  StudySettings settings;
+  if (command.trials) settings.trials = static_cast<std::uint64_t>(*command.trials);
+  settings.seed = command.seed;
+  settings.coverage = command.coverage;
+  if (command.adaptive) {
+    algo::AdaptiveTolerance adaptive;
+    if (command.digits) adaptive.digits = *command.digits;
+    for (const auto& tolerance : command.tolerances) MDOF_CHECK(add_tolerance(tolerance, adaptive));
+    settings.adaptive = std::move(adaptive);
+  }
+  return settings;
+}
+
+}  // namespace
+
+void declare_options(CLI::App& command, SensitivityCommand& o) {
+  command.add_option("--preset", o.preset, "simulation-1 or simulation-2 of the paper")
+      ->type_name("NAME");
+  command.add_option("--plan", o.plan, "A study of your own; see algo/sensitivity/PLAN.md")
+      ->type_name("PLAN.toml");
+  command.add_option("--continue", o.continued, "Go on with this study; see mdof studies")
+      ->type_name("STUDY");
+  declare_trials(command, o);
+  declare_results(command, o);
+  declare_preset(command, o);
+  command.footer(
+      "Examples:\n"
+      "  mdof sensitivity --preset simulation-2 --radius-um 5 --plot plots\n"
+      "  mdof sensitivity --plan plan.toml --adaptive --digits 2 --db studies.db\n"
+      "  mpirun -n 8 mdof sensitivity --preset simulation-1 --trials 1e11 --json");
+}
+
+Status check_usage(SensitivityCommand& command) {
+  const int sources = (command.preset.empty() ? 0 : 1) + (command.plan.empty() ? 0 : 1) +
+                      (command.continued ? 1 : 0);
+  if (sources != 1)
+    return fail(ErrorCode::usage, "sensitivity: give one of --preset, --plan and --continue");
+  if (command.preset.empty() && any_of_preset(command))
+    return fail(ErrorCode::usage,
+                "sensitivity: parameters such as --radius-um belong to --preset; a plan or a "
+                "stored study has its own");
+  if (command.continued && any_setting(command))
+    return fail(ErrorCode::usage,
+                "sensitivity: a continued study keeps its trials, seed, coverage and rule");
+  if (command.json && command.csv)
+    return fail(ErrorCode::usage, "sensitivity: --json or --csv, not both");
+  command.form = command.json ? StudyForm::json : command.csv ? StudyForm::csv : StudyForm::text;
+  MDOF_CHECK(check_coverage(command.coverage));
+  return check_trials(command.trials);
+}
+
+Result<StudyOrder> order_of(const SensitivityCommand& command) {
+  MDOF_TRY(StudySettings settings, settings_of(command));
+  if (command.plan.empty()) {
+    MDOF_TRY(const auto options, preset_options(command));
+    return StudyOrder{preset_toml(command.preset, options), "", std::move(settings)};
+  }
+  MDOF_TRY(std::string plan_toml, read_text_file(command.plan));
+  return StudyOrder{std::move(plan_toml), command.plan, std::move(settings)};
+}
+
+Status check_plot_folder(const std::string& folder) {
+  std::error_code ec;
+  fs::create_directories(folder, ec);
+  const std::string why = ec ? ec.message() : "it is no folder";
+  if (ec || !fs::is_directory(folder, ec))
+    return io_error(folder + ": the folder of plots cannot be made: " + why + "; name another");
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
+  return io_error(folder + ": plots cannot be written there; make it writable, or name another");
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,80 @@
+#include "tools/mdof/study_preset.h"
+
+#include <array>
+
+#include "schema/json_writer.h"
+#include "schema/toml_reader.h"
+
+namespace mdof::tools {
+namespace {
+
+using Options = algo::SimulationOptions;
+
+constexpr std::array kNumbers = {
+    PresetNumber{"angle_range_urad", &Options::angle_range_urad,
+                 "True roll, pitch and yaw: uniform within ± this"},
+    PresetNumber{"offset_range_um", &Options::offset_range_um,
+                 "True straightness errors: uniform within ± this"},
+    PresetNumber{"l_mm", &Options::l_mm, "Distance l of A, B, C and E from the origin"},
+    PresetNumber{"side_plane_mm", &Options::side_plane_mm, "y of the side target surface"},
+    PresetNumber{"side_height_mm", &Options::side_height_mm, "Height l'' of D and E"},
+    PresetNumber{"radius_um", &Options::radius_um, "Each probe is displaced by this radius r"},
+    PresetNumber{"theta_y_mrad", &Options::theta_y_mrad, "Top unit turned about Z"},
+    PresetNumber{"theta_p_mrad", &Options::theta_p_mrad, "Side unit turned about Y"},
+    PresetNumber{"theta_r_mrad", &Options::theta_r_mrad, "Both units turned about X"},
+    PresetNumber{"sigma_x_um", &Options::sigma_x_um, "Units displaced along X"},
+    PresetNumber{"sigma_y_um", &Options::sigma_y_um, "Top unit displaced along Y"},
+    PresetNumber{"sigma_z_um", &Options::sigma_z_um, "Side unit displaced along Z"},
+};
+
+// Shortest text that reads back to the same bits.
+std::string shortest(double x) {
+  JsonWriter number;
+  number.value(x);
+  return number.take();
+}
+
+}  // namespace
+
+std::span<const PresetNumber> preset_numbers() {
+  return kNumbers;
+}
+
+Result<Options> preset_defaults(const std::string& name) {
+  if (name == "simulation-1") return algo::simulation_1_defaults();
+  if (name == "simulation-2") return algo::simulation_2_defaults();
+  const std::string nearest = nearest_of(name, {"simulation-1", "simulation-2"});
+  return fail(ErrorCode::usage,
+              "--preset: \"" + name + "\" is none" +
+                  (nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)") +
+                  "; there are simulation-1 and simulation-2");
+}
+
+std::string preset_toml(const std::string& name, const Options& options) {
+  std::string toml = "preset = \"" + name + "\"\n";
+  for (const PresetNumber& number : kNumbers)
+    toml += std::string(number.key) + " = " + shortest(options.*number.member) + "\n";
+  toml += "travel_mm = [" + shortest(options.travel_from_mm) + ", " +
+          shortest(options.travel_to_mm) + "]\n";
+  return toml + "bins = " + std::to_string(options.travel_bins) + "\n";
+}
+
+Result<Preset> parse_preset(const std::string& toml) {
+  MDOF_TRY(TomlTable table, TomlTable::parse(toml, "preset"));
+  Preset preset;
+  preset.name = table.string("preset");
+  MDOF_TRY(preset.options, preset_defaults(preset.name));
+  for (const PresetNumber& number : kNumbers)
+    preset.options.*number.member = table.number(number.key);
+  const auto travel = table.numbers("travel_mm");
+  if (travel.size() != 2) table.reject("travel_mm", "must be from and to");
+  const std::int64_t bins = table.integer("bins");
+  if (bins < 1) table.reject("bins", "must be 1 or more");
+  MDOF_CHECK(table.finish());
+  preset.options.travel_from_mm = travel[0];
+  preset.options.travel_to_mm = travel[1];
+  preset.options.travel_bins = static_cast<std::size_t>(bins);
+  return preset;
+}
+
+}  // namespace mdof::tools

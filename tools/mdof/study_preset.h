@@ -1,0 +1,33 @@
+// The presets of mdof sensitivity: their options by name, as TOML and back.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algo/sensitivity/simulation.h"
+#include "schema/result.h"
+
+namespace mdof::tools {
+
+// An option of both simulations that is one number; `key` ends in its unit. The travel and its bins
+// ("travel_mm", "bins") and the seed come besides.
+struct PresetNumber {
+  const char* key;
+  double algo::SimulationOptions::*member;
+  const char* help;
+};
+std::span<const PresetNumber> preset_numbers();
+
+// "simulation-1" or "simulation-2" with the paper's defaults; usage: unknown, with the nearest.
+Result<algo::SimulationOptions> preset_defaults(const std::string& name);
+
+// All options but the seed, in full: what a stored study keeps in place of a plan.
+std::string preset_toml(const std::string& name, const algo::SimulationOptions& options);
+struct Preset {
+  std::string name;
+  algo::SimulationOptions options;
+};
+Result<Preset> parse_preset(const std::string& toml);
+
+}  // namespace mdof::tools

@@ -1,0 +1,18 @@
+// What a plan asks beyond the statistics of its trials: indices, tolerances, another fixture.
+#pragma once
+
+#include "schema/result.h"
+#include "schema/study.h"
+#include "tools/mdof/study_order.h"
+#include "tools/mdof/study_runner.h"
+
+namespace mdof::tools {
+
+// Most trials of a comparison: its ratio is then known to 0.2 % or better.
+inline constexpr std::uint64_t kMostComparedTrials = std::uint64_t{1} << 18;
+
+// Fills indices, allocations and comparison; warns of trials too few for good standard errors. The
+// figures do not depend on the threads.
+Result<StudyState> answer_questions(const Study& study, unsigned threads, StudyResult& result);
+
+}  // namespace mdof::tools

@@ -1,0 +1,16 @@
+// From the state of a study's work to its result.
+#pragma once
+
+#include <string>
+
+#include "schema/study.h"
+#include "tools/mdof/study_checkpoint.h"
+#include "tools/mdof/study_order.h"
+
+namespace mdof::tools {
+
+// Figures of the trials so far, with the last point of the convergence; warnings say how many
+// trials were not solved.
+StudyResult result_of(const Study& study, const StudyWork& state, const std::string& started_utc);
+
+}  // namespace mdof::tools

@@ -1,0 +1,20 @@
+// Whole simulated runs as trials: samples of the perturbed rig, through the real pipeline with the
+// nominal one. For plans with output_of = "run".
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "algo/sensitivity/plan_experiment.h"
+#include "schema/result.h"
+#include "schema/study_plan.h"
+
+namespace mdof::tools {
+
+// Refuses what make_plan_experiment() refuses. Thread-safe as every Experiment.
+Result<std::unique_ptr<algo::ScalableExperiment>> make_run_experiment(const StudyPlan& plan);
+
+// Why a trial of such a plan gives no run. Ok where it gives one, though perhaps no figures.
+Status check_run_trial(const StudyPlan& plan, std::uint64_t trial);
+
+}  // namespace mdof::tools

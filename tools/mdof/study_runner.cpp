@@ -1,0 +1,267 @@
+#include "tools/mdof/study_runner.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/study_workers.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::chrono::seconds kCheckpoint{30};
+constexpr double kRound_s = 2;  // how long an interrupt of several processes may take
+
+std::uint64_t rounded_up(std::uint64_t a, std::uint64_t b) {
+  return a / b + (a % b == 0 ? 0 : 1);
+}
+
+}  // namespace
+
+Result<StudyRunner> StudyRunner::create(const algo::Experiment& experiment, RunnerOptions options,
+                                        Ranks& ranks) {
+  if (!options.adaptive) {
+    const std::uint64_t unit =
+        options.slow ? algo::block_trials(experiment, 1) : algo::block_trials(experiment);
+    return StudyRunner(experiment, std::move(options), unit, ranks);
+  }
+  MDOF_TRY(const std::uint64_t unit, algo::adaptive_block_trials(experiment, options.coverage));
+  MDOF_TRY(auto rule, algo::AdaptiveRule::create(experiment.outputs(), *options.adaptive));
+  StudyRunner runner(experiment, std::move(options), unit, ranks);
+  runner.rule_ = std::move(rule);
+  return runner;
+}
+
+StudyRunner::StudyRunner(const algo::Experiment& experiment, RunnerOptions options,
+                         std::uint64_t unit_trials, Ranks& ranks)
+    : experiment_(&experiment),
+      options_(std::move(options)),
+      ranks_(&ranks),
+      unit_trials_(unit_trials) {
+  if (options_.slow) {
+    const bool alone = ranks.size() == 1;  // several processes end a round together
+    divided_ = std::make_unique<DividedTrials>(
+        experiment, options_.threads, [alone] { return !alone || !Interrupt::requested(); });
+    experiment_ = divided_.get();
+    options_.threads = 1;
+  }
+  if (!options_.trials) return;
+  total_ = rounded_up(*options_.trials, unit_trials_);
+  expected_units_ = static_cast<double>(*options_.trials) / static_cast<double>(unit_trials_);
+}
+
+StudyState StudyRunner::run(StudyWork& state) {
+  resume(state);
+  for (;;) {
+    Round round = plan();
+    if (round.begin == round.end) break;
+    work(round, state);
+    stop_ = ranks_->any(Interrupt::requested());
+    if (!round.collect) continue;
+    collect(state);
+    note_convergence(state);
+    checkpoint(state);
+  }
+  collect(state);
+  progress_.reset();
+  const bool complete = ranks_->broadcast_number(done_ == total_ || (rule_ && settled())) == 1;
+  return complete ? StudyState::complete : StudyState::interrupted;
+}
+
+void StudyRunner::resume(const StudyWork& state) {
+  begin_ = Clock::now();
+  next_checkpoint_ = begin_ + kCheckpoint;
+  elapsed_before_s_ = state.elapsed_s;
+  if (rule_)
+    for (const auto& block : state.rule) rule_->add(block);
+  done_ = ranks_->broadcast_number(rounded_up(state.trials, unit_trials_));
+  if (ranks_->first())
+    progress_ = std::make_unique<Progress>("study", "trials", static_cast<double>(state.trials));
+}
+
+// What comes next is the decision of rank 0. The rounds end at 1, 2, 4, 8 ... units, where the
+// convergence is noted, and where else time asks for it.
+StudyRunner::Round StudyRunner::plan() {
+  Round round{done_, done_, false};
+  if (!stop_ && done_ != total_ && !(rule_ && rule_->settled())) {
+    round.end = std::min(std::bit_ceil(done_ + 1), done_ + longest_round());
+    if (total_) round.end = std::min(round.end, *total_);
+  }
+  round.collect =
+      std::has_single_bit(round.end) || round.end == total_ || Clock::now() > next_checkpoint_;
+  round.end = ranks_->broadcast_number(round.end);
+  round.collect = ranks_->broadcast_number(round.collect ? 1 : 0) == 1;
+  return round;
+}
+
+// Of slow trials a unit each, as one that is cut short is lost. The adaptive rule may settle within
+// a round, and the trials after that are lost.
+std::uint64_t StudyRunner::longest_round() const {
+  const auto size = static_cast<std::uint64_t>(ranks_->size());
+  if (divided_) return size;
+  const auto in_time = std::max(size, static_cast<std::uint64_t>(units_per_s_ * kRound_s));
+  return rule_ ? std::min(in_time, std::max(options_.threads * size, done_ / 8)) : in_time;
+}
+
+void StudyRunner::work(Round& round, StudyWork& state) {
+  const auto begin = Clock::now();
+  Parts parts(options_.threads);
+  Figures figures(rule_ ? round.end - round.begin : 0);
+  round.end = work_share(round, parts, rule_ ? &figures : nullptr, state);
+  if (rule_) {
+    figures.resize(round.end - round.begin);
+    const std::uint64_t settled_at = feed_rule(round, std::move(figures), state);
+    if (settled_at < round.end) {  // without those that came too late
+      round.end = settled_at;
+      parts = Parts(options_.threads);
+      work_share(round, parts, nullptr, state);
+    }
+  }
+  for (const auto& part : parts)
+    if (part) state.statistics.merge(*part);
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  units_per_s_ = static_cast<double>(round.end - round.begin) / std::max(seconds, 1e-6);
+  done_ = round.end;
+}
+
+// Units of this rank go into the parts, and each one's figures to its place. Gives the end of what
+// was done by all ranks: that of the round, or before it where a process that is alone was stopped.
+std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures* figures,
+                                      StudyWork& state) {
+  const std::uint64_t at_once = figures ? 1 : units_at_once(round);
+  const std::uint64_t pieces = rounded_up(round.end - round.begin, at_once);
+  const auto size = static_cast<std::uint64_t>(ranks_->size());
+  const auto rank = static_cast<std::uint64_t>(ranks_->rank());
+  const std::uint64_t mine = pieces > rank ? rounded_up(pieces - rank, size) : 0;
+  std::atomic<std::uint64_t> finished = 0;
+  const double run_before = units_run();
+  const auto piece = [&](unsigned worker, std::size_t i) {
+    const std::uint64_t first = round.begin + (rank + i * size) * at_once;
+    const std::uint64_t first_trial = trials_before(first);
+    const std::uint64_t trials = trials_before(std::min(first + at_once, round.end)) - first_trial;
+    auto& part = parts[worker];
+    if (!part) part.emplace(*experiment_, state.scale);
+    if (figures) {
+      (*figures)[first - round.begin] =
+          part->add_block_with_figures(*experiment_, first_trial, trials, options_.coverage);
+    } else {
+      part->add_block(*experiment_, first_trial, trials);
+    }
+    ++finished;
+  };
+  const auto tick = [&] {
+    const double units =
+        divided_ ? units_run() - run_before : static_cast<double>(finished * at_once);
+    show_progress(static_cast<double>(round.begin) + units * static_cast<double>(size));
+    return size > 1 || !Interrupt::requested();
+  };
+  const std::uint64_t done = in_parallel(options_.threads, mine, piece, tick);
+  if (divided_ && divided_->cut_short()) {
+    parts = Parts(options_.threads);
+    return round.begin;
+  }
+  return size > 1 ? round.end : std::min(round.end, round.begin + done * at_once);
+}
+
+// Long enough to keep the histograms in the cache, short enough for each thread to get several.
+std::uint64_t StudyRunner::units_at_once(const Round& round) const {
+  const auto workers = options_.threads * static_cast<std::uint64_t>(ranks_->size());
+  const std::uint64_t most = algo::kBlocksAtOnce * algo::block_trials(*experiment_) / unit_trials_;
+  return std::clamp((round.end - round.begin) / (4 * workers), std::uint64_t{1},
+                    std::max(std::uint64_t{1}, most));
+}
+
+// Feeds the rule on rank 0 with the units of all ranks in their order, until it settles. Gives the
+// unit before which it did, or the end of the round.
+std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyWork& state) {
+  gather(figures);
+  if (!ranks_->first()) return ranks_->broadcast_number(0);
+  std::uint64_t unit = round.begin;
+  while (unit < round.end && !rule_->settled()) {
+    auto& of_unit = figures[unit++ - round.begin];
+    rule_->add(of_unit);
+    state.rule.push_back(std::move(of_unit));
+  }
+  double ratio = 0;  // what s has to fall by; it falls with the root of the number of blocks
+  for (const auto& output : rule_->progress())
+    ratio = std::max(ratio, output.worst / output.tolerance);
+  expected_units_ = std::isfinite(ratio) ? static_cast<double>(unit) * ratio * ratio : 0;
+  return ranks_->broadcast_number(unit);
+}
+
+// Units go round the ranks, as in work_share().
+void StudyRunner::gather(Figures& figures) const {
+  const auto size = static_cast<std::size_t>(ranks_->size());
+  const auto each = [&](int rank, const auto& visit) {
+    for (auto i = static_cast<std::size_t>(rank); i < figures.size(); i += size) visit(figures[i]);
+  };
+  const std::size_t bytes = experiment_->outputs().size() * sizeof(algo::BlockFigures);
+  if (!ranks_->first()) {
+    std::string mine;
+    each(ranks_->rank(),
+         [&](const auto& unit) { mine.append(reinterpret_cast<const char*>(unit.data()), bytes); });
+    return ranks_->send(0, mine);
+  }
+  for (int from = 1; from < ranks_->size(); ++from) {
+    const std::string theirs = ranks_->receive(from);
+    const char* next = theirs.data();
+    each(from, [&](auto& unit) {
+      unit.resize(experiment_->outputs().size());
+      std::memcpy(unit.data(), next, bytes);
+      next += bytes;
+    });
+  }
+}
+
+// Merges the statistics of all ranks into those of rank 0, by a binary tree.
+void StudyRunner::collect(StudyWork& state) {
+  const int rank = ranks_->rank(), size = ranks_->size();
+  for (int step = 1; step < size; step *= 2) {
+    if (rank % (2 * step) != 0) {
+      ranks_->send(rank - step, state.statistics.serialise());
+      state.statistics = algo::StudyStatistics(*experiment_, state.scale);
+      break;
+    }
+    if (rank + step >= size) continue;
+    const auto theirs = algo::StudyStatistics::parse(ranks_->receive(rank + step), *experiment_);
+    assert(theirs);  // the same program wrote it
+    state.statistics.merge(*theirs);
+  }
+  state.trials = trials_before(done_);
+  state.elapsed_s =
+      elapsed_before_s_ + std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+
+void StudyRunner::note_convergence(StudyWork& state) const {
+  if (!ranks_->first() || !std::has_single_bit(done_)) return;
+  add_convergence(state, options_.coverage);
+}
+
+void StudyRunner::checkpoint(StudyWork& state) {
+  if (!ranks_->first() || Clock::now() < next_checkpoint_) return;
+  if (options_.checkpoint) options_.checkpoint(state);
+  next_checkpoint_ = Clock::now() + kCheckpoint;
+}
+
+// The last unit of a fixed number of trials is shorter; those of the rule are all alike.
+std::uint64_t StudyRunner::trials_before(std::uint64_t unit) const {
+  const std::uint64_t trials = unit * unit_trials_;
+  return options_.trials && !options_.adaptive ? std::min(trials, *options_.trials) : trials;
+}
+
+void StudyRunner::show_progress(double units) {
+  if (!progress_ || expected_units_ <= 0) return;
+  const double share = std::min(0.999, units / expected_units_);
+  progress_->show(share, expected_units_ * static_cast<double>(unit_trials_));
+}
+
+double StudyRunner::units_run() const {
+  return divided_ ? static_cast<double>(divided_->trials_run()) / static_cast<double>(unit_trials_)
+                  : 0;
+}
+
+}  // namespace mdof::tools

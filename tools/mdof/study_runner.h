@@ -1,0 +1,87 @@
+// Runs the trials of a study: on threads, on the processes of MPI, until all are done, the adaptive
+// rule has settled, or somebody interrupts. The figures do not depend on any of that.
+//
+//   rank 0 plans a round of blocks ─▶ every rank works off its share, each thread with statistics
+//   of its own ─▶ merged in the rank ─▶ now and then merged in rank 0, which keeps the convergence,
+//   the checkpoints and the adaptive rule
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "algo/sensitivity/adaptive.h"
+#include "algo/sensitivity/experiment.h"
+#include "schema/result.h"
+#include "tools/mdof/divided_trials.h"
+#include "tools/mdof/progress.h"
+#include "tools/mdof/study_checkpoint.h"
+#include "tools/mdof/study_ranks.h"
+
+namespace mdof::tools {
+
+struct RunnerOptions {
+  std::optional<std::uint64_t> trials;  // none: as the adaptive rule says
+  std::optional<algo::AdaptiveTolerance> adaptive;
+  double coverage = 0.95;
+  unsigned threads = 1;
+  bool slow = false;  // a trial takes milliseconds: threads share each block
+  // Called about every 30 s with all trials so far. Rank 0 only.
+  std::function<void(const StudyWork&)> checkpoint;
+};
+
+class StudyRunner {
+ public:
+  // Error: tolerances or a coverage that the adaptive rule refuses.
+  static Result<StudyRunner> create(const algo::Experiment& experiment, RunnerOptions options,
+                                    Ranks& ranks);
+  // Goes on from `state`, which on rank 0 then holds all trials; on the others it is used up.
+  StudyState run(StudyWork& state);
+  // Of the adaptive rule; true without one.
+  bool settled() const { return !rule_ || rule_->settled(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Parts = std::vector<std::optional<algo::StudyStatistics>>;  // one a thread
+  using Figures = std::vector<std::vector<algo::BlockFigures>>;     // one a unit
+  struct Round {
+    std::uint64_t begin = 0, end = 0;  // units
+    bool collect = false;
+  };
+
+  StudyRunner(const algo::Experiment& experiment, RunnerOptions options, std::uint64_t unit_trials,
+              Ranks& ranks);
+  void resume(const StudyWork& state);
+  Round plan();
+  std::uint64_t longest_round() const;
+  void work(Round& round, StudyWork& state);
+  std::uint64_t work_share(const Round& round, Parts& parts, Figures* figures, StudyWork& state);
+  std::uint64_t units_at_once(const Round& round) const;
+  std::uint64_t feed_rule(const Round& round, Figures figures, StudyWork& state);
+  void gather(Figures& figures) const;
+  void collect(StudyWork& state);
+  void note_convergence(StudyWork& state) const;
+  void checkpoint(StudyWork& state);
+  std::uint64_t trials_before(std::uint64_t unit) const;
+  void show_progress(double units);
+  double units_run() const;
+
+  std::unique_ptr<DividedTrials> divided_;  // of slow trials
+  const algo::Experiment* experiment_;
+  RunnerOptions options_;
+  Ranks* ranks_;
+  std::optional<algo::AdaptiveRule> rule_;
+  std::uint64_t unit_trials_;           // of a block, or of a block of the rule
+  std::optional<std::uint64_t> total_;  // units; none: no limit
+  std::uint64_t done_ = 0;              // units
+  double expected_units_ = 0;           // for the progress; 0: nobody knows
+  double units_per_s_ = 0;              // of the last round, all ranks
+  bool stop_ = false;
+  double elapsed_before_s_ = 0;
+  Clock::time_point begin_, next_checkpoint_;
+  std::unique_ptr<Progress> progress_;
+};
+
+}  // namespace mdof::tools

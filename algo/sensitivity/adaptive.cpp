@@ -91,6 +91,12 @@ std::vector<AdaptiveRule::Progress> AdaptiveRule::progress() const {
   return progress;
 }
 
+std::optional<std::size_t> AdaptiveRule::hopeless_output() const {
+  for (std::size_t k = 0; k < outputs_.size(); ++k)
+    if (outputs_[k].hopeless) return k;
+  return std::nullopt;
+}
+
 bool AdaptiveRule::settled() const {
   const std::vector<Progress> all = progress();
   return std::all_of(all.begin(), all.end(), [](const Progress& p) { return p.settled(); });

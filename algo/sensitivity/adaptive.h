@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,8 @@ class AdaptiveRule {
   void add(const std::vector<BlockFigures>& block);
   // At least two blocks, and every 2 s (§7.9.4 j) below its tolerance.
   bool settled() const;
+  // The first output that a block gave fewer than two values of: it never settles.
+  std::optional<std::size_t> hopeless_output() const;
   std::uint64_t blocks() const { return blocks_; }
 
   struct Progress {

@@ -137,9 +137,11 @@ Result<StudyStatistics> StudyStatistics::parse(std::string_view bytes, const Exp
   s.parts_->trials = in.number<std::uint64_t>();
   bool good = read_scale(in, s.parts_->scale);
   std::vector<std::uint64_t> seen(outputs);
-  for (std::size_t i = 0; good && i < s.parts_->sums.size(); ++i) {
-    good = read_accumulator(in, s.parts_->sums[i]);
-    seen[i % outputs] += s.parts_->sums[i].n + s.parts_->sums[i].unsolved;
+  std::size_t output = 0;
+  for (Accumulator& a : s.parts_->sums) {
+    good = good && read_accumulator(in, a);
+    seen[output] += a.n + a.unsolved;
+    output = output + 1 < outputs ? output + 1 : 0;
   }
   for (const std::uint64_t n : seen) good = good && n == s.parts_->trials;
   if (!good || !in.at_end()) {

@@ -6,19 +6,19 @@
 
 #include "daemon/paths.h"
 #include "tools/mdof/command.h"
-#include "tools/mdof/interrupt.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/plot/study_plots.h"
-#include "tools/mdof/sensitivity_options.h"
-#include "tools/mdof/sensitivity_trial.h"
-#include "tools/mdof/study_json.h"
-#include "tools/mdof/study_output.h"
-#include "tools/mdof/study_questions.h"
-#include "tools/mdof/study_ranks.h"
-#include "tools/mdof/study_recorder.h"
-#include "tools/mdof/study_result.h"
-#include "tools/mdof/study_run_experiment.h"
-#include "tools/mdof/study_runner.h"
+#include "tools/mdof/study/interrupt.h"
+#include "tools/mdof/study/json.h"
+#include "tools/mdof/study/output.h"
+#include "tools/mdof/study/questions.h"
+#include "tools/mdof/study/ranks.h"
+#include "tools/mdof/study/recorder.h"
+#include "tools/mdof/study/result.h"
+#include "tools/mdof/study/run_experiment.h"
+#include "tools/mdof/study/runner.h"
+#include "tools/mdof/study/sensitivity_options.h"
+#include "tools/mdof/study/trial.h"
 
 namespace mdof::tools {
 namespace {
@@ -122,14 +122,14 @@ Status judge(const Study& study, const StudyResult& result, const StudyRecorder&
                                  : std::string("with --db FILE it could be continued")));
 }
 
-Status finish(const SensitivityCommand& command, Job& job, StudyState state, bool settled) {
+Status finish(const SensitivityCommand& command, Job& job, StudyState state,
+              const std::string& not_settled) {
   StudyResult result = result_of(job.study, job.work, job.started_utc);
   if (state == StudyState::complete && unsolved_output(result).empty()) {
     MDOF_TRY(state, answer_questions(job.study, command.threads, result));
   }
   result.state = state;
-  if (state == StudyState::complete && !settled)
-    result.warnings.emplace_back("the adaptive rule has not settled within the trials allowed");
+  if (state == StudyState::complete && !not_settled.empty()) result.warnings.push_back(not_settled);
   const std::string figures = study_figures_json(result);
   MDOF_CHECK(job.recorder.end(result, figures, job.work));
   for (const auto& warning : result.warnings) warn(warning);
@@ -150,7 +150,7 @@ Status run_study(const SensitivityCommand& command, Ranks& ranks) {
   MDOF_CHECK(ranks.agree(ready));
   const Interrupt interrupt;
   const StudyState state = runner->run(job->work);
-  return ranks.first() ? finish(command, *job, state, runner->settled()) : Status();
+  return ranks.first() ? finish(command, *job, state, runner->not_settled()) : Status();
 }
 
 Status show_trial(const SensitivityCommand& command, const Ranks& ranks) {

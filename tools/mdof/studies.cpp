@@ -7,8 +7,8 @@
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/plot/study_plots.h"
-#include "tools/mdof/study_json.h"
-#include "tools/mdof/study_output.h"
+#include "tools/mdof/study/json.h"
+#include "tools/mdof/study/output.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {

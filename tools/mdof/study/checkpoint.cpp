@@ -1,4 +1,4 @@
-#include "tools/mdof/study_checkpoint.h"
+#include "tools/mdof/study/checkpoint.h"
 
 #include "schema/bytes.h"
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/study_runner.h"
+#include "tools/mdof/study/runner.h"
 
 #include <algorithm>
 #include <atomic>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "tools/mdof/interrupt.h"
-#include "tools/mdof/study_workers.h"
+#include "tools/mdof/study/interrupt.h"
+#include "tools/mdof/study/workers.h"
 
 namespace mdof::tools {
 namespace {
@@ -68,7 +68,7 @@ StudyState StudyRunner::run(StudyWork& state) {
   }
   collect(state);
   progress_.reset();
-  const bool complete = ranks_->broadcast_number(done_ == total_ || (rule_ && settled())) == 1;
+  const bool complete = ranks_->broadcast_number(done_ == total_ || rule_ended()) == 1;
   return complete ? StudyState::complete : StudyState::interrupted;
 }
 
@@ -87,7 +87,7 @@ void StudyRunner::resume(const StudyWork& state) {
 // convergence is noted, and where else time asks for it.
 StudyRunner::Round StudyRunner::plan() {
   Round round{done_, done_, false};
-  if (!stop_ && done_ != total_ && !(rule_ && rule_->settled())) {
+  if (!stop_ && done_ != total_ && !rule_ended()) {
     round.end = std::min(std::bit_ceil(done_ + 1), done_ + longest_round());
     if (total_) round.end = std::min(round.end, *total_);
   }
@@ -96,6 +96,21 @@ StudyRunner::Round StudyRunner::plan() {
   round.end = ranks_->broadcast_number(round.end);
   round.collect = ranks_->broadcast_number(round.collect ? 1 : 0) == 1;
   return round;
+}
+
+// Also where it can never settle: more trials would not help.
+bool StudyRunner::rule_ended() const {
+  return rule_ && (rule_->settled() || rule_->hopeless_output());
+}
+
+std::string StudyRunner::not_settled() const {
+  if (!rule_ || rule_->settled()) return "";
+  const std::string what = "the adaptive rule has not settled";
+  const auto hopeless = rule_->hopeless_output();
+  if (!hopeless) return what + " within the trials allowed";
+  return what + ": a block of " + std::to_string(unit_trials_) + " trials gave fewer than two of " +
+         experiment_->outputs()[*hopeless] +
+         "; without --adaptive the others are found all the same";
 }
 
 // Of slow trials a unit each, as one that is cut short is lost. The adaptive rule may settle within
@@ -181,7 +196,7 @@ std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyW
   gather(figures);
   if (!ranks_->first()) return ranks_->broadcast_number(0);
   std::uint64_t unit = round.begin;
-  while (unit < round.end && !rule_->settled()) {
+  while (unit < round.end && !rule_ended()) {
     auto& of_unit = figures[unit++ - round.begin];
     rule_->add(of_unit);
     state.rule.push_back(std::move(of_unit));

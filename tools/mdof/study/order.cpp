@@ -1,4 +1,4 @@
-#include "tools/mdof/study_order.h"
+#include "tools/mdof/study/order.h"
 
 #include <cmath>
 #include <filesystem>
@@ -9,8 +9,8 @@
 #include "schema/number.h"
 #include "schema/sha256.h"
 #include "schema/toml_reader.h"
-#include "tools/mdof/study_preset.h"
-#include "tools/mdof/study_run_experiment.h"
+#include "tools/mdof/study/preset.h"
+#include "tools/mdof/study/run_experiment.h"
 
 namespace mdof::tools {
 namespace {

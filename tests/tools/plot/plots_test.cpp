@@ -11,7 +11,7 @@
 #include <set>
 
 #include "schema/sha256.h"
-#include "tests/tools/xml_check.h"
+#include "tests/tools/plot/xml_check.h"
 #include "tools/mdof/plot/study_plots.h"
 
 namespace mdof::tools {

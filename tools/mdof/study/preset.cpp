@@ -1,4 +1,4 @@
-#include "tools/mdof/study_preset.h"
+#include "tools/mdof/study/preset.h"
 
 #include <array>
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "schema/study.h"
-#include "tools/mdof/study_checkpoint.h"
-#include "tools/mdof/study_order.h"
+#include "tools/mdof/study/checkpoint.h"
+#include "tools/mdof/study/order.h"
 
 namespace mdof::tools {
 

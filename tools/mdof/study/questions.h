@@ -3,8 +3,8 @@
 
 #include "schema/result.h"
 #include "schema/study.h"
-#include "tools/mdof/study_order.h"
-#include "tools/mdof/study_runner.h"
+#include "tools/mdof/study/order.h"
+#include "tools/mdof/study/runner.h"
 
 namespace mdof::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/study_recorder.h"
+#include "tools/mdof/study/recorder.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/study_result.h"
+#include "tools/mdof/study/result.h"
 
 #include <cmath>
 

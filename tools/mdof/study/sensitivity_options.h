@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "schema/result.h"
-#include "tools/mdof/study_order.h"
-#include "tools/mdof/study_output.h"
+#include "tools/mdof/study/order.h"
+#include "tools/mdof/study/output.h"
 
 namespace CLI {
 class App;

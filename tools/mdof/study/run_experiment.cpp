@@ -1,4 +1,4 @@
-#include "tools/mdof/study_run_experiment.h"
+#include "tools/mdof/study/run_experiment.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "tools/mdof/study_json.h"
+#include "tools/mdof/study/json.h"
 
 #include "schema/json_writer.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/study_output.h"
+#include "tools/mdof/study/output.h"
 
 namespace mdof::tools {
 namespace {

@@ -1,8 +1,9 @@
 // The runner of studies: any division and interruption of the work gives the same bytes.
-#include "tools/mdof/study_runner.h"
+#include "tools/mdof/study/runner.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <csignal>
@@ -10,10 +11,10 @@
 #include <stdexcept>
 
 #include "schema/random.h"
-#include "tools/mdof/divided_trials.h"
-#include "tools/mdof/interrupt.h"
-#include "tools/mdof/study_json.h"
-#include "tools/mdof/study_workers.h"
+#include "tools/mdof/study/divided_trials.h"
+#include "tools/mdof/study/interrupt.h"
+#include "tools/mdof/study/json.h"
+#include "tools/mdof/study/workers.h"
 
 namespace mdof::tools {
 namespace {
@@ -152,9 +153,35 @@ TEST(StudyRunner, TheAdaptiveRuleEndsAtItsLimit) {
   StudyRunner runner = StudyRunner::create(noise, options, ranks).value();
   StudyWork work = work_of(noise, options);
   EXPECT_EQ(runner.run(work), StudyState::complete);
-  EXPECT_FALSE(runner.settled());
+  EXPECT_NE(runner.not_settled().find("within the trials allowed"), std::string::npos);
   EXPECT_GE(work.trials, 100000u);
   EXPECT_LT(work.trials, 100000u + algo::block_trials(noise));
+}
+
+// Its second output has no solution.
+class HalfSolved final : public algo::Experiment {
+ public:
+  const std::vector<std::string>& outputs() const override { return noise_.outputs(); }
+  const algo::BinnedQuantity& binned() const override { return noise_.binned(); }
+  void run(std::uint64_t first, std::uint64_t step, std::size_t n,
+           std::span<double* const> out) const override {
+    noise_.run(first, step, n, out);
+    std::fill_n(out[1], n, std::numeric_limits<double>::quiet_NaN());
+  }
+
+ private:
+  Noise noise_;
+};
+
+TEST(StudyRunner, TheAdaptiveRuleEndsWhereAnOutputIsNeverSolved) {
+  const HalfSolved half;
+  Ranks ranks = Ranks::join().value();
+  StudyRunner runner = StudyRunner::create(half, adaptive(2), ranks).value();
+  StudyWork work = work_of(half, adaptive(2));
+  EXPECT_EQ(runner.run(work), StudyState::complete);
+  EXPECT_NE(runner.not_settled().find("fewer than two of B_um"), std::string::npos)
+      << runner.not_settled();
+  EXPECT_EQ(work.trials, algo::adaptive_block_trials(half, 0.95).value());
 }
 
 TEST(StudyRunner, ADamagedCheckpointIsAnErrorAndNoMore) {

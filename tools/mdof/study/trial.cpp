@@ -1,4 +1,4 @@
-#include "tools/mdof/sensitivity_trial.h"
+#include "tools/mdof/study/trial.h"
 
 #include <utility>
 #include <vector>

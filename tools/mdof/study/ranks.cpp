@@ -1,4 +1,4 @@
-#include "tools/mdof/study_ranks.h"
+#include "tools/mdof/study/ranks.h"
 
 #include <dlfcn.h>
 

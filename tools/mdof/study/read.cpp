@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "tools/mdof/study_json.h"
+#include "tools/mdof/study/json.h"
 
 namespace mdof::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/mdof/study_questions.h"
+#include "tools/mdof/study/questions.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,10 +10,10 @@
 #include "algo/sensitivity/allocation.h"
 #include "algo/sensitivity/comparison.h"
 #include "algo/sensitivity/indices.h"
-#include "tools/mdof/interrupt.h"
 #include "tools/mdof/progress.h"
-#include "tools/mdof/study_run_experiment.h"
-#include "tools/mdof/study_workers.h"
+#include "tools/mdof/study/interrupt.h"
+#include "tools/mdof/study/run_experiment.h"
+#include "tools/mdof/study/workers.h"
 
 namespace mdof::tools {
 namespace {

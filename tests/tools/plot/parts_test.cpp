@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "tests/tools/xml_check.h"
+#include "tests/tools/plot/xml_check.h"
 #include "tools/mdof/plot/axis.h"
 #include "tools/mdof/plot/style.h"
 #include "tools/mdof/plot/svg.h"

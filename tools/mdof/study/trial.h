@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "schema/result.h"
-#include "tools/mdof/study_order.h"
+#include "tools/mdof/study/order.h"
 
 namespace mdof::tools {
 

@@ -1,15 +1,16 @@
-#include "tools/mdof/sensitivity_options.h"
+#include "tools/mdof/study/sensitivity_options.h"
 
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "schema/files.h"
 #include "tools/mdof/options.h"
-#include "tools/mdof/study_preset.h"
-#include "tools/mdof/study_workers.h"
+#include "tools/mdof/study/preset.h"
+#include "tools/mdof/study/workers.h"
 
 namespace mdof::tools {
 namespace {
@@ -18,7 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 63) - 1;  // SQLite and TOML end there
 constexpr double kMostTrials = 1e15;
-constexpr double kLongest_m = 10;  // beyond any machine that such a fixture measures
+constexpr double kLongest_m = 10;     // beyond any machine that such a fixture measures
+constexpr double kWidest_mrad = 250;  // as the models: their angles are small
 
 std::string option_name(std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');
@@ -76,14 +78,28 @@ void declare_results(CLI::App& command, SensitivityCommand& o) {
   command.add_flag("--csv", o.csv, "Print one row an output and bin");
 }
 
-// A length is in micrometres or millimetres, as the option's name ends.
+// The unit is what the option's name ends with.
+struct Limit {
+  const char *ending, *unit;
+  double most;
+  const char* why;
+};
+
+constexpr std::array kLimits = {
+    Limit{"-um", " µm", kLongest_m * 1e6, "is longer than 10 m"},
+    Limit{"-mm", " mm", kLongest_m * 1e3, "is longer than 10 m"},
+    Limit{"-mrad", " mrad", kWidest_mrad, "is more than 0.25 rad, no small angle"},
+    Limit{"-urad", " µrad", kWidest_mrad * 1e3, "is more than 0.25 rad, no small angle"},
+};
+
 Status check_number(const std::string& option, double x) {
   if (!std::isfinite(x)) return fail(ErrorCode::usage, option + ": must be a finite number");
-  const bool um = option.ends_with("-um"), mm = option.ends_with("-mm");
-  const double longest = kLongest_m * (um ? 1e6 : 1e3);
-  if ((!um && !mm) || std::abs(x) <= longest) return {};
-  return fail(ErrorCode::usage, option + ": is longer than 10 m; must be within ±" +
-                                    std::to_string(std::llround(longest)) + (um ? " µm" : " mm"));
+  for (const Limit& limit : kLimits) {
+    if (!option.ends_with(limit.ending) || std::abs(x) <= limit.most) continue;
+    return fail(ErrorCode::usage, option + ": " + limit.why + "; must be within ±" +
+                                      std::to_string(std::llround(limit.most)) + limit.unit);
+  }
+  return {};
 }
 
 Result<algo::SimulationOptions> preset_options(const SensitivityCommand& command) {

@@ -1,4 +1,4 @@
-#include "tools/mdof/study_workers.h"
+#include "tools/mdof/study/workers.h"
 
 #include <pthread.h>
 #include <sched.h>

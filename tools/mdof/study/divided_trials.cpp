@@ -1,9 +1,9 @@
-#include "tools/mdof/divided_trials.h"
+#include "tools/mdof/study/divided_trials.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "tools/mdof/study_workers.h"
+#include "tools/mdof/study/workers.h"
 
 namespace mdof::tools {
 

@@ -1,7 +1,7 @@
 #include <array>
 
 #include "schema/number.h"
-#include "tools/mdof/study_output.h"
+#include "tools/mdof/study/output.h"
 
 namespace mdof::tools {
 namespace {

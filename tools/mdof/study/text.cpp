@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/mdof/study_output.h"
+#include "tools/mdof/study/output.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {

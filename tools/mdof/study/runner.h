@@ -11,14 +11,15 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "algo/sensitivity/adaptive.h"
 #include "algo/sensitivity/experiment.h"
 #include "schema/result.h"
-#include "tools/mdof/divided_trials.h"
 #include "tools/mdof/progress.h"
-#include "tools/mdof/study_checkpoint.h"
-#include "tools/mdof/study_ranks.h"
+#include "tools/mdof/study/checkpoint.h"
+#include "tools/mdof/study/divided_trials.h"
+#include "tools/mdof/study/ranks.h"
 
 namespace mdof::tools {
 
@@ -39,8 +40,8 @@ class StudyRunner {
                                     Ranks& ranks);
   // Goes on from `state`, which on rank 0 then holds all trials; on the others it is used up.
   StudyState run(StudyWork& state);
-  // Of the adaptive rule; true without one.
-  bool settled() const { return !rule_ || rule_->settled(); }
+  // What kept the adaptive rule from settling, in words; "": nothing, or there is no rule.
+  std::string not_settled() const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -55,6 +56,7 @@ class StudyRunner {
               Ranks& ranks);
   void resume(const StudyWork& state);
   Round plan();
+  bool rule_ended() const;
   std::uint64_t longest_round() const;
   void work(Round& round, StudyWork& state);
   std::uint64_t work_share(const Round& round, Parts& parts, Figures* figures, StudyWork& state);

@@ -9,8 +9,8 @@
 #include "daemon/store/study_record.h"
 #include "schema/result.h"
 #include "schema/study.h"
-#include "tools/mdof/study_checkpoint.h"
-#include "tools/mdof/study_order.h"
+#include "tools/mdof/study/checkpoint.h"
+#include "tools/mdof/study/order.h"
 
 namespace mdof::tools {
 

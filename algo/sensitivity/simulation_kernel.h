@@ -88,7 +88,7 @@ inline void errors_of(const SimulationConstants& s, const Drawn& drawn, Vector (
 
 // The bins of trials from `first` on. Where the step is a multiple of the bins all are in one.
 inline Vector bins_of(std::uint64_t bins, std::uint64_t first, std::uint64_t step) {
-  Vector bin;
+  Vector bin = broadcast(0.0);
   for (std::size_t i = 0; i < kPerVector; ++i)
     bin[i] = static_cast<double>((first + step * i) % bins);
   return bin;

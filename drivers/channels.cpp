@@ -1,0 +1,65 @@
+#include "drivers/channels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mdof::drivers {
+namespace {
+
+Status check_id(const ChannelInput& channel, const std::vector<ChannelInput>& before,
+                const Rig& rig) {
+  std::vector<std::string> known = {kEncoderChannel};
+  for (const Probe& probe : rig.probes) known.push_back(probe.id);
+  if (std::find(known.begin(), known.end(), channel.id) == known.end()) {
+    const std::string nearest = nearest_of(channel.id, known);
+    return bad_input(channel.where + ": \"" + channel.id + "\" is no probe of " + rig.source +
+                     " and not \"" + kEncoderChannel + "\"" +
+                     (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+  }
+  for (const auto& other : before) {
+    if (other.id == channel.id)
+      return bad_input(channel.where + ": a second input for \"" + channel.id + "\"");
+    if (other.input == channel.input)
+      return bad_input(channel.where + ": input \"" + channel.input + "\" is \"" + other.id +
+                       "\" already");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig) {
+  std::vector<ChannelInput> channels;
+  for (TomlTable& table : device.tables("channel")) {
+    ChannelInput channel;
+    channel.where = table.where("id");
+    channel.id = table.string("id");
+    channel.input = table.string("input");
+    channel.um_per_count = table.number("um_per_count", 0);
+    if (!std::isfinite(channel.um_per_count)) table.reject("um_per_count", "must be finite");
+    MDOF_CHECK(check_id(channel, channels, rig));
+    channels.push_back(std::move(channel));
+  }
+  if (channels.empty()) {
+    device.reject("channel", "is missing; add [[axis.device.channel]] with id and input");
+    MDOF_CHECK(device.finish());
+  }
+  return channels;
+}
+
+tl::unexpected<Error> no_such_input(const ChannelInput& channel,
+                                    const std::vector<std::string>& inputs) {
+  std::string known;
+  for (const auto& input : inputs) known += (known.empty() ? "" : ", ") + input;
+  return bad_input(channel.where + ": the device has no input \"" + channel.input + "\"; it has " +
+                   known);
+}
+
+Status check_um_per_count(const ChannelInput& channel) {
+  if (channel.um_per_count != 0) return {};
+  return bad_input(channel.where +
+                   ": a counting encoder needs um_per_count, negative where it "
+                   "counts down as d grows");
+}
+
+}  // namespace mdof::drivers

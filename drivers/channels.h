@@ -1,0 +1,31 @@
+// Which input of a device is which channel of the rig: [[axis.device.channel]].
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/result.h"
+#include "schema/rig.h"
+#include "schema/sample.h"
+#include "schema/toml_reader.h"
+
+namespace mdof::drivers {
+
+struct ChannelInput {
+  std::string id;           // a probe of the rig, or "encoder"
+  std::string input;        // as the device calls it: "AIN0", "1", "encoder2"
+  double um_per_count = 0;  // of an encoder that counts: signed; 0: not given
+  std::string where;        // "mdofd.toml:12: axis.device.channel.input", for messages
+};
+
+// Reads `channel` of a device's table. Errors: none, an id that is no probe of the rig (with the
+// nearest) nor "encoder", an id or an input given twice.
+Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig);
+
+// The error that an input is unknown to the device, with those that it has.
+tl::unexpected<Error> no_such_input(const ChannelInput& channel,
+                                    const std::vector<std::string>& inputs);
+// Needed of an encoder that counts.
+Status check_um_per_count(const ChannelInput& channel);
+
+}  // namespace mdof::drivers

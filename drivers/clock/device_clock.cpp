@@ -1,0 +1,123 @@
+#include "drivers/clock/device_clock.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+namespace mdof::drivers {
+namespace {
+
+constexpr double kStretch_ns = 0.25e9;
+constexpr std::size_t kStretches = 256;      // 64 s
+constexpr std::size_t kStretchesToFit = 16;  // 4 s: before, the nominal rate
+constexpr double kMostDrift = 1e-3;          // 1000 ppm: no clock is that wrong
+constexpr double kSlew = 2e-3;               // of the time, on top of the drift
+constexpr double kStep_ns = 0.1e9;           // a jump, not a delay
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+DeviceClock::DeviceClock(double nominal_tick_ns) : tick_ns_(nominal_tick_ns) {
+  assert(nominal_tick_ns > 0);
+}
+
+void DeviceClock::reset() {
+  const std::int64_t given_ns = given_ns_;
+  const std::uint64_t steps = steps_;
+  *this = DeviceClock(tick_ns_);
+  given_ns_ = given_ns;  // time still does not go backwards
+  steps_ = steps;
+}
+
+double DeviceClock::nominal_ns(std::int64_t ticks) const {
+  return static_cast<double>(ticks - *first_ticks_) * tick_ns_;
+}
+
+void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
+  if (!first_ticks_) {
+    first_ticks_ = ticks;
+    first_ns_ = received_ns;
+  }
+  const double nominal = nominal_ns(ticks);
+  const double offset = static_cast<double>(received_ns - *first_ns_) - nominal;
+  // Sooner than it can have been sent, by far: the device's time has jumped ahead.
+  if (offset < intercept_ns_ + slope_ * nominal - kStep_ns) return step(ticks, received_ns);
+  const auto stretch = static_cast<std::int64_t>(std::floor(nominal / kStretch_ns));
+  if (best_.empty() || best_.back().stretch != stretch) {
+    // A whole stretch later than the line: the device's time has stood still, and goes on late.
+    if (!best_.empty()) {
+      const Best& last = best_.back();
+      const double line = intercept_ns_ + slope_ * nominal_ns(last.ticks);
+      if (last.offset_ns > line + kStep_ns) return step(ticks, received_ns);
+    }
+    if (best_.size() >= 1) fit();
+    best_.push_back({stretch, ticks, received_ns, offset, offset});
+    if (best_.size() > kStretches) best_.pop_front();
+  } else {
+    Best& b = best_.back();
+    b.latest_ns = std::max(b.latest_ns, offset);
+    if (offset < b.offset_ns) b = {stretch, ticks, received_ns, offset, b.latest_ns};
+  }
+  if (!fitted_)
+    intercept_ns_ = std::min(best_.size() == 1 ? best_[0].offset_ns : intercept_ns_, offset);
+}
+
+void DeviceClock::step(std::int64_t ticks, std::int64_t received_ns) {
+  reset();
+  ++steps_;
+  add(ticks, received_ns);
+}
+
+// Through the best of each complete stretch.
+void DeviceClock::fit() {
+  if (best_.size() < kStretchesToFit) return;
+  std::vector<double> slopes, rest;
+  slopes.reserve(best_.size() * (best_.size() - 1) / 2);
+  for (std::size_t i = 0; i < best_.size(); ++i)
+    for (std::size_t j = i + 1; j < best_.size(); ++j)
+      slopes.push_back((best_[j].offset_ns - best_[i].offset_ns) /
+                       (nominal_ns(best_[j].ticks) - nominal_ns(best_[i].ticks)));
+  slope_ = std::clamp(median(slopes), -kMostDrift, kMostDrift);
+  for (const Best& b : best_) rest.push_back(b.offset_ns - slope_ * nominal_ns(b.ticks));
+  intercept_ns_ = median(rest);
+  fitted_ = true;
+}
+
+std::int64_t DeviceClock::host_ns(std::int64_t ticks) {
+  assert(first_ticks_);
+  const double nominal = nominal_ns(ticks);
+  const double wanted = intercept_ns_ + slope_ * nominal;
+  if (!given_any_) {
+    given_offset_ns_ = wanted;
+    given_any_ = true;
+  } else {
+    const double passed = std::max(0.0, nominal - nominal_ns(given_ticks_));
+    const double on_line = given_offset_ns_ + slope_ * passed;
+    given_offset_ns_ = std::clamp(wanted, on_line - kSlew * passed, on_line + kSlew * passed);
+  }
+  given_ticks_ = ticks;
+  const std::int64_t ns = *first_ns_ + std::llround(nominal + given_offset_ns_);
+  given_ns_ = std::max(ns, given_ns_ + 1);
+  return given_ns_;
+}
+
+ClockState DeviceClock::state() const {
+  ClockState state;
+  // A fast device counts more nominal time than passes: its offset falls.
+  state.drift_ppm = -slope_ * 1e6;
+  state.settled = fitted_;
+  state.steps = steps_;
+  if (best_.empty()) return state;
+  std::vector<double> spreads;
+  for (const Best& b : best_) spreads.push_back(b.latest_ns - b.offset_ns);
+  state.jitter_ns = std::llround(median(spreads));
+  return state;
+}
+
+}  // namespace mdof::drivers

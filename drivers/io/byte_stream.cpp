@@ -1,0 +1,98 @@
+#include "drivers/io/byte_stream.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace mdof::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+// Waits until fd is ready or `until`. poll() and no select(): a descriptor may be above 1023.
+bool ready(int fd, short events, steady_clock::time_point until) {
+  for (;;) {
+    const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
+    pollfd p{fd, events, 0};
+    const int n = ::poll(&p, 1, static_cast<int>(std::max(left, milliseconds(0)).count()));
+    if (n > 0) return true;
+    if (n == 0 || errno != EINTR) return false;
+  }
+}
+
+// A closed connection is an error to be read, not a signal.
+ssize_t put(int fd, std::string_view bytes) {
+  const ssize_t n = ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  return n < 0 && errno == ENOTSOCK ? ::write(fd, bytes.data(), bytes.size()) : n;
+}
+
+bool would_block(int error) {
+  return error == EAGAIN || error == EWOULDBLOCK || error == EINTR;
+}
+
+}  // namespace
+
+ByteStream::ByteStream(int fd, std::string name) : fd_(fd), name_(std::move(name)) {
+  ::fcntl(fd_, F_SETFL, ::fcntl(fd_, F_GETFL) | O_NONBLOCK);
+  ::fcntl(fd_, F_SETFD, FD_CLOEXEC);
+}
+
+ByteStream::~ByteStream() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+ByteStream::ByteStream(ByteStream&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), name_(std::move(other.name_)) {}
+
+ByteStream& ByteStream::operator=(ByteStream&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  std::swap(name_, other.name_);
+  return *this;
+}
+
+Result<std::size_t> ByteStream::read(std::span<char> into, milliseconds timeout) {
+  const auto until = steady_clock::now() + timeout;
+  for (;;) {
+    const ssize_t n = ::read(fd_, into.data(), into.size());
+    if (n > 0) return static_cast<std::size_t>(n);
+    if (n == 0) return io_error(name_ + ": the other side has closed the connection");
+    if (!would_block(errno)) return io_error(name_ + ": read: " + std::strerror(errno));
+    if (!ready(fd_, POLLIN, until)) return 0;
+  }
+}
+
+Status ByteStream::write(std::string_view bytes, milliseconds timeout) {
+  const auto until = steady_clock::now() + timeout;
+  while (!bytes.empty()) {
+    const ssize_t n = put(fd_, bytes);
+    if (n > 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(n));
+    } else if (!would_block(errno)) {
+      return io_error(name_ + ": write: " + std::strerror(errno));
+    } else if (!ready(fd_, POLLOUT, until)) {
+      return io_error(name_ + ": takes no more bytes");
+    }
+  }
+  return {};
+}
+
+Result<std::size_t> ByteStream::drain(milliseconds quiet, milliseconds limit) {
+  const auto until = steady_clock::now() + limit;
+  std::array<char, 4096> waste;
+  std::size_t total = 0;
+  while (steady_clock::now() < until) {
+    MDOF_TRY(const std::size_t n, read(waste, quiet));
+    if (n == 0) break;
+    total += n;
+  }
+  return total;
+}
+
+}  // namespace mdof::drivers

@@ -1,0 +1,36 @@
+// Counters of devices wrap; these make them whole.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace mdof::drivers {
+
+// A counter of `bits` bits (1 ... 63) that moves less than half its range between two readings, up
+// or down: the first reading stands for itself (as a two's complement number where `is_signed`).
+class Unwrap {
+ public:
+  explicit Unwrap(int bits, bool is_signed = false) : bits_(bits), is_signed_(is_signed) {}
+
+  std::int64_t operator()(std::uint64_t raw) {
+    const std::uint64_t range = std::uint64_t{1} << bits_;
+    raw &= range - 1;
+    if (!last_) {
+      const bool negative = is_signed_ && raw >= range / 2;
+      last_ = static_cast<std::int64_t>(raw) - (negative ? static_cast<std::int64_t>(range) : 0);
+      return *last_;
+    }
+    const std::uint64_t moved = (raw - static_cast<std::uint64_t>(*last_)) & (range - 1);
+    *last_ += static_cast<std::int64_t>(moved);
+    if (moved >= range / 2) *last_ -= static_cast<std::int64_t>(range);
+    return *last_;
+  }
+  void reset() { last_.reset(); }
+
+ private:
+  int bits_;
+  bool is_signed_;
+  std::optional<std::int64_t> last_;
+};
+
+}  // namespace mdof::drivers

@@ -14,9 +14,11 @@
 namespace mdof::algo {
 
 struct AlignOptions {
-  // A probe silent for longer than this behind the encoder is given up for those instants
-  // (missing), so that one dead device does not hold up the rest.
-  double lag_bound_s = 0.2;
+  // A probe silent for longer than this behind the newest sample is given up for those instants
+  // (missing), so that one dead device does not hold up the rest. Longer than any driver waits for
+  // a silent device before it gives it up: what comes at all then comes in time, and a replay, in
+  // which devices take turns in other portions, gives the same frames.
+  double lag_bound_s = 3;
   // Two samples further apart than this have a gap between them: nothing is interpolated into it.
   double max_gap_s = 0.05;
 };

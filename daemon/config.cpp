@@ -1,6 +1,9 @@
 #include "daemon/config.h"
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <map>
+#include <set>
 
 #include "algo/rigid.h"
 #include "daemon/paths.h"
@@ -75,6 +78,8 @@ void read_measure(TomlTable& root, Config& config) {
   m.dwell.min_length_s = positive("min_length_s", m.dwell.min_length_s);
   m.dwell.approach_m = from_um(positive("approach_um", to_um(m.dwell.approach_m)));
   m.align.lag_bound_s = positive("lag_bound_s", m.align.lag_bound_s);
+  m.align.max_gap_s = positive("max_gap_s", m.align.max_gap_s);
+  m.stale_s = positive("stale_s", m.stale_s);
 }
 
 // The rig must be one that the model can solve: said now, not at the first run.
@@ -86,41 +91,102 @@ Result<Rig> read_rig(TomlTable& table, const std::filesystem::path& base, Model 
   return rig;
 }
 
-Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& config) {
-  AxisConfig axis;
-  MDOF_TRY(axis.rig, read_rig(table, base, config.measure.model));
-  auto device = table.table("device");
-  if (!device) {
-    table.reject("device", "is missing; add [axis.device] with driver = \"...\"");
-    return table.finish();
-  }
-  const std::string driver = device->string("driver");
-  const std::string axis_letter(1, letter(axis.rig.axis));
+// [axis.device] of an axis with one device, [[axis.device]] of one with several.
+std::vector<TomlTable> device_tables(TomlTable& axis) {
+  if (axis.is_array("device")) return axis.tables("device");
+  std::vector<TomlTable> one;
+  if (auto table = axis.table("device")) one.push_back(std::move(*table));
+  return one;
+}
+
+// A recorded simulation stays one; a log of another axis is refused.
+Status check_log(drivers::DriverSpec& device, const Rig& rig) {
+  MDOF_TRY(ReplayLog log, ReplayLog::open(device.source_path));
+  MDOF_CHECK(check_axis(device.source_path, log.comments(), rig));
+  device.simulated = log.driver().info().simulated;
+  return {};
+}
+
+Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem::path& base,
+                                        const AxisConfig& axis) {
+  const std::string driver = table.string("driver");
+  const std::string number = axis.devices.empty() ? "" : std::to_string(axis.devices.size() + 1);
   drivers::DriverContext context;
-  context.name = device->string("name", driver + "-" + axis_letter);
+  context.name = table.string("name", driver + "-" + letter(axis.rig.axis) + number);
   context.rig = axis.rig;
   context.base_path = base.string();
   MDOF_TRY(const auto fixture, algo::make_fixture(axis.rig));
   context.forward = forward_model(fixture);
-  MDOF_TRY(axis.device, drivers::configure_driver(driver, *device, context));
-  if (!axis.device.recorded) {
-    MDOF_TRY(ReplayLog log, ReplayLog::open(axis.device.source_path));
-    MDOF_CHECK(check_axis(axis.device.source_path, log.comments(), axis.rig));
-    axis.device.simulated = log.driver().info().simulated;  // a recorded simulation stays one
+  MDOF_TRY(auto device, drivers::configure_driver(driver, table, context));
+  if (!device.recorded) MDOF_CHECK(check_log(device, axis.rig));
+  return device;
+}
+
+// Among the devices of an axis each channel has one source, and a replay stands alone.
+Status check_together(TomlTable& table, const AxisConfig& axis) {
+  std::map<std::string, std::string> source;
+  for (const auto& device : axis.devices) {
+    if (axis.devices.size() > 1 && (!device.live || device.channels.empty())) {
+      table.reject("device", "\"" + device.name + "\" gives all channels by itself; it must be " +
+                                 "the only device of its axis");
+      return {};
+    }
+    for (const auto& channel : device.channels) {
+      const auto [other, fresh] = source.emplace(channel, device.name);
+      if (!fresh) {
+        table.reject("device", "channel \"" + channel + "\" comes from \"" + other->second +
+                                   "\" and from \"" + device.name + "\"");
+      }
+    }
   }
+  if (source.empty()) return {};
+  std::vector<std::string> needed = {kEncoderChannel};
+  for (const Probe& probe : axis.rig.probes) needed.push_back(probe.id);
+  for (const auto& channel : needed) {
+    if (!source.contains(channel))
+      table.reject("device", "no device gives channel \"" + channel + "\" of " + axis.rig.source);
+  }
+  return {};
+}
+
+Status check_names(TomlTable& table, const AxisConfig& axis, const Config& config) {
+  std::set<std::string> names;
   for (const auto& other : config.axes) {
     if (other.rig.axis == axis.rig.axis) {
-      table.reject("rig", "a second rig for axis " + axis_letter + "; one [[axis]] an axis");
+      table.reject("rig", std::string("a second rig for axis ") + letter(axis.rig.axis) +
+                              "; one [[axis]] an axis");
     }
-    if (other.device.name == axis.device.name) {
-      table.reject("device", "two devices are called \"" + axis.device.name + "\"; name them");
-    }
+    for (const auto& device : other.devices) names.insert(device.name);
   }
+  for (const auto& device : axis.devices) {
+    if (!names.insert(device.name).second)
+      table.reject("device", "two devices are called \"" + device.name + "\"; name them");
+  }
+  return {};
+}
+
+Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& config) {
+  AxisConfig axis;
+  MDOF_TRY(axis.rig, read_rig(table, base, config.measure.model));
+  for (auto& device : device_tables(table)) {
+    MDOF_TRY(auto spec, read_device(device, base, axis));
+    axis.devices.push_back(std::move(spec));
+  }
+  if (axis.devices.empty()) {
+    table.reject("device", "is missing; add [axis.device] with driver = \"...\"");
+    return table.finish();
+  }
+  MDOF_CHECK(check_together(table, axis));
+  MDOF_CHECK(check_names(table, axis, config));
   config.axes.push_back(std::move(axis));
   return {};
 }
 
 }  // namespace
+
+bool AxisConfig::simulated() const {
+  return std::any_of(devices.begin(), devices.end(), [](const auto& d) { return d.simulated; });
+}
 
 Result<Config> load_config(const std::filesystem::path& file) {
   MDOF_TRY(std::string text, read_text_file(file));

@@ -17,7 +17,12 @@ namespace mdof::daemon {
 
 struct AxisConfig {
   Rig rig;
-  drivers::DriverSpec device;
+  // Live ones that together give the rig's channels, or one replay.
+  std::vector<drivers::DriverSpec> devices;
+
+  bool live() const { return devices.front().live; }
+  bool recorded() const { return devices.front().recorded; }
+  bool simulated() const;  // any of them is
 };
 
 struct Config {

@@ -1,5 +1,7 @@
 #include "daemon/live_json.h"
 
+#include <algorithm>
+
 #include "schema/json_writer.h"
 #include "schema/units.h"
 
@@ -15,6 +17,7 @@ std::string device_json(const DeviceStatus& s) {
       .field("simulated", s.info.simulated)
       .field("rate_hz", s.info.rate_hz)
       .field("scans", s.scans)
+      .field("scans_lost", s.lost)
       .field("blocks_dropped", s.dropped)
       .field("reopened", s.reopened);
   json.key("error");
@@ -24,6 +27,14 @@ std::string device_json(const DeviceStatus& s) {
     json.begin_object().field("id", channel.id).field("unit", suffix(channel.unit)).end_object();
   }
   json.end_array().end_object();
+  return json.take();
+}
+
+std::string devices_json(const std::vector<DeviceStatus>& devices) {
+  JsonWriter json;
+  json.begin_array();
+  for (const auto& device : devices) json.raw(device_json(device));
+  json.end_array();
   return json.take();
 }
 
@@ -50,7 +61,7 @@ void write_errors(JsonWriter& json, const Rig& rig, const Pipeline& pipeline) {
 
 }  // namespace
 
-std::string live_json(const Rig& rig, const Pipeline& pipeline, bool simulated, std::int64_t run) {
+std::string live_json(const Rig& rig, const Pipeline& pipeline, const LiveState& state) {
   const FrameBlock& now = pipeline.newest();
   JsonWriter json;
   json.begin_object()
@@ -58,13 +69,15 @@ std::string live_json(const Rig& rig, const Pipeline& pipeline, bool simulated, 
       .field("time_ns", now.time_ns[0])
       .field("encoder_mm", to_mm(now.encoder_m[0]))
       .field("still", pipeline.still())
-      .field("simulated", simulated);
+      .field("simulated", state.simulated)
+      .field("stale", state.stale);
   json.key("waiting_for");
   const auto waiting = pipeline.waiting_for();
   waiting ? json.value(*waiting) : json.null();
   json.key("probes").begin_array();
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {
-    const Quality quality = now.quality_at(k, 0);
+    Quality quality = now.quality_at(k, 0);
+    if (state.stale) quality = std::max(quality, Quality::stale);
     json.begin_object()
         .field("id", rig.probes[k].id)
         .field("um", to_um(now.probe_m[k][0]))
@@ -74,9 +87,9 @@ std::string live_json(const Rig& rig, const Pipeline& pipeline, bool simulated, 
   }
   json.end_array();
   json.key("errors");
-  write_errors(json, rig, pipeline);
+  state.stale ? void(json.null()) : write_errors(json, rig, pipeline);
   json.key("run");
-  run > 0 ? json.value(run) : json.null();
+  state.run > 0 ? json.value(state.run) : json.null();
   json.end_object();
   return json.take();
 }

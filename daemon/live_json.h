@@ -12,9 +12,18 @@ namespace mdof::daemon {
 
 // One device as device.list gives it, without its axis.
 std::string device_json(const DeviceStatus& status);
+// An array of them.
+std::string devices_json(const std::vector<DeviceStatus>& devices);
 
-// The value of live.update: {"axis", "time_ns", "encoder_mm", "still", "simulated", "waiting_for",
-// "probes": [{"id", "um", "quality", "range_um"}], "errors": {...} | null, "run": id | null}.
-std::string live_json(const Rig& rig, const Pipeline& pipeline, bool simulated, std::int64_t run);
+struct LiveState {
+  bool simulated = false;
+  bool stale = false;    // nothing newer has come for the stated age: no value is shown as good
+  std::int64_t run = 0;  // 0: none
+};
+
+// The value of live.update: {"axis", "time_ns", "encoder_mm", "still", "simulated", "stale",
+// "waiting_for", "probes": [{"id", "um", "quality", "range_um"}], "errors": {...} | null,
+// "run": id | null}. Errors are null while stale.
+std::string live_json(const Rig& rig, const Pipeline& pipeline, const LiveState& state);
 
 }  // namespace mdof::daemon

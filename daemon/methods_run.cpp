@@ -4,6 +4,7 @@
 #include "daemon/paths.h"
 #include "schema/json_writer.h"
 #include "schema/run_json.h"
+#include "schema/targets.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -16,18 +17,42 @@ using rpc::Reply;
 constexpr std::int64_t kMaxPointsPage = 60;  // of about 700 bytes: under the limit of a reply line
 constexpr std::int64_t kMaxRunsPage = 40;
 
-std::string run_reply(std::int64_t id, Axis axis) {
+std::string run_reply(std::int64_t id, Axis axis, const RunRequest& request) {
   JsonWriter json;
-  json.begin_object().field("run", id).field("axis", std::string(1, letter(axis))).end_object();
+  json.begin_object().field("run", id).field("axis", std::string(1, letter(axis)));
+  json.key("targets_mm").begin_array();
+  for (const double target_m : request.targets_m) json.value(to_mm(target_m));
+  json.end_array().key("warnings").begin_array();
+  for (const auto& warning : request.warnings) json.value(warning);
+  json.end_array().end_object();
   return json.take();
 }
 
 // Answers a station's callback, which comes on another thread.
-RunDone answer_with_run(Reply reply, Axis axis) {
+RunDone answer_with_run(Reply reply, Axis axis, const RunRequest& request = {}) {
   auto shared = std::make_shared<Reply>(std::move(reply));
-  return [shared, axis](const Result<std::int64_t>& id) {
-    (*shared)(id ? Result<std::string>(run_reply(*id, axis)) : tl::unexpected(id.error()));
+  return [shared, axis, request](const Result<std::int64_t>& id) {
+    (*shared)(id ? Result<std::string>(run_reply(*id, axis, request)) : tl::unexpected(id.error()));
   };
+}
+
+// A list, or even intervals.
+Result<std::vector<double>> read_targets(const Params& params) {
+  if (!params.has("from_mm") && !params.has("to_mm") && !params.has("interval_mm"))
+    return params.numbers("targets_mm");
+  if (params.has("targets_mm"))
+    return fail(ErrorCode::usage, "targets_mm and from_mm: give one or the other");
+  for (const char* key : {"from_mm", "to_mm", "interval_mm"})
+    if (!params.has(key))
+      return fail(ErrorCode::usage, std::string(key) +
+                                        " is missing beside the other two of "
+                                        "from_mm, to_mm and interval_mm");
+  const TargetSpacing spacing{params.number("from_mm"), params.number("to_mm"),
+                              params.number("interval_mm"), params.number("jitter_mm", 0),
+                              params.integer("seed", 1)};
+  if (const auto wrong = check_spacing(spacing))
+    return fail(ErrorCode::usage, std::string(wrong->key) + " " + wrong->why);
+  return spaced_targets_mm(spacing);
 }
 
 Result<RunRequest> read_request(const Params& params) {
@@ -38,7 +63,7 @@ Result<RunRequest> read_request(const Params& params) {
     return fail(ErrorCode::usage, "repeats must be from 0 to 10000");
   }
   request.repeats = static_cast<int>(repeats);
-  MDOF_TRY(const auto targets_mm, params.numbers("targets_mm"));
+  MDOF_TRY(const auto targets_mm, read_targets(params));
   for (const double target_mm : targets_mm) {
     if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
       return fail(ErrorCode::usage, "targets_mm must ascend");
@@ -46,8 +71,10 @@ Result<RunRequest> read_request(const Params& params) {
     request.targets_m.push_back(from_mm(target_mm));
   }
   if (request.repeats > 0 && request.targets_m.empty()) {
-    return fail(ErrorCode::usage, "repeats goes with targets_mm");
+    return fail(ErrorCode::usage, "repeats goes with targets_mm, or with from_mm and to_mm");
   }
+  const std::string warning = periodic_warning(targets_mm, params.number("scale_period_um", 0));
+  if (!warning.empty()) request.warnings.push_back(warning);
   return request;
 }
 
@@ -58,7 +85,7 @@ void start_run(Methods& m, const Params& params, Reply reply) {
   if (!station) return reply(tl::unexpected(station.error()));
   const auto request = read_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
-  (*station)->start_run(*request, answer_with_run(std::move(reply), *axis));
+  (*station)->start_run(*request, answer_with_run(std::move(reply), *axis, *request));
 }
 
 void stop_run(Methods& m, const Params& params, Reply reply) {
@@ -170,12 +197,21 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                    "nominal positions, ascending; without "
                    "them targets are recognised",
                    false, "[]"},
+                  {"from_mm", ParamType::number, "instead: the first target", false},
+                  {"to_mm", ParamType::number, "the last one is not beyond this", false},
+                  {"interval_mm", ParamType::number, "between two targets", false},
+                  {"jitter_mm", ParamType::number, "each is moved by up to this", false, "0"},
+                  {"seed", ParamType::integer, "of the jitter", false, "1"},
+                  {"scale_period_um", ParamType::number,
+                   "signal period of the encoder's scale: a warning where the intervals hide its "
+                   "error",
+                   false, "0"},
                   {"repeats", ParamType::integer,
                    "with targets_mm: the run is complete after "
                    "so many, both ways: the axis must overrun both ends; 0: until run.stop",
                    false, "0"},
                   {"note", ParamType::string, "for people", false, "\"\""}},
-       .result = "run, axis: the run is on the disk and measuring",
+       .result = "run, axis, targets_mm, warnings: the run is on the disk and measuring",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});

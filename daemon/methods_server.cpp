@@ -34,8 +34,10 @@ std::string server_info(const Methods& m) {
     json.begin_object()
         .field("axis", std::string(1, letter(station->config().rig.axis)))
         .field("rig", station->config().rig.name)
-        .field("device", station->config().device.name)
-        .field("simulated", station->config().device.simulated);
+        .field("simulated", station->config().simulated());
+    json.key("devices").begin_array();
+    for (const auto& device : station->config().devices) json.value(device.name);
+    json.end_array();
     json.key("run");
     station->run() > 0 ? json.value(station->run()) : json.null();
     json.end_object();
@@ -48,10 +50,11 @@ std::string device_list(const Methods& m) {
   JsonWriter json;
   json.begin_object().key("devices").begin_array();
   for (const auto& station : m.stations) {
-    // The device's own object with the axis put first.
-    const std::string device = device_json(station->status());
-    json.raw(std::string("{\"axis\":\"") + letter(station->config().rig.axis) + "\"," +
-             device.substr(1));
+    for (const auto& status : station->devices()) {
+      // The device's own object with the axis put first.
+      json.raw(std::string("{\"axis\":\"") + letter(station->config().rig.axis) + "\"," +
+               device_json(status).substr(1));
+    }
   }
   json.end_array().end_object();
   return json.take();
@@ -121,7 +124,7 @@ Result<ActiveTables> load_active(store::Store& store) {
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
              .summary = "Version, uptime, axes and the compensation generation in force.",
-             .result = "identity of the daemon; axes with their device and the run under way",
+             .result = "identity of the daemon; axes with their devices and the run under way",
              .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add({.name = "device.list",
              .summary = "Every device with its axis, state, last error, channels and counts.",

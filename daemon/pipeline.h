@@ -23,6 +23,7 @@ struct PipelineOptions {
   algo::AlignOptions align;
   algo::DwellOptions dwell;
   algo::SequenceOptions sequence;
+  double stale_s = 0.5;     // an instant older than this is not shown as good
   bool keep_points = true;  // false: for a view without a run
 
   std::string json() const;  // for the provenance

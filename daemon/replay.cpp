@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "daemon/paths.h"
 #include "daemon/version.h"
 
 namespace mdof::daemon {
@@ -139,6 +140,9 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   run->header.provenance = provenance_of(log, rig, options);
   const auto more = log.warnings();
   run->header.warnings.insert(run->header.warnings.end(), more.begin(), more.end());
+  const std::string day = log.started_utc().empty() ? utc_now() : log.started_utc();
+  const auto overdue = overdue_calibrations(rig, day);
+  run->header.warnings.insert(run->header.warnings.end(), overdue.begin(), overdue.end());
   return run;
 }
 

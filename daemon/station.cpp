@@ -1,7 +1,5 @@
 #include "daemon/station.h"
 
-#include <pthread.h>
-
 #include <algorithm>
 
 #include "daemon/live_json.h"
@@ -14,14 +12,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-constexpr milliseconds kReadTimeout{100};
-constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{2000};
-
-void name_thread(const char* role, Axis axis) {
-  const std::string name = std::string(role) + "-" + letter(axis);
-  pthread_setname_np(pthread_self(), name.c_str());
-}
 
 std::string file_stamp(std::string utc) {
   std::erase_if(utc, [](char c) { return c == ':' || c == '-' || c == '.'; });
@@ -38,117 +28,43 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
       recordings_(std::move(recordings)),
       keeper_(keeper),
       shared_(std::make_shared<Shared>(std::move(events))),
-      acquire_turn_(steady_clock::now()),
       measure_turn_(steady_clock::now()) {
-  status_.info.name = config_.device.name;
-  status_.info.driver = config_.device.driver;
-  status_.info.simulated = config_.device.simulated;
+  for (const auto& device : config_.devices)
+    acquisitions_.push_back(std::make_unique<Acquisition>(device, sink()));
   measure_thread_ = std::thread([this] { measure(); });
-  if (config_.device.live) start_acquiring();
+  if (!config_.live()) return;
+  for (auto& acquisition : acquisitions_) acquisition->start();
 }
 
 Station::~Station() {
-  if (config_.device.live) stop_acquiring();
+  if (config_.live())
+    for (auto& acquisition : acquisitions_) acquisition->stop();
   shared_->queue.close();
-  measure_thread_.join();  // an open run ends there; from here nobody else starts or joins a reader
-  stop_acquiring();
+  measure_thread_.join();  // an open run ends there; from here nobody else starts or stops a reader
+  acquisitions_.clear();
 }
 
-// ---- acquire thread ----
-
-void Station::start_acquiring() {
-  stop_acquiring();
-  acquiring_ = true;
-  acquire_turn_ = steady_clock::now();
-  acquire_thread_ = std::thread([this, pass = ++pass_] { acquire(pass); });
-}
-
-void Station::stop_acquiring() {
-  acquiring_ = false;
-  if (acquire_thread_.joinable()) acquire_thread_.join();
-}
-
-void Station::set_state(const std::string& state, const std::string& error) {
-  const std::lock_guard lock(status_mutex_);
-  status_.state = state;
-  if (!error.empty()) status_.error = error;
-}
-
-void Station::acquire(std::uint64_t pass) {
-  name_thread("acquire", config_.rig.axis);
-  auto driver = config_.device.make();
-  milliseconds backoff = kFirstBackoff;
-  bool ended = false;
-  while (acquiring_ && !ended) {
-    acquire_turn_ = steady_clock::now();
-    const Status opened = driver ? (*driver)->open() : Status(tl::unexpected(driver.error()));
-    if (opened) {
-      {
-        const std::lock_guard lock(status_mutex_);
-        status_.info = (*driver)->info();
-      }
-      set_state("open");
-      backoff = kFirstBackoff;
-      ended = read_until_trouble(**driver, pass);
-      if (ended || !acquiring_) break;
-    } else {
-      set_state("failed: reopening", opened.error().message);
-    }
-    // A replay that cannot be read will not heal: the run ends with what is wrong.
-    if (!config_.device.live) {
-      Item item;
-      item.kind = Item::Kind::ended;
-      item.pass = pass;
-      item.reason = status().error;
-      set_state("ended");
-      shared_->queue.push_always(std::move(item));
-      return;
-    }
-    for (auto waited = milliseconds(0); waited < backoff && acquiring_;
-         waited += milliseconds(10)) {
-      std::this_thread::sleep_for(milliseconds(10));
-      acquire_turn_ = steady_clock::now();
-    }
-    backoff = std::min(2 * backoff, kLongestBackoff);
-    const std::lock_guard lock(status_mutex_);
-    ++status_.reopened;
-  }
-  if (!ended) return set_state("closed");
-  set_state("ended");
-  Item item;
-  item.kind = Item::Kind::ended;
-  item.pass = pass;
-  item.source = config_.device.source_info(**driver);
-  shared_->queue.push_always(std::move(item));
-}
-
-// True: the source has come to its end. False: an error (kept in the status) or no longer wanted.
-bool Station::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
-  while (acquiring_) {
-    acquire_turn_ = steady_clock::now();
+// What the devices' threads do with their samples.
+Acquisition::Sink Station::sink() {
+  Acquisition::Sink sink;
+  sink.samples = [this](SampleBlock& block, std::uint64_t pass, milliseconds wait) {
     Item item;
     item.pass = pass;
-    const auto state = driver.read(item.block, kReadTimeout);
-    if (!state) {
-      set_state("failed: reopening", state.error().message);
-      return false;
-    }
-    if (item.block.scans() > 0) {
-      {
-        const std::lock_guard lock(status_mutex_);
-        status_.scans += item.block.scans();
-      }
-      if (config_.device.live) {
-        shared_->queue.try_push(std::move(item));
-      } else {
-        while (acquiring_ && !shared_->queue.push_for(item, kReadTimeout)) {
-          acquire_turn_ = steady_clock::now();
-        }
-      }
-    }
-    if (*state == drivers::ReadState::end) return true;
-  }
-  return false;
+    item.block = std::move(block);
+    if (shared_->queue.push_for(item, wait)) return true;
+    block = std::move(item.block);
+    return false;
+  };
+  sink.ended = [this](std::uint64_t pass, const std::string& reason,
+                      const drivers::SourceInfo& source) {
+    Item item;
+    item.kind = Item::Kind::ended;
+    item.pass = pass;
+    item.reason = reason;
+    item.source = source;
+    shared_->queue.push_always(std::move(item));
+  };
+  return sink;
 }
 
 // ---- main thread ----
@@ -159,7 +75,7 @@ NewRun Station::describe_run(const RunRequest& request) const {
   PipelineOptions options = options_;
   options.sequence.targets_m = request.targets_m;
   h.axis = config_.rig.axis;
-  h.simulated = config_.device.simulated;
+  h.simulated = config_.simulated();
   h.started_utc = utc_now();
   h.note = request.note;
   h.provenance.rig_text = config_.rig.text;
@@ -167,15 +83,15 @@ NewRun Station::describe_run(const RunRequest& request) const {
   h.provenance.software_version = kVersion;
   h.provenance.options_json = options.json();
   h.provenance.configuration = configuration_;
-  if (!config_.device.recorded) {
+  if (!config_.recorded()) {
     h.provenance.recording_kind = "replay";
-    h.provenance.recording_path = config_.device.source_path;
+    h.provenance.recording_path = config_.devices.front().source_path;
     return run;
   }
   run.recording = recordings_ / (file_stamp(h.started_utc) + "-" + letter(h.axis) + ".mdofrec");
   h.provenance.recording_kind = "recording";
   h.provenance.recording_path = std::filesystem::absolute(run.recording).string();
-  run.recording_header = {kVersion,       config_.rig.text, device_json(status()),
+  run.recording_header = {kVersion,       config_.rig.text, devices_json(devices()),
                           configuration_, h.started_utc,    h.simulated};
   return run;
 }
@@ -225,18 +141,16 @@ void Station::storage_failed(std::int64_t run, const Error& error) {
   shared_->queue.push_always(std::move(item));
 }
 
-DeviceStatus Station::status() const {
-  const std::lock_guard lock(status_mutex_);
-  DeviceStatus status = status_;
-  status.dropped = shared_->queue.dropped();
-  return status;
+std::vector<DeviceStatus> Station::devices() const {
+  std::vector<DeviceStatus> all;
+  for (const auto& acquisition : acquisitions_) all.push_back(acquisition->status());
+  return all;
 }
 
 bool Station::healthy(steady_clock::duration limit) const {
-  const auto now = steady_clock::now();
-  const bool acquires =
-      !acquiring_ || status().state == "ended" || now - acquire_turn_.load() < limit;
-  return acquires && now - measure_turn_.load() < limit;
+  const auto acquires = [&](const auto& acquisition) { return acquisition->healthy(limit); };
+  return std::all_of(acquisitions_.begin(), acquisitions_.end(), acquires) &&
+         steady_clock::now() - measure_turn_.load() < limit;
 }
 
 }  // namespace mdof::daemon

@@ -1,20 +1,20 @@
-// One axis at work: its device's thread "acquire-X" and its thread "measure-X".
+// One axis at work: its devices, each with its thread (acquisition.h), and its thread "measure-X".
 //
-//   acquire: driver -> queue      measure: queue -> recording (store thread) -> pipeline -> points
+//   devices -> queue      measure: queue -> recording (store thread) -> pipeline -> points
 //
-// A live device is read from the start, for the view; a replay only while a run is under way.
+// Live devices are read from the start, for the view; a replay only while a run is under way.
 #pragma once
 
 #include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "daemon/acquisition.h"
 #include "daemon/bounded_queue.h"
 #include "daemon/config.h"
 #include "daemon/pipeline.h"
@@ -25,17 +25,9 @@ namespace mdof::daemon {
 // A run as it was asked for.
 struct RunRequest {
   std::string note;
-  std::vector<double> targets_m;  // empty: recognised
-  int repeats = 0;                // 0: until stopped; else complete after so many, both ways
-};
-
-struct DeviceStatus {
-  std::string state = "closed";  // "open", "closed", "failed: reopening", "ended"
-  std::string error;             // of the last failure
-  drivers::DeviceInfo info;
-  std::uint64_t scans = 0;    // since the start
-  std::uint64_t dropped = 0;  // blocks the measuring thread had no room for
-  std::uint64_t reopened = 0;
+  std::vector<double> targets_m;      // empty: recognised
+  int repeats = 0;                    // 0: until stopped; else complete after so many, both ways
+  std::vector<std::string> warnings;  // to be kept with the run
 };
 
 // Called on the station's or the store's threads; the receiver posts to its own.
@@ -65,8 +57,8 @@ class Station {
 
   void watch(bool wanted) { watched_.store(wanted); }  // whether live() is worth its work
   const AxisConfig& config() const { return config_; }
-  DeviceStatus status() const;
-  // Both threads came round within `limit`.
+  std::vector<DeviceStatus> devices() const;
+  // All threads came round within `limit`.
   bool healthy(std::chrono::steady_clock::duration limit) const;
 
  private:
@@ -91,11 +83,7 @@ class Station {
   };
   static constexpr std::size_t kQueuedBlocks = 1024;
 
-  void start_acquiring();
-  void stop_acquiring();
-  void acquire(std::uint64_t pass);
-  bool read_until_trouble(drivers::Driver& driver, std::uint64_t pass);
-  void set_state(const std::string& state, const std::string& error = "");
+  Acquisition::Sink sink();
   NewRun describe_run(const RunRequest& request) const;
 
   void measure();
@@ -107,6 +95,7 @@ class Station {
   void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
               RunDone done);
   void show_live();
+  bool stale(const Pipeline& pipeline);
 
   const AxisConfig config_;
   const PipelineOptions options_;
@@ -115,16 +104,16 @@ class Station {
   Storekeeper& keeper_;
   const std::shared_ptr<Shared> shared_;
 
-  std::atomic<bool> watched_{false}, acquiring_{false};
-  std::atomic<std::chrono::steady_clock::time_point> acquire_turn_, measure_turn_;
-  mutable std::mutex status_mutex_;
-  DeviceStatus status_;  // guarded by status_mutex_
+  std::atomic<bool> watched_{false};
+  std::atomic<std::chrono::steady_clock::time_point> measure_turn_;
 
   std::unique_ptr<OpenRun> open_;  // measure thread only
   std::optional<Pipeline> view_;   // measure thread only: between runs
   std::chrono::steady_clock::time_point last_live_{};
-  std::uint64_t pass_ = 0;  // readings begun; by whoever calls start_acquiring()
-  std::thread acquire_thread_, measure_thread_;
+  std::int64_t newest_ns_ = 0;  // of the last instant that was new, and when it was
+  std::chrono::steady_clock::time_point newest_since_{};
+  std::vector<std::unique_ptr<Acquisition>> acquisitions_;
+  std::thread measure_thread_;
 };
 
 }  // namespace mdof::daemon

@@ -5,10 +5,12 @@
 
 #include "daemon/live_json.h"
 #include "daemon/open_run.h"
+#include "daemon/paths.h"
 #include "daemon/station.h"
 #include "daemon/store/result_hash.h"
 #include "schema/json_writer.h"
 #include "schema/run_json.h"
+#include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
@@ -52,6 +54,17 @@ bool all_asked_for(const RunRequest& request, const std::vector<MeasuredPoint>& 
          std::all_of(reverse.begin(), reverse.end(), enough);
 }
 
+// The target that comes after the last point: onward in its direction, and at an end back again.
+std::optional<std::size_t> awaited_target(const RunRequest& request,
+                                          const std::vector<MeasuredPoint>& points) {
+  if (request.targets_m.empty()) return std::nullopt;
+  if (points.empty()) return 0;
+  const auto last = static_cast<std::size_t>(points.back().target) - 1;
+  const bool forward = points.back().point.direction > 0;
+  if (forward) return std::min(last + 1, request.targets_m.size() - 1);
+  return last > 0 ? last - 1 : 0;
+}
+
 // The result is what the store has already got, and more.
 bool begins_with(const std::vector<MeasuredPoint>& result,
                  const std::vector<MeasuredPoint>& stored) {
@@ -67,6 +80,26 @@ std::string event_json(const char* type, std::int64_t run, Axis axis) {
       .field("run", run)
       .field("axis", std::string(1, letter(axis)))
       .end_object();
+  return json.take();
+}
+
+// Point k of n and what is awaited next. n is not known without repeats, and neither is the next
+// target without targets.
+std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request,
+                          const std::vector<MeasuredPoint>& points) {
+  JsonWriter json;
+  json.begin_object()
+      .field("type", "progress")
+      .field("run", run)
+      .field("axis", std::string(1, letter(axis)))
+      .field("points", static_cast<std::uint64_t>(points.size()));
+  const std::size_t of = 2 * request.targets_m.size() * static_cast<std::size_t>(request.repeats);
+  json.key("of");
+  of > 0 ? json.value(static_cast<std::uint64_t>(of)) : json.null();
+  json.key("awaited_mm");
+  const auto next = awaited_target(request, points);
+  next ? json.value(to_mm(request.targets_m[*next])) : json.null();
+  json.end_object();
   return json.take();
 }
 
@@ -91,7 +124,11 @@ void Station::measure() {
   pthread_setname_np(pthread_self(), name.c_str());
   while (!shared_->queue.closed_and_empty()) {
     measure_turn_ = steady_clock::now();
-    if (auto item = shared_->queue.pop(kPopTimeout)) handle(*item);
+    if (auto item = shared_->queue.pop(kPopTimeout)) {
+      handle(*item);
+    } else {
+      show_live();  // that nothing comes is news too
+    }
   }
   if (open_) finish(RunState::aborted, "the daemon was stopped", {}, {});
 }
@@ -119,7 +156,7 @@ void Station::handle(Item& item) {
 
 // A replay is read once a run; what an earlier reading left in the queue is not of this run.
 bool Station::of_this_pass(const Item& item) const {
-  return config_.device.live || item.pass == pass_;
+  return config_.live() || item.pass == acquisitions_.front()->pass();
 }
 
 void Station::attach(Item& item) {
@@ -134,7 +171,7 @@ void Station::attach(Item& item) {
   shared_->run = item.run;
   shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
   item.done(item.run);
-  if (!config_.device.live) start_acquiring();
+  if (!config_.live()) acquisitions_.front()->start();
 }
 
 void Station::take_samples(SampleBlock& block) {
@@ -149,7 +186,7 @@ void Station::take_samples(SampleBlock& block) {
     return show_live();
   }
   view_.reset();
-  if (config_.device.recorded && !keeper_.record(open_->id, block, !config_.device.live)) {
+  if (config_.recorded() && !keeper_.record(open_->id, block, !config_.live())) {
     ++open_->blocks_not_recorded;
   }
   if (const Status pushed = open_->pipeline.push(block); !pushed) {
@@ -170,16 +207,21 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   open_->stored.insert(open_->stored.end(), fresh.begin(), fresh.end());
   const std::int64_t run = open_->id;
   std::string json = points_json(run, config_.rig.axis, fresh, first);
+  std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
   // Told to clients only once it is on the disk.
   keeper_.append_points(run, std::move(fresh),
-                        [shared = shared_, json = std::move(json)](const Status& kept) {
-                          if (kept) shared->events.run_event(json);
+                        [shared = shared_, json = std::move(json),
+                         progress = std::move(progress)](const Status& kept) {
+                          if (!kept) return;
+                          shared->events.run_event(json);
+                          shared->events.run_event(progress);
                         });
 }
 
 void Station::finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
                      RunDone done) {
-  if (!config_.device.live) acquiring_ = false;  // what is still on its way belongs to this pass
+  if (!config_.live())
+    acquisitions_.front()->cease();  // what is still on its way belongs to this pass
   auto result = open_->pipeline.finish();
   // The stop at which the run ended has become a point only now.
   if (result && begins_with(result->points, open_->stored)) keep_new_points(result->points);
@@ -195,6 +237,10 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
   run.header.provenance.recording_sha256 = source.sha256;
   run.header.warnings.insert(run.header.warnings.end(), source.warnings.begin(),
                              source.warnings.end());
+  run.header.warnings.insert(run.header.warnings.end(), open->request.warnings.begin(),
+                             open->request.warnings.end());
+  const auto overdue = overdue_calibrations(config_.rig, utc_now());
+  run.header.warnings.insert(run.header.warnings.end(), overdue.begin(), overdue.end());
   if (!why.empty()) run.header.warnings.push_back(why);
   if (open->blocks_not_recorded > 0) {
     run.header.warnings.push_back(std::to_string(open->blocks_not_recorded) +
@@ -219,8 +265,19 @@ void Station::show_live() {
   const auto now = steady_clock::now();
   if (now - last_live_ < kLiveInterval) return;
   last_live_ = now;
-  shared_->events.live(
-      live_json(config_.rig, *pipeline, config_.device.simulated, open_ ? open_->id : 0));
+  const LiveState state{config_.simulated(), stale(*pipeline), open_ ? open_->id : 0};
+  shared_->events.live(live_json(config_.rig, *pipeline, state));
+}
+
+// Whether the newest instant has been the newest for too long.
+bool Station::stale(const Pipeline& pipeline) {
+  const std::int64_t newest_ns = pipeline.newest().time_ns[0];
+  const auto now = steady_clock::now();
+  if (newest_ns != newest_ns_) {
+    newest_ns_ = newest_ns;
+    newest_since_ = now;
+  }
+  return now - newest_since_ > std::chrono::duration<double>(options_.stale_s);
 }
 
 }  // namespace mdof::daemon

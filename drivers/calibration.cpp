@@ -12,7 +12,13 @@ namespace {
 
 constexpr double kRangeUsed = 0.9995;  // beyond this share of the range a reading is at its end
 
-double linearity_um(const Calibration& c, double reading_um) {
+double correction_um(const Calibration& c, double reading_um) {
+  if (!c.polynomial_um.empty()) {
+    double sum = 0;
+    for (auto k = c.polynomial_um.rbegin(); k != c.polynomial_um.rend(); ++k)
+      sum = sum * reading_um + *k;
+    return sum;
+  }
   const auto& table = c.linearity;
   if (table.empty()) return 0.0;
   if (reading_um <= table.front()[0]) return table.front()[1];
@@ -30,6 +36,7 @@ struct Window {
   double low_um, high_um;
 };
 Window valid_window(const Probe& probe) {
+  if (const auto& valid = probe.calibration.valid_um) return {(*valid)[0], (*valid)[1]};
   const double range_um = to_um(probe.range_m);
   if (probe.calibration.reads_gap) return {(1 - kRangeUsed) * range_um, kRangeUsed * range_um};
   return {-kRangeUsed * range_um / 2, kRangeUsed * range_um / 2};
@@ -46,7 +53,7 @@ void mark(SampleBlock& block, std::size_t channel, std::size_t scan, Quality qua
 
 double displacement_m(const Calibration& c, double raw_um) {
   const double reading_um = raw_um - c.offset_um;
-  const double displacement_um = reading_um + linearity_um(c, reading_um);
+  const double displacement_um = reading_um + correction_um(c, reading_um);
   return from_um(c.reads_gap ? -displacement_um : displacement_um);
 }
 
@@ -81,7 +88,7 @@ const Displace kScale = scale_baseline;
 #endif
 
 bool displace(const Calibration& c, double um_per_unit, Window window, std::span<double> values) {
-  if (c.offset_um == 0.0 && c.linearity.empty() && !c.reads_gap)
+  if (c.offset_um == 0.0 && c.linearity.empty() && c.polynomial_um.empty() && !c.reads_gap)
     return kScale(um_per_unit, window, values);
   bool outside = false;
   for (double& value : values) {

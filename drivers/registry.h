@@ -33,7 +33,8 @@ struct DriverSpec {
   bool live = true;      // samples come as time passes; false: as fast as they are taken
   bool recorded = true;  // its samples go into a recording; false: they come from one
   bool simulated = false;
-  std::string source_path;  // of a replay
+  std::vector<std::string> channels;  // ids it gives; empty: all of the rig
+  std::string source_path;            // of a replay
   std::function<Result<std::unique_ptr<Driver>>()> make;
   std::function<SourceInfo(const Driver&)> source_info;  // of the driver that make() made
 };

@@ -46,6 +46,12 @@ bool is_date(const std::string& text) {
                      [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
 }
 
+std::string read_date(TomlTable& table, const char* key) {
+  std::string date = table.string(key, "");
+  if (!date.empty() && !is_date(date)) table.reject(key, "must be a date, YYYY-MM-DD");
+  return date;
+}
+
 Calibration read_calibration(TomlTable& table) {
   Calibration c;
   const std::string reads = table.string("reads", "displacement");
@@ -63,9 +69,21 @@ Calibration read_calibration(TomlTable& table) {
     }
     c.linearity.push_back({row[0], row[1]});
   }
+  c.polynomial_um = table.numbers("polynomial_um", std::vector<double>{});
+  if (!c.polynomial_um.empty() && !c.linearity.empty())
+    table.reject("polynomial_um", "is a second correction beside linearity; give one of them");
+  if (table.has("valid_um")) {
+    const auto valid = table.numbers("valid_um");
+    if (valid.size() == 2 && valid[0] < valid[1]) {
+      c.valid_um = {valid[0], valid[1]};
+    } else {
+      table.reject("valid_um", "must be the lowest and the highest raw reading in µm");
+    }
+  }
   c.certificate = table.string("certificate", "");
-  c.due = table.string("due", "");
-  if (!c.due.empty() && !is_date(c.due)) table.reject("due", "must be a date, YYYY-MM-DD");
+  c.laboratory = table.string("laboratory", "");
+  c.calibrated = read_date(table, "calibrated");
+  c.due = read_date(table, "due");
   return c;
 }
 
@@ -136,6 +154,18 @@ void reject_doubles(TomlTable& table, const std::vector<Probe>& probes) {
 }
 
 }  // namespace
+
+std::vector<std::string> overdue_calibrations(const Rig& rig, std::string_view day) {
+  std::vector<std::string> overdue;
+  for (const Probe& probe : rig.probes) {
+    const Calibration& c = probe.calibration;
+    if (c.due.empty() || day.substr(0, c.due.size()) <= c.due) continue;
+    overdue.push_back("probe \"" + probe.id + "\": its calibration" +
+                      (c.certificate.empty() ? "" : " (certificate " + c.certificate + ")") +
+                      " was due on " + c.due + "; have it calibrated anew");
+  }
+  return overdue;
+}
 
 std::optional<std::size_t> Rig::probe_index(std::string_view id) const {
   for (std::size_t i = 0; i < probes.size(); ++i) {

@@ -19,14 +19,20 @@ using Vec3 = std::array<double, 3>;
 // From the raw number of a channel to the displacement of the target along `measures`:
 //   raw_um = raw (or raw_V * um_per_V);   t = raw_um - offset_um;   t += linearity(t);
 //   displacement = reads_gap ? -t : t
+// Outside `valid_um` a reading is at the end of the probe's range.
 struct Calibration {
   bool reads_gap = false;          // reads = "gap": the raw number grows as the target recedes
   std::optional<double> um_per_V;  // needed where the log has volts
   double offset_um = 0;            // raw reading at the nominal surface
   std::vector<std::array<double, 2>>
-      linearity;            // [reading_um, correction_um], ascending; ends held
+      linearity;                      // [reading_um, correction_um], ascending; ends held
+  std::vector<double> polynomial_um;  // instead: correction in µm, Σ c_i (reading_um)^i
+  std::optional<std::array<double, 2>>
+      valid_um;             // raw_um from, to; default: from range_um and `reads`
   std::string certificate;  // number of the calibration certificate
-  std::string due;          // YYYY-MM-DD
+  std::string laboratory;   // that issued it
+  std::string calibrated;   // YYYY-MM-DD
+  std::string due;          // YYYY-MM-DD, the last day on which it holds
 };
 
 struct Probe {
@@ -65,6 +71,9 @@ struct Rig {
 
   std::optional<std::size_t> probe_index(std::string_view id) const;
 };
+
+// What results measured on this day (YYYY-MM-DD..., UTC) have to say of the probes' calibrations.
+std::vector<std::string> overdue_calibrations(const Rig& rig, std::string_view day);
 
 // Reads a rig (DESIGN §6). Errors name the file, line and key, and for an unknown key the nearest
 // known one.

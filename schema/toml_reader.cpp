@@ -108,6 +108,11 @@ bool TomlTable::has(std::string_view key) {
   return node_->table->contains(key);
 }
 
+bool TomlTable::is_array(std::string_view key) {
+  const auto* node = node_->table->get(key);
+  return node && node->is_array();
+}
+
 std::string TomlTable::string(std::string_view key, const std::optional<std::string>& fallback) {
   node_->asked.emplace(key);
   const auto* node = node_->table->get(key);

@@ -22,6 +22,7 @@ class TomlTable {
   static Result<TomlTable> parse(std::string_view text, const std::string& source_name);
 
   bool has(std::string_view key);
+  bool is_array(std::string_view key);  // [[key]], or key = [...]
   std::string string(std::string_view key,
                      const std::optional<std::string>& fallback = std::nullopt);
   double number(std::string_view key, std::optional<double> fallback = std::nullopt);

@@ -124,9 +124,11 @@ Result<std::string> Client::read_line(Clock::time_point end) {
       return io_error("no answer from the daemon: time is over");
     std::array<char, 16384> bytes;
     const ssize_t n = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+    const int error = errno;
+    connected_ = n > 0 || (n < 0 && (error == EAGAIN || error == EINTR));
     if (n == 0) return io_error("the daemon closed the connection");
-    if (n < 0 && errno != EAGAIN && errno != EINTR)
-      return io_error("the daemon closed the connection: " + system_error_text(errno));
+    if (!connected_)
+      return io_error("the daemon closed the connection: " + system_error_text(error));
     if (n > 0) received_.append(bytes.data(), static_cast<std::size_t>(n));
   }
 }

@@ -26,6 +26,8 @@ class Client {
                            milliseconds timeout = milliseconds(30000));
   // One notification, a whole line of JSON. Errors: io, also when none comes in time.
   Result<std::string> next_notification(milliseconds timeout);
+  // False once the daemon has closed the connection.
+  bool connected() const { return connected_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -37,6 +39,7 @@ class Client {
   std::string received_;  // not yet a whole line
   std::deque<std::string> notifications_;
   std::int64_t last_id_ = 0;
+  bool connected_ = true;
 };
 
 }  // namespace mdof::rpc

@@ -7,6 +7,7 @@
 
 #include "schema/axis.h"
 #include "schema/random.h"
+#include "schema/targets.h"
 
 namespace mdof::drivers {
 namespace {
@@ -38,32 +39,15 @@ bool read_choice(TomlTable& table, std::string_view key, const char* yes, const 
   return word == yes;
 }
 
-// The targets of ISO 230-2: even intervals, each moved a little at random.
-std::vector<double> spaced_targets(double from_mm, double to_mm, double interval_mm,
-                                   double jitter_mm, std::int64_t seed) {
-  constexpr std::uint32_t kPurpose = 0x7A46;
-  std::vector<double> targets_mm;
-  const double count = std::floor((to_mm - from_mm) / interval_mm + 1e-9) + 1;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Philox random = philox({i, 0, 0, kPurpose}, static_cast<std::uint64_t>(seed));
-    const double offset_mm = jitter_mm * (2 * uniform(random[0], random[1]) - 1);
-    targets_mm.push_back(from_mm + i * interval_mm + offset_mm);
-  }
-  return targets_mm;
-}
-
 void read_spaced_targets(TomlTable& table, SimulatorOptions& options) {
-  double from_mm = 0, to_mm = 60, interval_mm = 5, jitter_mm = 0;
-  read(table, "from_mm", from_mm, -kLongest_mm, kLongest_mm);
-  read(table, "to_mm", to_mm, -kLongest_mm, kLongest_mm);
-  read(table, "interval_mm", interval_mm, 0.001, kLongest_mm);
-  read(table, "jitter_mm", jitter_mm, 0, kLongest_mm);
-  if (!(to_mm > from_mm)) return table.reject("to_mm", "must be greater than from_mm");
-  if (!((to_mm - from_mm) / interval_mm < kMostTargets))
-    return table.reject("interval_mm", "makes more than " + text_of(kMostTargets) + " targets");
-  if (!(jitter_mm < interval_mm / 2))
-    return table.reject("jitter_mm", "must be less than half of interval_mm");
-  options.targets_mm = spaced_targets(from_mm, to_mm, interval_mm, jitter_mm, options.seed);
+  TargetSpacing spacing;
+  read(table, "from_mm", spacing.from_mm, -kLongest_mm, kLongest_mm);
+  read(table, "to_mm", spacing.to_mm, -kLongest_mm, kLongest_mm);
+  read(table, "interval_mm", spacing.interval_mm, 0.001, kLongest_mm);
+  read(table, "jitter_mm", spacing.jitter_mm, 0, kLongest_mm);
+  spacing.seed = options.seed;
+  if (const auto wrong = check_spacing(spacing)) return table.reject(wrong->key, wrong->why);
+  options.targets_mm = spaced_targets_mm(spacing);
 }
 
 void read_targets(TomlTable& table, SimulatorOptions& options) {
@@ -193,7 +177,7 @@ Status read_options(TomlTable& table, SimulatorOptions& options) {
 }
 
 Status fit_to_rig(SimulatorOptions& options, const Rig& rig) {
-  if (options.targets_mm.empty()) options.targets_mm = spaced_targets(0, 60, 5, 0, options.seed);
+  if (options.targets_mm.empty()) options.targets_mm = spaced_targets_mm({});
   if (options.errors.empty()) options.errors = plausible_errors(rig.axis);
   MDOF_TRY(options.errors, in_order(options.errors, rig.axis));
   for (const LostProbe& lost : options.lost)

@@ -25,6 +25,8 @@ void add_sensitivity(CLI::App& app, Action& chosen);
 void add_studies(CLI::App& app, Action& chosen);
 void add_study(CLI::App& app, Action& chosen);
 void add_verify(CLI::App& app, Action& chosen);
+void add_record(CLI::App& app, Action& chosen);
+void add_device(CLI::App& app, Action& chosen);
 void add_status(CLI::App& app, Action& chosen);
 void add_live(CLI::App& app, Action& chosen);
 void add_selftest(CLI::App& app, Action& chosen);

@@ -53,7 +53,7 @@ std::string head_line(const LiveUpdate& u) {
   std::string line =
       u.axis + " at " + fixed(u.encoder_mm, 4) + " mm, " + (u.still ? "at rest" : "moving");
   if (u.run) line += ", run " + std::to_string(*u.run);
-  return line + (u.simulated ? ", SIMULATED" : "");
+  return line + (u.simulated ? ", SIMULATED" : "") + (u.stale ? ", STALE: no new values" : "");
 }
 
 std::string errors_line(const LiveUpdate& u) {
@@ -94,6 +94,7 @@ std::optional<LiveUpdate> read_update(std::string_view notification) {
   update.encoder_mm = number(value, "encoder_mm");
   update.still = flag(value, "still");
   update.simulated = flag(value, "simulated");
+  update.stale = flag(value, "stale");
   std::int64_t run = 0;
   if (!value.at_key("run").get_int64().get(run)) update.run = run;
   read_probes(value, update);

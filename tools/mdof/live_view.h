@@ -17,7 +17,7 @@ struct LiveUpdate {
   };
   std::string axis;
   double encoder_mm = 0;
-  bool still = false, simulated = false;
+  bool still = false, simulated = false, stale = false;
   std::vector<Probe> probes;
   std::vector<std::pair<std::string, double>> errors;  // "EYX_um"; empty: not solved
   std::optional<std::int64_t> run;                     // under way

@@ -23,6 +23,8 @@ constexpr const char* kExamples =
     "  mdof squareness 1 2                           of the runs 1 (X) and 2 (Y)\n"
     "  mdof compensation build 1                     a table for the controller\n"
     "  mdof sensitivity --preset simulation-2        what mounting errors do to the result\n"
+    "  mdof record --axis X --repeats 5 --from-mm 0 --to-mm 60 --interval-mm 5   measure\n"
+    "  mdof device probe --config mdofd.toml         does the wiring work?\n"
     "  mdof live                                     the probes now, from mdofd\n"
     "Exit codes: 0 ok, 1 a result fails its check, 2 usage, 3 bad input, 4 device or I/O.";
 
@@ -41,6 +43,8 @@ void declare(CLI::App& app, Action& chosen) {
   add_studies(app, chosen);
   add_study(app, chosen);
   add_verify(app, chosen);
+  add_record(app, chosen);
+  add_device(app, chosen);
   add_status(app, chosen);
   add_live(app, chosen);
   add_selftest(app, chosen);

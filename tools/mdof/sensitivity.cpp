@@ -6,9 +6,9 @@
 
 #include "daemon/paths.h"
 #include "tools/mdof/command.h"
+#include "tools/mdof/interrupt.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/plot/study_plots.h"
-#include "tools/mdof/study/interrupt.h"
 #include "tools/mdof/study/json.h"
 #include "tools/mdof/study/output.h"
 #include "tools/mdof/study/questions.h"

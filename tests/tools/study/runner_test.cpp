@@ -12,7 +12,7 @@
 
 #include "schema/random.h"
 #include "tools/mdof/study/divided_trials.h"
-#include "tools/mdof/study/interrupt.h"
+#include "tools/mdof/interrupt.h"
 #include "tools/mdof/study/json.h"
 #include "tools/mdof/study/workers.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tools/mdof/study/interrupt.h"
+#include "tools/mdof/interrupt.h"
 #include "tools/mdof/study/workers.h"
 
 namespace mdof::tools {

@@ -1,4 +1,4 @@
-#include "tools/mdof/study/interrupt.h"
+#include "tools/mdof/interrupt.h"
 
 #include <atomic>
 #include <csignal>

@@ -1,0 +1,198 @@
+// mdof record: a run of an axis from its start to its end, watched: point k of n, what is awaited.
+// The daemon measures; this command asks and shows. It may end or be killed without harm to the run
+// unless it was asked to stop it.
+#include <simdjson.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "daemon/rpc/client.h"
+#include "schema/json_writer.h"
+#include "tools/mdof/command.h"
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/json_text.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+using simdjson::dom::element;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kTurn{200};
+constexpr milliseconds kEndPatience{30000};  // a long run is evaluated within this
+
+struct RecordCommand {
+  std::string socket, axis, note;
+  std::vector<double> targets_mm;
+  std::optional<double> from_mm, to_mm, interval_mm, jitter_mm, scale_period_um, for_s;
+  std::int64_t repeats = 0, seed = 1;
+  bool json = false;
+};
+
+std::string start_params(const RecordCommand& c) {
+  JsonWriter json;
+  json.begin_object().field("axis", c.axis).field("note", c.note);
+  if (c.repeats > 0) json.field("repeats", c.repeats);
+  if (!c.targets_mm.empty()) {
+    json.key("targets_mm").begin_array();
+    for (const double target_mm : c.targets_mm) json.value(target_mm);
+    json.end_array();
+  }
+  const auto number = [&](const char* key, const std::optional<double>& value) {
+    if (value) json.field(key, *value);
+  };
+  number("from_mm", c.from_mm);
+  number("to_mm", c.to_mm);
+  number("interval_mm", c.interval_mm);
+  number("jitter_mm", c.jitter_mm);
+  number("scale_period_um", c.scale_period_um);
+  if (c.jitter_mm) json.field("seed", c.seed);
+  json.end_object();
+  return json.take();
+}
+
+std::int64_t run_of(std::string_view reply) {
+  simdjson::dom::parser parser;
+  std::int64_t run = 0;
+  (void)parser.parse(simdjson::padded_string(reply)).at_key("run").get_int64().get(run);
+  return run;
+}
+
+void show_warnings(std::string_view reply) {
+  simdjson::dom::parser parser;
+  simdjson::dom::array warnings;
+  if (parser.parse(simdjson::padded_string(reply)).at_key("warnings").get_array().get(warnings))
+    return;
+  for (const element warning : warnings) {
+    std::string_view text;
+    if (!warning.get_string().get(text)) warn(text);
+  }
+}
+
+// "point 3 of 26, next 15.000 mm"; a run without targets or repeats knows less.
+std::string progress_line(const element& event) {
+  std::int64_t points = 0, of = 0;
+  double awaited_mm = 0;
+  (void)event.at_key("points").get_int64().get(points);
+  std::string line = "point " + std::to_string(points);
+  if (!event.at_key("of").get_int64().get(of)) line += " of " + std::to_string(of);
+  if (points == of && of > 0) return line;
+  if (!event.at_key("awaited_mm").get_double().get(awaited_mm))
+    line += ", next " + fixed(awaited_mm, 3) + " mm";
+  return line;
+}
+
+// Shows the event; gives the run to read where it says that `run` has ended.
+std::optional<std::int64_t> take_event(std::string_view notification, std::int64_t run,
+                                       const std::string& axis) {
+  simdjson::dom::parser parser;
+  element value;
+  if (parser.parse(simdjson::padded_string(notification)).at_key("params").get(value))
+    return std::nullopt;
+  if (element inner; !value.at_key("value").get(inner)) value = inner;
+  std::string_view type, of_axis;
+  std::int64_t id = 0;
+  if (value.at_key("type").get_string().get(type)) return std::nullopt;
+  (void)value.at_key("axis").get_string().get(of_axis);
+  (void)value.at_key("run").get_int64().get(id);
+  if (of_axis != axis) return std::nullopt;
+  if (type == "progress" && id == run) say(progress_line(value));
+  if (type == "ended") return id;
+  return std::nullopt;
+}
+
+Status ask_to_stop(rpc::Client& client, std::int64_t run) {
+  JsonWriter params;
+  params.begin_object().field("run", run).end_object();
+  const auto stopped = client.call("run.stop", params.text());
+  // The run may have ended by itself meanwhile: its event is on the way.
+  if (stopped || stopped.error().code == ErrorCode::not_found) return {};
+  return tl::unexpected(stopped.error());
+}
+
+// Until the run has ended; gives the run to read.
+Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordCommand& command) {
+  const auto begin = steady_clock::now();
+  std::optional<steady_clock::time_point> stopped;
+  for (;;) {
+    const auto notification = client.next_notification(kTurn);
+    if (notification) {
+      if (const auto ended = take_event(*notification, run, command.axis)) return *ended;
+    }
+    const auto now = steady_clock::now();
+    const bool over = command.for_s && now - begin > std::chrono::duration<double>(*command.for_s);
+    if (!stopped && (over || Interrupt::requested())) {
+      MDOF_CHECK(ask_to_stop(client, run));
+      stopped = now;
+    }
+    if (stopped && now - *stopped > kEndPatience)
+      return io_error("mdofd does not say that run " + std::to_string(run) +
+                      " has ended; see mdof status");
+    if (!client.connected())
+      return in_context("run " + std::to_string(run) + " is left to mdofd", notification.error());
+  }
+}
+
+// The run's header and figures; an error where it is not what was asked for.
+Status print_result(std::int64_t run, const std::string& result, bool as_json) {
+  MDOF_CHECK(as_json ? write_line(result) : write_out(readable(result)));
+  simdjson::dom::parser parser;
+  std::string_view state;
+  (void)parser.parse(simdjson::padded_string(result)).at_key("state").get_string().get(state);
+  if (state == "complete") return {};
+  return fail(ErrorCode::check, "run " + std::to_string(run) + " is " + std::string(state) +
+                                    "; its warnings say why");
+}
+
+Status record(const RecordCommand& command) {
+  MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
+  MDOF_CHECK(client.call("live.subscribe", R"({"interval_ms":60000,"events":true})"));
+  MDOF_TRY(const std::string reply, client.call("run.start", start_params(command)));
+  const std::int64_t run = run_of(reply);
+  show_warnings(reply);
+  say("run " + std::to_string(run) + " of axis " + command.axis +
+      " is measuring; Ctrl-C ends and evaluates it");
+  const Interrupt interrupt;
+  MDOF_TRY(const std::int64_t id, follow(client, run, command));
+  JsonWriter params;
+  params.begin_object().field("run", id).end_object();
+  MDOF_TRY(const std::string result, client.call("run.get", params.text()));
+  return print_result(id, result, command.json);
+}
+
+}  // namespace
+
+void add_record(CLI::App& app, Action& chosen) {
+  const auto o = std::make_shared<RecordCommand>();
+  auto* command = app.add_subcommand("record", "Measure a run with mdofd and watch it");
+  command->add_option("--axis", o->axis, "Of the machine")
+      ->required()
+      ->check(CLI::IsMember({"X", "Y", "Z"}));
+  command->add_option("--targets-mm", o->targets_mm, "Targets, ascending")->delimiter(',');
+  command->add_option("--from-mm", o->from_mm, "Instead: first target");
+  command->add_option("--to-mm", o->to_mm, "No target beyond this");
+  command->add_option("--interval-mm", o->interval_mm, "Between two targets");
+  command->add_option("--jitter-mm", o->jitter_mm, "Each target is moved by up to this");
+  command->add_option("--seed", o->seed, "Of the jitter")->capture_default_str();
+  command->add_option("--scale-period-um", o->scale_period_um,
+                      "Signal period of the scale: warns where the intervals hide its error");
+  command->add_option("--repeats", o->repeats, "Ends by itself after so many, both ways")
+      ->check(CLI::Range(1, 10000));
+  command->add_option("--for-s", o->for_s, "Ends after so many seconds")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--note", o->note, "For people");
+  add_socket_option(*command, o->socket);
+  add_json_flag(*command, o->json);
+  command->footer(
+      "Without targets they are recognised from the dwells, or all is recorded freely.\n"
+      "Examples:\n"
+      "  mdof record --axis X --from-mm 0 --to-mm 60 --interval-mm 5 --jitter-mm 0.5 --repeats 5\n"
+      "  mdof record --axis X --for-s 60 --note \"warm-up\"");
+  command->callback([o, &chosen] { chosen = [o] { return record(*o); }; });
+}
+
+}  // namespace mdof::tools

@@ -1,11 +1,10 @@
 #include "daemon/config.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "algo/rigid.h"
+#include "daemon/forward_model.h"
 #include "daemon/paths.h"
 #include "daemon/replay.h"
 #include "schema/files.h"
@@ -14,16 +13,6 @@
 
 namespace mdof::daemon {
 namespace {
-
-// What the simulator's probes would read: the rigid model of this very rig.
-drivers::ForwardModel forward_model(const algo::Fixture& fixture) {
-  return [fixture](double travel_m, const Errors5& local, std::span<double> probe_m) {
-    const Eigen::VectorXd readings = algo::rigid_readings(fixture, travel_m, local);
-    for (std::size_t i = 0; i < probe_m.size(); ++i) {
-      probe_m[i] = readings(static_cast<Eigen::Index>(i));
-    }
-  };
-}
 
 Status read_store(TomlTable& root, Config& config) {
   auto table = root.table("store");
@@ -115,8 +104,7 @@ Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem:
   context.name = table.string("name", driver + "-" + letter(axis.rig.axis) + number);
   context.rig = axis.rig;
   context.base_path = base.string();
-  MDOF_TRY(const auto fixture, algo::make_fixture(axis.rig));
-  context.forward = forward_model(fixture);
+  MDOF_TRY(context.forward, forward_model(axis.rig));
   MDOF_TRY(auto device, drivers::configure_driver(driver, table, context));
   if (!device.recorded) MDOF_CHECK(check_log(device, axis.rig));
   return device;

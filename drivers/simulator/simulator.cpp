@@ -40,7 +40,7 @@ Simulator::Simulator(std::string name, const Rig& rig, SimulatorOptions options,
 }
 
 DeviceInfo Simulator::info() const {
-  return {name_, "simulator", description_, channels_, options_.rate_hz, true};
+  return {name_, "simulator", description_, channels_, options_.rate_hz, true, {}};
 }
 
 Status Simulator::open() {

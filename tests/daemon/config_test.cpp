@@ -46,7 +46,7 @@ TEST_F(ConfigFile, AGoodOneIsRead) {
   EXPECT_EQ(config->axes.size(), 1u);
   EXPECT_EQ(config->measure.model, Model::exact);
   EXPECT_EQ(config->measure.dwell.settle_s, 0.2);
-  EXPECT_TRUE(config->axes[0].device.simulated);
+  EXPECT_TRUE(config->axes[0].simulated());
 }
 
 TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
@@ -88,7 +88,7 @@ TEST_F(ConfigFile, AReplayedSimulationStaysOne) {
   const auto config = load(
       "[[axis]]\nrig = \"rig_X.toml\"\n[axis.device]\ndriver = \"replay\"\nfile = \"made.csv\"\n");
   ASSERT_TRUE(config) << config.error().message;
-  EXPECT_TRUE(config->axes[0].device.simulated);
+  EXPECT_TRUE(config->axes[0].simulated());
 }
 
 TEST_F(ConfigFile, ARigThatCannotSeeIsRefusedAtStartUp) {

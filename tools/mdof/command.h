@@ -27,6 +27,7 @@ void add_study(CLI::App& app, Action& chosen);
 void add_verify(CLI::App& app, Action& chosen);
 void add_record(CLI::App& app, Action& chosen);
 void add_device(CLI::App& app, Action& chosen);
+void add_doctor(CLI::App& app, Action& chosen);
 void add_status(CLI::App& app, Action& chosen);
 void add_live(CLI::App& app, Action& chosen);
 void add_selftest(CLI::App& app, Action& chosen);

@@ -1,0 +1,128 @@
+// TCP, serial and pipes: what comes, what does not, and what has gone.
+#include "drivers/io/byte_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <string>
+
+namespace mdof::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+
+struct Pair {
+  ByteStream ours;
+  int theirs;
+};
+Pair make_pair() {
+  int fds[2];
+  EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
+  return {ByteStream(fds[0], "pair"), fds[1]};
+}
+
+std::string read_some(ByteStream& stream, milliseconds timeout) {
+  std::array<char, 64> buffer;
+  const auto n = stream.read(buffer, timeout);
+  return n ? std::string(buffer.data(), *n) : "error: " + n.error().message;
+}
+
+TEST(ByteStream, GivesWhatHasComeOrNothing) {
+  Pair pair = make_pair();
+  EXPECT_EQ(read_some(pair.ours, milliseconds(1)), "");
+  ASSERT_EQ(::write(pair.theirs, "abc", 3), 3);
+  EXPECT_EQ(read_some(pair.ours, milliseconds(1)), "abc");
+  ASSERT_TRUE(pair.ours.write("xy", milliseconds(10)));
+  char two[2];
+  ASSERT_EQ(::read(pair.theirs, two, 2), 2);
+  EXPECT_EQ(std::string(two, 2), "xy");
+  ::close(pair.theirs);
+}
+
+TEST(ByteStream, AClosedPeerIsAnErrorAndNoSignal) {
+  Pair pair = make_pair();
+  ::close(pair.theirs);
+  EXPECT_NE(read_some(pair.ours, milliseconds(1)).find("closed the connection"), std::string::npos);
+  EXPECT_FALSE(pair.ours.write("x", milliseconds(1)));
+}
+
+TEST(ByteStream, APeerThatTakesNothingEndsTheWrite) {
+  Pair pair = make_pair();
+  const std::string much(1 << 22, 'x');
+  const Status written = pair.ours.write(much, milliseconds(5));
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().message.find("takes no more"), std::string::npos);
+  ::close(pair.theirs);
+}
+
+TEST(ByteStream, DrainsUntilQuiet) {
+  Pair pair = make_pair();
+  ASSERT_EQ(::write(pair.theirs, "garbage", 7), 7);
+  const auto drained = pair.ours.drain(milliseconds(1), milliseconds(1000));
+  ASSERT_TRUE(drained);
+  EXPECT_EQ(*drained, 7u);
+  EXPECT_EQ(read_some(pair.ours, milliseconds(1)), "");
+  ::close(pair.theirs);
+}
+
+TEST(Endpoint, IsReadInEachForm) {
+  EXPECT_EQ(parse_endpoint("10.0.0.5", 502)->text(), "10.0.0.5:502");
+  EXPECT_EQ(parse_endpoint("probe-box:23", 502)->port, 23);
+  EXPECT_EQ(parse_endpoint("[fe80::1]:7", 502)->host, "fe80::1");
+  EXPECT_EQ(parse_endpoint("[fe80::1]", 502)->text(), "[fe80::1]:502");
+  for (const char* bad :
+       {"", ":", ":502", "a:", "a:x", "a:0", "a:70000", "[fe80::1", "a:1:2", "[]:3"})
+    EXPECT_FALSE(parse_endpoint(bad, 502)) << bad;
+}
+
+TEST(Tcp, ConnectsOrSaysWhyNot) {
+  const int server = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(::bind(server, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(::getsockname(server, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  const Endpoint to{"127.0.0.1", ntohs(address.sin_port)};
+  const auto refused = connect_tcp(to, milliseconds(500));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find(to.text()), std::string::npos);
+  EXPECT_NE(refused.error().message.find("is the device on"), std::string::npos);
+  ASSERT_EQ(::listen(server, 1), 0);
+  const auto connected = connect_tcp(to, milliseconds(500));
+  ASSERT_TRUE(connected) << connected.error().message;
+  EXPECT_EQ(connected->name(), to.text());
+  ::close(server);
+}
+
+TEST(Serial, OpensAPtyAndRefusesASecondProgram) {
+  const int master = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(master, 0);
+  ASSERT_EQ(::grantpt(master) + ::unlockpt(master), 0);
+  const std::string path = ::ptsname(master);
+  {
+    auto port = open_serial(path, {.baud = 19200, .parity = 'E'});
+    ASSERT_TRUE(port) << port.error().message;
+    EXPECT_EQ(read_some(*port, milliseconds(1)), "");
+    ASSERT_EQ(::write(master, "\r\n\x01\x7f", 4), 4);
+    EXPECT_EQ(read_some(*port, milliseconds(100)), "\r\n\x01\x7f");  // raw: nothing is translated
+    const auto second = open_serial(path, {});
+    ASSERT_FALSE(second);
+    EXPECT_NE(second.error().message.find("in use"), std::string::npos) << second.error().message;
+    pulse_dtr(*port);
+  }
+  ::close(master);
+  EXPECT_NE(open_serial("/dev/no-such-port", {}).error().message.find("is not there"),
+            std::string::npos);
+  EXPECT_NE(open_serial(path, {.baud = 12345}).error().message.find("no baud rate"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -1,0 +1,119 @@
+// A device's time on the host's, against a truth that the test knows.
+#include "drivers/clock/device_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "schema/random.h"
+
+namespace mdof::drivers {
+namespace {
+
+constexpr double kTick_ns = 250'000;  // 4 kHz
+constexpr std::int64_t kPacket = 8;
+
+// A device that sends packets of kPacket samples; each is received after a delay of 0.1 ms to
+// 0.1 ms + jitter, one of 500 is 80 ms late.
+struct Device {
+  double ppm, jitter_ns;
+  std::int64_t start_ns = 5'000'000'000;
+
+  double true_ns(std::int64_t tick) const {
+    return static_cast<double>(start_ns) + static_cast<double>(tick) * kTick_ns / (1 + ppm * 1e-6);
+  }
+  std::int64_t received_ns(std::int64_t packet) const {
+    const Philox r = philox({static_cast<std::uint32_t>(packet), 0, 0, 0}, 11);
+    const double late_ns = r[2] % 500 == 0 ? 80e6 : 0;
+    return std::llround(true_ns(packet * kPacket + kPacket - 1) + 0.1e6 +
+                        jitter_ns * uniform(r[0], r[1]) + late_ns);
+  }
+};
+
+// Largest errors of the mapped times in µs, before and after `settled_ns`.
+struct Worst {
+  double early_us = 0, late_us = 0;
+  bool monotonic = true;
+};
+Worst follow(DeviceClock& clock, const Device& device, std::int64_t packets,
+             double settled_ns = 6e9) {
+  Worst worst;
+  std::int64_t last = INT64_MIN;
+  for (std::int64_t p = 0; p < packets; ++p) {
+    clock.add(p * kPacket + kPacket - 1, device.received_ns(p));
+    for (std::int64_t t = p * kPacket; t < (p + 1) * kPacket; ++t) {
+      const std::int64_t ns = clock.host_ns(t);
+      worst.monotonic = worst.monotonic && ns > last;
+      last = ns;
+      double& w = static_cast<double>(t) * kTick_ns < settled_ns ? worst.early_us : worst.late_us;
+      w = std::max(w, std::abs(static_cast<double>(ns) - device.true_ns(t)) / 1e3);
+    }
+  }
+  return worst;
+}
+
+TEST(DeviceClock, FollowsADriftThroughJitter) {
+  for (const double ppm : {100.0, -100.0, 0.0, 500.0}) {
+    DeviceClock clock(kTick_ns);
+    const Worst worst = follow(clock, {ppm, 3e6}, 30'000);  // a minute
+    EXPECT_TRUE(worst.monotonic);
+    EXPECT_LT(worst.early_us, 3'100) << ppm;
+    EXPECT_LT(worst.late_us, 500) << ppm;
+    EXPECT_NEAR(clock.state().drift_ppm, ppm, 3) << ppm;
+    EXPECT_TRUE(clock.state().settled);
+    EXPECT_EQ(clock.state().steps, 0u);
+    EXPECT_NEAR(static_cast<double>(clock.state().jitter_ns), 3e6, 0.3e6);
+  }
+}
+
+TEST(DeviceClock, IsExactWithoutJitter) {
+  DeviceClock clock(kTick_ns);
+  for (std::int64_t p = 0; p < 5'000; ++p) {
+    const Device device{200, 0};
+    clock.add(p * kPacket, std::llround(device.true_ns(p * kPacket)));
+    const double error_ns =
+        static_cast<double>(clock.host_ns(p * kPacket)) - device.true_ns(p * kPacket);
+    ASSERT_LT(std::abs(error_ns), p * kPacket * kTick_ns < 6e9 ? 1.2e6 : 1e3) << p;
+  }
+}
+
+// The device was restarted: its count begins anew, or jumps.
+TEST(DeviceClock, AJumpOfTheDeviceIsAStepAndTimeStillGrows) {
+  for (const std::int64_t jump : {10'000, -10'000}) {
+    DeviceClock clock(kTick_ns);
+    const Device device{50, 1e6};
+    follow(clock, device, 5'000);
+    const std::int64_t before = clock.host_ns(5'000 * kPacket);
+    std::int64_t last = before;
+    for (std::int64_t p = 5'001; p < 7'000; ++p) {
+      clock.add(p * kPacket + jump, device.received_ns(p));
+      const std::int64_t ns = clock.host_ns(p * kPacket + jump);
+      ASSERT_GT(ns, last);
+      last = ns;
+    }
+    EXPECT_EQ(clock.state().steps, 1u) << jump;
+    EXPECT_NEAR(static_cast<double>(last), device.true_ns(6'999 * kPacket), 3e6) << jump;
+  }
+}
+
+TEST(DeviceClock, TheSameCallsGiveTheSameBits) {
+  DeviceClock a(kTick_ns), b(kTick_ns);
+  const Device device{77, 2e6};
+  for (std::int64_t p = 0; p < 4'000; ++p) {
+    a.add(p * kPacket, device.received_ns(p));
+    b.add(p * kPacket, device.received_ns(p));
+    ASSERT_EQ(a.host_ns(p * kPacket), b.host_ns(p * kPacket));
+  }
+}
+
+TEST(DeviceClock, AfterResetTimeStillGrows) {
+  DeviceClock clock(kTick_ns);
+  follow(clock, {0, 1e6}, 1'000);
+  const std::int64_t last = clock.host_ns(8'000);
+  clock.reset();
+  clock.add(0, last - 5'000'000);  // opened again at once
+  EXPECT_GT(clock.host_ns(0), last);
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -1,0 +1,61 @@
+#include "schema/targets.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "schema/rig.h"
+
+namespace mdof {
+namespace {
+
+TEST(Targets, AreEvenWithoutJitterAndNearWithIt) {
+  EXPECT_EQ(spaced_targets_mm({.from_mm = -5, .to_mm = 10, .interval_mm = 5}),
+            (std::vector<double>{-5, 0, 5, 10}));
+  const TargetSpacing jittered{.from_mm = 0, .to_mm = 60, .interval_mm = 5, .jitter_mm = 1};
+  const auto targets = spaced_targets_mm(jittered);
+  ASSERT_EQ(targets.size(), 13u);
+  bool moved = false;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    EXPECT_NEAR(targets[i], 5.0 * static_cast<double>(i), 1);
+    moved = moved || targets[i] != 5.0 * static_cast<double>(i);
+  }
+  EXPECT_TRUE(moved);
+  EXPECT_EQ(targets, spaced_targets_mm(jittered));
+}
+
+TEST(Targets, WhatIsNoneNamesTheKey) {
+  EXPECT_FALSE(check_spacing({}));
+  EXPECT_STREQ(check_spacing({.from_mm = 5, .to_mm = 5})->key, "to_mm");
+  EXPECT_STREQ(check_spacing({.interval_mm = 0})->key, "interval_mm");
+  EXPECT_STREQ(check_spacing({.interval_mm = 1e-5})->key, "interval_mm");
+  EXPECT_STREQ(check_spacing({.interval_mm = 4, .jitter_mm = 2})->key, "jitter_mm");
+  EXPECT_STREQ(check_spacing({.to_mm = std::numeric_limits<double>::quiet_NaN()})->key, "to_mm");
+}
+
+TEST(Targets, IntervalsOfWholePeriodsAreWarnedOf) {
+  EXPECT_NE(periodic_warning({0, 5, 10}, 20), "");  // 250 periods
+  EXPECT_NE(periodic_warning({0, 5, 12}, 20), "");  // 250 and 350
+  EXPECT_EQ(periodic_warning({0, 5.007, 10}, 20), "");
+  EXPECT_EQ(periodic_warning({0, 5, 10}, 0), "");
+  EXPECT_EQ(periodic_warning({0}, 20), "");
+}
+
+TEST(Calibrations, AnOverdueOneIsNamed) {
+  Rig rig;
+  rig.probes.resize(3);
+  rig.probes[0].id = "A";
+  rig.probes[1].id = "B";
+  rig.probes[1].calibration.due = "2026-05-01";
+  rig.probes[1].calibration.certificate = "K-77";
+  rig.probes[2].id = "C";
+  rig.probes[2].calibration.due = "2026-06-01";
+  EXPECT_TRUE(overdue_calibrations(rig, "2026-05-01T23:59:59Z").empty());
+  const auto overdue = overdue_calibrations(rig, "2026-05-02T00:00:00Z");
+  ASSERT_EQ(overdue.size(), 1u);
+  EXPECT_NE(overdue[0].find("probe \"B\""), std::string::npos);
+  EXPECT_NE(overdue[0].find("K-77"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof

@@ -1,0 +1,126 @@
+// mdof doctor: what is wrong with this machine, its configuration and its devices, and the remedy.
+#include <CLI/CLI.hpp>
+
+#include "daemon/rpc/client.h"
+#include "schema/json_writer.h"
+#include "tools/mdof/command.h"
+#include "tools/mdof/device_probe.h"
+#include "tools/mdof/doctor_checks.h"
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+
+namespace mdof::tools {
+namespace {
+
+using Level = Diagnosis::Level;
+
+constexpr double kProbe_s = 0.5;
+
+struct DoctorCommand {
+  std::string socket, config;
+  bool json = false;
+};
+
+bool on_usb(const drivers::DriverSpec& device) {
+  for (const char* driver : {"labjack-u6", "mcc-usb-1608fs-plus", "pokeys", "qsb"})
+    if (device.driver == driver) return true;
+  return false;
+}
+
+Diagnosis diagnose(const drivers::DriverSpec& device) {
+  const DeviceFinding found = probe_device(device, kProbe_s, Interrupt::requested);
+  const std::string what = "device " + device.name + " (" + device.driver + ")";
+  if (!found.error.empty()) return {Level::bad, what + ": " + found.error, ""};
+  for (const auto& channel : found.channels) {
+    if (channel.values == 0)
+      return {Level::bad,
+              what + ": channel " + channel.id + " gives no usable value, all are " + channel.worst,
+              "look at the sensor and its wiring: mdof device monitor " + device.name};
+  }
+  return {
+      found.lost > 0 ? Level::doubtful : Level::good,
+      what + ": " + std::to_string(found.scans) + " scans, " + std::to_string(found.lost) + " lost",
+      found.lost > 0 ? "lower its rate, or find what keeps this machine busy" : ""};
+}
+
+// A running mdofd holds its devices: it is asked. Otherwise they are opened here.
+std::vector<Diagnosis> check_devices(const daemon::Config& config, const std::string& socket) {
+  if (rpc::Client::connect(socket))
+    return {{Level::good, "mdofd is running and holds the devices; see mdof device list", ""}};
+  std::vector<Diagnosis> all = {{Level::good, "mdofd is not running: devices are tried here", ""}};
+  const Interrupt interrupt;
+  for (const auto& axis : config.axes)
+    for (const auto& device : axis.devices)
+      if (device.live) all.push_back(diagnose(device));
+  return all;
+}
+
+std::vector<Diagnosis> examine(const DoctorCommand& command) {
+  const Machine machine;
+  std::vector<Diagnosis> all = {check_clock(machine)};
+  const auto add = [&](std::vector<Diagnosis> more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  const auto config = daemon::load_config(command.config);
+  bool usb = false;
+  if (config) {
+    for (const auto& axis : config->axes)
+      for (const auto& device : axis.devices) usb = usb || on_usb(device);
+  }
+  all.push_back(check_udev_rules(machine, usb));
+  add(check_usb(machine));
+  if (!config) {
+    all.push_back({Level::bad, "configuration: " + config.error().message,
+                   "mdofd --check-config --config " + command.config});
+    return all;
+  }
+  all.push_back({Level::good, "configuration: " + command.config, ""});
+  all.push_back(check_storage(*config));
+  add(check_devices(*config, command.socket));
+  return all;
+}
+
+Status print(const std::vector<Diagnosis>& all, bool as_json) {
+  JsonWriter json;
+  std::string text;
+  json.begin_object().key("findings").begin_array();
+  for (const auto& d : all) {
+    json.begin_object()
+        .field("level", to_string(d.level))
+        .field("what", d.what)
+        .field("remedy", d.remedy)
+        .end_object();
+    text += std::string(to_string(d.level)) + "  " + d.what + "\n";
+    if (!d.remedy.empty()) text += "      " + d.remedy + "\n";
+  }
+  json.end_array().end_object();
+  return as_json ? write_line(json.text()) : write_out(text);
+}
+
+Status doctor(const DoctorCommand& command) {
+  const auto all = examine(command);
+  MDOF_CHECK(print(all, command.json));
+  const auto bad = std::count_if(all.begin(), all.end(),
+                                 [](const Diagnosis& d) { return d.level == Level::bad; });
+  if (bad == 0) return {};
+  return fail(ErrorCode::check,
+              std::to_string(bad) + (bad == 1 ? " thing is" : " things are") + " wrong");
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Action& chosen) {
+  const auto o = std::make_shared<DoctorCommand>();
+  o->config = "/etc/mdof/mdofd.toml";
+  auto* command = app.add_subcommand("doctor", "Find what is wrong here, and the remedy");
+  command->add_option("--config", o->config, "Configuration of mdofd")
+      ->capture_default_str()
+      ->type_name("FILE");
+  add_socket_option(*command, o->socket);
+  add_json_flag(*command, o->json);
+  command->footer("Example:\n  mdof doctor --config mdofd.toml");
+  command->callback([o, &chosen] { chosen = [o] { return doctor(*o); }; });
+}
+
+}  // namespace mdof::tools

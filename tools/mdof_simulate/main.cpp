@@ -1,0 +1,46 @@
+// mdof-simulate: devices without hardware, on real sockets, looking at one simulated machine.
+#include <signal.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdio>
+
+#include "daemon/version.h"
+#include "tools/mdof_simulate/plan.h"
+
+namespace {
+
+std::atomic<bool> stop = false;
+
+void end(int) {
+  stop = true;
+}
+
+mdof::Status serve(const std::string& plan, const std::string& host) {
+  MDOF_TRY(auto devices, mdof::simulate::load_plan(plan));
+  MDOF_TRY(auto server, mdof::simulate::Server::listen(std::move(devices), host));
+  std::printf("%sready\n", server.addresses().c_str());
+  std::fflush(stdout);
+  server.serve(stop);
+  return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Simulated devices on TCP ports, for those who have none.", "mdof-simulate"};
+  app.set_version_flag("--version", mdof::daemon::kVersion);
+  std::string plan, host = "127.0.0.1";
+  app.add_option("PLAN", plan, "The machine and its devices, TOML")->required()->type_name("");
+  app.add_option("--host", host, "Address to listen on")->capture_default_str();
+  app.footer("Example:\n  mdof-simulate devices.toml\nThe keys: tools/mdof_simulate/plan.h");
+  CLI11_PARSE(app, argc, argv);
+  struct sigaction action = {};
+  action.sa_handler = end;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  const mdof::Status done = serve(plan, host);
+  if (done) return 0;
+  std::fprintf(stderr, "mdof-simulate: %s\n", done.error().message.c_str());
+  return done.error().code == mdof::ErrorCode::io ? 4 : 3;
+}

@@ -1,0 +1,212 @@
+#include "tools/mdof_simulate/server.h"
+
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <deque>
+
+#include "schema/random.h"
+
+namespace mdof::simulate {
+namespace {
+
+constexpr int kTurn_ms = 1;
+constexpr std::size_t kMostUnsent = 1 << 20;  // a client that does not read is dropped
+
+std::int64_t now_ns() {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd = -1) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+struct Held {  // on its way, until its time
+  std::int64_t due_ns;
+  std::string bytes;
+};
+
+struct Client {
+  Descriptor socket;
+  std::size_t device, port;
+  int id;
+  std::deque<Held> held;
+  std::string unsent;
+  bool gone = false;
+};
+
+struct Listener {
+  Descriptor socket;
+  std::size_t device, port;
+  int tcp_port;
+};
+
+Result<Listener> listen_on(const std::string& host, int tcp_port) {
+  Listener listener{Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)), 0,
+                    0, 0};
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(tcp_port));
+  const std::string place = host + ":" + std::to_string(tcp_port);
+  if (::inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1)
+    return bad_input(host + ": is no IPv4 address");
+  const int yes = 1;
+  ::setsockopt(listener.socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  socklen_t size = sizeof address;
+  auto* generic = reinterpret_cast<sockaddr*>(&address);
+  if (::bind(listener.socket.get(), generic, size) != 0 ||
+      ::listen(listener.socket.get(), 8) != 0 ||
+      ::getsockname(listener.socket.get(), generic, &size) != 0)
+    return io_error(place + ": " + std::strerror(errno));
+  listener.tcp_port = ntohs(address.sin_port);
+  return listener;
+}
+
+}  // namespace
+
+struct Server::Parts {
+  std::string host;
+  std::vector<Served> devices;
+  std::vector<Listener> listeners;
+  std::vector<Client> clients;
+  int next_id = 1;
+  std::uint64_t sent = 0;  // packets, for the jitter
+  std::int64_t start_ns = now_ns();
+
+  // Time on the device's own clock.
+  std::int64_t device_ns(const Served& device) const {
+    const auto passed = static_cast<double>(now_ns() - start_ns);
+    return std::llround(passed * (1 + device.clock_ppm * 1e-6));
+  }
+  void accept();
+  void exchange(Client& client);
+  void hold(Client& client, std::string bytes);
+  void send_due(Client& client);
+  void drop_gone();
+  void wait();
+};
+
+void Server::Parts::accept() {
+  for (const Listener& listener : listeners) {
+    Descriptor socket(
+        ::accept4(listener.socket.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    if (socket.get() < 0) continue;
+    Served& served = devices[listener.device];
+    served.device->opened(listener.port, next_id, device_ns(served));
+    clients.push_back(
+        {std::move(socket), listener.device, listener.port, next_id++, {}, "", false});
+  }
+}
+
+void Server::Parts::exchange(Client& client) {
+  std::array<char, 4096> buffer;
+  const ssize_t n = ::recv(client.socket.get(), buffer.data(), buffer.size(), 0);
+  if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR)) {
+    client.gone = true;
+    return;
+  }
+  Served& served = devices[client.device];
+  const std::string_view received(buffer.data(), n > 0 ? static_cast<std::size_t>(n) : 0);
+  hold(client, served.device->exchange(client.port, client.id, received, device_ns(served)));
+  send_due(client);
+  if (served.device->hangs_up(client.port, client.id)) client.gone = true;
+}
+
+void Server::Parts::hold(Client& client, std::string bytes) {
+  if (bytes.empty()) return;
+  const Served& served = devices[client.device];
+  const Philox random = philox({static_cast<std::uint32_t>(sent++), 0, 0, 1},
+                               static_cast<std::uint64_t>(served.seed));
+  const double late_ns = served.jitter_ms * 1e6 * uniform(random[0], random[1]);
+  std::int64_t due_ns = now_ns() + std::llround(late_ns);
+  if (!client.held.empty()) due_ns = std::max(due_ns, client.held.back().due_ns);  // in order
+  client.held.push_back({due_ns, std::move(bytes)});
+}
+
+void Server::Parts::send_due(Client& client) {
+  for (; !client.held.empty() && client.held.front().due_ns <= now_ns(); client.held.pop_front())
+    client.unsent += client.held.front().bytes;
+  if (client.unsent.empty()) return;
+  const ssize_t n =
+      ::send(client.socket.get(), client.unsent.data(), client.unsent.size(), MSG_NOSIGNAL);
+  if (n > 0) client.unsent.erase(0, static_cast<std::size_t>(n));
+  if ((n < 0 && errno != EAGAIN && errno != EINTR) || client.unsent.size() > kMostUnsent)
+    client.gone = true;
+}
+
+void Server::Parts::drop_gone() {
+  for (Client& client : clients)
+    if (client.gone) devices[client.device].device->closed(client.port, client.id);
+  std::erase_if(clients, [](const Client& client) { return client.gone; });
+}
+
+void Server::Parts::wait() {
+  std::vector<pollfd> watched;
+  for (const auto& listener : listeners) watched.push_back({listener.socket.get(), POLLIN, 0});
+  for (const auto& client : clients) watched.push_back({client.socket.get(), POLLIN, 0});
+  ::poll(watched.data(), watched.size(), kTurn_ms);
+}
+
+Server::Server(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Server::~Server() = default;
+Server::Server(Server&&) noexcept = default;
+
+Result<Server> Server::listen(std::vector<Served> devices, const std::string& host) {
+  auto parts = std::make_unique<Parts>();
+  parts->host = host;
+  parts->devices = std::move(devices);
+  for (std::size_t d = 0; d < parts->devices.size(); ++d) {
+    const Served& served = parts->devices[d];
+    for (std::size_t p = 0; p < served.device->ports().size(); ++p) {
+      const int tcp_port = p < served.tcp_ports.size() ? served.tcp_ports[p] : 0;
+      auto listener = listen_on(host, tcp_port);
+      if (!listener) return in_context("device \"" + served.name + "\"", listener.error());
+      listener->device = d;
+      listener->port = p;
+      parts->listeners.push_back(std::move(*listener));
+    }
+  }
+  return Server(std::move(parts));
+}
+
+std::string Server::addresses() const {
+  std::string text;
+  for (const Listener& listener : parts_->listeners) {
+    const Served& served = parts_->devices[listener.device];
+    text += served.name + " " + served.device->ports()[listener.port].name + " " + parts_->host +
+            ":" + std::to_string(listener.tcp_port) + "\n";
+  }
+  return text;
+}
+
+void Server::serve(const std::atomic<bool>& stop) {
+  while (!stop) {
+    parts_->wait();
+    parts_->accept();
+    for (Client& client : parts_->clients) parts_->exchange(client);
+    parts_->drop_gone();
+  }
+}
+
+}  // namespace mdof::simulate

@@ -14,7 +14,7 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kReadTimeout{100};
 constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{1000};
-constexpr milliseconds kNap{10};
+constexpr milliseconds kNap{10}, kRefresh{1000};
 
 // Names of threads end after 15 characters.
 void name_thread(const std::string& device) {
@@ -87,13 +87,17 @@ bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
     set_state("failed: reopening", opened.error().message);
     return false;
   }
-  {
-    const std::lock_guard lock(status_mutex_);
-    status_.info = driver.info();
-    status_.state = "open";
-  }
+  set_state("open");
+  refresh_info(driver);
   just_opened_ = true;
   return read_until_trouble(driver, pass);
+}
+
+// What the device says of itself grows with time: its clock.
+void Acquisition::refresh_info(const drivers::Driver& driver) {
+  next_refresh_ = steady_clock::now() + kRefresh;
+  const std::lock_guard lock(status_mutex_);
+  status_.info = driver.info();
 }
 
 bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
@@ -107,7 +111,8 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
     }
     if (block.scans() > 0) {
       backoff_ = kFirstBackoff;  // it works; to be opened alone is no proof of that
-      note_loss(block, driver.info().rate_hz);
+      if (steady_clock::now() > next_refresh_) refresh_info(driver);
+      note_loss(block);
       hand_over(block, pass);
     }
     if (*state == drivers::ReadState::end) return true;
@@ -116,13 +121,14 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
 }
 
 // Scans of a device that was away, where it cannot count them itself, and those dropped here.
-void Acquisition::note_loss(SampleBlock& block, double rate_hz) {
+void Acquisition::note_loss(SampleBlock& block) {
+  const std::lock_guard lock(status_mutex_);
   if (std::exchange(just_opened_, false) && last_ns_ && block.lost == 0) {
     const double away_s = static_cast<double>(block.time_ns.front() - *last_ns_) * 1e-9;
-    block.lost = static_cast<std::uint64_t>(std::llround(std::max(0.0, away_s * rate_hz - 1)));
+    const double scans = away_s * status_.info.rate_hz;
+    block.lost = static_cast<std::uint64_t>(std::llround(std::max(0.0, scans - 1)));
   }
   last_ns_ = block.time_ns.back();
-  const std::lock_guard lock(status_mutex_);
   status_.lost += block.lost;
   block.lost += std::exchange(dropped_scans_, 0);
   status_.scans += block.scans();

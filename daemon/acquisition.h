@@ -57,7 +57,8 @@ class Acquisition {
   bool open_and_read(drivers::Driver& driver, std::uint64_t pass);
   bool read_until_trouble(drivers::Driver& driver, std::uint64_t pass);
   void hand_over(SampleBlock& block, std::uint64_t pass);
-  void note_loss(SampleBlock& block, double rate_hz);
+  void note_loss(SampleBlock& block);
+  void refresh_info(const drivers::Driver& driver);
   void pause();
   void set_state(const std::string& state, const std::string& error = "");
 
@@ -72,7 +73,8 @@ class Acquisition {
   std::chrono::milliseconds backoff_{0};
   std::optional<std::int64_t> last_ns_;  // of the last scan that was read
   bool just_opened_ = false;             // no block since
-  std::uint64_t dropped_scans_ = 0;      // to be told with the next block
+  std::chrono::steady_clock::time_point next_refresh_;
+  std::uint64_t dropped_scans_ = 0;  // to be told with the next block
 
   std::uint64_t pass_ = 0;  // by whoever calls start()
   std::thread thread_;

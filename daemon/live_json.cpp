@@ -2,10 +2,22 @@
 
 #include <algorithm>
 
-#include "schema/json_writer.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
+
+void write_clock(JsonWriter& json, const std::optional<drivers::ClockReport>& clock) {
+  if (!clock) {
+    json.null();
+    return;
+  }
+  json.begin_object()
+      .field("drift_ppm", clock->drift_ppm)
+      .field("jitter_ms", clock->jitter_ms)
+      .field("settled", clock->settled)
+      .field("steps", clock->steps)
+      .end_object();
+}
 
 std::string device_json(const DeviceStatus& s) {
   JsonWriter json;
@@ -22,6 +34,8 @@ std::string device_json(const DeviceStatus& s) {
       .field("reopened", s.reopened);
   json.key("error");
   s.error.empty() ? json.null() : json.value(s.error);
+  json.key("clock");
+  write_clock(json, s.info.clock);
   json.key("channels").begin_array();
   for (const auto& channel : s.info.channels) {
     json.begin_object().field("id", channel.id).field("unit", suffix(channel.unit)).end_object();

@@ -2,14 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "daemon/pipeline.h"
 #include "daemon/station.h"
+#include "schema/json_writer.h"
 #include "schema/rig.h"
 
 namespace mdof::daemon {
 
+// {"drift_ppm", "jitter_ms", "settled", "steps"}, or null.
+void write_clock(JsonWriter& json, const std::optional<drivers::ClockReport>& clock);
 // One device as device.list gives it, without its axis.
 std::string device_json(const DeviceStatus& status);
 // An array of them.

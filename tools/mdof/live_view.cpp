@@ -1,11 +1,9 @@
 #include "tools/mdof/live_view.h"
 
-#include <simdjson.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "tools/mdof/json_read.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
@@ -16,21 +14,6 @@ using simdjson::dom::element;
 using simdjson::dom::object;
 
 constexpr int kBarWidth = 41;  // odd: it has a middle
-
-double number(const element& of, std::string_view key) {
-  double x;
-  return of.at_key(key).get_double().get(x) ? std::numeric_limits<double>::quiet_NaN() : x;
-}
-
-std::string text(const element& of, std::string_view key) {
-  std::string_view found;
-  return of.at_key(key).get_string().get(found) ? "" : std::string(found);
-}
-
-bool flag(const element& of, std::string_view key) {
-  bool found = false;
-  return !of.at_key(key).get_bool().get(found) && found;
-}
 
 void read_probes(const element& value, LiveUpdate& update) {
   array probes;
@@ -95,8 +78,7 @@ std::optional<LiveUpdate> read_update(std::string_view notification) {
   update.still = flag(value, "still");
   update.simulated = flag(value, "simulated");
   update.stale = flag(value, "stale");
-  std::int64_t run = 0;
-  if (!value.at_key("run").get_int64().get(run)) update.run = run;
+  update.run = integer(value, "run");
   read_probes(value, update);
   read_errors(value, update);
   return update;

@@ -1,8 +1,6 @@
 // mdof record: a run of an axis from its start to its end, watched: point k of n, what is awaited.
 // The daemon measures; this command asks and shows. It may end or be killed without harm to the run
 // unless it was asked to stop it.
-#include <simdjson.h>
-
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -10,6 +8,7 @@
 #include "schema/json_writer.h"
 #include "tools/mdof/command.h"
 #include "tools/mdof/interrupt.h"
+#include "tools/mdof/json_read.h"
 #include "tools/mdof/json_text.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -55,54 +54,35 @@ std::string start_params(const RecordCommand& c) {
   return json.take();
 }
 
-std::int64_t run_of(std::string_view reply) {
-  simdjson::dom::parser parser;
-  std::int64_t run = 0;
-  (void)parser.parse(simdjson::padded_string(reply)).at_key("run").get_int64().get(run);
-  return run;
-}
-
-void show_warnings(std::string_view reply) {
-  simdjson::dom::parser parser;
+void show_warnings(const auto& reply) {
   simdjson::dom::array warnings;
-  if (parser.parse(simdjson::padded_string(reply)).at_key("warnings").get_array().get(warnings))
-    return;
+  if (reply.at_key("warnings").get_array().get(warnings)) return;
   for (const element warning : warnings) {
-    std::string_view text;
-    if (!warning.get_string().get(text)) warn(text);
+    std::string_view words;
+    if (!warning.get_string().get(words)) warn(words);
   }
 }
 
 // "point 3 of 26, next 15.000 mm"; a run without targets or repeats knows less.
-std::string progress_line(const element& event) {
-  std::int64_t points = 0, of = 0;
-  double awaited_mm = 0;
-  (void)event.at_key("points").get_int64().get(points);
+std::string progress_line(const auto& event) {
+  const std::int64_t points = integer(event, "points").value_or(0);
+  const auto of = integer(event, "of");
   std::string line = "point " + std::to_string(points);
-  if (!event.at_key("of").get_int64().get(of)) line += " of " + std::to_string(of);
-  if (points == of && of > 0) return line;
-  if (!event.at_key("awaited_mm").get_double().get(awaited_mm))
-    line += ", next " + fixed(awaited_mm, 3) + " mm";
-  return line;
+  if (of) line += " of " + std::to_string(*of);
+  const double awaited_mm = number(event, "awaited_mm");
+  return points == of || std::isnan(awaited_mm) ? line
+                                                : line + ", next " + fixed(awaited_mm, 3) + " mm";
 }
 
-// Shows the event; gives the run to read where it says that `run` has ended.
+// Shows the event; gives the run to read where it says that the axis has ended its run.
 std::optional<std::int64_t> take_event(std::string_view notification, std::int64_t run,
                                        const std::string& axis) {
   simdjson::dom::parser parser;
-  element value;
-  if (parser.parse(simdjson::padded_string(notification)).at_key("params").get(value))
-    return std::nullopt;
-  if (element inner; !value.at_key("value").get(inner)) value = inner;
-  std::string_view type, of_axis;
-  std::int64_t id = 0;
-  if (value.at_key("type").get_string().get(type)) return std::nullopt;
-  (void)value.at_key("axis").get_string().get(of_axis);
-  (void)value.at_key("run").get_int64().get(id);
-  if (of_axis != axis) return std::nullopt;
-  if (type == "progress" && id == run) say(progress_line(value));
-  if (type == "ended") return id;
-  return std::nullopt;
+  const auto event = parser.parse(simdjson::padded_string(notification))["params"]["value"];
+  if (text(event, "axis") != axis) return std::nullopt;
+  const std::string type = text(event, "type");
+  if (type == "progress" && integer(event, "run") == run) say(progress_line(event));
+  return type == "ended" ? integer(event, "run") : std::nullopt;
 }
 
 Status ask_to_stop(rpc::Client& client, std::int64_t run) {
@@ -141,19 +121,20 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
 Status print_result(std::int64_t run, const std::string& result, bool as_json) {
   MDOF_CHECK(as_json ? write_line(result) : write_out(readable(result)));
   simdjson::dom::parser parser;
-  std::string_view state;
-  (void)parser.parse(simdjson::padded_string(result)).at_key("state").get_string().get(state);
+  const std::string state = text(parser.parse(simdjson::padded_string(result)), "state");
   if (state == "complete") return {};
-  return fail(ErrorCode::check, "run " + std::to_string(run) + " is " + std::string(state) +
-                                    "; its warnings say why");
+  return fail(ErrorCode::check,
+              "run " + std::to_string(run) + " is " + state + "; its warnings say why");
 }
 
 Status record(const RecordCommand& command) {
   MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
   MDOF_CHECK(client.call("live.subscribe", R"({"interval_ms":60000,"events":true})"));
   MDOF_TRY(const std::string reply, client.call("run.start", start_params(command)));
-  const std::int64_t run = run_of(reply);
-  show_warnings(reply);
+  simdjson::dom::parser parser;
+  const auto started = parser.parse(simdjson::padded_string(reply));
+  const std::int64_t run = integer(started, "run").value_or(0);
+  show_warnings(started);
   say("run " + std::to_string(run) + " of axis " + command.axis +
       " is measuring; Ctrl-C ends and evaluates it");
   const Interrupt interrupt;

@@ -1,0 +1,244 @@
+#!/usr/bin/python3
+"""Live devices on real sockets: two capaNCDT controllers and a T7, each with its own clock, look at one
+simulated machine; mdofd measures, records, and survives what they do.
+
+usage: devices_test.py MDOFD MDOF MDOF_SIMULATE"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from mdofd import DATA, Client, Daemon  # noqa: E402
+
+MDOFD, MDOF, SIMULATE = sys.argv[1:4]
+RIG = os.path.join(DATA, "devices", "rig_X.toml")
+TARGETS = [0, 2, 4.1, 6.2]
+# The device's own error of a reading: 24 bits of 2000 µm, 16 bits of 20 V times 10 µm/V, the noise.
+STRAIGHTNESS_UM, ANGLE_URAD = 0.08, 6
+
+PLAN = """
+rig = "{rig}"
+[machine]
+targets_mm = {targets}
+speed_mm_s = 100
+acceleration_mm_s2 = 4000
+dwell_s = 0.4
+repeats = 1000
+noise_um = 0.002
+[[machine.error]]
+name = "EYX"
+amplitude_um = 2
+period_mm = 10
+[[machine.error]]
+name = "EBX"
+amplitude_urad = 30
+period_mm = 8
+
+[[device]]
+name = "capa-1"
+kind = "capancdt"
+ports = [{ports[0]}, {ports[1]}]
+inputs = ["A", "B"]
+clock_ppm = 60
+jitter_ms = 3
+[[device]]
+name = "capa-2"
+kind = "capancdt"
+ports = [{ports[2]}, {ports[3]}]
+inputs = ["", "C"]
+clock_ppm = -40
+jitter_ms = 3
+seed = 2
+[[device]]
+name = "t7"
+kind = "labjack-t7"
+ports = [{ports[4]}, {ports[5]}]
+inputs = ["D", "E"]
+um_per_count = 0.01
+jitter_ms = 1
+seed = 3
+"""
+
+CONFIG = """
+[[axis]]
+rig = "{rig}"
+[[axis.device]]
+driver = "capancdt"
+name = "capa-1"
+address = "127.0.0.1:{ports[0]}"
+data_port = {ports[1]}
+sample_time_us = 256
+channel = [{{ id = "A", input = "1" }}, {{ id = "B", input = "2" }}]
+[[axis.device]]
+driver = "capancdt"
+name = "capa-2"
+address = "127.0.0.1:{ports[2]}"
+data_port = {ports[3]}
+sample_time_us = 256
+channel = [{{ id = "C", input = "2" }}]
+[[axis.device]]
+driver = "labjack-t7"
+name = "t7"
+address = "127.0.0.1:{ports[4]}"
+stream_port = {ports[5]}
+rate_hz = 4000
+[[axis.device.channel]]
+id = "encoder"
+input = "DIO0"
+um_per_count = 0.01
+[[axis.device.channel]]
+id = "D"
+input = "AIN0"
+[[axis.device.channel]]
+id = "E"
+input = "AIN1"
+"""
+
+
+class Simulators:
+    """mdof-simulate with a plan; on free ports the first time, on the same ones after a restart."""
+
+    def __init__(self, folder):
+        self.plan = os.path.join(folder, "devices.toml")
+        self.ports = [0] * 6
+        self.start()
+
+    def start(self):
+        with open(self.plan, "w") as f:
+            f.write(PLAN.format(rig=RIG, targets=TARGETS, ports=self.ports))
+        self.process = subprocess.Popen([SIMULATE, self.plan], stdout=subprocess.PIPE, text=True)
+        lines = []
+        while not lines or lines[-1] != "ready":
+            line = self.process.stdout.readline()
+            assert line, "mdof-simulate ended"
+            lines.append(line.strip())
+        self.ports = [int(line.rsplit(":", 1)[1]) for line in lines[:-1]]
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+        self.process.stdout.close()
+
+
+class Devices(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.simulators = Simulators(cls.folder.name)
+        cls.daemon = Daemon(MDOFD, cls.folder.name, CONFIG.format(rig=RIG, ports=cls.simulators.ports))
+        cls.client = cls.daemon.start()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.daemon.stop()
+        cls.simulators.kill()
+        cls.folder.cleanup()
+
+    def devices(self):
+        return {d["device"]: d for d in self.client.call("device.list")["devices"]}
+
+    def wait_until(self, condition, what, timeout_s=60):
+        end = time.monotonic() + timeout_s
+        while not condition():
+            self.assertLess(time.monotonic(), end, f"{what}: {self.devices()}")
+            time.sleep(0.02)
+
+    def wait_until_all_flow(self):
+        before = {name: d["scans"] for name, d in self.devices().items()}
+        self.wait_until(lambda: all(d["state"] == "open" and d["scans"] > before[n] + 1000
+                                    for n, d in self.devices().items()), "not all devices give samples")
+
+    def measured(self, **params):
+        watcher = Client(self.daemon.socket, timeout_s=120)
+        watcher.call("live.subscribe", interval_ms=1000)
+        run = self.client.call("run.start", axis="X", **params)["run"]
+        progress = []
+        while True:
+            value = watcher.next_note()["params"]["value"]
+            if value.get("type") == "progress" and value["run"] == run:
+                progress.append(value)
+            if value.get("type") == "ended":
+                return value["run"], progress
+
+    def test_1_a_live_run_is_right_and_replays_to_the_same_bits(self):
+        self.wait_until_all_flow()
+        run, progress = self.measured(targets_mm=TARGETS, repeats=2)
+        header = self.client.call("run.get", run=run)
+        self.assertEqual(header["state"], "complete", header)
+        points = self.client.points(run)
+        self.assertGreaterEqual(len(points), 16)
+        self.assertEqual(progress[-1]["points"], len(points))
+        self.assertEqual(progress[0]["of"], 16)
+        code, out, err = self.replayed(header)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(json.loads(out)["points"], points)
+        self.check_against_truth(points)
+
+    def replayed(self, header):
+        done = subprocess.run([MDOF, "replay", header["recording"]["path"], "--no-store", "--json",
+                               "--targets-mm", *map(str, TARGETS)], capture_output=True, text=True)
+        return done.returncode, done.stdout, done.stderr
+
+    def check_against_truth(self, points):
+        """EYX and EBX are the plan's waves, the others nothing, each up to a constant."""
+        import math
+        truth = {"EYX_um": lambda d: 2 * math.sin(2 * math.pi * d / 10), "EZX_um": lambda d: 0,
+                 "EAX_urad": lambda d: 0, "EBX_urad": lambda d: 30 * math.sin(2 * math.pi * d / 8),
+                 "ECX_urad": lambda d: 0}
+        for key, wave in truth.items():
+            error = [p[key] - wave(p["position_mm"]) for p in points]
+            mean = sum(error) / len(error)
+            worst = max(abs(e - mean) for e in error)
+            self.assertLess(worst, STRAIGHTNESS_UM if key.endswith("_um") else ANGLE_URAD, key)
+
+    def test_2_the_clocks_of_the_devices_are_reported(self):
+        self.wait_until(lambda: all(d["clock"] and d["clock"]["settled"]
+                                    for d in self.devices().values()), "clocks have not settled")
+        drift = {name: d["clock"]["drift_ppm"] for name, d in self.devices().items()}
+        self.assertAlmostEqual(drift["capa-1"], 60, delta=30)
+        self.assertAlmostEqual(drift["capa-2"], -40, delta=30)
+
+    def test_3_devices_that_go_and_come_back_are_reopened(self):
+        self.wait_until_all_flow()
+        self.simulators.kill()
+        self.wait_until(lambda: all(d["state"] != "open" for d in self.devices().values()),
+                        "a device without a peer is still open")
+        for device in self.devices().values():
+            self.assertTrue(device["error"])
+        self.simulators.start()
+        self.wait_until_all_flow()
+        self.assertTrue(all(d["reopened"] > 0 for d in self.devices().values()))
+        run, _ = self.measured(targets_mm=TARGETS, repeats=1)
+        self.assertEqual(self.client.call("run.get", run=run)["state"], "complete")
+
+    def test_4_silence_is_shown_as_stale(self):
+        self.wait_until_all_flow()
+        watcher = Client(self.daemon.socket)
+        watcher.call("live.subscribe", interval_ms=20, events=False)
+        self.assertFalse(watcher.next_note()["params"]["value"]["stale"])
+        self.simulators.kill()
+        try:
+            while not (value := watcher.next_note()["params"]["value"])["stale"]:
+                pass
+            self.assertTrue(all(p["quality"] in ("stale", "missing") for p in value["probes"]))
+            self.assertIsNone(value["errors"])
+        finally:
+            self.simulators.start()
+
+    def test_5_record_measures_and_says_so(self):
+        self.wait_until_all_flow()
+        done = subprocess.run([MDOF, "record", "--socket", self.daemon.socket, "--axis", "X",
+                               "--targets-mm", ",".join(map(str, TARGETS)), "--repeats", "1",
+                               "--scale-period-um", "100", "--json"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["state"], "complete")
+        self.assertIn("of 8", done.stderr)
+        self.assertIn("periodic error", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -60,7 +60,7 @@ Script script_of(std::uint64_t seed) {
   } while (!fits(script.fault.kind, script.framing));
   script.fault.first = whole(6, 12);
   script.fault.requests = whole(0, 2) == 0 ? whole(2, 4) : 1;
-  script.fault.ignores_when_busy = whole(0, 1) == 0;
+  script.fault.ignores_when_busy = script.framing == Framing::rtu && whole(0, 1) == 0;
   return script;
 }
 

@@ -36,7 +36,7 @@ enum class FaultKind {
 struct Fault {
   FaultKind kind = FaultKind::late;
   int first = 5, requests = 1;    // which requests it spoils
-  bool ignores_when_busy = true;  // else requests queue up
+  bool ignores_when_busy = true;  // RTU; else, as by TCP, requests queue up
 };
 
 class FaultySlave {

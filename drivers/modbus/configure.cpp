@@ -1,9 +1,5 @@
 #include "drivers/modbus/configure.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 #include "drivers/channels.h"
 #include "drivers/modbus/modbus_driver.h"
 

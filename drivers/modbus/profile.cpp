@@ -1,7 +1,6 @@
 #include "drivers/modbus/profile.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -35,12 +34,6 @@ int whole(TomlTable& table, const char* key, int fallback, int min, int max) {
   if (value < min || value > max)
     table.reject(key, "must be from " + std::to_string(min) + " to " + std::to_string(max));
   return static_cast<int>(value);
-}
-
-double finite(TomlTable& table, const char* key, double fallback) {
-  const double value = table.number(key, fallback);
-  if (!std::isfinite(value)) table.reject(key, "must be finite");
-  return value;
 }
 
 double milliseconds_of(TomlTable& table, const char* key, double fallback) {
@@ -82,10 +75,11 @@ Value read_value(TomlTable& table) {
   value.at = read_register(table, kReadHolding);
   value.type = choice(table, "type", kTypes);
   value.low_word_first = choice(table, "words", kOrders);
-  value.scale = finite(table, "scale", 1);
-  value.offset = finite(table, "offset", 0);
+  value.scale = table.number("scale", 1);
+  if (value.scale == 0) table.reject("scale", "must not be 0");
+  value.offset = table.number("offset", 0);
   value.unit = choice(table, "unit", kUnits);
-  value.um_per_count = finite(table, "um_per_count", 0);
+  value.um_per_count = table.number("um_per_count", 0);
   value.ring_bits = whole(table, "ring_bits", 0, 0, 32);
   if (table.has("over_range")) value.over_range = table.numbers("over_range");
   if (auto check = table.table("check")) value.check = read_check(*check);

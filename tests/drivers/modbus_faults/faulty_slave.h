@@ -35,8 +35,9 @@ enum class FaultKind {
 
 struct Fault {
   FaultKind kind = FaultKind::late;
-  int first = 5, requests = 1;    // which requests it spoils
-  bool ignores_when_busy = true;  // RTU; else, as by TCP, requests queue up
+  int first = 5, requests = 1;        // which requests it spoils
+  bool ignores_when_busy = true;      // RTU; else, as by TCP, requests queue up
+  int most = modbus::kMostRegisters;  // reads of more are refused
 };
 
 class FaultySlave {
@@ -60,8 +61,10 @@ class FaultySlave {
     if (world.now_ns < silent_until_ns_) return;
     if (world.now_ns < busy_until_ns_ && fault_.ignores_when_busy) return;
     const std::int64_t start_ns = std::max(world.now_ns, busy_until_ns_) + share(0.01, 0.1);
-    const modbus::Frame reply{request->transaction, static_cast<std::uint8_t>(unit_),
-                              values(request->pdu, unit_, 0)};
+    modbus::Frame reply{request->transaction, static_cast<std::uint8_t>(unit_),
+                        values(request->pdu, unit_, 0)};
+    if (modbus::word_at(request->pdu, 3) > fault_.most)
+      reply.pdu = {static_cast<char>(request->pdu[0] | modbus::kExceptionBit), 2};
     const bool strikes = requests_ >= fault_.first && requests_ < fault_.first + fault_.requests;
     const std::int64_t end_ns = strikes ? spoil(line, request->pdu, reply, start_ns)
                                         : send(line, modbus::wrap(framing_, reply), start_ns);

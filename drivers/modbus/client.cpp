@@ -198,15 +198,15 @@ ModbusClient::ModbusClient(ModbusClient&&) noexcept = default;
 ModbusClient& ModbusClient::operator=(ModbusClient&&) noexcept = default;
 
 Result<ModbusClient> ModbusClient::over_tcp(ByteStream connection, const Options& options) {
-  auto impl = std::unique_ptr<Impl>(
-      new Impl{std::move(connection), options, Framing::tcp, new_context(Framing::tcp)});
+  auto impl = std::make_unique<Impl>(
+      Impl{std::move(connection), options, Framing::tcp, new_context(Framing::tcp)});
   MDOF_CHECK(impl->configure());
   return ModbusClient(std::move(impl));
 }
 
 Result<ModbusClient> ModbusClient::over_rtu(ByteStream line, const Options& options) {
-  auto impl = std::unique_ptr<Impl>(
-      new Impl{std::move(line), options, Framing::rtu, new_context(Framing::rtu)});
+  auto impl = std::make_unique<Impl>(
+      Impl{std::move(line), options, Framing::rtu, new_context(Framing::rtu)});
   MDOF_CHECK(impl->configure());
   return ModbusClient(std::move(impl));
 }

@@ -1,6 +1,8 @@
-// Any bytes as a reply, as requests to the simulated slave, and as a profile.
+// Any bytes as a reply, and as requests to the simulated slave.
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <string_view>
 
 #include "drivers/modbus/device.h"
@@ -19,7 +21,9 @@ void answers(Framing framing, std::string_view bytes) {
 }
 
 void serves(const char* profile, std::string_view bytes) {
-  ModbusDevice device(*load_profile(profile, ""), [](auto, auto) { return 1.0; });
+  static std::map<std::string, Profile> profiles;
+  if (!profiles.contains(profile)) profiles.emplace(profile, *load_profile(profile, ""));
+  ModbusDevice device(profiles.at(profile), [](auto, auto) { return 1.0; });
   device.opened(0, 1, 0);
   (void)device.exchange(0, 1, bytes.substr(0, bytes.size() / 2), 0);
   (void)device.exchange(0, 1, bytes.substr(bytes.size() / 2), 1);
@@ -34,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   if (data[0] % 4 == 0) answers(Framing::tcp, bytes);
   if (data[0] % 4 == 1) answers(Framing::rtu, bytes);
-  if (data[0] % 4 == 2) serves(data[0] % 8 == 2 ? "adam-6017" : "lika-smax", bytes);
-  if (data[0] % 4 == 3) (void)parse_profile(bytes, "fuzz.toml");
+  if (data[0] % 4 == 2) serves("adam-6017", bytes);
+  if (data[0] % 4 == 3) serves("lika-smax", bytes);
   return 0;
 }

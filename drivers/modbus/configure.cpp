@@ -1,0 +1,118 @@
+#include "drivers/modbus/configure.h"
+
+#include "drivers/channels.h"
+#include "drivers/modbus/modbus_driver.h"
+
+namespace mdof::drivers {
+namespace {
+
+using modbus::Framing;
+using modbus::Profile;
+using modbus::Value;
+
+void read_line(TomlTable& table, Profile& profile) {
+  SerialSettings& serial = profile.serial;
+  serial.baud = static_cast<int>(table.integer("baud", serial.baud));
+  if (serial.baud < 1) table.reject("baud", "must be a rate such as 19200");
+  const std::string parity = table.string("parity", std::string(1, serial.parity));
+  if (parity == "none" || parity == "even" || parity == "odd" || parity == "N" || parity == "E" ||
+      parity == "O")
+    serial.parity = static_cast<char>(parity[0] & ~0x20);
+  else
+    table.reject("parity", "must be none, even or odd");
+  serial.stop_bits = static_cast<int>(table.integer("stop_bits", serial.stop_bits));
+  if (serial.stop_bits != 1 && serial.stop_bits != 2) table.reject("stop_bits", "must be 1 or 2");
+}
+
+void read_ms(TomlTable& table, const char* key, double& ms) {
+  ms = table.number(key, ms);
+  if (!(ms >= 1 && ms <= 60'000)) table.reject(key, "must be from 1 to 60000");
+}
+
+void read_ring(TomlTable& table, Profile& profile) {
+  if (!table.has("ring_bits")) return;
+  const auto bits = table.integer("ring_bits");
+  bool any = false;
+  for (Value& value : profile.values) {
+    if (value.ring_bits == 0) continue;
+    any = true;
+    if (bits < 1 || bits > 16 * registers_of(value.type))
+      table.reject("ring_bits", "must be from 1 to the bits that the register has");
+    value.ring_bits = static_cast<int>(bits);
+  }
+  if (!any) table.reject("ring_bits", "no value of " + profile.name + " is a ring");
+}
+
+void read_where(TomlTable& table, ModbusSettings& settings) {
+  settings.address = table.string("address", "");
+  settings.port = table.string("port", "");
+  const bool tcp = settings.profile.framing == Framing::tcp;
+  if (tcp && settings.address.empty())
+    table.reject("address", "is missing: " + settings.profile.name +
+                                " is reached by TCP, such as "
+                                "\"192.168.0.5\"");
+  else if (settings.address.empty() == settings.port.empty())
+    table.reject("port",
+                 "give either this, a serial line such as \"/dev/ttyUSB0\", or address, "
+                 "that of a serial device server");
+  if (settings.address.empty()) return;
+  if (auto to = parse_endpoint(settings.address, settings.profile.port); !to)
+    table.reject("address", to.error().message);
+}
+
+Result<const Value*> value_of(const ChannelInput& input, const Profile& profile) {
+  std::vector<std::string> names;
+  for (const Value& value : profile.values) {
+    if (value.name == input.input) return &value;
+    names.push_back(value.name);
+  }
+  return no_such_input(input, names);
+}
+
+Status read_uses(TomlTable& table, const Rig& rig, ModbusSettings& settings) {
+  MDOF_TRY(const auto inputs, read_channels(table, rig));
+  for (ChannelInput input : inputs) {
+    MDOF_TRY(const Value* value, value_of(input, settings.profile));
+    const bool counts = value->unit == Unit::other;
+    if (input.um_per_count == 0) input.um_per_count = value->um_per_count;
+    if (counts)
+      MDOF_CHECK(check_um_per_count(input));
+    else if (input.um_per_count != 0)
+      return bad_input(input.where + ": um_per_count is for counts, but \"" + input.input +
+                       "\" comes in " + suffix(value->unit));
+    settings.channels.push_back({input.id, counts ? Unit::um : value->unit});
+    settings.uses.push_back({*value, input.um_per_count});
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& context) {
+  const std::string name = table.string("profile");
+  if (name.empty()) MDOF_CHECK(table.finish());
+  auto profile = modbus::load_profile(name, context.base_path);
+  if (!profile) return in_context(table.where("profile"), profile.error());
+  ModbusSettings settings;
+  settings.profile = std::move(*profile);
+  read_line(table, settings.profile);
+  settings.profile.unit = static_cast<int>(table.integer("unit", settings.profile.unit));
+  if (settings.profile.unit < 1 || (settings.profile.unit > 247 && settings.profile.unit != 255))
+    table.reject("unit", "must be from 1 to 247, or 255");
+  read_ms(table, "poll_ms", settings.profile.poll_ms);
+  read_ms(table, "response_timeout_ms", settings.profile.response_timeout_ms);
+  read_ring(table, settings.profile);
+  read_where(table, settings);
+  MDOF_CHECK(read_uses(table, context.rig, settings));
+  MDOF_CHECK(table.finish());
+  DriverSpec spec;
+  spec.driver = "modbus";
+  spec.name = context.name;
+  spec.make = [name = context.name, settings]() -> Result<std::unique_ptr<Driver>> {
+    return std::make_unique<ModbusDriver>(name, settings);
+  };
+  spec.source_info = [](const Driver&) { return SourceInfo{}; };
+  return spec;
+}
+
+}  // namespace mdof::drivers

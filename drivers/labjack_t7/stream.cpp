@@ -1,0 +1,114 @@
+// The packets of port 702 and the scans in them.
+#include <algorithm>
+
+#include "drivers/labjack_t7/protocol.h"
+
+namespace mdof::drivers::labjack_t7 {
+namespace {
+
+constexpr std::size_t kHeader = 16;
+constexpr std::size_t kLengthFrom = 6;  // the length counts from the unit id on
+constexpr std::uint8_t kUnit = 1, kFunction = 76, kType = 16;
+
+std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
+  return static_cast<std::uint8_t>(bytes[i]);
+}
+std::uint16_t word_at(std::string_view bytes, std::size_t i) {
+  return static_cast<std::uint16_t>(byte_at(bytes, i) << 8 | byte_at(bytes, i + 1));
+}
+void put(std::string& bytes, std::size_t word) {
+  bytes += static_cast<char>(word >> 8 & 0xFF);
+  bytes += static_cast<char>(word & 0xFF);
+}
+
+bool is_header(std::string_view b) {
+  const std::size_t length = word_at(b, 4);
+  return word_at(b, 2) == 0 && byte_at(b, 6) == kUnit && byte_at(b, 7) == kFunction &&
+         byte_at(b, 8) == kType && length % 2 == 0 && length >= kHeader - kLengthFrom &&
+         length <= kHeader - kLengthFrom + 2 * kMostSamples;
+}
+
+}  // namespace
+
+std::string encode(const StreamPacket& packet) {
+  std::string bytes;
+  put(bytes, packet.transaction);
+  put(bytes, 0);
+  put(bytes, kHeader - kLengthFrom + 2 * packet.samples.size());
+  bytes += {static_cast<char>(kUnit), static_cast<char>(kFunction), static_cast<char>(kType), 0};
+  put(bytes, packet.backlog);
+  put(bytes, packet.status);
+  put(bytes, packet.info);
+  for (const std::uint16_t sample : packet.samples) put(bytes, sample);
+  return bytes;
+}
+
+void PacketReader::append(std::string_view bytes) {
+  bytes_.erase(0, taken_);
+  taken_ = 0;
+  bytes_ += bytes;
+}
+
+Result<bool> PacketReader::next(StreamPacket& packet) {
+  const std::string_view b = std::string_view(bytes_).substr(taken_);
+  if (b.size() < kHeader) return false;
+  if (!is_header(b))
+    return io_error("what came on the stream port is no stream packet of a T7; is another " +
+                    std::string("device behind this address?"));
+  const std::size_t size = kLengthFrom + word_at(b, 4);
+  if (b.size() < size) return false;
+  packet.transaction = word_at(b, 0);
+  packet.backlog = word_at(b, 10);
+  packet.status = word_at(b, 12);
+  packet.info = word_at(b, 14);
+  packet.samples.clear();
+  for (std::size_t i = kHeader; i < size; i += 2) packet.samples.push_back(word_at(b, i));
+  taken_ += size;
+  return true;
+}
+
+Status ScanLine::check(const StreamPacket& packet) const {
+  if (packet.transaction != transaction_)
+    return io_error("stream packet " + std::to_string(packet.transaction) + " came where " +
+                    std::to_string(transaction_) + " was due: packets are missing");
+  if (packet.status != 0 && packet.status != status::recovering &&
+      packet.status != status::recovered)
+    return io_error("the stream has stopped: " + error_text(packet.status));
+  if (packet.samples.size() % words_ != 0)
+    return io_error("a stream packet of " + std::to_string(packet.samples.size()) +
+                    " samples holds no whole scans of " + std::to_string(words_));
+  return {};
+}
+
+// The number of the scan whose samples are all 0xFFFF; the number of scans if there is none.
+std::size_t ScanLine::dummy_scan(const StreamPacket& packet) const {
+  const std::size_t scans = packet.samples.size() / words_;
+  for (std::size_t s = 0; s < scans; ++s) {
+    const auto* const first = packet.samples.data() + s * words_;
+    if (std::all_of(first, first + words_, [](std::uint16_t w) { return w == 0xFFFF; })) return s;
+  }
+  return scans;
+}
+
+Status ScanLine::take(const StreamPacket& packet, std::vector<Scan>& scans) {
+  MDOF_CHECK(check(packet));
+  ++transaction_;
+  const std::size_t n = packet.samples.size() / words_;
+  const std::size_t dummy = packet.status == status::recovered ? dummy_scan(packet) : n;
+  if (packet.status == status::recovered && dummy == n)
+    return io_error("the stream dropped " + std::to_string(packet.info) +
+                    " scans and does not mark where: the times after it are not known");
+  for (std::size_t s = 0; s < n; ++s) {
+    if (s == dummy) {
+      next_ += packet.info;
+      lost_ += packet.info;
+      continue;
+    }
+    const auto from = packet.samples.begin() + static_cast<std::ptrdiff_t>(s * words_);
+    scans.push_back({next_++, lost_, {from, from + static_cast<std::ptrdiff_t>(words_)}});
+    lost_ = 0;
+  }
+  return {};
+}
+
+}  // namespace mdof::drivers::labjack_t7

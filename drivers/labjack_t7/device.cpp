@@ -39,8 +39,8 @@ std::uint32_t flash_word(std::uint32_t address) {
 
 }  // namespace
 
-Device::Device(Senses senses, Options options)
-    : senses_(std::move(senses)), options_(std::move(options)) {
+Device::Device(Senses senses, const Options& options)
+    : senses_(std::move(senses)), options_(options) {
   restart();
 }
 

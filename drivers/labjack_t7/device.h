@@ -44,7 +44,7 @@ class Device final : public SimulatedDevice {
   };
   static constexpr std::size_t kCounterInput = kAins;
 
-  Device(Senses senses, Options options);
+  Device(Senses senses, const Options& options);
 
   std::vector<Port> ports() const override;
   void opened(std::size_t port, int client, std::int64_t now_ns) override;

@@ -73,6 +73,7 @@ void LabjackT7::close() {
   line_ = ScanLine(words_per_scan(settings_));
   scans_.clear();
   handed_out_ = 0;
+  broken_ = {};
   clock_.reset();
   reopened_ = last_time_ns_ != 0;
 }
@@ -114,14 +115,20 @@ Status LabjackT7::start_clock() {
 Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
   clear(block);
   if (!stream_) return io_error(place() + " is not open; open it before reading");
-  if (handed_out_ == scans_.size()) {
-    scans_.clear();
-    handed_out_ = 0;
-    if (auto received = receive(timeout); !received)
-      return in_context(place(), std::move(received.error()));
-  }
+  if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
   hand_out(block);
   return ReadState::more;
+}
+
+// What came before an error is handed out first.
+Status LabjackT7::next_scans(milliseconds timeout) {
+  scans_.clear();
+  handed_out_ = 0;
+  if (!broken_) return broken_;
+  auto received = receive(timeout);
+  if (received) return {};
+  broken_ = in_context(place(), std::move(received.error()));
+  return scans_.empty() ? broken_ : Status{};
 }
 
 // Until a packet has come, at most for `timeout`.

@@ -41,6 +41,7 @@ class LabjackT7 final : public Driver {
   void close();
   Status start();
   Status start_clock();
+  Status next_scans(std::chrono::milliseconds timeout);
   Status receive(std::chrono::milliseconds timeout);
   Status take_packets(std::int64_t received_ns);
   std::int64_t ticks_of(std::uint64_t scan) const;
@@ -67,6 +68,7 @@ class LabjackT7 final : public Driver {
   std::int64_t start_ticks_ = 0;     // of scan 0
   std::int64_t last_packet_ns_ = 0;  // host time; at first of the start
   std::vector<Scan> scans_;          // received
+  Status broken_;                    // the error that ended the stream
   std::size_t handed_out_ = 0;       // of them
   std::vector<char> buffer_;
 

@@ -1,50 +1,37 @@
 #include "drivers/labjack_t7/modbus_server.h"
 
-#include <string_view>
-
 namespace mdof::drivers::labjack_t7 {
 namespace {
 
+using modbus::word_at;
+
 constexpr std::size_t kHead = 6, kMostLength = 254;
-constexpr std::uint8_t kRead = 3, kWriteOne = 6, kWrite = 16;
+constexpr std::size_t kFixed = 5;  // of a request: function and two words
 
-std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
-  return static_cast<std::uint8_t>(bytes[i]);
-}
-std::uint16_t word_at(std::string_view bytes, std::size_t i) {
-  return static_cast<std::uint16_t>(byte_at(bytes, i) << 8 | byte_at(bytes, i + 1));
-}
-void put(std::string& bytes, std::size_t word) {
-  bytes += static_cast<char>(word >> 8 & 0xFF);
-  bytes += static_cast<char>(word & 0xFF);
+std::string framed(const ModbusRequest& request, std::string pdu) {
+  return modbus::wrap(modbus::Framing::tcp,
+                      {request.frame.transaction, request.frame.unit, std::move(pdu)});
 }
 
-// `body`: from the function on.
-std::string framed(const ModbusRequest& request, const std::string& body) {
-  std::string bytes;
-  put(bytes, request.transaction);
-  put(bytes, 0);
-  put(bytes, body.size() + 1);
-  return bytes + static_cast<char>(request.unit) + body;
-}
-
-void read_body(ModbusRequest& request, std::string_view body) {
-  request.function = byte_at(body, 0);
-  if (body.size() < 5) return;
-  request.address = word_at(body, 1);
-  request.count = request.function == kWriteOne ? 1 : word_at(body, 3);
-  std::size_t from = body.size();
-  if (request.function == kWriteOne) from = 3;
-  if (request.function == kWrite) from = 6;
-  for (std::size_t i = from; i + 1 < body.size(); i += 2)
-    request.values.push_back(word_at(body, i));
+bool is_well_formed(const ModbusRequest& request) {
+  const std::string& pdu = request.frame.pdu;
   const auto count = static_cast<std::size_t>(request.count);
-  if (request.function == kRead)
-    request.well_formed = body.size() == 5 && count >= 1 && count <= 125;
-  if (request.function == kWriteOne) request.well_formed = body.size() == 5;
-  if (request.function == kWrite)
-    request.well_formed =
-        count >= 1 && count <= 123 && body.size() == 6 + 2 * count && byte_at(body, 5) == 2 * count;
+  if (request.function != modbus::kWrite)
+    return pdu.size() == kFixed && count >= 1 && count <= modbus::kMostRegisters;
+  return count >= 1 && count <= modbus::kMostWritten && pdu.size() == kFixed + 1 + 2 * count &&
+         static_cast<std::uint8_t>(pdu[kFixed]) == 2 * count;
+}
+
+void read_pdu(ModbusRequest& request) {
+  const std::string& pdu = request.frame.pdu;
+  request.function = static_cast<std::uint8_t>(pdu[0]);
+  if (pdu.size() < kFixed) return;
+  const bool one = request.function == modbus::kWriteOne;
+  request.address = word_at(pdu, 1);
+  request.count = one ? 1 : word_at(pdu, 3);
+  request.well_formed = is_well_formed(request);
+  for (std::size_t i = one ? 3 : kFixed + 1; i + 1 < pdu.size(); i += 2)
+    request.values.push_back(word_at(pdu, i));
 }
 
 }  // namespace
@@ -58,29 +45,27 @@ std::optional<ModbusRequest> take_request(std::string& bytes) {
   }
   if (bytes.size() < kHead + length) return std::nullopt;
   ModbusRequest request;
-  request.transaction = word_at(bytes, 0);
-  request.unit = byte_at(bytes, kHead);
-  read_body(request, std::string_view(bytes).substr(kHead + 1, length - 1));
+  request.frame = {word_at(bytes, 0), static_cast<std::uint8_t>(bytes[kHead]),
+                   bytes.substr(kHead + 1, length - 1)};
   bytes.erase(0, kHead + length);
+  read_pdu(request);
   return request;
 }
 
 std::string read_reply(const ModbusRequest& request, const std::vector<std::uint16_t>& values) {
-  std::string body{static_cast<char>(request.function), static_cast<char>(2 * values.size())};
-  for (const std::uint16_t value : values) put(body, value);
-  return framed(request, body);
+  std::string pdu{static_cast<char>(request.function), static_cast<char>(2 * values.size())};
+  for (const std::uint16_t value : values) modbus::append_word(pdu, value);
+  return framed(request, pdu);
 }
 
+// Repeats what was asked, without the values of function 16.
 std::string write_reply(const ModbusRequest& request) {
-  std::string body{static_cast<char>(request.function)};
-  put(body, static_cast<std::size_t>(request.address));
-  put(body,
-      request.function == kWriteOne ? request.values[0] : static_cast<std::size_t>(request.count));
-  return framed(request, body);
+  return framed(request, request.frame.pdu.substr(0, kFixed));
 }
 
 std::string exception_reply(const ModbusRequest& request, int code) {
-  return framed(request, {static_cast<char>(request.function | 0x80), static_cast<char>(code)});
+  return framed(request, {static_cast<char>(request.function | modbus::kExceptionBit),
+                          static_cast<char>(code)});
 }
 
 }  // namespace mdof::drivers::labjack_t7

@@ -2,9 +2,13 @@
 #include <algorithm>
 
 #include "drivers/labjack_t7/protocol.h"
+#include "drivers/modbus/protocol.h"
 
 namespace mdof::drivers::labjack_t7 {
 namespace {
+
+using modbus::append_word;
+using modbus::word_at;
 
 constexpr std::size_t kHeader = 16;
 constexpr std::size_t kLengthFrom = 6;  // the length counts from the unit id on
@@ -13,14 +17,6 @@ constexpr std::uint8_t kUnit = 1, kFunction = 76, kType = 16;
 std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
   return static_cast<std::uint8_t>(bytes[i]);
 }
-std::uint16_t word_at(std::string_view bytes, std::size_t i) {
-  return static_cast<std::uint16_t>(byte_at(bytes, i) << 8 | byte_at(bytes, i + 1));
-}
-void put(std::string& bytes, std::size_t word) {
-  bytes += static_cast<char>(word >> 8 & 0xFF);
-  bytes += static_cast<char>(word & 0xFF);
-}
-
 bool is_header(std::string_view b) {
   const std::size_t length = word_at(b, 4);
   return word_at(b, 2) == 0 && byte_at(b, 6) == kUnit && byte_at(b, 7) == kFunction &&
@@ -32,14 +28,14 @@ bool is_header(std::string_view b) {
 
 std::string encode(const StreamPacket& packet) {
   std::string bytes;
-  put(bytes, packet.transaction);
-  put(bytes, 0);
-  put(bytes, kHeader - kLengthFrom + 2 * packet.samples.size());
+  append_word(bytes, packet.transaction);
+  append_word(bytes, 0);
+  append_word(bytes, static_cast<unsigned>(kHeader - kLengthFrom + 2 * packet.samples.size()));
   bytes += {static_cast<char>(kUnit), static_cast<char>(kFunction), static_cast<char>(kType), 0};
-  put(bytes, packet.backlog);
-  put(bytes, packet.status);
-  put(bytes, packet.info);
-  for (const std::uint16_t sample : packet.samples) put(bytes, sample);
+  append_word(bytes, packet.backlog);
+  append_word(bytes, packet.status);
+  append_word(bytes, packet.info);
+  for (const std::uint16_t sample : packet.samples) append_word(bytes, sample);
   return bytes;
 }
 

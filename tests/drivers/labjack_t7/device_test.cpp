@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/drivers/labjack_t7/bytes.h"
+#include "tests/drivers/modbus/hex.h"
 
 namespace mdof::drivers::labjack_t7 {
 namespace {
@@ -20,9 +20,9 @@ double senses(std::size_t input, std::int64_t t_ns) {
 
 class LabjackT7Device : public testing::Test {
  protected:
-  std::string ask(const char* hex) { return device.exchange(kCommand, 1, bytes_of(hex), now); }
+  std::string ask(const char* hex) { return device.exchange(kCommand, 1, modbus::bytes(hex), now); }
   std::string write(int address, Words words) {
-    std::string bytes = bytes_of("00 09 00 00 00 0B 01 10");
+    std::string bytes = modbus::bytes("00 09 00 00 00 0B 01 10");
     for (const int byte : {address >> 8, address & 0xFF, 0, 2, 4, words[0] >> 8, words[0] & 0xFF,
                            words[1] >> 8, words[1] & 0xFF})
       bytes += static_cast<char>(byte);
@@ -37,7 +37,7 @@ class LabjackT7Device : public testing::Test {
       write(std::exchange(address, address + 2), words_of(entry));
     write(43900, words_of_float(10));
     device.opened(kStream, 2, now);
-    EXPECT_EQ(write(4990, words_of(1)), bytes_of("00 09 00 00 00 06 01 10 13 7E 00 02"));
+    EXPECT_EQ(write(4990, words_of(1)), modbus::bytes("00 09 00 00 00 06 01 10 13 7E 00 02"));
   }
   std::vector<StreamPacket> packets() {
     reader.append(device.exchange(kStream, 2, "", now));
@@ -53,13 +53,14 @@ class LabjackT7Device : public testing::Test {
 };
 
 TEST_F(LabjackT7Device, AnswersTheVectorsOfReading) {
-  EXPECT_EQ(ask("00 01 00 00 00 06 01 03 00 00 00 0A"),
-            bytes_of("00 01 00 00 00 17 01 03 14 3F800000 C0200000 3E000000 411C0000 C1200000"));
+  EXPECT_EQ(
+      ask("00 01 00 00 00 06 01 03 00 00 00 0A"),
+      modbus::bytes("00 01 00 00 00 17 01 03 14 3F800000 C0200000 3E000000 411C0000 C1200000"));
   EXPECT_EQ(ask("00 02 00 00 00 06 01 03 D7 3C 00 02"),
-            bytes_of("00 02 00 00 00 07 01 03 04 00 11 22 33"));
+            modbus::bytes("00 02 00 00 00 07 01 03 04 00 11 22 33"));
   now = 65'536'000 + 7'000;  // count 7
   EXPECT_EQ(ask("00 03 00 00 00 06 01 03 0B B8 00 02"),
-            bytes_of("00 03 00 00 00 07 01 03 04 00 00 00 07"));
+            modbus::bytes("00 03 00 00 00 07 01 03 04 00 00 00 07"));
 }
 
 TEST_F(LabjackT7Device, TakesTheVectorsOfWriting) {
@@ -70,18 +71,18 @@ TEST_F(LabjackT7Device, TakesTheVectorsOfWriting) {
                                     {"00 06 00 00 00 0B 01 10 0F A2 00 02 04 44 7A 00 00",
                                      "00 06 00 00 00 06 01 03 0F A2 00 02", "44 7A 00 00"}};
   for (const auto& v : vectors) {
-    const std::string echo = bytes_of(v[0]).substr(0, 12);
-    EXPECT_EQ(ask(v[0]).substr(6), bytes_of("01 10") + echo.substr(8, 4));
-    EXPECT_EQ(ask(v[1]).substr(9), bytes_of(v[2]));
+    const std::string echo = modbus::bytes(v[0]).substr(0, 12);
+    EXPECT_EQ(ask(v[0]).substr(6), modbus::bytes("01 10") + echo.substr(8, 4));
+    EXPECT_EQ(ask(v[1]).substr(9), modbus::bytes(v[2]));
   }
 }
 
 TEST_F(LabjackT7Device, TheVectorsStartAStream) {
   start(1000, 7, {0, 2, 4, 6, 8, 3000, 4899});
   EXPECT_EQ(ask("00 07 00 00 00 0B 01 10 13 7E 00 02 04 00 00 00 01"),
-            bytes_of("00 07 00 00 00 03 01 90 04"));  // it runs already
+            modbus::bytes("00 07 00 00 00 03 01 90 04"));  // it runs already
   EXPECT_EQ(ask("00 08 00 00 00 06 01 03 D6 D8 00 01"),
-            bytes_of("00 08 00 00 00 05 01 03 02 0A 2D"));  // 2605
+            modbus::bytes("00 08 00 00 00 05 01 03 02 0A 2D"));  // 2605
   now += 3 * kMs;
   const auto all = packets();
   ASSERT_EQ(all.size(), 2U);
@@ -91,27 +92,30 @@ TEST_F(LabjackT7Device, TheVectorsStartAStream) {
 }
 
 TEST_F(LabjackT7Device, RequestsMayComeInPieces) {
-  const std::string request = bytes_of("00 02 00 00 00 06 01 03 D7 3C 00 02");
+  const std::string request = modbus::bytes("00 02 00 00 00 06 01 03 D7 3C 00 02");
   for (std::size_t i = 0; i + 1 < request.size(); ++i)
     EXPECT_EQ(device.exchange(kCommand, 1, request.substr(i, 1), now), "");
   EXPECT_EQ(device.exchange(kCommand, 1, request.substr(11), now).size(), 13U);
 }
 
 TEST_F(LabjackT7Device, RefusesWithModbusExceptions) {
-  EXPECT_EQ(ask("00 01 00 00 00 06 01 04 00 00 00 02"), bytes_of("00 01 00 00 00 03 01 84 01"));
-  EXPECT_EQ(ask("00 01 00 00 00 06 01 03 23 28 00 02"), bytes_of("00 01 00 00 00 03 01 83 02"));
-  EXPECT_EQ(ask("00 01 00 00 00 06 01 03 00 00 00 00"), bytes_of("00 01 00 00 00 03 01 83 03"));
+  EXPECT_EQ(ask("00 01 00 00 00 06 01 04 00 00 00 02"),
+            modbus::bytes("00 01 00 00 00 03 01 84 01"));
+  EXPECT_EQ(ask("00 01 00 00 00 06 01 03 23 28 00 02"),
+            modbus::bytes("00 01 00 00 00 03 01 83 02"));
+  EXPECT_EQ(ask("00 01 00 00 00 06 01 03 00 00 00 00"),
+            modbus::bytes("00 01 00 00 00 03 01 83 03"));
   EXPECT_EQ(ask("00 01 00 00 00 06 01 06 AB 7E 00 C7"),
-            bytes_of("00 01 00 00 00 06 01 06 AB 7E 00 C7"));
-  EXPECT_EQ(write(4990, words_of(0)).substr(7), bytes_of("90 04"));  // nothing runs
-  EXPECT_EQ(ask("00 08 00 00 00 06 01 03 D6 D8 00 01").substr(9), bytes_of("0A 3C"));  // 2620
+            modbus::bytes("00 01 00 00 00 06 01 06 AB 7E 00 C7"));
+  EXPECT_EQ(write(4990, words_of(0)).substr(7), modbus::bytes("90 04"));  // nothing runs
+  EXPECT_EQ(ask("00 08 00 00 00 06 01 03 D6 D8 00 01").substr(9), modbus::bytes("0A 3C"));  // 2620
 }
 
 TEST_F(LabjackT7Device, SwapsWordsWhenAsked) {
   Faults faults;
   faults.swapped_words = true;
   device.set_faults(faults);
-  EXPECT_EQ(ask("00 02 00 00 00 06 01 03 D7 3C 00 02").substr(9), bytes_of("22 33 00 11"));
+  EXPECT_EQ(ask("00 02 00 00 00 06 01 03 D7 3C 00 02").substr(9), modbus::bytes("22 33 00 11"));
 }
 
 // The counter passes from 0xFFFF to 0x10000 between the two entries of every scan.

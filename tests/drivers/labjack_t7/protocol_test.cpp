@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "tests/drivers/labjack_t7/bytes.h"
+#include "tests/drivers/modbus/hex.h"
 
 namespace mdof::drivers::labjack_t7 {
 namespace {
@@ -28,7 +28,7 @@ TEST(LabjackT7Protocol, WordsComeHighFirst) {
 }
 
 TEST(LabjackT7Protocol, AStreamPacketIsEncodedAndRead) {
-  const std::string bytes = bytes_of(kSevenSamples);
+  const std::string bytes = modbus::bytes(kSevenSamples);
   const std::vector<std::uint16_t> samples = {0x8000, 0x8001, 0x8002, 0x8003,
                                               0x8004, 0x8005, 0x8006};
   EXPECT_EQ(encode(packet(0, samples)), bytes);
@@ -47,7 +47,7 @@ TEST(LabjackT7Protocol, EachFieldHasItsPlace) {
   p.backlog = 0x1234;
   p.status = status::recovered;
   p.info = 300;
-  EXPECT_EQ(encode(p), bytes_of("FF FE 00 00 00 0C 01 4C 10 00 12 34 0B 7D 01 2C 00 01"));
+  EXPECT_EQ(encode(p), modbus::bytes("FF FE 00 00 00 0C 01 4C 10 00 12 34 0B 7D 01 2C 00 01"));
   PacketReader reader;
   reader.append(encode(p));
   StreamPacket read;
@@ -74,7 +74,7 @@ TEST(LabjackT7Protocol, PacketsMayComeInAnyPortions) {
 }
 
 TEST(LabjackT7Protocol, WhatIsNoStreamIsRefused) {
-  const std::string good = bytes_of(kSevenSamples);
+  const std::string good = modbus::bytes(kSevenSamples);
   for (const std::size_t at : {2U, 3U, 6U, 7U, 8U}) {
     std::string bytes = good;
     bytes[at] = static_cast<char>(bytes[at] ^ 0x40);
@@ -85,7 +85,7 @@ TEST(LabjackT7Protocol, WhatIsNoStreamIsRefused) {
   }
   for (const char* length : {"00 08", "00 19", "04 0C", "FF FE"}) {
     PacketReader reader;
-    reader.append(good.substr(0, 4) + bytes_of(length) + good.substr(6));
+    reader.append(good.substr(0, 4) + modbus::bytes(length) + good.substr(6));
     StreamPacket p;
     EXPECT_FALSE(reader.next(p).has_value()) << length;
   }

@@ -34,7 +34,8 @@ std::uint32_t flash_word(std::uint32_t address) {
   const std::uint32_t i = (address - flash_address(0)) / 4;
   if (i >= 4 * kRanges_v.size()) return bits(0);
   const AinCalibration c = Device::calibration(i / 4);
-  return bits(std::array{c.positive_slope, c.negative_slope, c.centre, c.offset}[i % 4]);
+  const std::array numbers{c.positive_slope, c.negative_slope, c.centre, 0.0};  // the last: unused
+  return bits(static_cast<float>(numbers[i % 4]));
 }
 
 }  // namespace
@@ -46,10 +47,11 @@ Device::Device(Senses senses, const Options& options)
 
 // Near nominal, each range in its own way, so that a wrong block shows.
 AinCalibration Device::calibration(std::size_t range) {
-  AinCalibration c = nominal_calibration(range);
-  c.positive_slope *= 1.001F + 0.0002F * static_cast<float>(range);
-  c.negative_slope *= 0.999F - 0.0002F * static_cast<float>(range);
-  c.centre += 7.25F + static_cast<float>(range);
+  AinCalibration c = labjack::nominal_calibration(range);
+  const auto by = static_cast<double>(range);
+  c.positive_slope *= 1.001 + 0.0002 * by;
+  c.negative_slope *= 0.999 - 0.0002 * by;
+  c.centre += 7.25 + by;
   return c;
 }
 

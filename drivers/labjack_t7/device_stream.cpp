@@ -73,8 +73,8 @@ std::uint16_t Device::ain_code(std::size_t ain, std::int64_t t_ns) const {
   const auto set = static_cast<double>(stored_f32(reg::ain_all_range.address));
   const AinCalibration c = calibration(range_index(set).value_or(0));
   const double v = senses_(ain, t_ns);
-  const double slope = static_cast<double>(v < 0 ? -c.negative_slope : c.positive_slope);
-  const double code = std::round(static_cast<double>(c.centre) + v / slope);
+  const double slope = v < 0 ? -c.negative_slope : c.positive_slope;
+  const double code = std::round(c.centre + v / slope);
   return static_cast<std::uint16_t>(std::clamp(code, 0.0, 65535.0));
 }
 

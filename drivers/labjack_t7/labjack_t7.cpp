@@ -70,7 +70,7 @@ void LabjackT7::close() {
   registers_.reset();
   stream_.reset();
   reader_ = {};
-  line_ = ScanLine(words_per_scan(settings_));
+  line_ = PacketLine(words_per_scan(settings_));
   scans_.clear();
   handed_out_ = 0;
   broken_ = {};
@@ -204,8 +204,8 @@ void LabjackT7::append(SampleBlock& block, const Scan& scan) {
 }
 
 void LabjackT7::append_ain(SampleBlock& block, std::size_t channel, std::uint16_t raw) const {
-  block.value[channel].push_back(volts(calibration_, raw));
-  block.quality[channel].push_back(at_rail(raw) ? Quality::over_range : Quality::good);
+  block.value[channel].push_back(labjack::volts(calibration_, raw));
+  block.quality[channel].push_back(labjack::at_rail(raw) ? Quality::over_range : Quality::good);
 }
 
 void LabjackT7::append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw) {

@@ -59,7 +59,7 @@ class LabjackT7 final : public Driver {
   std::optional<Registers> registers_;
   std::optional<ByteStream> stream_;
   PacketReader reader_;
-  ScanLine line_;
+  PacketLine line_;
   AinCalibration calibration_;
   double rate_hz_, ticks_per_scan_ = 0;
 

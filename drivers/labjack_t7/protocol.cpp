@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace mdof::drivers::labjack_t7 {
 namespace {
@@ -61,36 +60,8 @@ std::optional<std::size_t> range_index(double range_v) {
   return static_cast<std::size_t>(at - kRanges_v.begin());
 }
 
-AinCalibration nominal_calibration(std::size_t range) {
-  const double scale = kRanges_v.at(range) / 10;
-  return {static_cast<float>(0.00031580578 * scale), static_cast<float>(-0.0003158058 * scale),
-          33523.0F, static_cast<float>(-10.58695652 * scale)};
-}
-
 std::uint32_t flash_address(int block) {
   return 0x3C4000 + static_cast<std::uint32_t>(block * kFlashNumbers) * 4;
-}
-
-Status check(const AinCalibration& calibration, std::size_t range) {
-  constexpr float kSlope = 0.05F, kCentre = 2000;  // far more than any device is off
-  const AinCalibration nominal = nominal_calibration(range);
-  const auto near = [](float value, float wanted, float by) {
-    return std::abs(value - wanted) <= by;  // false for NaN
-  };
-  if (near(calibration.positive_slope, nominal.positive_slope, kSlope * nominal.positive_slope) &&
-      near(calibration.negative_slope, nominal.negative_slope, kSlope * nominal.positive_slope) &&
-      near(calibration.centre, nominal.centre, kCentre))
-    return {};
-  return io_error("the calibration constants in its flash are not those of a T7 (slopes " +
-                  std::to_string(calibration.positive_slope) + ", " +
-                  std::to_string(calibration.negative_slope) + " V, centre " +
-                  std::to_string(calibration.centre) + "); have it calibrated by LabJack");
-}
-
-double volts(const AinCalibration& c, std::uint16_t raw) {
-  const double above = static_cast<double>(raw) - static_cast<double>(c.centre);
-  return above < 0 ? -above * static_cast<double>(c.negative_slope)
-                   : above * static_cast<double>(c.positive_slope);
 }
 
 }  // namespace mdof::drivers::labjack_t7

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/labjack/samples.h"
 #include "schema/result.h"
 
 namespace mdof::drivers::labjack_t7 {
@@ -81,27 +82,14 @@ std::string error_text(int code);
 
 // --- Volts ---------------------------------------------------------------------------------------
 
-// Of one range of the high-speed converter, as in the device's flash.
-struct AinCalibration {
-  float positive_slope = 0, negative_slope = 0;  // volts a code
-  float centre = 0;                              // code
-  float offset = 0;                              // volts; not used for single codes
-};
+using labjack::AinCalibration;
 inline constexpr std::array<double, 4> kRanges_v{10, 1, 0.1, 0.01};
 // Index into kRanges_v; none: the device has no such range.
 std::optional<std::size_t> range_index(double range_v);
-AinCalibration nominal_calibration(std::size_t range);
 
 // Flash: 13 numbers (26 registers) are read at a time; block i is at this address.
 inline constexpr int kFlashNumbers = 13;
 std::uint32_t flash_address(int block);
-
-// Error: not finite, or far from nominal: flash that was erased or read at a wrong place.
-Status check(const AinCalibration& calibration, std::size_t range);
-double volts(const AinCalibration& calibration, std::uint16_t raw);
-inline bool at_rail(std::uint16_t raw) {
-  return raw == 0 || raw == 0xFFFF;
-}
 
 // --- Stream --------------------------------------------------------------------------------------
 
@@ -140,28 +128,22 @@ class PacketReader {
 
 // --- Scans ---------------------------------------------------------------------------------------
 
-struct Scan {
-  std::uint64_t index = 0;           // since the start of the stream, lost ones counted
-  std::uint64_t lost = 0;            // between the scan before and this one
-  std::vector<std::uint16_t> words;  // in the order of the scan list
-};
+using labjack::Scan;
 
 // Puts packets on the time line of the device: counts scans, also those dropped by auto-recovery.
-class ScanLine {
+class PacketLine {
  public:
-  explicit ScanLine(std::size_t words_per_scan) : words_(words_per_scan) {}
+  explicit PacketLine(std::size_t words_per_scan) : words_(words_per_scan), line_(words_per_scan) {}
   // Adds the packet's scans to `scans`. Error: packets are missing, the device stopped, or what was
   // dropped is not known: start the stream anew.
   Status take(const StreamPacket& packet, std::vector<Scan>& scans);
 
  private:
   Status check(const StreamPacket& packet) const;
-  std::size_t dummy_scan(const StreamPacket& packet) const;
 
   std::size_t words_;
+  labjack::ScanLine line_;
   std::uint16_t transaction_ = 0;  // expected
-  std::uint64_t next_ = 0;         // index
-  std::uint64_t lost_ = 0;         // before the next scan
 };
 
 }  // namespace mdof::drivers::labjack_t7

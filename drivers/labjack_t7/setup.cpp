@@ -59,10 +59,10 @@ Result<AinCalibration> set_up_ains(Registers& registers, double range_v) {
   const std::size_t range = range_index(range_v).value();
   const auto number = [&](std::size_t i) {
     const std::size_t at = 2 * (4 * range + i);
-    return float_of(words[at], words[at + 1]);
+    return static_cast<double>(float_of(words[at], words[at + 1]));
   };
-  const AinCalibration calibration{number(0), number(1), number(2), number(3)};
-  MDOF_CHECK(check(calibration, range));
+  const AinCalibration calibration{number(0), number(1), number(2)};
+  MDOF_CHECK(labjack::check(calibration, range));
   return calibration;
 }
 

@@ -1,6 +1,4 @@
 // The packets of port 702 and the scans in them.
-#include <algorithm>
-
 #include "drivers/labjack_t7/protocol.h"
 #include "drivers/modbus/protocol.h"
 
@@ -63,7 +61,7 @@ Result<bool> PacketReader::next(StreamPacket& packet) {
   return true;
 }
 
-Status ScanLine::check(const StreamPacket& packet) const {
+Status PacketLine::check(const StreamPacket& packet) const {
   if (packet.transaction != transaction_)
     return io_error("stream packet " + std::to_string(packet.transaction) + " came where " +
                     std::to_string(transaction_) + " was due: packets are missing");
@@ -76,35 +74,11 @@ Status ScanLine::check(const StreamPacket& packet) const {
   return {};
 }
 
-// The number of the scan whose samples are all 0xFFFF; the number of scans if there is none.
-std::size_t ScanLine::dummy_scan(const StreamPacket& packet) const {
-  const std::size_t scans = packet.samples.size() / words_;
-  for (std::size_t s = 0; s < scans; ++s) {
-    const auto* const first = packet.samples.data() + s * words_;
-    if (std::all_of(first, first + words_, [](std::uint16_t w) { return w == 0xFFFF; })) return s;
-  }
-  return scans;
-}
-
-Status ScanLine::take(const StreamPacket& packet, std::vector<Scan>& scans) {
+Status PacketLine::take(const StreamPacket& packet, std::vector<Scan>& scans) {
   MDOF_CHECK(check(packet));
   ++transaction_;
-  const std::size_t n = packet.samples.size() / words_;
-  const std::size_t dummy = packet.status == status::recovered ? dummy_scan(packet) : n;
-  if (packet.status == status::recovered && dummy == n)
-    return io_error("the stream dropped " + std::to_string(packet.info) +
-                    " scans and does not mark where: the times after it are not known");
-  for (std::size_t s = 0; s < n; ++s) {
-    if (s == dummy) {
-      next_ += packet.info;
-      lost_ += packet.info;
-      continue;
-    }
-    const auto from = packet.samples.begin() + static_cast<std::ptrdiff_t>(s * words_);
-    scans.push_back({next_++, lost_, {from, from + static_cast<std::ptrdiff_t>(words_)}});
-    lost_ = 0;
-  }
-  return {};
+  if (packet.status == status::recovered) return line_.take(packet.samples, packet.info, scans);
+  return line_.take(packet.samples, std::nullopt, scans);
 }
 
 }  // namespace mdof::drivers::labjack_t7

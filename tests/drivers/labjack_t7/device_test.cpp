@@ -88,7 +88,7 @@ TEST_F(LabjackT7Device, TheVectorsStartAStream) {
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[1].transaction, 1);
   EXPECT_EQ(all[1].samples.size(), 7U);
-  EXPECT_NEAR(volts(Device::calibration(0), all[1].samples[1]), -2.5, 2e-4);
+  EXPECT_NEAR(labjack::volts(Device::calibration(0), all[1].samples[1]), -2.5, 2e-4);
 }
 
 TEST_F(LabjackT7Device, RequestsMayComeInPieces) {

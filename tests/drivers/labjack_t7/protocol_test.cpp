@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "tests/drivers/modbus/hex.h"
 
 namespace mdof::drivers::labjack_t7 {
@@ -91,34 +89,6 @@ TEST(LabjackT7Protocol, WhatIsNoStreamIsRefused) {
   }
 }
 
-TEST(LabjackT7Protocol, NominalVolts) {
-  const AinCalibration c = nominal_calibration(0);
-  EXPECT_NEAR(volts(c, 0), -10.586757, 1e-5);
-  EXPECT_EQ(volts(c, 33523), 0);
-  EXPECT_NEAR(volts(c, 32768), -0.238433, 1e-6);
-  EXPECT_NEAR(volts(c, 65535), 10.109575, 1e-5);
-  EXPECT_NEAR(volts(nominal_calibration(2), 65535), 0.10109575, 1e-7);
-}
-
-TEST(LabjackT7Protocol, EachSideOfTheCentreHasItsSlope) {
-  const AinCalibration c{2e-4F, -3e-4F, 1000, 0};
-  EXPECT_NEAR(volts(c, 1010), 2e-3, 1e-9);
-  EXPECT_NEAR(volts(c, 990), -3e-3, 1e-9);
-}
-
-TEST(LabjackT7Protocol, ConstantsFarFromNominalAreRefused) {
-  for (std::size_t range = 0; range < kRanges_v.size(); ++range) {
-    EXPECT_TRUE(check(nominal_calibration(range), range));
-    EXPECT_FALSE(check(nominal_calibration(range), (range + 1) % 4));
-  }
-  AinCalibration c = nominal_calibration(0);
-  c.negative_slope = -c.negative_slope;
-  EXPECT_FALSE(check(c, 0));
-  c = nominal_calibration(0);
-  c.centre = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(check(c, 0));
-}
-
 TEST(LabjackT7Protocol, RangesAndFlash) {
   EXPECT_EQ(range_index(0.1), std::optional<std::size_t>(2));
   EXPECT_FALSE(range_index(5));
@@ -132,7 +102,7 @@ TEST(LabjackT7Protocol, ErrorsHaveWords) {
 }
 
 TEST(LabjackT7Scans, AreCountedAndCut) {
-  ScanLine line(2);
+  PacketLine line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(packet(0, {1, 2, 3, 4}), scans));
   ASSERT_TRUE(line.take(packet(1, {5, 6}), scans));
@@ -143,7 +113,7 @@ TEST(LabjackT7Scans, AreCountedAndCut) {
 }
 
 TEST(LabjackT7Scans, TransactionsWrap) {
-  ScanLine line(1);
+  PacketLine line(1);
   std::vector<Scan> scans;
   for (int i = 0; i < 65538; ++i)
     ASSERT_TRUE(line.take(packet(static_cast<std::uint16_t>(i), {0}), scans));
@@ -151,7 +121,7 @@ TEST(LabjackT7Scans, TransactionsWrap) {
 }
 
 TEST(LabjackT7Scans, AGapInTheTransactionsIsAnError) {
-  ScanLine line(1);
+  PacketLine line(1);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(packet(0, {0}), scans));
   const Status status = line.take(packet(2, {0}), scans);
@@ -161,7 +131,7 @@ TEST(LabjackT7Scans, AGapInTheTransactionsIsAnError) {
 }
 
 TEST(LabjackT7Scans, TheTimeLineGoesOnOverDroppedScans) {
-  ScanLine line(2);
+  PacketLine line(2);
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {1, 1, 2, 2});
   p.status = status::recovering;
@@ -179,7 +149,7 @@ TEST(LabjackT7Scans, TheTimeLineGoesOnOverDroppedScans) {
 }
 
 TEST(LabjackT7Scans, AGapAtTheEndOfAPacketStandsBeforeTheNextScan) {
-  ScanLine line(1);
+  PacketLine line(1);
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {7, 0xFFFF});
   p.status = status::recovered;
@@ -192,7 +162,7 @@ TEST(LabjackT7Scans, AGapAtTheEndOfAPacketStandsBeforeTheNextScan) {
 }
 
 TEST(LabjackT7Scans, AnUnmarkedGapIsAnError) {
-  ScanLine line(2);
+  PacketLine line(2);
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {0xFFFF, 1, 2, 0xFFFF});
   p.status = status::recovered;
@@ -202,7 +172,7 @@ TEST(LabjackT7Scans, AnUnmarkedGapIsAnError) {
 }
 
 TEST(LabjackT7Scans, AllOnesWithoutAGapAreValues) {
-  ScanLine line(2);
+  PacketLine line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(packet(0, {0xFFFF, 0xFFFF}), scans));
   EXPECT_EQ(scans.size(), 1U);
@@ -210,7 +180,7 @@ TEST(LabjackT7Scans, AllOnesWithoutAGapAreValues) {
 
 TEST(LabjackT7Scans, AStoppedStreamIsAnError) {
   for (const int code : {2942, 2943, 2944, 2945, 1}) {
-    ScanLine line(1);
+    PacketLine line(1);
     std::vector<Scan> scans;
     StreamPacket p = packet(0, {0});
     p.status = static_cast<std::uint16_t>(code);
@@ -222,7 +192,7 @@ TEST(LabjackT7Scans, AStoppedStreamIsAnError) {
 }
 
 TEST(LabjackT7Scans, HalfScansAreAnError) {
-  ScanLine line(2);
+  PacketLine line(2);
   std::vector<Scan> scans;
   EXPECT_FALSE(line.take(packet(0, {1, 2, 3}), scans));
 }

@@ -52,7 +52,7 @@ std::string error_text(int code) {
       {kRecovered, "the stream goes on after dropped scans"},
       {kRecoveryOverflow, "more scans were dropped than the device can count: lower rate_hz"},
   };
-  const std::string number = "U6 error " + std::to_string(code);
+  std::string number = "U6 error " + std::to_string(code);
   for (const Row& row : kRows)
     if (row.code == code) return number + ", " + row.text;
   return number;

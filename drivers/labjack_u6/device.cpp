@@ -144,7 +144,8 @@ std::string Device::configured(std::string_view command) {
 }
 
 std::int64_t Device::time_of(std::uint64_t sample) const {
-  const auto scan = static_cast<double>(sample / list_.size());
+  const std::uint64_t whole = sample / list_.size();
+  const auto scan = static_cast<double>(whole);
   const auto slot = static_cast<std::int64_t>(sample % list_.size());
   return stream_->start_ns + std::llround(scan * 1e9 / rate_hz_) + slot * kSlot_ns;
 }

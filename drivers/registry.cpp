@@ -4,6 +4,7 @@
 
 #include "drivers/csv/csv_log.h"
 #include "drivers/modbus/configure.h"
+#include "drivers/labjack_t7/configure.h"
 #include "drivers/recording/recording_log.h"
 #include "drivers/simulator/simulator.h"
 
@@ -50,6 +51,7 @@ struct Row {
 // A new driver: one row.
 constexpr Row kDrivers[] = {
     {"modbus", configure_modbus},
+    {"labjack_t7", configure_labjack_t7},
     {"replay", configure_replay},
     {"simulator", configure_simulator},
 };

@@ -1,0 +1,119 @@
+#include "drivers/labjack_t7/configure.h"
+
+#include <algorithm>
+
+#include "drivers/channels.h"
+#include "drivers/labjack_t7/labjack_t7.h"
+
+namespace mdof::drivers {
+namespace {
+
+using namespace labjack_t7;
+
+constexpr int kCommandPort = 502, kStreamPort = 702;
+constexpr const char* kCounter = "DIO0";
+constexpr double kMostSamples_Hz = 100'000;  // of all inputs
+constexpr int kMostResolution = 8, kMostSettling_us = 4400;
+
+void read_endpoints(TomlTable& table, Settings& settings) {
+  const std::string address = table.string("address");
+  const auto command = parse_endpoint(address, kCommandPort);
+  if (!command) return table.reject("address", command.error().message);
+  settings.command = settings.stream = *command;
+  const std::int64_t port = table.integer("stream_port", kStreamPort);
+  if (port < 1 || port > 65535) table.reject("stream_port", "must be from 1 to 65535");
+  settings.stream.port = static_cast<int>(port);
+}
+
+void read_converter(TomlTable& table, Settings& settings) {
+  settings.range_v = table.number("range_v", settings.range_v);
+  if (!range_index(settings.range_v)) table.reject("range_v", "must be 10, 1, 0.1 or 0.01");
+  const std::int64_t resolution = table.integer("resolution_index", 0);
+  if (resolution < 0 || resolution > kMostResolution)
+    table.reject("resolution_index", "must be from 0 (the default) to 8");
+  settings.resolution_index = static_cast<int>(resolution);
+  settings.settling_us = table.number("settling_us", 0);
+  if (!(settings.settling_us >= 0 && settings.settling_us <= kMostSettling_us))
+    table.reject("settling_us", "must be from 0 (automatic) to 4400");
+  const std::int64_t serial = table.integer("serial", 0);
+  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is no serial number of a T7");
+  settings.serial = static_cast<std::uint32_t>(serial);
+}
+
+void read_rate(TomlTable& table, Settings& settings) {
+  const std::size_t words = scan_list(settings.inputs).size();
+  settings.rate_hz = table.number("rate_hz", settings.rate_hz);
+  if (!(settings.rate_hz >= 1 && settings.rate_hz * static_cast<double>(words) <= kMostSamples_Hz))
+    return table.reject("rate_hz", "must be from 1 to " +
+                                       std::to_string(static_cast<int>(kMostSamples_Hz) / words) +
+                                       ": a T7 takes 100000 samples/s and a scan of these inputs "
+                                       "has " +
+                                       std::to_string(words) + " (a counter two)");
+  const auto automatic = static_cast<std::int64_t>(quick_packet(settings.rate_hz, words));
+  const std::int64_t samples = table.integer("samples_per_packet", automatic);
+  if (samples < 1 || samples > static_cast<std::int64_t>(labjack_t7::kMostSamples) ||
+      samples % static_cast<std::int64_t>(words) != 0)
+    table.reject("samples_per_packet", "must be a multiple of " + std::to_string(words) +
+                                           ", the samples of a scan, up to 512");
+  settings.samples_per_packet = static_cast<std::size_t>(samples);
+}
+
+std::vector<std::string> known_inputs() {
+  std::vector<std::string> names;
+  for (int n = 0; n < kAins; ++n) names.push_back("AIN" + std::to_string(n));
+  names.emplace_back(kCounter);
+  return names;
+}
+
+Result<Input> input_of(const ChannelInput& channel) {
+  Input input;
+  if (channel.input == kCounter) {
+    MDOF_CHECK(check_um_per_count(channel));
+    input.channel = {channel.id, Unit::um};
+    input.um_per_count = channel.um_per_count;
+    return input;
+  }
+  const std::vector<std::string> known = known_inputs();
+  const auto at = std::find(known.begin(), known.end(), channel.input);
+  if (at == known.end()) return no_such_input(channel, known);
+  if (channel.id == kEncoderChannel)
+    return bad_input(channel.where + ": an encoder is counted, by input \"" + kCounter + "\"");
+  if (channel.um_per_count != 0)
+    return bad_input(channel.where + ": " + channel.input +
+                     " gives volts and counts nothing; take um_per_count away (the rig has "
+                     "um_per_V)");
+  input.channel = {channel.id, Unit::volt};
+  input.ain = static_cast<int>(at - known.begin());
+  return input;
+}
+
+}  // namespace
+
+Result<Settings> read_labjack_t7(TomlTable& table, const DriverContext& context) {
+  Settings settings;
+  settings.name = context.name;
+  MDOF_TRY(const auto channels, read_channels(table, context.rig));
+  for (const ChannelInput& channel : channels) {
+    MDOF_TRY(const Input input, input_of(channel));
+    settings.inputs.push_back(input);
+  }
+  read_endpoints(table, settings);
+  read_converter(table, settings);
+  read_rate(table, settings);
+  MDOF_CHECK(table.finish());
+  return settings;
+}
+
+Result<DriverSpec> configure_labjack_t7(TomlTable& table, const DriverContext& context) {
+  MDOF_TRY(const Settings settings, read_labjack_t7(table, context));
+  DriverSpec spec;
+  spec.driver = "labjack_t7";
+  spec.name = context.name;
+  spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
+    return std::make_unique<LabjackT7>(settings);
+  };
+  spec.source_info = [](const Driver&) { return SourceInfo{}; };
+  return spec;
+}
+
+}  // namespace mdof::drivers

@@ -1,0 +1,205 @@
+#include "drivers/labjack_t7/device.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace mdof::drivers::labjack_t7 {
+namespace {
+
+constexpr std::size_t kCommandPort = 0, kStreamPort = 1;
+constexpr int kIllegalFunction = 1, kIllegalAddress = 2, kIllegalValue = 3, kFailure = 4;
+constexpr double kMostSamples_Hz = 100'000;
+
+// First and last address of what can be written and read back.
+constexpr int kWritable[][2] = {{4002, 4015},   {4016, 4023},   {4028, 4029},
+                                {4100, 4355},   {4990, 4991},   {43900, 43905},
+                                {44000, 44045}, {44100, 44145}, {61810, 61811}};
+bool writable(int address) {
+  return std::any_of(std::begin(kWritable), std::end(kWritable),
+                     [&](const auto& range) { return address >= range[0] && address <= range[1]; });
+}
+
+// All 32-bit registers start at an even address; of these 16-bit ones some lie among them.
+bool is_16_bit(int address) {
+  return address == reg::ain_all_negative_ch.address || address == 43903 ||
+         address == reg::last_error.address;
+}
+
+std::uint32_t bits(float value) {
+  return std::bit_cast<std::uint32_t>(value);
+}
+
+std::uint32_t flash_word(std::uint32_t address) {
+  const std::uint32_t i = (address - flash_address(0)) / 4;
+  if (i >= 4 * kRanges_v.size()) return bits(0);
+  const AinCalibration c = Device::calibration(i / 4);
+  const std::array numbers{c.positive_slope, c.negative_slope, c.centre, 0.0};  // the last: unused
+  return bits(static_cast<float>(numbers[i % 4]));
+}
+
+}  // namespace
+
+Device::Device(Senses senses, const Options& options)
+    : senses_(std::move(senses)), options_(options) {
+  restart();
+}
+
+// Near nominal, each range in its own way, so that a wrong block shows.
+AinCalibration Device::calibration(std::size_t range) {
+  AinCalibration c = labjack::nominal_calibration(range);
+  const auto by = static_cast<double>(range);
+  c.positive_slope *= 1.001 + 0.0002 * by;
+  c.negative_slope *= 0.999 - 0.0002 * by;
+  c.centre += 7.25 + by;
+  return c;
+}
+
+std::vector<SimulatedDevice::Port> Device::ports() const {
+  return {{"command", 502}, {"stream", 702}};
+}
+
+void Device::restart() {
+  registers_.clear();
+  stream_.reset();
+  registers_[reg::last_error.address] = 0;
+  for (const auto& range : kWritable)
+    for (int a = range[0]; a <= range[1]; ++a) registers_[a] = 0;
+}
+
+void Device::opened(std::size_t port, int client, std::int64_t /*now_ns*/) {
+  if (port == kStreamPort) reader_ = client;
+}
+
+void Device::closed(std::size_t port, int client) {
+  if (port == kCommandPort) requests_.erase(client);
+  if (port == kStreamPort && reader_ == client) reader_.reset();
+}
+
+bool Device::hangs_up(std::size_t port, int client) {
+  return port == kStreamPort && reader_ == client && stream_ && stream_->hangs_up;
+}
+
+std::string Device::exchange(std::size_t port, int client, std::string_view received,
+                             std::int64_t now_ns) {
+  if (port == kStreamPort) return reader_ == client ? stream_packets(now_ns) : "";
+  std::string& bytes = requests_[client];
+  bytes += received;
+  std::string replies;
+  while (const auto request = take_request(bytes)) replies += answer(*request, now_ns);
+  return replies;
+}
+
+std::string Device::answer(const ModbusRequest& request, std::int64_t now_ns) {
+  if (request.function != 3 && request.function != 6 && request.function != 16)
+    return exception_reply(request, kIllegalFunction);
+  if (!request.well_formed) return exception_reply(request, kIllegalValue);
+  if (request.function != 3) {
+    const int refused = write(request, now_ns);
+    return refused ? exception_reply(request, refused) : write_reply(request);
+  }
+  std::vector<std::uint16_t> values;
+  for (int i = 0; i < request.count; ++i) {
+    const auto value = read(request.address + i, now_ns);
+    if (!value) return exception_reply(request, kIllegalAddress);
+    values.push_back(*value);
+  }
+  return read_reply(request, values);
+}
+
+std::optional<std::uint16_t> Device::read(int address, std::int64_t now_ns) const {
+  if (is_16_bit(address)) return registers_.at(address);
+  const int first = address & ~1;
+  auto value = computed(first, now_ns);
+  if (!value && !registers_.contains(first)) return std::nullopt;
+  if (!value) value = stored(first);
+  const bool low = (address != first) != options_.faults.swapped_words;
+  return words_of(*value)[low ? 1 : 0];
+}
+
+// What is not simply what was written.
+std::optional<std::uint32_t> Device::computed(int address, std::int64_t now_ns) const {
+  const std::size_t ain = static_cast<std::size_t>(address) / 2;
+  if (ain < kAins) return bits(static_cast<float>(senses_(ain, now_ns)));
+  if (address == reg::dio_ef_read_a.address) return count_at(now_ns);
+  if (address == reg::stream_start_time.address) return start_time_;
+  if (address == reg::stream_enable.address) return stream_ ? 1 : 0;
+  if (address == reg::test.address) return kTestValue;
+  if (address == reg::product_id.address) return bits(options_.product);
+  if (address == reg::firmware.address) return bits(1.0304F);
+  if (address == reg::serial.address) return options_.serial;
+  if (address == reg::core_timer.address) return core_at(now_ns);
+  const int offset = address - reg::flash_read.address;
+  if (offset < 0 || offset >= 2 * kFlashNumbers) return std::nullopt;
+  if (options_.faults.erased_flash) return 0xFFFFFFFF;
+  return flash_word(stored(reg::flash_pointer.address) + static_cast<std::uint32_t>(2 * offset));
+}
+
+std::uint32_t Device::stored(int address) const {
+  return u32_of(registers_.at(address), registers_.at(address + 1));
+}
+
+float Device::stored_f32(int address) const {
+  return std::bit_cast<float>(stored(address));
+}
+
+void Device::store(int address, Words words) {
+  registers_[address] = words[0];
+  registers_[address + 1] = words[1];
+}
+
+// 0, or the code of an exception.
+int Device::write(const ModbusRequest& request, std::int64_t now_ns) {
+  const int from = request.address, to = from + request.count;
+  for (int a = from; a < to; ++a)
+    if (!writable(a)) return kIllegalAddress;
+  const auto refuse = [&](int code) {
+    registers_[reg::last_error.address] = static_cast<std::uint16_t>(code);
+    return kFailure;
+  };
+  if (options_.faults.refused >= from && options_.faults.refused < to)
+    return refuse(options_.faults.refused_code);
+  for (int a = from; a < to; ++a)
+    registers_[a] = request.values[static_cast<std::size_t>(a - from)];
+  if (from != reg::stream_enable.address) return 0;
+  const bool enable = stored(from) != 0;
+  const int code = enable ? start_stream(now_ns) : stream_ ? 0 : 2620;
+  if (!enable) stream_.reset();
+  return code ? refuse(code) : 0;
+}
+
+int Device::check_stream() const {
+  const std::uint32_t entries = stored(reg::stream_addresses.address);
+  const std::uint32_t samples = stored(reg::stream_samples.address);
+  const float rate = stored_f32(reg::stream_rate.address);
+  if (entries < 1 || entries > 128) return 2606;
+  if (samples < 1 || samples > kMostSamples) return 2618;
+  if (!(rate > 0 && static_cast<double>(rate) * entries <= kMostSamples_Hz)) return 2608;
+  for (std::uint32_t i = 0; i < entries; ++i) {
+    const auto entry = stored(reg::stream_scan_list.address + 2 * static_cast<int>(i));
+    const bool ain = entry < 2 * kAins && entry % 2 == 0;
+    const bool count = entry == static_cast<std::uint32_t>(reg::dio_ef_read_a.address);
+    const bool capture = entry == static_cast<std::uint32_t>(reg::capture_16.address) && i > 0;
+    if (!ain && !count && !capture) return 2625;
+  }
+  return 0;
+}
+
+int Device::start_stream(std::int64_t now_ns) {
+  if (stream_) return 2605;
+  if (const int code = check_stream()) return code;
+  Stream stream;
+  const double rate = static_cast<double>(stored_f32(reg::stream_rate.address));
+  stream.period_ns = 1e9 / rate / (1 + options_.clock_ppm * 1e-6);
+  stream.start_ns = now_ns + std::llround(stream.period_ns);  // one period after it was enabled
+  const auto entries = static_cast<std::size_t>(stored(reg::stream_addresses.address));
+  for (std::size_t i = 0; i < entries; ++i)
+    stream.list.push_back(
+        static_cast<int>(stored(reg::stream_scan_list.address + 2 * static_cast<int>(i))));
+  stream.scans_per_packet = std::max<std::size_t>(1, stored(reg::stream_samples.address) / entries);
+  start_time_ = core_at(stream.start_ns);
+  stream_ = std::move(stream);
+  return 0;
+}
+
+}  // namespace mdof::drivers::labjack_t7

@@ -1,0 +1,98 @@
+// A T7 without one: Modbus TCP on 502 and the stream on 702, with the registers that a stream
+// needs.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/labjack_t7/modbus_server.h"
+#include "drivers/labjack_t7/protocol.h"
+#include "drivers/simulated_device.h"
+
+namespace mdof::drivers::labjack_t7 {
+
+// What may go wrong, by the number of a packet of the stream; -1: never.
+struct Faults {
+  bool swapped_words = false;  // a gateway that swaps the words of 32-bit values
+  bool erased_flash = false;   // no calibration constants
+  int refused = -1;            // a write to this register is refused ...
+  int refused_code = 0;        // ... with this LabJack error in LAST_ERR_DETAIL
+  int recovery_at = -1;        // three packets say 2940, then 2941 reports `dropped` scans
+  std::uint16_t dropped = 0;
+  bool unmarked = false;  // 2941 without its scan of 0xFFFF
+  int stop_at = -1;       // this packet has `stop_status` and is the last
+  int stop_status = status::scan_overlap;
+  int skip_at = -1;         // this packet is not sent: a gap in the transaction ids
+  int silent_at = -1;       // from this packet on nothing is sent
+  int hang_up_at = -1;      // the connection breaks before this packet
+  bool no_capture = false;  // the upper word is of the count when it is read (no T7 does that)
+};
+
+// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in volts, input 14 the counts of DIO0 and DIO1. Inside
+// a scan the entries of the list are taken 10 us apart.
+class Device final : public SimulatedDevice {
+ public:
+  struct Options {
+    double clock_ppm = 0;  // its crystal, fast: > 0
+    std::uint32_t core_start = 0;
+    std::uint32_t serial = 470012345;
+    float product = 7;
+    Faults faults;
+  };
+  static constexpr std::size_t kCounterInput = kAins;
+
+  Device(Senses senses, const Options& options);
+
+  std::vector<Port> ports() const override;
+  void opened(std::size_t port, int client, std::int64_t now_ns) override;
+  void closed(std::size_t port, int client) override;
+  std::string exchange(std::size_t port, int client, std::string_view received,
+                       std::int64_t now_ns) override;
+  bool hangs_up(std::size_t port, int client) override;
+
+  // For tests: power off and on; faults from here on; its constants.
+  void restart();
+  void set_faults(const Faults& faults) { options_.faults = faults; }
+  static AinCalibration calibration(std::size_t range);
+
+ private:
+  struct Stream {               // under way
+    std::int64_t start_ns = 0;  // of scan 0
+    double period_ns = 0;
+    std::vector<int> list;
+    std::size_t scans_per_packet = 0;
+    std::uint64_t next_scan = 0;
+    int packet = 0;  // next
+    bool hangs_up = false;
+  };
+
+  std::string answer(const ModbusRequest& request, std::int64_t now_ns);
+  std::optional<std::uint16_t> read(int address, std::int64_t now_ns) const;
+  std::optional<std::uint32_t> computed(int address, std::int64_t now_ns) const;
+  std::uint32_t stored(int address) const;
+  float stored_f32(int address) const;
+  void store(int address, Words words);
+  int write(const ModbusRequest& request, std::int64_t now_ns);
+  int start_stream(std::int64_t now_ns);
+  int check_stream() const;
+
+  std::string stream_packets(std::int64_t now_ns);
+  StreamPacket packet_of(Stream& stream);
+  void append_scan(StreamPacket& packet, const Stream& stream, std::uint64_t scan) const;
+  std::uint16_t ain_code(std::size_t ain, std::int64_t t_ns) const;
+  std::uint32_t count_at(std::int64_t t_ns) const;
+  std::uint32_t core_at(std::int64_t t_ns) const;
+
+  Senses senses_;
+  Options options_;
+  std::map<int, std::uint16_t> registers_;
+  std::map<int, std::string> requests_;  // of each client, not yet complete
+  std::optional<int> reader_;            // client of the stream's port
+  std::optional<Stream> stream_;
+  std::uint32_t start_time_ = 0;  // STREAM_START_TIME_STAMP
+};
+
+}  // namespace mdof::drivers::labjack_t7

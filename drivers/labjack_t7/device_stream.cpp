@@ -1,0 +1,92 @@
+// What the simulated T7 sends on port 702.
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/labjack_t7/device.h"
+
+namespace mdof::drivers::labjack_t7 {
+namespace {
+
+constexpr std::int64_t kSlot_ns = 10'000;  // from one entry of the scan list to the next
+constexpr int kRecoveryPackets = 3;
+
+}  // namespace
+
+std::string Device::stream_packets(std::int64_t now_ns) {
+  std::string bytes;
+  while (stream_ && !stream_->hangs_up) {
+    Stream& s = *stream_;
+    const Faults& faults = options_.faults;
+    const bool gap = s.packet == faults.recovery_at + kRecoveryPackets && faults.recovery_at >= 0;
+    const std::uint64_t last = s.next_scan + s.scans_per_packet + (gap ? faults.dropped : 0);
+    if (static_cast<double>(now_ns - s.start_ns) < static_cast<double>(last) * s.period_ns) break;
+    if (faults.silent_at >= 0 && s.packet >= faults.silent_at) break;
+    s.hangs_up = s.packet == faults.hang_up_at;
+    if (s.hangs_up) break;
+    const bool skipped = s.packet == faults.skip_at;
+    const bool stop = s.packet == faults.stop_at;
+    const std::string packet = encode(packet_of(s));
+    if (!skipped) bytes += packet;
+    if (stop) stream_.reset();
+  }
+  return bytes;
+}
+
+StreamPacket Device::packet_of(Stream& s) {
+  const Faults& faults = options_.faults;
+  StreamPacket packet;
+  packet.transaction = static_cast<std::uint16_t>(s.packet);
+  const int recovery = faults.recovery_at < 0 ? -1 : s.packet - faults.recovery_at;
+  if (recovery >= 0 && recovery < kRecoveryPackets) packet.status = status::recovering;
+  if (s.packet == faults.stop_at) packet.status = static_cast<std::uint16_t>(faults.stop_status);
+  std::size_t scans = s.scans_per_packet;
+  if (recovery == kRecoveryPackets) {
+    packet.status = status::recovered;
+    packet.info = faults.dropped;
+    s.next_scan += faults.dropped;
+    if (!faults.unmarked) packet.samples.assign(s.list.size(), 0xFFFF);
+    if (!faults.unmarked) --scans;
+  }
+  for (; scans > 0; --scans) append_scan(packet, s, s.next_scan++);
+  ++s.packet;
+  return packet;
+}
+
+void Device::append_scan(StreamPacket& packet, const Stream& s, std::uint64_t scan) const {
+  std::int64_t t_ns = s.start_ns + std::llround(static_cast<double>(scan) * s.period_ns);
+  std::uint32_t captured = 0;
+  for (const int entry : s.list) {
+    if (entry == reg::capture_16.address) {
+      const std::uint32_t count = options_.faults.no_capture ? count_at(t_ns) : captured;
+      packet.samples.push_back(words_of(count)[0]);
+    } else if (entry == reg::dio_ef_read_a.address) {
+      captured = count_at(t_ns);
+      packet.samples.push_back(words_of(captured)[1]);
+    } else {
+      packet.samples.push_back(ain_code(static_cast<std::size_t>(entry) / 2, t_ns));
+    }
+    t_ns += kSlot_ns;
+  }
+}
+
+std::uint16_t Device::ain_code(std::size_t ain, std::int64_t t_ns) const {
+  const auto set = static_cast<double>(stored_f32(reg::ain_all_range.address));
+  const AinCalibration c = calibration(range_index(set).value_or(0));
+  const double v = senses_(ain, t_ns);
+  const double slope = v < 0 ? -c.negative_slope : c.positive_slope;
+  const double code = std::round(c.centre + v / slope);
+  return static_cast<std::uint16_t>(std::clamp(code, 0.0, 65535.0));
+}
+
+std::uint32_t Device::count_at(std::int64_t t_ns) const {
+  const std::int64_t count = std::llround(senses_(kCounterInput, t_ns));
+  return static_cast<std::uint32_t>(count);
+}
+
+std::uint32_t Device::core_at(std::int64_t t_ns) const {
+  const double ticks =
+      static_cast<double>(t_ns) * 1e-9 * kCore_Hz * (1 + options_.clock_ppm * 1e-6);
+  return options_.core_start + static_cast<std::uint32_t>(std::llround(ticks));
+}
+
+}  // namespace mdof::drivers::labjack_t7

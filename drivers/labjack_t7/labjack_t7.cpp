@@ -1,0 +1,223 @@
+#include "drivers/labjack_t7/labjack_t7.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "drivers/labjack_t7/setup.h"
+
+namespace mdof::drivers::labjack_t7 {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kConnect{2000};
+constexpr std::int64_t kSilence_ns = 2'000'000'000;
+constexpr int kClockReads = 5;
+
+std::int64_t now_ns() {
+  return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count();
+}
+
+std::size_t words_per_scan(const Settings& settings) {
+  return scan_list(settings.inputs).size();
+}
+
+std::string describe(const Identity& id, const Endpoint& at) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "LabJack T7 %u, firmware %.4f, at ", id.serial,
+                static_cast<double>(id.firmware));
+  return text.data() + at.text();
+}
+
+}  // namespace
+
+LabjackT7::LabjackT7(Settings settings)
+    : settings_(std::move(settings)),
+      description_("LabJack T7 at " + settings_.command.text()),
+      line_(words_per_scan(settings_)),
+      rate_hz_(settings_.rate_hz),
+      clock_(1e9 / kCore_Hz),
+      buffer_(1 << 14) {
+  for (const Input& input : settings_.inputs) channels_.push_back(input.channel);
+}
+
+LabjackT7::~LabjackT7() {
+  close();
+}
+
+DeviceInfo LabjackT7::info() const {
+  return {settings_.name, "labjack_t7", description_, channels_, rate_hz_, false};
+}
+
+std::string LabjackT7::place() const {
+  return "device \"" + settings_.name + "\" (LabJack T7 at " + settings_.command.text() + ")";
+}
+
+Status LabjackT7::open() {
+  close();
+  if (auto started = start(); !started) {
+    close();
+    return in_context(place(), std::move(started.error()));
+  }
+  return {};
+}
+
+// The stream is stopped so that the device is free for others; that this fails is no news.
+void LabjackT7::close() {
+  if (registers_ && stream_) (void)registers_->write(reg::stream_enable, 0);
+  registers_.reset();
+  stream_.reset();
+  reader_ = {};
+  line_ = PacketLine(words_per_scan(settings_));
+  scans_.clear();
+  handed_out_ = 0;
+  broken_ = {};
+  clock_.reset();
+  reopened_ = last_time_ns_ != 0;
+}
+
+Status LabjackT7::start() {
+  MDOF_TRY(registers_, Registers::connect(settings_.command));
+  MDOF_TRY(const Identity identity, identify(*registers_, settings_));
+  description_ = describe(identity, settings_.command);
+  MDOF_CHECK(stop_stream(*registers_));
+  MDOF_TRY(calibration_, set_up_ains(*registers_, settings_.range_v));
+  const bool counts = std::any_of(settings_.inputs.begin(), settings_.inputs.end(),
+                                  [](const Input& input) { return input.ain < 0; });
+  if (counts) {
+    MDOF_TRY(const bool went_on, start_counter(*registers_));
+    zero_lost_ = zero_lost_ || (counted_ && !went_on);
+    counted_ = true;
+    if (!went_on) count_.reset();
+  }
+  MDOF_TRY(rate_hz_, set_up_stream(*registers_, settings_));
+  ticks_per_scan_ = kCore_Hz / rate_hz_;
+  MDOF_TRY(stream_, connect_tcp(settings_.stream, kConnect));
+  return start_clock();
+}
+
+// Several reads, of which DeviceClock takes the one that came soonest.
+Status LabjackT7::start_clock() {
+  core_.reset();
+  for (int i = 0; i < kClockReads; ++i) {
+    MDOF_TRY(const std::uint32_t ticks, registers_->u32(reg::core_timer));
+    clock_.add(core_(ticks), now_ns());
+  }
+  MDOF_CHECK(registers_->write(reg::stream_enable, 1));
+  MDOF_TRY(const std::uint32_t start, registers_->u32(reg::stream_start_time));
+  start_ticks_ = core_(start);
+  last_packet_ns_ = now_ns();
+  return {};
+}
+
+Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
+  clear(block);
+  if (!stream_) return io_error(place() + " is not open; open it before reading");
+  if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
+  hand_out(block);
+  return ReadState::more;
+}
+
+// What came before an error is handed out first.
+Status LabjackT7::next_scans(milliseconds timeout) {
+  scans_.clear();
+  handed_out_ = 0;
+  if (!broken_) return broken_;
+  auto received = receive(timeout);
+  if (received) return {};
+  broken_ = in_context(place(), std::move(received.error()));
+  return scans_.empty() ? broken_ : Status{};
+}
+
+// Until a packet has come, at most for `timeout`.
+Status LabjackT7::receive(milliseconds timeout) {
+  const auto until = steady_clock::now() + timeout;
+  do {
+    const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
+    MDOF_TRY(const std::size_t n, stream_->read(buffer_, std::max(left, milliseconds(0))));
+    const std::int64_t received_ns = now_ns();
+    reader_.append({buffer_.data(), n});
+    MDOF_CHECK(take_packets(received_ns));
+    const double packet_ns = 1e9 / rate_hz_ * static_cast<double>(settings_.samples_per_packet);
+    if (static_cast<double>(received_ns - last_packet_ns_ - kSilence_ns) > packet_ns)
+      return io_error(
+          "no packet for 2 s on port " + std::to_string(settings_.stream.port) +
+          ": the T7 lost power or network, or another program has stopped or taken its stream");
+  } while (scans_.empty() && steady_clock::now() < until);
+  return {};
+}
+
+Status LabjackT7::take_packets(std::int64_t received_ns) {
+  StreamPacket packet;
+  for (;;) {
+    MDOF_TRY(const bool complete, reader_.next(packet));
+    if (!complete) return {};
+    last_packet_ns_ = received_ns;
+    const std::size_t before = scans_.size();
+    MDOF_CHECK(line_.take(packet, scans_));
+    if (scans_.size() > before) clock_.add(ticks_of(scans_.back().index), received_ns);
+  }
+}
+
+std::int64_t LabjackT7::ticks_of(std::uint64_t scan) const {
+  return start_ticks_ + std::llround(static_cast<double>(scan) * ticks_per_scan_);
+}
+
+void LabjackT7::clear(SampleBlock& block) const {
+  block.device = settings_.name;
+  block.channels = channels_;
+  block.lost = 0;
+  block.time_ns.clear();
+  block.value.resize(channels_.size());
+  block.quality.resize(channels_.size());
+  for (auto& column : block.value) column.clear();
+  for (auto& column : block.quality) column.clear();
+}
+
+// A block ends before lost scans; they stand before the next one.
+void LabjackT7::hand_out(SampleBlock& block) {
+  while (handed_out_ < scans_.size()) {
+    const Scan& scan = scans_[handed_out_];
+    if (scan.lost > 0 && block.scans() > 0) return;
+    append(block, scan);
+    ++handed_out_;
+  }
+}
+
+void LabjackT7::append(SampleBlock& block, const Scan& scan) {
+  const std::int64_t time_ns = clock_.host_ns(ticks_of(scan.index));
+  block.lost += scan.lost + (reopened_ ? lost_while_closed(time_ns) : 0);
+  block.time_ns.push_back(time_ns);
+  last_time_ns_ = time_ns;
+  reopened_ = false;
+  std::size_t word = 0;
+  for (std::size_t c = 0; c < settings_.inputs.size(); ++c) {
+    const std::uint16_t first = scan.words[word++];
+    if (settings_.inputs[c].ain >= 0) {
+      append_ain(block, c, first);
+    } else {
+      append_count(block, c, u32_of(scan.words[word++], first));
+    }
+  }
+}
+
+void LabjackT7::append_ain(SampleBlock& block, std::size_t channel, std::uint16_t raw) const {
+  block.value[channel].push_back(labjack::volts(calibration_, raw));
+  block.quality[channel].push_back(labjack::at_rail(raw) ? Quality::over_range : Quality::good);
+}
+
+void LabjackT7::append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw) {
+  const auto count = static_cast<double>(count_(raw));
+  block.value[channel].push_back(count * settings_.inputs[channel].um_per_count);
+  block.quality[channel].push_back(zero_lost_ ? Quality::suspect : Quality::good);
+}
+
+// Scans that would have come since the last one.
+std::uint64_t LabjackT7::lost_while_closed(std::int64_t time_ns) const {
+  const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
+  return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));
+}
+
+}  // namespace mdof::drivers::labjack_t7

@@ -1,0 +1,82 @@
+// LabJack T7 over Ethernet: amplifier outputs and one quadrature encoder in one hardware-timed
+// scan.
+//
+// Port 502 (Modbus TCP) configures and says who it is, port 702 streams. The device counts its
+// scans on CORE_TIMER, 40 MHz: scan k was taken at STREAM_START_TIME_STAMP + k / rate. That count
+// is brought to the host's clock by DeviceClock from the arrivals of packets, begun with a few
+// reads of CORE_TIMER. Inside a scan the inputs follow each other by some 10 us; the scan has one
+// time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/clock/device_clock.h"
+#include "drivers/driver.h"
+#include "drivers/io/byte_stream.h"
+#include "drivers/labjack_t7/registers.h"
+#include "drivers/labjack_t7/settings.h"
+#include "drivers/unwrap.h"
+
+namespace mdof::drivers::labjack_t7 {
+
+// Thread-bound. Channels: Unit::volt of an AIN, Unit::um of the counter.
+//
+// The counter is left running over a re-open, so its zero stays. If it had stopped (the T7 lost
+// power) its zero is lost: from then on its values are Quality::suspect, for the life of this
+// object.
+class LabjackT7 final : public Driver {
+ public:
+  explicit LabjackT7(Settings settings);
+  ~LabjackT7() override;  // stops the stream
+
+  DeviceInfo info() const override;
+  Status open() override;
+  Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+
+ private:
+  void close();
+  Status start();
+  Status start_clock();
+  Status next_scans(std::chrono::milliseconds timeout);
+  Status receive(std::chrono::milliseconds timeout);
+  Status take_packets(std::int64_t received_ns);
+  std::int64_t ticks_of(std::uint64_t scan) const;
+  void clear(SampleBlock& block) const;
+  void hand_out(SampleBlock& block);
+  void append(SampleBlock& block, const Scan& scan);
+  void append_ain(SampleBlock& block, std::size_t channel, std::uint16_t raw) const;
+  void append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw);
+  std::uint64_t lost_while_closed(std::int64_t time_ns) const;
+  std::string place() const;
+
+  Settings settings_;
+  std::string description_;
+  std::vector<Channel> channels_;
+  std::optional<Registers> registers_;
+  std::optional<ByteStream> stream_;
+  PacketReader reader_;
+  PacketLine line_;
+  AinCalibration calibration_;
+  double rate_hz_, ticks_per_scan_ = 0;
+
+  DeviceClock clock_;
+  Unwrap core_{32};                  // CORE_TIMER, since open()
+  std::int64_t start_ticks_ = 0;     // of scan 0
+  std::int64_t last_packet_ns_ = 0;  // host time; at first of the start
+  std::vector<Scan> scans_;          // received
+  Status broken_;                    // the error that ended the stream
+  std::size_t handed_out_ = 0;       // of them
+  std::vector<char> buffer_;
+
+  Unwrap count_{32, true};
+  bool counted_ = false;           // the counter has been used since this object was made
+  bool zero_lost_ = false;         // of the counter
+  std::int64_t last_time_ns_ = 0;  // of the last scan handed out
+  bool reopened_ = false;          // since then
+};
+
+}  // namespace mdof::drivers::labjack_t7

@@ -1,0 +1,149 @@
+// LabJack T7: registers (Modbus TCP, port 502) and the stream (TCP, port 702), bytes <-> values.
+// Sources: LabJack's Modbus map (ljm_constants.json) and T-Series Datasheet 3.1, 3.2, 3.2.4, 13.2,
+// 14. All numbers are big-endian, of a 32-bit value the more significant word comes first.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/labjack/samples.h"
+#include "schema/result.h"
+
+namespace mdof::drivers::labjack_t7 {
+
+inline constexpr int kAins = 14;          // AIN0 ... AIN13
+inline constexpr double kCore_Hz = 40e6;  // of CORE_TIMER
+
+struct Register {
+  int address;
+  const char* name;  // LabJack's, without the number of the input
+};
+constexpr Register operator+(Register first, int by) {
+  return {first.address + by, first.name};
+}
+
+// 32 bits wide (two registers) unless said otherwise; an input n has its own at + 2n.
+namespace reg {
+// f32, volts; in a scan list 16 bits, raw.
+inline constexpr Register ain{0, "AIN"};
+// Count of a pair of lines, under the even one; in a scan list its lower word ...
+inline constexpr Register dio_ef_read_a{3000, "DIO_EF_READ_A"};
+// ... and this entry, next in the list, the upper word of the same count.
+inline constexpr Register capture_16{4899, "STREAM_DATA_CAPTURE_16"};
+
+inline constexpr Register stream_rate{4002, "STREAM_SCANRATE_HZ"};  // f32; reads as the true one
+inline constexpr Register stream_addresses{4004, "STREAM_NUM_ADDRESSES"};
+inline constexpr Register stream_samples{4006, "STREAM_SAMPLES_PER_PACKET"};
+inline constexpr Register stream_settling{4008, "STREAM_SETTLING_US"};  // f32
+inline constexpr Register stream_resolution{4010, "STREAM_RESOLUTION_INDEX"};
+inline constexpr Register stream_buffer{4012, "STREAM_BUFFER_SIZE_BYTES"};
+inline constexpr Register stream_clock_source{4014, "STREAM_CLOCK_SOURCE"};
+inline constexpr Register stream_target{4016, "STREAM_AUTO_TARGET"};  // 1: client of port 702
+inline constexpr Register stream_data_type{4018, "STREAM_DATATYPE"};
+inline constexpr Register stream_scans{4020, "STREAM_NUM_SCANS"};  // 0: without end
+// CORE_TIMER of the first scan.
+inline constexpr Register stream_start_time{4026, "STREAM_START_TIME_STAMP"};
+inline constexpr Register stream_no_recovery{4028, "STREAM_AUTORECOVER_DISABLE"};
+inline constexpr Register stream_scan_list{4100, "STREAM_SCANLIST_ADDRESS"};
+inline constexpr Register stream_enable{4990, "STREAM_ENABLE"};
+
+inline constexpr Register ain_all_range{43900, "AIN_ALL_RANGE"};              // f32, volts
+inline constexpr Register ain_all_negative_ch{43902, "AIN_ALL_NEGATIVE_CH"};  // u16
+inline constexpr Register dio_ef_enable{44000, "DIO_EF_ENABLE"};
+inline constexpr Register dio_ef_index{44100, "DIO_EF_INDEX"};
+
+inline constexpr Register last_error{55000, "LAST_ERR_DETAIL"};  // u16: why it was refused
+inline constexpr Register test{55100, "TEST"};
+inline constexpr Register product_id{60000, "PRODUCT_ID"};      // f32
+inline constexpr Register firmware{60004, "FIRMWARE_VERSION"};  // f32
+inline constexpr Register serial{60028, "SERIAL_NUMBER"};
+inline constexpr Register core_timer{61520, "CORE_TIMER"};
+inline constexpr Register flash_pointer{61810, "INTERNAL_FLASH_READ_POINTER"};
+inline constexpr Register flash_read{61812, "INTERNAL_FLASH_READ"};
+}  // namespace reg
+
+inline constexpr std::uint32_t kTestValue = 0x00112233;
+inline constexpr std::uint32_t kTestSwapped = 0x22330011;
+inline constexpr std::uint32_t kQuadrature = 10;
+inline constexpr std::uint16_t kSingleEnded = 199;
+
+using Words = std::array<std::uint16_t, 2>;
+Words words_of(std::uint32_t value);
+Words words_of_float(float value);
+std::uint32_t u32_of(std::uint16_t high, std::uint16_t low);
+float float_of(std::uint16_t high, std::uint16_t low);
+
+// What an error code of LabJack's means, with the number; for an unknown one the number.
+std::string error_text(int code);
+
+// --- Volts ---------------------------------------------------------------------------------------
+
+using labjack::AinCalibration;
+inline constexpr std::array<double, 4> kRanges_v{10, 1, 0.1, 0.01};
+// Index into kRanges_v; none: the device has no such range.
+std::optional<std::size_t> range_index(double range_v);
+
+// Flash: 13 numbers (26 registers) are read at a time; block i is at this address.
+inline constexpr int kFlashNumbers = 13;
+std::uint32_t flash_address(int block);
+
+// --- Stream --------------------------------------------------------------------------------------
+
+namespace status {
+inline constexpr int recovering = 2940;         // the buffer was full, scans are being dropped
+inline constexpr int recovered = 2941;          // `info` scans were; a scan of 0xFFFF marks where
+inline constexpr int scan_overlap = 2942;       // too fast
+inline constexpr int recovery_overflow = 2943;  // more than can be counted
+inline constexpr int burst_complete = 2944;
+inline constexpr int buffer_full = 2945;
+}  // namespace status
+
+inline constexpr std::size_t kMostSamples = 512;  // in a packet on TCP
+
+struct StreamPacket {
+  std::uint16_t transaction = 0;  // from 0, one more each packet
+  std::uint16_t backlog = 0;      // bytes left in the device
+  std::uint16_t status = 0;
+  std::uint16_t info = 0;
+  std::vector<std::uint16_t> samples;
+};
+std::string encode(const StreamPacket& packet);
+
+// Cuts the bytes of port 702 into packets. Bytes may come in any portions.
+class PacketReader {
+ public:
+  void append(std::string_view bytes);
+  // True: `packet` is the next one (its capacity is reused); false: it is not complete yet. Error:
+  // these bytes are no stream; nothing more can be had from it.
+  Result<bool> next(StreamPacket& packet);
+
+ private:
+  std::string bytes_;
+  std::size_t taken_ = 0;
+};
+
+// --- Scans ---------------------------------------------------------------------------------------
+
+using labjack::Scan;
+
+// Puts packets on the time line of the device: counts scans, also those dropped by auto-recovery.
+class PacketLine {
+ public:
+  explicit PacketLine(std::size_t words_per_scan) : words_(words_per_scan), line_(words_per_scan) {}
+  // Adds the packet's scans to `scans`. Error: packets are missing, the device stopped, or what was
+  // dropped is not known: start the stream anew.
+  Status take(const StreamPacket& packet, std::vector<Scan>& scans);
+
+ private:
+  Status check(const StreamPacket& packet) const;
+
+  std::size_t words_;
+  labjack::ScanLine line_;
+  std::uint16_t transaction_ = 0;  // expected
+};
+
+}  // namespace mdof::drivers::labjack_t7

@@ -1,0 +1,37 @@
+// What a T7 is configured to do: the keys of its table, checked.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drivers/io/byte_stream.h"
+#include "drivers/labjack_t7/protocol.h"
+#include "schema/sample.h"
+
+namespace mdof::drivers::labjack_t7 {
+
+struct Input {
+  Channel channel;
+  int ain = -1;             // -1: the quadrature counter of DIO0 and DIO1
+  double um_per_count = 0;  // of the counter
+};
+
+struct Settings {
+  std::string name;  // of the device
+  Endpoint command, stream;
+  double rate_hz = 1000;
+  double range_v = 10;
+  int resolution_index = 0;            // 0: the device's default
+  double settling_us = 0;              // 0: the device chooses
+  std::size_t samples_per_packet = 0;  // whole scans
+  std::uint32_t serial = 0;            // 0: any
+  std::vector<Input> inputs;
+};
+
+// The scan list for these inputs, in their order; a counter takes two entries.
+std::vector<int> scan_list(const std::vector<Input>& inputs);
+// Whole scans for about 2 ms, so that a sample waits no longer for its packet.
+std::size_t quick_packet(double rate_hz, std::size_t words_per_scan);
+
+}  // namespace mdof::drivers::labjack_t7

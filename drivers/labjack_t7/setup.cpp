@@ -1,0 +1,130 @@
+#include "drivers/labjack_t7/setup.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mdof::drivers::labjack_t7 {
+namespace {
+
+constexpr float kProduct = 7;
+constexpr std::uint32_t kBufferBytes = 32768;  // the most a T7 has; at 4 kHz x 7 half a second
+constexpr int kLines = 2;                      // of a quadrature pair: DIO0, DIO1
+
+Status check_words(std::uint32_t test) {
+  if (test == kTestValue) return {};
+  if (test == kTestSwapped)
+    return io_error(
+        "TEST reads 0x22330011: the two words of each number come swapped; a gateway or proxy on "
+        "the way changes them: connect the T7 directly or set the gateway to the order high, low");
+  return io_error("TEST does not read 0x00112233: this is no LabJack; check the address");
+}
+
+Status check_product(float product) {
+  if (product == kProduct) return {};
+  return io_error("PRODUCT_ID is " + std::to_string(std::lround(product)) +
+                  ", not 7: this LabJack is no T7");
+}
+
+}  // namespace
+
+Result<Identity> identify(Registers& registers, const Settings& settings) {
+  MDOF_TRY(const std::uint32_t test, registers.u32(reg::test));
+  MDOF_CHECK(check_words(test));
+  MDOF_TRY(const float product, registers.f32(reg::product_id));
+  MDOF_CHECK(check_product(product));
+  MDOF_TRY(const std::uint32_t serial, registers.u32(reg::serial));
+  if (settings.serial != 0 && serial != settings.serial)
+    return io_error("its serial number is " + std::to_string(serial) + ", the configuration says " +
+                    std::to_string(settings.serial) + "; correct address or serial");
+  MDOF_TRY(const float firmware, registers.f32(reg::firmware));
+  return Identity{serial, firmware};
+}
+
+// Asked first: to stop what does not run is refused, and a refusal may cost the connection.
+Status stop_stream(Registers& registers) {
+  MDOF_TRY(const std::uint32_t running, registers.u32(reg::stream_enable));
+  return running ? registers.write(reg::stream_enable, 0) : Status{};
+}
+
+Result<AinCalibration> set_up_ains(Registers& registers, double range_v) {
+  MDOF_CHECK(registers.write_u16(reg::ain_all_negative_ch, kSingleEnded));
+  MDOF_CHECK(registers.write_f32(reg::ain_all_range, static_cast<float>(range_v)));
+  std::array<std::uint16_t, 4 * kFlashNumbers> words{};  // of two reads
+  for (int block = 0; block < 2; ++block) {
+    constexpr std::size_t kRead = 2 * kFlashNumbers;
+    MDOF_CHECK(registers.write(reg::flash_pointer, flash_address(block)));
+    MDOF_CHECK(registers.read(reg::flash_read, std::span(words).subspan(block * kRead, kRead)));
+  }
+  const std::size_t range = range_index(range_v).value();
+  const auto number = [&](std::size_t i) {
+    const std::size_t at = 2 * (4 * range + i);
+    return static_cast<double>(float_of(words[at], words[at + 1]));
+  };
+  const AinCalibration calibration{number(0), number(1), number(2)};
+  MDOF_CHECK(labjack::check(calibration, range));
+  return calibration;
+}
+
+Result<bool> start_counter(Registers& registers) {
+  bool running = true;
+  for (int line = 0; line < kLines; ++line) {
+    MDOF_TRY(const std::uint32_t enabled, registers.u32(reg::dio_ef_enable + 2 * line));
+    MDOF_TRY(const std::uint32_t index, registers.u32(reg::dio_ef_index + 2 * line));
+    running = running && enabled == 1 && index == kQuadrature;
+  }
+  if (running) return true;
+  for (int line = 0; line < kLines; ++line)
+    MDOF_CHECK(registers.write(reg::dio_ef_enable + 2 * line, 0));
+  for (int line = 0; line < kLines; ++line)
+    MDOF_CHECK(registers.write(reg::dio_ef_index + 2 * line, kQuadrature));
+  for (int line = 0; line < kLines; ++line)
+    MDOF_CHECK(registers.write(reg::dio_ef_enable + 2 * line, 1));
+  return false;
+}
+
+Result<double> set_up_stream(Registers& registers, const Settings& settings) {
+  const std::vector<int> list = scan_list(settings.inputs);
+  MDOF_CHECK(registers.write_f32(reg::stream_rate, static_cast<float>(settings.rate_hz)));
+  MDOF_CHECK(registers.write(reg::stream_addresses, static_cast<std::uint32_t>(list.size())));
+  MDOF_CHECK(registers.write(reg::stream_samples,
+                             static_cast<std::uint32_t>(settings.samples_per_packet)));
+  MDOF_CHECK(registers.write_f32(reg::stream_settling, static_cast<float>(settings.settling_us)));
+  MDOF_CHECK(registers.write(reg::stream_resolution,
+                             static_cast<std::uint32_t>(settings.resolution_index)));
+  MDOF_CHECK(registers.write(reg::stream_buffer, kBufferBytes));
+  MDOF_CHECK(registers.write(reg::stream_clock_source, 0));
+  MDOF_CHECK(registers.write(reg::stream_target, 1));
+  MDOF_CHECK(registers.write(reg::stream_data_type, 0));
+  MDOF_CHECK(registers.write(reg::stream_scans, 0));
+  MDOF_CHECK(registers.write(reg::stream_no_recovery, 0));
+  for (std::size_t i = 0; i < list.size(); ++i)
+    MDOF_CHECK(registers.write(reg::stream_scan_list + 2 * static_cast<int>(i),
+                               static_cast<std::uint32_t>(list[i])));
+  MDOF_TRY(const float rate, registers.f32(reg::stream_rate));
+  if (!(std::abs(rate / settings.rate_hz - 1) < 0.1))
+    return io_error("the T7 would scan at " + std::to_string(rate) + " Hz instead of rate_hz = " +
+                    std::to_string(settings.rate_hz) + "; choose another rate");
+  return static_cast<double>(rate);
+}
+
+std::vector<int> scan_list(const std::vector<Input>& inputs) {
+  std::vector<int> list;
+  for (const Input& input : inputs) {
+    if (input.ain >= 0) {
+      list.push_back(reg::ain.address + 2 * input.ain);
+    } else {
+      list.insert(list.end(), {reg::dio_ef_read_a.address, reg::capture_16.address});
+    }
+  }
+  return list;
+}
+
+std::size_t quick_packet(double rate_hz, std::size_t words_per_scan) {
+  constexpr double kWait_s = 2e-3;
+  const double scans = std::clamp(std::floor(rate_hz * kWait_s), 1.0,
+                                  std::floor(static_cast<double>(kMostSamples) / words_per_scan));
+  return static_cast<std::size_t>(scans) * words_per_scan;
+}
+
+}  // namespace mdof::drivers::labjack_t7

@@ -1,0 +1,214 @@
+#include "drivers/labjack_u6/device.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mdof::drivers::labjack_u6 {
+namespace {
+
+constexpr std::int64_t kSlot_ns = 10'000;  // from one entry of the scan list to the next
+constexpr int kRecoveryPackets = 3;
+constexpr std::size_t kFewBytes = 20;
+constexpr int kBadConfiguration = 49;
+
+std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
+  return static_cast<std::uint8_t>(bytes[i]);
+}
+
+std::string normal_reply(std::uint8_t command, int error) {
+  std::string reply{static_cast<char>(command + 1), static_cast<char>(error), 0};
+  return static_cast<char>(checksum8(reply)) + reply;
+}
+
+std::string identity() {
+  std::string body(32, '\0');
+  body[3] = 15;  // firmware 1.15
+  body[4] = 1;
+  for (std::size_t i = 0; i < 4; ++i) body[9 + i] = static_cast<char>(Device::kSerial >> 8 * i);
+  body[13] = 6;
+  body[31] = 4;
+  return extended(kConfigU6, body);
+}
+
+void append_fixed(std::string& body, double value) {
+  const auto fixed = static_cast<std::uint64_t>(std::llround(value * 4294967296.0));
+  for (int i = 0; i < 8; ++i) body += static_cast<char>(fixed >> 8 * i & 0xFF);
+}
+
+// Blocks 0 and 1: slope, offset of gains 0 ... 3; 2 and 3: negative slope, centre; the rest zero.
+std::string constants(int block) {
+  std::string body(2, '\0');
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t gain = static_cast<std::size_t>(block % 2) * 2 + i / 2;
+    const AinCalibration c = Device::calibration(gain);
+    const double up = i % 2 == 0 ? c.positive_slope : 0;
+    const double down = i % 2 == 0 ? c.negative_slope : c.centre;
+    append_fixed(body, block < 2 ? up : block < 4 ? down : 0);
+  }
+  return extended(kReadCalibration, body);
+}
+
+}  // namespace
+
+Device::Device(Senses senses, const Faults& faults)
+    : senses_(std::move(senses)), faults_(faults), running_(faults.streaming) {}
+
+// Near nominal, each gain in its own way, so that a wrong block shows.
+AinCalibration Device::calibration(std::size_t gain) {
+  AinCalibration c = labjack::nominal_calibration(gain);
+  c.positive_slope *= 1.001 + 0.0002 * static_cast<double>(gain);
+  c.negative_slope *= 0.999;
+  c.centre += 5.5 + static_cast<double>(gain);
+  return c;
+}
+
+bool Device::hangs_up(std::size_t /*port*/, int /*client*/) {
+  return gone_;
+}
+
+std::string Device::exchange(std::size_t port, int /*client*/, std::string_view received,
+                             std::int64_t now_ns) {
+  if (gone_) return "";
+  if (port != 0) return stream_packets(now_ns);
+  if (received.empty()) return "";
+  std::string reply = answer(received, now_ns);
+  if (faults_.wrong_checksum) reply[0] = static_cast<char>(reply[0] ^ 0x55);
+  return reply;
+}
+
+std::string Device::answer(std::string_view command, std::int64_t now_ns) {
+  constexpr const char* kBad = "\xB8\xB8";
+  if (faults_.deaf || command.size() < 2) return kBad;
+  if (command.size() == 2) return answer_normal(command, now_ns);
+  if (command.size() < 8 || !extended_body(command, byte_at(command, 3), command.size()))
+    return kBad;
+  return answer_extended(command);
+}
+
+std::string Device::answer_normal(std::string_view command, std::int64_t now_ns) {
+  const std::uint8_t code = byte_at(command, 1);
+  if (command[0] != command[1]) return "\xB8\xB8";
+  if (command == stream_start()) {
+    if (running_) return normal_reply(code, kStreamActive);
+    if (list_.empty()) return normal_reply(code, kBadConfiguration);
+    running_ = true;
+    stream_ = Stream{now_ns, 0, 0};
+    return normal_reply(code, 0);
+  }
+  const bool ran = std::exchange(running_, false);
+  stream_.reset();
+  return normal_reply(code, ran ? 0 : kNotRunning);
+}
+
+std::string Device::answer_extended(std::string_view command) {
+  const std::uint8_t code = byte_at(command, 3);
+  if ((code == kConfigIo || code == kStreamConfig) && command.size() < 16) return "\xB8\xB8";
+  switch (code) {
+    case kConfigU6:
+      return identity();
+    case kReadCalibration:
+      return constants(byte_at(command, 7));
+    case kConfigIo:
+      return extended(kConfigIo, std::string(2, '\0') + std::string(command.substr(7, 3)) + '\0');
+    case kFeedback:
+      return extended(kFeedback, std::string(4, '\0'));
+    case kStreamConfig:
+      return configured(command);
+    default:
+      return "\xB8\xB8";
+  }
+}
+
+std::string Device::configured(std::string_view command) {
+  const auto reply = [](int error) {
+    return extended(kStreamConfig, std::string{static_cast<char>(error), '\0'});
+  };
+  const std::size_t n = byte_at(command, 6);
+  const std::size_t interval = byte_at(command, 12) | std::size_t{byte_at(command, 13)} << 8;
+  const std::size_t samples = byte_at(command, 8);
+  if (running_) return reply(kStreamActive);
+  if (n == 0 || command.size() < 14 + 2 * n || samples < 1 || samples > 25)
+    return reply(kBadConfiguration);
+  if (interval == 0) return reply(kRateInvalid);
+  const double clock_Hz =
+      (byte_at(command, 11) & 8 ? 48e6 : 4e6) / (byte_at(command, 11) & 2 ? 256 : 1);
+  rate_hz_ = clock_Hz / static_cast<double>(interval);
+  samples_per_packet_ = samples;
+  list_.clear();
+  gains_.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    list_.push_back(byte_at(command, 14 + 2 * i));
+    gains_.push_back(byte_at(command, 15 + 2 * i) >> 4 & 3);
+  }
+  return reply(0);
+}
+
+std::int64_t Device::time_of(std::uint64_t sample) const {
+  const std::uint64_t whole = sample / list_.size();
+  const auto scan = static_cast<double>(whole);
+  const auto slot = static_cast<std::int64_t>(sample % list_.size());
+  return stream_->start_ns + std::llround(scan * 1e9 / rate_hz_) + slot * kSlot_ns;
+}
+
+std::string Device::stream_packets(std::int64_t now_ns) {
+  std::string bytes;
+  while (stream_ && !gone_) {
+    const bool gap =
+        faults_.recovery_at >= 0 && stream_->packet == faults_.recovery_at + kRecoveryPackets;
+    const std::uint64_t due =
+        stream_->next_sample + samples_per_packet_ + (gap ? faults_.dropped * list_.size() : 0);
+    if (time_of(due) > now_ns) break;
+    gone_ = stream_->packet == faults_.unplug_at;
+    if (gone_) break;
+    const int number = stream_->packet;
+    const std::string packet = encode(packet_of(*stream_));
+    if (number != faults_.skip_at)
+      bytes += number == faults_.short_at ? packet.substr(0, kFewBytes) : packet;
+    if (number == faults_.stop_at) stream_.reset();
+  }
+  return bytes;
+}
+
+// The scan of 0xFFFF takes the place of the dropped ones, between two samples of the list's end and
+// start.
+StreamData Device::packet_of(Stream& s) {
+  StreamData packet;
+  packet.counter = static_cast<std::uint8_t>(s.packet);
+  const int recovery = faults_.recovery_at < 0 ? -1 : s.packet - faults_.recovery_at;
+  if (recovery >= 0 && recovery < kRecoveryPackets) packet.error = kRecovering;
+  if (s.packet == faults_.stop_at) packet.error = static_cast<std::uint8_t>(faults_.stop_error);
+  const bool gap = recovery == kRecoveryPackets;
+  if (gap) packet.error = kRecovered;
+  if (gap) packet.dropped = faults_.dropped;
+  bool marked = !gap;
+  while (packet.samples.size() < samples_per_packet_) {
+    const bool between = s.next_sample % list_.size() == 0;
+    const bool fits = packet.samples.size() + list_.size() <= samples_per_packet_;
+    if (!marked && between && fits) {
+      packet.samples.insert(packet.samples.end(), list_.size(), 0xFFFF);
+      s.next_sample += faults_.dropped * list_.size();
+      marked = true;
+    } else {
+      packet.samples.push_back(sample(s.next_sample++));
+    }
+  }
+  ++s.packet;
+  return packet;
+}
+
+std::uint16_t Device::sample(std::uint64_t number) {
+  const std::size_t at = number % list_.size();
+  const int entry = list_[at];
+  const std::int64_t t_ns = time_of(number);
+  if (entry == kCapture) return static_cast<std::uint16_t>(captured_ >> 16);
+  if (entry >= kTimer0) {
+    captured_ = static_cast<std::uint32_t>(std::llround(senses_(kCounterInput, t_ns)));
+    return static_cast<std::uint16_t>(captured_);
+  }
+  const AinCalibration c = calibration(gains_[at]);
+  const double v = senses_(static_cast<std::size_t>(entry), t_ns);
+  const double code = std::round(c.centre + v / (v < 0 ? -c.negative_slope : c.positive_slope));
+  return static_cast<std::uint16_t>(std::clamp(code, 0.0, 65535.0));
+}
+
+}  // namespace mdof::drivers::labjack_u6

@@ -1,0 +1,134 @@
+// LabJack U6 and U6-Pro over USB: commands (bulk OUT 1, replies IN 2) and the stream (bulk IN 3),
+// bytes <-> values. Little-endian. Source: U6 Datasheet 5.1, 5.2, 5.4; LabJack's open exodriver.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/labjack/samples.h"
+#include "schema/result.h"
+
+namespace mdof::drivers::labjack_u6 {
+
+using labjack::AinCalibration;
+using labjack::Scan;
+
+inline constexpr int kAins = 14;  // AIN0 ... AIN13
+inline constexpr std::size_t kCommandBytes = 64;
+
+// Entries of a scan list besides 0 ... 13.
+inline constexpr int kTimer0 = 200;   // lower word of timer 0, + 1 for timer 1 ...
+inline constexpr int kCapture = 224;  // the upper word of the entry before it, of the same count
+
+enum Command : std::uint8_t {
+  kFeedback = 0x00,
+  kConfigU6 = 0x08,
+  kConfigIo = 0x0B,
+  kStreamConfig = 0x11,
+  kReadCalibration = 0x2D,
+};
+enum ErrorCode : std::uint8_t {
+  kStreamActive = 48,
+  kNotRunning = 52,
+  kScanOverlap = 55,
+  kRateInvalid = 58,
+  kRecovering = 59,        // the buffer was full, scans are being dropped
+  kRecovered = 60,         // so many were; a scan of 0xFFFF marks where
+  kRecoveryOverflow = 63,  // more than can be counted
+};
+std::string error_text(int code);
+
+// --- Frames --------------------------------------------------------------------------------------
+
+std::uint8_t checksum8(std::string_view bytes);
+std::uint16_t checksum16(std::string_view bytes);
+// `body` from byte 6 on, of even length.
+std::string extended(std::uint8_t command, std::string_view body);
+std::string normal(std::uint8_t command);
+// What follows byte 5. Errors: B8 B8 (the device found a wrong checksum), too short, checksums,
+// another command.
+Result<std::string> extended_body(std::string_view reply, std::uint8_t command, std::size_t size);
+// Error code of a reply of four bytes to a normal command. Errors as above.
+Result<int> normal_error(std::string_view reply, std::uint8_t command);
+
+// --- Commands ------------------------------------------------------------------------------------
+
+struct Identity {
+  std::uint32_t serial = 0;
+  int firmware_major = 0, firmware_minor = 0;
+  bool pro = false;
+};
+std::string config_u6();
+Result<Identity> read_config_u6(std::string_view reply);
+
+inline constexpr int kCalibrationBlocks = 10;
+using CalibrationBlock = std::array<double, 4>;
+std::string read_calibration(int block);
+Result<CalibrationBlock> read_calibration_reply(std::string_view reply);
+// Of a gain 0 ... 3, from blocks 0 ... 3 (slope and offset of each gain, then negative slope and
+// centre). Error: no possible constants.
+Result<AinCalibration> calibration_of(const std::array<CalibrationBlock, 4>& blocks,
+                                      std::size_t gain);
+
+std::string config_io(int timers, int pin_offset);
+Status read_config_io(std::string_view reply, int timers, int pin_offset);
+// Timers 0 and 1 in mode 8: a quadrature counter, started from 0.
+std::string start_quadrature();
+Status read_feedback(std::string_view reply);
+
+struct StreamSetup {
+  double rate_hz = 1000;
+  int samples_per_packet = 25;
+  int resolution_index = 1;
+  int settling_10us = 0;
+  int gain = 0;
+  std::vector<int> list;
+};
+struct StreamClock {
+  std::uint8_t config = 0;
+  std::uint16_t interval = 0;
+  double rate_hz = 0;  // true
+};
+// The nearest rate; none: too slow or too fast for any divisor.
+std::optional<StreamClock> stream_clock(double rate_hz);
+std::string stream_config(const StreamSetup& setup, const StreamClock& clock);
+Status read_stream_config(std::string_view reply);
+std::string stream_start();
+Status read_stream_start(std::string_view reply);
+std::string stream_stop();
+Status read_stream_stop(std::string_view reply);  // that none was running is no error
+
+// --- Stream --------------------------------------------------------------------------------------
+
+struct StreamData {
+  std::uint8_t counter = 0;
+  std::uint8_t error = 0;
+  std::uint8_t backlog = 0;   // 256ths of the device's buffer
+  std::uint16_t dropped = 0;  // scans, where error is kRecovered
+  std::vector<std::uint16_t> samples;
+};
+inline constexpr std::size_t stream_bytes(std::size_t samples) {
+  return 14 + 2 * samples;
+}
+std::string encode(const StreamData& packet);
+// `bytes` is one packet. Errors: length, kind, checksums.
+Result<StreamData> decode(std::string_view bytes, std::size_t samples);
+
+// Puts packets on the time line of the device.
+class PacketLine {
+ public:
+  explicit PacketLine(std::size_t words_per_scan) : line_(words_per_scan) {}
+  // Adds the scans that end in it to `scans`. Error: packets are missing, the device stopped, or
+  // what was dropped is not known: start the stream anew.
+  Status take(const StreamData& packet, std::vector<Scan>& scans);
+
+ private:
+  labjack::ScanLine line_;
+  std::uint8_t counter_ = 0;  // expected
+};
+
+}  // namespace mdof::drivers::labjack_u6

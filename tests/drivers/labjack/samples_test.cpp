@@ -1,0 +1,85 @@
+#include "drivers/labjack/samples.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace mdof::drivers::labjack {
+namespace {
+
+TEST(LabjackVolts, NominalVolts) {
+  const AinCalibration c = nominal_calibration(0);
+  EXPECT_NEAR(volts(c, 0), -10.586757, 1e-5);
+  EXPECT_EQ(volts(c, 33523), 0);
+  EXPECT_NEAR(volts(c, 32768), -0.238433, 1e-6);
+  EXPECT_NEAR(volts(c, 65535), 10.109575, 1e-5);
+  EXPECT_NEAR(volts(nominal_calibration(2), 65535), 0.10109575, 1e-7);
+}
+
+TEST(LabjackVolts, EachSideOfTheCentreHasItsSlope) {
+  const AinCalibration c{2e-4, -3e-4, 1000};
+  EXPECT_NEAR(volts(c, 1010), 2e-3, 1e-9);
+  EXPECT_NEAR(volts(c, 990), -3e-3, 1e-9);
+}
+
+TEST(LabjackVolts, ConstantsFarFromNominalAreRefused) {
+  for (std::size_t gain = 0; gain < 4; ++gain) {
+    EXPECT_TRUE(check(nominal_calibration(gain), gain));
+    EXPECT_FALSE(check(nominal_calibration(gain), (gain + 1) % 4));
+  }
+  AinCalibration c = nominal_calibration(0);
+  c.negative_slope = -c.negative_slope;
+  EXPECT_FALSE(check(c, 0));
+  c = nominal_calibration(0);
+  c.centre = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(check(c, 0));
+}
+
+std::vector<std::uint64_t> indices(const std::vector<Scan>& scans) {
+  std::vector<std::uint64_t> all;
+  for (const Scan& scan : scans) all.push_back(scan.index);
+  return all;
+}
+
+using Words = std::vector<std::uint16_t>;
+constexpr std::uint16_t kOnes = 0xFFFF;
+
+TEST(LabjackScanLine, ScansRunOnFromPacketToPacket) {
+  ScanLine line(3);
+  std::vector<Scan> scans;
+  for (const Words& packet : {Words{1, 2}, Words{3, 4, 5, 6, 7}, Words{8, 9}})
+    ASSERT_TRUE(line.take(packet, std::nullopt, scans));
+  ASSERT_EQ(indices(scans), (std::vector<std::uint64_t>{0, 1, 2}));
+  EXPECT_EQ(scans[1].words, (Words{4, 5, 6}));
+}
+
+TEST(LabjackScanLine, AMarkMayRunOnToo) {
+  ScanLine line(3);
+  std::vector<Scan> scans;
+  ASSERT_TRUE(line.take(Words{1, 2}, std::nullopt, scans));
+  ASSERT_TRUE(line.take(Words{3, kOnes}, 50, scans));
+  EXPECT_TRUE(scans.empty());  // not known yet on which side of the gap it is
+  ASSERT_TRUE(line.take(Words{kOnes, kOnes, 4, 5, 6}, std::nullopt, scans));
+  ASSERT_EQ(indices(scans), (std::vector<std::uint64_t>{0, 51}));
+  EXPECT_EQ(scans[1].lost, 50U);
+  EXPECT_EQ(scans[0].lost, 0U);
+}
+
+TEST(LabjackScanLine, AMarkThatDoesNotComeIsAnError) {
+  ScanLine line(2);
+  std::vector<Scan> scans;
+  ASSERT_TRUE(line.take(Words{1, 1, kOnes}, 50, scans));
+  EXPECT_FALSE(line.take(Words{2, 3, 3}, std::nullopt, scans));
+  EXPECT_TRUE(scans.empty());
+}
+
+TEST(LabjackScanLine, AllOnesAreValuesWhereNothingWasDropped) {
+  ScanLine line(2);
+  std::vector<Scan> scans;
+  ASSERT_TRUE(line.take(Words{kOnes, kOnes, kOnes, kOnes}, 7, scans));
+  ASSERT_TRUE(line.take(Words{kOnes, kOnes}, std::nullopt, scans));
+  EXPECT_EQ(indices(scans), (std::vector<std::uint64_t>{7, 8}));  // the first is the mark
+}
+
+}  // namespace
+}  // namespace mdof::drivers::labjack

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "drivers/csv/csv_log.h"
+#include "drivers/csv_stream/configure.h"
 #include "drivers/recording/recording_log.h"
 #include "drivers/simulator/simulator.h"
 
@@ -48,6 +49,7 @@ struct Row {
 };
 // A new driver: one row.
 constexpr Row kDrivers[] = {
+    {"csv_stream", configure_csv_stream},
     {"replay", configure_replay},
     {"simulator", configure_simulator},
 };

@@ -4,6 +4,8 @@
 
 #include "drivers/csv/csv_log.h"
 #include "drivers/csv_stream/configure.h"
+#include "drivers/linux_counter/configure.h"
+#include "drivers/linux_iio/configure.h"
 #include "drivers/recording/recording_log.h"
 #include "drivers/simulator/simulator.h"
 
@@ -50,6 +52,8 @@ struct Row {
 // A new driver: one row.
 constexpr Row kDrivers[] = {
     {"csv_stream", configure_csv_stream},
+    {"linux_counter", configure_linux_counter},
+    {"linux_iio", configure_linux_iio},
     {"replay", configure_replay},
     {"simulator", configure_simulator},
 };

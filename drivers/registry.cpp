@@ -6,6 +6,7 @@
 #include "drivers/csv_stream/configure.h"
 #include "drivers/linux_counter/configure.h"
 #include "drivers/linux_iio/configure.h"
+#include "drivers/qsb/configure.h"
 #include "drivers/recording/recording_log.h"
 #include "drivers/simulator/simulator.h"
 
@@ -54,6 +55,7 @@ constexpr Row kDrivers[] = {
     {"csv_stream", configure_csv_stream},
     {"linux_counter", configure_linux_counter},
     {"linux_iio", configure_linux_iio},
+    {"qsb", configure_qsb},
     {"replay", configure_replay},
     {"simulator", configure_simulator},
 };

@@ -30,7 +30,7 @@ SysfsReading gap_um(const GapLaw& law, double pF) {
   if (!law.table.empty()) return from_table(law.table, pF);
   assert(law.area_mm2 > 0);
   const double own_pF = pF - law.stray_pF;
-  if (!(own_pF > 0)) return {kNaN, Quality::over_range};
+  if (!(own_pF >= kAd7746_pF_per_count)) return {kNaN, Quality::over_range};
   return {kEps0_pF_per_m * law.area_mm2 / own_pF, Quality::good};
 }
 

@@ -27,7 +27,8 @@ struct GapLaw {
   // Or measured: [pF, µm], pF ascending, straight lines between.
   std::vector<std::array<double, 2>> table;
 };
-// µm; over range beyond the table (its end is held), and where C <= stray (NaN).
+// µm; over range beyond the table (its end is held), and where C - stray is
+// less than a count (NaN).
 SysfsReading gap_um(const GapLaw& law, double pF);
 // The same for a raw reading; over range at the ends of the converter's range.
 SysfsReading ad7746_gap_um(const GapLaw& law, std::int64_t raw, std::int64_t subtracted);

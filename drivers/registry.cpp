@@ -3,8 +3,12 @@
 #include <filesystem>
 
 #include "drivers/csv/csv_log.h"
-#include "drivers/modbus/configure.h"
+#include "drivers/csv_stream/configure.h"
 #include "drivers/labjack_t7/configure.h"
+#include "drivers/linux_counter/configure.h"
+#include "drivers/linux_iio/configure.h"
+#include "drivers/modbus/configure.h"
+#include "drivers/qsb/configure.h"
 #include "drivers/recording/recording_log.h"
 #include "drivers/simulator/simulator.h"
 
@@ -50,10 +54,10 @@ struct Row {
 };
 // A new driver: one row.
 constexpr Row kDrivers[] = {
-    {"modbus", configure_modbus},
-    {"labjack_t7", configure_labjack_t7},
-    {"replay", configure_replay},
-    {"simulator", configure_simulator},
+    {"modbus", configure_modbus},         {"labjack_t7", configure_labjack_t7},
+    {"csv_stream", configure_csv_stream}, {"linux_counter", configure_linux_counter},
+    {"linux_iio", configure_linux_iio},   {"qsb", configure_qsb},
+    {"replay", configure_replay},         {"simulator", configure_simulator},
 };
 
 }  // namespace

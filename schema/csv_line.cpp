@@ -102,10 +102,15 @@ CsvLine parse_csv_line(std::string_view line, const CsvHeader& header) {
     return wrong_count(line, fields.size(), header.columns.size());
   for (std::size_t column = 0; column < fields.size(); ++column) {
     const std::string_view field = without_plus(fields[column]);
+    const bool is_time = static_cast<int>(column) == header.time_column;
+    if (header.kind == CsvKind::stream && !is_time && (field.empty() || field == "nan")) {
+      result.values.push_back(kNaN);
+      continue;
+    }
     double x = 0;
     const bool parsed = parse_whole_field(field, x);
     std::string reason = reason_against(field, parsed, x);
-    if (static_cast<int>(column) != header.time_column) {
+    if (!is_time) {
       result.values.push_back(x);
     } else if (reason.empty() && !parse_seconds(field, result.time_ns)) {
       reason = quoted(field) + " s is no time; give seconds from the start of the recording";

@@ -73,7 +73,7 @@ Status add_column(CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (name.empty())
     return bad_input(where(header, column) + "no name; name the column or take its comma away");
-  if (name == kTimeColumn && header.kind == CsvKind::probe_log) {
+  if (name == kTimeColumn && header.kind != CsvKind::frames) {
     if (header.time_column >= 0)
       return bad_input(where(header, column) + "there twice; take one away");
     header.time_column = static_cast<int>(column);
@@ -101,6 +101,7 @@ Status check_required(const CsvHeader& header) {
                      "; add it or rename the one that holds it");
   };
   if (header.kind == CsvKind::probe_log && header.time_column < 0) return missing(kTimeColumn);
+  if (header.kind == CsvKind::stream) return header.channels.empty() ? missing("A_um") : Status{};
   const Channel encoder{kEncoderChannel, Unit::mm};
   if (std::find(header.channels.begin(), header.channels.end(), encoder) == header.channels.end())
     return missing(kEncoderColumn);

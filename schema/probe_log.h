@@ -3,6 +3,7 @@
 //   # any comment                                   no or more such lines
 //   time_s,encoder_mm,A_um,B_um,temperature_C       probe log: time_s and encoder_mm must be there
 //   encoder_mm,A_um,B_um                            frames: encoder_mm must be there
+//   A_um,B_um                                       stream: live rows, any channels, time_s or not
 //
 // Columns in any order; comma separated, '.' decimal, LF or CRLF, a UTF-8 byte order mark is
 // skipped. A column "A_um" is channel "A" in micrometres. Suffixes: _um _mm _V _C; a column that
@@ -23,6 +24,7 @@ namespace mdof {
 
 enum class CsvKind {
   probe_log,  // samples against time: time_s must grow from row to row
+  stream,     // rows as they come from a device: a field that is empty or nan is a missing value
   frames,     // positions and readings in any order; time_s, if there, is a column like any other
 };
 
@@ -31,7 +33,7 @@ struct CsvHeader {
   std::string source;                        // file name, for messages
   std::vector<std::string> comments;         // without '#' and outer spaces
   std::vector<std::string> columns;          // names as in the file
-  int time_column = -1;                      // -1: none (frames)
+  int time_column = -1;                      // -1: none (frames, stream)
   std::vector<Channel> channels;             // all other columns, in their order
   std::vector<std::size_t> channel_columns;  // [channel] -> column
   std::uint64_t lines = 0;                   // of the file, header included

@@ -1,0 +1,75 @@
+#include "drivers/csv_stream/configure.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "drivers/csv_stream/csv_stream.h"
+
+namespace mdof::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+
+milliseconds read_seconds(TomlTable& table, const char* key, milliseconds fallback, double most) {
+  const double s = table.number(key, static_cast<double>(fallback.count()) / 1000);
+  if (!(s >= 0.1 && s <= most)) {
+    table.reject(key, "must be from 0.1 to " + std::to_string(std::lround(most)));
+    return fallback;
+  }
+  return milliseconds(std::llround(s * 1000));
+}
+
+void read_source(TomlTable& table, const std::string& base_path, CsvStreamOptions& options) {
+  const std::string source = table.string("source");
+  if (source.starts_with("fifo:") && source.size() > 5) {
+    options.fifo = (std::filesystem::path(base_path) / source.substr(5)).string();
+  } else if (source.starts_with("tcp://")) {
+    const auto server = parse_endpoint(source.substr(6), 0);
+    server ? void(options.server = *server) : table.reject("source", server.error().message);
+  } else {
+    table.reject("source",
+                 "must be \"tcp://HOST:PORT\" or \"fifo:PATH\"; a program is started by command = "
+                 "[\"python3\", \"my_probe.py\"]");
+  }
+}
+
+CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
+  CsvStreamOptions options;
+  options.folder = context.base_path;
+  options.expected = {kEncoderChannel};
+  for (const Probe& probe : context.rig.probes) options.expected.push_back(probe.id);
+  if (table.has("command")) {
+    options.command = table.strings("command");
+    if (options.command.empty() || options.command[0].empty())
+      table.reject("command", "must name a program: [\"python3\", \"my_probe.py\"]");
+    if (table.has("source")) table.reject("source", "contradicts command: give one or the other");
+  } else {
+    read_source(table, context.base_path, options);
+  }
+  // Longer, and the watchdog would take the thread for dead.
+  options.start = read_seconds(table, "start_s", options.start, 5);
+  options.silence = read_seconds(table, "silence_s", options.silence, 3600);
+  const std::int64_t bad_lines = table.integer("bad_lines", 100);
+  if (bad_lines < 0 || bad_lines > 10'000) table.reject("bad_lines", "must be from 0 to 10000");
+  options.bad_lines = static_cast<std::size_t>(bad_lines);
+  return options;
+}
+
+}  // namespace
+
+Result<DriverSpec> configure_csv_stream(TomlTable& table, const DriverContext& context) {
+  const CsvStreamOptions options = read_options(table, context);
+  MDOF_CHECK(table.finish());
+  DriverSpec spec;
+  spec.driver = "csv_stream";
+  spec.name = context.name;
+  spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
+    return std::make_unique<CsvStream>(name, options);
+  };
+  spec.source_info = [](const Driver& driver) {
+    return SourceInfo{{}, static_cast<const CsvStream&>(driver).warnings()};
+  };
+  return spec;
+}
+
+}  // namespace mdof::drivers

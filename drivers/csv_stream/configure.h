@@ -1,0 +1,11 @@
+#pragma once
+
+#include "drivers/registry.h"
+
+namespace mdof::drivers {
+
+// Keys: source ("tcp://HOST:PORT" or "fifo:PATH") or command (a list), start_s, silence_s,
+// bad_lines.
+Result<DriverSpec> configure_csv_stream(TomlTable& table, const DriverContext& context);
+
+}  // namespace mdof::drivers

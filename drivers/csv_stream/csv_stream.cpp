@@ -1,0 +1,211 @@
+#include "drivers/csv_stream/csv_stream.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "drivers/clock/monotonic.h"
+#include "drivers/scan_block.h"
+
+namespace mdof::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr milliseconds kConnect{2000};
+constexpr std::int64_t kTogether_ns = 50'000'000;     // rows behind such a pause: of unknown age
+constexpr std::int64_t kPaceOver_ns = 2'000'000'000;  // time_s is compared with the host's over it
+constexpr std::size_t kMostScans = 4096;              // of a block
+
+std::string describe_source(const CsvStreamOptions& options) {
+  if (options.server) return "tcp://" + options.server->text();
+  if (!options.fifo.empty()) return "fifo:" + options.fifo;
+  std::string text = "command";
+  for (const auto& word : options.command) text += " " + word;
+  return text;
+}
+
+std::string seconds(std::int64_t ns) {
+  std::string text = std::to_string(std::llround(static_cast<double>(ns) / 1e8));
+  if (text.size() < 2) text.insert(0, "0");
+  return text.insert(text.size() - 1, ".") + " s";
+}
+
+bool says_simulated(const CsvHeader& header) {
+  return std::any_of(header.comments.begin(), header.comments.end(),
+                     [](const std::string& text) { return text.starts_with("simulated"); });
+}
+
+}  // namespace
+
+CsvStream::CsvStream(std::string name, CsvStreamOptions options)
+    : name_(std::move(name)), source_(describe_source(options)), options_(std::move(options)) {}
+
+DeviceInfo CsvStream::info() const {
+  DeviceInfo info{name_, "csv_stream", "CSV rows of " + source_, {}, 0, false};
+  if (!protocol_ || !protocol_->header()) return info;
+  info.channels = protocol_->header()->channels;
+  info.simulated = says_simulated(*protocol_->header());
+  return info;
+}
+
+std::vector<std::string> CsvStream::warnings() const {
+  return protocol_ ? protocol_->bad_line_reasons() : std::vector<std::string>();
+}
+
+Status CsvStream::open() {
+  rows_.clear();
+  status_ = {};
+  clock_.reset();
+  pace_from_.reset();
+  last_received_ns_ = 0;
+  MDOF_CHECK(connect());
+  protocol_.emplace(source_, options_.bad_lines);
+  MDOF_CHECK(wait_for_header());
+  last_row_ns_ = monotonic_ns();
+  return check_columns();
+}
+
+Status CsvStream::connect() {
+  if (waits_for_writer_) return {};  // stays: a writer that has just come must not be cut off
+  child_.reset();
+  stream_.reset();
+  if (options_.server) {
+    MDOF_TRY(stream_, connect_tcp(*options_.server, std::min(options_.start, kConnect)));
+  } else if (!options_.fifo.empty()) {
+    MDOF_TRY(stream_, open_fifo(options_.fifo));
+    waits_for_writer_ = true;
+  } else {
+    MDOF_TRY(child_, ChildProcess::start(options_.command, options_.folder));
+  }
+  return {};
+}
+
+Status CsvStream::wait_for_header() {
+  const auto until = std::chrono::steady_clock::now() + options_.start;
+  while (!protocol_->header()) {
+    const auto left = std::chrono::ceil<milliseconds>(until - std::chrono::steady_clock::now());
+    if (left.count() <= 0)
+      return io_error(source_ + ": no header line within " +
+                      seconds(nanoseconds(options_.start).count()) +
+                      (waits_for_writer_ ? "; nobody has written to it yet, start the script"
+                                         : "; does the script flush its output, and send a header "
+                                           "line first on each connection? (start_s)"));
+    if (waits_for_writer_ && !wait_for_bytes(*stream_, left)) continue;
+    waits_for_writer_ = false;
+    if (status_ = fetch(left); !status_ && !protocol_->header()) return status_;
+  }
+  return {};
+}
+
+Status CsvStream::check_columns() const {
+  const auto& channels = protocol_->header()->channels;
+  const auto& ids = options_.expected;
+  std::string found, wanted;
+  for (const Channel& channel : channels) {
+    if (std::find(ids.begin(), ids.end(), channel.id) != ids.end()) return {};
+    found += (found.empty() ? "" : ", ") + channel.id;
+  }
+  for (const auto& id : ids) wanted += (wanted.empty() ? "" : ", ") + id;
+  return bad_input(source_ + ": no column of the header is of the rig: there are " + found +
+                   ", wanted are some of " + wanted + " (as in A_um, A_V, encoder_mm)");
+}
+
+Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {
+  if (!protocol_ || !protocol_->header()) return io_error(source_ + ": is not open");
+  const CsvHeader& header = *protocol_->header();
+  start_block(block, name_, header.channels);
+  if (rows_.empty() && status_) status_ = fetch(timeout);
+  if (rows_.empty()) {
+    MDOF_CHECK(status_);
+    MDOF_CHECK(check_silence());
+    return ReadState::more;
+  }
+  const Quality good = says_simulated(header) ? Quality::simulated : Quality::good;
+  // What was lost was lost before a block.
+  while (!rows_.empty() && block.scans() < kMostScans &&
+         (block.scans() == 0 || rows_.front().lost == 0)) {
+    const Row& row = rows_.front();
+    block.lost += row.lost;
+    add_scan(block, row.time_ns, row.values, row.suspect ? Quality::suspect : good);
+    rows_.pop_front();
+  }
+  return ReadState::more;
+}
+
+// What comes within `timeout` goes to rows_; an error is for when they are given out.
+Status CsvStream::fetch(milliseconds timeout) {
+  if (child_) child_->take_errors();
+  std::array<char, 65'536> bytes;
+  const auto n = stream().read(bytes, timeout);
+  if (!n) return ended(n.error());
+  if (*n == 0) return {};
+  const std::int64_t received_ns = monotonic_ns();
+  std::vector<CsvStreamRow> rows;
+  Status status = protocol_->give({bytes.data(), *n}, rows);
+  if (rows.empty()) return status;
+  last_row_ns_ = received_ns;
+  if (protocol_->header()->time_column >= 0) MDOF_CHECK(check_pace(rows, received_ns));
+  take(rows, received_ns);
+  return status;
+}
+
+tl::unexpected<Error> CsvStream::ended(const Error& why) {
+  if (child_) return io_error(source_ + " " + child_->epitaph());
+  if (!options_.fifo.empty())
+    return io_error(source_ + ": the program that wrote to it has closed it; start it again");
+  return io_error("tcp://" + why.message + "; does the script still run?");
+}
+
+void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
+  const bool own_times = protocol_->header()->time_column >= 0;
+  if (own_times) take_device_times(rows, received_ns);
+  const bool old = !own_times && last_received_ns_ > 0 && rows.size() > 1 &&
+                   received_ns - last_received_ns_ > kTogether_ns;
+  last_received_ns_ = received_ns;
+  for (auto& row : rows) {
+    last_time_ns_ = std::max(own_times ? row.time_ns : received_ns, last_time_ns_ + 1);
+    const bool newest = &row == &rows.back();
+    rows_.push_back({last_time_ns_, std::move(row.values), row.lost, old && !newest});
+  }
+}
+
+// Device times become the host's; each start of the script is a clock of its own.
+void CsvStream::take_device_times(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
+  for (auto begin = rows.begin(); begin != rows.end();) {
+    const auto end =
+        std::find_if(begin + 1, rows.end(), [](const CsvStreamRow& row) { return row.restarted; });
+    if (begin->restarted) clock_.reset();
+    clock_.add((end - 1)->time_ns, received_ns);
+    for (; begin != end; ++begin) begin->time_ns = clock_.host_ns(begin->time_ns);
+  }
+}
+
+// time_s in milliseconds, or a backlog of old rows, is not to be taken for live.
+Status CsvStream::check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
+  const bool restarted =
+      std::any_of(rows.begin(), rows.end(), [](const CsvStreamRow& row) { return row.restarted; });
+  if (restarted) pace_from_ = {rows.back().time_ns, received_ns};
+  if (!pace_from_) pace_from_ = {rows.front().time_ns, received_ns};
+  const std::int64_t host_ns = received_ns - pace_from_->host_ns;
+  const std::int64_t device_ns = rows.back().time_ns - pace_from_->device_ns;
+  const bool fast = device_ns > 2 * host_ns + kPaceOver_ns;
+  const bool slow = host_ns > kPaceOver_ns && device_ns < host_ns / 2;
+  if (fast || slow)
+    return bad_input(source_ + ": column time_s went on by " + seconds(device_ns) + " while " +
+                     seconds(host_ns) + " passed here; it must be live, and in seconds");
+  if (host_ns > kPaceOver_ns) pace_from_ = {rows.back().time_ns, received_ns};
+  return {};
+}
+
+Status CsvStream::check_silence() const {
+  const std::int64_t silent_ns = monotonic_ns() - last_row_ns_;
+  if (silent_ns <= nanoseconds(options_.silence).count()) return {};
+  return io_error(source_ + ": no row for " + seconds(silent_ns) +
+                  "; does the script run, and does it flush after each row? Slow devices need "
+                  "silence_s");
+}
+
+}  // namespace mdof::drivers

@@ -1,0 +1,80 @@
+// Live rows of a probe log from a script: a command's standard output, a FIFO, or a TCP server.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/clock/device_clock.h"
+#include "drivers/csv_stream/protocol.h"
+#include "drivers/driver.h"
+#include "drivers/io/byte_stream.h"
+#include "drivers/io/child_process.h"
+
+namespace mdof::drivers {
+
+struct CsvStreamOptions {
+  std::vector<std::string> command;  // or
+  std::string fifo;                  // or
+  std::optional<Endpoint> server;
+  std::string folder;                     // in which the command runs
+  std::chrono::milliseconds start{5000};  // the header must have come
+  std::chrono::milliseconds silence{2000};
+  std::size_t bad_lines = 100;        // of 10,000
+  std::vector<std::string> expected;  // ids: one column at least must be of these
+};
+
+// Thread-bound. With time_s the times are the device's own, by DeviceClock; without it those of
+// arrival, and rows that came together after 50 ms of nothing are suspect: their true times are
+// not known so well.
+class CsvStream final : public Driver {
+ public:
+  CsvStream(std::string name, CsvStreamOptions options);
+
+  DeviceInfo info() const override;  // channels after open()
+  // Waits up to options.start for the header.
+  Status open() override;
+  Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+
+  std::uint64_t bad_lines() const { return protocol_ ? protocol_->bad_lines() : 0; }  // since open
+  std::vector<std::string> warnings() const;
+  ClockState clock() const { return clock_.state(); }
+
+ private:
+  struct Row {
+    std::int64_t time_ns;  // host's
+    std::vector<double> values;
+    std::uint64_t lost;
+    bool suspect;
+  };
+  struct Moment {
+    std::int64_t device_ns, host_ns;
+  };
+  Status connect();
+  Status wait_for_header();
+  Status check_columns() const;
+  ByteStream& stream() { return child_ ? child_->output() : *stream_; }
+  Status fetch(std::chrono::milliseconds timeout);
+  tl::unexpected<Error> ended(const Error& why);
+  void take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
+  void take_device_times(std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
+  Status check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
+  Status check_silence() const;
+
+  std::string name_, source_;
+  CsvStreamOptions options_;
+  std::unique_ptr<ChildProcess> child_;
+  std::optional<ByteStream> stream_;
+  bool waits_for_writer_ = false;  // a FIFO that nobody has written to yet
+  std::optional<CsvStreamProtocol> protocol_;
+  DeviceClock clock_{1.0};  // ticks of time_s are nanoseconds
+  std::deque<Row> rows_;    // received, not yet given out
+  Status status_;           // what to say once rows_ is empty
+  std::optional<Moment> pace_from_;
+  std::int64_t last_row_ns_ = 0, last_received_ns_ = 0, last_time_ns_ = 0;
+};
+
+}  // namespace mdof::drivers

@@ -1,0 +1,54 @@
+// A script that serves its readings as CSV rows, as it looks from the line.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "drivers/simulated_device.h"
+
+namespace mdof::drivers {
+
+// Sends the header to each client, then a row each 1/rate_hz: `senses` gives each column.
+class CsvStreamDevice final : public SimulatedDevice {
+ public:
+  // Row numbers count from 0 for each client; -1: never.
+  struct Faults {
+    bool no_header = false;
+    int bad_line_every = 0;  // of rows: one that ends in a word; 0: none
+    int cut_row = -1;        // only half of it, and the connection breaks
+    int silent_from = -1;    // row
+    int restart_at = -1;     // row: the header comes again, time_s from 0
+    double time_scale = 1;   // 1000: milliseconds in time_s
+  };
+  // `columns` without time_s, as in the header: "encoder_mm", "A_um".
+  CsvStreamDevice(std::vector<std::string> columns, double rate_hz, bool with_time, Senses senses,
+                  Faults faults);
+  CsvStreamDevice(std::vector<std::string> columns, double rate_hz, bool with_time, Senses senses)
+      : CsvStreamDevice(std::move(columns), rate_hz, with_time, std::move(senses), Faults()) {}
+
+  std::vector<Port> ports() const override { return {{"rows", 9000}}; }
+  void opened(std::size_t port, int client, std::int64_t now_ns) override;
+  void closed(std::size_t port, int client) override;
+  std::string exchange(std::size_t port, int client, std::string_view received,
+                       std::int64_t now_ns) override;
+  bool hangs_up(std::size_t port, int client) override;
+
+ private:
+  struct Client {
+    std::int64_t opened_ns = 0, time_from_ns = 0;
+    int next_row = 0;
+    bool greeted = false, broken = false;
+  };
+  std::string header() const;
+  std::string row(Client& client, std::int64_t t_ns) const;
+
+  std::vector<std::string> columns_;
+  double rate_hz_;
+  bool with_time_;
+  Senses senses_;
+  Faults faults_;
+  std::map<int, Client> clients_;
+};
+
+}  // namespace mdof::drivers

@@ -1,0 +1,61 @@
+// Live rows of a probe log (schema/probe_log.h, CsvKind::stream) out of bytes as they come.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/csv_line.h"
+#include "schema/probe_log.h"
+#include "schema/result.h"
+
+namespace mdof::drivers {
+
+struct CsvStreamRow {
+  std::int64_t time_ns = 0;    // time_s; 0 where the header has none
+  std::vector<double> values;  // [channel]; NaN: missing
+  std::uint64_t lost = 0;      // lines skipped just before
+  bool restarted = false;      // the header came again just before: time_s starts anew
+};
+
+// Pure; survives any bytes. Thread-bound.
+class CsvStreamProtocol {
+ public:
+  static constexpr std::size_t kLongestLine = 65'536;
+  static constexpr std::uint64_t kBadLinesWindow = 10'000;  // lines
+
+  // Up to `bad_lines` of 10,000 lines are skipped; one more is an error. `source` is for messages.
+  CsvStreamProtocol(std::string source, std::size_t bad_lines);
+
+  // Appends the rows that `bytes` complete. Errors, after the rows before them: no header, too many
+  // bad lines, a line without end, time_s that does not grow, a decimal comma. Final.
+  Status give(std::string_view bytes, std::vector<CsvStreamRow>& rows);
+
+  const std::optional<CsvHeader>& header() const { return header_; }  // once it has come
+  std::uint64_t bad_lines() const { return bad_; }
+  // "source:line: reason" of the first in this window of 10,000 lines, at most three.
+  const std::vector<std::string>& bad_line_reasons() const { return reasons_; }
+
+ private:
+  Status take_line(std::string_view line, std::vector<CsvStreamRow>& rows);
+  Status take_head(std::string_view line);
+  Status take_row(std::string_view line, std::vector<CsvStreamRow>& rows);
+  Status skip(const std::string& reason);
+
+  std::string source_;
+  std::size_t bad_lines_allowed_;
+  std::string unfinished_;   // line
+  std::string head_;         // comments and header
+  std::string header_line_;  // as it came
+  std::optional<CsvHeader> header_;
+  std::uint64_t line_ = 0, bad_ = 0, window_begin_ = 0, lost_ = 0;
+  std::size_t bad_in_window_ = 0;
+  bool restarted_ = false;
+  std::int64_t last_time_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::vector<std::string> reasons_;
+};
+
+}  // namespace mdof::drivers

@@ -1,0 +1,32 @@
+#include "drivers/linux_counter/configure.h"
+
+#include "drivers/linux_counter/linux_counter.h"
+
+namespace mdof::drivers {
+
+Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext& context) {
+  LinuxCounterOptions options;
+  options.sysfs_root = table.string("sysfs_root", options.sysfs_root);
+  options.device = table.string("device", options.device);
+  options.chip = table.string("chip", options.chip);
+  options.function = table.string("function", options.function);
+  const std::int64_t ceiling = table.integer("ceiling", 0);
+  if (ceiling < 0) table.reject("ceiling", "must be the greatest count, as 65535");
+  options.ceiling = static_cast<std::uint64_t>(ceiling);
+  options.rate_hz = table.number("rate_hz", options.rate_hz);
+  if (!(options.rate_hz >= 0.1 && options.rate_hz <= 5000))
+    table.reject("rate_hz", "must be from 0.1 to 5000");
+  MDOF_TRY(options.channels, read_channels(table, context.rig));
+  MDOF_CHECK(table.finish());
+  for (const auto& channel : options.channels) MDOF_CHECK(check_um_per_count(channel));
+  DriverSpec spec;
+  spec.driver = "linux_counter";
+  spec.name = context.name;
+  spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
+    return make_linux_counter(name, options);
+  };
+  spec.source_info = [](const Driver&) { return SourceInfo{}; };
+  return spec;
+}
+
+}  // namespace mdof::drivers

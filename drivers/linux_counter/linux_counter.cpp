@@ -1,0 +1,94 @@
+#include "drivers/linux_counter/linux_counter.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "drivers/linux_counter/protocol.h"
+
+namespace mdof::drivers {
+namespace {
+
+constexpr std::int64_t kSlow_ns = 2'000'000;  // a read that took longer was held up
+
+struct Count {
+  SysfsAttribute file;
+  CountUnwrap unwrap;
+  double um_per_count;
+};
+
+Result<SysfsReading> read_count(Count& count) {
+  MDOF_TRY(const std::int64_t raw, count.file.read_integer());
+  const auto counts = count.unwrap(static_cast<std::uint64_t>(raw));
+  if (!counts)
+    return io_error(count.file.path() + ": " + std::to_string(raw) +
+                    " is beyond the ceiling; was the counter set up anew?");
+  return SysfsReading{static_cast<double>(*counts) * count.um_per_count, Quality::good};
+}
+
+Result<CountFiles> read_files(const std::string& path) {
+  CountFiles files;
+  MDOF_TRY(files.function, read_sysfs(path + "/function"));
+  MDOF_TRY(files.count_mode, read_sysfs(path + "/count_mode"));
+  MDOF_TRY(files.enable, read_sysfs(path + "/enable"));
+  MDOF_TRY(files.ceiling, read_sysfs(path + "/ceiling"));
+  MDOF_TRY(files.floor, read_sysfs(path + "/floor"));
+  return files;
+}
+
+std::vector<std::string> counts_of(const std::string& folder) {
+  std::vector<std::string> counts;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("count")) counts.push_back(name);
+  }
+  std::sort(counts.begin(), counts.end());
+  return counts;
+}
+
+Result<SysfsInput> open_count(const LinuxCounterOptions& options, const std::string& folder,
+                              const ChannelInput& channel) {
+  const auto counts = counts_of(folder);
+  if (std::find(counts.begin(), counts.end(), channel.input) == counts.end())
+    return no_such_input(channel, counts);
+  const std::string path = folder + "/" + channel.input;
+  MDOF_TRY(const CountFiles files, read_files(path));
+  MDOF_TRY(const std::uint64_t ceiling,
+           check_count(files, path, options.function, options.ceiling));
+  MDOF_TRY(SysfsAttribute file, SysfsAttribute::open(path + "/count", options.read));
+  auto count =
+      std::make_shared<Count>(Count{std::move(file), CountUnwrap(ceiling), channel.um_per_count});
+  SysfsInput input;
+  input.channel = {channel.id, Unit::um};
+  input.read = [count] { return read_count(*count); };
+  return input;
+}
+
+Result<SysfsDevice> open_counter(const LinuxCounterOptions& options) {
+  const std::string folder = options.sysfs_root + "/bus/counter/devices/" + options.device;
+  MDOF_TRY(const auto chip, read_sysfs(folder + "/name"));
+  if (!chip && !std::filesystem::exists(folder))
+    return io_error(folder + ": " + sysfs_error(ENODEV) + "; ls " + options.sysfs_root +
+                    "/bus/counter/devices shows what there is");
+  if (!options.chip.empty() && chip.value_or("") != options.chip)
+    return io_error(folder + "/name: is \"" + chip.value_or("") + "\" where chip is \"" +
+                    options.chip + "\"; counters are numbered as they are found: correct device");
+  SysfsDevice device;
+  device.description = "counter " + chip.value_or("without a name") + " at " + folder;
+  for (const auto& channel : options.channels) {
+    MDOF_TRY(SysfsInput input, open_count(options, folder, channel));
+    device.inputs.push_back(std::move(input));
+  }
+  return device;
+}
+
+}  // namespace
+
+std::unique_ptr<SysfsPoller> make_linux_counter(const std::string& name,
+                                                const LinuxCounterOptions& options) {
+  return std::make_unique<SysfsPoller>(name, "linux_counter", options.rate_hz, kSlow_ns,
+                                       [options] { return open_counter(options); });
+}
+
+}  // namespace mdof::drivers

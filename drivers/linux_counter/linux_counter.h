@@ -1,0 +1,29 @@
+// Encoders behind the Linux counter subsystem, polled through sysfs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/channels.h"
+#include "drivers/sysfs/poller.h"
+
+namespace mdof::drivers {
+
+struct LinuxCounterOptions {
+  std::string sysfs_root = "/sys";
+  std::string device = "counter0";
+  std::string chip;           // what its `name` must say; empty: anything
+  std::string function;       // that each count must have; empty: any
+  std::uint64_t ceiling = 0;  // where the device has no such file
+  double rate_hz = 500;
+  std::vector<ChannelInput> channels;  // input "count0" ...
+  SysfsRead read = sysfs_pread();      // of the counts
+};
+
+// Values are µm: counts · um_per_count.
+std::unique_ptr<SysfsPoller> make_linux_counter(const std::string& name,
+                                                const LinuxCounterOptions& options);
+
+}  // namespace mdof::drivers

@@ -1,0 +1,56 @@
+#include "drivers/qsb/configure.h"
+
+#include "drivers/qsb/qsb.h"
+
+namespace mdof::drivers {
+namespace {
+
+void read_place(TomlTable& table, QsbOptions& options) {
+  if (!table.has("address")) {
+    options.port = table.string("port");
+    return;
+  }
+  if (table.has("port")) table.reject("port", "contradicts address: give one or the other");
+  const auto address = parse_endpoint(table.string("address"), 0);
+  address ? void(options.address = *address) : table.reject("address", address.error().message);
+}
+
+void read_counting(TomlTable& table, QsbOptions& options) {
+  const std::string counting = table.string("counting", "x4");
+  options.counting = counting == "x1" ? 1 : counting == "x2" ? 2 : 3;
+  if (options.counting == 3 && counting != "x4")
+    table.reject("counting", "must be \"x1\", \"x2\" or \"x4\"");
+}
+
+}  // namespace
+
+Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context) {
+  QsbOptions options;
+  read_place(table, options);
+  read_counting(table, options);
+  const std::int64_t baud = table.integer("baud", options.line.baud);
+  if (baud < 1200 || baud > 921'600) table.reject("baud", "must be a baud rate, as 230400");
+  options.line.baud = static_cast<int>(baud);
+  options.line.rts = table.boolean("rts", true);
+  const std::int64_t interval = table.integer("interval", 1);
+  if (interval < 1 || interval > 512) table.reject("interval", "must be from 1 to 512 ticks");
+  options.interval = static_cast<std::uint32_t>(interval);
+  options.serial = table.string("serial", "");
+  MDOF_TRY(const auto channels, read_channels(table, context.rig));
+  MDOF_CHECK(table.finish());
+  for (const auto& channel : channels) {
+    if (channel.input != "count") return no_such_input(channel, {"count"});
+    MDOF_CHECK(check_um_per_count(channel));
+  }
+  options.channel = channels[0];
+  DriverSpec spec;
+  spec.driver = "qsb";
+  spec.name = context.name;
+  spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
+    return std::make_unique<Qsb>(name, options);
+  };
+  spec.source_info = [](const Driver&) { return SourceInfo{}; };
+  return spec;
+}
+
+}  // namespace mdof::drivers

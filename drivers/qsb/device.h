@@ -1,0 +1,61 @@
+// A QSB as it looks from its serial line.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "drivers/qsb/protocol.h"
+#include "drivers/simulated_device.h"
+
+namespace mdof::drivers {
+
+// `senses` gives counts, input 0. One client at a time.
+class QsbDevice final : public SimulatedDevice {
+ public:
+  // Lines of the stream count from 0 at each S command; -1: never.
+  struct Faults {
+    double tick_ns = qsb::kTick_ns;
+    int reset_at = -1;              // a banner instead of the line; the count starts anew
+    int cut_at = -1;                // half of the line, and no line end
+    int jump_at = -1;               // the stamp jumps
+    std::uint32_t jump_ticks = 10;  // by so much more
+    int silent_from = -1;
+    bool rubbish = false;  // no digit is right in any line of the stream
+    int refuse = -1;       // register: reply e
+    int unsupported = -1;  // register: reply x
+    bool mute = false;     // no reply ever
+    bool streams_at_start = false;
+  };
+  QsbDevice(Senses senses, Faults faults);
+  explicit QsbDevice(Senses senses) : QsbDevice(std::move(senses), Faults()) {}
+
+  std::vector<Port> ports() const override { return {{"serial", 0}}; }
+  void opened(std::size_t port, int client, std::int64_t now_ns) override;
+  void closed(std::size_t, int) override {}
+  std::string exchange(std::size_t port, int client, std::string_view received,
+                       std::int64_t now_ns) override;
+  bool hangs_up(std::size_t, int) override { return false; }
+
+ private:
+  std::string execute(std::string_view command, std::int64_t now_ns);
+  QsbReply answer(char type, std::uint8_t reg, std::uint32_t data, std::int64_t now_ns);
+  void write(std::uint8_t reg, std::uint32_t data, std::int64_t now_ns);
+  std::uint32_t read(std::uint8_t reg, std::int64_t now_ns) const;
+  std::string stream(std::int64_t now_ns);
+  std::string stream_line(std::int64_t tick);
+  std::int64_t tick_at(std::int64_t now_ns) const;
+  std::uint32_t count_at(std::int64_t t_ns) const;
+  void reset(std::int64_t now_ns);
+
+  Senses senses_;
+  Faults faults_;
+  std::array<std::uint32_t, 256> registers_{};
+  std::string received_;
+  std::int64_t stamp_from_ns_ = 0;
+  double count_from_ = 0;
+  bool streaming_ = false;
+  std::int64_t next_tick_ = 0;
+  int line_ = 0;
+};
+
+}  // namespace mdof::drivers

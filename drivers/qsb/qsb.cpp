@@ -1,0 +1,226 @@
+#include "drivers/qsb/qsb.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "drivers/clock/monotonic.h"
+#include "drivers/scan_block.h"
+
+namespace mdof::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kConnect{2000}, kAnswer{300}, kBanner{1000};
+constexpr milliseconds kQuiet{50}, kDrain{500};
+constexpr std::size_t kLongestLine = 256;
+constexpr double kAhead_ns = 2e9;  // that a stamp may be before what the host's clock allows
+
+}  // namespace
+
+Qsb::Qsb(std::string name, QsbOptions options)
+    : name_(std::move(name)), options_(std::move(options)) {}
+
+std::string Qsb::place() const {
+  return "QSB \"" + name_ + "\" at " +
+         (options_.address ? options_.address->text() : options_.port);
+}
+
+DeviceInfo Qsb::info() const {
+  std::string text = "US Digital " + (identity_.model.empty() ? "QSB" : identity_.model);
+  if (!identity_.serial.empty())
+    text += " " + identity_.serial + ", firmware " + std::to_string(identity_.firmware);
+  if (power_was_lost_) text += "; has been without power: its count began at 0";
+  const double rate_hz = 1e9 / (tick_.ns() * options_.interval);
+  return {name_, "qsb", text, {{options_.channel.id, Unit::um}}, rate_hz, false};
+}
+
+Status Qsb::open() {
+  samples_.clear();
+  received_.clear();
+  status_ = {};
+  clock_.reset();
+  tick_.restart();
+  count_.reset();
+  stamp_.reset();
+  last_stamp_.reset();
+  device_ns_ = 0;
+  malformed_in_a_row_ = 0;
+  MDOF_CHECK(connect());
+  MDOF_CHECK(make_it_answer());
+  MDOF_CHECK(check_identity());
+  MDOF_CHECK(configure());
+  last_sample_ns_ = monotonic_ns();
+  return stream_->write(qsb_command('S', qsb::kCount), kAnswer);
+}
+
+Status Qsb::connect() {
+  stream_.reset();
+  if (options_.address) {
+    MDOF_TRY(stream_, connect_tcp(*options_.address, kConnect));
+  } else {
+    MDOF_TRY(stream_, open_serial(options_.port, options_.line));
+  }
+  return {};
+}
+
+// Stops a stream that runs, and sets the form of the replies, whatever it was. A device that does
+// not answer is reset once; this costs its count.
+Status Qsb::make_it_answer() {
+  for (const bool reset : {false, true}) {
+    if (reset && !options_.address) {
+      pulse_dtr(*stream_);
+      MDOF_TRY(const auto banner, stream_->drain(kBanner / 2, kBanner));
+      (void)banner;
+    }
+    // What was left of a line before is ended by an empty one.
+    MDOF_CHECK(stream_->write(
+        "\r\n" + qsb_command('W', qsb::kCommand, 1) + qsb_command('W', qsb::kEor, qsb::kFullLines),
+        kAnswer));
+    MDOF_TRY(const auto stale, stream_->drain(kQuiet, kDrain));
+    (void)stale;
+    received_.clear();
+    MDOF_CHECK(stream_->write(qsb_command('R', qsb::kVersion), kAnswer));
+    MDOF_TRY(const auto reply, one_reply(qsb::kVersion, kAnswer));
+    if (!reply || reply->type != 'r') continue;
+    identity_ = qsb_identity(reply->data);
+    return {};
+  }
+  return io_error(place() + ": does not answer; is it a QSB, is its baud rate " +
+                  std::to_string(options_.line.baud) +
+                  ", and are its RTS and DTR as they must be?");
+}
+
+Status Qsb::check_identity() {
+  if (options_.serial.empty() || options_.serial == identity_.serial) return {};
+  return io_error(place() + ": its serial number is " + identity_.serial + " where serial is " +
+                  options_.serial + "; another device has its port: use /dev/serial/by-id");
+}
+
+Status Qsb::configure() {
+  const std::pair<std::uint8_t, std::uint32_t> settings[] = {
+      {qsb::kMdr0, options_.counting},     {qsb::kMdr1, 0},  {qsb::kThreshold, 0},
+      {qsb::kInterval, options_.interval}, {qsb::kStamp, 1},
+  };
+  for (const auto& [reg, value] : settings) MDOF_CHECK(ask('W', reg, value));
+  MDOF_TRY(const QsbReply status, ask('R', qsb::kStatus, std::nullopt));
+  power_was_lost_ = (status.data & qsb::kPowerWasLost) != 0;
+  return {};
+}
+
+Result<QsbReply> Qsb::ask(char type, std::uint8_t reg, std::optional<std::uint32_t> data) {
+  const std::string command = qsb_command(type, reg, data);
+  const std::string what = place() + ": command " + command.substr(0, command.find('\r'));
+  MDOF_CHECK(stream_->write(command, kAnswer));
+  MDOF_TRY(const auto reply, one_reply(reg, kAnswer));
+  if (!reply) return io_error(what + " was not answered; check the cable and the baud rate");
+  if (reply->type == 'e')
+    return io_error(what + " was refused (reply e): its firmware does not take the value");
+  if (reply->type == 'x')
+    return io_error(what + " is not supported (reply x); a QSB-D or QSB-S is needed");
+  return *reply;
+}
+
+// The next reply about `reg`, what else comes is passed over. Nothing: silence.
+Result<std::optional<QsbReply>> Qsb::one_reply(std::uint8_t reg, milliseconds timeout) {
+  const auto until = steady_clock::now() + timeout;
+  for (;;) {
+    while (const auto line = next_line()) {
+      const auto reply = parse_qsb_line(*line);
+      if (reply && reply->reg == reg) return reply;
+    }
+    const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
+    if (left.count() <= 0) return std::nullopt;
+    std::array<char, 512> bytes;
+    MDOF_TRY(const std::size_t n, stream_->read(bytes, left));
+    received_.append(bytes.data(), n);
+  }
+}
+
+std::optional<std::string> Qsb::next_line() {
+  const std::size_t end = received_.find('\n');
+  if (end == std::string::npos) {
+    if (received_.size() > kLongestLine) return std::exchange(received_, "");  // malformed
+    return std::nullopt;
+  }
+  std::string line = received_.substr(0, end);
+  received_.erase(0, end + 1);
+  while (!line.empty() && line.back() == '\r') line.pop_back();
+  return line;
+}
+
+Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
+  start_block(block, name_, {{options_.channel.id, Unit::um}});
+  if (!stream_) return io_error(place() + ": is not open; open it before reading");
+  if (samples_.empty() && status_) status_ = fetch(timeout);
+  if (samples_.empty()) MDOF_CHECK(status_);
+  give_out(block);
+  const std::chrono::nanoseconds silent(monotonic_ns() - last_sample_ns_);
+  if (block.scans() == 0 && silent > options_.silence)
+    return io_error(place() + ": no line for " + std::to_string(options_.silence.count()) +
+                    " ms; has it power, and does another program talk to it?");
+  return ReadState::more;
+}
+
+void Qsb::give_out(SampleBlock& block) {
+  // What was lost was lost before a block.
+  while (!samples_.empty() && (block.scans() == 0 || samples_.front().lost == 0)) {
+    const Sample& sample = samples_.front();
+    block.lost += sample.lost;
+    add_scan(block, clock_.host_ns(sample.device_ns), std::array{sample.um});
+    samples_.pop_front();
+  }
+}
+
+Status Qsb::fetch(milliseconds timeout) {
+  std::array<char, 4096> bytes;
+  const auto n = stream_->read(bytes, timeout);
+  if (!n) return io_error("QSB \"" + name_ + "\": " + n.error().message + "; was it unplugged?");
+  const std::int64_t received_ns = monotonic_ns();
+  received_.append(bytes.data(), *n);
+  Status status;
+  while (const auto line = next_line())
+    if (status = take_line(*line, received_ns); !status) break;
+  if (samples_.empty()) return status;
+  tick_.add(*last_stamp_, received_ns);
+  clock_.add(samples_.back().device_ns, received_ns);
+  return status;
+}
+
+Status Qsb::take_line(std::string_view line, std::int64_t received_ns) {
+  if (is_qsb_banner(line))
+    return io_error(place() + ": was reset in mid-stream (\"" + std::string(line.substr(0, 20)) +
+                    "\"), so its count began at 0; check its power, and reference the axis anew");
+  const auto reply = parse_qsb_line(line);
+  if (reply && reply->type == 's' && reply->reg == qsb::kCount && reply->stamp) {
+    malformed_in_a_row_ = 0;
+    return take_sample(*reply, received_ns);
+  }
+  ++malformed_;
+  if (++malformed_in_a_row_ <= kMalformedAllowed) return {};
+  return io_error(place() + ": " + std::to_string(malformed_in_a_row_) +
+                  " malformed lines in a row; check the cable and the baud rate");
+}
+
+Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
+  const std::int64_t stamp = stamp_(*reply.stamp);
+  const std::int64_t step = last_stamp_ ? stamp - *last_stamp_ : 0;
+  if (last_stamp_ && step == 0) return {};  // the same tick again tells nothing new
+  const double step_ns = static_cast<double>(step) * tick_.ns();
+  const auto passed_ns = static_cast<double>(received_ns - last_sample_ns_);
+  if (step < 0 || step_ns > 2 * passed_ns + kAhead_ns)
+    return io_error(place() + ": its time stamps jump by " + std::to_string(step) +
+                    " ticks; it was reset, or its line is disturbed: reference the axis anew");
+  const auto lines = std::llround(static_cast<double>(step) / options_.interval);
+  const std::uint64_t lost = lines > 1 ? static_cast<std::uint64_t>(lines - 1) : 0;
+  last_stamp_ = stamp;
+  last_sample_ns_ = received_ns;
+  device_ns_ += step_ns;
+  const auto counts = static_cast<double>(count_(reply.data));
+  samples_.push_back({std::llround(device_ns_), counts * options_.channel.um_per_count, lost});
+  return {};
+}
+
+}  // namespace mdof::drivers

@@ -1,0 +1,87 @@
+// US Digital QSB-D/QSB-S: one incremental encoder, streamed with the device's time stamps, over a
+// serial port or a serial port behind TCP.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/channels.h"
+#include "drivers/clock/device_clock.h"
+#include "drivers/driver.h"
+#include "drivers/io/byte_stream.h"
+#include "drivers/qsb/protocol.h"
+#include "drivers/qsb/tick_length.h"
+#include "drivers/unwrap.h"
+
+namespace mdof::drivers {
+
+struct QsbOptions {
+  std::string port;                 // or
+  std::optional<Endpoint> address;  // of a bridge
+  SerialSettings line{.baud = 230'400};
+  std::uint32_t counting = 3;               // 1, 2, 3: x1, x2, x4
+  std::uint32_t interval = 1;               // ticks between lines
+  std::string serial;                       // of the device; empty: any
+  ChannelInput channel;                     // input "count"
+  std::chrono::milliseconds silence{2000};  // is an error
+};
+
+// Thread-bound. A device that answers is not reset: its count goes on over open().
+class Qsb final : public Driver {
+ public:
+  static constexpr int kMalformedAllowed = 10;  // in a row
+
+  Qsb(std::string name, QsbOptions options);
+
+  DeviceInfo info() const override;
+  Status open() override;
+  // A step of the stamps is lost lines. Errors: a reset in mid-stream, stamps that cannot be true,
+  // more than 10 malformed lines in a row, silence.
+  Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+
+  std::uint64_t malformed_lines() const { return malformed_; }  // since the start
+  double tick_ns() const { return tick_.ns(); }
+  ClockState clock() const { return clock_.state(); }
+
+ private:
+  struct Sample {
+    std::int64_t device_ns;
+    double um;
+    std::uint64_t lost;
+  };
+  std::string place() const;
+  Status connect();
+  Status make_it_answer();
+  Status check_identity();
+  Status configure();
+  Result<QsbReply> ask(char type, std::uint8_t reg, std::optional<std::uint32_t> data);
+  Result<std::optional<QsbReply>> one_reply(std::uint8_t reg, std::chrono::milliseconds timeout);
+  std::optional<std::string> next_line();
+  Status fetch(std::chrono::milliseconds timeout);
+  Status take_line(std::string_view line, std::int64_t received_ns);
+  Status take_sample(const QsbReply& reply, std::int64_t received_ns);
+  void give_out(SampleBlock& block);
+
+  std::string name_;
+  QsbOptions options_;
+  std::optional<ByteStream> stream_;
+  QsbIdentity identity_;
+  bool power_was_lost_ = false;
+  std::string received_;  // not yet cut into lines
+  TickLength tick_{qsb::kTick_ns};
+  DeviceClock clock_{1.0};  // its ticks are nanoseconds of the device
+  Unwrap count_{32, true}, stamp_{32};
+  std::optional<std::int64_t> last_stamp_;
+  double device_ns_ = 0;
+  std::deque<Sample> samples_;  // not yet given out
+  Status status_;               // what to say once they are
+  std::int64_t last_sample_ns_ = 0;
+  std::uint64_t malformed_ = 0;
+  int malformed_in_a_row_ = 0;
+};
+
+}  // namespace mdof::drivers

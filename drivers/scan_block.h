@@ -1,0 +1,39 @@
+// Filling a SampleBlock scan by scan.
+#pragma once
+
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "schema/sample.h"
+
+namespace mdof::drivers {
+
+// Empties `block`; its memory is reused.
+inline void start_block(SampleBlock& block, const std::string& device,
+                        const std::vector<Channel>& channels) {
+  block.device = device;
+  block.channels = channels;
+  block.lost = 0;
+  block.time_ns.clear();
+  block.value.resize(channels.size());
+  block.quality.resize(channels.size());
+  for (auto& column : block.value) column.clear();
+  for (auto& column : block.quality) column.clear();
+}
+
+// One value a channel; NaN is missing, all others are of `quality`.
+inline void add_scan(SampleBlock& block, std::int64_t time_ns, std::span<const double> values,
+                     Quality quality = Quality::good) {
+  assert(values.size() == block.channels.size());
+  block.time_ns.push_back(time_ns);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    block.value[i].push_back(values[i]);
+    block.quality[i].push_back(std::isnan(values[i]) ? Quality::missing : quality);
+  }
+}
+
+}  // namespace mdof::drivers

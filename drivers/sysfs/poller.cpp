@@ -1,0 +1,109 @@
+#include "drivers/sysfs/poller.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <utility>
+
+#include "drivers/clock/monotonic.h"
+#include "drivers/scan_block.h"
+
+namespace mdof::drivers {
+namespace {
+
+constexpr std::int64_t kBlock_ns = 10'000'000;
+
+// steady_clock is CLOCK_MONOTONIC.
+void sleep_until(std::int64_t time_ns) {
+  const timespec until{time_ns / 1'000'000'000, time_ns % 1'000'000'000};
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+}
+
+}  // namespace
+
+SysfsPoller::SysfsPoller(std::string name, std::string driver, double rate_hz, std::int64_t slow_ns,
+                         std::function<Result<SysfsDevice>()> open)
+    : name_(std::move(name)),
+      driver_(std::move(driver)),
+      rate_hz_(rate_hz),
+      period_ns_(std::llround(1e9 / rate_hz)),
+      slow_ns_(slow_ns),
+      open_(std::move(open)) {}
+
+DeviceInfo SysfsPoller::info() const {
+  return {name_, driver_, device_.description, channels_, rate_hz_, false};
+}
+
+Status SysfsPoller::open() {
+  is_open_ = false;
+  device_ = {};  // before it is opened again
+  MDOF_TRY(device_, open_());
+  channels_.clear();
+  for (const auto& input : device_.inputs) channels_.push_back(input.channel);
+  is_open_ = true;
+  next_ns_ = monotonic_ns();
+  lost_ = 0;
+  failures_ = 0;
+  return {};
+}
+
+Result<ReadState> SysfsPoller::read(SampleBlock& block, std::chrono::milliseconds timeout) {
+  start_block(block, name_, channels_);
+  if (!is_open_) return io_error("device \"" + name_ + "\" is not open; open it before reading");
+  const std::int64_t until_ns =
+      monotonic_ns() +
+      std::chrono::nanoseconds(std::min(timeout, std::chrono::milliseconds(3'600'000))).count();
+  const std::int64_t full_ns = monotonic_ns() + kBlock_ns;
+  do {
+    sleep_until(std::min(next_ns_, until_ns));
+    if (next_ns_ > until_ns) break;
+    MDOF_CHECK(poll(block));
+    schedule_next(monotonic_ns());
+    // What is lost goes before a block.
+  } while (next_ns_ < std::max(full_ns, block.scans() == 0 ? until_ns : 0) && lost_ == 0);
+  return ReadState::more;
+}
+
+Status SysfsPoller::poll(SampleBlock& block) {
+  std::vector<double> values;
+  Quality quality = failures_ > 0 ? Quality::suspect : Quality::good;
+  std::vector<Quality> own;
+  const std::int64_t before_ns = monotonic_ns();
+  for (const auto& input : device_.inputs) {
+    const auto reading = input.read();
+    if (!reading) return count_failure(reading.error());
+    values.push_back(reading->value);
+    own.push_back(reading->quality);
+  }
+  const std::int64_t after_ns = monotonic_ns();
+  if (slow_ns_ > 0 && after_ns - before_ns > slow_ns_) quality = Quality::suspect;
+  last_time_ns_ = std::max(before_ns + (after_ns - before_ns) / 2, last_time_ns_ + 1);
+  add_scan(block, last_time_ns_, values, quality);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    block.quality[i].back() = std::max(block.quality[i].back(), own[i]);
+  block.lost += std::exchange(lost_, 0);
+  failures_ = 0;
+  return {};
+}
+
+Status SysfsPoller::count_failure(const Error& why) {
+  ++lost_;
+  if (++failures_ <= kFailuresAllowed) return {};
+  is_open_ = false;
+  return io_error("device \"" + name_ + "\": " + std::to_string(failures_) +
+                  " readings in a row failed; the last: " + why.message);
+}
+
+// The next poll on the even grid that can still be met.
+void SysfsPoller::schedule_next(std::int64_t now_ns) {
+  next_ns_ += period_ns_;
+  if (next_ns_ > now_ns - period_ns_) return;  // late, but it can be made up for
+  const std::int64_t missed = (now_ns - next_ns_) / period_ns_;
+  lost_ += static_cast<std::uint64_t>(missed);
+  next_ns_ += missed * period_ns_;
+}
+
+}  // namespace mdof::drivers

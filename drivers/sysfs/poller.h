@@ -1,0 +1,65 @@
+// The driver of devices that are asked, at an even rate, through files of sysfs: what Linux
+// counters and Linux IIO converters have in common.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "drivers/driver.h"
+#include "drivers/sysfs/attribute.h"
+
+namespace mdof::drivers {
+
+// One channel as opened: asks the device for its raw value, in the channel's unit.
+struct SysfsReading {
+  double value = 0;
+  Quality quality = Quality::good;
+};
+struct SysfsInput {
+  Channel channel;
+  std::function<Result<SysfsReading>()> read;
+};
+struct SysfsDevice {
+  std::string description;
+  std::vector<SysfsInput> inputs;
+};
+
+// Thread-bound. The time of a scan is the middle between before its first and after its last
+// reading. Polls that were not made in time, or failed, are lost; the scan after a failed one is
+// suspect; five failed ones in a row are an error.
+class SysfsPoller final : public Driver {
+ public:
+  static constexpr int kFailuresAllowed = 4;  // in a row
+
+  // `open` finds and checks the device; called at each open(). `slow_ns`: a scan that takes longer
+  // is suspect, as nobody knows when in that time it was taken; 0: the device takes its time.
+  SysfsPoller(std::string name, std::string driver, double rate_hz, std::int64_t slow_ns,
+              std::function<Result<SysfsDevice>()> open);
+
+  DeviceInfo info() const override;
+  Status open() override;
+  // Gives what 10 ms bring, at least one scan; takes longer than `timeout` only by one scan.
+  Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+
+ private:
+  Status poll(SampleBlock& block);
+  Status count_failure(const Error& why);
+  void schedule_next(std::int64_t now_ns);
+
+  std::string name_, driver_;
+  double rate_hz_;
+  std::int64_t period_ns_, slow_ns_;
+  std::function<Result<SysfsDevice>()> open_;
+  SysfsDevice device_;
+  std::vector<Channel> channels_;
+  bool is_open_ = false;
+  std::int64_t next_ns_ = 0;
+  std::uint64_t lost_ = 0;
+  int failures_ = 0;  // in a row
+  std::int64_t last_time_ns_ = 0;
+};
+
+}  // namespace mdof::drivers

@@ -1,0 +1,300 @@
+#include "drivers/csv_stream/csv_stream.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include "drivers/csv_stream/configure.h"
+#include "drivers/csv_stream/device.h"
+#include "tests/drivers/collect.h"
+#include "tests/drivers/serve_device.h"
+
+namespace mdof::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+
+CsvStreamOptions options_for_test() {
+  CsvStreamOptions options;
+  options.expected = {"encoder", "A", "B"};
+  return options;
+}
+
+CsvStreamOptions command(const std::string& script) {
+  CsvStreamOptions options = options_for_test();
+  options.command = {"sh", "-c", script};
+  return options;
+}
+
+double counts(std::size_t input, std::int64_t) {
+  return static_cast<double>(input) + 0.25;
+}
+
+CsvStream over_tcp(const ServedOverTcp& served, milliseconds silence = milliseconds(5000)) {
+  CsvStreamOptions options = options_for_test();
+  options.silence = silence;
+  options.server = *parse_endpoint(served.address(), 0);
+  return {"probe", options};
+}
+
+TEST(CsvStream, RowsOfATcpServerWithItsOwnTimes) {
+  CsvStreamDevice device({"encoder_mm", "A_um"}, 1000, true, counts);
+  const ServedOverTcp served(device);
+  CsvStream stream = over_tcp(served);
+  const auto status = stream.open();
+  ASSERT_TRUE(status) << status.error().message;
+  EXPECT_EQ(stream.info().channels, (std::vector<Channel>{{"encoder", Unit::mm}, {"A", Unit::um}}));
+  const Collected all = collect(stream, 200);
+  ASSERT_EQ(all.error, "");
+  ASSERT_GE(all.scans.size(), 200u);
+  EXPECT_EQ(all.scans[7], (std::vector<double>{0.25, 1.25}));
+  EXPECT_EQ(all.lost, 0u);
+  expect_growing(all.time_ns);
+  EXPECT_NEAR(static_cast<double>(all.time_ns.back() - all.time_ns[0]),
+              static_cast<double>(all.time_ns.size() - 1) * 1e6, 2e6);
+  EXPECT_LT(std::abs(monotonic_ns() - all.time_ns.back()), 5'000'000'000);
+}
+
+TEST(CsvStream, BadLinesAreCountedAsLost) {
+  CsvStreamDevice device({"A_um"}, 2000, false, counts, {.bad_line_every = 10});
+  const ServedOverTcp served(device);
+  CsvStream stream = over_tcp(served);
+  ASSERT_TRUE(stream.open());
+  const Collected all = collect(stream, 91);
+  ASSERT_EQ(all.error, "");
+  EXPECT_GE(all.lost, 10u);
+  ASSERT_FALSE(stream.warnings().empty());
+  EXPECT_NE(stream.warnings()[0].find("2 fields where the header has 1"), std::string::npos);
+  const Collected more = collect(stream, 5000);
+  EXPECT_NE(more.error.find("more than 100 bad lines of 10000"), std::string::npos) << more.error;
+}
+
+TEST(CsvStream, ABrokenConnectionIsAnErrorAndComesBack) {
+  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.cut_row = 50});
+  const ServedOverTcp served(device);
+  CsvStream stream = over_tcp(served);
+  std::int64_t last_ns = 0;
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(stream.open());
+    const Collected all = collect(stream, 1000);
+    EXPECT_EQ(all.scans.size(), 50u);  // the half row is no row
+    EXPECT_NE(all.error.find(served.address() + ": the other side has closed"), std::string::npos)
+        << all.error;
+    expect_growing(all.time_ns);
+    EXPECT_GT(all.time_ns.at(0), last_ns);
+    last_ns = all.time_ns.back();
+  }
+}
+
+TEST(CsvStream, ASilentServerIsAnError) {
+  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.silent_from = 5});
+  const ServedOverTcp served(device);
+  CsvStream stream = over_tcp(served, milliseconds(300));
+  ASSERT_TRUE(stream.open());
+  const Collected all = collect(stream, 1000);
+  EXPECT_EQ(all.scans.size(), 5u);
+  EXPECT_NE(all.error.find("no row for 0."), std::string::npos) << all.error;
+}
+
+TEST(CsvStream, AHeaderThatComesAgainStartsTheClockAnew) {
+  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.restart_at = 60});
+  const ServedOverTcp served(device);
+  CsvStream stream = over_tcp(served);
+  ASSERT_TRUE(stream.open());
+  const Collected all = collect(stream, 150);
+  ASSERT_EQ(all.error, "");
+  expect_growing(all.time_ns);
+  EXPECT_LT(all.time_ns[149] - all.time_ns[0], 20'000'000'000);
+}
+
+TEST(CsvStream, TimesInMillisecondsAreRefused) {
+  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.time_scale = 1000});
+  const ServedOverTcp served(device);
+  CsvStream stream = over_tcp(served);
+  ASSERT_TRUE(stream.open());
+  const Collected all = collect(stream, 1000);
+  EXPECT_NE(all.error.find("it must be live, and in seconds"), std::string::npos) << all.error;
+}
+
+TEST(CsvStream, WithoutAHeaderOpenFails) {
+  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.no_header = true});
+  const ServedOverTcp served(device);
+  CsvStream stream = over_tcp(served);
+  const auto status = stream.open();
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("a row of numbers where the header must be"),
+            std::string::npos);
+}
+
+TEST(CsvStream, NobodyListens) {
+  CsvStreamOptions options = options_for_test();
+  {
+    CsvStreamDevice device({"A_um"}, 1000, true, counts);
+    options.server = *parse_endpoint(ServedOverTcp(device).address(), 0);
+  }
+  CsvStream stream("probe", options);
+  const auto status = stream.open();
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::io);
+  EXPECT_NE(status.error().message.find(options.server->text()), std::string::npos);
+}
+
+TEST(CsvStream, RowsOfACommandThatExits) {
+  CsvStream stream("probe", command("printf 'A_um,B_um\\n1,2\\n3,4\\n5,'; echo first >&2; "
+                                    "echo 'sensor on fire' >&2; exit 3"));
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(stream.open());
+    const Collected all = collect(stream, 10);
+    ASSERT_EQ(all.scans.size(), 2u);
+    EXPECT_EQ(all.scans[1], (std::vector<double>{3, 4}));
+    EXPECT_NE(all.error.find("has exited with status 3; its last line of standard error: sensor "
+                             "on fire"),
+              std::string::npos)
+        << all.error;
+  }
+}
+
+TEST(CsvStream, ACommandThatIsNotThere) {
+  CsvStreamOptions options = options_for_test();
+  options.command = {"/no/such/program"};
+  const auto status = CsvStream("probe", options).open();
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("\"/no/such/program\": cannot be started"),
+            std::string::npos);
+}
+
+TEST(CsvStream, ACommandDiesWithItsDriverAndIsNotHeldUpByItsErrors) {
+  const auto marker = std::filesystem::temp_directory_path() /
+                      ("mdof_csv_stream_test." + std::to_string(::getpid()));
+  {
+    // More than a pipe holds on standard error, then rows.
+    CsvStream stream("probe", command("trap 'echo ended >" + marker.string() +
+                                      "; exit 0' TERM; echo A_um; head -c 300000 /dev/zero | tr "
+                                      "'\\0' 'x' >&2; echo 1; while :; do sleep 0.02; done"));
+    ASSERT_TRUE(stream.open());
+    EXPECT_EQ(collect(stream, 1).scans.size(), 1u);
+  }
+  EXPECT_TRUE(std::filesystem::exists(marker));
+  std::filesystem::remove(marker);
+}
+
+TEST(CsvStream, RowsThatWaitedTogetherAreSuspect) {
+  CsvStream stream("probe", command("printf 'A_um\\n1\\n'; sleep 0.2; printf '2\\n3\\n4\\n'; "
+                                    "sleep 5"));
+  ASSERT_TRUE(stream.open());
+  const Collected all = collect(stream, 4);
+  ASSERT_EQ(all.quality.size(), 4u);
+  const Quality expected[] = {Quality::good, Quality::suspect, Quality::suspect, Quality::good};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(all.first_quality(i), expected[i]) << i;
+  expect_growing(all.time_ns);
+  EXPECT_GT(all.time_ns[1] - all.time_ns[0], 100'000'000);
+}
+
+TEST(CsvStream, EmptyFieldsAreMissingAndSimulatedIsSaid) {
+  CsvStream stream("probe", command("printf '# simulated\\nA_um,B_um\\n,2\\n'; sleep 5"));
+  ASSERT_TRUE(stream.open());
+  EXPECT_TRUE(stream.info().simulated);
+  SampleBlock block;
+  while (block.scans() == 0) ASSERT_TRUE(stream.read(block, milliseconds(100)));
+  EXPECT_EQ(block.quality_at(0, 0), Quality::missing);
+  EXPECT_EQ(block.quality_at(1, 0), Quality::simulated);
+}
+
+TEST(CsvStream, AHeaderOfStrangersIsRefused) {
+  CsvStream stream("probe", command("echo Z_um; sleep 5"));
+  const auto status = stream.open();
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("there are Z, wanted are some of encoder, A, B"),
+            std::string::npos)
+      << status.error().message;
+}
+
+TEST(CsvStream, ACommandThatSaysNothing) {
+  CsvStreamOptions options = command("sleep 5");
+  options.start = milliseconds(100);
+  const auto status = CsvStream("probe", options).open();
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("no header line within 0.1 s"), std::string::npos);
+}
+
+class CsvStreamFifo : public testing::Test {
+ protected:
+  CsvStreamFifo() {
+    std::filesystem::remove(path_);
+    EXPECT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+    options_.fifo = path_;
+  }
+  ~CsvStreamFifo() override { std::filesystem::remove(path_); }
+  std::string path_ = (std::filesystem::temp_directory_path() /
+                       ("mdof_csv_stream_fifo." + std::to_string(::getpid())))
+                          .string();
+  CsvStreamOptions options_ = options_for_test();
+};
+
+TEST_F(CsvStreamFifo, WaitsForItsWriterAndForTheNext) {
+  options_.start = milliseconds(50);
+  CsvStream stream("probe", options_);
+  const auto early = stream.open();
+  ASSERT_FALSE(early);
+  EXPECT_NE(early.error().message.find("nobody has written to it yet"), std::string::npos);
+  for (int round = 0; round < 2; ++round) {
+    std::thread writer([this] {
+      const int fd = ::open(path_.c_str(), O_WRONLY);
+      const std::string text = "A_um\n1\n2\n";
+      EXPECT_EQ(::write(fd, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+      ::close(fd);
+    });
+    bool opened = false;
+    for (int i = 0; i < 200 && !opened; ++i) opened = stream.open().has_value();
+    const Collected all = collect(stream, 10);
+    writer.join();
+    ASSERT_TRUE(opened);
+    EXPECT_EQ(all.scans.size(), 2u);
+    EXPECT_NE(all.error.find("has closed it"), std::string::npos) << all.error;
+  }
+}
+
+TEST_F(CsvStreamFifo, WhatIsNoFifoIsSaid) {
+  std::filesystem::remove(path_);
+  const auto status = CsvStream("probe", options_).open();
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("mkfifo"), std::string::npos);
+  options_.fifo = "/etc/hostname";
+  EXPECT_FALSE(CsvStream("probe", options_).open());
+}
+
+std::string refusal(const std::string& toml) {
+  auto table = TomlTable::parse(toml, "mdofd.toml");
+  if (!table) return table.error().message;
+  DriverContext context;
+  context.name = "probe";
+  context.rig.probes.resize(1);
+  context.rig.probes[0].id = "A";
+  const auto spec = configure_csv_stream(*table, context);
+  if (!spec) return spec.error().message;
+  return spec->make().has_value() && spec->live ? "accepted" : "not made";
+}
+
+TEST(CsvStreamConfiguration, KeysAndTheirErrors) {
+  EXPECT_EQ(refusal("source = \"tcp://127.0.0.1:9000\"\nsilence_s = 10\nstart_s = 5"), "accepted");
+  EXPECT_EQ(refusal("source = \"fifo:/run/probe\"\nbad_lines = 0"), "accepted");
+  EXPECT_EQ(refusal("command = [\"python3\", \"p.py\"]"), "accepted");
+  const std::pair<const char*, const char*> wrong[] = {
+      {"", "source: is missing"},
+      {"source = \"udp://x\"", "mdofd.toml:1: source: must be \"tcp://HOST:PORT\""},
+      {"source = \"tcp://host\"", "is no address"},
+      {"command = []", "must name a program"},
+      {"command = [\"a\"]\nsource = \"fifo:b\"", "mdofd.toml:2: source: contradicts command"},
+      {"command = [\"a\"]\nstart_s = 60", "start_s: must be from 0.1 to 5"},
+      {"command = [\"a\"]\nbad_lines = -1", "bad_lines: must be from 0 to 10000"},
+      {"command = [\"a\"]\nsilense_s = 1", "silence_s"},
+  };
+  for (const auto& [toml, message] : wrong)
+    EXPECT_NE(refusal(toml).find(message), std::string::npos) << toml << " -> " << refusal(toml);
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -1,0 +1,220 @@
+#include "drivers/qsb/qsb.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "drivers/qsb/configure.h"
+#include "drivers/qsb/device.h"
+#include "tests/drivers/collect.h"
+#include "tests/drivers/serve_device.h"
+
+namespace mdof::drivers {
+namespace {
+
+double ramp(std::size_t, std::int64_t t_ns) {
+  return -1000 + static_cast<double>(t_ns % 1'000'000'000'000) * 1e-6;  // a count a millisecond
+}
+double still(std::size_t, std::int64_t) {
+  return -5;
+}
+
+QsbOptions options_for_test(const ServedOverPty& served) {
+  QsbOptions options;
+  options.port = served.path();
+  options.channel = {"encoder", "count", 0.5, ""};
+  return options;
+}
+
+TEST(Qsb, StreamsWithTheDevicesTimes) {
+  QsbDevice device(ramp, {.streams_at_start = true});
+  const ServedOverPty served(device);
+  Qsb driver("scale", options_for_test(served));
+  const auto status = driver.open();
+  ASSERT_TRUE(status) << status.error().message;
+  EXPECT_NE(driver.info().description.find("QSB-S 00001, firmware 1"), std::string::npos);
+  const Collected all = collect(driver, 100);
+  ASSERT_EQ(all.error, "");
+  EXPECT_EQ(all.lost, 0u);
+  EXPECT_EQ(driver.malformed_lines(), 0u);
+  expect_growing(all.time_ns);
+  for (std::size_t i = 2; i < all.scans.size(); ++i) {
+    // Half a µm a count, 1.953125 counts a line, rounded.
+    EXPECT_NEAR(all.scans[i][0] - all.scans[i - 1][0], 0.9765625, 0.51) << i;
+    EXPECT_NEAR(static_cast<double>(all.time_ns[i] - all.time_ns[i - 1]), qsb::kTick_ns, 0.01e6);
+  }
+}
+
+TEST(Qsb, TheCountGoesOnOverAReopen) {
+  QsbDevice device(still);
+  const ServedOverPty served(device);
+  Qsb driver("scale", options_for_test(served));
+  std::int64_t last_ns = 0;
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(driver.open());
+    const Collected all = collect(driver, 5);
+    EXPECT_EQ(all.scans.at(0)[0], -2.5);
+    EXPECT_GT(all.time_ns.at(0), last_ns);
+    last_ns = all.time_ns.back();
+  }
+}
+
+TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
+  QsbDevice device(still, {.reset_at = 20});
+  const ServedOverPty served(device);
+  Qsb driver("scale", options_for_test(served));
+  ASSERT_TRUE(driver.open());
+  const Collected all = collect(driver, 1000);
+  EXPECT_GE(all.scans.size(), 20u);  // what came before it is good
+  for (std::size_t i = 0; i < all.scans.size(); ++i) {
+    EXPECT_EQ(all.scans[i][0], -2.5);
+    EXPECT_EQ(all.first_quality(i), Quality::good);
+  }
+  EXPECT_NE(all.error.find("was reset in mid-stream (\"QSB-S  0E!\")"), std::string::npos)
+      << all.error;
+  SampleBlock block;
+  EXPECT_FALSE(driver.read(block, std::chrono::milliseconds(1)));
+  ASSERT_TRUE(driver.open());
+  EXPECT_NE(driver.info().description.find("has been without power"), std::string::npos);
+  EXPECT_EQ(collect(driver, 1).scans.at(0)[0], 0);
+}
+
+TEST(Qsb, ACutLineIsCountedAndItsScansAreLost) {
+  QsbDevice device(still, {.cut_at = 10});
+  const ServedOverPty served(device);
+  Qsb driver("scale", options_for_test(served));
+  ASSERT_TRUE(driver.open());
+  const Collected all = collect(driver, 50);
+  ASSERT_EQ(all.error, "");
+  EXPECT_EQ(driver.malformed_lines(), 1u);
+  EXPECT_EQ(all.lost, 2u);  // the cut one and the one it ran into
+}
+
+TEST(Qsb, AStepOfTheStampsIsLostLines) {
+  QsbDevice device(still, {.jump_at = 10, .jump_ticks = 7});
+  const ServedOverPty served(device);
+  Qsb driver("scale", options_for_test(served));
+  ASSERT_TRUE(driver.open());
+  const Collected all = collect(driver, 50);
+  ASSERT_EQ(all.error, "");
+  EXPECT_EQ(all.lost, 7u);
+  expect_growing(all.time_ns);
+}
+
+TEST(Qsb, AStampThatCannotBeIsAnError) {
+  for (const std::uint32_t jump : {100'000u, 0xFFFFFF00u}) {
+    QsbDevice device(still, {.jump_at = 10, .jump_ticks = jump});
+    const ServedOverPty served(device);
+    Qsb driver("scale", options_for_test(served));
+    ASSERT_TRUE(driver.open());
+    const Collected all = collect(driver, 500);
+    EXPECT_NE(all.error.find("time stamps jump by"), std::string::npos) << all.error;
+  }
+}
+
+TEST(Qsb, RepliesEAndX) {
+  for (const auto& [faults, text] : {std::pair{QsbDevice::Faults{.refuse = qsb::kInterval},
+                                               "command W0C00000001 was refused (reply e)"},
+                                     std::pair{QsbDevice::Faults{.unsupported = qsb::kMdr0},
+                                               "command W0300000003 is not supported (reply x)"}}) {
+    QsbDevice device(still, faults);
+    const ServedOverPty served(device);
+    const auto status = Qsb("scale", options_for_test(served)).open();
+    ASSERT_FALSE(status);
+    EXPECT_NE(status.error().message.find(text), std::string::npos) << status.error().message;
+    EXPECT_NE(status.error().message.find(served.path()), std::string::npos);
+  }
+}
+
+TEST(Qsb, RubbishIsAnErrorAfterTenLines) {
+  QsbDevice device(still, {.rubbish = true});
+  const ServedOverPty served(device);
+  Qsb driver("scale", options_for_test(served));
+  ASSERT_TRUE(driver.open());
+  EXPECT_NE(collect(driver, 500).error.find("11 malformed lines in a row"), std::string::npos);
+}
+
+TEST(Qsb, SilenceIsAnError) {
+  QsbDevice device(still, {.silent_from = 5});
+  const ServedOverPty served(device);
+  QsbOptions options = options_for_test(served);
+  options.silence = std::chrono::milliseconds(300);
+  Qsb driver("scale", options);
+  ASSERT_TRUE(driver.open());
+  const Collected all = collect(driver, 500);
+  EXPECT_GE(all.scans.size(), 5u);
+  EXPECT_NE(all.error.find("no line for 300 ms"), std::string::npos) << all.error;
+}
+
+TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
+  QsbDevice device(still);
+  const ServedOverPty served(device);
+  QsbOptions options = options_for_test(served);
+  options.serial = "00002";
+  auto status = Qsb("scale", options).open();
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("its serial number is 00001"), std::string::npos);
+  options.port = "/dev/no-such-port";
+  status = Qsb("scale", options).open();
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("is not there"), std::string::npos);
+}
+
+TEST(Qsb, BehindABridge) {
+  QsbDevice device(still);
+  const ServedOverTcp served(device);
+  QsbOptions options;
+  options.address = *parse_endpoint(served.address(), 0);
+  options.channel = {"encoder", "count", 0.5, ""};
+  Qsb driver("scale", options);
+  const auto status = driver.open();
+  ASSERT_TRUE(status) << status.error().message;
+  EXPECT_EQ(collect(driver, 20).error, "");
+}
+
+TEST(Qsb, ABridgeThatSaysNothing) {
+  QsbDevice device(still, {.mute = true});
+  const ServedOverTcp served(device);
+  QsbOptions options;
+  options.address = *parse_endpoint(served.address(), 0);
+  const auto status = Qsb("scale", options).open();
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("does not answer"), std::string::npos);
+}
+
+std::string configured(const std::string& toml) {
+  auto table = TomlTable::parse(toml, "mdofd.toml");
+  if (!table) return table.error().message;
+  DriverContext context;
+  context.name = "scale";
+  const auto spec = configure_qsb(*table, context);
+  if (!spec) return spec.error().message;
+  const auto driver = spec->make();
+  return (*driver)->info().driver;
+}
+
+TEST(QsbConfiguration, KeysAndTheirErrors) {
+  const std::string channel =
+      "\n[[channel]]\nid = \"encoder\"\ninput = \"count\"\num_per_count = 0.05\n";
+  EXPECT_EQ(configured("port = \"/dev/ttyUSB0\"\nbaud = 115200\nrts = false\ncounting = \"x2\"\n"
+                       "interval = 4\nserial = \"00001\"" +
+                       channel),
+            "qsb");
+  EXPECT_EQ(configured("address = \"192.168.0.7:2217\"" + channel), "qsb");
+  const std::pair<std::string, const char*> wrong[] = {
+      {channel, "port: is missing"},
+      {"port = \"a\"\naddress = \"b:1\"" + channel, "port: contradicts address"},
+      {"address = \"b\"" + channel, "is no address"},
+      {"port = \"a\"\nbaud = 3" + channel, "baud: must be a baud rate"},
+      {"port = \"a\"\ninterval = 0" + channel, "interval: must be from 1 to 512"},
+      {"port = \"a\"\ncounting = \"x3\"" + channel, "counting: must be"},
+      {"port = \"a\"\n[[channel]]\nid = \"encoder\"\ninput = \"count0\"\num_per_count = 1",
+       "no input \"count0\"; it has count"},
+      {"port = \"a\"\n[[channel]]\nid = \"encoder\"\ninput = \"count\"", "needs um_per_count"},
+  };
+  for (const auto& [toml, message] : wrong)
+    EXPECT_NE(configured(toml).find(message), std::string::npos) << configured(toml);
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -28,7 +28,8 @@ Status check_id(const ChannelInput& channel, const std::vector<ChannelInput>& be
 
 }  // namespace
 
-Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig) {
+Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig,
+                                                const ChannelKeys& more) {
   std::vector<ChannelInput> channels;
   for (TomlTable& table : device.tables("channel")) {
     ChannelInput channel;
@@ -37,6 +38,7 @@ Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& ri
     channel.input = table.string("input");
     channel.um_per_count = table.number("um_per_count", 0);
     if (!std::isfinite(channel.um_per_count)) table.reject("um_per_count", "must be finite");
+    if (more) more(table);
     MDOF_CHECK(check_id(channel, channels, rig));
     channels.push_back(std::move(channel));
   }

@@ -1,6 +1,7 @@
 // Which input of a device is which channel of the rig: [[axis.device.channel]].
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct ChannelInput {
 
 // Reads `channel` of a device's table. Errors: none, an id that is no probe of the rig (with the
 // nearest) nor "encoder", an id or an input given twice.
-Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig);
+// `more` reads the keys that only this family has of each channel's table, and may reject.
+using ChannelKeys = std::function<void(TomlTable& channel)>;
+Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig,
+                                                const ChannelKeys& more = {});
 
 // The error that an input is unknown to the device, with those that it has.
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "drivers/capancdt/configure.h"
 #include "drivers/csv/csv_log.h"
 #include "drivers/recording/recording_log.h"
 #include "drivers/simulator/simulator.h"
@@ -48,6 +49,7 @@ struct Row {
 };
 // A new driver: one row.
 constexpr Row kDrivers[] = {
+    {"capancdt", configure_capancdt},
     {"replay", configure_replay},
     {"simulator", configure_simulator},
 };

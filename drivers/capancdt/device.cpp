@@ -189,7 +189,8 @@ void SimulatedCapancdt::send_packet() {
   const Faults& faults = options_.faults;
   if (packets_ == faults.reset_counter_at) counter_ = 0;
   const Packet packet = packet_of(next_frame_);
-  const std::string bytes = encode(packet, faults.sizes);
+  std::string bytes = encode(packet, faults.sizes);
+  if (faults.spoil_preamble) bytes[0] = 'M';
   if (every(faults.garbage_every, packets_)) out_ += kGarbage;
   if (!every(faults.lose_every, packets_)) out_ += bytes;
   if (every(faults.repeat_every, packets_)) out_ += bytes;

@@ -28,11 +28,12 @@ struct Faults {
   SizeOrder sizes = SizeOrder::bytes_per_frame_first;
   CounterUnit counter = CounterUnit::frame;
   Echo echo = Echo::line;
-  int lose_every = 0;          // packet is not sent; 0: none
-  int repeat_every = 0;        // packet is sent twice
-  int garbage_every = 0;       // packet has bytes that are none before it
-  std::size_t most_bytes = 0;  // that exchange() gives of the data at a time; 0: all
-  int vanishing = 0;           // channel that is gone for `vanish_packets` from this packet on
+  int lose_every = 0;           // packet is not sent; 0: none
+  int repeat_every = 0;         // packet is sent twice
+  int garbage_every = 0;        // packet has bytes that are none before it
+  bool spoil_preamble = false;  // nothing that is sent is a packet
+  std::size_t most_bytes = 0;   // that exchange() gives of the data at a time; 0: all
+  int vanishing = 0;            // channel that is gone for `vanish_packets` from this packet on
   int vanish_from = 0, vanish_packets = 0;
   int reset_counter_at = -1;     // packet whose counter begins anew
   int reset_connection_at = -1;  // packet after which the data connection is broken

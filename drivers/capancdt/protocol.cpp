@@ -131,6 +131,11 @@ bool PacketParser::parse_at(std::size_t at, Packet& packet, std::size_t& size) c
   }
   const std::size_t whole = kHeaderBytes + sizes->frames * sizes->bytes_per_frame;
   if (bytes.size() < whole) return false;
+  // A reading has 24 bits, so that no preamble is among them; the packet was cut short.
+  if (bytes.substr(kHeaderBytes, whole - kHeaderBytes).find(kPreamble) != std::string_view::npos) {
+    size = 1;
+    return false;
+  }
   packet.values.resize((whole - kHeaderBytes) / 4);
   for (std::size_t i = 0; i < packet.values.size(); ++i)
     packet.values[i] = get<std::int32_t>(bytes, kHeaderBytes + 4 * i);

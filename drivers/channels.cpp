@@ -28,8 +28,8 @@ Status check_id(const ChannelInput& channel, const std::vector<ChannelInput>& be
 
 }  // namespace
 
-Result<std::vector<ChannelInput>> read_channels(
-    TomlTable& device, const Rig& rig, const std::function<void(TomlTable& channel)>& more) {
+Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig,
+                                                const ChannelKeys& more) {
   std::vector<ChannelInput> channels;
   for (TomlTable& table : device.tables("channel")) {
     ChannelInput channel;

@@ -20,11 +20,11 @@ struct ChannelInput {
 };
 
 // Reads `channel` of a device's table. Errors: none, an id that is no probe of the rig (with the
-// nearest) nor "encoder", an id or an input given twice. `more` reads what else a family has in the
-// table of a channel, for each in turn.
-Result<std::vector<ChannelInput>> read_channels(
-    TomlTable& device, const Rig& rig,
-    const std::function<void(TomlTable& channel)>& more = nullptr);
+// nearest) nor "encoder", an id or an input given twice.
+// `more` reads the keys that only this family has of each channel's table, and may reject.
+using ChannelKeys = std::function<void(TomlTable& channel)>;
+Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig,
+                                                const ChannelKeys& more = {});
 
 // The error that an input is unknown to the device, with those that it has.
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,

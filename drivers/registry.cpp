@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "drivers/capancdt/configure.h"
 #include "drivers/csv/csv_log.h"
 #include "drivers/csv_stream/configure.h"
 #include "drivers/labjack_t7/configure.h"
@@ -54,10 +55,15 @@ struct Row {
 };
 // A new driver: one row.
 constexpr Row kDrivers[] = {
-    {"modbus", configure_modbus},         {"labjack_t7", configure_labjack_t7},
-    {"csv_stream", configure_csv_stream}, {"linux_counter", configure_linux_counter},
-    {"linux_iio", configure_linux_iio},   {"qsb", configure_qsb},
-    {"replay", configure_replay},         {"simulator", configure_simulator},
+    {"capancdt", configure_capancdt},
+    {"csv_stream", configure_csv_stream},
+    {"labjack_t7", configure_labjack_t7},
+    {"linux_counter", configure_linux_counter},
+    {"linux_iio", configure_linux_iio},
+    {"modbus", configure_modbus},
+    {"qsb", configure_qsb},
+    {"replay", configure_replay},
+    {"simulator", configure_simulator},
 };
 
 }  // namespace

@@ -1,0 +1,205 @@
+#include "drivers/capancdt/capancdt.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace mdof::drivers::capancdt {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kConnect{3000};
+constexpr std::size_t kBlockScans = 4096;        // at most, in one read, but for one packet more
+constexpr std::size_t kReadBytes = 1 << 16;      // at a time
+constexpr int kReads = 16;                       // before they are looked at
+constexpr std::uint64_t kMostGarbage = 1 << 18;  // bytes without a packet; the largest is half
+constexpr double kMostLost_ns = 10e9;            // in a row; the counter was set anew if more
+
+std::int64_t to_ns(steady_clock::time_point time) {
+  return std::chrono::duration_cast<nanoseconds>(time.time_since_epoch()).count();
+}
+
+}  // namespace
+
+Capancdt::Capancdt(Options options) : options_(std::move(options)) {
+  for (const auto& channel : options_.channels) channels_.push_back({channel.input.id, Unit::um});
+}
+
+DeviceInfo Capancdt::info() const {
+  DeviceInfo info{options_.name, "capancdt", "capaNCDT at " + options_.command.text(),
+                  channels_,     0,          false};
+  if (!session_) return info;
+  info.description = session_->setup.description + " at " + options_.command.text();
+  info.rate_hz = 1e9 / session_->setup.frame_ns();
+  return info;
+}
+
+Status Capancdt::open() {
+  session_.reset();
+  auto setup = set_up_controller(options_);
+  if (!setup) return lasting(setup.error());
+  auto data = connect_tcp({options_.command.host, setup->data_port}, kConnect);
+  if (!data) return lasting(data.error());
+  const double frame_ns = setup->frame_ns();
+  const int averaged = setup->averaged;
+  const auto most_lost = static_cast<std::uint64_t>(std::max(16.0, kMostLost_ns / frame_ns));
+  session_ = std::make_unique<Session>(Session{
+      .setup = std::move(*setup),
+      .data = std::move(*data),
+      .parser = {},
+      .counter = FrameCounter(averaged, most_lost),
+      .clock = DeviceClock(frame_ns),
+      .rate = RateWatch(frame_ns),
+      .waiting = {},
+      .heard = steady_clock::now(),
+      .newest_frame = std::nullopt,
+      .failed = std::nullopt,
+  });
+  return {};
+}
+
+Result<ReadState> Capancdt::read(SampleBlock& block, milliseconds timeout) {
+  clear(block);
+  if (!session_) return lasting({ErrorCode::io, "is not open; open it before reading"});
+  Session& s = *session_;
+  if (s.waiting.empty() && !s.failed)
+    if (auto received = receive(timeout); !received) s.failed = std::move(received.error());
+  hand_out(block);
+  if (block.scans() == 0 && s.failed) return lasting(*s.failed);
+  return ReadState::more;
+}
+
+Health Capancdt::health() const {
+  if (!session_) return {};
+  const Session& s = *session_;
+  return {s.counter.lost(), s.counter.duplicates(), s.parser.skipped(), s.counter.unit(),
+          s.clock.state()};
+}
+
+// Takes what has come, and waits for something once.
+Status Capancdt::receive(milliseconds timeout) {
+  Session& s = *session_;
+  bool came = false;
+  const auto all = receive_all(timeout, came);
+  if (came) {
+    const auto now = steady_clock::now();
+    auto placed = place_packets(now);
+    MDOF_CHECK(tell_time(to_ns(now), all.value_or(true)));  // for those before an error, too
+    MDOF_CHECK(std::move(placed));
+  }
+  if (!all) return in_context("the data connection", all.error());
+  if (s.parser.skipped_now() > kMostGarbage)
+    return io_error(s.data.name() + " sends what is no data of a capaNCDT 6200; correct data_port");
+  return check_silence();
+}
+
+// False: there is more than was taken, so that what was taken is not the newest.
+Result<bool> Capancdt::receive_all(milliseconds timeout, bool& came) {
+  std::array<char, kReadBytes> bytes;
+  for (int i = 0; i < kReads; ++i) {
+    MDOF_TRY(const std::size_t n, session_->data.read(bytes, came ? milliseconds(0) : timeout));
+    if (n == 0) return true;
+    came = true;
+    session_->parser.add({bytes.data(), n});
+  }
+  return false;
+}
+
+Status Capancdt::place_packets(steady_clock::time_point received) {
+  Session& s = *session_;
+  Packet packet;
+  while (s.parser.next(packet)) {
+    s.heard = received;
+    MDOF_CHECK(s.counter.add(std::move(packet), s.waiting));
+    packet = {};
+  }
+  return {};
+}
+
+// Only the newest frame is as old as its way here. Those before may have waited, if this computer
+// was held up, and would have the clock of the device appear to stumble.
+Status Capancdt::tell_time(std::int64_t received_ns, bool all) {
+  Session& s = *session_;
+  if (s.waiting.empty() || (!all && s.newest_frame)) return {};
+  const PlacedPacket& last = s.waiting.back();
+  s.newest_frame = last.first_frame + last.packet.frames() - 1;
+  s.clock.add(*s.newest_frame, received_ns);
+  const auto measured_ns = s.rate.add(*s.newest_frame, received_ns);
+  if (!measured_ns) return {};
+  return io_error("a frame comes every " + std::to_string(*measured_ns / 1e3) +
+                  " us and not every " + std::to_string(s.setup.frame_ns() / 1e3) +
+                  " us as the controller said; did another client change its settings?");
+}
+
+Status Capancdt::check_silence() const {
+  const auto frames = nanoseconds(static_cast<std::int64_t>(8 * session_->setup.frame_ns()));
+  const auto limit = options_.silence + frames;
+  if (steady_clock::now() - session_->heard < limit) return {};
+  return io_error(session_->data.name() + " is connected and silent for " +
+                  std::to_string(std::chrono::duration_cast<milliseconds>(limit).count()) +
+                  " ms: somebody else holds the data port, or the controller waits for a trigger; "
+                  "close the other client, set the trigger to continuous");
+}
+
+tl::unexpected<Error> Capancdt::lasting(const Error& error) const {
+  const std::string place = options_.command.text();
+  const bool named = error.message.find(place) != std::string::npos;
+  return in_context("device \"" + options_.name + "\"" + (named ? "" : " at " + place), error);
+}
+
+void Capancdt::clear(SampleBlock& block) const {
+  block.device = options_.name;
+  block.channels = channels_;
+  block.lost = 0;
+  block.time_ns.clear();
+  block.value.resize(channels_.size());
+  block.quality.resize(channels_.size());
+  for (auto& column : block.value) column.clear();
+  for (auto& column : block.quality) column.clear();
+}
+
+// A block ends before frames that were lost: they belong to the beginning of the next.
+void Capancdt::hand_out(SampleBlock& block) {
+  auto& waiting = session_->waiting;
+  while (!waiting.empty() && block.scans() < kBlockScans) {
+    if (waiting.front().lost > 0 && block.scans() > 0) break;
+    append(block, waiting.front());
+    waiting.pop_front();
+  }
+}
+
+void Capancdt::append(SampleBlock& block, const PlacedPacket& placed) {
+  const Packet& packet = placed.packet;
+  block.lost += placed.lost;
+  for (int frame = 0; frame < packet.frames(); ++frame)
+    block.time_ns.push_back(session_->clock.host_ns(placed.first_frame + frame));
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const auto position = packet.position(options_.channels[i].number);
+    for (int frame = 0; frame < packet.frames(); ++frame) {
+      std::optional<std::int32_t> raw;
+      if (position)
+        raw = packet.values[static_cast<std::size_t>(frame * packet.channels() + *position)];
+      append_value(block, i, raw);
+    }
+    if (packet.after_garbage)
+      for (auto q = block.quality[i].end() - packet.frames(); q != block.quality[i].end(); ++q)
+        *q = std::max(*q, Quality::suspect);
+  }
+}
+
+void Capancdt::append_value(SampleBlock& block, std::size_t channel,
+                            std::optional<std::int32_t> raw) const {
+  const Setup::Input& input = session_->setup.inputs[channel];
+  Quality quality = Quality::good;
+  if (!raw)
+    quality = Quality::missing;
+  else if (!input.maths && at_end_of_range(*raw, options_.guard_counts))
+    quality = Quality::over_range;
+  block.value[channel].push_back(raw ? to_um(*raw, input.range_um) : kNaN);
+  block.quality[channel].push_back(quality);
+}
+
+}  // namespace mdof::drivers::capancdt

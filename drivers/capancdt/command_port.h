@@ -1,0 +1,33 @@
+// The dialogue on the command port of a controller.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "drivers/capancdt/replies.h"
+#include "drivers/io/byte_stream.h"
+#include "schema/result.h"
+
+namespace mdof::drivers::capancdt {
+
+// Thread-bound. Blocks, at most twice `patience` a command.
+class CommandPort {
+ public:
+  CommandPort(ByteStream stream, std::chrono::milliseconds patience);
+  // What the controller says of itself when a client comes. Not heard: empty.
+  Result<Welcome> welcome();
+  // The result. Errors: refused (with what was said), no answer after a second try, disconnected.
+  Result<std::string> ask(const std::string& command);
+  // None: the controller does not know the command.
+  Result<std::optional<std::string>> ask_if_known(const std::string& command);
+
+ private:
+  Result<Reply> exchange(const std::string& command);
+  Result<std::optional<Reply>> try_once(const std::string& command);
+
+  ByteStream stream_;
+  std::chrono::milliseconds patience_;
+};
+
+}  // namespace mdof::drivers::capancdt

@@ -1,0 +1,115 @@
+#include "drivers/capancdt/configure.h"
+
+#include <array>
+#include <charconv>
+#include <string>
+#include <utility>
+
+#include "drivers/capancdt/capancdt.h"
+#include "drivers/capancdt/options.h"
+
+namespace mdof::drivers {
+namespace {
+
+using capancdt::Averaging;
+using capancdt::Options;
+
+constexpr std::int64_t kMostSampleTime_us = 10'000'000;
+constexpr double kMostRange_um = 1e6;
+
+// Absent: none.
+std::optional<int> read_integer(TomlTable& table, const char* key, std::int64_t min,
+                                std::int64_t max) {
+  const bool given = table.has(key);
+  const std::int64_t value = table.integer(key, min);
+  if (value < min || value > max)
+    table.reject(key, "must be from " + std::to_string(min) + " to " + std::to_string(max));
+  return given ? std::optional(static_cast<int>(value)) : std::nullopt;
+}
+
+std::optional<Averaging> read_averaging(TomlTable& table) {
+  constexpr std::array kAll = {Averaging::none, Averaging::moving, Averaging::arithmetic,
+                               Averaging::median, Averaging::dynamic};
+  const bool given = table.has("averaging");
+  const std::string word = table.string("averaging", "none");
+  std::vector<std::string> names;
+  for (const Averaging averaging : kAll) {
+    names.emplace_back(to_string(averaging));
+    if (word == names.back()) return given ? std::optional(averaging) : std::nullopt;
+  }
+  const std::string near = nearest_of(word, names);
+  table.reject("averaging", "must be \"none\", \"moving\", \"arithmetic\", \"median\" or " +
+                                std::string("\"dynamic\"") +
+                                (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  return std::nullopt;
+}
+
+void read_address(TomlTable& table, Options& options) {
+  const std::string address = table.string("address");
+  if (address.empty()) return table.reject("address", "must name the controller");
+  auto endpoint = parse_endpoint(address, capancdt::kCommandPort);
+  if (!endpoint) return table.reject("address", endpoint.error().message);
+  options.command = std::move(*endpoint);
+}
+
+Result<int> channel_number(const ChannelInput& channel) {
+  const std::string& text = channel.input;
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size() && number >= 1 &&
+      number <= capancdt::kMostChannels && text[0] != '0')
+    return number;
+  return bad_input(channel.where + ": input \"" + text +
+                   "\" is no channel of a controller; \"1\" ... \"" +
+                   std::to_string(capancdt::kMostChannels) + "\"");
+}
+
+Status read_channel_table(TomlTable& table, const DriverContext& context, Options& options) {
+  std::vector<double> range_um;
+  MDOF_TRY(
+      auto inputs, read_channels(table, context.rig, [&](TomlTable& channel) {
+        range_um.push_back(channel.number("range_um", 0));
+        if (channel.has("range_um") && !(range_um.back() > 0 && range_um.back() <= kMostRange_um))
+          channel.reject("range_um", "must be greater than 0 and at most 1000000");
+        if (channel.has("um_per_count"))
+          channel.reject("um_per_count", "is for encoders that count; this is a probe");
+      }));
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    MDOF_TRY(const int number, channel_number(inputs[i]));
+    options.channels.push_back({std::move(inputs[i]), number, range_um[i]});
+  }
+  return {};
+}
+
+Result<Options> read_options(TomlTable& table, const DriverContext& context) {
+  Options options;
+  options.name = context.name;
+  read_address(table, options);
+  options.data_port = read_integer(table, "data_port", 1, 65535);
+  options.serial = table.string("serial", "");
+  options.configure = table.boolean("configure", true);
+  options.sample_time_us = read_integer(table, "sample_time_us", 1, kMostSampleTime_us);
+  options.averaging = read_averaging(table);
+  options.averaged_values = read_integer(table, "averaged_values", 2, 8);
+  options.guard_counts = read_integer(table, "guard_counts", 0, capancdt::kFullScale / 4)
+                             .value_or(options.guard_counts);
+  MDOF_CHECK(read_channel_table(table, context, options));
+  MDOF_CHECK(table.finish());
+  return options;
+}
+
+}  // namespace
+
+Result<DriverSpec> configure_capancdt(TomlTable& table, const DriverContext& context) {
+  MDOF_TRY(const Options options, read_options(table, context));
+  DriverSpec spec;
+  spec.driver = "capancdt";
+  spec.name = context.name;
+  spec.make = [options]() -> Result<std::unique_ptr<Driver>> {
+    return std::make_unique<capancdt::Capancdt>(options);
+  };
+  spec.source_info = [](const Driver&) { return SourceInfo{}; };
+  return spec;
+}
+
+}  // namespace mdof::drivers

@@ -1,0 +1,14 @@
+// Keys of [axis.device] with driver = "capancdt".
+#pragma once
+
+#include "drivers/registry.h"
+#include "schema/result.h"
+#include "schema/toml_reader.h"
+
+namespace mdof::drivers {
+
+// address (port 23 if none is given), data_port, serial, configure, sample_time_us, averaging,
+// averaged_values, guard_counts; [[channel]] id, input = "1" ... "32", range_um.
+Result<DriverSpec> configure_capancdt(TomlTable& table, const DriverContext& context);
+
+}  // namespace mdof::drivers

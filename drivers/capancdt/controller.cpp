@@ -1,0 +1,173 @@
+#include "drivers/capancdt/controller.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "drivers/capancdt/command_port.h"
+
+namespace mdof::drivers::capancdt {
+namespace {
+
+constexpr std::chrono::milliseconds kConnect{3000};
+constexpr int kMostSample_us = 10'000'000;
+constexpr double kSameRange = 1e-3;  // of the range: the controller rounds
+
+tl::unexpected<Error> wrong(const std::string& what, const std::string& remedy) {
+  return io_error(what + "; " + remedy);
+}
+
+// Identity, from the version, the controller's own information, and else its welcome.
+Status identify(CommandPort& port, const Options& options, Setup& setup) {
+  MDOF_TRY(const Welcome welcome, port.welcome());
+  MDOF_TRY(const std::string version, port.ask("$VER"));
+  MDOF_TRY(const auto information, port.ask_if_known("$COI"));
+  const std::string told = field(information.value_or(""), "SNO");
+  setup.serial = told.empty() ? welcome.serial : told;
+  const std::string name = version.substr(0, version.find(';'));
+  const std::string rest = version.substr(std::min(name.size() + 1, version.size()));
+  setup.description = name.empty() ? welcome.name : name;
+  if (!setup.serial.empty()) setup.description += ", serial " + setup.serial;
+  if (!rest.empty()) setup.description += ", " + rest.substr(0, rest.find(';'));
+  if (options.serial.empty() || options.serial == setup.serial) return {};
+  return wrong("this is \"" + setup.description + "\" and not serial " + options.serial,
+               "correct serial, or address");
+}
+
+Status set(CommandPort& port, const std::string& command, std::optional<int> value) {
+  if (!value) return {};
+  MDOF_CHECK(port.ask(command + std::to_string(*value)));
+  return {};
+}
+
+Status change_settings(CommandPort& port, const Options& options) {
+  const auto& averaging = options.averaging;
+  MDOF_CHECK(set(port, "$TRG", 0));
+  if (averaging) MDOF_CHECK(set(port, "$AVT", static_cast<int>(*averaging)));
+  MDOF_CHECK(set(port, "$AVN", options.averaged_values));
+  return set(port, "$STI", options.sample_time_us);
+}
+
+// None: the controller does not know it.
+Result<std::optional<int>> setting(CommandPort& port, const std::string& command) {
+  MDOF_TRY(const auto text, port.ask_if_known(command));
+  if (!text) return std::nullopt;
+  const auto value = parse_integer(*text);
+  if (!value) return io_error("answers " + command + " with \"" + *text + "\", which is no number");
+  return value;
+}
+
+Status check(const char* key, std::optional<int> wanted, std::optional<int> is) {
+  if (!wanted || !is || *wanted == *is) return {};
+  return wrong(std::string(key) + " is " + std::to_string(*is) + " on the controller and " +
+                   std::to_string(*wanted) + " in the configuration",
+               "correct one of them, or let the driver with configure = true");
+}
+
+Status read_averaging(CommandPort& port, const Options& options, Setup& setup) {
+  MDOF_TRY(const auto type, setting(port, "$AVT?"));
+  if (options.averaging) MDOF_CHECK(check("averaging", static_cast<int>(*options.averaging), type));
+  const int kind = type.value_or(static_cast<int>(options.averaging.value_or(Averaging::none)));
+  if (kind == static_cast<int>(Averaging::none)) return {};
+  MDOF_TRY(const auto values, setting(port, "$AVN?"));
+  MDOF_CHECK(check("averaged_values", options.averaged_values, values));
+  if (kind == static_cast<int>(Averaging::arithmetic))
+    setup.averaged = std::clamp(values.value_or(options.averaged_values.value_or(1)), 1, 1024);
+  return {};
+}
+
+Status read_settings(CommandPort& port, const Options& options, Setup& setup) {
+  MDOF_TRY(const auto trigger, setting(port, "$TRG?"));
+  if (trigger.value_or(0) != 0)
+    return wrong("waits for a trigger (TRG " + std::to_string(*trigger) + ")",
+                 "its counter is no time then: set it to continuous, or configure = true");
+  MDOF_CHECK(read_averaging(port, options, setup));
+  MDOF_TRY(const auto time_us, setting(port, "$STI?"));
+  if (!time_us)
+    return wrong("does not know $STI?", "this driver is for the 6200 family, not for the 6500");
+  if (*time_us < 1 || *time_us > kMostSample_us)
+    return io_error("says its sample time is " + std::to_string(*time_us) + " us");
+  setup.sample_time_us = *time_us;
+  // The controller takes the nearest time it can; the one that it has is what counts.
+  return options.configure ? Status{} : check("sample_time_us", options.sample_time_us, time_us);
+}
+
+std::vector<std::string> present(const std::vector<int>& channels) {
+  std::vector<std::string> numbers;
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (channels[i] != 0) numbers.push_back(std::to_string(i + 1));
+  return numbers;
+}
+
+Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& channel) {
+  const std::string command = "$CHI" + std::to_string(channel.number);
+  MDOF_TRY(const auto reply, port.ask_if_known(command));
+  const std::string info = reply.value_or("");
+  // A late reply to $CHI12 must not pass for one to $CHI1.
+  if (!info.empty() && info.front() != ':')
+    return io_error("answers " + command + " with \"" + info + "\", which is not about it");
+  const auto told_um = range_um_of(info);
+  const std::string& where = channel.input.where;
+  if (!told_um && channel.range_um == 0)
+    return wrong(where + ": the controller does not say the range of channel " +
+                     channel.input.input + " in a unit of length",
+                 "give its range_um");
+  const double range_um = channel.range_um > 0 ? channel.range_um : *told_um;
+  if (told_um && std::abs(range_um - *told_um) > kSameRange * *told_um)
+    return wrong(where + ": range_um is " + std::to_string(range_um) + ", the controller says " +
+                     std::to_string(*told_um) + " of channel " + channel.input.input,
+                 "correct it, or leave it out");
+  return Setup::Input{range_um, false};
+}
+
+Status read_inputs(CommandPort& port, const Options& options, Setup& setup) {
+  MDOF_TRY(const std::string text, port.ask("$CHS"));
+  const auto channels = parse_channel_list(text);
+  if (!channels) return io_error("answers $CHS with \"" + text + "\", which is no list");
+  for (const auto& channel : options.channels) {
+    const auto index = static_cast<std::size_t>(channel.number - 1);
+    if (index >= channels->size() || (*channels)[index] == 0)
+      return no_such_input(channel.input, present(*channels));
+    MDOF_TRY(auto input, read_input(port, channel));
+    input.maths = (*channels)[index] == 2;
+    setup.inputs.push_back(input);
+  }
+  return {};
+}
+
+Status read_data_port(CommandPort& port, const Options& options, Setup& setup) {
+  setup.data_port = options.data_port.value_or(kDataPort);
+  if (options.data_port) return {};
+  MDOF_TRY(const auto told, setting(port, "$GDP"));
+  setup.data_port = told.value_or(kDataPort);
+  if (setup.data_port >= 1 && setup.data_port <= 65535) return {};
+  return io_error("says its data port is " + std::to_string(setup.data_port));
+}
+
+Result<Setup> dialogue(CommandPort& port, const Options& options) {
+  Setup setup;
+  MDOF_CHECK(identify(port, options, setup));
+  MDOF_CHECK(read_inputs(port, options, setup));
+  if (options.configure) MDOF_CHECK(change_settings(port, options));
+  MDOF_CHECK(read_settings(port, options, setup));
+  MDOF_CHECK(read_data_port(port, options, setup));
+  return setup;
+}
+
+}  // namespace
+
+const char* to_string(Averaging averaging) {
+  constexpr std::array<const char*, 5> kNames = {"none", "moving", "arithmetic", "median",
+                                                 "dynamic"};
+  return kNames.at(static_cast<std::size_t>(averaging));
+}
+
+Result<Setup> set_up_controller(const Options& options) {
+  MDOF_TRY(auto stream, connect_tcp(options.command, kConnect));
+  CommandPort port(std::move(stream), options.patience);
+  auto setup = dialogue(port, options);
+  if (!setup) return in_context(options.command.text(), setup.error());
+  return setup;
+}
+
+}  // namespace mdof::drivers::capancdt

@@ -1,0 +1,122 @@
+#include "drivers/capancdt/frame_counter.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace mdof::drivers::capancdt {
+namespace {
+
+constexpr int kVotes = 3;              // steps that must agree
+constexpr std::size_t kMostHeld = 32;  // packets
+// A packet so little before the last one was sent twice; more of them are a counter set anew.
+constexpr int kMostDuplicates = 64;
+
+// From `a` to `b` of a counter that wraps at 2^32: how far it went on, or back.
+std::int32_t moved(const Packet& a, const Packet& b) {
+  return static_cast<std::int32_t>(b.counter - a.counter);
+}
+
+tl::unexpected<Error> jumped(const Packet& last, const Packet& packet) {
+  return io_error("the counter of the data jumped from " + std::to_string(last.counter) + " to " +
+                  std::to_string(packet.counter) +
+                  "; the controller was restarted or its settings were changed");
+}
+
+}  // namespace
+
+FrameCounter::FrameCounter(int averaged, std::uint64_t most_lost)
+    : averaged_(averaged), most_lost_(most_lost) {}
+
+Status FrameCounter::add(Packet packet, std::deque<PlacedPacket>& placed) {
+  if (!held_.empty()) {
+    if (came_before(held_.back(), packet)) return drop_duplicate(held_.back(), packet);
+  } else if (last_) {
+    const Packet& last = last_->packet;
+    if (came_before(last, packet)) return drop_duplicate(last, packet);
+    const auto counted = static_cast<std::uint32_t>(moved(last, packet));
+    if (last.channel_bits != packet.channel_bits || (unit_ && counted < step(last, *unit_)))
+      unit_.reset();
+  }
+  duplicates_in_a_row_ = 0;
+  return unit_ ? place(std::move(packet), placed) : hold(std::move(packet), placed);
+}
+
+std::uint64_t FrameCounter::step(const Packet& packet, CounterUnit unit) const {
+  const auto frames = static_cast<std::uint64_t>(packet.frames());
+  switch (unit) {
+    case CounterUnit::frame:
+      return frames;
+    case CounterUnit::value:
+      return frames * static_cast<std::uint64_t>(packet.channels());
+    case CounterUnit::sample:
+      return frames * static_cast<std::uint64_t>(averaged_);
+    case CounterUnit::packet:
+      return 1;
+  }
+  return frames;
+}
+
+// What the packets not seen held: of packets as many frames as the one before.
+double FrameCounter::frames(std::uint64_t counted, const Packet& before) const {
+  return static_cast<double>(counted) * before.frames() / static_cast<double>(step(before, *unit_));
+}
+
+Status FrameCounter::hold(Packet packet, std::deque<PlacedPacket>& placed) {
+  if (!held_.empty()) vote(held_.back(), packet);
+  held_.push_back(std::move(packet));
+  const auto best = std::max_element(votes_.begin(), votes_.end());  // the first of equals
+  if (*best < kVotes) {
+    if (held_.size() < kMostHeld) return {};
+    return io_error(
+        "the counter of the data counts neither frames nor values nor packets; is the "
+        "averaging what the controller says?");
+  }
+  unit_ = static_cast<CounterUnit>(best - votes_.begin());
+  votes_ = {};
+  for (Packet& one : std::exchange(held_, {})) MDOF_CHECK(place(std::move(one), placed));
+  return {};
+}
+
+void FrameCounter::vote(const Packet& before, const Packet& packet) {
+  const auto counted = static_cast<std::uint32_t>(moved(before, packet));
+  for (int unit = 0; unit < kCounterUnits; ++unit)
+    if (counted == step(before, static_cast<CounterUnit>(unit)))
+      ++votes_[static_cast<std::size_t>(unit)];
+}
+
+Status FrameCounter::place(Packet packet, std::deque<PlacedPacket>& placed) {
+  PlacedPacket next;
+  if (last_) {
+    const auto counted = static_cast<std::uint32_t>(moved(last_->packet, packet));
+    const std::uint64_t expected = step(last_->packet, *unit_);
+    if (counted < expected) return jumped(last_->packet, packet);
+    const double lost = frames(counted - expected, last_->packet);
+    if (lost > static_cast<double>(most_lost_)) return jumped(last_->packet, packet);
+    // A loss of a part of a frame cannot be: it is of at least one.
+    next.lost = static_cast<std::uint64_t>(lost + 0.999);
+    next.first_frame =
+        last_->first_frame + last_->packet.frames() + static_cast<std::int64_t>(next.lost);
+  }
+  lost_ += next.lost;
+  last_ = Last{packet, next.first_frame};
+  next.packet = std::move(packet);
+  placed.push_back(std::move(next));
+  return {};
+}
+
+bool FrameCounter::came_before(const Packet& last, const Packet& packet) const {
+  return moved(last, packet) <= 0;
+}
+
+Status FrameCounter::drop_duplicate(const Packet& last, const Packet& packet) {
+  const auto back = -static_cast<std::int64_t>(moved(last, packet));
+  const auto per_packet = static_cast<std::int64_t>(
+      std::max(step(last, CounterUnit::value), step(last, CounterUnit::sample)));
+  if (back > kMostDuplicates * per_packet || ++duplicates_in_a_row_ > kMostDuplicates)
+    return jumped(last, packet);
+  ++duplicates_;
+  return {};
+}
+
+}  // namespace mdof::drivers::capancdt

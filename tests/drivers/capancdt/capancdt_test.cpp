@@ -1,0 +1,475 @@
+// The driver against the simulated controller, over sockets.
+#include "drivers/capancdt/capancdt.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "drivers/capancdt/device.h"
+#include "tests/drivers/capancdt/served_device.h"
+
+namespace mdof::drivers::capancdt {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::steady_clock;
+
+// µm on each input, constant: 100, 200, 300, 400 ...
+double steady(std::size_t input, std::int64_t) {
+  return 100.0 * static_cast<double>(input + 1);
+}
+
+Options options_for(const ServedDevice& served) {
+  Options options;
+  options.name = "probes";
+  options.command = {"127.0.0.1", served.port(0)};
+  for (const int number : {1, 3}) {
+    const std::string text = std::to_string(number);
+    options.channels.push_back(
+        {{number == 1 ? "A" : "B", text, 0, "rig.toml:7: channel.id"}, number, 0});
+  }
+  options.sample_time_us = 512;
+  options.patience = 2000ms;
+  return options;
+}
+
+struct Rack {
+  explicit Rack(const DeviceOptions& as = {}, const Senses& senses = steady) {
+    DeviceOptions device = as;
+    device.data_port = served.port(1);
+    served.serve(std::make_unique<SimulatedCapancdt>(device, senses));
+    options = options_for(served);
+  }
+  ServedDevice served{2};
+  Options options;
+};
+
+struct Collected {
+  SampleBlock all;
+  std::uint64_t lost = 0;
+  std::string error;  // that ended it
+
+  std::size_t count(std::size_t channel, Quality quality) const {
+    const auto& q = all.quality[channel];
+    return static_cast<std::size_t>(std::count(q.begin(), q.end(), quality));
+  }
+};
+
+void append(SampleBlock& all, const SampleBlock& block) {
+  all.value.resize(block.channels.size());
+  all.quality.resize(block.channels.size());
+  all.time_ns.insert(all.time_ns.end(), block.time_ns.begin(), block.time_ns.end());
+  for (std::size_t i = 0; i < block.channels.size(); ++i) {
+    const auto& value = block.value[i];
+    all.value[i].insert(all.value[i].end(), value.begin(), value.end());
+    for (std::size_t k = 0; k < block.scans(); ++k)
+      all.quality[i].push_back(block.quality_at(i, k));
+  }
+}
+
+// Until there are so many scans, or an error.
+Collected collect(Capancdt& driver, std::size_t scans) {
+  Collected got;
+  SampleBlock block;
+  const auto until = steady_clock::now() + 20s;
+  while (got.all.scans() < scans && steady_clock::now() < until) {
+    const auto state = driver.read(block, 20ms);
+    if (!state) {
+      got.error = state.error().message;
+      break;
+    }
+    got.lost += block.lost;
+    append(got.all, block);
+  }
+  const auto& t = got.all.time_ns;
+  EXPECT_TRUE(std::is_sorted(t.begin(), t.end(), std::less_equal<>()));  // strictly
+  return got;
+}
+
+std::string error_of(const Status& status) {
+  return status ? "" : status.error().message;
+}
+void expect_has(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in: " << text;
+}
+
+TEST(Capancdt, GivesMicrometresOfItsChannels) {
+  Rack rack;
+  Capancdt driver(rack.options);
+  EXPECT_EQ(driver.info().channels, (std::vector<Channel>{{"A", Unit::um}, {"B", Unit::um}}));
+  const std::int64_t before = steady_clock::now().time_since_epoch().count();
+  ASSERT_EQ(error_of(driver.open()), "");
+  const Collected got = collect(driver, 100);
+  const std::int64_t after = steady_clock::now().time_since_epoch().count();
+  ASSERT_GE(got.all.scans(), 100u) << got.error;
+  EXPECT_EQ(got.lost, 0u);
+  for (std::size_t k = 0; k < got.all.scans(); ++k) {
+    ASSERT_NEAR(got.all.value[0][k], 100, 1e-4);
+    ASSERT_NEAR(got.all.value[1][k], 300, 1e-4);
+    ASSERT_EQ(got.all.quality[0][k], Quality::good);
+    ASSERT_TRUE(got.all.time_ns[k] > before - 1'000'000 && got.all.time_ns[k] < after);
+  }
+  const DeviceInfo info = driver.info();
+  EXPECT_EQ(info.name, "probes");
+  EXPECT_EQ(info.driver, "capancdt");
+  EXPECT_NEAR(info.rate_hz, 1e6 / 512, 1e-9);
+  expect_has(info.description, "DT6220, serial 1001, V1.2a at 127.0.0.1:");
+  EXPECT_FALSE(info.simulated);
+}
+
+TEST(Capancdt, TimesAreASampleTimeApart) {
+  DeviceOptions device;
+  device.sample_time_us = 960;
+  device.frames_per_packet = 4;
+  Rack rack(device);
+  rack.options.sample_time_us = 1000;  // it takes the next it can
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const Collected got = collect(driver, 100);
+  ASSERT_GE(got.all.scans(), 100u) << got.error;
+  // The line through the quickest packets is still settling: 0.2 % of slewing is allowed to it.
+  for (std::size_t k = 1; k < got.all.scans(); ++k)
+    ASSERT_NEAR(static_cast<double>(got.all.time_ns[k] - got.all.time_ns[k - 1]), 960e3,
+                2e-3 * 960e3 + 2)
+        << k;
+  EXPECT_NEAR(driver.info().rate_hz, 1e6 / 960, 1e-9);
+}
+
+TEST(Capancdt, EitherOrderOfTheSizes) {
+  for (const SizeOrder sizes : {SizeOrder::bytes_per_frame_first, SizeOrder::frames_first}) {
+    DeviceOptions device;
+    device.faults.sizes = sizes;
+    device.frames_per_packet = 3;
+    Rack rack(device);
+    Capancdt driver(rack.options);
+    ASSERT_EQ(error_of(driver.open()), "");
+    const Collected got = collect(driver, 60);
+    ASSERT_GE(got.all.scans(), 60u) << got.error;
+    EXPECT_NEAR(got.all.value[1][59], 300, 1e-4);
+    EXPECT_EQ(driver.health().skipped, 0u);
+    EXPECT_EQ(got.lost, 0u);
+  }
+}
+
+TEST(Capancdt, EveryMeaningOfTheCounterAndEcho) {
+  constexpr Echo kEchoes[] = {Echo::line, Echo::reply, Echo::mixed, Echo::none};
+  for (int unit = 0; unit < kCounterUnits; ++unit) {
+    DeviceOptions device;
+    device.faults.counter = static_cast<CounterUnit>(unit);
+    device.faults.echo = kEchoes[unit];
+    device.faults.lose_every = 10;
+    device.frames_per_packet = 2;
+    device.first_counter = 0xFFFFFFF0;
+    Rack rack(device);
+    rack.options.sample_time_us = 256;
+    rack.options.averaging = Averaging::arithmetic;
+    rack.options.averaged_values = 3;
+    Capancdt driver(rack.options);
+    ASSERT_EQ(error_of(driver.open()), "") << unit;
+    const Collected got = collect(driver, 100);
+    ASSERT_GE(got.all.scans(), 100u) << got.error;
+    EXPECT_EQ(driver.health().counter, static_cast<CounterUnit>(unit));
+    EXPECT_NEAR(driver.info().rate_hz, 1e6 / 256 / 3, 1e-9);
+    EXPECT_EQ(driver.health().lost, got.lost);
+    // Every tenth packet of two frames: of 18 frames that came, 2 are lost.
+    EXPECT_EQ(got.lost, (got.all.scans() - 1) / 18 * 2) << unit;
+  }
+}
+
+TEST(Capancdt, LostFramesBeginABlock) {
+  DeviceOptions device;
+  device.faults.lose_every = 8;
+  Rack rack(device);
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  SampleBlock block;
+  std::uint64_t lost = 0;
+  std::size_t scans = 0;
+  std::int64_t last_ns = 0;
+  while (scans < 100) {
+    const auto state = driver.read(block, 20ms);
+    ASSERT_TRUE(state) << state.error().message;
+    if (block.scans() == 0) continue;
+    const auto frame = [&](std::int64_t ns) { return static_cast<double>(ns) / 512e3; };
+    if (scans > 0) {
+      EXPECT_NEAR(frame(block.time_ns[0] - last_ns), 1 + static_cast<double>(block.lost), 0.1);
+    }
+    for (std::size_t k = 1; k < block.scans(); ++k)
+      EXPECT_NEAR(frame(block.time_ns[k] - block.time_ns[k - 1]), 1, 0.1);
+    last_ns = block.time_ns.back();
+    scans += block.scans();
+    lost += block.lost;
+  }
+  EXPECT_EQ(lost, (scans - 1) / 7);
+}
+
+TEST(Capancdt, DuplicatesAreDropped) {
+  DeviceOptions device;
+  device.faults.repeat_every = 3;
+  Rack rack(device);
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const Collected got = collect(driver, 90);
+  ASSERT_GE(got.all.scans(), 90u) << got.error;
+  EXPECT_EQ(got.lost, 0u);
+  EXPECT_GE(driver.health().duplicates, 29u);
+  for (std::size_t k = 1; k < got.all.scans(); ++k)
+    EXPECT_NEAR(static_cast<double>(got.all.time_ns[k] - got.all.time_ns[k - 1]), 512e3, 2e3);
+}
+
+TEST(Capancdt, AVanishedChannelIsMissing) {
+  DeviceOptions device;
+  device.faults.vanishing = 1;
+  device.faults.vanish_from = 20;
+  device.faults.vanish_packets = 15;
+  for (const CounterUnit unit : {CounterUnit::frame, CounterUnit::value}) {
+    device.faults.counter = unit;
+    Rack rack(device);
+    Capancdt driver(rack.options);
+    ASSERT_EQ(error_of(driver.open()), "");
+    const Collected got = collect(driver, 60);
+    ASSERT_GE(got.all.scans(), 60u) << got.error;
+    EXPECT_EQ(got.lost, 0u);
+    EXPECT_EQ(got.count(0, Quality::missing), 15u);
+    EXPECT_EQ(got.count(1, Quality::good), got.all.scans());
+    for (std::size_t k = 0; k < got.all.scans(); ++k) {
+      const bool gone = k >= 20 && k < 35;
+      EXPECT_EQ(got.all.quality[0][k], gone ? Quality::missing : Quality::good) << k;
+      EXPECT_EQ(std::isnan(got.all.value[0][k]), gone) << k;
+      EXPECT_NEAR(got.all.value[1][k], 300, 1e-4) << k;
+    }
+  }
+}
+
+TEST(Capancdt, EndsOfTheRangeAreOverRange) {
+  Rack rack({}, [](std::size_t input, std::int64_t) { return input == 0 ? -5.0 : 5000.0; });
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const Collected got = collect(driver, 20);
+  ASSERT_GE(got.all.scans(), 20u) << got.error;
+  EXPECT_EQ(got.count(0, Quality::over_range), got.all.scans());
+  EXPECT_EQ(got.count(1, Quality::over_range), got.all.scans());
+  EXPECT_EQ(got.all.value[0][0], 0.0);
+  EXPECT_EQ(got.all.value[1][0], 2000.0);
+}
+
+TEST(Capancdt, OfAMathsChannelTheEndsAreNotKnown) {
+  DeviceOptions device;
+  device.inputs[2].maths = true;
+  Rack rack(device, [](std::size_t, std::int64_t) { return 0.0; });
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const Collected got = collect(driver, 20);
+  ASSERT_GE(got.all.scans(), 20u) << got.error;
+  EXPECT_EQ(got.count(0, Quality::over_range), got.all.scans());
+  EXPECT_EQ(got.count(1, Quality::good), got.all.scans());
+}
+
+TEST(Capancdt, AfterGarbageValuesAreSuspect) {
+  DeviceOptions device;
+  device.faults.garbage_every = 10;
+  Rack rack(device);
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const Collected got = collect(driver, 60);
+  ASSERT_GE(got.all.scans(), 60u) << got.error;
+  EXPECT_EQ(got.lost, 0u);
+  EXPECT_GE(driver.health().skipped, 6u * 8);
+  for (std::size_t k = 0; k < got.all.scans(); ++k) {
+    EXPECT_EQ(got.all.quality[0][k], k % 10 == 9 ? Quality::suspect : Quality::good) << k;
+    EXPECT_NEAR(got.all.value[1][k], 300, 1e-4) << k;
+  }
+}
+
+TEST(Capancdt, BytesInDribs) {
+  DeviceOptions device;
+  device.faults.most_bytes = 5;
+  Rack rack(device);
+  rack.options.sample_time_us = 16384;
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const Collected got = collect(driver, 8);
+  ASSERT_GE(got.all.scans(), 8u) << got.error;
+  EXPECT_EQ(driver.health().skipped, 0u);
+  EXPECT_EQ(got.lost, 0u);
+  EXPECT_NEAR(got.all.value[0].back(), 100, 1e-4);
+}
+
+TEST(Capancdt, ASecondClientIsToldWhySilence) {
+  Rack rack;
+  Capancdt first(rack.options);
+  ASSERT_EQ(error_of(first.open()), "");
+  ASSERT_GE(collect(first, 10).all.scans(), 10u);
+  rack.options.silence = 50ms;
+  Capancdt second(rack.options);
+  ASSERT_EQ(error_of(second.open()), "");
+  const Collected got = collect(second, 1);
+  EXPECT_EQ(got.all.scans(), 0u);
+  expect_has(got.error, "device \"probes\" at 127.0.0.1:");
+  expect_has(got.error, "somebody else holds the data port, or the controller waits for a trigger");
+  EXPECT_TRUE(second.open());  // may be tried again
+}
+
+TEST(Capancdt, ReadKeepsToItsTimeout) {
+  Rack rack;
+  Capancdt first(rack.options), second(rack.options);
+  ASSERT_EQ(error_of(first.open()), "");
+  ASSERT_GE(collect(first, 10).all.scans(), 10u);
+  ASSERT_EQ(error_of(second.open()), "");
+  SampleBlock block;
+  const auto begin = steady_clock::now();
+  ASSERT_TRUE(second.read(block, 30ms));
+  const auto took = steady_clock::now() - begin;
+  EXPECT_EQ(block.scans(), 0u);
+  EXPECT_GE(took, 29ms);
+  EXPECT_LT(took, 1500ms);
+}
+
+TEST(Capancdt, AResetConnectionIsAnErrorAndOpensAgain) {
+  DeviceOptions device;
+  device.faults.reset_connection_at = 30;
+  Rack rack(device);
+  Capancdt driver(rack.options);
+  for (int turn = 0; turn < 3; ++turn) {
+    ASSERT_EQ(error_of(driver.open()), "");
+    const Collected got = collect(driver, 1000);
+    EXPECT_LE(got.all.scans(), 31u);
+    expect_has(got.error, "device \"probes\" at 127.0.0.1:");
+    expect_has(got.error, "the data connection");
+    SampleBlock block;
+    const auto again = driver.read(block, 1ms);
+    ASSERT_FALSE(again);
+    EXPECT_EQ(again.error().message, got.error);
+  }
+}
+
+TEST(Capancdt, ACounterThatStartsAnewIsAnError) {
+  DeviceOptions device;
+  device.first_counter = 1'000'000;
+  device.faults.reset_counter_at = 40;
+  Rack rack(device);
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const Collected got = collect(driver, 1000);
+  EXPECT_EQ(got.all.scans(), 40u);  // all before are handed out
+  expect_has(got.error, "the counter of the data jumped from 1000039 to 0");
+}
+
+TEST(Capancdt, GarbageAloneIsAnError) {
+  DeviceOptions device;
+  device.frames_per_packet = 1000;
+  device.faults.rate = 500;
+  device.faults.spoil_preamble = true;
+  Rack rack(device);
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const Collected got = collect(driver, 1);
+  EXPECT_EQ(got.all.scans(), 0u);
+  expect_has(got.error, "sends what is no data of a capaNCDT 6200; correct data_port");
+}
+
+TEST(Capancdt, IdentityIsChecked) {
+  Rack rack;
+  rack.options.serial = "1001";
+  EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
+  rack.options.serial = "1002";
+  expect_has(error_of(Capancdt(rack.options).open()), "and not serial 1002; correct serial");
+}
+
+TEST(Capancdt, AChannelThatIsNotThere) {
+  DeviceOptions device;
+  device.inputs[2].present = false;
+  Rack rack(device);
+  const std::string absent = error_of(Capancdt(rack.options).open());
+  expect_has(absent, "rig.toml:7: channel.id: the device has no input \"3\"; it has 1, 2, 4");
+  rack.options.channels[1].number = 5;
+  rack.options.channels[1].input.input = "5";
+  expect_has(error_of(Capancdt(rack.options).open()), "no input \"5\"");
+}
+
+TEST(Capancdt, RangeFromTheControllerOrTheConfiguration) {
+  DeviceOptions device;
+  device.inputs[0].range_um = 500;
+  Rack told(device);
+  Capancdt driver(told.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  EXPECT_NEAR(collect(driver, 5).all.value.at(0).at(0), 100, 1e-4);
+  told.options.channels[0].range_um = 2000;
+  expect_has(error_of(Capancdt(told.options).open()), "the controller says 500");
+
+  device.tells_range = false;
+  Rack untold(device);
+  expect_has(error_of(Capancdt(untold.options).open()), "give its range_um");
+  for (auto& channel : untold.options.channels) channel.range_um = channel.number == 1 ? 500 : 2000;
+  Capancdt given(untold.options);
+  ASSERT_EQ(error_of(given.open()), "");
+  EXPECT_NEAR(collect(given, 5).all.value.at(0).at(0), 100, 1e-4);
+}
+
+TEST(Capancdt, SettingsThatMayNotBeChanged) {
+  DeviceOptions device;
+  device.sample_time_us = 1024;
+  device.trigger = 1;
+  Rack triggered(device);
+  triggered.options.configure = false;
+  expect_has(error_of(Capancdt(triggered.options).open()), "waits for a trigger (TRG 1)");
+
+  device.trigger = 0;
+  Rack rack(device);
+  rack.options.configure = false;
+  expect_has(error_of(Capancdt(rack.options).open()), "sample_time_us is 1024 on the controller");
+  rack.options.sample_time_us = 1024;
+  rack.options.averaging = Averaging::median;
+  expect_has(error_of(Capancdt(rack.options).open()), "averaging is 0 on the controller");
+  rack.options.averaging.reset();
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  EXPECT_GE(collect(driver, 5).all.scans(), 5u);
+}
+
+TEST(Capancdt, ATriggerIsSetToContinuous) {
+  DeviceOptions device;
+  device.trigger = 2;
+  Rack rack(device);
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  EXPECT_GE(collect(driver, 5).all.scans(), 5u);
+}
+
+TEST(Capancdt, ADumbControllerIsAnError) {
+  DeviceOptions device;
+  device.faults.mute = true;
+  Rack rack(device);
+  rack.options.patience = 30ms;
+  expect_has(error_of(Capancdt(rack.options).open()), "does not answer $VER; is this the command");
+  Capancdt driver(rack.options);
+  SampleBlock block;
+  const auto state = driver.read(block, 1ms);
+  ASSERT_FALSE(state);
+  expect_has(state.error().message, "is not open");
+}
+
+TEST(Capancdt, NobodyThere) {
+  Options options;
+  {
+    const ServedDevice gone(2);
+    options = options_for(gone);
+  }
+  const std::string error = error_of(Capancdt(options).open());
+  expect_has(error, "device \"probes\": 127.0.0.1:" + std::to_string(options.command.port));
+  expect_has(error, "is the device on, on the network");
+}
+
+TEST(Capancdt, TwoControllersSideBySide) {
+  Rack left, right({}, [](std::size_t input, std::int64_t) { return input == 0 ? 1.0 : 2.0; });
+  Capancdt a(left.options), b(right.options);
+  ASSERT_EQ(error_of(a.open()), "");
+  ASSERT_EQ(error_of(b.open()), "");
+  EXPECT_NEAR(collect(a, 20).all.value.at(1).at(19), 300, 1e-4);
+  EXPECT_NEAR(collect(b, 20).all.value.at(1).at(19), 2, 1e-4);
+}
+
+}  // namespace
+}  // namespace mdof::drivers::capancdt

@@ -114,7 +114,7 @@ Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem:
 Status check_together(TomlTable& table, const AxisConfig& axis) {
   std::map<std::string, std::string> source;
   for (const auto& device : axis.devices) {
-    if (axis.devices.size() > 1 && (!device.live || device.channels.empty())) {
+    if (axis.devices.size() > 1 && (!device.live || device.simulated)) {
       table.reject("device", "\"" + device.name + "\" gives all channels by itself; it must be " +
                                  "the only device of its axis");
       return {};
@@ -127,7 +127,8 @@ Status check_together(TomlTable& table, const AxisConfig& axis) {
       }
     }
   }
-  if (source.empty()) return {};
+  const auto unknown = [](const auto& device) { return device.channels.empty(); };
+  if (std::any_of(axis.devices.begin(), axis.devices.end(), unknown)) return {};
   std::vector<std::string> needed = {kEncoderChannel};
   for (const Probe& probe : axis.rig.probes) needed.push_back(probe.id);
   for (const auto& channel : needed) {

@@ -6,14 +6,14 @@
 
 namespace mdof::daemon {
 
-void write_clock(JsonWriter& json, const std::optional<drivers::ClockReport>& clock) {
+void write_clock(JsonWriter& json, const std::optional<drivers::ClockState>& clock) {
   if (!clock) {
     json.null();
     return;
   }
   json.begin_object()
       .field("drift_ppm", clock->drift_ppm)
-      .field("jitter_ms", clock->jitter_ms)
+      .field("jitter_ms", static_cast<double>(clock->jitter_ns) * 1e-6)
       .field("settled", clock->settled)
       .field("steps", clock->steps)
       .end_object();

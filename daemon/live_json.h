@@ -13,7 +13,7 @@
 namespace mdof::daemon {
 
 // {"drift_ppm", "jitter_ms", "settled", "steps"}, or null.
-void write_clock(JsonWriter& json, const std::optional<drivers::ClockReport>& clock);
+void write_clock(JsonWriter& json, const std::optional<drivers::ClockState>& clock);
 // One device as device.list gives it, without its axis.
 std::string device_json(const DeviceStatus& status);
 // An array of them.

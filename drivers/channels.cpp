@@ -49,6 +49,12 @@ Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& ri
   return channels;
 }
 
+std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels) {
+  std::vector<std::string> ids;
+  for (const auto& channel : channels) ids.push_back(channel.id);
+  return ids;
+}
+
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,
                                     const std::vector<std::string>& inputs) {
   std::string known;

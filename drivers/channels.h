@@ -26,6 +26,9 @@ using ChannelKeys = std::function<void(TomlTable& channel)>;
 Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig,
                                                 const ChannelKeys& more = {});
 
+// Of DriverSpec.
+std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels);
+
 // The error that an input is unknown to the device, with those that it has.
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,
                                     const std::vector<std::string>& inputs);

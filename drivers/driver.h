@@ -9,27 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "drivers/clock/device_clock.h"
 #include "schema/result.h"
 #include "schema/sample.h"
 
 namespace mdof::drivers {
 
-// A device's own clock on that of the host; see clock/device_clock.h.
-struct ClockReport {
-  double drift_ppm = 0;
-  double jitter_ms = 0;
-  bool settled = false;     // the drift is known
-  std::uint64_t steps = 0;  // jumps of the device's clock
-};
-
 struct DeviceInfo {
-  std::string name;                  // from the configuration, unique
-  std::string driver;                // "simulator", "csv", "recording"
-  std::string description;           // one line for people
-  std::vector<Channel> channels;     // empty until open() where the device has to be asked
-  double rate_hz = 0;                // scans a second; 0: not known
-  bool simulated = false;            // no machine behind it: said on every result
-  std::optional<ClockReport> clock;  // of a device that counts or stamps its samples
+  std::string name;                 // from the configuration, unique
+  std::string driver;               // "simulator", "csv", "recording"
+  std::string description;          // one line for people
+  std::vector<Channel> channels;    // empty until open() where the device has to be asked
+  double rate_hz = 0;               // scans a second; 0: not known
+  bool simulated = false;           // no machine behind it: said on every result
+  std::optional<ClockState> clock;  // of a device that counts or stamps its samples
 };
 
 enum class ReadState {

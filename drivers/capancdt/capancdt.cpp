@@ -29,11 +29,12 @@ Capancdt::Capancdt(Options options) : options_(std::move(options)) {
 }
 
 DeviceInfo Capancdt::info() const {
-  DeviceInfo info{options_.name, "capancdt", "capaNCDT at " + options_.command.text(),
-                  channels_,     0,          false};
+  DeviceInfo info{options_.name, "capancdt", "capaNCDT at " + options_.command.text(), channels_, 0,
+                  false,         {}};
   if (!session_) return info;
   info.description = session_->setup.description + " at " + options_.command.text();
   info.rate_hz = 1e9 / session_->setup.frame_ns();
+  info.clock = session_->clock.state();
   return info;
 }
 

@@ -105,6 +105,7 @@ Result<DriverSpec> configure_capancdt(TomlTable& table, const DriverContext& con
   DriverSpec spec;
   spec.driver = "capancdt";
   spec.name = context.name;
+  for (const auto& channel : options.channels) spec.channels.push_back(channel.input.id);
   spec.make = [options]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<capancdt::Capancdt>(options);
   };

@@ -44,7 +44,7 @@ CsvStream::CsvStream(std::string name, CsvStreamOptions options)
     : name_(std::move(name)), source_(describe_source(options)), options_(std::move(options)) {}
 
 DeviceInfo CsvStream::info() const {
-  DeviceInfo info{name_, "csv_stream", "CSV rows of " + source_, {}, 0, false};
+  DeviceInfo info{name_, "csv_stream", "CSV rows of " + source_, {}, 0, false, {}};
   if (!protocol_ || !protocol_->header()) return info;
   info.channels = protocol_->header()->channels;
   info.simulated = says_simulated(*protocol_->header());

@@ -109,6 +109,7 @@ Result<DriverSpec> configure_labjack_t7(TomlTable& table, const DriverContext& c
   DriverSpec spec;
   spec.driver = "labjack_t7";
   spec.name = context.name;
+  for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<LabjackT7>(settings);
   };

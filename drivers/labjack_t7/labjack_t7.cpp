@@ -48,7 +48,7 @@ LabjackT7::~LabjackT7() {
 }
 
 DeviceInfo LabjackT7::info() const {
-  return {settings_.name, "labjack_t7", description_, channels_, rate_hz_, false};
+  return {settings_.name, "labjack_t7", description_, channels_, rate_hz_, false, clock_.state()};
 }
 
 std::string LabjackT7::place() const {

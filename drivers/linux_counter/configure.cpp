@@ -22,6 +22,7 @@ Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext
   DriverSpec spec;
   spec.driver = "linux_counter";
   spec.name = context.name;
+  spec.channels = ids_of(options.channels);
   spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
     return make_linux_counter(name, options);
   };

@@ -108,6 +108,7 @@ Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& conte
   DriverSpec spec;
   spec.driver = "modbus";
   spec.name = context.name;
+  for (const auto& channel : settings.channels) spec.channels.push_back(channel.id);
   spec.make = [name = context.name, settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<ModbusDriver>(name, settings);
   };

@@ -49,7 +49,7 @@ ModbusDriver::ModbusDriver(std::string name, ModbusSettings settings)
 DeviceInfo ModbusDriver::info() const {
   return {
       name_, "modbus", describe(settings_), settings_.channels, 1000 / settings_.profile.poll_ms,
-      false};
+      false, {}};
 }
 
 Status ModbusDriver::open() {

@@ -46,6 +46,7 @@ Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context)
   DriverSpec spec;
   spec.driver = "qsb";
   spec.name = context.name;
+  spec.channels = {options.channel.id};
   spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<Qsb>(name, options);
   };

@@ -34,7 +34,7 @@ DeviceInfo Qsb::info() const {
     text += " " + identity_.serial + ", firmware " + std::to_string(identity_.firmware);
   if (power_was_lost_) text += "; has been without power: its count began at 0";
   const double rate_hz = 1e9 / (tick_.ns() * options_.interval);
-  return {name_, "qsb", text, {{options_.channel.id, Unit::um}}, rate_hz, false};
+  return {name_, "qsb", text, {{options_.channel.id, Unit::um}}, rate_hz, false, clock_.state()};
 }
 
 Status Qsb::open() {

@@ -34,7 +34,7 @@ SysfsPoller::SysfsPoller(std::string name, std::string driver, double rate_hz, s
       open_(std::move(open)) {}
 
 DeviceInfo SysfsPoller::info() const {
-  return {name_, driver_, device_.description, channels_, rate_hz_, false};
+  return {name_, driver_, device_.description, channels_, rate_hz_, false, {}};
 }
 
 Status SysfsPoller::open() {

@@ -55,7 +55,7 @@ jitter_ms = 3
 seed = 2
 [[device]]
 name = "t7"
-kind = "labjack-t7"
+kind = "labjack_t7"
 ports = [{ports[4]}, {ports[5]}]
 inputs = ["D", "E"]
 um_per_count = 0.01
@@ -81,7 +81,7 @@ data_port = {ports[3]}
 sample_time_us = 256
 channel = [{{ id = "C", input = "2" }}]
 [[axis.device]]
-driver = "labjack-t7"
+driver = "labjack_t7"
 name = "t7"
 address = "127.0.0.1:{ports[4]}"
 stream_port = {ports[5]}

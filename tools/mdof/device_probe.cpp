@@ -123,8 +123,9 @@ std::string finding_text(const DeviceFinding& f) {
           fixed(f.stated_rate_hz, 2) + "), " + std::to_string(f.lost) + " lost\n";
   if (f.clock)
     text += "  clock " + std::string(f.clock->settled ? "" : "(not settled) ") + "drift " +
-            fixed(f.clock->drift_ppm, 1) + " ppm, jitter " + fixed(f.clock->jitter_ms, 3) +
-            " ms, " + std::to_string(f.clock->steps) + " jumps\n";
+            fixed(f.clock->drift_ppm, 1) + " ppm, jitter " +
+            fixed(static_cast<double>(f.clock->jitter_ns) * 1e-6, 3) + " ms, " +
+            std::to_string(f.clock->steps) + " jumps\n";
   TextTable table({"channel", "unit", "mean", "sd", "lowest", "highest", "unusable", "worst"});
   for (const auto& c : f.channels)
     table.add({c.id, c.unit, value_text(c.mean, c.unit), value_text(c.sd, c.unit),
@@ -149,7 +150,7 @@ std::string finding_json(const DeviceFinding& f) {
   if (f.clock) {
     json.begin_object()
         .field("drift_ppm", f.clock->drift_ppm)
-        .field("jitter_ms", f.clock->jitter_ms)
+        .field("jitter_ms", static_cast<double>(f.clock->jitter_ns) * 1e-6)
         .field("settled", f.clock->settled)
         .field("steps", f.clock->steps)
         .end_object();

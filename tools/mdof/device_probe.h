@@ -22,7 +22,7 @@ struct DeviceFinding {
   double stated_rate_hz = 0, rate_hz = 0;  // scans a second, as it says and as they came
   std::uint64_t scans = 0, lost = 0;
   std::vector<ChannelFinding> channels;
-  std::optional<drivers::ClockReport> clock;
+  std::optional<drivers::ClockState> clock;
 };
 
 using StopAsked = std::function<bool()>;

@@ -23,7 +23,7 @@ struct DoctorCommand {
 };
 
 bool on_usb(const drivers::DriverSpec& device) {
-  for (const char* driver : {"labjack-u6", "mcc-usb-1608fs-plus", "pokeys", "qsb"})
+  for (const char* driver : {"labjack_u6", "mcc_1608fs_plus", "pokeys", "qsb"})
     if (device.driver == driver) return true;
   return false;
 }

@@ -65,7 +65,7 @@ struct Kind {
 // A new simulated device: one row.
 constexpr Kind kKinds[] = {
     {"capancdt", 32, make_capancdt},
-    {"labjack-t7", 14, make_labjack_t7},
+    {"labjack_t7", 14, make_labjack_t7},
 };
 
 const Kind* find_kind(const std::string& name) {

@@ -4,7 +4,7 @@
 //   [machine]                    # keys of the driver "simulator"
 //   [[device]]
 //   name = "capa-1"
-//   kind = "capancdt"            # labjack-t7
+//   kind = "capancdt"            # labjack_t7
 //   ports = [2301, 10001]        # TCP, in the order of the device's; 0 or left out: a free one
 //   inputs = ["A", "B", "C"]     # channels of the rig at its inputs 1, 2, ...; "" nothing
 //   clock_ppm = 50

@@ -37,6 +37,14 @@ void clear_columns(FrameBlock& frames) {
   for (auto& column : frames.probe_quality) column.clear();
 }
 
+// A reading is no better than the place it is of.
+void raise_to(std::vector<Quality>& quality, std::size_t before,
+              const std::vector<Quality>& least) {
+  quality.resize(before + least.size(), Quality::good);
+  for (std::size_t i = 0; i < least.size(); ++i)
+    quality[before + i] = std::max(quality[before + i], least[i]);
+}
+
 std::int64_t to_ns(double s) {
   return static_cast<std::int64_t>(s * 1e9);
 }
@@ -72,9 +80,19 @@ void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
     append_quality(out.probe_quality[k], before,
                    block.quality.empty() ? nullptr : &block.quality[c], n);
   }
+  taint(out, before, block);
   append_or_take(out.encoder_m, block.value[static_cast<std::size_t>(channel_of_.back())],
                  before == 0);
   append_or_take(out.time_ns, block.time_ns, before == 0);
+}
+
+// Where the encoder is not good (or simulated, as then the probes are) no probe is.
+void Aligner::taint(FrameBlock& out, std::size_t before, const SampleBlock& block) const {
+  const auto encoder = static_cast<std::size_t>(channel_of_.back());
+  if (block.quality.empty() ||
+      std::all_of(block.quality[encoder].begin(), block.quality[encoder].end(), usable))
+    return;
+  for (auto& quality : out.probe_quality) raise_to(quality, before, block.quality[encoder]);
 }
 
 Status Aligner::push(SampleBlock& block, FrameBlock& out) {
@@ -150,7 +168,8 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
     encoder_.readings.pop_front();
     const std::size_t row = out.size();
     for (std::size_t k = 0; k < probes_.size(); ++k) {
-      const Reading r = value_at(probes_[k], at.time_ns);
+      Reading r = value_at(probes_[k], at.time_ns);
+      r.quality = std::max(r.quality, at.quality);  // of a place that is not sure
       given_up_ += r.quality == Quality::missing;
       out.probe_m[k].push_back(r.value);
       if (r.quality != Quality::good || !out.probe_quality[k].empty()) {

@@ -25,7 +25,8 @@ struct AlignOptions {
 
 // Takes calibrated blocks (Unit::metre). Where one device gives the encoder and all probes, its
 // scans are the frames, bit for bit. Otherwise each probe is interpolated linearly between its two
-// samples around the encoder's instant; quality is the worse of the two. Thread-bound.
+// samples around the encoder's instant; quality is the worst of the two and the encoder's.
+// Thread-bound.
 class Aligner {
  public:
   Aligner(AlignOptions options, std::vector<std::string> probe_ids);
@@ -55,6 +56,7 @@ class Aligner {
 
   bool whole(const SampleBlock& block);
   void take_whole(SampleBlock& block, FrameBlock& out);
+  void taint(FrameBlock& out, std::size_t before, const SampleBlock& block) const;
   Status enqueue(const SampleBlock& block);
   Status enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track);
   void emit(FrameBlock& out, bool at_end);

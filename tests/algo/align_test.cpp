@@ -92,5 +92,34 @@ TEST(Aligner, FlushGivesOutWhatWaits) {
   EXPECT_EQ(out.quality_at(0, 1), Quality::missing);
 }
 
+// One device or two: where the encoder is suspect, or gone, no probe is good.
+TEST(Aligner, AReadingIsNoBetterThanItsPlace) {
+  const std::vector<Quality> of_encoder = {Quality::good, Quality::suspect, Quality::missing};
+  Aligner one({}, {"A"}), two({}, {"A"});
+  FrameBlock together, apart;
+  SampleBlock both;
+  both.device = "daq";
+  both.channels = {{"A", Unit::metre}, {kEncoderChannel, Unit::metre}};
+  both.time_ns = {1000, 2000, 3000};
+  both.value = {{1, 2, 3}, {0, 0, 0}};
+  both.quality = {{}, of_encoder};
+  SampleBlock probe, encoder;
+  probe.device = "a";
+  probe.channels = {both.channels[0]};
+  probe.time_ns = encoder.time_ns = both.time_ns;
+  probe.value = {both.value[0]};
+  encoder.device = "b";
+  encoder.channels = {both.channels[1]};
+  encoder.value = {both.value[1]};
+  encoder.quality = {of_encoder};
+  ASSERT_TRUE(one.push(both, together));
+  ASSERT_TRUE(two.push(probe, apart));
+  ASSERT_TRUE(two.push(encoder, apart));
+  for (const FrameBlock* frames : {&together, &apart}) {
+    ASSERT_EQ(frames->size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(frames->quality_at(0, i), of_encoder[i]) << i;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -1,10 +1,9 @@
 #include "drivers/sysfs/poller.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <ctime>
 #include <utility>
 
 #include "drivers/clock/monotonic.h"

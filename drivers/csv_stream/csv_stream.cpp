@@ -154,8 +154,14 @@ Status CsvStream::fetch(milliseconds timeout) {
 
 tl::unexpected<Error> CsvStream::ended(const Error& why) {
   if (child_) return io_error(source_ + " " + child_->epitaph());
-  if (!options_.fifo.empty())
+  if (!options_.fifo.empty()) {
+    // Opened anew before the old end is closed: what the next writer has sent by now is not lost.
+    if (auto again = open_fifo(options_.fifo)) {
+      stream_ = std::move(*again);
+      waits_for_writer_ = true;
+    }
     return io_error(source_ + ": the program that wrote to it has closed it; start it again");
+  }
   return io_error("tcp://" + why.message + "; does the script still run?");
 }
 

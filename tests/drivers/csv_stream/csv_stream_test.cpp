@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <thread>
 
@@ -255,6 +256,23 @@ TEST_F(CsvStreamFifo, WaitsForItsWriterAndForTheNext) {
     EXPECT_EQ(all.scans.size(), 2u);
     EXPECT_NE(all.error.find("has closed it"), std::string::npos) << all.error;
   }
+}
+
+TEST_F(CsvStreamFifo, AWriterThatComesBeforeTheReopenIsNotLost) {
+  CsvStream stream("probe", options_);
+  const auto write = [this](const char* text) {
+    const int fd = ::open(path_.c_str(), O_WRONLY);
+    EXPECT_EQ(::write(fd, text, std::strlen(text)), static_cast<ssize_t>(std::strlen(text)));
+    ::close(fd);
+  };
+  std::thread first([&] { write("A_um\n1\n"); });
+  ASSERT_TRUE(stream.open());
+  first.join();
+  EXPECT_NE(collect(stream, 10).error.find("has closed it"), std::string::npos);
+  write("A_um\n2\n3\n");
+  ASSERT_TRUE(stream.open());
+  const Collected all = collect(stream, 10);
+  EXPECT_EQ(all.scans, (std::vector<std::vector<double>>{{2}, {3}}));
 }
 
 TEST_F(CsvStreamFifo, WhatIsNoFifoIsSaid) {

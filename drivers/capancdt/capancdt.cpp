@@ -57,6 +57,7 @@ Status Capancdt::open() {
       .waiting = {},
       .heard = steady_clock::now(),
       .newest_frame = std::nullopt,
+      .first_ns = std::nullopt,
       .failed = std::nullopt,
   });
   return {};
@@ -66,9 +67,9 @@ Result<ReadState> Capancdt::read(SampleBlock& block, milliseconds timeout) {
   clear(block);
   if (!session_) return lasting({ErrorCode::io, "is not open; open it before reading"});
   Session& s = *session_;
-  if (s.waiting.empty() && !s.failed)
+  if ((s.waiting.empty() || !s.warm) && !s.failed)
     if (auto received = receive(timeout); !received) s.failed = std::move(received.error());
-  hand_out(block);
+  if (s.warm || s.failed) hand_out(block);
   if (block.scans() == 0 && s.failed) return lasting(*s.failed);
   return ReadState::more;
 }
@@ -126,7 +127,11 @@ Status Capancdt::tell_time(std::int64_t received_ns, bool all) {
   Session& s = *session_;
   if (s.waiting.empty() || (!all && s.newest_frame)) return {};
   const PlacedPacket& last = s.waiting.back();
-  s.newest_frame = last.first_frame + last.packet.frames() - 1;
+  const std::int64_t newest = last.first_frame + last.packet.frames() - 1;
+  if (newest == s.newest_frame) return {};  // a part of a packet came
+  s.newest_frame = newest;
+  s.first_ns = s.first_ns.value_or(received_ns);
+  s.warm = s.warm || nanoseconds(received_ns - *s.first_ns) >= options_.warm_up;
   s.clock.add(*s.newest_frame, received_ns);
   const auto measured_ns = s.rate.add(*s.newest_frame, received_ns);
   if (!measured_ns) return {};

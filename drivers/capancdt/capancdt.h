@@ -50,7 +50,8 @@ class Capancdt final : public Driver {
     RateWatch rate;
     std::deque<PlacedPacket> waiting;  // placed, not yet handed out
     std::chrono::steady_clock::time_point heard;
-    std::optional<std::int64_t> newest_frame;
+    std::optional<std::int64_t> newest_frame, first_ns;  // that the clock was told of; and when
+    bool warm = false;                                   // scans may be handed out
     std::optional<Error> failed;  // to be told when all that came before is handed out
   };
   Status receive(std::chrono::milliseconds timeout);

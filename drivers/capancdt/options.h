@@ -37,7 +37,10 @@ struct Options {
   std::vector<Channel> channels;
   // Not in the configuration; tests are in more of a hurry.
   std::chrono::milliseconds patience{1000};  // with a reply
-  std::chrono::milliseconds silence{2000};   // of the data port that is an error
+  // The first packet may have been held up, and the clock of the device can only slowly be moved
+  // once a sample has its time: so many come first.
+  std::chrono::milliseconds warm_up{100};
+  std::chrono::milliseconds silence{2000};  // of the data port that is an error
 };
 
 }  // namespace mdof::drivers::capancdt

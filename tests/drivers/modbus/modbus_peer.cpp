@@ -6,9 +6,9 @@
 //   modbus_peer read tcp|rtu ADDRESS UNIT holding|input REGISTER COUNT   prints the registers
 //   modbus_peer write tcp|rtu ADDRESS UNIT REGISTER VALUE...
 #include <fcntl.h>
-#include <stdlib.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 

@@ -88,10 +88,10 @@ std::string why_not(Framing framing, const Frame& asked, const std::string& adu)
 TEST(ModbusProtocol, AReplyThatIsNoAnswerIsRefusedWithTheReason) {
   const Frame asked{9, 7, read_request(kReadHolding, 100, 2)};
   const Frame good{9, 7, bytes("03 04 00 11 22 33")};
-  const auto tcp = [&](Frame reply) {
+  const auto tcp = [&](const Frame& reply) {
     return why_not(Framing::tcp, asked, wrap(Framing::tcp, reply));
   };
-  const auto rtu = [&](Frame reply) {
+  const auto rtu = [&](const Frame& reply) {
     return why_not(Framing::rtu, asked, wrap(Framing::rtu, reply));
   };
   EXPECT_EQ(tcp(good), "accepted");

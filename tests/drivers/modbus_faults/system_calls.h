@@ -7,9 +7,9 @@
 #include <sys/select.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
-#include <time.h>
 
 #include <cerrno>
+#include <ctime>
 
 #include "tests/drivers/modbus_faults/virtual_line.h"
 
@@ -24,6 +24,7 @@ inline timespec to_timespec(std::int64_t ns) {
 
 // Names of their own here, those of the C library for the linker: its headers may hold inline
 // versions of the same.
+// NOLINTBEGIN(misc-definitions-in-headers): for one file, see above
 extern "C" {
 
 ssize_t virtual_read(int fd, void* into, std::size_t size) __asm__("read");
@@ -89,4 +90,5 @@ int virtual_clock_gettime(clockid_t clock, timespec* time) {
 }
 
 }  // extern "C"
+// NOLINTEND(misc-definitions-in-headers)
 }  // namespace mdof::drivers

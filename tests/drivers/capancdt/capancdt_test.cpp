@@ -1,104 +1,10 @@
-// The driver against the simulated controller, over sockets.
-#include "drivers/capancdt/capancdt.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+// What the driver makes of the data, against the simulated controller, over sockets.
 #include <cmath>
-#include <functional>
 
-#include "drivers/capancdt/device.h"
-#include "tests/drivers/capancdt/served_device.h"
+#include "tests/drivers/capancdt/rack.h"
 
 namespace mdof::drivers::capancdt {
 namespace {
-
-using namespace std::chrono_literals;
-using std::chrono::steady_clock;
-
-// µm on each input, constant: 100, 200, 300, 400 ...
-double steady(std::size_t input, std::int64_t) {
-  return 100.0 * static_cast<double>(input + 1);
-}
-
-Options options_for(const ServedDevice& served) {
-  Options options;
-  options.name = "probes";
-  options.command = {"127.0.0.1", served.port(0)};
-  for (const int number : {1, 3}) {
-    const std::string text = std::to_string(number);
-    options.channels.push_back(
-        {{number == 1 ? "A" : "B", text, 0, "rig.toml:7: channel.id"}, number, 0});
-  }
-  options.sample_time_us = 512;
-  options.patience = 2000ms;
-  options.warm_up = 10ms;
-  return options;
-}
-
-struct Rack {
-  explicit Rack(const DeviceOptions& as = {}, const Senses& senses = steady) {
-    DeviceOptions device = as;
-    device.data_port = served.port(1);
-    served.serve(std::make_unique<SimulatedCapancdt>(device, senses));
-    options = options_for(served);
-  }
-  ServedDevice served{2};
-  Options options;
-};
-
-struct Collected {
-  SampleBlock all;
-  std::uint64_t lost = 0;
-  std::string error;  // that ended it
-
-  std::size_t count(std::size_t channel, Quality quality) const {
-    const auto& q = all.quality[channel];
-    return static_cast<std::size_t>(std::count(q.begin(), q.end(), quality));
-  }
-};
-
-void append(SampleBlock& all, const SampleBlock& block) {
-  all.value.resize(block.channels.size());
-  all.quality.resize(block.channels.size());
-  all.time_ns.insert(all.time_ns.end(), block.time_ns.begin(), block.time_ns.end());
-  for (std::size_t i = 0; i < block.channels.size(); ++i) {
-    const auto& value = block.value[i];
-    all.value[i].insert(all.value[i].end(), value.begin(), value.end());
-    for (std::size_t k = 0; k < block.scans(); ++k)
-      all.quality[i].push_back(block.quality_at(i, k));
-  }
-}
-
-// Until there are so many scans, or an error.
-Collected collect(Capancdt& driver, std::size_t scans) {
-  Collected got;
-  SampleBlock block;
-  const auto until = steady_clock::now() + 20s;
-  while (got.all.scans() < scans && steady_clock::now() < until) {
-    const auto state = driver.read(block, 20ms);
-    if (!state) {
-      got.error = state.error().message;
-      break;
-    }
-    got.lost += block.lost;
-    append(got.all, block);
-  }
-  const auto& t = got.all.time_ns;
-  EXPECT_TRUE(std::is_sorted(t.begin(), t.end(), std::less_equal<>()));  // strictly
-  return got;
-}
-
-// A computer that stands still for a tenth of a second has the device's clock taken anew.
-bool clock_stepped(const Capancdt& driver) {
-  return driver.health().clock.steps > 0;
-}
-std::string error_of(const Status& status) {
-  return status ? "" : status.error().message;
-}
-void expect_has(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in: " << text;
-}
 
 TEST(Capancdt, GivesMicrometresOfItsChannels) {
   Rack rack;
@@ -192,7 +98,7 @@ TEST(Capancdt, EveryMeaningOfTheCounterAndEcho) {
     ASSERT_GE(got.all.scans(), 100u) << got.error;
     EXPECT_EQ(driver.health().counter, static_cast<CounterUnit>(unit));
     EXPECT_NEAR(driver.info().rate_hz, 1e6 / 256 / 3, 1e-9);
-    EXPECT_EQ(driver.health().lost, got.lost);
+    EXPECT_GE(driver.health().lost, got.lost);  // some wait to be handed out
     // Every tenth packet of two frames: of 18 frames that came, 2 are lost.
     EXPECT_EQ(got.lost, (got.all.scans() - 1) / 18 * 2) << unit;
   }
@@ -390,98 +296,6 @@ TEST(Capancdt, GarbageAloneIsAnError) {
   const Collected got = collect(driver, 1);
   EXPECT_EQ(got.all.scans(), 0u);
   expect_has(got.error, "sends what is no data of a capaNCDT 6200; correct data_port");
-}
-
-TEST(Capancdt, IdentityIsChecked) {
-  Rack rack;
-  rack.options.serial = "1001";
-  EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
-  rack.options.serial = "1002";
-  expect_has(error_of(Capancdt(rack.options).open()), "and not serial 1002; correct serial");
-}
-
-TEST(Capancdt, AChannelThatIsNotThere) {
-  DeviceOptions device;
-  device.inputs[2].present = false;
-  Rack rack(device);
-  const std::string absent = error_of(Capancdt(rack.options).open());
-  expect_has(absent, "rig.toml:7: channel.id: the device has no input \"3\"; it has 1, 2, 4");
-  rack.options.channels[1].number = 5;
-  rack.options.channels[1].input.input = "5";
-  expect_has(error_of(Capancdt(rack.options).open()), "no input \"5\"");
-}
-
-TEST(Capancdt, RangeFromTheControllerOrTheConfiguration) {
-  DeviceOptions device;
-  device.inputs[0].range_um = 500;
-  Rack told(device);
-  Capancdt driver(told.options);
-  ASSERT_EQ(error_of(driver.open()), "");
-  EXPECT_NEAR(collect(driver, 5).all.value.at(0).at(0), 100, 1e-4);
-  told.options.channels[0].range_um = 2000;
-  expect_has(error_of(Capancdt(told.options).open()), "the controller says 500");
-
-  device.tells_range = false;
-  Rack untold(device);
-  expect_has(error_of(Capancdt(untold.options).open()), "give its range_um");
-  for (auto& channel : untold.options.channels) channel.range_um = channel.number == 1 ? 500 : 2000;
-  Capancdt given(untold.options);
-  ASSERT_EQ(error_of(given.open()), "");
-  EXPECT_NEAR(collect(given, 5).all.value.at(0).at(0), 100, 1e-4);
-}
-
-TEST(Capancdt, SettingsThatMayNotBeChanged) {
-  DeviceOptions device;
-  device.sample_time_us = 1024;
-  device.trigger = 1;
-  Rack triggered(device);
-  triggered.options.configure = false;
-  expect_has(error_of(Capancdt(triggered.options).open()), "waits for a trigger (TRG 1)");
-
-  device.trigger = 0;
-  Rack rack(device);
-  rack.options.configure = false;
-  expect_has(error_of(Capancdt(rack.options).open()), "sample_time_us is 1024 on the controller");
-  rack.options.sample_time_us = 1024;
-  rack.options.averaging = Averaging::median;
-  expect_has(error_of(Capancdt(rack.options).open()), "averaging is 0 on the controller");
-  rack.options.averaging.reset();
-  Capancdt driver(rack.options);
-  ASSERT_EQ(error_of(driver.open()), "");
-  EXPECT_GE(collect(driver, 5).all.scans(), 5u);
-}
-
-TEST(Capancdt, ATriggerIsSetToContinuous) {
-  DeviceOptions device;
-  device.trigger = 2;
-  Rack rack(device);
-  Capancdt driver(rack.options);
-  ASSERT_EQ(error_of(driver.open()), "");
-  EXPECT_GE(collect(driver, 5).all.scans(), 5u);
-}
-
-TEST(Capancdt, ADumbControllerIsAnError) {
-  DeviceOptions device;
-  device.faults.mute = true;
-  Rack rack(device);
-  rack.options.patience = 30ms;
-  expect_has(error_of(Capancdt(rack.options).open()), "does not answer $VER; is this the command");
-  Capancdt driver(rack.options);
-  SampleBlock block;
-  const auto state = driver.read(block, 1ms);
-  ASSERT_FALSE(state);
-  expect_has(state.error().message, "is not open");
-}
-
-TEST(Capancdt, NobodyThere) {
-  Options options;
-  {
-    const ServedDevice gone(2);
-    options = options_for(gone);
-  }
-  const std::string error = error_of(Capancdt(options).open());
-  expect_has(error, "device \"probes\": 127.0.0.1:" + std::to_string(options.command.port));
-  expect_has(error, "is the device on, on the network");
 }
 
 TEST(Capancdt, TwoControllersSideBySide) {

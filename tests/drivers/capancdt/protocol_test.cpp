@@ -152,9 +152,9 @@ TEST(CapancdtProtocol, RefusesSizesThatCannotBe) {
   } const sizes[] = {{16, 0}, {0, 16}, {16, 1025}, {1025, 16}, {12, 2}, {0, 0}, {65535, 65535}};
   for (const auto& [a, b] : sizes) {
     std::string bytes = kBytesFirst;
-    for (int i = 0; i < 2; ++i) {
-      bytes[static_cast<std::size_t>(24 + i)] = static_cast<char>(a >> 8 * i);
-      bytes[static_cast<std::size_t>(26 + i)] = static_cast<char>(b >> 8 * i);
+    for (std::size_t i = 0; i < 2; ++i) {
+      bytes[24 + i] = static_cast<char>(a >> 8 * i);
+      bytes[26 + i] = static_cast<char>(b >> 8 * i);
     }
     PacketParser parser;
     Packet packet;
@@ -167,8 +167,7 @@ TEST(CapancdtProtocol, RefusesSizesThatCannotBe) {
 TEST(CapancdtProtocol, NoChannelIsNoPacket) {
   for (const std::uint64_t bits : {std::uint64_t{0}, std::uint64_t{0xAAAA}, ~std::uint64_t{0}}) {
     std::string bytes = kBytesFirst;
-    for (int i = 0; i < 8; ++i)
-      bytes[static_cast<std::size_t>(12 + i)] = static_cast<char>(bits >> 8 * i);
+    for (std::size_t i = 0; i < 8; ++i) bytes[12 + i] = static_cast<char>(bits >> 8 * i);
     PacketParser parser;
     Packet packet;
     parser.add(bytes);

@@ -1,0 +1,104 @@
+// The driver and a simulated controller behind real sockets, and what is read from it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "drivers/capancdt/capancdt.h"
+#include "drivers/capancdt/device.h"
+#include "tests/drivers/capancdt/served_device.h"
+
+namespace mdof::drivers::capancdt {
+
+using namespace std::chrono_literals;
+using std::chrono::steady_clock;
+
+// µm on each input, constant: 100, 200, 300, 400 ...
+inline double steady(std::size_t input, std::int64_t) {
+  return 100.0 * static_cast<double>(input + 1);
+}
+
+inline Options options_for(const ServedDevice& served) {
+  Options options;
+  options.name = "probes";
+  options.command = {"127.0.0.1", served.port(0)};
+  for (const int number : {1, 3}) {
+    const std::string text = std::to_string(number);
+    options.channels.push_back(
+        {{number == 1 ? "A" : "B", text, 0, "rig.toml:7: channel.id"}, number, 0});
+  }
+  options.sample_time_us = 512;
+  options.patience = 2000ms;
+  options.warm_up = 10ms;
+  return options;
+}
+
+struct Rack {
+  explicit Rack(const DeviceOptions& as = {}, const Senses& senses = steady) {
+    DeviceOptions device = as;
+    device.data_port = served.port(1);
+    served.serve(std::make_unique<SimulatedCapancdt>(device, senses));
+    options = options_for(served);
+  }
+  ServedDevice served{2};
+  Options options;
+};
+
+struct Collected {
+  SampleBlock all;
+  std::uint64_t lost = 0;
+  std::string error;  // that ended it
+
+  std::size_t count(std::size_t channel, Quality quality) const {
+    const auto& q = all.quality[channel];
+    return static_cast<std::size_t>(std::count(q.begin(), q.end(), quality));
+  }
+};
+
+inline void append(SampleBlock& all, const SampleBlock& block) {
+  all.value.resize(block.channels.size());
+  all.quality.resize(block.channels.size());
+  all.time_ns.insert(all.time_ns.end(), block.time_ns.begin(), block.time_ns.end());
+  for (std::size_t i = 0; i < block.channels.size(); ++i) {
+    const auto& value = block.value[i];
+    all.value[i].insert(all.value[i].end(), value.begin(), value.end());
+    for (std::size_t k = 0; k < block.scans(); ++k)
+      all.quality[i].push_back(block.quality_at(i, k));
+  }
+}
+
+// Until there are so many scans, or an error.
+inline Collected collect(Capancdt& driver, std::size_t scans) {
+  Collected got;
+  SampleBlock block;
+  const auto until = steady_clock::now() + 20s;
+  while (got.all.scans() < scans && steady_clock::now() < until) {
+    const auto state = driver.read(block, 20ms);
+    if (!state) {
+      got.error = state.error().message;
+      break;
+    }
+    got.lost += block.lost;
+    append(got.all, block);
+  }
+  const auto& t = got.all.time_ns;
+  EXPECT_TRUE(std::is_sorted(t.begin(), t.end(), std::less_equal<>()));  // strictly
+  return got;
+}
+
+// A computer that stands still for a tenth of a second has the device's clock taken anew.
+inline bool clock_stepped(const Capancdt& driver) {
+  return driver.health().clock.steps > 0;
+}
+inline std::string error_of(const Status& status) {
+  return status ? "" : status.error().message;
+}
+inline void expect_has(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in: " << text;
+}
+
+}  // namespace mdof::drivers::capancdt

@@ -1,0 +1,100 @@
+// How the driver comes to terms with a controller, simulated, over sockets.
+#include "tests/drivers/capancdt/rack.h"
+
+namespace mdof::drivers::capancdt {
+namespace {
+
+TEST(CapancdtSetup, IdentityIsChecked) {
+  Rack rack;
+  rack.options.serial = "1001";
+  EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
+  rack.options.serial = "1002";
+  expect_has(error_of(Capancdt(rack.options).open()), "and not serial 1002; correct serial");
+}
+
+TEST(CapancdtSetup, AChannelThatIsNotThere) {
+  DeviceOptions device;
+  device.inputs[2].present = false;
+  Rack rack(device);
+  const std::string absent = error_of(Capancdt(rack.options).open());
+  expect_has(absent, "rig.toml:7: channel.id: the device has no input \"3\"; it has 1, 2, 4");
+  rack.options.channels[1].number = 5;
+  rack.options.channels[1].input.input = "5";
+  expect_has(error_of(Capancdt(rack.options).open()), "no input \"5\"");
+}
+
+TEST(CapancdtSetup, RangeFromTheControllerOrTheConfiguration) {
+  DeviceOptions device;
+  device.inputs[0].range_um = 500;
+  Rack told(device);
+  Capancdt driver(told.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  EXPECT_NEAR(collect(driver, 5).all.value.at(0).at(0), 100, 1e-4);
+  told.options.channels[0].range_um = 2000;
+  expect_has(error_of(Capancdt(told.options).open()), "the controller says 500");
+
+  device.tells_range = false;
+  Rack untold(device);
+  expect_has(error_of(Capancdt(untold.options).open()), "give its range_um");
+  for (auto& channel : untold.options.channels) channel.range_um = channel.number == 1 ? 500 : 2000;
+  Capancdt given(untold.options);
+  ASSERT_EQ(error_of(given.open()), "");
+  EXPECT_NEAR(collect(given, 5).all.value.at(0).at(0), 100, 1e-4);
+}
+
+TEST(CapancdtSetup, SettingsThatMayNotBeChanged) {
+  DeviceOptions device;
+  device.sample_time_us = 1024;
+  device.trigger = 1;
+  Rack triggered(device);
+  triggered.options.configure = false;
+  expect_has(error_of(Capancdt(triggered.options).open()), "waits for a trigger (TRG 1)");
+
+  device.trigger = 0;
+  Rack rack(device);
+  rack.options.configure = false;
+  expect_has(error_of(Capancdt(rack.options).open()), "sample_time_us is 1024 on the controller");
+  rack.options.sample_time_us = 1024;
+  rack.options.averaging = Averaging::median;
+  expect_has(error_of(Capancdt(rack.options).open()), "averaging is 0 on the controller");
+  rack.options.averaging.reset();
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  EXPECT_GE(collect(driver, 5).all.scans(), 5u);
+}
+
+TEST(CapancdtSetup, ATriggerIsSetToContinuous) {
+  DeviceOptions device;
+  device.trigger = 2;
+  Rack rack(device);
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  EXPECT_GE(collect(driver, 5).all.scans(), 5u);
+}
+
+TEST(CapancdtSetup, ADumbControllerIsAnError) {
+  DeviceOptions device;
+  device.faults.mute = true;
+  Rack rack(device);
+  rack.options.patience = 30ms;
+  expect_has(error_of(Capancdt(rack.options).open()), "does not answer $VER; is this the command");
+  Capancdt driver(rack.options);
+  SampleBlock block;
+  const auto state = driver.read(block, 1ms);
+  ASSERT_FALSE(state);
+  expect_has(state.error().message, "is not open");
+}
+
+TEST(CapancdtSetup, NobodyThere) {
+  Options options;
+  {
+    const ServedDevice gone(2);
+    options = options_for(gone);
+  }
+  const std::string error = error_of(Capancdt(options).open());
+  expect_has(error, "device \"probes\": 127.0.0.1:" + std::to_string(options.command.port));
+  expect_has(error, "is the device on, on the network");
+}
+
+}  // namespace
+}  // namespace mdof::drivers::capancdt

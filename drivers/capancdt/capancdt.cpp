@@ -186,8 +186,7 @@ void Capancdt::append(SampleBlock& block, const PlacedPacket& placed) {
     const auto position = packet.position(options_.channels[i].number);
     for (int frame = 0; frame < packet.frames(); ++frame) {
       std::optional<std::int32_t> raw;
-      if (position)
-        raw = packet.values[static_cast<std::size_t>(frame * packet.channels() + *position)];
+      if (position) raw = packet.value(frame, *position);
       append_value(block, i, raw);
     }
     if (packet.after_garbage)

@@ -90,7 +90,8 @@ std::string SimulatedCapancdt::converse(Typist& typist, std::string_view receive
 
 // The reply to a command, echoed one way or the other.
 std::string SimulatedCapancdt::dialogue(std::string_view command) {
-  const std::string text = reply(command), echo = std::string(command) + "\r";
+  std::string text = reply(command);
+  const std::string echo = std::string(command) + "\r";
   const std::size_t half = command.size() / 2;
   switch (options_.faults.echo) {
     case Echo::line:

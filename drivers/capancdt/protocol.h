@@ -31,6 +31,10 @@ struct Packet {
   int channels() const;                           // in a frame
   int frames() const;                             // values.size() is a multiple of channels()
   std::optional<int> position(int number) const;  // of channel 1 ... 32 in a frame
+  std::int32_t value(int frame, int position) const {
+    return values[static_cast<std::size_t>(frame) * static_cast<std::size_t>(channels()) +
+                  static_cast<std::size_t>(position)];
+  }
 };
 
 std::uint64_t channel_bit(int number);  // of the available channel 1 ... 32

@@ -18,7 +18,7 @@ struct Source {
   Packet next() {
     Packet packet;
     for (int i = 1; i <= channels; ++i) packet.channel_bits |= channel_bit(i);
-    packet.values.resize(static_cast<std::size_t>(channels * frames));
+    packet.values.resize(static_cast<std::size_t>(channels) * static_cast<std::size_t>(frames));
     packet.counter = counter;
     const int step[] = {frames, frames * channels, frames * averaged, 1};
     counter += static_cast<std::uint32_t>(step[static_cast<int>(unit)]);

@@ -1,5 +1,6 @@
 // libFuzzer: the data stream in pieces, the frame counter behind it, and the texts of the command
 // port, on any bytes.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

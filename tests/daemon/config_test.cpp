@@ -66,7 +66,7 @@ TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
       {"[[axis]]\nrig = \"nowhere.toml\"\n[axis.device]\ndriver = \"simulator\"\n",
        "nowhere.toml: cannot be read"},
       {"[[axis]]\nrig = \"rig_X.toml\"\n[axis.device]\ndriver = \"simulatr\"\n",
-       "known are: replay simulator"},
+       "replay simulator"},
       {"[[axis]]\nrig = \"rig_X.toml\"\n[axis.device]\ndriver = \"replay\"\nfile = \"no.csv\"\n",
        "no.csv"},
   };

@@ -212,8 +212,22 @@ class Devices(unittest.TestCase):
         self.simulators.start()
         self.wait_until_all_flow()
         self.assertTrue(all(d["reopened"] > 0 for d in self.devices().values()))
+        # The T7 has lost its count with its power: no reading is good, as its place is not sure ...
+        self.wait_until(lambda: self.qualities() == {"suspect"}, "readings are not suspect")
+        # ... until somebody has found the zero again and says so by starting mdofd anew.
+        self.daemon.stop()
+        type(self).client = self.daemon.start()
+        self.wait_until_all_flow()
+        self.assertEqual(self.qualities(), {"good"})
         run, _ = self.measured(targets_mm=TARGETS, repeats=1)
         self.assertEqual(self.client.call("run.get", run=run)["state"], "complete")
+
+    def qualities(self):
+        watcher = Client(self.daemon.socket)
+        watcher.call("live.subscribe", interval_ms=20, events=False)
+        value = watcher.next_note()["params"]["value"]
+        watcher.socket.close()
+        return {p["quality"] for p in value["probes"]}
 
     def test_4_silence_is_shown_as_stale(self):
         self.wait_until_all_flow()
@@ -228,6 +242,8 @@ class Devices(unittest.TestCase):
             self.assertIsNone(value["errors"])
         finally:
             self.simulators.start()
+            self.daemon.stop()  # the T7's count is not trusted after its restart
+            type(self).client = self.daemon.start()
 
     def test_5_record_measures_and_says_so(self):
         self.wait_until_all_flow()

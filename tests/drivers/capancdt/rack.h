@@ -10,7 +10,7 @@
 
 #include "drivers/capancdt/capancdt.h"
 #include "drivers/capancdt/device.h"
-#include "tests/drivers/capancdt/served_device.h"
+#include "tests/drivers/served_device.h"
 
 namespace mdof::drivers::capancdt {
 
@@ -39,11 +39,13 @@ inline Options options_for(const ServedDevice& served) {
 
 struct Rack {
   explicit Rack(const DeviceOptions& as = {}, const Senses& senses = steady) {
-    DeviceOptions device = as;
-    device.data_port = served.port(1);
-    served.serve(std::make_unique<SimulatedCapancdt>(device, senses));
+    DeviceOptions with_port = as;
+    with_port.data_port = served.port(1);
+    device = std::make_unique<SimulatedCapancdt>(with_port, senses);
+    served.serve(*device);
     options = options_for(served);
   }
+  std::unique_ptr<SimulatedCapancdt> device;  // outlives what serves it
   ServedDevice served{2};
   Options options;
 };

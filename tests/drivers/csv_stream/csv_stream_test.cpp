@@ -1,5 +1,6 @@
 #include "drivers/csv_stream/csv_stream.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -11,7 +12,7 @@
 #include "drivers/csv_stream/configure.h"
 #include "drivers/csv_stream/device.h"
 #include "tests/drivers/collect.h"
-#include "tests/drivers/serve_device.h"
+#include "tests/drivers/served_device.h"
 
 namespace mdof::drivers {
 namespace {
@@ -34,7 +35,7 @@ double counts(std::size_t input, std::int64_t) {
   return static_cast<double>(input) + 0.25;
 }
 
-CsvStream over_tcp(const ServedOverTcp& served, milliseconds silence = milliseconds(5000)) {
+CsvStream over_tcp(const ServedDevice& served, milliseconds silence = milliseconds(5000)) {
   CsvStreamOptions options = options_for_test();
   options.silence = silence;
   options.server = *parse_endpoint(served.address(), 0);
@@ -43,7 +44,7 @@ CsvStream over_tcp(const ServedOverTcp& served, milliseconds silence = milliseco
 
 TEST(CsvStream, RowsOfATcpServerWithItsOwnTimes) {
   CsvStreamDevice device({"encoder_mm", "A_um"}, 1000, true, counts);
-  const ServedOverTcp served(device);
+  const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   const auto status = stream.open();
   ASSERT_TRUE(status) << status.error().message;
@@ -61,7 +62,7 @@ TEST(CsvStream, RowsOfATcpServerWithItsOwnTimes) {
 
 TEST(CsvStream, BadLinesAreCountedAsLost) {
   CsvStreamDevice device({"A_um"}, 2000, false, counts, {.bad_line_every = 10});
-  const ServedOverTcp served(device);
+  const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   ASSERT_TRUE(stream.open());
   const Collected all = collect(stream, 91);
@@ -75,7 +76,7 @@ TEST(CsvStream, BadLinesAreCountedAsLost) {
 
 TEST(CsvStream, ABrokenConnectionIsAnErrorAndComesBack) {
   CsvStreamDevice device({"A_um"}, 1000, true, counts, {.cut_row = 50});
-  const ServedOverTcp served(device);
+  const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   std::int64_t last_ns = 0;
   for (int round = 0; round < 2; ++round) {
@@ -92,7 +93,7 @@ TEST(CsvStream, ABrokenConnectionIsAnErrorAndComesBack) {
 
 TEST(CsvStream, ASilentServerIsAnError) {
   CsvStreamDevice device({"A_um"}, 1000, true, counts, {.silent_from = 5});
-  const ServedOverTcp served(device);
+  const ServedDevice served(device);
   CsvStream stream = over_tcp(served, milliseconds(300));
   ASSERT_TRUE(stream.open());
   const Collected all = collect(stream, 1000);
@@ -102,7 +103,7 @@ TEST(CsvStream, ASilentServerIsAnError) {
 
 TEST(CsvStream, AHeaderThatComesAgainStartsTheClockAnew) {
   CsvStreamDevice device({"A_um"}, 1000, true, counts, {.restart_at = 60});
-  const ServedOverTcp served(device);
+  const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   ASSERT_TRUE(stream.open());
   const Collected all = collect(stream, 150);
@@ -113,7 +114,7 @@ TEST(CsvStream, AHeaderThatComesAgainStartsTheClockAnew) {
 
 TEST(CsvStream, TimesInMillisecondsAreRefused) {
   CsvStreamDevice device({"A_um"}, 1000, true, counts, {.time_scale = 1000});
-  const ServedOverTcp served(device);
+  const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   ASSERT_TRUE(stream.open());
   const Collected all = collect(stream, 1000);
@@ -122,7 +123,7 @@ TEST(CsvStream, TimesInMillisecondsAreRefused) {
 
 TEST(CsvStream, WithoutAHeaderOpenFails) {
   CsvStreamDevice device({"A_um"}, 1000, true, counts, {.no_header = true});
-  const ServedOverTcp served(device);
+  const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   const auto status = stream.open();
   ASSERT_FALSE(status);
@@ -134,7 +135,7 @@ TEST(CsvStream, NobodyListens) {
   CsvStreamOptions options = options_for_test();
   {
     CsvStreamDevice device({"A_um"}, 1000, true, counts);
-    options.server = *parse_endpoint(ServedOverTcp(device).address(), 0);
+    options.server = *parse_endpoint(ServedDevice(device).address(), 0);
   }
   CsvStream stream("probe", options);
   const auto status = stream.open();

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "drivers/labjack_t7/device.h"
-#include "tests/drivers/labjack_t7/served.h"
 #include "tests/drivers/modbus/hex.h"
+#include "tests/drivers/served_device.h"
 
 namespace mdof::drivers::labjack_t7 {
 namespace {
@@ -44,7 +44,7 @@ class LabjackT7Driver : public testing::Test {
     options.faults = faults;
     options.core_start = 0xFFF00000;  // wraps soon
     device = std::make_unique<Device>(truth, options);
-    served = std::make_unique<Served>(*device);
+    served = std::make_unique<ServedDevice>(*device);
     settings.name = "daq";
     settings.command = {"127.0.0.1", served->port(0)};
     settings.stream = {"127.0.0.1", served->port(1)};
@@ -85,7 +85,7 @@ class LabjackT7Driver : public testing::Test {
 
   Truth truth;
   std::unique_ptr<Device> device;
-  std::unique_ptr<Served> served;
+  std::unique_ptr<ServedDevice> served;
   Settings settings;
   std::unique_ptr<LabjackT7> made;
   std::vector<std::int64_t> time_ns;

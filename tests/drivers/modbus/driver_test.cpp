@@ -8,7 +8,7 @@
 #include "drivers/io/byte_stream.h"
 #include "drivers/modbus/device.h"
 #include "drivers/registry.h"
-#include "tests/drivers/modbus/served_device.h"
+#include "tests/drivers/served_device.h"
 
 namespace mdof::drivers {
 namespace {

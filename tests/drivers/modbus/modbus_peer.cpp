@@ -14,7 +14,7 @@
 
 #include "drivers/modbus/client.h"
 #include "drivers/modbus/device.h"
-#include "tests/drivers/modbus/served_device.h"
+#include "tests/drivers/served_device.h"
 
 namespace mdof::drivers {
 namespace {

@@ -7,7 +7,8 @@
 #include "drivers/qsb/configure.h"
 #include "drivers/qsb/device.h"
 #include "tests/drivers/collect.h"
-#include "tests/drivers/serve_device.h"
+#include "tests/drivers/served_device.h"
+#include "tests/drivers/served_line.h"
 
 namespace mdof::drivers {
 namespace {
@@ -19,7 +20,7 @@ double still(std::size_t, std::int64_t) {
   return -5;
 }
 
-QsbOptions options_for_test(const ServedOverPty& served) {
+QsbOptions options_for_test(const ServedLine& served) {
   QsbOptions options;
   options.port = served.path();
   options.channel = {"encoder", "count", 0.5, ""};
@@ -28,7 +29,7 @@ QsbOptions options_for_test(const ServedOverPty& served) {
 
 TEST(Qsb, StreamsWithTheDevicesTimes) {
   QsbDevice device(ramp, {.streams_at_start = true});
-  const ServedOverPty served(device);
+  const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   const auto status = driver.open();
   ASSERT_TRUE(status) << status.error().message;
@@ -47,7 +48,7 @@ TEST(Qsb, StreamsWithTheDevicesTimes) {
 
 TEST(Qsb, TheCountGoesOnOverAReopen) {
   QsbDevice device(still);
-  const ServedOverPty served(device);
+  const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   std::int64_t last_ns = 0;
   for (int round = 0; round < 2; ++round) {
@@ -61,7 +62,7 @@ TEST(Qsb, TheCountGoesOnOverAReopen) {
 
 TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
   QsbDevice device(still, {.reset_at = 20});
-  const ServedOverPty served(device);
+  const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
   const Collected all = collect(driver, 1000);
@@ -81,7 +82,7 @@ TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
 
 TEST(Qsb, ACutLineIsCountedAndItsScansAreLost) {
   QsbDevice device(still, {.cut_at = 10});
-  const ServedOverPty served(device);
+  const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
   const Collected all = collect(driver, 50);
@@ -92,7 +93,7 @@ TEST(Qsb, ACutLineIsCountedAndItsScansAreLost) {
 
 TEST(Qsb, AStepOfTheStampsIsLostLines) {
   QsbDevice device(still, {.jump_at = 10, .jump_ticks = 7});
-  const ServedOverPty served(device);
+  const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
   const Collected all = collect(driver, 50);
@@ -104,7 +105,7 @@ TEST(Qsb, AStepOfTheStampsIsLostLines) {
 TEST(Qsb, AStampThatCannotBeIsAnError) {
   for (const std::uint32_t jump : {100'000u, 0xFFFFFF00u}) {
     QsbDevice device(still, {.jump_at = 10, .jump_ticks = jump});
-    const ServedOverPty served(device);
+    const ServedLine served(device);
     Qsb driver("scale", options_for_test(served));
     ASSERT_TRUE(driver.open());
     const Collected all = collect(driver, 500);
@@ -118,7 +119,7 @@ TEST(Qsb, RepliesEAndX) {
                                      std::pair{QsbDevice::Faults{.unsupported = qsb::kMdr0},
                                                "command W0300000003 is not supported (reply x)"}}) {
     QsbDevice device(still, faults);
-    const ServedOverPty served(device);
+    const ServedLine served(device);
     const auto status = Qsb("scale", options_for_test(served)).open();
     ASSERT_FALSE(status);
     EXPECT_NE(status.error().message.find(text), std::string::npos) << status.error().message;
@@ -128,7 +129,7 @@ TEST(Qsb, RepliesEAndX) {
 
 TEST(Qsb, RubbishIsAnErrorAfterTenLines) {
   QsbDevice device(still, {.rubbish = true});
-  const ServedOverPty served(device);
+  const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
   EXPECT_NE(collect(driver, 500).error.find("11 malformed lines in a row"), std::string::npos);
@@ -136,7 +137,7 @@ TEST(Qsb, RubbishIsAnErrorAfterTenLines) {
 
 TEST(Qsb, SilenceIsAnError) {
   QsbDevice device(still, {.silent_from = 5});
-  const ServedOverPty served(device);
+  const ServedLine served(device);
   QsbOptions options = options_for_test(served);
   options.silence = std::chrono::milliseconds(300);
   Qsb driver("scale", options);
@@ -148,7 +149,7 @@ TEST(Qsb, SilenceIsAnError) {
 
 TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
   QsbDevice device(still);
-  const ServedOverPty served(device);
+  const ServedLine served(device);
   QsbOptions options = options_for_test(served);
   options.serial = "00002";
   auto status = Qsb("scale", options).open();
@@ -162,7 +163,7 @@ TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
 
 TEST(Qsb, BehindABridge) {
   QsbDevice device(still);
-  const ServedOverTcp served(device);
+  const ServedDevice served(device);
   QsbOptions options;
   options.address = *parse_endpoint(served.address(), 0);
   options.channel = {"encoder", "count", 0.5, ""};
@@ -174,7 +175,7 @@ TEST(Qsb, BehindABridge) {
 
 TEST(Qsb, ABridgeThatSaysNothing) {
   QsbDevice device(still, {.mute = true});
-  const ServedOverTcp served(device);
+  const ServedDevice served(device);
   QsbOptions options;
   options.address = *parse_endpoint(served.address(), 0);
   const auto status = Qsb("scale", options).open();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 namespace mdof::drivers {
 
@@ -15,22 +14,24 @@ class Unwrap {
   std::int64_t operator()(std::uint64_t raw) {
     const std::uint64_t range = std::uint64_t{1} << bits_;
     raw &= range - 1;
-    if (!last_) {
+    if (!begun_) {
+      begun_ = true;
       const bool negative = is_signed_ && raw >= range / 2;
       last_ = static_cast<std::int64_t>(raw) - (negative ? static_cast<std::int64_t>(range) : 0);
-      return *last_;
+      return last_;
     }
-    const std::uint64_t moved = (raw - static_cast<std::uint64_t>(*last_)) & (range - 1);
-    *last_ += static_cast<std::int64_t>(moved);
-    if (moved >= range / 2) *last_ -= static_cast<std::int64_t>(range);
-    return *last_;
+    const std::uint64_t moved = (raw - static_cast<std::uint64_t>(last_)) & (range - 1);
+    last_ += static_cast<std::int64_t>(moved);
+    if (moved >= range / 2) last_ -= static_cast<std::int64_t>(range);
+    return last_;
   }
-  void reset() { last_.reset(); }
+  void reset() { begun_ = false; }
 
  private:
   int bits_;
   bool is_signed_;
-  std::optional<std::int64_t> last_;
+  bool begun_ = false;
+  std::int64_t last_ = 0;
 };
 
 }  // namespace mdof::drivers

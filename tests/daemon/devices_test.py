@@ -4,6 +4,7 @@ simulated machine; mdofd measures, records, and survives what they do.
 
 usage: devices_test.py MDOFD MDOF MDOF_SIMULATE"""
 import json
+import math
 import os
 import subprocess
 import sys
@@ -185,7 +186,6 @@ class Devices(unittest.TestCase):
 
     def check_against_truth(self, points):
         """EYX and EBX are the plan's waves, the others nothing, each up to a constant."""
-        import math
         truth = {"EYX_um": lambda d: 2 * math.sin(2 * math.pi * d / 10), "EZX_um": lambda d: 0,
                  "EAX_urad": lambda d: 0, "EBX_urad": lambda d: 30 * math.sin(2 * math.pi * d / 8),
                  "ECX_urad": lambda d: 0}
@@ -196,11 +196,13 @@ class Devices(unittest.TestCase):
             self.assertLess(worst, STRAIGHTNESS_UM if key.endswith("_um") else ANGLE_URAD, key)
 
     def test_2_the_clocks_of_the_devices_are_reported(self):
-        self.wait_until(lambda: all(d["clock"] and d["clock"]["settled"]
-                                    for d in self.devices().values()), "clocks have not settled")
-        drift = {name: d["clock"]["drift_ppm"] for name, d in self.devices().items()}
-        self.assertAlmostEqual(drift["capa-1"], 60, delta=30)
-        self.assertAlmostEqual(drift["capa-2"], -40, delta=30)
+        # With 3 ms of jitter the drift is known to some ppm after half a minute.
+        def drift_ppm(name):
+            clock = self.devices()[name]["clock"]
+            return clock["drift_ppm"] if clock and clock["settled"] else math.inf
+
+        self.wait_until(lambda: abs(drift_ppm("capa-1") - 60) < 30 and abs(drift_ppm("capa-2") + 40) < 30,
+                        "the drifts are not found")
 
     def test_3_devices_that_go_and_come_back_are_reopened(self):
         self.wait_until_all_flow()

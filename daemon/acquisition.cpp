@@ -120,13 +120,14 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
   return false;
 }
 
-// Scans of a device that was away, where it cannot count them itself, and those dropped here.
+// Scans of a device that was away, at least one, where it cannot count them itself, and those
+// dropped here.
 void Acquisition::note_loss(SampleBlock& block) {
   const std::lock_guard lock(status_mutex_);
   if (std::exchange(just_opened_, false) && last_ns_ && block.lost == 0) {
     const double away_s = static_cast<double>(block.time_ns.front() - *last_ns_) * 1e-9;
     const double scans = away_s * status_.info.rate_hz;
-    block.lost = static_cast<std::uint64_t>(std::llround(std::max(0.0, scans - 1)));
+    block.lost = static_cast<std::uint64_t>(std::llround(std::max(1.0, scans - 1)));
   }
   last_ns_ = block.time_ns.back();
   status_.lost += block.lost;

@@ -56,7 +56,10 @@ std::string PipelineOptions::json() const {
   json.key("dwell").raw(dwell.json());
   json.key("targets_mm").begin_array();
   for (const double t : sequence.targets_m) json.value(to_mm(t));
-  json.end_array().field("target_window_mm", to_mm(sequence.target_window_m)).end_object();
+  json.end_array()
+      .field("target_window_mm", to_mm(sequence.target_window_m))
+      .field("repeats", repeats)
+      .end_object();
   return json.take();
 }
 

@@ -27,6 +27,7 @@ struct PipelineOptions {
   algo::SequenceOptions sequence;
   double stale_s = 0.5;     // an instant older than this is not shown as good
   bool keep_points = true;  // false: for a view without a run
+  int repeats = 0;          // a run was asked for so many, both ways; 0: until stopped
 
   std::string json() const;  // for the provenance
 };

@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kReadTimeout{100};
-constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{1000};
+constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{500};
 constexpr milliseconds kNap{10}, kRefresh{1000};
 
 // Names of threads end after 15 characters.
@@ -149,11 +149,14 @@ void Acquisition::hand_over(SampleBlock& block, std::uint64_t pass) {
 
 void Acquisition::pause() {
   const auto until = steady_clock::now() + jittered(backoff_, spec_.name, status().reopened);
+  backoff_ = std::min(2 * backoff_, kLongestBackoff);
   while (acquiring_ && steady_clock::now() < until) {
     std::this_thread::sleep_for(kNap);
     turn_ = steady_clock::now();
+    if (!woken_.exchange(false)) continue;
+    backoff_ = kFirstBackoff;
+    break;
   }
-  backoff_ = std::min(2 * backoff_, kLongestBackoff);
   const std::lock_guard lock(status_mutex_);
   ++status_.reopened;
 }

@@ -180,6 +180,10 @@ void Station::storage_failed(std::int64_t run, const Error& error) {
   shared_->queue.push_always(std::move(item));
 }
 
+void Station::wake_devices() {
+  for (auto& acquisition : acquisitions_) acquisition->wake();
+}
+
 std::vector<DeviceStatus> Station::devices() const {
   std::vector<DeviceStatus> all;
   for (const auto& acquisition : acquisitions_) all.push_back(acquisition->status());

@@ -49,6 +49,7 @@ class Station {
   // The store gave up on this run.
   void storage_failed(std::int64_t run, const Error& error);
 
+  void wake_devices();                                 // one was plugged in
   void watch(bool wanted) { watched_.store(wanted); }  // whether live() is worth its work
   const AxisConfig& config() const { return config_; }
   std::vector<DeviceStatus> devices() const;

@@ -13,6 +13,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from device_setups import worst_errors  # noqa: E402
 from mdofd import DATA, Client, Daemon, RpcError  # noqa: E402
 
 MDOFD, MDOF, SIMULATE = sys.argv[1:4]
@@ -185,14 +186,7 @@ class Devices(unittest.TestCase):
         return done.returncode, done.stdout, done.stderr
 
     def check_against_truth(self, points):
-        """EYX and EBX are the plan's waves, the others nothing, each up to a constant."""
-        truth = {"EYX_um": lambda d: 2 * math.sin(2 * math.pi * d / 10), "EZX_um": lambda d: 0,
-                 "EAX_urad": lambda d: 0, "EBX_urad": lambda d: 30 * math.sin(2 * math.pi * d / 8),
-                 "ECX_urad": lambda d: 0}
-        for key, wave in truth.items():
-            error = [p[key] - wave(p["position_mm"]) for p in points]
-            mean = sum(error) / len(error)
-            worst = max(abs(e - mean) for e in error)
+        for key, worst in worst_errors(points).items():
             self.assertLess(worst, STRAIGHTNESS_UM if key.endswith("_um") else ANGLE_URAD, key)
 
     def test_2_the_clocks_of_the_devices_are_reported(self):

@@ -4,9 +4,11 @@
 //   [machine]                    # keys of the driver "simulator"
 //   [[device]]
 //   name = "capa-1"
-//   kind = "capancdt"            # labjack_t7
+//   kind = "capancdt"            # csv_stream labjack_t7 linux_counter linux_iio modbus qsb
 //   ports = [2301, 10001]        # TCP, in the order of the device's; 0 or left out: a free one
 //   inputs = ["A", "B", "C"]     # channels of the rig at its inputs 1, 2, ...; "" nothing
+//   # um_per_count: of an encoder; profile: modbus; rate_hz, with_time: csv_stream;
+//   # sysfs_root: linux_*, a folder beside the plan; area_mm2: of the electrodes, linux_iio
 //   clock_ppm = 50
 //   jitter_ms = 3
 #pragma once

@@ -1,14 +1,17 @@
 #include "tools/mdof_simulate/server.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 
@@ -62,6 +65,30 @@ struct Listener {
   int tcp_port;
 };
 
+// A serial line, as a pseudo-terminal.
+struct Line {
+  Descriptor device_end, host_end;  // the host's is held open, so that the line stays
+  std::string path;
+};
+
+Result<Line> open_line() {
+  Line line{Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)), Descriptor(),
+            ""};
+  std::array<char, 64> name{};
+  const int fd = line.device_end.get();
+  if (fd < 0 || ::grantpt(fd) != 0 || ::unlockpt(fd) != 0 ||
+      ::ptsname_r(fd, name.data(), name.size()) != 0)
+    return io_error(std::string("a pseudo-terminal: ") + std::strerror(errno));
+  line.path = name.data();
+  line.host_end = Descriptor(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+  termios raw{};
+  if (line.host_end.get() < 0 || ::tcgetattr(line.host_end.get(), &raw) != 0)
+    return io_error(line.path + ": " + std::strerror(errno));
+  ::cfmakeraw(&raw);
+  ::tcsetattr(line.host_end.get(), TCSANOW, &raw);
+  return line;
+}
+
 Result<Listener> listen_on(const std::string& host, int tcp_port) {
   Listener listener{Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)), 0,
                     0, 0};
@@ -87,9 +114,11 @@ Result<Listener> listen_on(const std::string& host, int tcp_port) {
 
 struct Server::Parts {
   std::string host;
+  std::string addresses;
   std::vector<Served> devices;
   std::vector<Listener> listeners;
   std::vector<Client> clients;
+  std::vector<Descriptor> held_lines;
   int next_id = 1;
   std::uint64_t sent = 0;  // packets, for the jitter
   std::int64_t start_ns = now_ns();
@@ -99,13 +128,56 @@ struct Server::Parts {
     const auto passed = static_cast<double>(now_ns() - start_ns);
     return std::llround(passed * (1 + device.clock_ppm * 1e-6));
   }
+  Status open_ports(std::size_t device);
+  Status listen_at(std::size_t device, std::size_t port, int tcp_port);
+  Status serve_line(std::size_t device, std::size_t port);
+  void tell(std::size_t device, std::size_t port, const std::string& address);
   void accept();
+  void turn_devices();
   void exchange(Client& client);
   void hold(Client& client, std::string bytes);
   void send_due(Client& client);
   void drop_gone();
   void wait();
 };
+
+Status Server::Parts::open_ports(std::size_t device) {
+  const Served& served = devices[device];
+  for (std::size_t p = 0; p < served.device->ports().size(); ++p) {
+    const int tcp_port = p < served.tcp_ports.size() ? served.tcp_ports[p] : 0;
+    const Status opened = served.device->ports()[p].number == 0 ? serve_line(device, p)
+                                                                : listen_at(device, p, tcp_port);
+    if (!opened) return in_context("device \"" + served.name + "\"", opened.error());
+  }
+  return {};
+}
+
+Status Server::Parts::listen_at(std::size_t device, std::size_t port, int tcp_port) {
+  MDOF_TRY(auto listener, listen_on(host, tcp_port));
+  listener.device = device;
+  listener.port = port;
+  tell(device, port, host + ":" + std::to_string(listener.tcp_port));
+  listeners.push_back(std::move(listener));
+  return {};
+}
+
+Status Server::Parts::serve_line(std::size_t device, std::size_t port) {
+  MDOF_TRY(auto line, open_line());
+  tell(device, port, line.path);
+  devices[device].device->opened(port, next_id, device_ns(devices[device]));
+  clients.push_back({std::move(line.device_end), device, port, next_id++, {}, "", false});
+  held_lines.push_back(std::move(line.host_end));
+  return {};
+}
+
+void Server::Parts::tell(std::size_t device, std::size_t port, const std::string& address) {
+  const Served& served = devices[device];
+  addresses += served.name + " " + served.device->ports()[port].name + " " + address + "\n";
+}
+
+void Server::Parts::turn_devices() {
+  for (Served& served : devices) served.device->turn(device_ns(served));
+}
 
 void Server::Parts::accept() {
   for (const Listener& listener : listeners) {
@@ -121,7 +193,7 @@ void Server::Parts::accept() {
 
 void Server::Parts::exchange(Client& client) {
   std::array<char, 4096> buffer;
-  const ssize_t n = ::recv(client.socket.get(), buffer.data(), buffer.size(), 0);
+  const ssize_t n = ::read(client.socket.get(), buffer.data(), buffer.size());
   if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR)) {
     client.gone = true;
     return;
@@ -148,8 +220,7 @@ void Server::Parts::send_due(Client& client) {
   for (; !client.held.empty() && client.held.front().due_ns <= now_ns(); client.held.pop_front())
     client.unsent += client.held.front().bytes;
   if (client.unsent.empty()) return;
-  const ssize_t n =
-      ::send(client.socket.get(), client.unsent.data(), client.unsent.size(), MSG_NOSIGNAL);
+  const ssize_t n = ::write(client.socket.get(), client.unsent.data(), client.unsent.size());
   if (n > 0) client.unsent.erase(0, static_cast<std::size_t>(n));
   if ((n < 0 && errno != EAGAIN && errno != EINTR) || client.unsent.size() > kMostUnsent)
     client.gone = true;
@@ -176,33 +247,18 @@ Result<Server> Server::listen(std::vector<Served> devices, const std::string& ho
   auto parts = std::make_unique<Parts>();
   parts->host = host;
   parts->devices = std::move(devices);
-  for (std::size_t d = 0; d < parts->devices.size(); ++d) {
-    const Served& served = parts->devices[d];
-    for (std::size_t p = 0; p < served.device->ports().size(); ++p) {
-      const int tcp_port = p < served.tcp_ports.size() ? served.tcp_ports[p] : 0;
-      auto listener = listen_on(host, tcp_port);
-      if (!listener) return in_context("device \"" + served.name + "\"", listener.error());
-      listener->device = d;
-      listener->port = p;
-      parts->listeners.push_back(std::move(*listener));
-    }
-  }
+  for (std::size_t d = 0; d < parts->devices.size(); ++d) MDOF_CHECK(parts->open_ports(d));
   return Server(std::move(parts));
 }
 
 std::string Server::addresses() const {
-  std::string text;
-  for (const Listener& listener : parts_->listeners) {
-    const Served& served = parts_->devices[listener.device];
-    text += served.name + " " + served.device->ports()[listener.port].name + " " + parts_->host +
-            ":" + std::to_string(listener.tcp_port) + "\n";
-  }
-  return text;
+  return parts_->addresses;
 }
 
 void Server::serve(const std::atomic<bool>& stop) {
   while (!stop) {
     parts_->wait();
+    parts_->turn_devices();
     parts_->accept();
     for (Client& client : parts_->clients) parts_->exchange(client);
     parts_->drop_gone();

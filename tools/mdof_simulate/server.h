@@ -1,4 +1,4 @@
-// Serves simulated devices on TCP ports of this machine, in one thread.
+// Serves simulated devices on TCP ports and serial lines of this machine, in one thread.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace mdof::simulate {
 struct Served {
   std::string name;
   std::unique_ptr<drivers::SimulatedDevice> device;
-  std::vector<int> tcp_ports;  // one for each of the device's ports; 0: a free one
+  std::vector<int> tcp_ports;  // one for each of the device's TCP ports; 0: a free one
   double clock_ppm = 0;        // the device's clock is fast by so much
   double jitter_ms = 0;        // what it sends is held back by 0 to this
   std::int64_t seed = 1;       // of the jitter
@@ -30,7 +30,7 @@ class Server {
   ~Server();
   Server(Server&&) noexcept;
 
-  // "capa-1 command 127.0.0.1:40123", a line for each port.
+  // "capa-1 command 127.0.0.1:40123", "qsb serial /dev/pts/3": a line for each port.
   std::string addresses() const;
   // Until `stop`.
   void serve(const std::atomic<bool>& stop);

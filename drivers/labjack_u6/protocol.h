@@ -17,8 +17,11 @@ namespace mdof::drivers::labjack_u6 {
 using labjack::AinCalibration;
 using labjack::Scan;
 
-inline constexpr int kAins = 14;  // AIN0 ... AIN13
-inline constexpr std::size_t kCommandBytes = 64;
+inline constexpr std::uint16_t kVendor = 0x0CD5, kProduct = 6;
+inline constexpr std::uint8_t kCommandOut = 0x01, kReplyIn = 0x82, kStreamIn = 0x83;
+
+inline constexpr int kAins = 14;                  // AIN0 ... AIN13
+inline constexpr std::size_t kCommandBytes = 64;  // at most, as of a reply
 
 // Entries of a scan list besides 0 ... 13.
 inline constexpr int kTimer0 = 200;   // lower word of timer 0, + 1 for timer 1 ...

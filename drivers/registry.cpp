@@ -6,6 +6,7 @@
 #include "drivers/csv/csv_log.h"
 #include "drivers/csv_stream/configure.h"
 #include "drivers/labjack_t7/configure.h"
+#include "drivers/labjack_u6/configure.h"
 #include "drivers/linux_counter/configure.h"
 #include "drivers/linux_iio/configure.h"
 #include "drivers/modbus/configure.h"
@@ -58,6 +59,7 @@ constexpr Row kDrivers[] = {
     {"capancdt", configure_capancdt},
     {"csv_stream", configure_csv_stream},
     {"labjack_t7", configure_labjack_t7},
+    {"labjack_u6", configure_labjack_u6},
     {"linux_counter", configure_linux_counter},
     {"linux_iio", configure_linux_iio},
     {"modbus", configure_modbus},

@@ -138,7 +138,7 @@ std::string Device::answer(std::string_view command, std::int64_t now_ns) {
   if (command.size() == 2) return answer_normal(command, now_ns);
   if (command.size() < 8 || !extended_body(command, byte_at(command, 3), command.size()))
     return kBad;
-  return answer_extended(command);
+  return answer_extended(command, now_ns);
 }
 
 std::string Device::answer_normal(std::string_view command, std::int64_t now_ns) {
@@ -157,7 +157,7 @@ std::string Device::answer_normal(std::string_view command, std::int64_t now_ns)
   return normal_reply(code, ran ? 0 : kNotRunning);
 }
 
-std::string Device::answer_extended(std::string_view command) {
+std::string Device::answer_extended(std::string_view command, std::int64_t now_ns) {
   const std::uint8_t code = byte_at(command, 3);
   if ((code == kConfigIo || code == kStreamConfig) && command.size() < 16) return "\xB8\xB8";
   switch (code) {
@@ -166,8 +166,10 @@ std::string Device::answer_extended(std::string_view command) {
     case kReadCalibration:
       return constants(byte_at(command, 7));
     case kConfigIo:
-      return extended(kConfigIo, std::string(2, '\0') + std::string(command.substr(7, 3)) + '\0');
+      if (command[6] & 1) timers_ = command.substr(7, 3);
+      return extended(kConfigIo, std::string(2, '\0') + timers_ + '\0');
     case kFeedback:
+      zero_ = senses_(kCounterInput, now_ns);  // the one Feedback that there is starts the counter
       return extended(kFeedback, std::string(4, '\0'));
     case kStreamConfig:
       return configured(command);
@@ -257,7 +259,7 @@ std::uint16_t Device::sample(std::uint64_t number) {
   const std::int64_t t_ns = time_of(number);
   if (entry == kCapture) return static_cast<std::uint16_t>(captured_ >> 16);
   if (entry >= kTimer0) {
-    captured_ = static_cast<std::uint32_t>(std::llround(senses_(kCounterInput, t_ns)));
+    captured_ = static_cast<std::uint32_t>(std::llround(senses_(kCounterInput, t_ns) - zero_));
     return static_cast<std::uint16_t>(captured_);
   }
   const AinCalibration c = calibration(gains_[at]);

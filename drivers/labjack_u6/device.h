@@ -56,7 +56,7 @@ class Device final : public usb::SimulatedUsb {
   };
   std::string answer(std::string_view command, std::int64_t now_ns);
   std::string answer_normal(std::string_view command, std::int64_t now_ns);
-  std::string answer_extended(std::string_view command);
+  std::string answer_extended(std::string_view command, std::int64_t now_ns);
   std::string says_who() const;
   std::string configured(std::string_view command);
   void take_scans(std::int64_t now_ns);
@@ -75,6 +75,8 @@ class Device final : public usb::SimulatedUsb {
   std::vector<int> list_;
   std::vector<std::size_t> gains_;  // of the entries
   std::optional<Stream> stream_;
+  std::string timers_ = std::string(3, '\0');  // how many, counters, pin offset
+  double zero_ = 0;                            // of the counter
   std::uint32_t captured_ = 0;
   bool running_ = false, gone_ = false;
 };

@@ -39,6 +39,10 @@ void InStream::end() {
   if (connection_ && !transfers_.empty()) put_away(*connection_, transfers_);
 }
 
+void InStream::cancel() {
+  (void)take_back(*connection_, transfers_);
+}
+
 Status InStream::submit_given() {
   if (!std::exchange(given_, false)) return {};
   MDOF_CHECK(transfers_[oldest_]->submit());

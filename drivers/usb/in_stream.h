@@ -37,6 +37,8 @@ class InStream {
   // The oldest data not yet given out, in the device's order; waits at most until `deadline`.
   // An error ends the stream, after what came before it was given out.
   Result<Chunk> next(std::chrono::steady_clock::time_point deadline);
+  // Takes back what is under way: what has come of it is given out by next(), then an error.
+  void cancel();
   bool stalled() const { return stalled_; }  // the error was that the device stalled the endpoint
 
  private:

@@ -70,7 +70,7 @@ std::string Transfer::received() const {
   return {begin, static_cast<std::size_t>(raw->actual_length)};
 }
 
-void put_away(const Connection& connection, Transfers& transfers) {
+bool take_back(const Connection& connection, const Transfers& transfers) {
   // The newest first, so that none of those behind it starts meanwhile.
   for (auto each = transfers.rbegin(); each != transfers.rend(); ++each)
     if ((*each)->flying) libusb_cancel_transfer((*each)->raw);
@@ -78,7 +78,11 @@ void put_away(const Connection& connection, Transfers& transfers) {
     return std::none_of(transfers.begin(), transfers.end(),
                         [](const auto& transfer) { return transfer->flying; });
   };
-  if (!connection.pump(steady_clock::now() + kToCancel, landed))
+  return connection.pump(steady_clock::now() + kToCancel, landed);
+}
+
+void put_away(const Connection& connection, Transfers& transfers) {
+  if (!take_back(connection, transfers))
     for (auto& transfer : transfers)
       if (transfer->flying) (void)transfer.release();
   transfers.clear();

@@ -50,7 +50,9 @@ struct Transfer {
 };
 using Transfers = std::vector<std::unique_ptr<Transfer>>;
 
-// Cancels those that fly and frees all. One that does not end within a second (the kernel's driver
+// Cancels those that fly; whether all have ended, within a second.
+bool take_back(const Connection& connection, const Transfers& transfers);
+// The same, and frees all. One that does not end (the kernel's driver
 // of the host controller hangs) is never freed: libusb might still write to it.
 void put_away(const Connection& connection, Transfers& transfers);
 

@@ -31,8 +31,8 @@ class UsbHandle : public testing::Test {
     return handle ? "opened" : handle.error().message;
   }
 
+  StubDevice device{"S1"}, other{"S2"}, nameless{""};
   Bus bus;
-  StubDevice device{"S1"}, other{"S2"};
 };
 
 TEST_F(UsbHandle, NobodyThereIsSaid) {
@@ -60,7 +60,6 @@ TEST_F(UsbHandle, OfSeveralTheNamedOneIsOpened) {
 }
 
 TEST_F(UsbHandle, ADeviceWithoutSerialNumberIsAsked) {
-  StubDevice nameless("");
   bus.plug(nameless);
   bus.plug(other);
   const auto handle = Handle::open({"Stub", 0x1209, 1, "abcd", 0, [](Handle& asked) {

@@ -179,10 +179,26 @@ void Bus::Node::discard(UMockdevIoctlClient* client) {
     return each.client == client && each.data->client_addr == address && !each.done;
   });
   if (urb == urbs.end()) return complete(client, EINVAL);
+  take_part(*urb);
   urb->done = true;
   urb->status = -ENOENT;
   complete(client);
   wake();
+}
+
+// A transfer that is taken back keeps the packets that had come.
+void Bus::Node::take_part(Urb& urb) {
+  if (urb.type != USBDEVFS_URB_TYPE_BULK || !(urb.endpoint & 0x80)) return;
+  for (const Urb& each : urbs)
+    if (!each.done && each.endpoint == urb.endpoint) {
+      if (&each != &urb) return;  // of the oldest alone
+      break;
+    }
+  while (urb.got.size() + kFullSpeedPacket <= urb.length) {
+    const Reply packet = device.in(urb.endpoint, kFullSpeedPacket, last_ns_);
+    if (packet.answer != Answer::done) return;
+    urb.got += packet.bytes;
+  }
 }
 
 void Bus::Node::claim(UMockdevIoctlClient* client) {
@@ -212,6 +228,7 @@ void Bus::Node::clear_halt(UMockdevIoctlClient* client) {
 // Transfers of one endpoint are answered in their order.
 void Bus::Node::serve(std::int64_t now_ns) {
   if (gone) return;
+  last_ns_ = now_ns;
   std::map<std::uint8_t, bool> waits;  // after it was served
   for (Urb& urb : urbs) {
     if (urb.done) continue;

@@ -55,6 +55,7 @@ struct Bus::Node {
   void submit(UMockdevIoctlClient* client);
   void reap(UMockdevIoctlClient* client);
   void discard(UMockdevIoctlClient* client);
+  void take_part(Urb& urb);
   void claim(UMockdevIoctlClient* client);
   void name_driver(UMockdevIoctlClient* client);
   void clear_halt(UMockdevIoctlClient* client);
@@ -65,6 +66,7 @@ struct Bus::Node {
 
   int master_ = -1, slave_ = -1;
   bool awake_ = true;
+  std::int64_t last_ns_ = 0;  // when it was served
   UMockdevIoctlClient* claimed_by_ = nullptr;
 };
 

@@ -9,6 +9,7 @@
 #include "drivers/labjack_u6/configure.h"
 #include "drivers/linux_counter/configure.h"
 #include "drivers/linux_iio/configure.h"
+#include "drivers/mcc_usb1608fs_plus/configure.h"
 #include "drivers/modbus/configure.h"
 #include "drivers/qsb/configure.h"
 #include "drivers/recording/recording_log.h"
@@ -62,6 +63,7 @@ constexpr Row kDrivers[] = {
     {"labjack_u6", configure_labjack_u6},
     {"linux_counter", configure_linux_counter},
     {"linux_iio", configure_linux_iio},
+    {"mcc_usb1608fs_plus", configure_mcc_usb1608fs_plus},
     {"modbus", configure_modbus},
     {"qsb", configure_qsb},
     {"replay", configure_replay},

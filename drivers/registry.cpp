@@ -6,8 +6,10 @@
 #include "drivers/csv/csv_log.h"
 #include "drivers/csv_stream/configure.h"
 #include "drivers/labjack_t7/configure.h"
+#include "drivers/labjack_u6/configure.h"
 #include "drivers/linux_counter/configure.h"
 #include "drivers/linux_iio/configure.h"
+#include "drivers/mcc_usb1608fs_plus/configure.h"
 #include "drivers/modbus/configure.h"
 #include "drivers/qsb/configure.h"
 #include "drivers/recording/recording_log.h"
@@ -58,8 +60,10 @@ constexpr Row kDrivers[] = {
     {"capancdt", configure_capancdt},
     {"csv_stream", configure_csv_stream},
     {"labjack_t7", configure_labjack_t7},
+    {"labjack_u6", configure_labjack_u6},
     {"linux_counter", configure_linux_counter},
     {"linux_iio", configure_linux_iio},
+    {"mcc_usb1608fs_plus", configure_mcc_usb1608fs_plus},
     {"modbus", configure_modbus},
     {"qsb", configure_qsb},
     {"replay", configure_replay},

@@ -107,9 +107,18 @@ std::string config_io(int timers, int pin_offset) {
   return extended(kConfigIo, body);
 }
 
-Status read_config_io(std::string_view reply, int timers, int pin_offset) {
+std::string config_io_read() {
+  return extended(kConfigIo, std::string(10, '\0'));
+}
+
+Result<Timers> read_timers(std::string_view reply) {
   MDOF_TRY(const std::string body, accepted("ConfigIO", reply, kConfigIo, 12));
-  if (byte_at(reply, 8) == timers && byte_at(reply, 10) == pin_offset) return {};
+  return Timers{byte_at(reply, 8), byte_at(reply, 10)};
+}
+
+Status read_config_io(std::string_view reply, int timers, int pin_offset) {
+  MDOF_TRY(const Timers is, read_timers(reply));
+  if (is.count == timers && is.pin_offset == pin_offset) return {};
   return io_error("the U6 did not take the configuration of its timers");
 }
 

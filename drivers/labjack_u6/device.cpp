@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mdof::drivers::labjack_u6 {
 namespace {
@@ -20,14 +21,19 @@ std::string normal_reply(std::uint8_t command, int error) {
   return static_cast<char>(checksum8(reply)) + reply;
 }
 
-std::string identity() {
-  std::string body(32, '\0');
-  body[3] = 15;  // firmware 1.15
-  body[4] = 1;
-  for (std::size_t i = 0; i < 4; ++i) body[9 + i] = static_cast<char>(Device::kSerial >> 8 * i);
-  body[13] = 6;
-  body[31] = 4;
-  return extended(kConfigU6, body);
+// One interface of three bulk endpoints, 64 bytes each: U6 Datasheet 5, exodriver.
+usb::Identity identity_of(std::uint32_t serial, bool nameless) {
+  usb::Identity identity;
+  identity.vendor = kVendor;
+  identity.product = kProduct;
+  identity.manufacturer = "LabJack Corporation";
+  identity.product_name = "LabJack U6";
+  identity.serial = nameless ? "" : std::to_string(serial);
+  identity.configuration = std::string("\x09\x02\x27\x00\x01\x01\x00\x80\xFA", 9) +
+                           std::string("\x09\x04\x00\x00\x03\xFF\x00\x00\x00", 9);
+  for (const std::uint8_t endpoint : {kCommandOut, kReplyIn, kStreamIn})
+    identity.configuration += std::string{7, 5, static_cast<char>(endpoint), 2, 64, 0, 0};
+  return identity;
 }
 
 void append_fixed(std::string& body, double value) {
@@ -50,8 +56,28 @@ std::string constants(int block) {
 
 }  // namespace
 
-Device::Device(Senses senses, const Faults& faults)
-    : senses_(std::move(senses)), faults_(faults), running_(faults.streaming) {}
+Device::Device(Senses senses, const Faults& faults, std::uint32_t serial)
+    : senses_(std::move(senses)),
+      faults_(faults),
+      serial_(serial),
+      identity_(identity_of(serial, faults.nameless)),
+      running_(faults.streaming) {
+  if (running_) packets_.push_back(encode({7, 0, 0, 0, std::vector<std::uint16_t>(25)}));
+}
+
+void Device::restart() {
+  *this = Device(std::move(senses_), {}, serial_);
+}
+
+std::string Device::says_who() const {
+  std::string body(32, '\0');
+  body[3] = 15;  // firmware 1.15
+  body[4] = 1;
+  for (std::size_t i = 0; i < 4; ++i) body[9 + i] = static_cast<char>(serial_ >> 8 * i);
+  body[13] = 6;
+  body[31] = 4;
+  return extended(kConfigU6, body);
+}
 
 // Near nominal, each gain in its own way, so that a wrong block shows.
 AinCalibration Device::calibration(std::size_t gain) {
@@ -62,17 +88,47 @@ AinCalibration Device::calibration(std::size_t gain) {
   return c;
 }
 
-bool Device::hangs_up(std::size_t /*port*/, int /*client*/) {
-  return gone_;
+usb::Reply Device::control(const usb::Setup& /*setup*/, std::string_view /*out*/,
+                           std::int64_t /*now_ns*/) {
+  return {usb::Answer::stall, ""};
 }
 
-std::string Device::exchange(std::size_t port, int /*client*/, std::string_view received,
-                             std::int64_t now_ns) {
-  if (gone_) return "";
-  if (port != 0) return stream_packets(now_ns);
-  if (received.empty()) return "";
-  std::string reply = answer(received, now_ns);
+usb::Reply Device::out(std::uint8_t endpoint, std::string_view bytes, std::int64_t now_ns) {
+  if (endpoint != kCommandOut) return {usb::Answer::stall, ""};
+  std::string reply = answer(bytes, now_ns);
   if (faults_.wrong_checksum) reply[0] = static_cast<char>(reply[0] ^ 0x55);
+  replies_.push_back(std::move(reply));
+  return {};
+}
+
+usb::Reply Device::in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t now_ns) {
+  if (endpoint == kStreamIn) {
+    take_scans(now_ns);
+    return stream_in(max_bytes);
+  }
+  if (endpoint != kReplyIn) return {usb::Answer::stall, ""};
+  if (replies_.empty()) return {usb::Answer::not_yet, ""};
+  usb::Reply reply{usb::Answer::done, std::move(replies_.front())};
+  replies_.pop_front();
+  return reply;
+}
+
+// Whole packets until they fill the transfer; a short one ends it.
+usb::Reply Device::stream_in(std::size_t max_bytes) {
+  std::size_t bytes = 0, packets = 0;
+  bool ends = false;
+  while (!ends && packets < packets_.size()) {
+    const std::size_t size = packets_[packets].size();
+    ends = size < usb::kFullSpeedPacket || bytes + size >= max_bytes;
+    bytes += size;
+    ++packets;
+  }
+  if (!ends) return {usb::Answer::not_yet, ""};
+  usb::Reply reply;
+  for (; packets > 0; --packets) {
+    reply.bytes += packets_.front();
+    packets_.pop_front();
+  }
   return reply;
 }
 
@@ -82,7 +138,7 @@ std::string Device::answer(std::string_view command, std::int64_t now_ns) {
   if (command.size() == 2) return answer_normal(command, now_ns);
   if (command.size() < 8 || !extended_body(command, byte_at(command, 3), command.size()))
     return kBad;
-  return answer_extended(command);
+  return answer_extended(command, now_ns);
 }
 
 std::string Device::answer_normal(std::string_view command, std::int64_t now_ns) {
@@ -92,6 +148,7 @@ std::string Device::answer_normal(std::string_view command, std::int64_t now_ns)
     if (running_) return normal_reply(code, kStreamActive);
     if (list_.empty()) return normal_reply(code, kBadConfiguration);
     running_ = true;
+    packets_.clear();
     stream_ = Stream{now_ns, 0, 0};
     return normal_reply(code, 0);
   }
@@ -100,17 +157,19 @@ std::string Device::answer_normal(std::string_view command, std::int64_t now_ns)
   return normal_reply(code, ran ? 0 : kNotRunning);
 }
 
-std::string Device::answer_extended(std::string_view command) {
+std::string Device::answer_extended(std::string_view command, std::int64_t now_ns) {
   const std::uint8_t code = byte_at(command, 3);
   if ((code == kConfigIo || code == kStreamConfig) && command.size() < 16) return "\xB8\xB8";
   switch (code) {
     case kConfigU6:
-      return identity();
+      return says_who();
     case kReadCalibration:
       return constants(byte_at(command, 7));
     case kConfigIo:
-      return extended(kConfigIo, std::string(2, '\0') + std::string(command.substr(7, 3)) + '\0');
+      if (command[6] & 1) timers_ = command.substr(7, 3);
+      return extended(kConfigIo, std::string(2, '\0') + timers_ + '\0');
     case kFeedback:
+      zero_ = senses_(kCounterInput, now_ns);  // the one Feedback that there is starts the counter
       return extended(kFeedback, std::string(4, '\0'));
     case kStreamConfig:
       return configured(command);
@@ -150,8 +209,7 @@ std::int64_t Device::time_of(std::uint64_t sample) const {
   return stream_->start_ns + std::llround(scan * 1e9 / rate_hz_) + slot * kSlot_ns;
 }
 
-std::string Device::stream_packets(std::int64_t now_ns) {
-  std::string bytes;
+void Device::take_scans(std::int64_t now_ns) {
   while (stream_ && !gone_) {
     const bool gap =
         faults_.recovery_at >= 0 && stream_->packet == faults_.recovery_at + kRecoveryPackets;
@@ -163,10 +221,9 @@ std::string Device::stream_packets(std::int64_t now_ns) {
     const int number = stream_->packet;
     const std::string packet = encode(packet_of(*stream_));
     if (number != faults_.skip_at)
-      bytes += number == faults_.short_at ? packet.substr(0, kFewBytes) : packet;
+      packets_.push_back(number == faults_.short_at ? packet.substr(0, kFewBytes) : packet);
     if (number == faults_.stop_at) stream_.reset();
   }
-  return bytes;
 }
 
 // The scan of 0xFFFF takes the place of the dropped ones, between two samples of the list's end and
@@ -202,7 +259,7 @@ std::uint16_t Device::sample(std::uint64_t number) {
   const std::int64_t t_ns = time_of(number);
   if (entry == kCapture) return static_cast<std::uint16_t>(captured_ >> 16);
   if (entry >= kTimer0) {
-    captured_ = static_cast<std::uint32_t>(std::llround(senses_(kCounterInput, t_ns)));
+    captured_ = static_cast<std::uint32_t>(std::llround(senses_(kCounterInput, t_ns) - zero_));
     return static_cast<std::uint16_t>(captured_);
   }
   const AinCalibration c = calibration(gains_[at]);

@@ -1,13 +1,15 @@
-// A U6 without one: its command pipe (port 0) and its stream's pipe (port 1), as USB carries them.
+// A U6 without one, as it looks from the USB.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/labjack_u6/protocol.h"
 #include "drivers/simulated_device.h"
+#include "drivers/usb/simulated_usb.h"
 
 namespace mdof::drivers::labjack_u6 {
 
@@ -23,25 +25,27 @@ struct Faults {
   int short_at = -1;       // of this packet only 20 bytes come
   int unplug_at = -1;      // the device is gone before this packet
   bool streaming = false;  // a stream runs already at the start (of a host that died)
+  bool nameless = false;   // no serial number in its descriptor
 };
 
 // Senses: inputs 0 ... 13 are AIN0 ... AIN13 in volts, input 14 the counts of timers 0 and 1.
-// exchange() of port 0 takes one transfer, a whole command. Entries of a scan are 10 us apart.
-class Device final : public SimulatedDevice {
+// Entries of a scan are 10 us apart.
+class Device final : public usb::SimulatedUsb {
  public:
   static constexpr std::size_t kCounterInput = kAins;
   static constexpr std::uint32_t kSerial = 360012345;
 
-  Device(Senses senses, const Faults& faults);
+  Device(Senses senses, const Faults& faults, std::uint32_t serial = kSerial);
 
-  std::vector<Port> ports() const override { return {{"command", 0}, {"stream", 0}}; }
-  void opened(std::size_t /*port*/, int /*client*/, std::int64_t /*now_ns*/) override {}
-  void closed(std::size_t /*port*/, int /*client*/) override {}
-  std::string exchange(std::size_t port, int client, std::string_view received,
-                       std::int64_t now_ns) override;
-  bool hangs_up(std::size_t port, int client) override;
+  const usb::Identity& identity() const override { return identity_; }
+  usb::Reply control(const usb::Setup& setup, std::string_view out, std::int64_t now_ns) override;
+  usb::Reply in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t now_ns) override;
+  usb::Reply out(std::uint8_t endpoint, std::string_view bytes, std::int64_t now_ns) override;
+  void clear_halt(std::uint8_t /*endpoint*/) override {}
+  bool gone() const override { return gone_; }
 
   void set_faults(const Faults& faults) { faults_ = faults; }
+  void restart();  // power comes again: as new
   static AinCalibration calibration(std::size_t gain);
 
  private:
@@ -52,20 +56,27 @@ class Device final : public SimulatedDevice {
   };
   std::string answer(std::string_view command, std::int64_t now_ns);
   std::string answer_normal(std::string_view command, std::int64_t now_ns);
-  std::string answer_extended(std::string_view command);
+  std::string answer_extended(std::string_view command, std::int64_t now_ns);
+  std::string says_who() const;
   std::string configured(std::string_view command);
-  std::string stream_packets(std::int64_t now_ns);
+  void take_scans(std::int64_t now_ns);
+  usb::Reply stream_in(std::size_t max_bytes);
   StreamData packet_of(Stream& stream);
   std::uint16_t sample(std::uint64_t number);
   std::int64_t time_of(std::uint64_t sample) const;
 
   Senses senses_;
   Faults faults_;
+  std::uint32_t serial_;
+  usb::Identity identity_;
+  std::deque<std::string> replies_, packets_;  // that wait to be fetched
   double rate_hz_ = 0;
   std::size_t samples_per_packet_ = 25;
   std::vector<int> list_;
   std::vector<std::size_t> gains_;  // of the entries
   std::optional<Stream> stream_;
+  std::string timers_ = std::string(3, '\0');  // how many, counters, pin offset
+  double zero_ = 0;                            // of the counter
   std::uint32_t captured_ = 0;
   bool running_ = false, gone_ = false;
 };

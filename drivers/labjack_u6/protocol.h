@@ -17,8 +17,11 @@ namespace mdof::drivers::labjack_u6 {
 using labjack::AinCalibration;
 using labjack::Scan;
 
-inline constexpr int kAins = 14;  // AIN0 ... AIN13
-inline constexpr std::size_t kCommandBytes = 64;
+inline constexpr std::uint16_t kVendor = 0x0CD5, kProduct = 6;
+inline constexpr std::uint8_t kCommandOut = 0x01, kReplyIn = 0x82, kStreamIn = 0x83;
+
+inline constexpr int kAins = 14;                  // AIN0 ... AIN13
+inline constexpr std::size_t kCommandBytes = 64;  // at most, as of a reply
 
 // Entries of a scan list besides 0 ... 13.
 inline constexpr int kTimer0 = 200;   // lower word of timer 0, + 1 for timer 1 ...
@@ -74,14 +77,19 @@ Result<CalibrationBlock> read_calibration_reply(std::string_view reply);
 Result<AinCalibration> calibration_of(const std::array<CalibrationBlock, 4>& blocks,
                                       std::size_t gain);
 
+struct Timers {
+  int count = 0, pin_offset = 0;  // the first is on FIO(pin_offset)
+};
+std::string config_io_read();
+Result<Timers> read_timers(std::string_view reply);
 std::string config_io(int timers, int pin_offset);
 Status read_config_io(std::string_view reply, int timers, int pin_offset);
 // Timers 0 and 1 in mode 8: a quadrature counter, started from 0.
 std::string start_quadrature();
 Status read_feedback(std::string_view reply);
 
+inline constexpr int kMostSamples = 25;  // of a packet
 struct StreamSetup {
-  double rate_hz = 1000;
   int samples_per_packet = 25;
   int resolution_index = 1;
   int settling_10us = 0;

@@ -12,6 +12,7 @@
 namespace mdof::drivers::usb {
 
 enum class Speed { full, high };
+inline constexpr std::size_t kFullSpeedPacket = 64;  // bytes, bulk
 
 struct Identity {
   std::uint16_t vendor = 0, product = 0, version_bcd = 0x0100;

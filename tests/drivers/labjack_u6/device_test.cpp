@@ -10,7 +10,7 @@
 namespace mdof::drivers::labjack_u6 {
 namespace {
 
-constexpr std::size_t kCommand = 0, kPipe = 1, kSamples = 25;
+constexpr std::size_t kSamples = 25;
 
 // AIN1 is -2.5 V; the counter goes a count a microsecond from -500.
 double senses(std::size_t input, std::int64_t t_ns) {
@@ -20,7 +20,10 @@ double senses(std::size_t input, std::int64_t t_ns) {
 
 class LabjackU6Device : public testing::Test {
  protected:
-  std::string ask(const std::string& command) { return device.exchange(kCommand, 1, command, now); }
+  std::string ask(const std::string& command) {
+    device.out(kCommandOut, command, now);
+    return device.in(kReplyIn, kCommandBytes, now).bytes;
+  }
   void start() {
     StreamSetup setup;
     setup.list = {0, 1, 2, 3, 4, kTimer0, kCapture};
@@ -31,15 +34,15 @@ class LabjackU6Device : public testing::Test {
   // Streams for `ms`; the error that ended it, or nothing.
   std::string stream(int ms) {
     now += std::int64_t{1'000'000} * ms;
-    std::string bytes = device.exchange(kPipe, 1, "", now);
-    while (!bytes.empty()) {
-      const auto packet = decode(bytes.substr(0, stream_bytes(kSamples)), kSamples);
-      bytes.erase(0, stream_bytes(kSamples));
+    for (;;) {
+      const usb::Reply got = device.in(kStreamIn, stream_bytes(kSamples), now);
+      if (got.answer != usb::Answer::done) break;
+      const auto packet = decode(got.bytes, kSamples);
       if (!packet) return packet.error().message;
       const Status taken = line.take(*packet, scans);
       if (!taken) return taken.error().message;
     }
-    return device.hangs_up(kPipe, 1) ? "unplugged" : "";
+    return device.gone() ? "unplugged" : "";
   }
   std::string stream_with(const Faults& faults) {
     device.set_faults(faults);
@@ -120,7 +123,7 @@ TEST_F(LabjackU6Device, AFaultOfTheStreamEndsIt) {
   EXPECT_NE(stream_with(cut), "");
   line = PacketLine(7);
   EXPECT_EQ(stream_with(unplug), "unplugged");
-  EXPECT_EQ(ask(config_u6()), "");
+  EXPECT_TRUE(device.gone());
 }
 
 TEST_F(LabjackU6Device, AStreamThatRunsAtTheStartIsStopped) {
@@ -145,6 +148,21 @@ TEST_F(LabjackU6Device, BadChecksumsAreSeenOnBothSides) {
   device.set_faults(faults);
   EXPECT_TRUE(has(read_config_u6(ask(config_u6())).error().message, "checksum"));
   EXPECT_TRUE(has(read_stream_stop(ask(stream_stop())).error().message, "checksum"));
+}
+
+TEST_F(LabjackU6Device, ATransferEndsWhenItIsFullOrAPacketIsShort) {
+  Faults cut;
+  cut.short_at = 5;
+  device.set_faults(cut);
+  start();
+  now += 15'000'000;  // four packets
+  EXPECT_EQ(device.in(kStreamIn, 256, now).bytes.size(), 256U);
+  EXPECT_EQ(device.in(kStreamIn, 256, now).answer, usb::Answer::not_yet);
+  now += 15'000'000;
+  EXPECT_EQ(device.in(kStreamIn, 256, now).bytes.size(), 64U + 20U);
+  EXPECT_EQ(device.in(0x84, 64, now).answer, usb::Answer::stall);
+  EXPECT_EQ(device.out(0x04, "x", now).answer, usb::Answer::stall);
+  EXPECT_EQ(device.control({0xC0, 1, 0, 0, 4}, "", now).answer, usb::Answer::stall);
 }
 
 }  // namespace

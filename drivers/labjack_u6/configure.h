@@ -1,0 +1,13 @@
+// The table [axis.device] with driver = "labjack_u6" (keys: drivers/README.md).
+#pragma once
+
+#include "drivers/labjack_u6/settings.h"
+#include "drivers/registry.h"
+
+namespace mdof::drivers {
+
+// Takes all keys and finishes the table. Errors name file, line and key.
+Result<labjack_u6::Settings> read_labjack_u6(TomlTable& table, const DriverContext& context);
+Result<DriverSpec> configure_labjack_u6(TomlTable& table, const DriverContext& context);
+
+}  // namespace mdof::drivers

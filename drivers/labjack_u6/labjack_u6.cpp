@@ -1,0 +1,234 @@
+#include "drivers/labjack_u6/labjack_u6.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/clock/monotonic.h"
+#include "drivers/labjack_u6/setup.h"
+#include "drivers/scan_block.h"
+
+namespace mdof::drivers::labjack_u6 {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr double kSilence_s = 2;
+
+bool counts(const Input& input) {
+  return input.ain < 0;
+}
+
+Result<std::string> ask_serial(usb::Handle& handle) {
+  MDOF_TRY(const Identity identity, identify(handle));
+  return std::to_string(identity.serial);
+}
+
+std::string describe(const Identity& id, const std::string& where) {
+  return std::string("LabJack U6") + (id.pro ? "-Pro " : " ") + std::to_string(id.serial) +
+         ", firmware " + std::to_string(id.firmware_major) + "." +
+         (id.firmware_minor < 10 ? "0" : "") + std::to_string(id.firmware_minor) + ", at " + where;
+}
+
+}  // namespace
+
+LabjackU6::LabjackU6(Settings settings)
+    : settings_(std::move(settings)),
+      list_(scan_list(settings_.inputs)),
+      scan_clock_(stream_clock(settings_.rate_hz).value()),
+      samples_(static_cast<std::size_t>(
+          samples_per_packet(scan_clock_.rate_hz * static_cast<double>(list_.size())))),
+      description_("LabJack U6"),
+      line_(list_.size()),
+      clock_(1e9 / scan_clock_.rate_hz) {
+  for (const Input& input : settings_.inputs) channels_.push_back(input.channel);
+}
+
+LabjackU6::~LabjackU6() {
+  close();
+}
+
+DeviceInfo LabjackU6::info() const {
+  return {settings_.name,      "labjack_u6", description_,  channels_,
+          scan_clock_.rate_hz, false,        clock_.state()};
+}
+
+std::string LabjackU6::place() const {
+  const std::string serial = settings_.serial.empty() ? "" : " " + settings_.serial;
+  return "device \"" + settings_.name + "\" (LabJack U6" + serial + ")";
+}
+
+Status LabjackU6::open() {
+  close();
+  if (auto started = start(); !started) {
+    close();
+    return in_context(place(), std::move(started.error()));
+  }
+  return {};
+}
+
+// The stream is stopped so that the device is free for others; that this fails is no news.
+void LabjackU6::close() {
+  if (handle_ && stream_ && broken_) (void)ask(*handle_, stream_stop());
+  stream_.reset();
+  handle_.reset();
+  line_ = PacketLine(list_.size());
+  scans_.clear();
+  handed_out_ = 0;
+  broken_ = {};
+  clock_.reset();
+  reopened_ = last_time_ns_ != 0;
+}
+
+Status LabjackU6::start() {
+  MDOF_TRY(handle_,
+           usb::Handle::open({"LabJack U6", kVendor, kProduct, settings_.serial, 0, ask_serial}));
+  MDOF_TRY(const Identity identity, identify(*handle_));
+  description_ = describe(identity, handle_->where());
+  MDOF_CHECK(stop_stream(*handle_));
+  MDOF_TRY(calibration_, read_ain_calibration(*handle_, settings_.gain));
+  MDOF_CHECK(take_up_counter());
+  const StreamSetup setup{static_cast<int>(samples_), settings_.resolution_index,
+                          settings_.settling_10us, settings_.gain, list_};
+  MDOF_TRY(const std::string configured, ask(*handle_, stream_config(setup, scan_clock_)));
+  MDOF_CHECK(read_stream_config(configured));
+  const double samples_hz = scan_clock_.rate_hz * static_cast<double>(list_.size());
+  MDOF_TRY(stream_, usb::InStream::start(*handle_, transfers_for(samples_hz)));
+  MDOF_TRY(const std::string started, ask(*handle_, stream_start()));
+  last_chunk_ns_ = monotonic_ns();
+  return read_stream_start(started);
+}
+
+// What another program has left the timers doing cannot be read: only a counter of this object's is
+// known to count.
+Status LabjackU6::take_up_counter() {
+  if (std::none_of(settings_.inputs.begin(), settings_.inputs.end(), counts)) return {};
+  if (counted_) {
+    MDOF_TRY(const bool runs, counter_runs(*handle_));
+    if (runs) return {};
+    zero_lost_ = true;
+  }
+  MDOF_CHECK(start_counter(*handle_));
+  counted_ = true;
+  count_.reset();
+  return {};
+}
+
+Result<ReadState> LabjackU6::read(SampleBlock& block, milliseconds timeout) {
+  start_block(block, settings_.name, channels_);
+  if (!stream_) return io_error(place() + " is not open; open it before reading");
+  if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
+  hand_out(block);
+  return ReadState::more;
+}
+
+// What came before an error is handed out first.
+Status LabjackU6::next_scans(milliseconds timeout) {
+  scans_.clear();
+  handed_out_ = 0;
+  if (!broken_) return broken_;
+  auto received = receive(timeout);
+  if (received) return {};
+  broken_ = in_context(place(), std::move(received.error()));
+  return scans_.empty() ? broken_ : Status{};
+}
+
+// Until scans have come, at most for `timeout`.
+Status LabjackU6::receive(milliseconds timeout) {
+  const auto until = steady_clock::now() + timeout;
+  const double packet_s =
+      static_cast<double>(samples_) / (scan_clock_.rate_hz * static_cast<double>(list_.size()));
+  do {
+    MDOF_TRY(const usb::InStream::Chunk chunk, stream_->next(until));
+    if (chunk.any) MDOF_CHECK(take(chunk));
+    if (static_cast<double>(monotonic_ns() - last_chunk_ns_) * 1e-9 > kSilence_s + packet_s)
+      return why_silent();
+  } while (scans_.empty() && steady_clock::now() < until);
+  return {};
+}
+
+// The packet that says so may wait in a transfer that it does not fill.
+Status LabjackU6::why_silent() {
+  stream_->cancel();
+  if (const auto last = stream_->next(steady_clock::now())) MDOF_CHECK(take(*last));
+  return io_error(
+      "nothing has come for 2 s: another program has stopped the stream, or the U6 hangs; unplug "
+      "it and plug it in again");
+}
+
+Status LabjackU6::take(const usb::InStream::Chunk& chunk) {
+  last_chunk_ns_ = chunk.received_ns;
+  const std::size_t before = scans_.size(), size = stream_bytes(samples_);
+  Status taken;
+  for (std::size_t at = 0; taken && at < chunk.bytes.size(); at += size) {
+    const auto packet = decode(chunk.bytes.substr(at, size), samples_);
+    taken = packet ? line_.take(*packet, scans_) : tl::unexpected(packet.error());
+  }
+  if (scans_.size() > before)
+    clock_.add(static_cast<std::int64_t>(scans_.back().index), chunk.received_ns);
+  return taken;
+}
+
+// A block ends before lost scans; they stand before the next one.
+void LabjackU6::hand_out(SampleBlock& block) {
+  while (handed_out_ < scans_.size()) {
+    const Scan& scan = scans_[handed_out_];
+    if (scan.lost > 0 && block.scans() > 0) return;
+    append(block, scan);
+    ++handed_out_;
+  }
+}
+
+void LabjackU6::append(SampleBlock& block, const Scan& scan) {
+  const std::int64_t time_ns = clock_.host_ns(static_cast<std::int64_t>(scan.index));
+  block.lost += scan.lost + (reopened_ ? lost_while_closed(time_ns) : 0);
+  block.time_ns.push_back(time_ns);
+  last_time_ns_ = time_ns;
+  reopened_ = false;
+  std::size_t word = 0;
+  for (std::size_t c = 0; c < settings_.inputs.size(); ++c) {
+    const std::uint16_t first = scan.words[word++];
+    if (!counts(settings_.inputs[c])) {
+      block.value[c].push_back(labjack::volts(calibration_, first));
+      block.quality[c].push_back(labjack::at_rail(first) ? Quality::over_range : Quality::good);
+      continue;
+    }
+    const auto raw = static_cast<std::uint32_t>(scan.words[word++]) << 16 | first;
+    block.value[c].push_back(static_cast<double>(count_(raw)) * settings_.inputs[c].um_per_count);
+    block.quality[c].push_back(zero_lost_ ? Quality::suspect : Quality::good);
+  }
+}
+
+// Scans that would have come since the last one.
+std::uint64_t LabjackU6::lost_while_closed(std::int64_t time_ns) const {
+  const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * scan_clock_.rate_hz;
+  return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));
+}
+
+std::vector<int> scan_list(const std::vector<Input>& inputs) {
+  std::vector<int> list;
+  for (const Input& input : inputs) {
+    if (counts(input)) {
+      list.insert(list.end(), {kTimer0, kCapture});
+    } else {
+      list.push_back(input.ain);
+    }
+  }
+  return list;
+}
+
+int samples_per_packet(double samples_hz) {
+  constexpr double kWait_s = 0.02;
+  return static_cast<int>(std::clamp(samples_hz * kWait_s, 1.0, static_cast<double>(kMostSamples)));
+}
+
+usb::InStream::Options transfers_for(double samples_hz) {
+  constexpr double kTransfer_s = 5e-3, kWaiting_s = 0.25;
+  const double packets_hz = samples_hz / samples_per_packet(samples_hz);
+  const double packets = std::clamp(std::floor(packets_hz * kTransfer_s), 1.0, 32.0);
+  const double transfers = std::clamp(std::ceil(packets_hz / packets * kWaiting_s), 4.0, 64.0);
+  return {kStreamIn, static_cast<std::size_t>(packets) * stream_bytes(kMostSamples),
+          static_cast<std::size_t>(transfers)};
+}
+
+}  // namespace mdof::drivers::labjack_u6

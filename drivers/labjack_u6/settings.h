@@ -1,0 +1,39 @@
+// What a U6 is configured to do: the keys of its table, checked.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drivers/labjack_u6/protocol.h"
+#include "drivers/usb/in_stream.h"
+#include "schema/sample.h"
+
+namespace mdof::drivers::labjack_u6 {
+
+struct Input {
+  Channel channel;
+  int ain = -1;             // -1: the quadrature counter of FIO0 and FIO1
+  double um_per_count = 0;  // of the counter
+};
+
+struct Settings {
+  std::string name;    // of the device
+  std::string serial;  // "": the only one there is
+  double rate_hz = 1000;
+  int gain = 0;              // range 10 V / 10^gain
+  int resolution_index = 0;  // 0: the device's default
+  int settling_10us = 0;     // 0: the device chooses
+  std::vector<Input> inputs;
+};
+
+// The scan list for these inputs, in their order; a counter takes two entries.
+std::vector<int> scan_list(const std::vector<Input>& inputs);
+
+// A packet holds what comes in 20 ms, at most 25 samples; only full packets may share a transfer.
+// Transfers bring what comes in 5 ms and a quarter of a second of them waits, so that the device's
+// small buffer is emptied while the host is busy.
+int samples_per_packet(double samples_hz);
+usb::InStream::Options transfers_for(double samples_hz);
+
+}  // namespace mdof::drivers::labjack_u6

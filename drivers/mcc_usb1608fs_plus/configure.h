@@ -1,0 +1,14 @@
+// The table [axis.device] with driver = "mcc_usb1608fs_plus" (keys: drivers/README.md).
+#pragma once
+
+#include "drivers/mcc_usb1608fs_plus/settings.h"
+#include "drivers/registry.h"
+
+namespace mdof::drivers {
+
+// Takes all keys and finishes the table. Errors name file, line and key.
+Result<mcc_usb1608fs_plus::Settings> read_mcc_usb1608fs_plus(TomlTable& table,
+                                                             const DriverContext& context);
+Result<DriverSpec> configure_mcc_usb1608fs_plus(TomlTable& table, const DriverContext& context);
+
+}  // namespace mdof::drivers

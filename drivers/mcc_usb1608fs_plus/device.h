@@ -1,0 +1,68 @@
+// A USB-1608FS-Plus without one, as it looks from the USB.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "drivers/mcc_usb1608fs_plus/protocol.h"
+#include "drivers/simulated_device.h"
+#include "drivers/usb/simulated_usb.h"
+
+namespace mdof::drivers::mcc_usb1608fs_plus {
+
+// What may go wrong; scans are counted from 0 in each run, -1: never.
+struct Faults {
+  std::int64_t overrun_at = -1;  // here the FIFO overruns: `overrun` scans are not there
+  std::uint64_t overrun = 1000;
+  bool stalls = false;            // at an overrun, though it was told not to
+  std::int64_t drop_at = -1;      // one scan is missing and nothing says so: no device does this
+  std::size_t short_packets = 0;  // each transfer ends after so many bytes
+  std::int64_t silent_at = -1;    // no more scans come, though it says that it runs
+  std::int64_t unplug_at = -1;    // the device is gone before this scan
+  bool running = false;           // a scan runs already at the start (of a host that died)
+};
+
+// Senses: inputs 0 ... 7 are CH0 ... CH7 in volts, all sampled at the time of the scan.
+class Device final : public usb::SimulatedUsb {
+ public:
+  Device(Senses senses, const Faults& faults, const std::string& serial = "01A2B3C4",
+         const Calibrations& calibrations = {});
+
+  const usb::Identity& identity() const override { return identity_; }
+  usb::Reply control(const usb::Setup& setup, std::string_view out, std::int64_t now_ns) override;
+  usb::Reply in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t now_ns) override;
+  usb::Reply out(std::uint8_t endpoint, std::string_view bytes, std::int64_t now_ns) override;
+  void clear_halt(std::uint8_t endpoint) override;
+  bool gone() const override { return gone_; }
+
+  void set_faults(const Faults& faults) { faults_ = faults; }
+  void restart();  // power comes again: as new
+  // The calibration memory as it is.
+  void set_memory(const std::string& memory) { memory_ = memory; }
+  std::uint64_t runs() const { return runs_; }  // scans started
+
+ private:
+  struct Run {
+    ScanSetup setup;
+    std::int64_t start_ns = 0;
+    std::uint64_t next = 0;  // scan, those that were lost included
+  };
+  usb::Reply read_request(const usb::Setup& setup) const;
+  usb::Reply start(std::string_view out, std::int64_t now_ns);
+  void take_scans(std::int64_t now_ns);
+  bool meets_fault();
+  void sample(std::int64_t t_ns);
+
+  Senses senses_;
+  Faults faults_;
+  usb::Identity identity_;
+  Calibrations calibrations_;
+  std::string memory_, ranges_ = std::string(kInputs, '\0');
+  std::optional<Run> run_;
+  std::string fifo_;  // bytes that wait to be fetched
+  std::uint64_t runs_ = 0;
+  bool overrun_ = false, halted_ = false, gone_ = false;
+};
+
+}  // namespace mdof::drivers::mcc_usb1608fs_plus

@@ -1,0 +1,105 @@
+// Measurement Computing USB-1608FS-Plus: eight 16-bit converters that sample at the same instant.
+// Vendor control requests, and samples on bulk IN 0x81; bytes <-> values, little-endian. Sources:
+// Measurement Computing's uldaq (Usb1608fsPlus, AiUsb1608fsPlus), W. Jasper's mcc-libusb.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/result.h"
+
+namespace mdof::drivers::mcc_usb1608fs_plus {
+
+inline constexpr std::uint16_t kVendor = 0x09DB, kProduct = 0x00EA;
+inline constexpr std::uint8_t kSamplesIn = 0x81;
+inline constexpr std::size_t kInputs = 8;
+inline constexpr std::size_t kPacket = 64, kFifoSamples = 32768;
+inline constexpr double kMostRate_Hz = 100'000, kMostSamples_Hz = 400'000;
+
+enum Request : std::uint8_t {
+  kScanStart = 0x11,
+  kScanStop = 0x12,
+  kConfig = 0x14,
+  kClearFifo = 0x15,
+  kCalibrationMemory = 0x30,
+  kStatus = 0x44,
+  kSerial = 0x48,
+};
+inline constexpr std::size_t kSerialBytes = 8;
+
+// --- Ranges --------------------------------------------------------------------------------------
+
+struct Range {
+  double volts;  // of both ends
+  std::uint8_t code;
+};
+inline constexpr std::array<Range, 4> kRanges{{{10, 0}, {5, 1}, {2, 3}, {1, 5}}};
+// None: the device has no such range.
+std::optional<Range> range_of(double volts);
+
+// --- Scans ---------------------------------------------------------------------------------------
+
+inline constexpr double kClock_Hz = 40e6;
+struct ScanSetup {
+  std::uint32_t scans = 0;  // 0: until stopped
+  std::uint32_t period = 0;
+  std::uint8_t channels = 0;  // bit n: input n; lowest first in a scan
+  std::uint8_t options = 0;
+};
+enum Option : std::uint8_t {
+  kImmediate = 0x01,  // each scan is sent at once
+  kTestPattern = 0x20,
+  kNoStall = 0x80,  // an overrun does not stall the endpoint
+};
+// The nearest.
+std::uint32_t pacer_period(double rate_hz);
+double rate_of(std::uint32_t period);
+std::string scan_start(const ScanSetup& setup);
+std::optional<ScanSetup> read_scan_start(std::string_view bytes);
+// A range code for each input.
+std::string config(std::uint8_t code);
+
+struct DeviceStatus {
+  bool running = false, overrun = false;
+};
+Result<DeviceStatus> read_status(std::string_view reply);
+std::string status_reply(const DeviceStatus& status);
+
+// Cuts the samples of transfers, of any lengths, into scans.
+class ScanLine {
+ public:
+  explicit ScanLine(std::size_t words) : words_(words) {}
+  // Adds the words of the scans that end in it, one scan after the other.
+  void take(std::string_view bytes, std::vector<std::uint16_t>& words);
+
+ private:
+  std::size_t words_;
+  std::string begun_;
+};
+
+// --- Calibration ---------------------------------------------------------------------------------
+
+inline constexpr std::size_t kPairBytes = 8;
+struct Calibration {
+  float slope = 1, offset = 0;  // codes
+};
+using Calibrations = std::array<Calibration, kInputs>;
+// Where the pair of a range and input is in the calibration memory.
+std::uint16_t calibration_address(std::uint8_t range_code, std::size_t input);
+// Error: constants that cannot be, of memory that was erased or is damaged.
+Result<Calibration> read_calibration(std::string_view pair);
+// The memory with these constants at every range.
+std::string calibration_memory(const Calibrations& calibrations);
+
+double volts(std::uint16_t raw, const Calibration& calibration, double range_v);
+// Of the converter, before calibration: it saturates at its range.
+inline bool at_rail(std::uint16_t raw) {
+  return raw == 0 || raw == 0xFFFF;
+}
+
+}  // namespace mdof::drivers::mcc_usb1608fs_plus

@@ -1,0 +1,66 @@
+// A USB device, open: found by vendor, product and serial number; control and bulk transfers, each
+// with a time limit. Over libusb-1.0 (its API reference), one context for each open device.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "schema/result.h"
+
+namespace mdof::drivers::usb {
+
+struct Connection;
+class Handle;
+
+struct Wanted {
+  std::string model;  // for messages: "LabJack U6"
+  std::uint16_t vendor = 0, product = 0;
+  std::string serial;  // "": the only one there is
+  int interface = 0;   // to be claimed
+  // Serial number of a device that does not tell it in its descriptor; may be empty.
+  std::function<Result<std::string>(Handle&)> ask_serial;
+};
+
+// Thread-bound; closed when it goes. Errors say what has happened and what to do, not which device:
+// the driver puts its name before.
+class Handle {
+ public:
+  using Timeout = std::chrono::milliseconds;
+
+  // Errors: none there, several and none is named (lists them), no permission, in use (by what).
+  static Result<Handle> open(const Wanted& wanted);
+
+  const std::string& serial() const { return serial_; }  // "" where not known
+  const std::string& where() const { return where_; }    // "USB bus 1, device 4"
+
+  // Vendor requests to the device (bmRequestType 0xC0 and 0x40). A shorter answer is an error.
+  Result<std::string> vendor_in(std::uint8_t request, std::uint16_t value, std::uint16_t index,
+                                std::uint16_t length, Timeout timeout);
+  Status vendor_out(std::uint8_t request, std::uint16_t value, std::uint16_t index,
+                    std::string_view bytes, Timeout timeout);
+  // One bulk transfer; in: up to a packet that is not full, or `most` bytes (a multiple of 64).
+  Status bulk_out(std::uint8_t endpoint, std::string_view bytes, Timeout timeout);
+  Result<std::string> bulk_in(std::uint8_t endpoint, std::size_t most, Timeout timeout);
+  // Throws away what waits on an IN endpoint, until nothing has come for `quiet`.
+  Status drain(std::uint8_t endpoint, Timeout quiet);
+  Status clear_halt(std::uint8_t endpoint);
+
+  const std::shared_ptr<Connection>& connection() const { return connection_; }
+
+ private:
+  friend class Search;
+  Handle(std::shared_ptr<Connection> connection, std::string where)
+      : connection_(std::move(connection)), where_(std::move(where)) {}
+  Result<std::string> control(std::uint8_t type, std::uint8_t request, std::uint16_t value,
+                              std::uint16_t index, std::string_view bytes, std::uint16_t length,
+                              Timeout timeout);
+
+  std::shared_ptr<Connection> connection_;
+  std::string where_, serial_;
+};
+
+}  // namespace mdof::drivers::usb

@@ -1,0 +1,18 @@
+// Who holds a USB interface that cannot be had: for messages.
+#pragma once
+
+#include <string>
+
+namespace mdof::drivers::usb {
+
+struct Place {
+  int bus = 0, address = 0;
+  std::string port;  // as in /sys/bus/usb/devices: "1-4.2"; "" where not known
+};
+
+// "the kernel's driver cdc_acm", "the program mdofd (4711)", or "another program".
+std::string owner_of(const Place& place, int interface);
+// "mdofd (4711)": the first program but this one that has `path` open, as far as may be seen.
+std::string program_with(const std::string& path);
+
+}  // namespace mdof::drivers::usb

@@ -1,0 +1,64 @@
+// libusb behind walls: only files that include this one see it.
+//
+// libusb 1.0.26 calls back from whoever handles its events. Here that is always the driver's own
+// thread, in pump(), so that nothing is shared and nothing needs a lock. Each wait has a deadline:
+// after an unplug libusb returns from its wait at once, over and over, until udev has said so too.
+#pragma once
+
+#include <libusb.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "schema/result.h"
+
+namespace mdof::drivers::usb {
+
+using Deadline = std::chrono::steady_clock::time_point;
+
+// An open device. Closed when it goes; its transfers have gone before.
+struct Connection {
+  std::shared_ptr<libusb_context> context;  // no other device's, once it was found
+  libusb_device_handle* device = nullptr;
+  int claimed = -1;  // interface
+  Connection() = default;
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  // Handles events until `done` or the deadline; whether it is done.
+  bool pump(Deadline deadline, const std::function<bool()>& done) const;
+};
+
+struct Transfer {
+  Transfer(const Connection& connection, std::size_t bytes);
+  ~Transfer() { libusb_free_transfer(raw); }  // must not be flying
+  Transfer(const Transfer&) = delete;
+  Transfer& operator=(const Transfer&) = delete;
+
+  Status submit();
+  std::string received() const;  // of a transfer in
+
+  libusb_transfer* raw;  // null: no memory
+  std::vector<unsigned char> buffer;
+  bool flying = false;
+  std::int64_t done_ns = 0;  // when its end was seen
+};
+using Transfers = std::vector<std::unique_ptr<Transfer>>;
+
+// Cancels those that fly; whether all have ended, within a second.
+bool take_back(const Connection& connection, const Transfers& transfers);
+// The same, and frees all. One that does not end (the kernel's driver
+// of the host controller hangs) is never freed: libusb might still write to it.
+void put_away(const Connection& connection, Transfers& transfers);
+
+// Of a transfer's end; "" where all went well.
+std::string text_of(libusb_transfer_status status);
+// Of a libusb call; LIBUSB_ERROR_…
+std::string text_of_error(int code);
+
+}  // namespace mdof::drivers::usb

@@ -1,0 +1,99 @@
+#include "drivers/labjack_u6/configure.h"
+
+#include <gtest/gtest.h>
+
+namespace mdof::drivers {
+namespace {
+
+const std::string kChannels = R"(
+[[channel]]
+id = "A"
+input = "AIN0"
+[[channel]]
+id = "encoder"
+input = "FIO0"
+um_per_count = 0.05
+)";
+
+Result<labjack_u6::Settings> read(const std::string& keys, const std::string& channels) {
+  auto table = TomlTable::parse(keys + channels, "mdofd.toml");
+  EXPECT_TRUE(table) << table.error().message;
+  DriverContext context;
+  context.name = "daq";
+  context.rig.probes.resize(2);
+  context.rig.probes[0].id = "A";
+  context.rig.probes[1].id = "B";
+  return read_labjack_u6(*table, context);
+}
+
+std::string refusal(const std::string& keys, const std::string& channels = kChannels) {
+  const auto settings = read(keys, channels);
+  return settings ? "accepted" : settings.error().message;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(LabjackU6Configure, TakesItsKeys) {
+  const auto settings = read(
+      "serial = 360012345\nrate_hz = 5000\nrange_v = 0.1\nresolution_index = 2\nsettling_us = 25\n",
+      kChannels);
+  ASSERT_TRUE(settings) << settings.error().message;
+  EXPECT_EQ(settings->name, "daq");
+  EXPECT_EQ(settings->serial, "360012345");
+  EXPECT_EQ(settings->rate_hz, 5000);
+  EXPECT_EQ(settings->gain, 2);
+  EXPECT_EQ(settings->resolution_index, 2);
+  EXPECT_EQ(settings->settling_10us, 3);
+  EXPECT_EQ(labjack_u6::scan_list(settings->inputs), (std::vector<int>{0, 200, 224}));
+}
+
+TEST(LabjackU6Configure, DefaultsSuffice) {
+  const auto settings = read("", kChannels);
+  ASSERT_TRUE(settings) << settings.error().message;
+  EXPECT_EQ(settings->serial, "");
+  EXPECT_EQ(settings->rate_hz, 1000);
+  EXPECT_EQ(settings->gain, 0);
+}
+
+TEST(LabjackU6Configure, BadValuesNameTheirKey) {
+  EXPECT_TRUE(has(refusal("range_v = 5\n"), "range_v"));
+  EXPECT_TRUE(has(refusal("rate_hz = 17000\n"), "mdofd.toml:1: rate_hz: must be from 1 to 16666"));
+  EXPECT_TRUE(has(refusal("rate_hz = 0.5\n"), "rate_hz"));
+  EXPECT_TRUE(has(refusal("resolution_index = 9\n"), "resolution_index"));
+  EXPECT_TRUE(has(refusal("settling_us = 2551\n"), "settling_us"));
+  EXPECT_TRUE(has(refusal("serial = -1\n"), "serial"));
+  EXPECT_TRUE(has(refusal("rate = 5\n"), "rate_hz"));
+}
+
+TEST(LabjackU6Configure, BadInputsAreRefused) {
+  const auto channel = [](const std::string& id, const std::string& input, const char* more = "") {
+    return "[[channel]]\nid = \"" + id + "\"\ninput = \"" + input + "\"\n" + more;
+  };
+  EXPECT_TRUE(has(refusal("", channel("A", "AIN14")), "AIN13"));
+  EXPECT_TRUE(has(refusal("", channel("encoder", "AIN0")), "FIO0"));
+  EXPECT_TRUE(has(refusal("", channel("encoder", "FIO0")), "um_per_count"));
+  EXPECT_TRUE(has(refusal("", channel("A", "AIN0", "um_per_count = 1\n")), "counts nothing"));
+  EXPECT_TRUE(has(refusal("", channel("encoder", "FIO0", "um_per_count = 1\n")),
+                  "only beside an analogue input"));
+  EXPECT_TRUE(has(refusal("", channel("C", "AIN0")), "C"));
+}
+
+TEST(LabjackU6Settings, PacketsAndTransfersFollowTheRate) {
+  EXPECT_EQ(labjack_u6::samples_per_packet(50'000), 25);
+  EXPECT_EQ(labjack_u6::samples_per_packet(700), 14);
+  EXPECT_EQ(labjack_u6::samples_per_packet(1), 1);
+  for (const double samples_hz : {1.0, 100.0, 1249.0, 1251.0, 7000.0, 50'000.0}) {
+    const auto transfers = labjack_u6::transfers_for(samples_hz);
+    EXPECT_EQ(transfers.bytes % 64, 0U);
+    // Packets that are not full are never joined.
+    EXPECT_TRUE(transfers.bytes == 64 || labjack_u6::samples_per_packet(samples_hz) == 25);
+    EXPECT_GE(transfers.transfers, 4U);
+  }
+  const auto fast = labjack_u6::transfers_for(50'000);
+  EXPECT_GE(static_cast<double>(fast.bytes / 64 * 25 * fast.transfers) / 50'000, 0.25);
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -1,0 +1,116 @@
+#include "drivers/mcc_usb1608fs_plus/protocol.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/drivers/modbus/hex.h"
+
+namespace mdof::drivers::mcc_usb1608fs_plus {
+namespace {
+
+using modbus::bytes;
+
+TEST(Usb1608Protocol, ScanStartIsTheVectors) {
+  const std::string at_1kHz = bytes("00 00 00 00 3F 9C 00 00 1F 80");
+  const std::string at_10kHz = bytes("00 00 00 00 9F 0F 00 00 1F 80");
+  EXPECT_EQ(scan_start({0, pacer_period(1000), 0x1F, kNoStall}), at_1kHz);
+  EXPECT_EQ(scan_start({0, pacer_period(10'000), 0x1F, kNoStall}), at_10kHz);
+  const auto read = read_scan_start(at_1kHz);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->scans, 0U);
+  EXPECT_EQ(rate_of(read->period), 1000);
+  EXPECT_EQ(read->channels, 0x1F);
+  EXPECT_EQ(read->options, kNoStall);
+  EXPECT_EQ(rate_of(read_scan_start(at_10kHz)->period), 10'000);
+  EXPECT_FALSE(read_scan_start(at_1kHz.substr(1)));
+}
+
+TEST(Usb1608Protocol, PacerPeriodsAreInRange) {
+  EXPECT_EQ(pacer_period(100'000), 399U);
+  EXPECT_EQ(pacer_period(1e-9), 4294967295U);
+  EXPECT_EQ(pacer_period(1e9), 1U);
+  EXPECT_NEAR(rate_of(pacer_period(3333)), 3333, 0.2);
+}
+
+TEST(Usb1608Protocol, StatusIsRead) {
+  for (const bool running : {false, true})
+    for (const bool overrun : {false, true}) {
+      const auto status = read_status(status_reply({running, overrun}));
+      ASSERT_TRUE(status);
+      EXPECT_EQ(status->running, running);
+      EXPECT_EQ(status->overrun, overrun);
+    }
+  EXPECT_EQ(status_reply({true, false}), bytes("02 00"));
+  EXPECT_EQ(status_reply({false, true}), bytes("04 00"));
+  EXPECT_FALSE(read_status("x"));
+}
+
+TEST(Usb1608Protocol, RangesHaveTheirCodes) {
+  EXPECT_EQ(range_of(10)->code, 0);
+  EXPECT_EQ(range_of(5)->code, 1);
+  EXPECT_EQ(range_of(2)->code, 3);
+  EXPECT_EQ(range_of(1)->code, 5);
+  EXPECT_FALSE(range_of(2.5));
+  EXPECT_EQ(config(3), bytes("03 03 03 03 03 03 03 03"));
+}
+
+TEST(Usb1608Protocol, ScansAreCutWhereverTransfersEnd) {
+  std::string sent;
+  for (int i = 0; i < 1000; ++i) sent += {static_cast<char>(i & 0xFF), static_cast<char>(i >> 8)};
+  for (const std::size_t size : {1U, 2U, 3U, 10U, 64U, 999U, 2000U}) {
+    ScanLine line(5);
+    std::vector<std::uint16_t> words;
+    for (std::size_t at = 0; at < sent.size(); at += size) {
+      line.take(std::string_view(sent).substr(at, size), words);
+      ASSERT_EQ(words.size() % 5, 0U);
+    }
+    ASSERT_EQ(words.size(), 1000U);
+    for (std::size_t i = 0; i < words.size(); ++i) ASSERT_EQ(words[i], i);
+  }
+}
+
+TEST(Usb1608Protocol, VoltsAreCalibratedAndClamped) {
+  EXPECT_EQ(volts(32768, {}, 10), 0);
+  EXPECT_EQ(volts(0, {}, 10), -10);
+  EXPECT_NEAR(volts(65535, {}, 5), 5 * 32767.0 / 32768, 1e-12);
+  EXPECT_NEAR(volts(40000, {1.01F, -100}, 10), (40300.0 - 32768) * 10 / 32768, 1e-12);
+  EXPECT_EQ(volts(0, {1, -100}, 10), -10);
+  EXPECT_NEAR(volts(65535, {1, 100}, 10), 10 * 32767.0 / 32768, 1e-12);
+  EXPECT_TRUE(at_rail(0));
+  EXPECT_TRUE(at_rail(65535));
+  EXPECT_FALSE(at_rail(1));
+}
+
+TEST(Usb1608Protocol, CalibrationIsAPairForARangeAndInput) {
+  Calibrations all;
+  for (std::size_t i = 0; i < kInputs; ++i)
+    all[i] = {1 + 0.001F * static_cast<float>(i), static_cast<float>(i) - 3};
+  const std::string memory = calibration_memory(all);
+  ASSERT_EQ(memory.size(), 512U);
+  for (const Range& range : kRanges)
+    for (std::size_t i = 0; i < kInputs; ++i) {
+      const auto read =
+          read_calibration(memory.substr(calibration_address(range.code, i), kPairBytes));
+      ASSERT_TRUE(read);
+      EXPECT_EQ(read->slope, all[i].slope);
+      EXPECT_EQ(read->offset, all[i].offset);
+    }
+  EXPECT_EQ(calibration_address(5, 7), 8 * (8 * 5 + 7));
+}
+
+TEST(Usb1608Protocol, ImpossibleCalibrationIsRefused) {
+  const auto pair = [](float slope, float offset) {
+    Calibrations all;
+    all[0] = {slope, offset};
+    return calibration_memory(all).substr(0, kPairBytes);
+  };
+  EXPECT_TRUE(read_calibration(pair(0.95F, 200)));
+  for (const auto& bad :
+       {pair(0, 0), pair(2, 0), pair(-1, 0), pair(1, 10'000), pair(NAN, 0), pair(1, NAN),
+        pair(INFINITY, 0), std::string(8, '\xFF'), std::string(7, '\0')})
+    EXPECT_FALSE(read_calibration(bad));
+}
+
+}  // namespace
+}  // namespace mdof::drivers::mcc_usb1608fs_plus

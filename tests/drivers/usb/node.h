@@ -1,0 +1,73 @@
+// One device's node in usbfs: its transfers, and the pseudo terminal that programs poll.
+#pragma once
+
+#include <umockdev.h>
+
+#include <cstdint>
+#include <list>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "drivers/usb/simulated_usb.h"
+#include "tests/drivers/usb/bus.h"
+
+namespace mdof::drivers::usb {
+
+// A transfer as submitted by SUBMITURB, until it was reaped.
+struct Urb {
+  UMockdevIoctlData* data = nullptr;    // struct usbdevfs_urb
+  UMockdevIoctlData* buffer = nullptr;  // null where it has no bytes
+  UMockdevIoctlClient* client = nullptr;
+  std::uint8_t type = 0, endpoint = 0;
+  std::size_t length = 0;
+  std::string sent;  // of a transfer out, or of a control transfer with its setup packet
+  bool done = false;
+  int status = 0;
+  std::string got;
+  std::size_t taken = 0;  // bytes, out
+};
+
+// All calls under the lock of the bus.
+struct Bus::Node {
+  Node(SimulatedUsb& usb, int number);
+  ~Node();
+
+  // Answers an ioctl; false: none of usbfs's.
+  bool answer(UMockdevIoctlClient* client);
+  // Lets the device answer what waits.
+  void serve(std::int64_t now_ns);
+  void leave();  // the bus: all that waits ends with ESHUTDOWN
+
+  SimulatedUsb& device;
+  const int number;
+  std::string syspath, devnode, terminal, driver;
+  bool gone = false;
+  std::list<Urb> urbs;  // in the order in which they came
+  int submitted = 0;
+  struct Asked {
+    std::optional<std::int64_t> dry_since_ns;  // the last transfer that waited has ended
+    std::int64_t longest_ns = 0;
+  };
+  std::map<std::uint8_t, Asked> asked;  // by endpoint
+
+ private:
+  void submit(UMockdevIoctlClient* client);
+  void reap(UMockdevIoctlClient* client);
+  void discard(UMockdevIoctlClient* client);
+  void take_part(Urb& urb);
+  void claim(UMockdevIoctlClient* client);
+  void name_driver(UMockdevIoctlClient* client);
+  void clear_halt(UMockdevIoctlClient* client);
+  bool run(Urb& urb, std::int64_t now_ns);
+  Reply run_control(Urb& urb, std::int64_t now_ns);
+  static void note(Asked& asked, bool waiting, std::int64_t now_ns);
+  void wake();
+
+  int master_ = -1, slave_ = -1;
+  bool awake_ = true;
+  std::int64_t last_ns_ = 0;  // when it was served
+  UMockdevIoctlClient* claimed_by_ = nullptr;
+};
+
+}  // namespace mdof::drivers::usb

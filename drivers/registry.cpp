@@ -9,6 +9,7 @@
 #include "drivers/linux_counter/configure.h"
 #include "drivers/linux_iio/configure.h"
 #include "drivers/modbus/configure.h"
+#include "drivers/pokeys57u/configure.h"
 #include "drivers/qsb/configure.h"
 #include "drivers/recording/recording_log.h"
 #include "drivers/simulator/simulator.h"
@@ -61,6 +62,7 @@ constexpr Row kDrivers[] = {
     {"linux_counter", configure_linux_counter},
     {"linux_iio", configure_linux_iio},
     {"modbus", configure_modbus},
+    {"pokeys57u", configure_pokeys57u},
     {"qsb", configure_qsb},
     {"replay", configure_replay},
     {"simulator", configure_simulator},

@@ -3,6 +3,7 @@
 #include "daemon/forward_model.h"
 #include "drivers/capancdt/device.h"
 #include "drivers/labjack_t7/device.h"
+#include "drivers/pokeys57u/device.h"
 #include "drivers/simulator/options.h"
 #include "schema/files.h"
 #include "schema/toml_reader.h"
@@ -16,7 +17,18 @@ struct Wiring {
   std::shared_ptr<SensedMachine> machine;
 };
 
-using Device = Result<std::unique_ptr<drivers::SimulatedDevice>>;
+// One of them.
+struct Made {
+  std::unique_ptr<drivers::SimulatedDevice> device;
+  std::unique_ptr<drivers::usb::SimulatedUsb> usb;
+};
+using Device = Result<Made>;
+
+double um_per_count(TomlTable& table) {
+  const double um = table.number("um_per_count", 0.05);
+  if (um == 0) table.reject("um_per_count", "must not be zero");
+  return um;
+}
 
 // µm as they are; a range that the controller tells.
 Device make_capancdt(const Wiring& wiring, const std::vector<std::string>& inputs, TomlTable&) {
@@ -30,8 +42,9 @@ Device make_capancdt(const Wiring& wiring, const std::vector<std::string>& input
     options.inputs[i].present = probe.has_value();
     if (probe) options.inputs[i].range_um = wiring.rig.probes[*probe].range_m * 1e6;
   }
-  return std::make_unique<family::SimulatedCapancdt>(std::move(options),
-                                                     senses(wiring.machine, std::move(wires)));
+  return Made{std::make_unique<family::SimulatedCapancdt>(std::move(options),
+                                                          senses(wiring.machine, std::move(wires))),
+              {}};
 }
 
 // Volts of the amplifiers, and counts of the encoder on DIO0 and DIO1.
@@ -50,11 +63,24 @@ Device make_labjack_t7(const Wiring& wiring, const std::vector<std::string>& inp
     }
     wires[i] = {inputs[i], 1 / *um_per_V, 0};
   }
-  const double um_per_count = table.number("um_per_count", 0.05);
-  if (um_per_count == 0) table.reject("um_per_count", "must not be zero");
-  wires[family::Device::kCounterInput] = {kEncoderChannel, 1 / um_per_count, 0};
-  return std::make_unique<family::Device>(senses(wiring.machine, std::move(wires)),
-                                          family::Device::Options{});
+  wires[family::Device::kCounterInput] = {kEncoderChannel, 1 / um_per_count(table), 0};
+  return Made{std::make_unique<family::Device>(senses(wiring.machine, std::move(wires)),
+                                               family::Device::Options{}),
+              {}};
+}
+
+// Counts: of the machine's encoder at the first input, where none is given.
+Device make_pokeys57u(const Wiring& wiring, const std::vector<std::string>& inputs,
+                      TomlTable& table) {
+  namespace family = drivers::pokeys57u;
+  family::Device::Options options;
+  options.serial = static_cast<std::uint32_t>(table.integer("serial", options.serial));
+  std::vector<Input> wires;
+  const double per_um = 1 / um_per_count(table);
+  for (const std::string& input : inputs) wires.push_back({input, per_um, 0});
+  if (inputs.empty()) wires.push_back({kEncoderChannel, per_um, 0});
+  return Made{{},
+              std::make_unique<family::Device>(senses(wiring.machine, std::move(wires)), options)};
 }
 
 struct Kind {
@@ -66,6 +92,7 @@ struct Kind {
 constexpr Kind kKinds[] = {
     {"capancdt", 32, make_capancdt},
     {"labjack_t7", 14, make_labjack_t7},
+    {"pokeys57u", drivers::pokeys57u::kEncoders, make_pokeys57u},
 };
 
 const Kind* find_kind(const std::string& name) {
@@ -79,7 +106,7 @@ Status check_inputs(TomlTable& table, const std::vector<std::string>& inputs, co
   if (inputs.size() > kind.most_inputs)
     table.reject("inputs", "has more than " + std::to_string(kind.most_inputs) + " inputs");
   for (const auto& input : inputs) {
-    if (!input.empty() && !rig.probe_index(input))
+    if (!input.empty() && input != kEncoderChannel && !rig.probe_index(input))
       table.reject("inputs", "\"" + input + "\" is no probe of " + rig.source);
   }
   return {};
@@ -106,7 +133,12 @@ Result<Served> read_device(TomlTable& table, const Wiring& wiring) {
   served.seed = table.integer("seed", 1);
   const auto inputs = table.strings("inputs");
   MDOF_CHECK(check_inputs(table, inputs, *kind, wiring.rig));
-  MDOF_TRY(served.device, kind->make(wiring, inputs, table));
+  const std::string bus = table.string("bus", "usb");
+  served.uhid = bus == "uhid";
+  if (!served.uhid && bus != "usb") table.reject("bus", "must be \"usb\" or \"uhid\"");
+  MDOF_TRY(Made made, kind->make(wiring, inputs, table));
+  served.device = std::move(made.device);
+  served.usb = std::move(made.usb);
   return served;
 }
 

@@ -1,12 +1,14 @@
-// The plan of mdof-simulate: a machine, and the devices that look at it.
+// The plan of mdof-simulate: a machine, and the devices that look at it. USB devices are put on the
+// bus of this machine by the kernel's module vhci-hcd, and are unplugged when mdof-simulate ends.
 //
 //   rig = "rig_X.toml"           # relative to the plan
 //   [machine]                    # keys of the driver "simulator"
 //   [[device]]
 //   name = "capa-1"
-//   kind = "capancdt"            # labjack_t7
+//   kind = "capancdt"            # labjack_t7; pokeys57u: on this machine's USB, needs root
 //   ports = [2301, 10001]        # TCP, in the order of the device's; 0 or left out: a free one
 //   inputs = ["A", "B", "C"]     # channels of the rig at its inputs 1, 2, ...; "" nothing
+//   bus = "uhid"                 # of a HID device: through the kernel's uhid, not its USB
 //   clock_ppm = 50
 //   jitter_ms = 3
 #pragma once

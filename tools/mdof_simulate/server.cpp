@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -13,6 +12,8 @@
 #include <deque>
 
 #include "schema/random.h"
+#include "tools/mdof_simulate/descriptor.h"
+#include "tools/mdof_simulate/usb_port.h"
 
 namespace mdof::simulate {
 namespace {
@@ -24,23 +25,6 @@ std::int64_t now_ns() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 struct Held {  // on its way, until its time
   std::int64_t due_ns;
@@ -60,6 +44,11 @@ struct Listener {
   Descriptor socket;
   std::size_t device, port;
   int tcp_port;
+};
+
+struct Plugged {
+  std::size_t device;
+  std::unique_ptr<UsbPort> port;
 };
 
 Result<Listener> listen_on(const std::string& host, int tcp_port) {
@@ -90,6 +79,7 @@ struct Server::Parts {
   std::vector<Served> devices;
   std::vector<Listener> listeners;
   std::vector<Client> clients;
+  std::vector<Plugged> plugged;
   int next_id = 1;
   std::uint64_t sent = 0;  // packets, for the jitter
   std::int64_t start_ns = now_ns();
@@ -99,13 +89,35 @@ struct Server::Parts {
     const auto passed = static_cast<double>(now_ns() - start_ns);
     return std::llround(passed * (1 + device.clock_ppm * 1e-6));
   }
+  Status listen_for(std::size_t device);
+  Status plug(std::size_t device);
   void accept();
   void exchange(Client& client);
   void hold(Client& client, std::string bytes);
   void send_due(Client& client);
   void drop_gone();
+  void turn_usb();
   void wait();
 };
+
+Status Server::Parts::listen_for(std::size_t device) {
+  const Served& served = devices[device];
+  for (std::size_t p = 0; p < served.device->ports().size(); ++p) {
+    const int tcp_port = p < served.tcp_ports.size() ? served.tcp_ports[p] : 0;
+    MDOF_TRY(auto listener, listen_on(host, tcp_port));
+    listener.device = device;
+    listener.port = p;
+    listeners.push_back(std::move(listener));
+  }
+  return {};
+}
+
+Status Server::Parts::plug(std::size_t device) {
+  Served& served = devices[device];
+  MDOF_TRY(auto port, served.uhid ? plug_into_uhid(*served.usb) : plug_into_vhci(*served.usb));
+  plugged.push_back({device, std::move(port)});
+  return {};
+}
 
 void Server::Parts::accept() {
   for (const Listener& listener : listeners) {
@@ -161,10 +173,17 @@ void Server::Parts::drop_gone() {
   std::erase_if(clients, [](const Client& client) { return client.gone; });
 }
 
+void Server::Parts::turn_usb() {
+  std::erase_if(plugged, [this](const Plugged& usb) {
+    return !usb.port->turn(device_ns(devices[usb.device]));
+  });
+}
+
 void Server::Parts::wait() {
   std::vector<pollfd> watched;
   for (const auto& listener : listeners) watched.push_back({listener.socket.get(), POLLIN, 0});
   for (const auto& client : clients) watched.push_back({client.socket.get(), POLLIN, 0});
+  for (const auto& usb : plugged) watched.push_back({usb.port->fd(), POLLIN, 0});
   ::poll(watched.data(), watched.size(), kTurn_ms);
 }
 
@@ -177,15 +196,8 @@ Result<Server> Server::listen(std::vector<Served> devices, const std::string& ho
   parts->host = host;
   parts->devices = std::move(devices);
   for (std::size_t d = 0; d < parts->devices.size(); ++d) {
-    const Served& served = parts->devices[d];
-    for (std::size_t p = 0; p < served.device->ports().size(); ++p) {
-      const int tcp_port = p < served.tcp_ports.size() ? served.tcp_ports[p] : 0;
-      auto listener = listen_on(host, tcp_port);
-      if (!listener) return in_context("device \"" + served.name + "\"", listener.error());
-      listener->device = d;
-      listener->port = p;
-      parts->listeners.push_back(std::move(*listener));
-    }
+    const Status ready = parts->devices[d].usb ? parts->plug(d) : parts->listen_for(d);
+    if (!ready) return in_context("device \"" + parts->devices[d].name + "\"", ready.error());
   }
   return Server(std::move(parts));
 }
@@ -197,15 +209,18 @@ std::string Server::addresses() const {
     text += served.name + " " + served.device->ports()[listener.port].name + " " + parts_->host +
             ":" + std::to_string(listener.tcp_port) + "\n";
   }
+  for (const Plugged& usb : parts_->plugged)
+    text += parts_->devices[usb.device].name + " " + usb.port->place() + "\n";
   return text;
 }
 
 void Server::serve(const std::atomic<bool>& stop) {
-  while (!stop) {
+  while (!stop && (!parts_->listeners.empty() || !parts_->plugged.empty())) {
     parts_->wait();
     parts_->accept();
     for (Client& client : parts_->clients) parts_->exchange(client);
     parts_->drop_gone();
+    parts_->turn_usb();
   }
 }
 

@@ -3,15 +3,27 @@
 #include "drivers/capancdt/device.h"
 #include "drivers/csv_stream/device.h"
 #include "drivers/labjack_t7/device.h"
+#include "drivers/labjack_u6/device.h"
+#include "drivers/mcc_usb1608fs_plus/device.h"
 #include "drivers/modbus/device.h"
+#include "drivers/pokeys57u/device.h"
 #include "drivers/qsb/device.h"
 #include "tools/mdof_simulate/sensed_tree.h"
 
 namespace mdof::simulate {
 namespace {
 
-using Device = Result<std::unique_ptr<drivers::SimulatedDevice>>;
+using Device = Result<Made>;
 using Inputs = std::vector<std::string>;
+
+template <class Simulated>
+Made made(std::unique_ptr<Simulated> simulated) {
+  if constexpr (std::is_base_of_v<drivers::usb::SimulatedUsb, Simulated>) {
+    return {nullptr, std::move(simulated)};
+  } else {
+    return {std::move(simulated), nullptr};
+  }
+}
 
 // Channels of the rig as a device gives them.
 class Wires {
@@ -59,8 +71,8 @@ Device make_capancdt(Wires& wires, const Inputs& inputs) {
     options.inputs[i].present = probe.has_value();
     if (probe) options.inputs[i].range_um = rig.probes[*probe].range_m * 1e6;
   }
-  return std::make_unique<family::SimulatedCapancdt>(std::move(options),
-                                                     wires.senses(std::move(sensed)));
+  return made(std::make_unique<family::SimulatedCapancdt>(std::move(options),
+                                                          wires.senses(std::move(sensed))));
 }
 
 // "time_s,encoder_mm,A_um,..." at rate_hz.
@@ -75,8 +87,8 @@ Device make_csv_stream(Wires& wires, const Inputs& inputs) {
   const double rate_hz = wires.table().number("rate_hz", 1000);
   if (!(rate_hz > 0 && rate_hz <= 1e5)) wires.table().reject("rate_hz", "must be up to 100000");
   const bool with_time = wires.table().boolean("with_time", true);
-  return std::make_unique<drivers::CsvStreamDevice>(std::move(columns), rate_hz, with_time,
-                                                    wires.senses(std::move(sensed)));
+  return made(std::make_unique<drivers::CsvStreamDevice>(std::move(columns), rate_hz, with_time,
+                                                         wires.senses(std::move(sensed))));
 }
 
 // Volts of the amplifiers, and counts of the encoder on DIO0 and DIO1.
@@ -85,8 +97,36 @@ Device make_labjack_t7(Wires& wires, const Inputs& inputs) {
   std::vector<Input> sensed(family::Device::kCounterInput + 1);
   for (std::size_t i = 0; i < inputs.size(); ++i) sensed[i] = wires.volt(inputs[i]);
   sensed[family::Device::kCounterInput] = wires.counts(kEncoderChannel);
-  return std::make_unique<family::Device>(wires.senses(std::move(sensed)),
-                                          family::Device::Options{});
+  return made(
+      std::make_unique<family::Device>(wires.senses(std::move(sensed)), family::Device::Options{}));
+}
+
+// The same of a U6: AIN0 ..., and timers 0 and 1.
+Device make_labjack_u6(Wires& wires, const Inputs& inputs) {
+  namespace family = drivers::labjack_u6;
+  std::vector<Input> sensed(family::Device::kCounterInput + 1);
+  for (std::size_t i = 0; i < inputs.size(); ++i) sensed[i] = wires.volt(inputs[i]);
+  sensed[family::Device::kCounterInput] = wires.counts(kEncoderChannel);
+  return made(std::make_unique<family::Device>(wires.senses(std::move(sensed)), family::Faults{}));
+}
+
+// Volts at eight inputs.
+Device make_mcc_usb1608fs_plus(Wires& wires, const Inputs& inputs) {
+  namespace family = drivers::mcc_usb1608fs_plus;
+  std::vector<Input> sensed;
+  for (const std::string& input : inputs) sensed.push_back(wires.volt(input));
+  return made(std::make_unique<family::Device>(wires.senses(std::move(sensed)), family::Faults{}));
+}
+
+// Counts: of the machine's encoder at the first input, where none is given.
+Device make_pokeys57u(Wires& wires, const Inputs& inputs) {
+  namespace family = drivers::pokeys57u;
+  family::Device::Options options;
+  options.serial = static_cast<std::uint32_t>(wires.table().integer("serial", options.serial));
+  std::vector<Input> sensed;
+  for (const std::string& input : inputs) sensed.push_back(wires.counts(input));
+  if (inputs.empty()) sensed.push_back(wires.counts(kEncoderChannel));
+  return made(std::make_unique<family::Device>(wires.senses(std::move(sensed)), options));
 }
 
 // The values of a profile in its order, each in its unit.
@@ -103,19 +143,20 @@ Device make_modbus(Wires& wires, const Inputs& inputs) {
                      : unit == Unit::um ? wires.um(inputs[i])
                                         : wires.counts(inputs[i]));
   }
-  return std::make_unique<drivers::ModbusDevice>(std::move(profile),
-                                                 wires.senses(std::move(sensed)));
+  return made(
+      std::make_unique<drivers::ModbusDevice>(std::move(profile), wires.senses(std::move(sensed))));
 }
 
 Device make_qsb(Wires& wires, const Inputs& inputs) {
-  return std::make_unique<drivers::QsbDevice>(
-      wires.senses({wires.counts(inputs.empty() ? kEncoderChannel : inputs[0])}));
+  return made(std::make_unique<drivers::QsbDevice>(
+      wires.senses({wires.counts(inputs.empty() ? kEncoderChannel : inputs[0])})));
 }
 
 Device make_linux_counter(Wires& wires, const Inputs& inputs) {
   const auto folder = wires.wiring().folder / wires.table().string("sysfs_root");
-  return SensedCounter::make(
-      folder, wires.senses({wires.counts(inputs.empty() ? kEncoderChannel : inputs[0])}));
+  const Input counts = wires.counts(inputs.empty() ? kEncoderChannel : inputs[0]);
+  MDOF_TRY(auto counter, SensedCounter::make(folder, wires.senses({counts})));
+  return made(std::move(counter));
 }
 
 // Gaps in µm before electrodes of area_mm2.
@@ -124,7 +165,9 @@ Device make_linux_iio(Wires& wires, const Inputs& inputs) {
   const double area_mm2 = wires.table().number("area_mm2");
   std::vector<Input> sensed;
   for (const std::string& input : inputs) sensed.push_back(wires.um(input));
-  return SensedConverter::make(folder, area_mm2, inputs.size(), wires.senses(std::move(sensed)));
+  MDOF_TRY(auto converter,
+           SensedConverter::make(folder, area_mm2, inputs.size(), wires.senses(std::move(sensed))));
+  return made(std::move(converter));
 }
 
 struct Kind {
@@ -137,9 +180,12 @@ constexpr Kind kKinds[] = {
     {"capancdt", 32, make_capancdt},
     {"csv_stream", 64, make_csv_stream},
     {"labjack_t7", 14, make_labjack_t7},
+    {"labjack_u6", drivers::labjack_u6::kAins, make_labjack_u6},
     {"linux_counter", 1, make_linux_counter},
     {"linux_iio", 2, make_linux_iio},
+    {"mcc_usb1608fs_plus", drivers::mcc_usb1608fs_plus::kInputs, make_mcc_usb1608fs_plus},
     {"modbus", 64, make_modbus},
+    {"pokeys57u", drivers::pokeys57u::kEncoders, make_pokeys57u},
     {"qsb", 1, make_qsb},
 };
 

@@ -21,7 +21,12 @@ Result<Served> read_device(TomlTable& table, const Wiring& wiring) {
   served.jitter_ms = table.number("jitter_ms", 0);
   served.seed = table.integer("seed", 1);
   const auto inputs = table.strings("inputs");
-  MDOF_TRY(served.device, make_device(kind, wiring, inputs, table));
+  const std::string bus = table.string("bus", "usb");
+  served.uhid = bus == "uhid";
+  if (!served.uhid && bus != "usb") table.reject("bus", "must be \"usb\" or \"uhid\"");
+  MDOF_TRY(Made made, make_device(kind, wiring, inputs, table));
+  served.device = std::move(made.device);
+  served.usb = std::move(made.usb);
   return served;
 }
 

@@ -16,6 +16,8 @@
 #include <deque>
 
 #include "schema/random.h"
+#include "tools/mdof_simulate/descriptor.h"
+#include "tools/mdof_simulate/usb_port.h"
 
 namespace mdof::simulate {
 namespace {
@@ -27,23 +29,6 @@ std::int64_t now_ns() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 struct Held {  // on its way, until its time
   std::int64_t due_ns;
@@ -89,6 +74,11 @@ Result<Line> open_line() {
   return line;
 }
 
+struct Plugged {
+  std::size_t device;
+  std::unique_ptr<UsbPort> port;
+};
+
 Result<Listener> listen_on(const std::string& host, int tcp_port) {
   Listener listener{Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)), 0,
                     0, 0};
@@ -119,6 +109,7 @@ struct Server::Parts {
   std::vector<Listener> listeners;
   std::vector<Client> clients;
   std::vector<Descriptor> held_lines;
+  std::vector<Plugged> plugged;
   int next_id = 1;
   std::uint64_t sent = 0;  // packets, for the jitter
   std::int64_t start_ns = now_ns();
@@ -132,12 +123,14 @@ struct Server::Parts {
   Status listen_at(std::size_t device, std::size_t port, int tcp_port);
   Status serve_line(std::size_t device, std::size_t port);
   void tell(std::size_t device, std::size_t port, const std::string& address);
+  Status plug(std::size_t device);
   void accept();
   void turn_devices();
   void exchange(Client& client);
   void hold(Client& client, std::string bytes);
   void send_due(Client& client);
   void drop_gone();
+  void turn_usb();
   void wait();
 };
 
@@ -145,9 +138,8 @@ Status Server::Parts::open_ports(std::size_t device) {
   const Served& served = devices[device];
   for (std::size_t p = 0; p < served.device->ports().size(); ++p) {
     const int tcp_port = p < served.tcp_ports.size() ? served.tcp_ports[p] : 0;
-    const Status opened = served.device->ports()[p].number == 0 ? serve_line(device, p)
-                                                                : listen_at(device, p, tcp_port);
-    if (!opened) return in_context("device \"" + served.name + "\"", opened.error());
+    MDOF_CHECK(served.device->ports()[p].number == 0 ? serve_line(device, p)
+                                                     : listen_at(device, p, tcp_port));
   }
   return {};
 }
@@ -176,7 +168,16 @@ void Server::Parts::tell(std::size_t device, std::size_t port, const std::string
 }
 
 void Server::Parts::turn_devices() {
-  for (Served& served : devices) served.device->turn(device_ns(served));
+  for (Served& served : devices)
+    if (served.device) served.device->turn(device_ns(served));
+}
+
+Status Server::Parts::plug(std::size_t device) {
+  Served& served = devices[device];
+  MDOF_TRY(auto port, served.uhid ? plug_into_uhid(*served.usb) : plug_into_vhci(*served.usb));
+  addresses += served.name + " " + port->place() + "\n";
+  plugged.push_back({device, std::move(port)});
+  return {};
 }
 
 void Server::Parts::accept() {
@@ -232,10 +233,17 @@ void Server::Parts::drop_gone() {
   std::erase_if(clients, [](const Client& client) { return client.gone; });
 }
 
+void Server::Parts::turn_usb() {
+  std::erase_if(plugged, [this](const Plugged& usb) {
+    return !usb.port->turn(device_ns(devices[usb.device]));
+  });
+}
+
 void Server::Parts::wait() {
   std::vector<pollfd> watched;
   for (const auto& listener : listeners) watched.push_back({listener.socket.get(), POLLIN, 0});
   for (const auto& client : clients) watched.push_back({client.socket.get(), POLLIN, 0});
+  for (const auto& usb : plugged) watched.push_back({usb.port->fd(), POLLIN, 0});
   ::poll(watched.data(), watched.size(), kTurn_ms);
 }
 
@@ -247,7 +255,10 @@ Result<Server> Server::listen(std::vector<Served> devices, const std::string& ho
   auto parts = std::make_unique<Parts>();
   parts->host = host;
   parts->devices = std::move(devices);
-  for (std::size_t d = 0; d < parts->devices.size(); ++d) MDOF_CHECK(parts->open_ports(d));
+  for (std::size_t d = 0; d < parts->devices.size(); ++d) {
+    const Status ready = parts->devices[d].usb ? parts->plug(d) : parts->open_ports(d);
+    if (!ready) return in_context("device \"" + parts->devices[d].name + "\"", ready.error());
+  }
   return Server(std::move(parts));
 }
 
@@ -256,12 +267,14 @@ std::string Server::addresses() const {
 }
 
 void Server::serve(const std::atomic<bool>& stop) {
-  while (!stop) {
+  const bool only_usb = parts_->plugged.size() == parts_->devices.size();
+  while (!stop && !(only_usb && parts_->plugged.empty())) {
     parts_->wait();
     parts_->turn_devices();
     parts_->accept();
     for (Client& client : parts_->clients) parts_->exchange(client);
     parts_->drop_gone();
+    parts_->turn_usb();
   }
 }
 

@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kTickEvery{1000}, kQuiet{10}, kSlow{20};
+constexpr milliseconds kTickEvery{1000}, kQuiet{10};
 constexpr int kMostStale = 200;  // reports that may still come of another program's requests
 // Of the device's tick against the host's clock.
 constexpr double kTickSlack_ms = 500, kTickDrift = 0.001;
@@ -269,7 +269,7 @@ void PoKeys57u::append(SampleBlock& block, const Span& span) {
     block.lost = static_cast<std::uint64_t>(std::max(1.0, missed));
   block.time_ns.push_back(nanoseconds(time.time_since_epoch()).count());
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    Quality quality = span.to - span.from > kSlow ? Quality::suspect : Quality::good;
+    Quality quality = span.to - span.from > settings_.slow ? Quality::suspect : Quality::good;
     block.value[i].push_back(value_of(i, time, quality));
     block.quality[i].push_back(quality);
   }

@@ -31,14 +31,15 @@ struct Settings {
   std::uint32_t serial = 0;  // 0: the only one there is
   double poll_ms = 2;
   std::chrono::milliseconds response_timeout{50};
+  std::chrono::milliseconds slow{20};       // a scan that took longer is suspect
   std::chrono::milliseconds silence{2000};  // is an error
   std::vector<Input> inputs;
 };
 
 // Thread-bound. A request whose reply does not come, or not whole, is sent again twice, each time
 // with another number, and counts as a lost scan if that does not help; nothing valid for 2 s, or
-// an unplugged device, is an error. The time of a scan is the middle between request and reply; one
-// that took more than 20 ms is suspect, as nobody knows when in that time it was true.
+// an unplugged device, is an error. The time of a scan is the middle between request and reply; a
+// slow one is suspect, as nobody knows when in that time it was true.
 class PoKeys57u final : public Driver {
  public:
   static constexpr int kSends = 3;

@@ -92,7 +92,7 @@ TEST(LabjackU6Settings, PacketsAndTransfersFollowTheRate) {
     EXPECT_GE(transfers.transfers, 4U);
   }
   const auto fast = labjack_u6::transfers_for(50'000);
-  EXPECT_GE(static_cast<double>(fast.bytes / 64 * 25 * fast.transfers) / 50'000, 0.25);
+  EXPECT_GE(static_cast<double>(fast.bytes * 25 * fast.transfers) / 64 / 50'000, 0.25);
 }
 
 }  // namespace

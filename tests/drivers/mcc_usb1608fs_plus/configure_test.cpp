@@ -70,7 +70,7 @@ TEST(Usb1608Settings, AQuarterOfASecondWaits) {
   for (const double samples_hz : {1000.0, 5000.0, 50'000.0, 400'000.0}) {
     const auto transfers = mcc_usb1608fs_plus::transfers_for(samples_hz);
     EXPECT_EQ(transfers.bytes % 64, 0U);
-    EXPECT_GE(static_cast<double>(transfers.bytes / 2 * transfers.transfers) / samples_hz, 0.249);
+    EXPECT_GE(static_cast<double>(transfers.bytes * transfers.transfers) / 2 / samples_hz, 0.249);
   }
 }
 

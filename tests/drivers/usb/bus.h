@@ -6,6 +6,8 @@
 // other end closed, it is in error.
 #pragma once
 
+#include <umockdev.h>
+
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -18,9 +20,6 @@
 
 #include "drivers/clock/monotonic.h"
 #include "drivers/usb/simulated_usb.h"
-
-using UMockdevTestbed = struct _UMockdevTestbed;
-using UMockdevIoctlBase = struct _UMockdevIoctlBase;
 
 namespace mdof::drivers::usb {
 

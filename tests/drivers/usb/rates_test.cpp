@@ -1,0 +1,210 @@
+// The greatest rates, through the real libusb: every sample that the device takes is accounted for.
+// Each input senses which sample it is.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "drivers/labjack_u6/device.h"
+#include "drivers/labjack_u6/labjack_u6.h"
+#include "drivers/mcc_usb1608fs_plus/device.h"
+#include "drivers/mcc_usb1608fs_plus/mcc_usb1608fs_plus.h"
+#include "tests/drivers/usb/bus.h"
+
+namespace mdof::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr double kFor_s = 3;
+// The whole of what is queued, so that it has to be begun anew several times a second.
+constexpr std::int64_t kMostUnasked_ns = 250'000'000;
+
+struct Count {
+  std::uint64_t scans = 0, lost = 0, wrong = 0;
+  std::string error;
+};
+
+// Reads for a while; `wrong(block, scan, k)` says that scan k of all is not the one it should be.
+template <class Wrong>
+Count read_for(Driver& driver, double seconds, const Wrong& wrong) {
+  Count count;
+  SampleBlock block;
+  const auto until = steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (steady_clock::now() < until) {
+    const auto state = driver.read(block, milliseconds(20));
+    if (!state) {
+      count.error = state.error().message;
+      return count;
+    }
+    count.lost += block.lost;
+    for (std::size_t i = 0; i < block.scans(); ++i) count.wrong += wrong(block, i, count.scans++);
+  }
+  return count;
+}
+
+void expect_all(const Count& count, double rate_hz) {
+  EXPECT_EQ(count.error, "");
+  EXPECT_EQ(count.wrong, 0U);
+  EXPECT_EQ(count.lost, 0U);
+  const double due = rate_hz * kFor_s;
+  EXPECT_GT(static_cast<double>(count.scans), due * 0.85);
+  std::printf("%llu scans of %.0f at %.0f Hz, %llu wrong, %llu lost\n",
+              static_cast<unsigned long long>(count.scans), due, rate_hz,
+              static_cast<unsigned long long>(count.wrong),
+              static_cast<unsigned long long>(count.lost));
+}
+
+// A clock that steps by a scan's period, so that it is never in doubt which scan it is.
+struct ScanClock {
+  std::int64_t zero_ns = monotonic_ns();
+  std::atomic<std::int64_t> period_ns = 1;
+  std::int64_t operator()() const {
+    return zero_ns + (monotonic_ns() - zero_ns) / period_ns * period_ns;
+  }
+  double scan(std::int64_t t_ns) const {
+    return std::floor(static_cast<double>(t_ns - zero_ns) / static_cast<double>(period_ns) + 0.1);
+  }
+};
+
+// --- LabJack U6: the counter counts scans --------------------------------------------------------
+
+class UsbU6Rates : public testing::Test {
+ protected:
+  Count run(std::size_t ains, bool counter, const labjack_u6::Faults& faults) {
+    using namespace labjack_u6;
+    Settings settings;
+    settings.name = "daq";
+    for (std::size_t i = 0; i < ains; ++i)
+      settings.inputs.push_back(
+          {{std::string(1, static_cast<char>('A' + i)), Unit::volt}, static_cast<int>(i), 0});
+    if (counter) settings.inputs.push_back({{"encoder", Unit::um}, -1, 1});
+    const std::size_t words = ains + (counter ? 2 : 0);
+    settings.rate_hz = std::floor(50'000.0 / static_cast<double>(words));
+    rate_hz_ = stream_clock(settings.rate_hz)->rate_hz;
+    clock.period_ns = std::llround(1e9 / rate_hz_);
+    // Of AIN0 in steps of a code, from the middle of the range on.
+    const AinCalibration c = Device::calibration(0);
+    device = std::make_unique<Device>(
+        [this, c](std::size_t input, std::int64_t t_ns) {
+          const double scan = clock.scan(t_ns);
+          if (input == Device::kCounterInput) return scan;
+          return labjack::volts(c, static_cast<std::uint16_t>(40'000 + std::fmod(scan, 10'000)));
+        },
+        faults);
+    number = bus.plug(*device);
+    made = std::make_unique<LabjackU6>(settings);
+    const Status opened = made->open();
+    EXPECT_TRUE(opened) << opened.error().message;
+    double first = 0, last = 0;
+    const std::size_t at = counter ? ains : 0;
+    Count count =
+        read_for(*made, kFor_s, [&](const SampleBlock& block, std::size_t i, std::uint64_t k) {
+          const double value = counter
+                                   ? block.value[at][i]
+                                   : std::round(block.value[0][i] / c.positive_slope + c.centre);
+          if (k == 0) first = value;
+          const double step = k == 0 ? 1 : value - last;
+          last = value;
+          return counter ? value != first + static_cast<double>(k) : step != 1 && step != -9999;
+        });
+    EXPECT_LT(bus.longest_unasked_ns(number, kStreamIn), kMostUnasked_ns);
+    return count;
+  }
+
+  ScanClock clock;
+  std::unique_ptr<labjack_u6::Device> device;
+  double rate_hz_ = 0;
+  int number = 0;
+  usb::Bus bus{[this] { return clock(); }};
+  std::unique_ptr<labjack_u6::LabjackU6> made;
+};
+
+TEST_F(UsbU6Rates, FiveInputsAndTheEncoder) {
+  const Count count = run(5, true, {});
+  expect_all(count, rate_hz_);
+}
+
+TEST_F(UsbU6Rates, OneInputAtFiftyThousand) {
+  const Count count = run(1, false, {});
+  expect_all(count, rate_hz_);
+  EXPECT_EQ(rate_hz_, 50'000);
+}
+
+// That a loss can be seen: a packet that never comes ends the run.
+TEST_F(UsbU6Rates, AMissingPacketIsSeen) {
+  labjack_u6::Faults faults;
+  faults.skip_at = 300;
+  EXPECT_NE(run(5, true, faults).error.find("packets are missing"), std::string::npos);
+}
+
+// --- USB-1608FS-Plus: its inputs count samples, in codes -----------------------------------------
+
+class Usb1608Rates : public testing::Test {
+ protected:
+  static constexpr std::uint64_t kCodes = 65'000;  // none of them at the end of the range
+
+  Count run(std::size_t inputs, double rate_hz, const mcc_usb1608fs_plus::Faults& faults) {
+    using namespace mcc_usb1608fs_plus;
+    Settings settings;
+    settings.name = "daq";
+    settings.rate_hz = rate_hz;
+    clock.period_ns = std::llround(1e9 / rate_hz);
+    for (std::size_t i = 0; i < inputs; ++i)
+      settings.inputs.push_back({{std::string(1, static_cast<char>('A' + i)), Unit::volt}, i});
+    device = std::make_unique<Device>(
+        [this, inputs](std::size_t input, std::int64_t t_ns) {
+          const auto scan = static_cast<std::uint64_t>(clock.scan(t_ns));
+          return volts(static_cast<std::uint16_t>(1 + (scan * inputs + input) % kCodes), {}, 10);
+        },
+        faults);
+    number = bus.plug(*device);
+    made = std::make_unique<MccUsb1608fsPlus>(settings);
+    const Status opened = made->open();
+    EXPECT_TRUE(opened) << opened.error().message;
+    std::uint64_t expected = 0;
+    Count count =
+        read_for(*made, kFor_s, [&](const SampleBlock& block, std::size_t i, std::uint64_t k) {
+          bool wrong = false;
+          for (std::size_t c = 0; c < inputs; ++c) {
+            const auto code =
+                static_cast<std::uint64_t>(std::lround(block.value[c][i] / 10 * 32768 + 32768) - 1);
+            if (k == 0 && c == 0) expected = code;
+            wrong = wrong || code != expected;
+            expected = (code + 1) % kCodes;
+          }
+          return wrong;
+        });
+    EXPECT_LT(bus.longest_unasked_ns(number, kSamplesIn), kMostUnasked_ns);
+    return count;
+  }
+
+  ScanClock clock;
+  std::unique_ptr<mcc_usb1608fs_plus::Device> device;
+  int number = 0;
+  usb::Bus bus{[this] { return clock(); }};
+  std::unique_ptr<mcc_usb1608fs_plus::MccUsb1608fsPlus> made;
+};
+
+TEST_F(Usb1608Rates, FourInputsAtAHundredThousand) {
+  expect_all(run(4, 100'000, {}), 100'000);
+}
+
+TEST_F(Usb1608Rates, FiveInputsAtEightyThousand) {
+  expect_all(run(5, 80'000, {}), 80'000);
+}
+
+// That a loss can be seen: one scan in 240,000 that is missing without a word.
+TEST_F(Usb1608Rates, AMissingScanIsSeen) {
+  mcc_usb1608fs_plus::Faults faults;
+  faults.drop_at = 100'000;
+  const Count count = run(5, 80'000, faults);
+  EXPECT_EQ(count.error, "");
+  EXPECT_EQ(count.wrong, 1U);
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -38,7 +38,7 @@ Settings settings_of(std::vector<Input> inputs = {counter(0)}) {
   Settings settings;
   settings.name = "slide";
   settings.response_timeout = milliseconds(200);
-  settings.slow = milliseconds(60);  // this machine may be
+  settings.slow = milliseconds(200);  // this machine may be
   settings.inputs = std::move(inputs);
   return settings;
 }
@@ -55,13 +55,13 @@ class PoKeys57uOnHid : public ::testing::Test {
     EXPECT_NE(opened.error().message.find(part), std::string::npos) << opened.error().message;
     EXPECT_NE(opened.error().message.find("\"slide\""), std::string::npos);
   }
-  // Each good value was true within 60 ms between request and reply.
+  // Each good value was true within 200 ms between request and reply.
   static void expect_true_values(const Collected& all) {
     std::size_t good = 0;
     for (std::size_t i = 0; i < all.scans.size(); ++i) {
       if (all.first_quality(i) != Quality::good) continue;
       ++good;
-      EXPECT_NEAR(all.scans[i][0] / 0.5, milliseconds_now(0, all.time_ns[i]), 31) << i;
+      EXPECT_NEAR(all.scans[i][0] / 0.5, milliseconds_now(0, all.time_ns[i]), 101) << i;
     }
     EXPECT_GE(good, all.scans.size() / 2);
   }

@@ -81,6 +81,10 @@ class BoundedQueue {
     const std::lock_guard lock(mutex_);
     return closed_ && items_.empty();
   }
+  bool empty() const {
+    const std::lock_guard lock(mutex_);
+    return items_.empty();
+  }
   std::uint64_t dropped() const {
     const std::lock_guard lock(mutex_);
     return dropped_;

@@ -13,9 +13,11 @@ struct Station::OpenRun {
   std::int64_t id;
   RunRequest request;
   Pipeline pipeline;
-  std::vector<MeasuredPoint> stored;      // as handed to the store
-  std::uint64_t blocks_not_recorded = 0;  // the store's queue was full
-  std::optional<Continuation> continues;  // another run's recording
+  std::vector<MeasuredPoint> stored;               // as handed to the store
+  std::optional<Continuation> continues;           // another run's recording
+  std::vector<SampleBlock> unrecorded;             // not yet handed to the store
+  std::chrono::steady_clock::time_point recorded;  // when the last were
+  std::uint64_t blocks_not_recorded = 0;           // the store's queue was full
 };
 
 // What a run that goes on from another begins with.

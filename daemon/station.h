@@ -90,6 +90,8 @@ class Station {
   void measure();
   void handle(Item& item);
   void take_samples(SampleBlock& block);
+  void keep_for_recording(const SampleBlock& block);
+  void record();
   bool of_this_pass(const Item& item) const;
   void keep_new_points(const std::vector<MeasuredPoint>& points);
   void attach(Item& item);

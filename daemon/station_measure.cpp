@@ -19,7 +19,10 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kPopTimeout{100};
+// What several devices give is handled together: to wake up costs more than their samples.
+constexpr milliseconds kGather{1};
 constexpr milliseconds kLiveInterval{20};
+constexpr milliseconds kRecordInterval{20};  // each hand-over wakes the store's thread
 
 PipelineOptions without_points(PipelineOptions options) {
   options.keep_points = false;
@@ -126,7 +129,9 @@ void Station::measure() {
     measure_turn_ = steady_clock::now();
     if (auto item = shared_->queue.pop(kPopTimeout)) {
       handle(*item);
+      if (config_.live() && shared_->queue.empty()) std::this_thread::sleep_for(kGather);
     } else {
+      if (open_) record();
       show_live();  // that nothing comes is news too
     }
   }
@@ -169,7 +174,7 @@ void Station::attach(Item& item) {
   }
   if (item.beginning) continues.emplace(item.beginning->end_ns);
   open_ = std::make_unique<OpenRun>(
-      OpenRun{item.run, item.request, std::move(*pipeline), {}, 0, std::move(continues)});
+      OpenRun{item.run, item.request, std::move(*pipeline), {}, std::move(continues), {}, {}, 0});
   shared_->run = item.run;
   shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
   item.done(item.run);
@@ -189,9 +194,7 @@ void Station::take_samples(SampleBlock& block) {
   }
   view_.reset();
   if (open_->continues) open_->continues->shift(block);
-  if (config_.recorded() && !keeper_.record(open_->id, block, !config_.live())) {
-    ++open_->blocks_not_recorded;
-  }
+  if (config_.recorded()) keep_for_recording(block);
   if (const Status pushed = open_->pipeline.push(block); !pushed) {
     return finish(RunState::failed, pushed.error().message, {}, {});
   }
@@ -201,10 +204,27 @@ void Station::take_samples(SampleBlock& block) {
   show_live();
 }
 
-// Hands to the store what it has not got of these points.
+void Station::keep_for_recording(const SampleBlock& block) {
+  open_->unrecorded.push_back(block);
+  const auto now = steady_clock::now();
+  if (now - open_->recorded < kRecordInterval) return;
+  open_->recorded = now;
+  record();
+}
+
+void Station::record() {
+  if (open_->unrecorded.empty()) return;
+  const std::size_t blocks = open_->unrecorded.size();
+  const bool kept =
+      keeper_.record(open_->id, std::exchange(open_->unrecorded, {}), !config_.live());
+  if (!kept) open_->blocks_not_recorded += blocks;
+}
+
+// Hands to the store what it has not got of these points, after the samples that they come from.
 void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   const std::size_t first = open_->stored.size();
   if (points.size() <= first) return;
+  record();
   std::vector<MeasuredPoint> fresh(points.begin() + static_cast<std::ptrdiff_t>(first),
                                    points.end());
   open_->stored.insert(open_->stored.end(), fresh.begin(), fresh.end());
@@ -227,6 +247,7 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
     acquisitions_.front()->cease();  // what is still on its way belongs to this pass
   auto result = open_->pipeline.finish();
   // The stop at which the run ended has become a point only now.
+  record();
   if (result && begins_with(result->points, open_->stored)) keep_new_points(result->points);
   const std::unique_ptr<OpenRun> open = std::move(open_);
   Run run;

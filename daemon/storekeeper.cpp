@@ -107,13 +107,15 @@ bool Storekeeper::begin_run(NewRun run, std::function<void(Result<std::int64_t>)
   return queue_.try_push([this, shared, done = std::move(done)] { done(begin(*shared)); });
 }
 
-bool Storekeeper::record(std::int64_t run, SampleBlock block, bool wait) {
-  auto shared = std::make_shared<SampleBlock>(std::move(block));
+bool Storekeeper::record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait) {
+  auto shared = std::make_shared<std::vector<SampleBlock>>(std::move(blocks));
   auto job = [this, run, shared] {
     const auto recording = recordings_.find(run);
     if (recording == recordings_.end()) return;  // it has failed or ended
-    const Status kept = recording->second.writer.append(*shared);
-    if (!kept) events_.failed(run, kept.error());
+    for (const SampleBlock& block : *shared) {
+      const Status kept = recording->second.writer.append(block);
+      if (!kept) events_.failed(run, kept.error());
+    }
     recording->second.waiting = true;
   };
   return wait ? queue_.push(std::move(job)) : queue_.try_push(std::move(job));

@@ -57,8 +57,8 @@ class Storekeeper {
   // Errors as RecordingWriter::create(). Whoever calls it may write until it is a run's.
   Result<store::RecordingWriter> create_recording(const NewRun& run) const;
   bool begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done);
-  // `wait`: for a source that can wait; otherwise a full queue drops the block, counted.
-  bool record(std::int64_t run, SampleBlock block, bool wait);
+  // `wait`: for a source that can wait; otherwise a full queue drops the blocks, counted as one.
+  bool record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait);
   void append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                      std::function<void(Status)> done);
   // Seals the recording and ends the run. If `result` differs from the points already stored, they

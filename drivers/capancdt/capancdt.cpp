@@ -106,6 +106,7 @@ Result<bool> Capancdt::receive_all(milliseconds timeout, bool& came) {
     if (n == 0) return true;
     came = true;
     session_->parser.add({bytes.data(), n});
+    if (n < bytes.size()) return true;
   }
   return false;
 }

@@ -204,7 +204,7 @@ TEST_F(Usb1608Rates, AHostThatSleepsIsSeen) {
   run(4, 100'000, {}, 0.2);
   std::this_thread::sleep_for(milliseconds(600));
   SampleBlock block;
-  EXPECT_TRUE(made->read(block, milliseconds(20)));
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(made->read(block, milliseconds(0)));
   EXPECT_GT(bus.longest_unasked_ns(number, mcc_usb1608fs_plus::kSamplesIn), 100'000'000);
 }
 

@@ -108,6 +108,7 @@ void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
   }
   append(buffer_, frames, from, frames.size());
   while (row_ < buffer_.size()) {
+    if (!breaks_.empty() && buffer_.time_ns[row_] > breaks_.front()) pass_break(out);
     const std::int64_t index = (buffer_.time_ns[row_] - origin_ns_) / slot_ns_;
     if (slot_open_ && index != open_.index) close_slot(out);
     if (!slot_open_) {
@@ -117,8 +118,9 @@ void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
       slot_open_ = true;
     }
     const auto begin = buffer_.time_ns.begin() + static_cast<std::ptrdiff_t>(row_);
-    const auto end =
-        std::lower_bound(begin, buffer_.time_ns.end(), origin_ns_ + (index + 1) * slot_ns_);
+    std::int64_t until_ns = origin_ns_ + (index + 1) * slot_ns_;
+    if (!breaks_.empty()) until_ns = std::min(until_ns, breaks_.front() + 1);
+    const auto end = std::lower_bound(begin, buffer_.time_ns.end(), until_ns);
     add_rows(row_ + static_cast<std::size_t>(end - begin));
   }
   if (dwelling_ && truncated_) drop_cut_rows();
@@ -335,6 +337,19 @@ void DwellDetector::drop_cut_rows() {
   open_.first_row -= end - cut_row_;
 }
 
+void DwellDetector::break_after(std::int64_t time_ns) {
+  breaks_.push_back(time_ns);
+}
+
+void DwellDetector::pass_break(std::vector<Point>& out) {
+  breaks_.pop_front();
+  end_of_sight(out);
+  slots_.clear();
+  path_.clear();
+  left_ns_ = 0;
+  encoder_before_.fill(buffer_.encoder_m[row_]);
+}
+
 void DwellDetector::flush(std::vector<Point>& out) {
   if (period_ns_ == 0 && early_.size() >= 2) {
     learn_period(early_);
@@ -342,11 +357,15 @@ void DwellDetector::flush(std::vector<Point>& out) {
     early_ = empty_frames(probe_ids_.size());
     push(early, out);
   }
+  end_of_sight(out);
+}
+
+// The axis may still stand: an empty slot stands for the one that leaves the window.
+void DwellDetector::end_of_sight(std::vector<Point>& out) {
   if (slot_open_) close_slot(out);
   if (!dwelling_) return;
-  // Nothing moved at the end: an empty slot after the data stands for the one that left the window.
   Slot after = slots_.back();
-  after.first_row = buffer_.size();
+  after.first_row = row_;
   after.begin_ns = last_ns_;
   slots_.push_back(after);
   slots_.push_back(after);

@@ -38,6 +38,9 @@ class DwellDetector {
   // Appends the points that became complete. The encoder's single-sample spikes are voted out by a
   // median of three.
   void push(const FrameBlock& frames, std::vector<Point>& out);
+  // Frames after this time are not yet pushed. From there to the next frame nobody saw the axis: a
+  // dwell ends here, and what approach the next one has is not known.
+  void break_after(std::int64_t time_ns);
   // End of the data: the dwell under way is complete as well.
   void flush(std::vector<Point>& out);
 
@@ -71,6 +74,8 @@ class DwellDetector {
   int direction_to(double position_m) const;
   void begin_dwell();
   void end_dwell(std::vector<Point>& out);
+  void end_of_sight(std::vector<Point>& out);
+  void pass_break(std::vector<Point>& out);
   Point average(std::size_t from, std::size_t to);
   void average_probe(std::size_t probe, std::size_t from, std::size_t to, Point& point);
   void drop_rows_before(std::size_t row);  // when it is worth moving the rest up
@@ -90,8 +95,9 @@ class DwellDetector {
   std::size_t row_ = 0;                     // of buffer_: the next that belongs to no slot yet
   Slot open_;
   bool slot_open_ = false;
-  double encoder_noise_m_ = -1;  // sd, of the quietest slot so far; below 0: not known
-  std::deque<double> path_;      // positions at least approach_m apart, newest at the back
+  double encoder_noise_m_ = -1;      // sd, of the quietest slot so far; below 0: not known
+  std::deque<double> path_;          // positions at least approach_m apart, newest at the back
+  std::deque<std::int64_t> breaks_;  // not yet passed
 
   bool dwelling_ = false, truncated_ = false;
   std::int64_t still_since_ns_ = 0;

@@ -68,11 +68,15 @@ std::string millimetres(double m) {
   return text.data();
 }
 
+// Where the axis was before nobody saw it, it is taken to have stayed; elsewhere to be on its way
+// to the next stop.
 void assume_approaches(std::vector<MeasuredPoint>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     Point& p = points[i].point;
     if (p.direction != 0) continue;
-    p.direction = i + 1 < points.size() && points[i + 1].target < points[i].target ? -1 : 1;
+    const bool stayed = i > 0 && points[i - 1].target == points[i].target;
+    const bool back = i + 1 < points.size() && points[i + 1].target < points[i].target;
+    p.direction = stayed ? points[i - 1].point.direction : back ? -1 : 1;
     p.flags.emplace_back(kApproachAssumed);
   }
 }

@@ -28,7 +28,8 @@ struct Sequence {
 // Targets: positions are sorted and cut where the step to the next is ten times the scatter within
 // a target (and over 2 µm). A pass is a row of stops with one approach, in order; the k-th pass of
 // an approach is run k. Two stops in a row at one target with one approach are one interrupted
-// stop: the longer is kept. A point whose approach is not known (the log begins there) is taken to
+// stop: the longer is kept. A point whose approach is not known (the log begins there, or nobody
+// saw the axis before it) is taken to go on with the stop before it at the same target, else to
 // belong to the motion that follows, and is flagged "approach_assumed".
 Sequence recognise_sequence(const std::vector<Point>& points, const SequenceOptions& options);
 

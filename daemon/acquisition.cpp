@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kReadTimeout{100};
-constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{1000};
+constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{500};
 constexpr milliseconds kNap{10}, kRefresh{1000};
 
 // Names of threads end after 15 characters.
@@ -120,13 +120,14 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
   return false;
 }
 
-// Scans of a device that was away, where it cannot count them itself, and those dropped here.
+// Scans of a device that was away, at least one, where it cannot count them itself, and those
+// dropped here.
 void Acquisition::note_loss(SampleBlock& block) {
   const std::lock_guard lock(status_mutex_);
   if (std::exchange(just_opened_, false) && last_ns_ && block.lost == 0) {
     const double away_s = static_cast<double>(block.time_ns.front() - *last_ns_) * 1e-9;
     const double scans = away_s * status_.info.rate_hz;
-    block.lost = static_cast<std::uint64_t>(std::llround(std::max(0.0, scans - 1)));
+    block.lost = static_cast<std::uint64_t>(std::llround(std::max(1.0, scans - 1)));
   }
   last_ns_ = block.time_ns.back();
   status_.lost += block.lost;
@@ -148,11 +149,14 @@ void Acquisition::hand_over(SampleBlock& block, std::uint64_t pass) {
 
 void Acquisition::pause() {
   const auto until = steady_clock::now() + jittered(backoff_, spec_.name, status().reopened);
+  backoff_ = std::min(2 * backoff_, kLongestBackoff);
   while (acquiring_ && steady_clock::now() < until) {
     std::this_thread::sleep_for(kNap);
     turn_ = steady_clock::now();
+    if (!woken_.exchange(false)) continue;
+    backoff_ = kFirstBackoff;
+    break;
   }
-  backoff_ = std::min(2 * backoff_, kLongestBackoff);
   const std::lock_guard lock(status_mutex_);
   ++status_.reopened;
 }

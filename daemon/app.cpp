@@ -2,7 +2,9 @@
 
 #include <csignal>
 #include <cstdio>
+#include <optional>
 
+#include "daemon/hotplug.h"
 #include "daemon/methods.h"
 #include "daemon/paths.h"
 #include "daemon/rpc/server.h"
@@ -30,6 +32,7 @@ struct App::Parts {
       : config(std::move(c)), table("mdofd", kVersion), server(loop, table, {}) {}
 
   Config config;
+  std::optional<Hotplug> hotplug;
   rpc::EventLoop loop;
   std::unique_ptr<Storekeeper> keeper;
   std::unique_ptr<store::Store> reader;
@@ -47,6 +50,7 @@ struct App::Parts {
   void start_stations();
   Status listen();
   void watch();
+  void watch_hotplug();
 };
 
 Status App::Parts::open_store() {
@@ -118,9 +122,24 @@ void App::Parts::watch() {
       if (all) systemd::feed_watchdog();
     });
   }
+  watch_hotplug();
   loop.on_signal({SIGTERM, SIGINT}, [this](int) {
     systemd::notify_stopping("stopping");
     loop.stop();
+  });
+}
+
+// Without it devices are asked for again after the pause alone.
+void App::Parts::watch_hotplug() {
+  auto watched = Hotplug::watch();
+  if (!watched) {
+    std::fprintf(stderr, "%s\n", watched.error().message.c_str());
+    return;
+  }
+  hotplug.emplace(std::move(*watched));
+  loop.on_readable(hotplug->descriptor(), [this] {
+    if (!hotplug->take_arrivals()) return;
+    for (auto& station : stations) station->wake_devices();
   });
 }
 

@@ -49,10 +49,9 @@ void read_rpc(TomlTable& root, Config& config) {
   config.tcp_port = static_cast<std::uint16_t>(port);
 }
 
-void read_measure(TomlTable& root, Config& config) {
+void read_measure(TomlTable& root, PipelineOptions& m) {
   auto table = root.table("measure");
   if (!table) return;
-  PipelineOptions& m = config.measure;
   const std::string model = table->string("model", to_string(m.model));
   if (!model_from(model, m.model)) {
     table->reject("model", "must be \"simplified\", \"exact\" or \"rigid\"");
@@ -177,6 +176,13 @@ bool AxisConfig::simulated() const {
   return std::any_of(devices.begin(), devices.end(), [](const auto& d) { return d.simulated; });
 }
 
+Result<PipelineOptions> measure_options(const std::string& configuration) {
+  MDOF_TRY(auto root, TomlTable::parse(configuration, "mdofd.toml of the recording"));
+  PipelineOptions options;
+  read_measure(root, options);
+  return options;
+}
+
 Result<Config> load_config(const std::filesystem::path& file) {
   MDOF_TRY(std::string text, read_text_file(file));
   MDOF_TRY(auto root, TomlTable::parse(text, file.string()));
@@ -184,7 +190,7 @@ Result<Config> load_config(const std::filesystem::path& file) {
   config.text = std::move(text);
   MDOF_CHECK(read_store(root, config));
   read_rpc(root, config);
-  read_measure(root, config);
+  read_measure(root, config.measure);
   const auto base = std::filesystem::absolute(file).parent_path();
   for (auto& axis : root.tables("axis")) {
     MDOF_CHECK(read_axis(axis, base, config));

@@ -36,6 +36,9 @@ struct Config {
   std::string text;  // the TOML itself: provenance
 };
 
+// [measure] of a configuration that mdofd has accepted. Error: it is no TOML.
+Result<PipelineOptions> measure_options(const std::string& configuration);
+
 // Errors name file, line and key; unknown keys the nearest known one.
 Result<Config> load_config(const std::filesystem::path& file);
 

@@ -1,7 +1,8 @@
-// run.start, run.stop, run.list, run.get, run.points, squareness.fit.
+// run.start, run.resume, run.stop, run.list, run.get, run.points, squareness.fit.
 #include "algo/straightness.h"
 #include "daemon/methods.h"
 #include "daemon/paths.h"
+#include "daemon/resume.h"
 #include "schema/json_writer.h"
 #include "schema/run_json.h"
 #include "schema/targets.h"
@@ -86,6 +87,17 @@ void start_run(Methods& m, const Params& params, Reply reply) {
   const auto request = read_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
   (*station)->start_run(*request, answer_with_run(std::move(reply), *axis, *request));
+}
+
+void resume_run(Methods& m, const Params& params, Reply reply) {
+  const std::int64_t run = params.integer("run");
+  const auto header = m.reader.run_header(run);
+  if (!header) return reply(tl::unexpected(header.error()));
+  const auto station = station_of(m, header->axis);
+  if (!station) return reply(tl::unexpected(station.error()));
+  const auto request = request_to_resume(m.reader, run, (*station)->config());
+  if (!request) return reply(tl::unexpected(request.error()));
+  (*station)->start_run(*request, answer_with_run(std::move(reply), header->axis, *request));
 }
 
 void stop_run(Methods& m, const Params& params, Reply reply) {
@@ -215,6 +227,14 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});
+  table.add({.name = "run.resume",
+             .summary = "Goes on with a run that was cut off, as a new run that supersedes it: "
+                        "what was recorded is its beginning.",
+             .params = {run},
+             .result = "as of run.start",
+             .example = R"({"run": 1})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) { resume_run(m, p, std::move(r)); }});
   table.add({.name = "run.stop",
              .summary = "Ends the run under way and evaluates it.",
              .params = {run, {"abort", ParamType::boolean, "mark it as aborted", false, "false"}},

@@ -1,8 +1,10 @@
 // A run under way, as the measure thread holds it. Private to station*.cpp.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "daemon/resume.h"
 #include "daemon/station.h"
 
 namespace mdof::daemon {
@@ -13,6 +15,13 @@ struct Station::OpenRun {
   Pipeline pipeline;
   std::vector<MeasuredPoint> stored;      // as handed to the store
   std::uint64_t blocks_not_recorded = 0;  // the store's queue was full
+  std::optional<Continuation> continues;  // another run's recording
+};
+
+// What a run that goes on from another begins with.
+struct Station::Beginning {
+  Pipeline pipeline;
+  std::int64_t end_ns;  // of its last scan
 };
 
 }  // namespace mdof::daemon

@@ -56,7 +56,10 @@ std::string PipelineOptions::json() const {
   json.key("dwell").raw(dwell.json());
   json.key("targets_mm").begin_array();
   for (const double t : sequence.targets_m) json.value(to_mm(t));
-  json.end_array().field("target_window_mm", to_mm(sequence.target_window_m)).end_object();
+  json.end_array()
+      .field("target_window_mm", to_mm(sequence.target_window_m))
+      .field("repeats", repeats)
+      .end_object();
   return json.take();
 }
 
@@ -75,6 +78,7 @@ Pipeline::Pipeline(Rig rig, PipelineOptions options, algo::Solver solver)
 
 Status Pipeline::push(SampleBlock& raw) {
   lost_ += raw.lost;
+  note_break(raw);
   MDOF_CHECK(calibrator_.apply(raw));
   MDOF_CHECK(aligner_.push(raw, frames_));
   if (frames_.size() == 0) return {};
@@ -83,6 +87,16 @@ Status Pipeline::push(SampleBlock& raw) {
   if (!options_.keep_points) found_.clear();
   frames_.time_ns.clear();
   return {};
+}
+
+void Pipeline::note_break(const SampleBlock& raw) {
+  const auto is_encoder = [](const Channel& channel) { return channel.id == kEncoderChannel; };
+  if (raw.scans() == 0 || std::none_of(raw.channels.begin(), raw.channels.end(), is_encoder))
+    return;
+  const auto unseen_ns = static_cast<std::int64_t>(options_.dwell.window_s * 1e9);
+  if (raw.lost > 0 && encoder_ns_ && raw.time_ns.front() - *encoder_ns_ > unseen_ns)
+    dwell_.break_after(*encoder_ns_);
+  encoder_ns_ = raw.time_ns.back();
 }
 
 const std::vector<MeasuredPoint>& Pipeline::points() {

@@ -2,7 +2,9 @@
 // The one path for live measuring, replay and the command line, so that all give the same bits.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,7 @@ struct PipelineOptions {
   algo::SequenceOptions sequence;
   double stale_s = 0.5;     // an instant older than this is not shown as good
   bool keep_points = true;  // false: for a view without a run
+  int repeats = 0;          // a run was asked for so many, both ways; 0: until stopped
 
   std::string json() const;  // for the provenance
 };
@@ -35,7 +38,9 @@ class Pipeline {
   // Refuses a rig that cannot see the five errors, or that the model does not fit.
   static Result<Pipeline> create(const Rig& rig, const PipelineOptions& options);
 
-  // The block is used up. Error: it cannot be calibrated, or its time goes backwards.
+  // The block is used up. Error: it cannot be calibrated, or its time goes backwards. Scans of the
+  // encoder that are known to be lost for longer than a window of the dwells hide what the axis
+  // did.
   Status push(SampleBlock& raw);
 
   // The points complete so far, in sequence, solved. Targets are as far as known until finish().
@@ -53,6 +58,7 @@ class Pipeline {
 
  private:
   Pipeline(Rig rig, PipelineOptions options, algo::Solver solver);
+  void note_break(const SampleBlock& raw);
   void take_points();
   bool moved() const;
   Status explain_nothing() const;
@@ -69,6 +75,7 @@ class Pipeline {
   std::size_t taken_ = 0;  // of found_: those that sequence_ was made of
   algo::Sequence sequence_;
   std::uint64_t lost_ = 0;
+  std::optional<std::int64_t> encoder_ns_;  // of its last scan
 };
 
 }  // namespace mdof::daemon

@@ -87,6 +87,10 @@ std::string ReplayLog::started_utc() const {
   return recording_ ? recording_->header().started_utc : "";
 }
 
+std::string ReplayLog::configuration() const {
+  return recording_ ? recording_->header().configuration : "";
+}
+
 std::vector<std::string> ReplayLog::comments() const {
   return csv_ ? csv_->comments() : std::vector<std::string>();
 }

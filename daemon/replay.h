@@ -28,6 +28,7 @@ class ReplayLog {
   const char* kind() const { return recording_ ? "recording" : "csv"; }
   std::string rig_text() const;               // of a recording, else empty
   std::string started_utc() const;            // of a recording, else empty: not known
+  std::string configuration() const;          // mdofd.toml of a recording, else empty
   std::vector<std::string> comments() const;  // of a CSV log
   double progress() const;                    // 0 ... 1; 0 where it is not known (a pipe)
   // After the end of the log:

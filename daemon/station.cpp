@@ -1,5 +1,7 @@
 #include "daemon/station.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 
 #include "daemon/live_json.h"
@@ -37,6 +39,8 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
 }
 
 Station::~Station() {
+  resuming_ = false;
+  if (resume_thread_.joinable()) resume_thread_.join();
   if (config_.live())
     for (auto& acquisition : acquisitions_) acquisition->stop();
   shared_->queue.close();
@@ -69,11 +73,18 @@ Acquisition::Sink Station::sink() {
 
 // ---- main thread ----
 
+PipelineOptions Station::options_for(const RunRequest& request) const {
+  PipelineOptions options = options_;
+  options.sequence.targets_m = request.targets_m;
+  options.repeats = request.repeats;
+  return options;
+}
+
 NewRun Station::describe_run(const RunRequest& request) const {
   NewRun run;
   RunHeader& h = run.header;
-  PipelineOptions options = options_;
-  options.sequence.targets_m = request.targets_m;
+  const PipelineOptions options = options_for(request);
+  if (request.resumes) h.supersedes = request.resumes->id;
   h.axis = config_.rig.axis;
   h.simulated = config_.simulated();
   h.started_utc = utc_now();
@@ -103,8 +114,35 @@ void Station::start_run(const RunRequest& request, const RunDone& done) {
                                               " is under way; stop it with run.stop first"));
   }
   NewRun description = describe_run(request);
+  if (!request.resumes) return begin_run(std::move(description), request, nullptr, done);
+  if (resume_thread_.joinable()) resume_thread_.join();
+  resuming_ = true;
+  auto shared = std::make_shared<NewRun>(std::move(description));
+  resume_thread_ =
+      std::thread([this, shared, request, done] { resume_run(std::move(*shared), request, done); });
+}
+
+// On the thread "resume-X".
+void Station::resume_run(NewRun description, const RunRequest& request, const RunDone& done) {
+  const std::string name = std::string("resume-") + letter(config_.rig.axis);
+  pthread_setname_np(pthread_self(), name.c_str());
+  const auto ready = [&]() -> Result<std::shared_ptr<Beginning>> {
+    MDOF_TRY(auto pipeline, Pipeline::create(config_.rig, options_for(request)));
+    auto beginning = std::make_shared<Beginning>(Beginning{std::move(pipeline), 0});
+    MDOF_TRY(beginning->end_ns,
+             record_again(*request.resumes, keeper_, description, beginning->pipeline, resuming_));
+    return beginning;
+  }();
+  if (ready) return begin_run(std::move(description), request, *ready, done);
+  shared_->run = 0;
+  done(tl::unexpected(ready.error()));
+}
+
+void Station::begin_run(NewRun description, const RunRequest& request,
+                        std::shared_ptr<Beginning> beginning, const RunDone& done) {
   const bool posted = keeper_.begin_run(
-      std::move(description), [shared = shared_, request, done](const Result<std::int64_t>& id) {
+      std::move(description), [shared = shared_, request, beginning = std::move(beginning),
+                               done](const Result<std::int64_t>& id) {
         if (!id) {
           shared->run = 0;
           return done(id);
@@ -113,6 +151,7 @@ void Station::start_run(const RunRequest& request, const RunDone& done) {
         item.kind = Item::Kind::attach;
         item.run = *id;
         item.request = request;
+        item.beginning = beginning;
         item.done = done;
         shared->queue.push_always(std::move(item));
       });
@@ -139,6 +178,10 @@ void Station::storage_failed(std::int64_t run, const Error& error) {
   item.run = run;
   item.reason = error.message;
   shared_->queue.push_always(std::move(item));
+}
+
+void Station::wake_devices() {
+  for (auto& acquisition : acquisitions_) acquisition->wake();
 }
 
 std::vector<DeviceStatus> Station::devices() const {

@@ -3,6 +3,7 @@
 //   devices -> queue      measure: queue -> recording (store thread) -> pipeline -> points
 //
 // Live devices are read from the start, for the view; a replay only while a run is under way.
+// A run that goes on from one that was cut off is made ready by the thread "resume-X", then joins.
 #pragma once
 
 #include <atomic>
@@ -18,17 +19,10 @@
 #include "daemon/bounded_queue.h"
 #include "daemon/config.h"
 #include "daemon/pipeline.h"
+#include "daemon/run_request.h"
 #include "daemon/storekeeper.h"
 
 namespace mdof::daemon {
-
-// A run as it was asked for.
-struct RunRequest {
-  std::string note;
-  std::vector<double> targets_m;      // empty: recognised
-  int repeats = 0;                    // 0: until stopped; else complete after so many, both ways
-  std::vector<std::string> warnings;  // to be kept with the run
-};
 
 // Called on the station's or the store's threads; the receiver posts to its own.
 struct StationEvents {
@@ -55,6 +49,7 @@ class Station {
   // The store gave up on this run.
   void storage_failed(std::int64_t run, const Error& error);
 
+  void wake_devices();                                 // one was plugged in
   void watch(bool wanted) { watched_.store(wanted); }  // whether live() is worth its work
   const AxisConfig& config() const { return config_; }
   std::vector<DeviceStatus> devices() const;
@@ -62,11 +57,13 @@ class Station {
   bool healthy(std::chrono::steady_clock::duration limit) const;
 
  private:
+  struct Beginning;
   struct Item {
     enum class Kind { samples, ended, attach, stop, storage_failed } kind = Kind::samples;
     SampleBlock block;
     std::int64_t run = 0;
     RunRequest request;
+    std::shared_ptr<Beginning> beginning;  // of a run that goes on from another
     bool abort = false;
     std::string reason;
     drivers::SourceInfo source;
@@ -85,6 +82,10 @@ class Station {
 
   Acquisition::Sink sink();
   NewRun describe_run(const RunRequest& request) const;
+  PipelineOptions options_for(const RunRequest& request) const;
+  void begin_run(NewRun description, const RunRequest& request,
+                 std::shared_ptr<Beginning> beginning, const RunDone& done);
+  void resume_run(NewRun description, const RunRequest& request, const RunDone& done);
 
   void measure();
   void handle(Item& item);
@@ -114,6 +115,8 @@ class Station {
   std::chrono::steady_clock::time_point newest_since_{};
   std::vector<std::unique_ptr<Acquisition>> acquisitions_;
   std::thread measure_thread_;
+  std::atomic<bool> resuming_{false};
+  std::thread resume_thread_;
 };
 
 }  // namespace mdof::daemon

@@ -160,14 +160,16 @@ bool Station::of_this_pass(const Item& item) const {
 }
 
 void Station::attach(Item& item) {
-  PipelineOptions options = options_;
-  options.sequence.targets_m = item.request.targets_m;
-  auto pipeline = Pipeline::create(config_.rig, options);
+  std::optional<Continuation> continues;
+  auto pipeline = item.beginning ? std::move(item.beginning->pipeline)
+                                 : Pipeline::create(config_.rig, options_for(item.request));
   if (!pipeline) {  // the configuration was checked with the same rig: only given targets differ
     shared_->run = 0;
     return item.done(tl::unexpected(pipeline.error()));
   }
-  open_ = std::make_unique<OpenRun>(OpenRun{item.run, item.request, std::move(*pipeline), {}, 0});
+  if (item.beginning) continues.emplace(item.beginning->end_ns);
+  open_ = std::make_unique<OpenRun>(
+      OpenRun{item.run, item.request, std::move(*pipeline), {}, 0, std::move(continues)});
   shared_->run = item.run;
   shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
   item.done(item.run);
@@ -186,6 +188,7 @@ void Station::take_samples(SampleBlock& block) {
     return show_live();
   }
   view_.reset();
+  if (open_->continues) open_->continues->shift(block);
   if (config_.recorded() && !keeper_.record(open_->id, block, !config_.live())) {
     ++open_->blocks_not_recorded;
   }

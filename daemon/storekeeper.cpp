@@ -89,12 +89,16 @@ bool Storekeeper::post(Job job) {
   return queue_.try_push([this, job = std::move(job)] { job(store_); });
 }
 
+Result<store::RecordingWriter> Storekeeper::create_recording(const NewRun& run) const {
+  return store::RecordingWriter::create(run.recording, run.recording_header, options_.durability);
+}
+
 Result<std::int64_t> Storekeeper::begin(NewRun& run) {
   if (run.recording.empty()) return store_.begin_run(run.header);
-  MDOF_TRY(auto writer, store::RecordingWriter::create(run.recording, run.recording_header,
-                                                       options_.durability));
+  auto writer = run.begun ? std::move(*run.begun) : create_recording(run);
+  if (!writer) return tl::unexpected(writer.error());
   MDOF_TRY(const std::int64_t id, store_.begin_run(run.header));
-  recordings_.emplace(id, Recording{std::move(writer)});
+  recordings_.emplace(id, Recording{std::move(*writer)});
   return id;
 }
 
@@ -120,6 +124,7 @@ void Storekeeper::append_points(std::int64_t run, std::vector<MeasuredPoint> poi
   auto shared = std::make_shared<std::vector<MeasuredPoint>>(std::move(points));
   queue_.push_always([this, run, shared, done = std::move(done)] {
     if (incomplete_.contains(run)) return done(io_error("an earlier point was not kept"));
+    commit_recordings();  // the samples are on the disk before what is made of them
     const Status kept = store_.append_points(run, *shared);
     if (!kept) {
       incomplete_.insert(run);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -26,6 +27,7 @@ struct NewRun {
   RunHeader header;
   std::filesystem::path recording;  // empty: not recorded (a replay)
   RecordingHeader recording_header;
+  std::optional<store::RecordingWriter> begun;  // a recording that has a beginning already
 };
 
 class Storekeeper {
@@ -52,6 +54,8 @@ class Storekeeper {
   using Job = std::function<void(store::Store&)>;
   // False: the queue is full or closing; the job is not kept.
   bool post(Job job);
+  // Errors as RecordingWriter::create(). Whoever calls it may write until it is a run's.
+  Result<store::RecordingWriter> create_recording(const NewRun& run) const;
   bool begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done);
   // `wait`: for a source that can wait; otherwise a full queue drops the block, counted.
   bool record(std::int64_t run, SampleBlock block, bool wait);
@@ -86,7 +90,7 @@ class Storekeeper {
   };
 
   store::Store store_;
-  Options options_;
+  const Options options_;
   Events events_;
   std::map<std::int64_t, Recording> recordings_;
   std::vector<Unended> unended_;

@@ -11,6 +11,7 @@
 #include "drivers/linux_iio/configure.h"
 #include "drivers/mcc_usb1608fs_plus/configure.h"
 #include "drivers/modbus/configure.h"
+#include "drivers/pokeys57u/configure.h"
 #include "drivers/qsb/configure.h"
 #include "drivers/recording/recording_log.h"
 #include "drivers/simulator/simulator.h"
@@ -65,6 +66,7 @@ constexpr Row kDrivers[] = {
     {"linux_iio", configure_linux_iio},
     {"mcc_usb1608fs_plus", configure_mcc_usb1608fs_plus},
     {"modbus", configure_modbus},
+    {"pokeys57u", configure_pokeys57u},
     {"qsb", configure_qsb},
     {"replay", configure_replay},
     {"simulator", configure_simulator},

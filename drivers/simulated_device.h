@@ -19,7 +19,7 @@ class SimulatedDevice {
  public:
   struct Port {
     std::string name;  // "command", "data"
-    int number;        // TCP port of the real device; 0: no TCP (a serial line, USB)
+    int number;        // TCP port of the real device; 0: a serial line
   };
   virtual ~SimulatedDevice() = default;
   virtual std::vector<Port> ports() const = 0;
@@ -31,6 +31,8 @@ class SimulatedDevice {
   // something came, and every millisecond or so besides.
   virtual std::string exchange(std::size_t port, int client, std::string_view received,
                                std::int64_t now_ns) = 0;
+  // Every millisecond or so, whoever is there.
+  virtual void turn(std::int64_t /*now_ns*/) {}
   // The device breaks this connection after what exchange() gave.
   virtual bool hangs_up(std::size_t port, int client) = 0;
 };

@@ -48,6 +48,24 @@ struct SignalWatch : std::enable_shared_from_this<SignalWatch> {
   std::function<void(int)> work;
 };
 
+struct ReadWatch : std::enable_shared_from_this<ReadWatch> {
+  ReadWatch(asio::io_context& context, int fd, std::function<void()> call)
+      : descriptor(context, fd), work(std::move(call)) {}
+  ~ReadWatch() { descriptor.release(); }  // the caller's
+
+  void wait() {
+    descriptor.async_wait(asio::posix::descriptor_base::wait_read,
+                          [self = shared_from_this()](const std::error_code& error) {
+                            if (error) return;
+                            self->work();
+                            self->wait();
+                          });
+  }
+
+  asio::posix::stream_descriptor descriptor;
+  std::function<void()> work;
+};
+
 }  // namespace
 
 EventLoop::EventLoop() : core_(std::make_shared<Core>()) {}
@@ -83,6 +101,10 @@ void EventLoop::on_signal(const std::vector<int>& signals, std::function<void(in
   auto watch = std::make_shared<SignalWatch>(*core_->context, std::move(work));
   for (const int number : signals) watch->set.add(number);
   watch->wait();
+}
+
+void EventLoop::on_readable(int descriptor, std::function<void()> work) {
+  std::make_shared<ReadWatch>(*core_->context, descriptor, std::move(work))->wait();
 }
 
 }  // namespace mdof::rpc

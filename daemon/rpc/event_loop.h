@@ -30,6 +30,9 @@ class EventLoop {
   void call_every(std::chrono::nanoseconds period, std::function<void()> work);
   // Before run() or on the loop: calls `work(number)` on the loop for each of these signals.
   void on_signal(const std::vector<int>& signals, std::function<void(int)> work);
+  // Before run() or on the loop: calls `work` whenever there is something to read, which it takes.
+  // The descriptor stays the caller's and must outlive the loop's run().
+  void on_readable(int descriptor, std::function<void()> work);
 
   const std::shared_ptr<Core>& core() const { return core_; }
 

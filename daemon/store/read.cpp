@@ -144,6 +144,12 @@ Result<std::int64_t> Store::count_runs(std::optional<Axis> axis) {
   return row.integer(0);
 }
 
+Result<std::optional<std::int64_t>> Store::superseded_by(std::int64_t run) {
+  MDOF_TRY(Statement row, connection_.prepare("SELECT max(id) FROM run WHERE supersedes = ?"));
+  MDOF_CHECK(row.bind(run).step());
+  return row.is_null(0) ? std::nullopt : std::optional(row.integer(0));
+}
+
 Result<MeasuredPoint> Store::point_of(Statement& row) {
   MeasuredPoint point;
   point.target = static_cast<int>(row.integer(0));

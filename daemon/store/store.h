@@ -72,6 +72,7 @@ class Store {
   Result<std::vector<RunHeader>> list_runs(std::int64_t offset, std::int64_t count,
                                            std::optional<Axis> axis = std::nullopt);
   Result<std::int64_t> count_runs(std::optional<Axis> axis = std::nullopt);
+  Result<std::optional<std::int64_t>> superseded_by(std::int64_t run);  // the last that does
   // Rows offset ... offset + count - 1 in the order measured, as many as there are.
   Result<std::vector<MeasuredPoint>> points(std::int64_t run, std::int64_t offset,
                                             std::int64_t count);

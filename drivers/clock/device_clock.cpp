@@ -13,6 +13,7 @@ constexpr std::size_t kStretches = 256;      // 64 s
 constexpr std::size_t kStretchesToFit = 16;  // 4 s: before, the nominal rate
 constexpr double kMostDrift = 1e-3;          // 1000 ppm: no clock is that wrong
 constexpr double kSlew = 2e-3;               // of the time, on top of the drift
+constexpr double kFirstSlew = 0.2;           // as long as quicker packets still tell the offset
 constexpr double kStep_ns = 0.1e9;           // a jump, not a delay
 
 double median(std::vector<double>& values) {
@@ -99,7 +100,8 @@ std::int64_t DeviceClock::host_ns(std::int64_t ticks) {
   } else {
     const double passed = std::max(0.0, nominal - nominal_ns(given_ticks_));
     const double on_line = given_offset_ns_ + slope_ * passed;
-    given_offset_ns_ = std::clamp(wanted, on_line - kSlew * passed, on_line + kSlew * passed);
+    const double most = (fitted_ ? kSlew : kFirstSlew) * passed;
+    given_offset_ns_ = std::clamp(wanted, on_line - most, on_line + most);
   }
   given_ticks_ = ticks;
   const std::int64_t ns = *first_ns_ + std::llround(nominal + given_offset_ns_);

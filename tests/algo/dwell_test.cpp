@@ -16,6 +16,7 @@ struct Stepper {
   FrameBlock frames;
   double x = -1e-3;
   std::int64_t t_ns = 0;
+  std::vector<std::int64_t> breaks;
   std::mt19937_64 rng{1};
 
   Stepper() {
@@ -41,6 +42,12 @@ struct Stepper {
   void dwell() {
     for (int i = 0; i < dwell_s * rate_hz; ++i) scan();
   }
+  // Nobody sees the axis go there.
+  void jump_unseen(double target, double after_s) {
+    breaks.push_back(t_ns - static_cast<std::int64_t>(1e9 / rate_hz));
+    t_ns += static_cast<std::int64_t>(after_s * 1e9);
+    x = target;
+  }
   // Over the targets and back, with an overrun past both ends.
   void passes(const std::vector<double>& targets, int n) {
     for (int k = 0; k < n; ++k) {
@@ -52,8 +59,10 @@ struct Stepper {
   }
 };
 
-std::vector<Point> detect(const FrameBlock& frames, std::size_t block, DwellOptions options = {}) {
+std::vector<Point> detect(const FrameBlock& frames, std::size_t block, DwellOptions options = {},
+                          const std::vector<std::int64_t>& breaks = {}) {
   DwellDetector detector(options, {"A"}, {200e-6});
+  for (const std::int64_t t : breaks) detector.break_after(t);
   std::vector<Point> points;
   for (std::size_t i = 0; i < frames.size(); i += block) {
     const std::size_t n = std::min(block, frames.size() - i);
@@ -252,6 +261,44 @@ TEST(Sequence, ALogThatBeginsAtRestTakesTheApproachOfTheMotionThatFollows) {
   EXPECT_EQ(s.points[0].point.direction, 1);
   EXPECT_EQ(s.points[0].point.flags, std::vector<std::string>{"approach_assumed"});
   EXPECT_EQ(s.runs, 1);
+}
+
+// Forward to 4 mm; unseen it goes to 8 mm and stops at 6 mm on its way back.
+TEST(Sequence, WhatNobodySawIsNoApproach) {
+  Stepper axis;
+  for (const double t : {0.0, 2e-3, 4e-3}) axis.move_to(t), axis.dwell();
+  axis.jump_unseen(6e-3, 10);
+  for (const double t : {6e-3, 4e-3, 2e-3}) axis.move_to(t), axis.dwell();
+  const Sequence told = recognise_sequence(detect(axis.frames, 1000, {}, axis.breaks), {});
+  ASSERT_EQ(told.points.size(), 6u);
+  EXPECT_EQ(told.points[2].point.direction, 1);
+  EXPECT_TRUE(told.points[2].point.flags.empty());
+  EXPECT_EQ(told.points[3].point.direction, -1);
+  EXPECT_EQ(told.points[3].point.flags, std::vector<std::string>{"approach_assumed"});
+  // Where it is not told, it is taken for what it looks like: a stop on the way forward.
+  const Sequence untold = recognise_sequence(detect(axis.frames, 1000), {});
+  ASSERT_EQ(untold.points.size(), 6u);
+  EXPECT_EQ(untold.points[3].point.direction, 1);
+}
+
+TEST(Sequence, AStopThatNobodySawInBetweenCountsOnce) {
+  for (const std::size_t block : {1u, 7u, 100000u}) {
+    Stepper axis;
+    for (const double t : {0.0, 2e-3, 4e-3}) axis.move_to(t), axis.dwell();
+    axis.jump_unseen(4e-3, 3600);
+    axis.dwell_s = 1;
+    axis.dwell();
+    axis.move_to(2e-3);
+    axis.dwell();
+    const Sequence s = recognise_sequence(detect(axis.frames, block, {}, axis.breaks), {});
+    ASSERT_EQ(s.points.size(), 4u);
+    EXPECT_EQ(s.points[2].point.direction, 1);
+    EXPECT_GT(s.points[2].point.samples, 700u);  // of the longer part
+    EXPECT_LT(s.points[2].point.samples, 1000u);
+    EXPECT_EQ(s.points[2].point.flags,
+              (std::vector<std::string>{"approach_assumed", "interrupted"}));
+    EXPECT_EQ(s.points[3].point.direction, -1);
+  }
 }
 
 TEST(Sequence, AnInterruptedStopCountsOnce) {

@@ -152,6 +152,22 @@ TEST(Acquisition, ReopensAFailedDeviceAndTellsWhatWasLost) {
   EXPECT_EQ(acquisition.status().state, "closed");
 }
 
+// By themselves the pauses of forty refusals take over a quarter of a minute.
+TEST(Acquisition, ADeviceThatIsPluggedInIsNotKeptWaiting) {
+  std::deque<Script::Act> acts(40, refuse);
+  acts.insert(acts.end(), {open, block});
+  Collector collector;
+  Acquisition acquisition(spec_of(acts), collector.sink());
+  const auto begin = steady_clock::now();
+  acquisition.start();
+  while (collector.blocks().empty() && steady_clock::now() - begin < std::chrono::seconds(20)) {
+    acquisition.wake();
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  EXPECT_EQ(acquisition.status().reopened, 40u);
+  EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
 TEST(Acquisition, WhatTheQueueHadNoRoomForIsToldWithTheNextBlock) {
   Collector collector;
   collector.refuse_after_the_first(2);

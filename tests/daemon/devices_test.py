@@ -13,7 +13,8 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mdofd import DATA, Client, Daemon  # noqa: E402
+from device_setups import worst_errors  # noqa: E402
+from mdofd import DATA, Client, Daemon, RpcError  # noqa: E402
 
 MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 RIG = os.path.join(DATA, "devices", "rig_X.toml")
@@ -185,14 +186,7 @@ class Devices(unittest.TestCase):
         return done.returncode, done.stdout, done.stderr
 
     def check_against_truth(self, points):
-        """EYX and EBX are the plan's waves, the others nothing, each up to a constant."""
-        truth = {"EYX_um": lambda d: 2 * math.sin(2 * math.pi * d / 10), "EZX_um": lambda d: 0,
-                 "EAX_urad": lambda d: 0, "EBX_urad": lambda d: 30 * math.sin(2 * math.pi * d / 8),
-                 "ECX_urad": lambda d: 0}
-        for key, wave in truth.items():
-            error = [p[key] - wave(p["position_mm"]) for p in points]
-            mean = sum(error) / len(error)
-            worst = max(abs(e - mean) for e in error)
+        for key, worst in worst_errors(points).items():
             self.assertLess(worst, STRAIGHTNESS_UM if key.endswith("_um") else ANGLE_URAD, key)
 
     def test_2_the_clocks_of_the_devices_are_reported(self):
@@ -246,6 +240,47 @@ class Devices(unittest.TestCase):
             self.simulators.start()
             self.daemon.stop()  # the T7's count is not trusted after its restart
             type(self).client = self.daemon.start()
+
+    def test_6_a_run_that_was_cut_off_goes_on(self):
+        self.wait_until_all_flow()
+        watcher = Client(self.daemon.socket, timeout_s=120)
+        watcher.call("live.subscribe", interval_ms=1000)
+        cut = self.client.call("run.start", axis="X", targets_mm=TARGETS, repeats=2)["run"]
+        points = 0
+        while points < 5:
+            value = watcher.next_note()["params"]["value"]
+            points = value["points"] if value.get("type") == "progress" else points
+        with self.assertRaisesRegex(RpcError, "under way"):
+            self.client.call("run.resume", run=cut)
+        self.daemon.kill()
+        type(self).client = self.daemon.start()
+        self.assertEqual(self.client.call("run.get", run=cut)["state"], "aborted")
+        before = self.client.points(cut)
+        self.wait_until_all_flow()
+        done = subprocess.run([MDOF, "record", "--socket", self.daemon.socket, "--resume", str(cut),
+                               "--json"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        header = json.loads(done.stdout)
+        self.assertEqual(header["state"], "complete")
+        self.assertTrue(any(f"goes on from run {cut}" in w for w in header["warnings"]), header)
+        self.check_both_parts(header, cut, before)
+        for run, why in ((header["run"], "is complete"), (cut, "supersedes it"), (4711, "4711")):
+            with self.assertRaisesRegex(RpcError, why):
+                self.client.call("run.resume", run=run)
+
+    def check_both_parts(self, header, cut, before):
+        points = self.client.points(header["run"])
+        # What was stored is there to the bit; the last stop may have gone on, unseen.
+        self.assertEqual(points[:len(before) - 1], before[:-1])
+        again, last = points[len(before) - 1], before[-1]
+        self.assertTrue(again == last or "interrupted" in again["flags"], (again, last))
+        self.assertGreaterEqual(len(points), 16)
+        self.check_against_truth(points)
+        code, out, err = self.replayed(header)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(json.loads(out)["points"], points)
+        ways = {(round(p["position_mm"], 1), p["direction"]) for p in points}
+        self.assertEqual(len(ways), 8, ways)
 
     def test_5_record_measures_and_says_so(self):
         self.wait_until_all_flow()

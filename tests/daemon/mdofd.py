@@ -84,15 +84,17 @@ class Client:
 
 
 class Daemon:
-    def __init__(self, program, folder, config, durability="full"):
-        self.program, self.folder = program, folder
+    # relative: mdofd works in the folder, and nothing that it writes down names the folder.
+    def __init__(self, program, folder, config, durability="full", relative=False):
+        self.program, self.folder, self.relative = program, folder, relative
         os.makedirs(folder, exist_ok=True)
         self.socket = os.path.join(folder, "s")
         self.database = os.path.join(folder, "mdof.db")
         self.config = os.path.join(folder, "mdofd.toml")
+        where = "" if relative else folder + "/"
         with open(self.config, "w") as f:
-            f.write(f'[store]\ndatabase = "{self.database}"\ndurability = "{durability}"\n'
-                    f'[rpc]\nsocket = "{self.socket}"\n' + config)
+            f.write(f'[store]\ndatabase = "{where}mdof.db"\ndurability = "{durability}"\n'
+                    f'[rpc]\nsocket = "{where}s"\n' + config)
         self.process = None
         self.arguments, self.environment = [], {}
 
@@ -100,6 +102,7 @@ class Daemon:
         self.log = open(os.path.join(self.folder, "stderr"), "ab")
         self.process = subprocess.Popen([self.program, *self.arguments, "--config", self.config],
                                         stderr=self.log, stdout=self.log,
+                                        cwd=self.folder if self.relative else None,
                                         env={**os.environ, **self.environment})
         end = time.monotonic() + timeout_s
         while True:

@@ -42,7 +42,8 @@ class StorekeeperTest : public ::testing::Test {
     run.header.provenance.recording_kind = "replay";
     run.header.provenance.model = "rigid";
     run.header.note = "of a test";
-    EXPECT_TRUE(keeper_->begin_run(run, [&](const auto& begun) { id.set_value(begun.value()); }));
+    EXPECT_TRUE(keeper_->begin_run(std::move(run),
+                                   [&](const auto& begun) { id.set_value(begun.value()); }));
     return id.get_future().get();
   }
   std::int64_t end(std::int64_t run, const std::vector<MeasuredPoint>& points, bool differs) {

@@ -28,7 +28,7 @@ struct RecordCommand {
   std::string socket, axis, note;
   std::vector<double> targets_mm;
   std::optional<double> from_mm, to_mm, interval_mm, jitter_mm, scale_period_um, for_s;
-  std::int64_t repeats = 0, seed = 1;
+  std::int64_t repeats = 0, seed = 1, resume = 0;
   bool json = false;
 };
 
@@ -52,6 +52,13 @@ std::string start_params(const RecordCommand& c) {
   if (c.jitter_mm) json.field("seed", c.seed);
   json.end_object();
   return json.take();
+}
+
+Result<std::string> begin(rpc::Client& client, const RecordCommand& c) {
+  if (c.resume == 0) return client.call("run.start", start_params(c));
+  JsonWriter params;
+  params.begin_object().field("run", c.resume).end_object();
+  return client.call("run.resume", params.text());
 }
 
 void show_warnings(const auto& reply) {
@@ -127,13 +134,16 @@ Status print_result(std::int64_t run, const std::string& result, bool as_json) {
               "run " + std::to_string(run) + " is " + state + "; its warnings say why");
 }
 
-Status record(const RecordCommand& command) {
+Status record(RecordCommand command) {
+  if (command.axis.empty() && command.resume == 0)
+    return fail(ErrorCode::usage, "record: --axis says what to measure; or --resume RUN");
   MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
   MDOF_CHECK(client.call("live.subscribe", R"({"interval_ms":60000,"events":true})"));
-  MDOF_TRY(const std::string reply, client.call("run.start", start_params(command)));
+  MDOF_TRY(const std::string reply, begin(client, command));
   simdjson::dom::parser parser;
   const auto started = parser.parse(simdjson::padded_string(reply));
   const std::int64_t run = integer(started, "run").value_or(0);
+  command.axis = text(started, "axis");
   show_warnings(started);
   say("run " + std::to_string(run) + " of axis " + command.axis +
       " is measuring; Ctrl-C ends and evaluates it");
@@ -150,9 +160,8 @@ Status record(const RecordCommand& command) {
 void add_record(CLI::App& app, Action& chosen) {
   const auto o = std::make_shared<RecordCommand>();
   auto* command = app.add_subcommand("record", "Measure a run with mdofd and watch it");
-  command->add_option("--axis", o->axis, "Of the machine")
-      ->required()
-      ->check(CLI::IsMember({"X", "Y", "Z"}));
+  auto* axis = command->add_option("--axis", o->axis, "Of the machine")
+                   ->check(CLI::IsMember({"X", "Y", "Z"}));
   command->add_option("--targets-mm", o->targets_mm, "Targets, ascending")->delimiter(',');
   command->add_option("--from-mm", o->from_mm, "Instead: first target");
   command->add_option("--to-mm", o->to_mm, "No target beyond this");
@@ -161,6 +170,9 @@ void add_record(CLI::App& app, Action& chosen) {
   command->add_option("--seed", o->seed, "Of the jitter")->capture_default_str();
   command->add_option("--scale-period-um", o->scale_period_um,
                       "Signal period of the scale: warns where the intervals hide its error");
+  command->add_option("--resume", o->resume, "Goes on with this run, which was cut off")
+      ->check(CLI::PositiveNumber)
+      ->excludes(axis);
   command->add_option("--repeats", o->repeats, "Ends by itself after so many, both ways")
       ->check(CLI::Range(1, 10000));
   command->add_option("--for-s", o->for_s, "Ends after so many seconds")
@@ -172,7 +184,8 @@ void add_record(CLI::App& app, Action& chosen) {
       "Without targets they are recognised from the dwells, or all is recorded freely.\n"
       "Examples:\n"
       "  mdof record --axis X --from-mm 0 --to-mm 60 --interval-mm 5 --jitter-mm 0.5 --repeats 5\n"
-      "  mdof record --axis X --for-s 60 --note \"warm-up\"");
+      "  mdof record --axis X --for-s 60 --note \"warm-up\"\n"
+      "  mdof record --resume 12");
   command->callback([o, &chosen] { chosen = [o] { return record(*o); }; });
 }
 

@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 
+#include "daemon/config.h"
 #include "daemon/paths.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -18,18 +20,22 @@ namespace mdof::tools {
 namespace {
 
 struct ReplayCommand {
-  std::string log, rig, database, model = "rigid", note;
-  double tolerance_um = 0, settle_s = 0.1, min_length_s = 0.1;
+  std::string log, rig, database, model, note;  // model: empty where not given
+  std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
   std::vector<double> targets_mm;
   bool json = false, keep_out = false;
 };
 
-daemon::PipelineOptions pipeline_options(const ReplayCommand& command) {
-  daemon::PipelineOptions options;
-  model_from(command.model, options.model);
-  options.dwell.tolerance_m = from_um(command.tolerance_um);
-  options.dwell.settle_s = command.settle_s;
-  options.dwell.min_length_s = command.min_length_s;
+// As mdofd measured what it recorded, but for what is given here.
+Result<daemon::PipelineOptions> pipeline_options(const ReplayCommand& command,
+                                                 const daemon::ReplayLog& log) {
+  MDOF_TRY(auto options, daemon::measure_options(log.configuration()));
+  if (!command.model.empty()) model_from(command.model, options.model);
+  if (command.tolerance_um) options.dwell.tolerance_m = from_um(*command.tolerance_um);
+  options.dwell.settle_s = command.settle_s.value_or(options.dwell.settle_s);
+  options.dwell.min_length_s = command.min_length_s.value_or(options.dwell.min_length_s);
+  options.align.lag_bound_s = command.lag_bound_s.value_or(options.align.lag_bound_s);
+  options.align.max_gap_s = command.max_gap_s.value_or(options.align.max_gap_s);
   for (const double t : command.targets_mm) options.sequence.targets_m.push_back(from_mm(t));
   std::sort(options.sequence.targets_m.begin(), options.sequence.targets_m.end());
   return options;
@@ -50,8 +56,8 @@ Result<Run> replay_log(const ReplayCommand& command) {
   const auto size = std::filesystem::file_size(command.log, ec);
   const double bytes = ec ? 0 : static_cast<double>(size);
   Progress progress("replay", "B");
-  return daemon::replay(log, rig, pipeline_options(command),
-                        [&](double share) { progress.show(share, bytes); });
+  MDOF_TRY(const auto options, pipeline_options(command, log));
+  return daemon::replay(log, rig, options, [&](double share) { progress.show(share, bytes); });
 }
 
 Status store_run(const ReplayCommand& command, Run& run) {
@@ -89,14 +95,18 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->delimiter(',');
   command->add_option("--tolerance-um", o->tolerance_um, "Encoder at rest; 0: by itself")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--settle-s", o->settle_s, "Left out at the start of a stop")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--min-length-s", o->min_length_s, "Averaged of a stop at least")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  command->add_option("--settle-s", o->settle_s, "Left out at the start of a stop [0.1]")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--min-length-s", o->min_length_s, "Averaged of a stop at least [0.1]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--max-gap-s", o->max_gap_s, "No interpolation into a longer gap [0.05]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--lag-bound-s", o->lag_bound_s, "A probe silent for longer is given up [3]")
+      ->check(CLI::PositiveNumber);
   add_json_flag(*command, o->json);
-  command->footer("Example:\n  mdof replay log_X.csv.gz --rig rig_X.toml --json > run.json");
+  command->footer(
+      "A recording is measured as its mdofd.toml says; an option changes that.\n"
+      "Example:\n  mdof replay log_X.csv.gz --rig rig_X.toml --json > run.json");
   command->callback([o, &chosen] { chosen = [o] { return replay(*o); }; });
 }
 

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 
 #include "daemon/version.h"
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   app.add_option("--host", host, "Address to listen on")->capture_default_str();
   app.footer("Example:\n  mdof-simulate devices.toml\nThe keys: tools/mdof_simulate/plan.h");
   CLI11_PARSE(app, argc, argv);
+  std::signal(SIGPIPE, SIG_IGN);
   struct sigaction action = {};
   action.sa_handler = end;
   ::sigaction(SIGINT, &action, nullptr);

@@ -1,102 +1,18 @@
 #include "tools/mdof_simulate/plan.h"
 
 #include "daemon/forward_model.h"
-#include "drivers/capancdt/device.h"
-#include "drivers/labjack_t7/device.h"
 #include "drivers/simulator/options.h"
 #include "schema/files.h"
 #include "schema/toml_reader.h"
-#include "tools/mdof_simulate/sensed.h"
+#include "tools/mdof_simulate/kinds.h"
 
 namespace mdof::simulate {
 namespace {
 
-struct Wiring {
-  Rig rig;
-  std::shared_ptr<SensedMachine> machine;
-};
-
-using Device = Result<std::unique_ptr<drivers::SimulatedDevice>>;
-
-// µm as they are; a range that the controller tells.
-Device make_capancdt(const Wiring& wiring, const std::vector<std::string>& inputs, TomlTable&) {
-  namespace family = drivers::capancdt;
-  family::DeviceOptions options;
-  options.inputs.assign(inputs.size(), {});
-  std::vector<Input> wires;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    wires.push_back({inputs[i], 1, 0});
-    const auto probe = wiring.rig.probe_index(inputs[i]);
-    options.inputs[i].present = probe.has_value();
-    if (probe) options.inputs[i].range_um = wiring.rig.probes[*probe].range_m * 1e6;
-  }
-  return std::make_unique<family::SimulatedCapancdt>(std::move(options),
-                                                     senses(wiring.machine, std::move(wires)));
-}
-
-// Volts of the amplifiers, and counts of the encoder on DIO0 and DIO1.
-Device make_labjack_t7(const Wiring& wiring, const std::vector<std::string>& inputs,
-                       TomlTable& table) {
-  namespace family = drivers::labjack_t7;
-  std::vector<Input> wires(family::Device::kCounterInput + 1);
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const auto probe = wiring.rig.probe_index(inputs[i]);
-    if (!probe) continue;
-    const auto um_per_V = wiring.rig.probes[*probe].calibration.um_per_V;
-    if (!um_per_V) {
-      table.reject("inputs", "probe \"" + inputs[i] + "\" of " + wiring.rig.source +
-                                 " needs um_per_V to be seen as volts");
-      break;
-    }
-    wires[i] = {inputs[i], 1 / *um_per_V, 0};
-  }
-  const double um_per_count = table.number("um_per_count", 0.05);
-  if (um_per_count == 0) table.reject("um_per_count", "must not be zero");
-  wires[family::Device::kCounterInput] = {kEncoderChannel, 1 / um_per_count, 0};
-  return std::make_unique<family::Device>(senses(wiring.machine, std::move(wires)),
-                                          family::Device::Options{});
-}
-
-struct Kind {
-  const char* name;
-  std::size_t most_inputs;
-  Device (*make)(const Wiring&, const std::vector<std::string>&, TomlTable&);
-};
-// A new simulated device: one row.
-constexpr Kind kKinds[] = {
-    {"capancdt", 32, make_capancdt},
-    {"labjack_t7", 14, make_labjack_t7},
-};
-
-const Kind* find_kind(const std::string& name) {
-  for (const Kind& kind : kKinds)
-    if (name == kind.name) return &kind;
-  return nullptr;
-}
-
-Status check_inputs(TomlTable& table, const std::vector<std::string>& inputs, const Kind& kind,
-                    const Rig& rig) {
-  if (inputs.size() > kind.most_inputs)
-    table.reject("inputs", "has more than " + std::to_string(kind.most_inputs) + " inputs");
-  for (const auto& input : inputs) {
-    if (!input.empty() && !rig.probe_index(input))
-      table.reject("inputs", "\"" + input + "\" is no probe of " + rig.source);
-  }
-  return {};
-}
-
 Result<Served> read_device(TomlTable& table, const Wiring& wiring) {
   Served served;
   served.name = table.string("name");
-  const std::string name = table.string("kind");
-  const Kind* kind = find_kind(name);
-  if (!kind) {
-    std::string known;
-    for (const Kind& k : kKinds) known += std::string(" ") + k.name;
-    table.reject("kind", "\"" + name + "\" is none; known are:" + known);
-    MDOF_CHECK(table.finish());
-    return bad_input("unknown kind");
-  }
+  const std::string kind = table.string("kind");
   for (const double port : table.numbers("ports", std::vector<double>{})) {
     if (!(port >= 0 && port <= 65535)) table.reject("ports", "must be from 0 to 65535");
     served.tcp_ports.push_back(static_cast<int>(port));
@@ -105,8 +21,12 @@ Result<Served> read_device(TomlTable& table, const Wiring& wiring) {
   served.jitter_ms = table.number("jitter_ms", 0);
   served.seed = table.integer("seed", 1);
   const auto inputs = table.strings("inputs");
-  MDOF_CHECK(check_inputs(table, inputs, *kind, wiring.rig));
-  MDOF_TRY(served.device, kind->make(wiring, inputs, table));
+  const std::string bus = table.string("bus", "usb");
+  served.uhid = bus == "uhid";
+  if (!served.uhid && bus != "usb") table.reject("bus", "must be \"usb\" or \"uhid\"");
+  MDOF_TRY(Made made, make_device(kind, wiring, inputs, table));
+  served.device = std::move(made.device);
+  served.usb = std::move(made.usb);
   return served;
 }
 
@@ -116,9 +36,10 @@ Result<std::vector<Served>> load_plan(const std::filesystem::path& file) {
   MDOF_TRY(const std::string text, read_text_file(file));
   MDOF_TRY(auto root, TomlTable::parse(text, file.string()));
   Wiring wiring;
+  wiring.folder = std::filesystem::absolute(file).parent_path();
   const std::string rig = root.string("rig");
   if (!rig.empty()) {
-    MDOF_TRY(wiring.rig, load_rig(std::filesystem::absolute(file).parent_path() / rig));
+    MDOF_TRY(wiring.rig, load_rig(wiring.folder / rig));
   }
   drivers::SimulatorOptions options;
   if (auto machine = root.table("machine")) MDOF_CHECK(drivers::read_options(*machine, options));

@@ -1,18 +1,23 @@
 #include "tools/mdof_simulate/server.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 
 #include "schema/random.h"
+#include "tools/mdof_simulate/descriptor.h"
+#include "tools/mdof_simulate/usb_port.h"
 
 namespace mdof::simulate {
 namespace {
@@ -24,23 +29,6 @@ std::int64_t now_ns() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 struct Held {  // on its way, until its time
   std::int64_t due_ns;
@@ -60,6 +48,35 @@ struct Listener {
   Descriptor socket;
   std::size_t device, port;
   int tcp_port;
+};
+
+// A serial line, as a pseudo-terminal.
+struct Line {
+  Descriptor device_end, host_end;  // the host's is held open, so that the line stays
+  std::string path;
+};
+
+Result<Line> open_line() {
+  Line line{Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)), Descriptor(),
+            ""};
+  std::array<char, 64> name{};
+  const int fd = line.device_end.get();
+  if (fd < 0 || ::grantpt(fd) != 0 || ::unlockpt(fd) != 0 ||
+      ::ptsname_r(fd, name.data(), name.size()) != 0)
+    return io_error(std::string("a pseudo-terminal: ") + std::strerror(errno));
+  line.path = name.data();
+  line.host_end = Descriptor(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+  termios raw{};
+  if (line.host_end.get() < 0 || ::tcgetattr(line.host_end.get(), &raw) != 0)
+    return io_error(line.path + ": " + std::strerror(errno));
+  ::cfmakeraw(&raw);
+  ::tcsetattr(line.host_end.get(), TCSANOW, &raw);
+  return line;
+}
+
+struct Plugged {
+  std::size_t device;
+  std::unique_ptr<UsbPort> port;
 };
 
 Result<Listener> listen_on(const std::string& host, int tcp_port) {
@@ -87,9 +104,12 @@ Result<Listener> listen_on(const std::string& host, int tcp_port) {
 
 struct Server::Parts {
   std::string host;
+  std::string addresses;
   std::vector<Served> devices;
   std::vector<Listener> listeners;
   std::vector<Client> clients;
+  std::vector<Descriptor> held_lines;
+  std::vector<Plugged> plugged;
   int next_id = 1;
   std::uint64_t sent = 0;  // packets, for the jitter
   std::int64_t start_ns = now_ns();
@@ -99,13 +119,66 @@ struct Server::Parts {
     const auto passed = static_cast<double>(now_ns() - start_ns);
     return std::llround(passed * (1 + device.clock_ppm * 1e-6));
   }
+  Status open_ports(std::size_t device);
+  Status listen_at(std::size_t device, std::size_t port, int tcp_port);
+  Status serve_line(std::size_t device, std::size_t port);
+  void tell(std::size_t device, std::size_t port, const std::string& address);
+  Status plug(std::size_t device);
   void accept();
+  void turn_devices();
   void exchange(Client& client);
   void hold(Client& client, std::string bytes);
   void send_due(Client& client);
   void drop_gone();
+  void turn_usb();
   void wait();
 };
+
+Status Server::Parts::open_ports(std::size_t device) {
+  const Served& served = devices[device];
+  for (std::size_t p = 0; p < served.device->ports().size(); ++p) {
+    const int tcp_port = p < served.tcp_ports.size() ? served.tcp_ports[p] : 0;
+    MDOF_CHECK(served.device->ports()[p].number == 0 ? serve_line(device, p)
+                                                     : listen_at(device, p, tcp_port));
+  }
+  return {};
+}
+
+Status Server::Parts::listen_at(std::size_t device, std::size_t port, int tcp_port) {
+  MDOF_TRY(auto listener, listen_on(host, tcp_port));
+  listener.device = device;
+  listener.port = port;
+  tell(device, port, host + ":" + std::to_string(listener.tcp_port));
+  listeners.push_back(std::move(listener));
+  return {};
+}
+
+Status Server::Parts::serve_line(std::size_t device, std::size_t port) {
+  MDOF_TRY(auto line, open_line());
+  tell(device, port, line.path);
+  devices[device].device->opened(port, next_id, device_ns(devices[device]));
+  clients.push_back({std::move(line.device_end), device, port, next_id++, {}, "", false});
+  held_lines.push_back(std::move(line.host_end));
+  return {};
+}
+
+void Server::Parts::tell(std::size_t device, std::size_t port, const std::string& address) {
+  const Served& served = devices[device];
+  addresses += served.name + " " + served.device->ports()[port].name + " " + address + "\n";
+}
+
+void Server::Parts::turn_devices() {
+  for (Served& served : devices)
+    if (served.device) served.device->turn(device_ns(served));
+}
+
+Status Server::Parts::plug(std::size_t device) {
+  Served& served = devices[device];
+  MDOF_TRY(auto port, served.uhid ? plug_into_uhid(*served.usb) : plug_into_vhci(*served.usb));
+  addresses += served.name + " " + port->place() + "\n";
+  plugged.push_back({device, std::move(port)});
+  return {};
+}
 
 void Server::Parts::accept() {
   for (const Listener& listener : listeners) {
@@ -121,7 +194,7 @@ void Server::Parts::accept() {
 
 void Server::Parts::exchange(Client& client) {
   std::array<char, 4096> buffer;
-  const ssize_t n = ::recv(client.socket.get(), buffer.data(), buffer.size(), 0);
+  const ssize_t n = ::read(client.socket.get(), buffer.data(), buffer.size());
   if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR)) {
     client.gone = true;
     return;
@@ -148,8 +221,7 @@ void Server::Parts::send_due(Client& client) {
   for (; !client.held.empty() && client.held.front().due_ns <= now_ns(); client.held.pop_front())
     client.unsent += client.held.front().bytes;
   if (client.unsent.empty()) return;
-  const ssize_t n =
-      ::send(client.socket.get(), client.unsent.data(), client.unsent.size(), MSG_NOSIGNAL);
+  const ssize_t n = ::write(client.socket.get(), client.unsent.data(), client.unsent.size());
   if (n > 0) client.unsent.erase(0, static_cast<std::size_t>(n));
   if ((n < 0 && errno != EAGAIN && errno != EINTR) || client.unsent.size() > kMostUnsent)
     client.gone = true;
@@ -161,10 +233,17 @@ void Server::Parts::drop_gone() {
   std::erase_if(clients, [](const Client& client) { return client.gone; });
 }
 
+void Server::Parts::turn_usb() {
+  std::erase_if(plugged, [this](const Plugged& usb) {
+    return !usb.port->turn(device_ns(devices[usb.device]));
+  });
+}
+
 void Server::Parts::wait() {
   std::vector<pollfd> watched;
   for (const auto& listener : listeners) watched.push_back({listener.socket.get(), POLLIN, 0});
   for (const auto& client : clients) watched.push_back({client.socket.get(), POLLIN, 0});
+  for (const auto& usb : plugged) watched.push_back({usb.port->fd(), POLLIN, 0});
   ::poll(watched.data(), watched.size(), kTurn_ms);
 }
 
@@ -177,35 +256,25 @@ Result<Server> Server::listen(std::vector<Served> devices, const std::string& ho
   parts->host = host;
   parts->devices = std::move(devices);
   for (std::size_t d = 0; d < parts->devices.size(); ++d) {
-    const Served& served = parts->devices[d];
-    for (std::size_t p = 0; p < served.device->ports().size(); ++p) {
-      const int tcp_port = p < served.tcp_ports.size() ? served.tcp_ports[p] : 0;
-      auto listener = listen_on(host, tcp_port);
-      if (!listener) return in_context("device \"" + served.name + "\"", listener.error());
-      listener->device = d;
-      listener->port = p;
-      parts->listeners.push_back(std::move(*listener));
-    }
+    const Status ready = parts->devices[d].usb ? parts->plug(d) : parts->open_ports(d);
+    if (!ready) return in_context("device \"" + parts->devices[d].name + "\"", ready.error());
   }
   return Server(std::move(parts));
 }
 
 std::string Server::addresses() const {
-  std::string text;
-  for (const Listener& listener : parts_->listeners) {
-    const Served& served = parts_->devices[listener.device];
-    text += served.name + " " + served.device->ports()[listener.port].name + " " + parts_->host +
-            ":" + std::to_string(listener.tcp_port) + "\n";
-  }
-  return text;
+  return parts_->addresses;
 }
 
 void Server::serve(const std::atomic<bool>& stop) {
-  while (!stop) {
+  const bool only_usb = parts_->plugged.size() == parts_->devices.size();
+  while (!stop && !(only_usb && parts_->plugged.empty())) {
     parts_->wait();
+    parts_->turn_devices();
     parts_->accept();
     for (Client& client : parts_->clients) parts_->exchange(client);
     parts_->drop_gone();
+    parts_->turn_usb();
   }
 }
 

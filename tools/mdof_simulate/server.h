@@ -1,4 +1,4 @@
-// Serves simulated devices on TCP ports of this machine, in one thread.
+// Serves simulated devices on TCP ports, serial lines and the USB of this machine, in one thread.
 #pragma once
 
 #include <atomic>
@@ -9,14 +9,17 @@
 #include <vector>
 
 #include "drivers/simulated_device.h"
+#include "drivers/usb/simulated_usb.h"
 #include "schema/result.h"
 
 namespace mdof::simulate {
 
 struct Served {
   std::string name;
-  std::unique_ptr<drivers::SimulatedDevice> device;
-  std::vector<int> tcp_ports;  // one for each of the device's ports; 0: a free one
+  std::unique_ptr<drivers::SimulatedDevice> device;  // or
+  std::unique_ptr<drivers::usb::SimulatedUsb> usb;
+  bool uhid = false;           // of usb: through uhid instead of vhci_hcd
+  std::vector<int> tcp_ports;  // one for each of the device's TCP ports; 0: a free one
   double clock_ppm = 0;        // the device's clock is fast by so much
   double jitter_ms = 0;        // what it sends is held back by 0 to this
   std::int64_t seed = 1;       // of the jitter
@@ -25,14 +28,15 @@ struct Served {
 // Thread-bound.
 class Server {
  public:
-  // Listens on `host`. Errors: an address or a port that cannot be had.
+  // Listens on `host` and plugs in. Errors: an address or a port that cannot be had.
   static Result<Server> listen(std::vector<Served> devices, const std::string& host);
   ~Server();
   Server(Server&&) noexcept;
 
-  // "capa-1 command 127.0.0.1:40123", a line for each port.
+  // "capa-1 command 127.0.0.1:40123", "qsb serial /dev/pts/3", "encoders usb port 0": a line for
+  // each port.
   std::string addresses() const;
-  // Until `stop`.
+  // Until `stop`, or until the last device has gone. Then all are unplugged.
   void serve(const std::atomic<bool>& stop);
 
  private:

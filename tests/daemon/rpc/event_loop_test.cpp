@@ -1,8 +1,11 @@
 #include "daemon/rpc/event_loop.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <csignal>
+#include <string>
 #include <thread>
 
 namespace mdof::rpc {
@@ -33,6 +36,27 @@ TEST(EventLoop, CallsAtAPeriodAndLeavesMissedTicksOut) {
   });
   loop.run();
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 170ms);
+}
+
+TEST(EventLoop, TellsEachTimeThatThereIsSomethingToRead) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  {
+    EventLoop loop;
+    std::string seen;
+    loop.on_readable(ends[0], [&] {
+      char c = 0;
+      ASSERT_EQ(::read(ends[0], &c, 1), 1);
+      seen += c;
+      if (seen.size() == 3) loop.stop();
+    });
+    loop.post([&] { (void)!::write(ends[1], "a", 1); });
+    loop.call_every(5ms, [&] { (void)!::write(ends[1], "b", 1); });
+    loop.run();
+    EXPECT_EQ(seen, "abb");
+  }
+  EXPECT_EQ(::close(ends[0]), 0);  // still ours
+  EXPECT_EQ(::close(ends[1]), 0);
 }
 
 TEST(EventLoop, TurnsSignalsIntoCalls) {

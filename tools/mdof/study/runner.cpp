@@ -110,7 +110,7 @@ std::string StudyRunner::not_settled() const {
   if (!hopeless) return what + " within the trials allowed";
   return what + ": a block of " + std::to_string(unit_trials_) + " trials gave fewer than two of " +
          experiment_->outputs()[*hopeless] +
-         "; without --adaptive the others are found all the same";
+         "; with --trials N and no adaptive rule the others are found all the same";
 }
 
 // Of slow trials a unit each, as one that is cut short is lost. The adaptive rule may settle within

@@ -1,0 +1,118 @@
+#include "daemon/resume.h"
+
+#include <simdjson.h>
+
+#include <algorithm>
+
+#include "drivers/recording/recording_log.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr std::chrono::milliseconds kReadTimeout{1000};
+// Between the parts: longer than the devices of an axis lie apart.
+constexpr std::int64_t kPause_ns = 5'000'000'000;
+constexpr int kBlocksPerCommit = 64;
+
+tl::unexpected<Error> refused(std::int64_t run, const std::string& why) {
+  return fail(ErrorCode::conflict, "run " + std::to_string(run) + " cannot go on: " + why);
+}
+
+// The targets and repeats of options_json (PipelineOptions::json()).
+Result<RunRequest> asked_for(const std::string& options_json) {
+  simdjson::dom::parser parser;
+  simdjson::dom::element options;
+  simdjson::dom::array targets;
+  RunRequest request;
+  if (parser.parse(simdjson::padded_string(options_json)).get(options) ||
+      options["targets_mm"].get(targets))
+    return bad_input("its options cannot be read");
+  for (const simdjson::dom::element target : targets) {
+    double target_mm = 0;
+    if (target.get(target_mm)) return bad_input("its targets cannot be read");
+    request.targets_m.push_back(from_mm(target_mm));
+  }
+  std::int64_t repeats = 0;
+  // Runs of older versions do not say it: until stopped.
+  if (!options["repeats"].get(repeats)) request.repeats = static_cast<int>(repeats);
+  return request;
+}
+
+Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisConfig& axis) {
+  if (run.state == RunState::open) return refused(run.id, "it is under way");
+  if (run.state == RunState::complete) return refused(run.id, "it is complete");
+  if (run.provenance.recording_kind != "recording")
+    return refused(run.id, "it was not recorded from devices");
+  MDOF_TRY(const auto later, reader.superseded_by(run.id));
+  if (later) return refused(run.id, "run " + std::to_string(*later) + " supersedes it");
+  if (run.provenance.rig_text != axis.rig.text)
+    return refused(run.id, "the rig has been changed since; start a new run");
+  return {};
+}
+
+Result<std::int64_t> copy(drivers::RecordingLog& log, store::RecordingWriter& writer,
+                          Pipeline& pipeline, const std::atomic<bool>& wanted) {
+  std::int64_t end_ns = std::numeric_limits<std::int64_t>::min();
+  SampleBlock block;
+  for (int blocks = 1; wanted; ++blocks) {
+    MDOF_TRY(const auto state, log.read(block, kReadTimeout));
+    if (block.scans() > 0) {
+      end_ns = std::max(end_ns, block.time_ns.back());
+      MDOF_CHECK(writer.append(block));
+      MDOF_CHECK(pipeline.push(block));
+    }
+    const bool end = state == drivers::ReadState::end;
+    if (end || blocks % kBlocksPerCommit == 0) MDOF_CHECK(writer.commit());
+    if (end) return end_ns;
+  }
+  return io_error("mdofd is stopping");
+}
+
+// What was begun and is of no use.
+void remove_recording(const std::filesystem::path& file) {
+  for (const char* ending : {"", "-wal", "-shm"}) {
+    std::error_code ignored;
+    std::filesystem::remove(file.string() + ending, ignored);
+  }
+}
+
+}  // namespace
+
+Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
+                                     const AxisConfig& axis) {
+  MDOF_TRY(const RunHeader header, reader.run_header(run));
+  MDOF_CHECK(check_can_go_on(reader, header, axis));
+  auto request = asked_for(header.provenance.options_json);
+  if (!request) return refused(run, request.error().message);
+  request->note = header.note;
+  request->resumes = CutOffRun{run, header.provenance.recording_path};
+  request->warnings.push_back(
+      "goes on from run " + std::to_string(run) +
+      ", which was cut off: whether the encoder kept its zero and the machine its temperature in "
+      "between is not known");
+  return request;
+}
+
+Result<std::int64_t> record_again(const CutOffRun& cut_off, const Storekeeper& keeper, NewRun& run,
+                                  Pipeline& pipeline, const std::atomic<bool>& wanted) {
+  drivers::RecordingLog log("recording", cut_off.recording);
+  MDOF_CHECK(log.open());
+  MDOF_TRY(auto writer, keeper.create_recording(run));
+  run.begun.emplace(std::move(writer));
+  const auto end_ns = copy(log, *run.begun, pipeline, wanted);
+  if (!end_ns) {
+    run.begun.reset();
+    remove_recording(run.recording);
+  }
+  return end_ns;
+}
+
+void Continuation::shift(SampleBlock& block) {
+  if (!shift_ns_)
+    shift_ns_ = std::max<std::int64_t>(0, after_ns_ + kPause_ns - block.time_ns.front());
+  for (std::int64_t& time_ns : block.time_ns) time_ns += *shift_ns_;
+  if (seen_.insert(block.device).second) block.lost = std::max<std::uint64_t>(1, block.lost);
+}
+
+}  // namespace mdof::daemon

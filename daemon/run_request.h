@@ -1,0 +1,26 @@
+// A run as it was asked for.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mdof::daemon {
+
+// A run that ended before it was complete.
+struct CutOffRun {
+  std::int64_t id = 0;
+  std::filesystem::path recording;
+};
+
+struct RunRequest {
+  std::string note;
+  std::vector<double> targets_m;      // empty: recognised
+  int repeats = 0;                    // 0: until stopped; else complete after so many, both ways
+  std::vector<std::string> warnings;  // to be kept with the run
+  std::optional<CutOffRun> resumes;   // goes on from there
+};
+
+}  // namespace mdof::daemon

@@ -1,0 +1,83 @@
+#include "drivers/io/hid.h"
+
+#include <fcntl.h>
+#include <hidapi/hidapi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <mutex>
+
+namespace mdof::drivers {
+namespace {
+
+std::mutex& library() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+hid_device* handle(void* device) {
+  return static_cast<hid_device*>(device);
+}
+
+std::string narrow(const wchar_t* text) {
+  std::string ascii;
+  for (; text && *text; ++text) ascii += *text < 0x80 ? static_cast<char>(*text) : '?';
+  return ascii;
+}
+
+// hidapi does not say in a form that can be judged: opened once more, without it.
+std::string why_not_opened(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  const int error = fd < 0 ? errno : 0;
+  if (fd >= 0) ::close(fd);
+  if (error == EACCES || error == EPERM)
+    return "no permission; install daemon/systemd/60-mdof.rules in /etc/udev/rules.d, run udevadm "
+           "control --reload and udevadm trigger, and join the group mdof";
+  if (error == ENOENT || error == ENODEV || error == ENXIO) return "was unplugged just now";
+  return narrow(::hid_error(nullptr));
+}
+
+}  // namespace
+
+std::vector<HidEntry> list_hid(std::uint16_t vendor) {
+  const std::lock_guard lock(library());
+  std::vector<HidEntry> entries;
+  hid_device_info* const all = ::hid_enumerate(vendor, 0);
+  for (const hid_device_info* d = all; d; d = d->next)
+    if (d->path)
+      entries.push_back({d->path, d->product_id, narrow(d->serial_number), d->interface_number});
+  ::hid_free_enumeration(all);
+  return entries;
+}
+
+Result<HidDevice> HidDevice::open(const std::string& path) {
+  const std::lock_guard lock(library());
+  if (hid_device* const device = ::hid_open_path(path.c_str())) return HidDevice(device, path);
+  return io_error(path + ": " + why_not_opened(path));
+}
+
+void HidDevice::Close::operator()(void* device) const {
+  const std::lock_guard lock(library());
+  ::hid_close(handle(device));
+}
+
+Status HidDevice::write(std::string_view report) {
+  std::string numbered(1, '\0');  // 0: its reports have no numbers
+  numbered += report;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(numbered.data());
+  if (::hid_write(handle(device_.get()), bytes, numbered.size()) >= 0) return {};
+  return io_error(path_ + ": cannot be written to; was it unplugged?");
+}
+
+Result<std::string> HidDevice::read(std::size_t most, std::chrono::milliseconds timeout) {
+  std::string report(most, '\0');
+  auto* bytes = reinterpret_cast<unsigned char*>(report.data());
+  const int wait_ms = static_cast<int>(std::clamp<std::int64_t>(timeout.count(), 0, 60'000));
+  const int n = ::hid_read_timeout(handle(device_.get()), bytes, most, wait_ms);
+  if (n < 0) return io_error(path_ + ": cannot be read; was it unplugged?");
+  report.resize(static_cast<std::size_t>(n));
+  return report;
+}
+
+}  // namespace mdof::drivers

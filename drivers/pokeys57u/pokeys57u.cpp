@@ -1,0 +1,304 @@
+#include "drivers/pokeys57u/pokeys57u.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "drivers/clock/monotonic.h"
+#include "drivers/scan_block.h"
+
+namespace mdof::drivers::pokeys57u {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kTickEvery{1000}, kQuiet{10};
+constexpr int kMostStale = 200;  // reports that may still come of another program's requests
+// Of the device's tick against the host's clock.
+constexpr double kTickSlack_ms = 500, kTickDrift = 0.001;
+constexpr double kStepSlack_counts = 16;
+
+bool is_ours(const HidEntry& entry) {
+  const bool product = entry.product == kProduct || entry.product == kProduct + 1;
+  return product && (entry.interface == kInterface || entry.interface == -1);
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const auto& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+}  // namespace
+
+PoKeys57u::PoKeys57u(Settings settings)
+    : settings_(std::move(settings)),
+      period_(std::llround(settings_.poll_ms * 1e6)),
+      counters_(settings_.inputs.size()) {
+  for (const Input& input : settings_.inputs) channels_.push_back(input.channel);
+}
+
+std::string PoKeys57u::place() const {
+  return "device \"" + settings_.name + "\" (" + identity_.model() +
+         (settings_.serial ? " " + std::to_string(settings_.serial) : "") +
+         (device_ ? " at " + device_->path() : "") + ")";
+}
+
+DeviceInfo PoKeys57u::info() const {
+  std::string text = "PoLabs " + identity_.model();
+  if (identity_.serial) text += " " + std::to_string(identity_.serial);
+  if (!identity_.firmware.empty()) text += ", firmware " + identity_.firmware;
+  if (device_) text += ", at " + device_->path();
+  return {settings_.name, "pokeys57u", text + doubt_, channels_, 1000 / settings_.poll_ms,
+          false,          {}};
+}
+
+Status PoKeys57u::open() {
+  device_.reset();
+  failing_ = false;
+  if (auto found = connect(); !found) {
+    device_.reset();
+    return found;
+  }
+  MDOF_CHECK(set_up_encoders());
+  MDOF_TRY(const auto told, watch_for_restart());
+  if (!told) return does_not_say("its time");
+  next_ = last_ = steady_clock::now();
+  return {};
+}
+
+// By its serial number, which the device itself is asked for: the string that USB has is written in
+// two ways.
+Status PoKeys57u::connect() {
+  std::vector<std::string> others;
+  Status failed;
+  std::vector<HidEntry> found;
+  for (HidEntry& entry : list_hid(kVendor))
+    if (is_ours(entry)) found.push_back(std::move(entry));
+  if (settings_.serial == 0 && found.size() > 1) {
+    for (const auto& entry : found) others.push_back(entry.serial);
+    return io_error(place() + ": " + std::to_string(found.size()) +
+                    " PoKeys are plugged in (USB calls them " + joined(others) +
+                    "); say which by serial");
+  }
+  for (const auto& entry : found) {
+    const bool may_be = settings_.serial == 0 || entry.serial.empty() ||
+                        may_be_serial(entry.serial, settings_.serial);
+    if (!may_be) {
+      others.push_back(entry.serial);
+    } else if (auto tried = try_candidate(entry, others); !tried) {
+      failed = std::move(tried);
+    } else if (device_) {
+      return {};
+    }
+  }
+  if (!failed) return failed;
+  return io_error(place() + ": is not plugged in" +
+                  (others.empty() ? "" : "; there are " + joined(others)) +
+                  ". Check its cable, power and serial number");
+}
+
+Status PoKeys57u::try_candidate(const HidEntry& entry, std::vector<std::string>& others) {
+  auto opened = HidDevice::open(entry.path);
+  if (!opened) return in_context(place(), opened.error());
+  device_.emplace(std::move(*opened));
+  for (int stale = 0; stale < kMostStale; ++stale) {
+    MDOF_TRY(const std::string waste, device_->read(kFrameBytes, kQuiet));
+    if (waste.empty()) break;
+  }
+  MDOF_TRY(const Frame reply, need(request(kDeviceData), "what it is"));
+  const Identity identity = identity_of(reply);
+  if (settings_.serial != 0 && identity.serial != settings_.serial) {
+    others.push_back(std::to_string(identity.serial));
+    device_.reset();
+    return {};
+  }
+  identity_ = identity;
+  return {};
+}
+
+Result<Frame> PoKeys57u::need(const Frame& asked, const char* what) {
+  MDOF_TRY(const auto reply, exchange(asked));
+  if (reply) return reply->frame;
+  return does_not_say(what);
+}
+
+tl::unexpected<Error> PoKeys57u::does_not_say(const char* what) const {
+  return io_error(place() + ": does not say " + what + "; is it a PoKeys, and does another " +
+                  "program use it?");
+}
+
+Status PoKeys57u::set_up_encoders() {
+  MDOF_TRY(const Frame is, need(request(kEncoderOptions), "how its encoders are set"));
+  Frame wanted = request(kEncoderOptions, 1);
+  wanted.data = is.data;
+  for (const Input& input : settings_.inputs)
+    if (input.options) wanted.data[input.index] = *input.options;
+  if (wanted.data == is.data) return check_enabled(is);
+  MDOF_CHECK(need(wanted, "that its encoders are set"));
+  MDOF_TRY(const Frame now, need(request(kEncoderOptions), "how its encoders are set"));
+  for (const Input& input : settings_.inputs) {
+    if (input.options && (now.data[input.index] & 7) != *input.options)
+      return io_error(place() + ": " + input.name +
+                      " cannot be set to the counting asked for; set it with the vendor's program "
+                      "and leave counting out");
+  }
+  return check_enabled(now);
+}
+
+// Encoders 1 to 3 may be the fast ones, which have a switch of their own.
+Status PoKeys57u::check_enabled(const Frame& options) const {
+  for (const Input& input : settings_.inputs) {
+    if (input.index < 3 || input.index >= kEncoders) continue;
+    if ((options.data[input.index] & kEnabled) == 0)
+      return io_error(place() + ": " + input.name +
+                      " is switched off; give its channel a counting, as \"x4\", and set its pins "
+                      "with the vendor's program");
+  }
+  return {};
+}
+
+// The device's milliseconds since power-on: where they stay behind, it was without power, and its
+// counts began at 0.
+Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
+  MDOF_TRY(const auto reply, exchange(request(kTick)));
+  if (!reply) return std::nullopt;
+  const Tick now{tick_of(reply->frame), reply->span.middle()};
+  tick_due_ = now.at + kTickEvery;
+  const auto before = std::exchange(tick_, now);
+  if (!before) return reply->span;
+  const double passed_ms = std::chrono::duration<double, std::milli>(now.at - before->at).count();
+  const auto behind = static_cast<std::int32_t>(
+      before->ms + static_cast<std::uint32_t>(std::llround(passed_ms)) - now.ms);
+  if (behind < kTickSlack_ms + passed_ms * kTickDrift) return reply->span;
+  doubt_ = "; has been without power: its counts began at 0, find the zero again and restart mdofd";
+  for (Counter& counter : counters_) {
+    counter = {};
+    counter.sure = false;
+  }
+  return reply->span;
+}
+
+Result<std::optional<PoKeys57u::Reply>> PoKeys57u::exchange(Frame asked) {
+  for (int sends = 0; sends < kSends; ++sends) {
+    asked.id = ids_.next(monotonic_ns());
+    const auto sent = steady_clock::now();
+    MDOF_CHECK(device_->write(wrap(Way::request, asked)));
+    MDOF_TRY(const auto frame, reply_to(asked.id, sent + settings_.response_timeout));
+    if (frame) return Reply{*frame, {sent, steady_clock::now()}};
+  }
+  return std::nullopt;
+}
+
+// The command byte is not compared: the specification prints another than that of the request for
+// some commands, and the number and the checksum say enough.
+Result<std::optional<Frame>> PoKeys57u::reply_to(std::uint8_t id, Time until) {
+  for (;;) {
+    const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
+    MDOF_TRY(const std::string report, device_->read(kFrameBytes, left));
+    if (report.empty()) return std::nullopt;
+    auto frame = unwrap(Way::reply, report);
+    if (frame) ids_.answered(frame->id);
+    if (frame && frame->id == id) return frame;
+    ++rejected_;
+  }
+}
+
+Result<ReadState> PoKeys57u::read(SampleBlock& block, milliseconds timeout) {
+  start_block(block, settings_.name, channels_);
+  if (!device_) return io_error(place() + ": is not open; open it before reading");
+  const auto until = steady_clock::now() + timeout;
+  do {
+    std::this_thread::sleep_until(std::min(next_, until));
+    if (steady_clock::now() < next_) break;
+    if (const Status polled = poll(block); !polled) {
+      device_.reset();
+      return in_context(place(), polled.error());
+    }
+  } while (block.scans() == 0 && steady_clock::now() < until);
+  return ReadState::more;
+}
+
+Status PoKeys57u::poll(SampleBlock& block) {
+  const auto start = steady_clock::now();
+  std::optional<Span> span = Span{};
+  if (start >= tick_due_ && !failing_) {
+    MDOF_TRY(span, watch_for_restart());
+  }
+  if (span) {
+    MDOF_TRY(span, fetch());
+  }
+  next_ = std::max(next_ + period_, start);
+  if (span) {
+    append(block, *span);
+    return {};
+  }
+  failing_ = true;
+  if (steady_clock::now() - last_ < settings_.silence) return {};
+  return io_error("no valid reply for " + std::to_string(settings_.silence.count()) +
+                  " ms; is its cable sound, and does another program use it?");
+}
+
+// What is needed of the two blocks of counts and of the analogue inputs.
+Result<std::optional<PoKeys57u::Span>> PoKeys57u::fetch() {
+  std::array<bool, 3> needed{};
+  for (const Input& input : settings_.inputs) needed[input.index / kCountersPerBlock] = true;
+  std::optional<Span> whole;
+  for (std::size_t block = 0; block < needed.size(); ++block) {
+    if (!needed[block]) continue;
+    const bool counts = block < counts_.size();
+    MDOF_TRY(const auto reply,
+             exchange(counts ? request(kEncoderValues, static_cast<std::uint8_t>(block))
+                             : request(kAnalogue, 1)));
+    if (!reply) return std::nullopt;
+    if (counts) counts_[block] = counts_of(reply->frame);
+    if (!counts) analogue_ = analogue_of(reply->frame);
+    whole = Span{whole ? whole->from : reply->span.from, reply->span.to};
+  }
+  return whole;
+}
+
+void PoKeys57u::append(SampleBlock& block, const Span& span) {
+  const Time time = span.middle();
+  const double missed = std::round(std::chrono::duration<double>(time - last_) / period_) - 1;
+  if (std::exchange(failing_, false))
+    block.lost = static_cast<std::uint64_t>(std::max(1.0, missed));
+  block.time_ns.push_back(nanoseconds(time.time_since_epoch()).count());
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    Quality quality = span.to - span.from > settings_.slow ? Quality::suspect : Quality::good;
+    block.value[i].push_back(value_of(i, time, quality));
+    block.quality[i].push_back(quality);
+  }
+  last_ = time;
+}
+
+double PoKeys57u::value_of(std::size_t i, Time time, Quality& quality) {
+  const Input& input = settings_.inputs[i];
+  if (!input.counts()) {
+    const std::uint16_t code = analogue_[input.index - kCounters];
+    if (code == 0 || code >= kAnalogueTop) quality = Quality::over_range;
+    return code * kAnalogueTop_V / kAnalogueTop;
+  }
+  const std::int32_t raw =
+      counts_[input.index / kCountersPerBlock][input.index % kCountersPerBlock];
+  Counter& counter = counters_[i];
+  const std::int64_t count = counter.unwrap(static_cast<std::uint32_t>(raw));
+  const std::chrono::duration<double> passed = time - counter.at;
+  const double most = input.most_counts_per_s * passed.count();
+  const auto step = static_cast<double>(count - counter.last.value_or(count));
+  if (counter.sure && std::abs(step) > most + kStepSlack_counts) {
+    counter.sure = false;
+    doubt_ = "; " + input.name + " jumped by " + std::to_string(std::llround(step)) +
+             " counts, faster than it can count: find the zero again and restart mdofd";
+  }
+  counter.last = count;
+  counter.at = time;
+  if (!counter.sure) quality = Quality::suspect;
+  return static_cast<double>(count) * input.um_per_count;
+}
+
+}  // namespace mdof::drivers::pokeys57u

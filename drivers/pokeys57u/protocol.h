@@ -1,0 +1,88 @@
+// Frames of PoLabs PoKeys57U and 56U: 64 bytes each way, one request in flight (PoKeys protocol
+// specification, 3.1.2018; bytes are numbered from 0 here). Pure; survives any bytes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mdof::drivers::pokeys57u {
+
+inline constexpr std::uint16_t kVendor = 0x1DC3, kProduct = 0x1001;
+inline constexpr int kInterface = 1;  // of three: 0 is a keyboard, 2 a joystick
+inline constexpr std::size_t kFrameBytes = 64;
+inline constexpr std::size_t kDataBytes = 56;
+
+enum Command : std::uint8_t {
+  kDeviceData = 0x00,
+  kAnalogue = 0x3A,
+  kEncoderOptions = 0xC4,  // parameter 0: 0 read, 1 write
+  kEncoderValues = 0xCD,   // parameter 0: block
+  kTick = 0xCF,            // ms since power-on
+};
+enum EncoderOption : std::uint8_t { kEnabled = 1, kCounts_x4 = 2, kCounts_x2 = 4 };
+
+inline constexpr std::size_t kEncoders = 25;  // and the ultra-fast one after them
+inline constexpr std::size_t kUltraFast = 25;
+inline constexpr std::size_t kCounters = 26, kCountersPerBlock = 13;
+inline constexpr std::size_t kAnalogues = 7;
+inline constexpr std::uint16_t kAnalogueTop = 4095;
+inline constexpr double kAnalogueTop_V = 3.3;
+
+struct Frame {
+  std::uint8_t command = 0, id = 0;
+  std::array<std::uint8_t, 4> parameter{};
+  std::array<std::uint8_t, kDataBytes> data{};
+  bool operator==(const Frame&) const = default;
+};
+enum class Way : std::uint8_t { request = 0xBB, reply = 0xAA };
+
+std::string wrap(Way way, const Frame& frame);
+// Nothing: another length, another first byte, a wrong checksum.
+std::optional<Frame> unwrap(Way way, std::string_view bytes);
+
+Frame request(Command command, std::uint8_t parameter = 0);
+
+struct Identity {
+  std::uint32_t serial = 0;
+  int hardware = 0;      // 28 PoKeys57U, 10 PoKeys56U, ...; 0: an older board does not say
+  std::string firmware;  // "4.2.19"
+  std::string model() const;
+};
+Identity identity_of(const Frame& reply);
+// USB serial strings come as "2.12345" and as "12345.2": any part may be the number.
+bool may_be_serial(std::string_view text, std::uint32_t serial);
+
+using Counts = std::array<std::int32_t, kCountersPerBlock>;
+// Block 0: encoders 1 to 13; 1: 14 to 25 and the ultra-fast one.
+Counts counts_of(const Frame& reply);
+void set_counts(Frame& reply, const Counts& counts);
+using Codes = std::array<std::uint16_t, kAnalogues>;
+Codes analogue_of(const Frame& reply);  // 0 ... kAnalogueTop
+void set_analogue(Frame& reply, const Codes& raw);
+std::uint32_t tick_of(const Frame& reply);
+void set_tick(Frame& reply, std::uint32_t tick_ms);
+
+// The number of the next request. A number whose reply is still owed is not used again until it has
+// come or cannot come any more, so that a late reply is never taken for another's.
+class RequestIds {
+ public:
+  static constexpr std::int64_t kLatest_ns = 10'000'000'000;
+  // Any number of requests at a time; with all 256 owed the oldest is used again.
+  std::uint8_t next(std::int64_t now_ns);
+  void answered(std::uint8_t id) { owed_since_[id] = kNotOwed; }
+
+ private:
+  static constexpr std::int64_t kNotOwed = INT64_MIN;
+  bool free(std::uint8_t id, std::int64_t now_ns) const;
+  std::array<std::int64_t, 256> owed_since_ = [] {
+    std::array<std::int64_t, 256> none{};
+    none.fill(kNotOwed);
+    return none;
+  }();
+  std::uint8_t last_ = 0;
+};
+
+}  // namespace mdof::drivers::pokeys57u

@@ -1,0 +1,230 @@
+"""Live setups, one for each driver: what mdof-simulate serves, how mdofd reads it, how near the truth it is.
+
+Each has five probes and an encoder at one simulated machine: EYX a wave of 2 µm in 10 mm, EBX one of 30 µrad
+in 8 mm. {NAME} stands for the address that mdof-simulate gave to port NAME ("t7 stream": host and port)."""
+import math
+import os
+import subprocess
+
+from mdofd import DATA
+
+MACHINE = """
+rig = "{rig}"
+[machine]
+targets_mm = {targets}
+speed_mm_s = {speed_mm_s}
+acceleration_mm_s2 = 4000
+dwell_s = {dwell_s}
+repeats = 1000
+noise_um = 0.002
+[[machine.error]]
+name = "EYX"
+amplitude_um = 2
+period_mm = 10
+[[machine.error]]
+name = "EBX"
+amplitude_urad = 30
+period_mm = 8
+"""
+
+
+class Setup:
+    def __init__(self, rig, plan, devices, straightness_um, angle_urad, measure="", targets=(0, 2, 4.1, 6.2),
+                 dwell_s=0.35, speed_mm_s=100):
+        self.rig = os.path.join(DATA, "devices", rig)
+        self.plan, self.devices, self.measure = plan, devices, measure
+        self.straightness_um, self.angle_urad = straightness_um, angle_urad
+        self.targets, self.dwell_s, self.speed_mm_s = list(targets), dwell_s, speed_mm_s
+
+    def plan_text(self):
+        return MACHINE.format(rig=self.rig, targets=self.targets, dwell_s=self.dwell_s,
+                              speed_mm_s=self.speed_mm_s) + self.plan
+
+    def config_text(self, addresses):
+        """For a folder with the rig in it, in which mdof-simulate and mdofd work."""
+        devices = self.devices
+        for name, address in addresses.items():
+            host, _, port = address.rpartition(":")
+            devices = devices.replace("{%s}" % name, address).replace("{%s port}" % name, port)
+        return f'{self.measure}\n[[axis]]\nrig = "{os.path.basename(self.rig)}"\n{devices}'
+
+
+def channels(**inputs):
+    """channels(A="AIN0", encoder=("DIO0", "um_per_count = 0.01"))"""
+    rows = []
+    for channel, row in inputs.items():
+        row = row if isinstance(row, tuple) else (row,)
+        keys = [f'id = "{channel}"', f'input = "{row[0]}"', *row[1:]]
+        rows.append("{ " + ", ".join(keys) + " }")
+    return "channel = [" + ", ".join(rows) + "]\n"
+
+
+AINS = {channel: f"AIN{i}" for i, channel in enumerate("ABCDE")}
+T7_PLAN = """
+[[device]]
+name = "t7"
+kind = "labjack_t7"
+inputs = ["A", "B", "C", "D", "E"]
+um_per_count = 0.01
+"""
+T7 = """
+[[axis.device]]
+driver = "labjack_t7"
+name = "t7"
+address = "{t7 command}"
+stream_port = {t7 stream port}
+rate_hz = 1000
+"""
+
+SETUPS = {
+    "capancdt": Setup("rig_X.toml", """
+[[device]]
+name = "capa-1"
+kind = "capancdt"
+inputs = ["A", "B"]
+clock_ppm = 60
+jitter_ms = 1
+[[device]]
+name = "capa-2"
+kind = "capancdt"
+inputs = ["", "C"]
+clock_ppm = -40
+jitter_ms = 1
+seed = 2
+[[device]]
+name = "t7"
+kind = "labjack_t7"
+inputs = ["D", "E"]
+um_per_count = 0.01
+""", """
+[[axis.device]]
+driver = "capancdt"
+name = "capa-1"
+address = "{capa-1 command}"
+data_port = {capa-1 data port}
+sample_time_us = 960
+""" + channels(A="1", B="2") + """
+[[axis.device]]
+driver = "capancdt"
+name = "capa-2"
+address = "{capa-2 command}"
+data_port = {capa-2 data port}
+sample_time_us = 960
+""" + channels(C="2") + T7 + channels(encoder=("DIO0", "um_per_count = 0.01"), D="AIN0", E="AIN1"),
+                      straightness_um=0.03, angle_urad=2),
+    "labjack_t7": Setup("rig_volts_X.toml", T7_PLAN, T7 + channels(
+        encoder=("DIO0", "um_per_count = 0.01"), **AINS), straightness_um=0.03, angle_urad=2),
+    "csv_stream": Setup("rig_X.toml", """
+[[device]]
+name = "script"
+kind = "csv_stream"
+inputs = ["encoder", "A", "B", "C", "D", "E"]
+rate_hz = 500
+""", """
+[[axis.device]]
+driver = "csv_stream"
+name = "script"
+source = "tcp://{script rows}"
+""", straightness_um=0.01, angle_urad=1),
+    "qsb": Setup("rig_volts_X.toml", T7_PLAN + """
+[[device]]
+name = "scale"
+kind = "qsb"
+um_per_count = 0.1
+""", """
+[[axis.device]]
+driver = "qsb"
+name = "scale"
+port = "{scale serial}"
+""" + channels(encoder=("count", "um_per_count = 0.1")) + T7 + channels(**AINS), straightness_um=0.03, angle_urad=2),
+    # A scale of 0.1 mm a count; ten readings of each amplifier a second.
+    "modbus": Setup("rig_volts_X.toml", """
+[[device]]
+name = "adam"
+kind = "modbus"
+profile = "adam-6017"
+inputs = ["A", "B", "C", "D", "E"]
+[[device]]
+name = "slide"
+kind = "modbus"
+profile = "lika-smax"
+inputs = ["encoder"]
+um_per_count = 100
+""", """
+[[axis.device]]
+driver = "modbus"
+name = "adam"
+profile = "adam-6017"
+address = "{adam modbus}"
+""" + channels(**{c: f"AI{i}" for i, c in enumerate("ABCDE")}) + """
+[[axis.device]]
+driver = "modbus"
+name = "slide"
+profile = "lika-smax"
+port = "{slide modbus}"
+""" + channels(encoder=("position", "um_per_count = 100")), straightness_um=0.05, angle_urad=3,
+        measure="[measure]\nmax_gap_s = 0.5", targets=(10, 12, 14.1, 16.2), dwell_s=1.6, speed_mm_s=20),
+    # Capacitance converters at 30 scans a second, a counter of the kernel at 200.
+    "linux": Setup("rig_gaps_X.toml", """
+[[device]]
+name = "counter"
+kind = "linux_counter"
+sysfs_root = "counter"
+um_per_count = 0.05
+""" + "".join(f"""
+[[device]]
+name = "iio{i}"
+kind = "linux_iio"
+sysfs_root = "iio{i}"
+inputs = [{inputs}]
+area_mm2 = 5
+""" for i, inputs in enumerate(('"A", "B"', '"C", "D"', '"E"'))), """
+[[axis.device]]
+driver = "linux_counter"
+name = "counter"
+sysfs_root = "counter"
+rate_hz = 200
+""" + channels(encoder=("count0", "um_per_count = 0.05")) + "".join(f"""
+[[axis.device]]
+driver = "linux_iio"
+name = "iio{i}"
+sysfs_root = "iio{i}"
+sampling_hz = 91
+rate_hz = 30
+""" + channels(**{c: (f"capacitance{k}", "area_mm2 = 5") for k, c in enumerate(inputs)})
+                                                                    for i, inputs in enumerate(("AB", "CD", "E"))),
+        straightness_um=0.03, angle_urad=3, measure="[measure]\nmax_gap_s = 0.2", dwell_s=0.8, speed_mm_s=20),
+}
+
+
+class Simulators:
+    """mdof-simulate at work with a setup's plan."""
+
+    def __init__(self, program, setup, folder):
+        plan = os.path.join(folder, "devices.toml")
+        with open(plan, "w") as f:
+            f.write(setup.plan_text())
+        self.process = subprocess.Popen([program, plan], stdout=subprocess.PIPE, text=True)
+        self.addresses = {}
+        while (line := self.process.stdout.readline().strip()) != "ready":
+            assert line, "mdof-simulate ended"
+            name, address = line.rsplit(" ", 1)
+            self.addresses[name] = address
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+        self.process.stdout.close()
+
+
+def worst_errors(points):
+    """The greatest difference from the truth by error, each up to a constant."""
+    truth = {"EYX_um": lambda d: 2 * math.sin(2 * math.pi * d / 10), "EZX_um": lambda d: 0,
+             "EAX_urad": lambda d: 0, "EBX_urad": lambda d: 30 * math.sin(2 * math.pi * d / 8),
+             "ECX_urad": lambda d: 0}
+    worst = {}
+    for key, wave in truth.items():
+        error = [p[key] - wave(p["position_mm"]) for p in points]
+        mean = sum(error) / len(error)
+        worst[key] = max(abs(e - mean) for e in error)
+    return worst

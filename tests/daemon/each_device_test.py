@@ -1,0 +1,106 @@
+#!/usr/bin/python3
+"""A live run of every driver: simulated devices on real sockets, lines and files -> mdofd -> points that are
+right, and the same bits from a replay of the recording.
+
+usage: each_device_test.py MDOFD MDOF MDOF_SIMULATE [--keep FOLDER] [SETUP...]
+
+--keep FOLDER writes NAME.mdofrec and NAME.json, what a replay of it must give: tests/data/devices/recordings,
+which tests/daemon/kept_recordings_test.py replays."""
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from device_setups import SETUPS, Simulators, worst_errors  # noqa: E402
+from mdofd import Client, Daemon  # noqa: E402
+
+
+def wait_until_all_flow(client, timeout_s=60):
+    end = time.monotonic() + timeout_s
+    while True:
+        devices = client.call("device.list")["devices"]
+        if all(d["state"] == "open" and d["scans"] > 20 for d in devices):
+            return
+        assert time.monotonic() < end, f"not all devices give samples: {devices}"
+        time.sleep(0.05)
+
+
+def measured(daemon, client, targets):
+    """The id of a run that is complete, each target once, both ways."""
+    watcher = Client(daemon.socket, timeout_s=120)
+    watcher.call("live.subscribe", interval_ms=1000)
+    run = client.call("run.start", axis="X", targets_mm=targets, repeats=1)["run"]
+    while True:
+        value = watcher.next_note()["params"]["value"]
+        if value.get("type") == "ended":
+            header = client.call("run.get", run=value["run"])
+            assert header["state"] == "complete", header
+            assert value["run"] == run or header["supersedes"] == run
+            return header
+
+
+def replayed(mdof, recording, targets):
+    done = subprocess.run([mdof, "replay", recording, "--no-store", "--json", "--targets-mm", *map(str, targets)],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def check(options, name):
+    setup = SETUPS[name]
+    with tempfile.TemporaryDirectory() as folder:
+        simulators = Simulators(options.mdof_simulate, setup, folder)
+        shutil.copy(setup.rig, folder)
+        daemon = Daemon(os.path.abspath(options.mdofd), folder, setup.config_text(simulators.addresses),
+                        relative=True)
+        try:
+            client = daemon.start()
+            wait_until_all_flow(client)
+            header = measured(daemon, client, setup.targets)
+            points = client.points(header["run"])
+            daemon.stop()
+        finally:
+            simulators.kill()
+            daemon.process.kill()
+            daemon.process.wait()
+        recording = header["recording"]["path"]
+        again = replayed(options.mdof, recording, setup.targets)
+        assert again["points"] == points, f"{name}: a replay gives other points"
+        worst = worst_errors(points)
+        print(f"{name}: {len(points)} points, worst", ", ".join(f"{k} {v:.3g}" for k, v in worst.items()))
+        for key, error in worst.items():
+            bound = setup.straightness_um if key.endswith("_um") else setup.angle_urad
+            assert error < bound, f"{name}: {key} is off by {error} (bound {bound})"
+        assert {(p["target"], p["direction"]) for p in points} >= {
+            (t + 1, d) for t in range(len(setup.targets)) for d in (1, -1)}
+        if options.keep:
+            keep(options.keep, name, recording, setup, again)
+
+
+def keep(folder, name, recording, setup, result):
+    os.makedirs(folder, exist_ok=True)
+    shutil.copy(recording, os.path.join(folder, name + ".mdofrec"))
+    expected = {"targets_mm": setup.targets, "points": result["points"]}
+    with open(os.path.join(folder, name + ".json"), "w") as f:
+        json.dump(expected, f, indent=1)
+        f.write("\n")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    for program in ("mdofd", "mdof", "mdof_simulate"):
+        parser.add_argument(program)
+    parser.add_argument("setups", nargs="*", default=list(SETUPS))
+    parser.add_argument("--keep")
+    options = parser.parse_intermixed_args()
+    for name in options.setups:
+        check(options, name)
+
+
+if __name__ == "__main__":
+    main()

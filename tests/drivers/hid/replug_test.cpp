@@ -1,0 +1,195 @@
+// Unplugged and plugged in again and again while the daemon's acquisition reads: how long after the
+// node has appeared the samples go on, and what a round costs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <climits>
+#include <cmath>
+#include <condition_variable>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "daemon/acquisition.h"
+#include "drivers/pokeys57u/device.h"
+#include "drivers/pokeys57u/pokeys57u.h"
+#include "schema/random.h"
+#include "tests/drivers/hid/hid_bus.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define MDOF_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define MDOF_SANITIZED 1
+#endif
+#endif
+
+// The wrapper's library comes before the sanitizer's, which is all right.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+extern "C" __attribute__((used)) const char* __asan_default_options() {
+  return "verify_asan_link_order=0";
+}
+
+namespace mdof::drivers {
+namespace {
+
+using std::chrono::duration;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr int kWarmUp = 3;  // rounds until everything has its memory
+constexpr double kMost_s = 1;
+constexpr long kMostGrowth_KiB = 1024;
+
+long resident_KiB() {
+  std::ifstream file("/proc/self/statm");
+  long all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * (::sysconf(_SC_PAGESIZE) / 1024);
+}
+// Without what is open for a moment only.
+long descriptors() {
+  long least = LONG_MAX;
+  for (int i = 0; i < 10; ++i, std::this_thread::sleep_for(milliseconds(5)))
+    least =
+        std::min(least, std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}));
+  return least;
+}
+
+// What goes wrong on purpose, to see that the check sees it.
+struct Sabotage {
+  bool leak = false;
+  milliseconds late{0};  // the node appears by so much later than is said
+};
+
+struct Figures {
+  int rounds = 0, reopened = 0;
+  std::vector<double> seconds;  // from the node to the first sample
+  long descriptors = 0, growth_KiB = 0;
+  double quantile_s(std::size_t percent) const {
+    std::vector<double> sorted = seconds;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted.empty() ? 1e9 : sorted[(sorted.size() * percent + 99) / 100 - 1];
+  }
+  bool all_reopened() const { return reopened == rounds; }
+  bool quick() const { return quantile_s(99) <= kMost_s; }
+  bool descriptors_constant() const { return descriptors == 0; }
+  bool memory_constant() const { return growth_KiB <= kMostGrowth_KiB; }
+};
+
+class Scans {
+ public:
+  bool take(SampleBlock& block, std::uint64_t, milliseconds) {
+    const std::lock_guard lock(mutex_);
+    count_ += block.scans();
+    more_.notify_all();
+    return true;
+  }
+  bool wait_for_more(milliseconds limit) {
+    std::unique_lock lock(mutex_);
+    const std::uint64_t now = count_;
+    return more_.wait_for(lock, limit, [&] { return count_ > now; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable more_;
+  std::uint64_t count_ = 0;
+};
+
+DriverSpec reader() {
+  pokeys57u::Settings settings;
+  settings.name = "slide";
+  settings.serial = 12345;
+  settings.inputs.emplace_back();
+  settings.inputs[0].channel = {"encoder", Unit::um};
+  settings.inputs[0].um_per_count = 1;
+  settings.inputs[0].most_counts_per_s = 1e6;
+  DriverSpec spec;
+  spec.driver = "pokeys57u";
+  spec.name = "slide";
+  spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
+    return std::make_unique<pokeys57u::PoKeys57u>(settings);
+  };
+  spec.source_info = [](const Driver&) { return SourceInfo{}; };
+  return spec;
+}
+
+// For how long it is away: mostly up to 0.3 s, each tenth time up to 1.5 s, so that the pauses
+// between openings are of any length.
+milliseconds away(int round) {
+  const Philox random = philox({static_cast<std::uint32_t>(round), 0, 0, 0}, 7);
+  return milliseconds(30 +
+                      std::lround((round % 10 == 9 ? 1500 : 300) * uniform(random[0], random[1])));
+}
+
+Figures replug(int rounds, const Sabotage& sabotage) {
+  HidBus bus;
+  Scans scans;
+  daemon::Acquisition acquisition(
+      reader(), {[&](auto& block, auto pass, auto wait) { return scans.take(block, pass, wait); },
+                 [](auto, const auto&, const auto&) {}});
+  acquisition.start();
+  Figures figures;
+  figures.rounds = rounds;
+  std::vector<std::string> kept;
+  long descriptors_before = 0, resident_before = 0;
+  for (int round = 0; round < kWarmUp + rounds; ++round) {
+    pokeys57u::Device device([](std::size_t, std::int64_t) { return 0.0; }, {});
+    std::this_thread::sleep_for(away(round));
+    const auto plugged = steady_clock::now();
+    std::this_thread::sleep_for(sabotage.late);
+    bus.plug(round, device);
+    const bool back = scans.wait_for_more(milliseconds(10'000));
+    const double after_s = duration<double>(steady_clock::now() - plugged).count();
+    if (round >= kWarmUp && back) {
+      ++figures.reopened;
+      figures.seconds.push_back(after_s);
+    }
+    if (round == kWarmUp - 1) {
+      descriptors_before = descriptors();
+      resident_before = resident_KiB();
+    }
+    figures.descriptors = descriptors() - descriptors_before;
+    figures.growth_KiB = resident_KiB() - resident_before;
+    bus.unplug(round);
+    if (sabotage.leak) {
+      EXPECT_GE(::dup(0), 0);
+      kept.emplace_back(1 << 20, 'x');
+    }
+  }
+  acquisition.stop();
+  return figures;
+}
+
+void print(const Figures& f) {
+  std::printf(
+      "replugged %d, reopened %d, first sample after p50 %.3f s, p99 %.3f s, descriptors %+ld, "
+      "memory %+ld KiB\n",
+      f.rounds, f.reopened, f.quantile_s(50), f.quantile_s(99), f.descriptors, f.growth_KiB);
+}
+
+TEST(HidReplug, IsReopenedEachTimeSoonAndAtNoCost) {
+  const char* const rounds = std::getenv("MDOF_REPLUGS");
+  const Figures figures = replug(rounds ? std::atoi(rounds) : 20, {});
+  print(figures);
+  EXPECT_TRUE(figures.all_reopened());
+  EXPECT_TRUE(figures.quick());
+  EXPECT_TRUE(figures.descriptors_constant());
+#ifndef MDOF_SANITIZED  // they keep freed memory for a while
+  EXPECT_TRUE(figures.memory_constant());
+#endif
+}
+
+// The control: it can fail, in each respect.
+TEST(HidReplug, WhatIsLeakedOrLateIsSeen) {
+  const Figures figures = replug(2, {.leak = true, .late = milliseconds(1100)});
+  print(figures);
+  EXPECT_FALSE(figures.quick());
+  EXPECT_FALSE(figures.descriptors_constant());
+  EXPECT_FALSE(figures.memory_constant());
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -1,0 +1,31 @@
+// Any bytes as replies, as requests to the simulated device, and as serial numbers.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "drivers/pokeys57u/device.h"
+
+using namespace mdof::drivers::pokeys57u;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string bytes(reinterpret_cast<const char*>(data), size);
+  (void)may_be_serial(bytes, 12345);
+  // With a right checksum, so that the rest is reached.
+  bytes.resize(kFrameBytes, '\0');
+  unsigned sum = 0;
+  for (std::size_t i = 1; i < 7; ++i) sum += static_cast<std::uint8_t>(bytes[i]);
+  for (const Way way : {Way::reply, Way::request}) {
+    bytes[0] = static_cast<char>(way);
+    bytes[7] = static_cast<char>(sum + static_cast<unsigned>(way));
+    const auto frame = unwrap(way, bytes);
+    if (!frame || wrap(way, *frame) != bytes) __builtin_trap();
+    (void)identity_of(*frame).model();
+    (void)counts_of(*frame);
+    (void)analogue_of(*frame);
+    (void)tick_of(*frame);
+  }
+  Device device([](std::size_t, std::int64_t) { return 1234.5; }, {});
+  (void)device.out(Device::kOut, bytes, 0);
+  (void)device.in(Device::kIn, kFrameBytes, 10'000'000);
+  return 0;
+}

@@ -1,0 +1,77 @@
+"""Each USB device unplugged and plugged in again 50 times while mdofd reads it: opened again each time, soon,
+and at no cost. A node that is shown too late, or a leak, is seen: that is tried at the end."""
+# limit: 900 s
+import os
+import time
+
+import guest
+
+ROUNDS = int(os.environ.get("MDOF_REPLUGS", "50"))
+WARM_UP = 3
+MOST_S, MOST_GROWTH_KIB = 1.0, 1024
+
+# A device on the USB: its part of a plan and of the configuration, the files that are its nodes.
+DEVICES = {
+    "encoders": (guest.POKEYS, guest.POKEYS_CONFIG, lambda: len(guest.hidraw_nodes()) == 3),
+}
+
+
+class Rounds:
+    def __init__(self, rounds):
+        self.rounds, self.seconds = rounds, []
+        self.descriptors, self.resident_KiB = [], []
+
+    def failures(self):
+        failed = []
+        if len(self.seconds) != self.rounds:
+            failed.append(f"reopened {len(self.seconds)} of {self.rounds} times")
+        if guest.quantile(self.seconds, 99) > MOST_S:
+            failed.append(f"p99 {guest.quantile(self.seconds, 99):.3f} s")
+        if self.descriptors[-1] != self.descriptors[0]:
+            failed.append(f"descriptors {self.descriptors[0]} -> {self.descriptors[-1]}")
+        if self.resident_KiB[-1] - self.resident_KiB[0] > MOST_GROWTH_KIB:
+            failed.append(f"memory {self.resident_KiB[-1] - self.resident_KiB[0]:+d} KiB")
+        return failed
+
+    def text(self):
+        return (f"reopened {len(self.seconds)} of {self.rounds}, first scan after the node p50 "
+                f"{guest.quantile(self.seconds, 50):.3f} s, p99 {guest.quantile(self.seconds, 99):.3f} s, "
+                f"descriptors {self.descriptors[-1] - self.descriptors[0]:+d}, memory "
+                f"{self.resident_KiB[-1] - self.resident_KiB[0]:+d} KiB")
+
+
+def replug(station, name, plug, there, rounds, late_s=0.0):
+    result = Rounds(rounds)
+    for i in range(-WARM_UP, rounds):
+        guest.wait_until(lambda: station.device(name)["state"] != "open", f"{name} is away")
+        time.sleep((0.1, 0.4, 1.3)[i % 3])  # pauses between openings of any length
+        before = station.device(name)["scans"]
+        plug.start()
+        guest.wait_until(there, f"nodes of {name}", pause_s=0.002)
+        begin = time.monotonic()
+        time.sleep(late_s)
+        guest.wait_until(lambda: station.device(name)["scans"] > before, f"scans of {name}", pause_s=0.005)
+        if i >= 0:
+            result.seconds.append(time.monotonic() - begin)
+        if i >= -1:
+            result.descriptors.append(station.descriptors())
+            result.resident_KiB.append(station.resident_KiB())
+        plug.kill()
+        guest.wait_until(lambda: not there(), f"nodes of {name} go")
+    return result
+
+
+guest.load("vhci-hcd", "usbhid", "hid-generic")
+guest.start_udev()
+for device, (plan, config, there) in DEVICES.items():
+    station = guest.Station(config)
+    plug = guest.Simulate(device, plan)
+    result = replug(station, device, plug, there, ROUNDS)
+    guest.figure(f"{device}: {result.text()}")
+    assert not result.failures(), result.failures()
+    # The control.
+    late = replug(station, device, plug, there, 2, late_s=1.1)
+    late.descriptors[-1] += 1
+    assert len(late.failures()) == 2, late.failures()
+    station.stop()
+guest.check_kernel()

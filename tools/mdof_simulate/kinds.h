@@ -1,0 +1,35 @@
+// The kinds of devices that mdof-simulate knows, each wired to the machine.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/simulated_device.h"
+#include "drivers/usb/simulated_usb.h"
+#include "schema/result.h"
+#include "schema/rig.h"
+#include "schema/toml_reader.h"
+#include "tools/mdof_simulate/sensed.h"
+
+namespace mdof::simulate {
+
+struct Wiring {
+  Rig rig;
+  std::shared_ptr<SensedMachine> machine;
+  std::filesystem::path folder;  // of the plan
+};
+
+// One of them.
+struct Made {
+  std::unique_ptr<drivers::SimulatedDevice> device;
+  std::unique_ptr<drivers::usb::SimulatedUsb> usb;
+};
+
+// A device of this kind from the keys that are its own; `inputs` are channels of the rig or "".
+// Errors name file, line and key.
+Result<Made> make_device(const std::string& kind, const Wiring& wiring,
+                         const std::vector<std::string>& inputs, TomlTable& table);
+
+}  // namespace mdof::simulate

@@ -132,14 +132,16 @@ void Device::take_scans(std::int64_t now_ns) {
 
 // Whether it has changed which scan is next.
 bool Device::meets_fault() {
-  const auto scan = static_cast<std::int64_t>(run_->next);
-  if (scan == faults_.unplug_at) return gone_ = true;
-  if (scan == faults_.drop_at) {
+  const auto is_due = [&](std::int64_t scan) {
+    return scan >= 0 && static_cast<std::int64_t>(run_->next) >= scan;
+  };
+  if (is_due(faults_.unplug_at)) return gone_ = true;
+  if (is_due(faults_.drop_at)) {
     faults_.drop_at = -1;
     ++run_->next;
     return true;
   }
-  if (scan != faults_.overrun_at || overrun_) return false;
+  if (!is_due(faults_.overrun_at) || overrun_) return false;
   overrun_ = true;
   run_->next += faults_.overrun;
   return true;

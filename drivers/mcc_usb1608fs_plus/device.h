@@ -11,7 +11,7 @@
 
 namespace mdof::drivers::mcc_usb1608fs_plus {
 
-// What may go wrong; scans are counted from 0 in each run, -1: never.
+// What may go wrong, at a scan or the next one taken; counted from 0 in each run, -1: never.
 struct Faults {
   std::int64_t overrun_at = -1;  // here the FIFO overruns: `overrun` scans are not there
   std::uint64_t overrun = 1000;

@@ -35,13 +35,14 @@ Connection::~Connection() {
 bool Connection::pump(Deadline deadline, const std::function<bool()>& done) const {
   while (!done()) {
     const auto now = steady_clock::now();
-    if (now >= deadline) return false;
-    const auto left = std::chrono::ceil<microseconds>(deadline - now).count();
+    const auto left = std::max(std::chrono::ceil<microseconds>(deadline - now), microseconds(0));
     timeval wait{};
-    wait.tv_sec = static_cast<time_t>(left / 1'000'000);
-    wait.tv_usec = static_cast<suseconds_t>(left % 1'000'000);
+    wait.tv_sec = static_cast<time_t>(left.count() / 1'000'000);
+    wait.tv_usec = static_cast<suseconds_t>(left.count() % 1'000'000);
     libusb_handle_events_timeout_completed(context.get(), &wait, nullptr);
-    if (!done() && steady_clock::now() - now < kInstant) std::this_thread::sleep_for(kRest);
+    if (done()) return true;
+    if (now >= deadline) return false;
+    if (steady_clock::now() - now < kInstant) std::this_thread::sleep_for(kRest);
   }
   return true;
 }

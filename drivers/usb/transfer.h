@@ -30,7 +30,7 @@ struct Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  // Handles events until `done` or the deadline; whether it is done.
+  // Handles events until `done` or the deadline, those that wait in any case; whether it is done.
   bool pump(Deadline deadline, const std::function<bool()>& done) const;
 };
 

@@ -53,8 +53,8 @@ Bus::~Bus() {
 }
 
 void Bus::turn() {
-  std::unique_lock lock(mutex_);
-  submitted_.wait_for(lock, std::chrono::milliseconds(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const std::lock_guard lock(mutex_);
   for (auto& [number, node] : nodes_) node->serve(clock_());
 }
 
@@ -67,7 +67,7 @@ int Bus::on_ioctl(UMockdevIoctlBase* /*base*/, void* client, void* self) {
     if (node->devnode != devnode) continue;
     const int before = node->submitted;
     const bool answered = node->answer(from);
-    if (node->submitted != before) bus->submitted_.notify_one();
+    if (node->submitted != before) node->serve(bus->clock_());
     return answered ? TRUE : FALSE;
   }
   umockdev_ioctl_client_complete(from, -1, ENODEV);  // of a device that has left

@@ -9,7 +9,6 @@
 #include <umockdev.h>
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -61,7 +60,6 @@ class Bus {
   std::map<int, std::unique_ptr<Node>> nodes_;  // guarded by mutex_, as are the devices
   int last_number_ = 1;                         // 2 ... 127, one after the other
   std::mutex mutex_;
-  std::condition_variable submitted_;
   std::atomic<bool> stop_ = false;
   std::thread thread_;
 };

@@ -85,7 +85,7 @@ TEST_F(UsbLabjackU6, GivesVoltsAndMicrometresAtTheirTimes) {
   expect_growing(all.time_ns);
   for (std::size_t i = 0; i < all.scans.size(); ++i) {
     const double age_s = static_cast<double>(all.time_ns[i] - truth.zero_ns) * 1e-9;
-    ASSERT_NEAR(all.scans[i][0], age_s, 0.1) << i;  // a loaded machine is late
+    ASSERT_NEAR(all.scans[i][0], age_s, 0.3) << i;  // a loaded machine is late
     ASSERT_NEAR(all.scans[i][2], -1.5, 2e-4);
     // Five slots of 10 us lie between AIN0 and the counter, and its zero is that of its start.
     const double counts = all.scans[i][3] - all.scans[0][3];

@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kReadTimeout{100};
-constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{500};
+constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
 constexpr milliseconds kNap{10}, kRefresh{1000};
 
 // Names of threads end after 15 characters.

@@ -73,26 +73,26 @@ class Simulate:
             lines.append(line.strip())
         return lines[:-1]
 
+    def known(self):
+        """Whether mdof-simulate has such devices."""
+        done = subprocess.run(["timeout", "5", "mdof-simulate", self.plan], capture_output=True, text=True)
+        return "known are" not in done.stderr
+
     def kill(self):
         self.process.kill()
         self.process.wait()
         self.process.stdout.close()
 
 
-# The probes, on sockets of the guest; what is under test gives the encoder.
-PROBES = """
+# Probes on sockets of the guest, beside what is under test. Simulated devices and their configuration.
+CAPA = """
 [[device]]
 name = "capa"
 kind = "capancdt"
 ports = [2301, 2302]
 inputs = ["A", "B", "C"]
-[[device]]
-name = "t7"
-kind = "labjack_t7"
-ports = [2303, 2304]
-inputs = ["D", "E"]
 """
-PROBES_CONFIG = f"""
+CAPA_CONFIG = f"""
 [[axis]]
 rig = "{RIG}"
 [[axis.device]]
@@ -102,13 +102,22 @@ address = "127.0.0.1:2301"
 data_port = 2302
 sample_time_us = 8000
 channel = [{{ id = "A", input = "1" }}, {{ id = "B", input = "2" }}, {{ id = "C", input = "3" }}]
+"""
+PROBES = CAPA + """
+[[device]]
+name = "t7"
+kind = "labjack_t7"
+ports = [2303, 2304]
+inputs = ["D", "E"]
+"""
+PROBES_CONFIG = CAPA_CONFIG + """
 [[axis.device]]
 driver = "labjack_t7"
 name = "t7"
 address = "127.0.0.1:2303"
 stream_port = 2304
 rate_hz = 200
-channel = [{{ id = "D", input = "AIN0" }}, {{ id = "E", input = "AIN1" }}]
+channel = [{ id = "D", input = "AIN0" }, { id = "E", input = "AIN1" }]
 """
 POKEYS = """
 [[device]]
@@ -124,15 +133,53 @@ serial = 12345
 poll_ms = 10
 channel = [{ id = "encoder", input = "encoder1", um_per_count = 0.5 }]
 """
+# Five still probes, at no cost.
+STILL_PROBES_CONFIG = f"""
+[[axis]]
+rig = "{RIG}"
+[[axis.device]]
+driver = "csv_stream"
+name = "probes"
+command = ["python3", "{os.path.join(os.path.dirname(os.path.abspath(__file__)), "still_probes.py")}"]
+"""
+U6 = """
+[[device]]
+name = "u6"
+kind = "labjack_u6"
+inputs = ["D", "E"]
+um_per_count = 0.5
+"""
+U6_CONFIG = """
+[[axis.device]]
+driver = "labjack_u6"
+name = "u6"
+rate_hz = 500
+channel = [{ id = "D", input = "AIN0" }, { id = "E", input = "AIN1" },
+           { id = "encoder", input = "FIO0", um_per_count = 0.5 }]
+"""
+MCC = """
+[[device]]
+name = "mcc"
+kind = "mcc_usb1608fs_plus"
+inputs = ["D", "E"]
+"""
+MCC_CONFIG = """
+[[axis.device]]
+driver = "mcc_usb1608fs_plus"
+name = "mcc"
+rate_hz = 500
+channel = [{ id = "D", input = "CH0" }, { id = "E", input = "CH1" }]
+"""
 
 
 class Station:
-    """mdofd with the probes and one device more, that is under test."""
+    """mdofd with `config`, and simulated devices beside what is under test."""
 
-    def __init__(self, config):
-        self.probes = Simulate("probes", PROBES)
-        self.probes.start()
-        self.daemon = Daemon("/usr/bin/mdofd", os.path.join(FOLDER, "daemon"), PROBES_CONFIG + config)
+    def __init__(self, config, beside=PROBES):
+        self.probes = beside and Simulate("probes", beside)
+        if self.probes:
+            self.probes.start()
+        self.daemon = Daemon("/usr/bin/mdofd", os.path.join(FOLDER, "daemon"), config)
         self.client = self.daemon.start(timeout_s=60)
 
     def device(self, name):
@@ -168,7 +215,8 @@ class Station:
 
     def stop(self):
         self.daemon.stop()
-        self.probes.kill()
+        if self.probes:
+            self.probes.kill()
 
 
 def probe(station_or_config, name):
@@ -198,3 +246,15 @@ def skip(why):
 
 def hidraw_nodes():
     return sorted(glob.glob("/dev/hidraw*"))
+
+
+def usb_node(vendor):
+    """/dev/bus/usb/... of the device with this vendor id."""
+    for path in glob.glob("/sys/bus/usb/devices/*/idVendor"):
+        with open(path) as f:
+            if f.read().strip() != vendor:
+                continue
+        with open(os.path.join(os.path.dirname(path), "uevent")) as f:
+            name = dict(line.strip().split("=", 1) for line in f)["DEVNAME"]
+        return os.path.exists("/dev/" + name) and "/dev/" + name
+    return None

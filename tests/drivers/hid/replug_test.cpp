@@ -30,6 +30,11 @@
 extern "C" __attribute__((used)) const char* __asan_default_options() {
   return "verify_asan_link_order=0";
 }
+// What these do among themselves is not seen by it, and not ours.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+extern "C" __attribute__((used)) const char* __tsan_default_suppressions() {
+  return "race:libumockdev.so\nrace:libumockdev-preload.so\nrace:libudev.so\nrace:libglib-2.0.so\n";
+}
 
 namespace mdof::drivers {
 namespace {

@@ -20,7 +20,7 @@ def check(bus, interfaces):
     assert found["channels"][0]["values"] > 20, found  # what took long is suspect
     guest.figure(f"{bus}: {found['rate_hz']:.1f} scans a second of 100, {found['lost']} lost")
 
-    station = guest.Station(guest.POKEYS_CONFIG)
+    station = guest.Station(guest.PROBES_CONFIG + guest.POKEYS_CONFIG)
     station.wait_for_scans("encoders", 50)
     values = station.watch_targets()
     device = station.device("encoders")

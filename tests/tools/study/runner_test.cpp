@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "schema/random.h"
-#include "tools/mdof/study/divided_trials.h"
 #include "tools/mdof/interrupt.h"
+#include "tools/mdof/study/divided_trials.h"
 #include "tools/mdof/study/json.h"
 #include "tools/mdof/study/workers.h"
 

@@ -10,8 +10,8 @@
 #include "algo/sensitivity/allocation.h"
 #include "algo/sensitivity/comparison.h"
 #include "algo/sensitivity/indices.h"
-#include "tools/mdof/progress.h"
 #include "tools/mdof/interrupt.h"
+#include "tools/mdof/progress.h"
 #include "tools/mdof/study/run_experiment.h"
 #include "tools/mdof/study/workers.h"
 

@@ -15,6 +15,8 @@ using std::chrono::steady_clock;
 constexpr milliseconds kReadTimeout{100};
 constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
 constexpr milliseconds kNap{10}, kRefresh{1000};
+// Some devices take seconds to be found, asked and set up; to be in there is no hang-up.
+constexpr milliseconds kOpening{20'000};
 
 // Names of threads end after 15 characters.
 void name_thread(const std::string& device) {
@@ -83,7 +85,10 @@ void Acquisition::acquire(std::uint64_t pass) {
 
 // True: the source has come to its end. False: an error (kept in the status) or no longer wanted.
 bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
-  if (const Status opened = driver.open(); !opened) {
+  turn_ = steady_clock::now() + kOpening;
+  const Status opened = driver.open();
+  turn_ = steady_clock::now();
+  if (!opened) {
     set_state("failed: reopening", opened.error().message);
     return false;
   }

@@ -14,7 +14,7 @@ using std::chrono::steady_clock;
 
 // What the fake device does at each call of open() and read(), in turn; then it stays silent.
 struct Script {
-  enum class Act { open, refuse, block, silence, fail, end };
+  enum class Act { open, slow_open, refuse, block, silence, fail, end };
   std::deque<Act> acts;
   std::int64_t time_ns = 0;  // of the next scan
 };
@@ -26,7 +26,9 @@ class Scripted final : public drivers::Driver {
     return {"fake", "fake", "", {{"A", Unit::um}}, 1000, false, {}};
   }
   Status open() override {
-    return next() == Script::Act::open ? Status() : io_error("10.0.0.9: no route");
+    const auto act = next();
+    if (act == Script::Act::slow_open) std::this_thread::sleep_for(milliseconds(300));
+    return act == Script::Act::refuse ? io_error("10.0.0.9: no route") : Status();
   }
   Result<drivers::ReadState> read(SampleBlock& block, milliseconds) override {
     block = SampleBlock();
@@ -150,6 +152,17 @@ TEST(Acquisition, ReopensAFailedDeviceAndTellsWhatWasLost) {
   EXPECT_TRUE(acquisition.healthy(std::chrono::seconds(5)));
   acquisition.stop();
   EXPECT_EQ(acquisition.status().state, "closed");
+}
+
+TEST(Acquisition, ADeviceThatTakesLongToOpenIsNoHungThread) {
+  Collector collector;
+  Acquisition acquisition(spec_of({slow_open, block}), collector.sink());
+  acquisition.start();
+  std::this_thread::sleep_for(milliseconds(20));  // the thread has begun
+  while (collector.blocks().empty()) {
+    ASSERT_TRUE(acquisition.healthy(milliseconds(150)));
+    std::this_thread::sleep_for(milliseconds(1));
+  }
 }
 
 // By themselves the pauses of forty refusals take over a quarter of a minute.

@@ -74,7 +74,7 @@ Diagnosis check_udev_rules(const Machine& machine, bool wanted) {
 
 Diagnosis check_storage(const daemon::Config& config) {
   std::error_code ec;
-  fs::path folder = config.database.parent_path();
+  fs::path folder = fs::absolute(config.database).parent_path();
   while (!folder.empty() && !fs::exists(folder, ec)) folder = folder.parent_path();
   const std::string what = "storage: " + config.database.string();
   if (::access(folder.c_str(), W_OK | X_OK) != 0)

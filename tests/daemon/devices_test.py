@@ -274,8 +274,11 @@ class Devices(unittest.TestCase):
         self.assertEqual(points[:len(before) - 1], before[:-1])
         again, last = points[len(before) - 1], before[-1]
         self.assertTrue(again == last or "interrupted" in again["flags"], (again, last))
-        self.assertGreaterEqual(len(points), 16)
-        self.check_against_truth(points)
+        # One that the cut went through may lack a probe: then it has no errors, and says why.
+        solved = [p for p in points if p["EYX_um"] is not None]
+        self.assertTrue(all(p["flags"] for p in points if p not in solved), points)
+        self.assertGreaterEqual(len(solved), 16)
+        self.check_against_truth(solved)
         code, out, err = self.replayed(header)
         self.assertEqual(code, 0, err)
         self.assertEqual(json.loads(out)["points"], points)

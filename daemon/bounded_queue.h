@@ -29,14 +29,15 @@ class BoundedQueue {
     return true;
   }
 
+  enum class Wake { yes, no };  // no: whoever waits may sleep on, until his time is up
   // Waits for room as long as `timeout`; false, and `value` untouched, if there is none or the
   // queue was closed.
-  bool push_for(T& value, std::chrono::milliseconds timeout) {
+  bool push_for(T& value, std::chrono::milliseconds timeout, Wake wake = Wake::yes) {
     std::unique_lock lock(mutex_);
     emptied_.wait_for(lock, timeout, [&] { return closed_ || items_.size() < capacity_; });
     if (closed_ || items_.size() >= capacity_) return false;
     items_.push_back(std::move(value));
-    filled_.notify_one();
+    if (wake == Wake::yes) filled_.notify_one();
     return true;
   }
 
@@ -80,10 +81,6 @@ class BoundedQueue {
   bool closed_and_empty() const {
     const std::lock_guard lock(mutex_);
     return closed_ && items_.empty();
-  }
-  bool empty() const {
-    const std::lock_guard lock(mutex_);
-    return items_.empty();
   }
   std::uint64_t dropped() const {
     const std::lock_guard lock(mutex_);

@@ -15,6 +15,11 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
+bool has_encoder(const SampleBlock& block) {
+  return std::any_of(block.channels.begin(), block.channels.end(),
+                     [](const Channel& channel) { return channel.id == kEncoderChannel; });
+}
+
 std::string file_stamp(std::string utc) {
   std::erase_if(utc, [](char c) { return c == ':' || c == '-' || c == '.'; });
   return utc;
@@ -55,7 +60,10 @@ Acquisition::Sink Station::sink() {
     Item item;
     item.pass = pass;
     item.block = std::move(block);
-    if (shared_->queue.push_for(item, wait)) return true;
+    // Frames are on the encoder's time: it wakes the measuring thread, the other devices do not.
+    const bool encoder = has_encoder(item.block);
+    if (shared_->queue.push_for(item, wait, encoder ? Queue::Wake::yes : Queue::Wake::no))
+      return true;
     block = std::move(item.block);
     return false;
   };

@@ -70,13 +70,14 @@ class Station {
     std::uint64_t pass = 0;  // of a source that is read once a run
     RunDone done;
   };
+  using Queue = BoundedQueue<Item>;
   struct OpenRun;
   // What the store's callbacks may still need when the station itself has gone.
   struct Shared {
     explicit Shared(StationEvents e) : events(std::move(e)), queue(kQueuedBlocks) {}
     StationEvents events;
     std::atomic<std::int64_t> run{0};
-    BoundedQueue<Item> queue;
+    Queue queue;
   };
   static constexpr std::size_t kQueuedBlocks = 1024;
 

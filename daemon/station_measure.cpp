@@ -19,8 +19,6 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kPopTimeout{100};
-// What several devices give is handled together: to wake up costs more than their samples.
-constexpr milliseconds kGather{1};
 constexpr milliseconds kLiveInterval{20};
 constexpr milliseconds kRecordInterval{20};  // each hand-over wakes the store's thread
 
@@ -129,7 +127,6 @@ void Station::measure() {
     measure_turn_ = steady_clock::now();
     if (auto item = shared_->queue.pop(kPopTimeout)) {
       handle(*item);
-      if (config_.live() && shared_->queue.empty()) std::this_thread::sleep_for(kGather);
     } else {
       if (open_) record();
       show_live();  // that nothing comes is news too

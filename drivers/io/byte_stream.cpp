@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -59,15 +60,15 @@ ByteStream& ByteStream::operator=(ByteStream&& other) noexcept {
 
 Result<std::size_t> ByteStream::read(std::span<char> into, milliseconds timeout) {
   const auto until = steady_clock::now() + timeout;
-  // A stream is mostly waited for: to ask first saves a read that finds nothing.
-  while (timeout == milliseconds(0) || ready(fd_, POLLIN, until)) {
+  for (;;) {
+    // A stream is mostly waited for: to ask first saves a read that finds nothing.
+    const bool came = timeout > milliseconds(0) && ready(fd_, POLLIN, until);
     const ssize_t n = ::read(fd_, into.data(), into.size());
     if (n > 0) return static_cast<std::size_t>(n);
     if (n == 0) return io_error(name_ + ": the other side has closed the connection");
     if (!would_block(errno)) return io_error(name_ + ": read: " + std::strerror(errno));
-    if (timeout == milliseconds(0)) return 0;
+    if (!came) return 0;
   }
-  return 0;
 }
 
 Status ByteStream::write(std::string_view bytes, milliseconds timeout) {

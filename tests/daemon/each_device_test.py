@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A live run of every driver: simulated devices on real sockets, lines and files -> mdofd -> points that are
-right, and the same bits from a replay of the recording.
+right, and the same bits from a replay of the recording. Those on the USB: tests/vm/run live.
 
 usage: each_device_test.py MDOFD MDOF MDOF_SIMULATE [--keep FOLDER] [SETUP...]
 
@@ -35,8 +35,10 @@ def measured(daemon, client, targets):
     watcher = Client(daemon.socket, timeout_s=120)
     watcher.call("live.subscribe", interval_ms=1000)
     run = client.call("run.start", axis="X", targets_mm=targets, repeats=1)["run"]
+    limit = time.monotonic() + 120
     while True:
         value = watcher.next_note()["params"]["value"]
+        assert time.monotonic() < limit, f"the run does not end; last was {value}"
         if value.get("type") == "ended":
             header = client.call("run.get", run=value["run"])
             assert header["state"] == "complete", header
@@ -72,7 +74,6 @@ def check(options, name):
         again = replayed(options.mdof, recording, setup.targets)
         assert again["points"] == points, f"{name}: a replay gives other points"
         worst = worst_errors(points)
-        print(f"{name}: {len(points)} points, worst", ", ".join(f"{k} {v:.3g}" for k, v in worst.items()))
         for key, error in worst.items():
             bound = setup.straightness_um if key.endswith("_um") else setup.angle_urad
             assert error < bound, f"{name}: {key} is off by {error} (bound {bound})"
@@ -80,6 +81,7 @@ def check(options, name):
             (t + 1, d) for t in range(len(setup.targets)) for d in (1, -1)}
         if options.keep:
             keep(options.keep, name, recording, setup, again)
+        return f"{name}: {len(points)} points, worst " + ", ".join(f"{k} {v:.3g}" for k, v in worst.items())
 
 
 def keep(folder, name, recording, setup, result):
@@ -95,11 +97,11 @@ def main():
     parser = argparse.ArgumentParser()
     for program in ("mdofd", "mdof", "mdof_simulate"):
         parser.add_argument(program)
-    parser.add_argument("setups", nargs="*", default=list(SETUPS))
+    parser.add_argument("setups", nargs="*", default=[n for n, s in SETUPS.items() if not s.usb])
     parser.add_argument("--keep")
     options = parser.parse_intermixed_args()
     for name in options.setups:
-        check(options, name)
+        print(check(options, name), flush=True)
 
 
 if __name__ == "__main__":

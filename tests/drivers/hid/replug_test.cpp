@@ -169,6 +169,8 @@ Figures replug(int rounds, const Sabotage& sabotage) {
     std::this_thread::sleep_for(sabotage.late);
     bus.plug(round, device);
     const bool back = scans.wait_for_more(milliseconds(10'000));
+    const daemon::DeviceStatus status = acquisition.status();
+    EXPECT_TRUE(back) << "round " << round << ": " << status.state << ": " << status.error;
     const double after_s = duration<double>(steady_clock::now() - plugged).count();
     if (round >= kWarmUp && back) {
       ++figures.reopened;

@@ -133,15 +133,15 @@ serial = 12345
 poll_ms = 10
 channel = [{ id = "encoder", input = "encoder1", um_per_count = 0.5 }]
 """
-# Five still probes, at no cost.
-STILL_PROBES_CONFIG = f"""
-[[axis]]
-rig = "{RIG}"
-[[axis.device]]
-driver = "csv_stream"
-name = "probes"
-command = ["python3", "{os.path.join(os.path.dirname(os.path.abspath(__file__)), "still_probes.py")}"]
-"""
+
+
+def still_config(*columns):
+    """What stands still, at no cost: columns of csv_stream."""
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "still_probes.py")
+    command = json.dumps(["python3", script, *columns])
+    return f'[[axis]]\nrig = "{RIG}"\n[[axis.device]]\ndriver = "csv_stream"\nname = "still"\ncommand = {command}\n'
+
+
 U6 = """
 [[device]]
 name = "u6"
@@ -199,17 +199,23 @@ class Station:
         with open(f"/proc/{self.daemon.process.pid}/statm") as f:
             return int(f.read().split()[1]) * resource.getpagesize() // 1024
 
-    def watch_targets(self, targets_mm=(0, 2, 4.1, 6.2), timeout_s=120):
-        """Until the axis was seen at each of them, in live values that are fresh; how many it took."""
+    def watch_targets(self, from_zero=True, targets_mm=(0, 2, 4.1, 6.2), timeout_s=120):
+        """Until the axis has stood at each target, in live values that are fresh; how many values it took. A U6
+        counts from where it was started: `from_zero` false."""
         watcher = Client(self.daemon.socket, timeout_s=timeout_s)
         watcher.call("live.subscribe", interval_ms=100, events=False)
-        missing, values, end = set(targets_mm), 0, time.monotonic() + timeout_s
-        while missing:
+        stood, last, values, end = set(), None, 0, time.monotonic() + timeout_s
+
+        def all_from(zero_mm):
+            return all(any(abs(zero_mm + t - s) < 0.002 for s in stood) for t in targets_mm)
+
+        while not any(all_from(zero_mm) for zero_mm in ([0] if from_zero else stood)):
             value = watcher.next_note()["params"]["value"]
             values += 1
-            if not value["stale"]:
-                missing -= {t for t in missing if abs(value["encoder_mm"] - t) < 0.002}
-            assert time.monotonic() < end, f"the axis was not seen at {missing}: {value}"
+            if not value["stale"] and value["encoder_mm"] == last:
+                stood.add(last)
+            last = value["encoder_mm"]
+            assert time.monotonic() < end, f"the axis stood at {stood}: {value}"
         watcher.socket.close()
         return values
 
@@ -251,10 +257,13 @@ def hidraw_nodes():
 def usb_node(vendor):
     """/dev/bus/usb/... of the device with this vendor id."""
     for path in glob.glob("/sys/bus/usb/devices/*/idVendor"):
-        with open(path) as f:
-            if f.read().strip() != vendor:
-                continue
-        with open(os.path.join(os.path.dirname(path), "uevent")) as f:
-            name = dict(line.strip().split("=", 1) for line in f)["DEVNAME"]
-        return os.path.exists("/dev/" + name) and "/dev/" + name
+        try:
+            with open(path) as f:
+                if f.read().strip() != vendor:
+                    continue
+            with open(os.path.join(os.path.dirname(path), "uevent")) as f:
+                node = "/dev/" + dict(line.strip().split("=", 1) for line in f)["DEVNAME"]
+        except OSError:
+            continue  # it has just gone
+        return node if os.path.exists(node) else None
     return None

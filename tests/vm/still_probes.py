@@ -1,7 +1,10 @@
-"""Prints rows of five probes that stand still, for the driver csv_stream."""
+"""Prints rows of columns (A_um ... encoder_mm) that stand still, for the driver csv_stream.
+
+usage: still_probes.py COLUMN..."""
+import sys
 import time
 
-print("A_um,B_um,C_um,D_um,E_um", flush=True)
+print(",".join(sys.argv[1:]), flush=True)
 while True:
-    print("0,0,0,0,0", flush=True)
+    print(",".join("0" for _ in sys.argv[1:]), flush=True)
     time.sleep(0.02)

@@ -1,5 +1,6 @@
 // Unplugged and plugged in again and again while the daemon's acquisition reads: how long after the
 // node has appeared the samples go on, and what a round costs.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <thread>
 
 #include "daemon/acquisition.h"
+#include "drivers/io/hid.h"
 #include "drivers/pokeys57u/device.h"
 #include "drivers/pokeys57u/pokeys57u.h"
 #include "schema/random.h"
@@ -53,13 +55,33 @@ long resident_KiB() {
   file >> all >> resident;
   return resident * (::sysconf(_SC_PAGESIZE) / 1024);
 }
-// Without what is open for a moment only.
+// Without what is open for a moment only, and without sockets: umockdev sometimes keeps one of a
+// device that goes while it is being opened, and nothing that is tested here has any.
 long descriptors() {
   long least = LONG_MAX;
-  for (int i = 0; i < 10; ++i, std::this_thread::sleep_for(milliseconds(5)))
-    least =
-        std::min(least, std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}));
+  for (int i = 0; i < 10; ++i, std::this_thread::sleep_for(milliseconds(5))) {
+    long count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+      std::error_code gone;
+      const auto is = std::filesystem::read_symlink(entry.path(), gone).string();
+      count += is.starts_with("socket:") ? 0 : 1;
+    }
+    least = std::min(least, count);
+  }
   return least;
+}
+// What umockdev itself keeps of each device that there ever was.
+double own_growth_KiB(int rounds) {
+  HidBus bus;
+  long before = 0;
+  for (int round = 0; round < kWarmUp + rounds; ++round) {
+    if (round == kWarmUp) before = resident_KiB();
+    pokeys57u::Device device([](std::size_t, std::int64_t) { return 0.0; }, {});
+    bus.plug(round, device);
+    EXPECT_TRUE(HidDevice::open(HidBus::node_of(round)));
+    bus.unplug(round);
+  }
+  return static_cast<double>(resident_KiB() - before) / rounds;
 }
 
 // What goes wrong on purpose, to see that the check sees it.
@@ -147,6 +169,8 @@ Figures replug(int rounds, const Sabotage& sabotage) {
     std::this_thread::sleep_for(sabotage.late);
     bus.plug(round, device);
     const bool back = scans.wait_for_more(milliseconds(10'000));
+    const daemon::DeviceStatus status = acquisition.status();
+    EXPECT_TRUE(back) << "round " << round << ": " << status.state << ": " << status.error;
     const double after_s = duration<double>(steady_clock::now() - plugged).count();
     if (round >= kWarmUp && back) {
       ++figures.reopened;
@@ -160,7 +184,7 @@ Figures replug(int rounds, const Sabotage& sabotage) {
     figures.growth_KiB = resident_KiB() - resident_before;
     bus.unplug(round);
     if (sabotage.leak) {
-      EXPECT_GE(::dup(0), 0);
+      EXPECT_GE(::open("/dev/null", O_RDONLY), 0);
       kept.emplace_back(1 << 20, 'x');
     }
   }
@@ -177,8 +201,11 @@ void print(const Figures& f) {
 
 TEST(HidReplug, IsReopenedEachTimeSoonAndAtNoCost) {
   const char* const rounds = std::getenv("MDOF_REPLUGS");
-  const Figures figures = replug(rounds ? std::atoi(rounds) : 20, {});
+  const double own_KiB = own_growth_KiB(200);
+  Figures figures = replug(rounds ? std::atoi(rounds) : 20, {});
+  figures.growth_KiB -= std::lround(own_KiB * figures.rounds);
   print(figures);
+  std::printf("umockdev's own %+.2f KiB a round are taken off\n", own_KiB);
   EXPECT_TRUE(figures.all_reopened());
   EXPECT_TRUE(figures.quick());
   EXPECT_TRUE(figures.descriptors_constant());

@@ -24,7 +24,7 @@ for name, (plan, beside, config, vendor) in DEVICES.items():
     guest.figure(f"{name}: {found['description']}, {found['rate_hz']:.1f} scans a second, {found['lost']} lost")
     station = guest.Station(config, beside)
     station.wait_for_scans(name, 500)
-    values = station.watch_targets()
+    values = station.watch_targets(from_zero=name != "u6")
     state = station.device(name)
     assert state["state"] == "open" and state["reopened"] == 0, state
     guest.figure(f"{name}: the axis was seen at each target in {values} live values; {state['scans']} scans, "

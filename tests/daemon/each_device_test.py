@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A live run of every driver: simulated devices on real sockets, lines and files -> mdofd -> points that are
-right, and the same bits from a replay of the recording. Those on the USB: tests/vm/run live.
+right, and the same bits from a replay of the recording.
 
 usage: each_device_test.py MDOFD MDOF MDOF_SIMULATE [--keep FOLDER] [SETUP...]
 
@@ -97,7 +97,7 @@ def main():
     parser = argparse.ArgumentParser()
     for program in ("mdofd", "mdof", "mdof_simulate"):
         parser.add_argument(program)
-    parser.add_argument("setups", nargs="*", default=[n for n, s in SETUPS.items() if not s.usb])
+    parser.add_argument("setups", nargs="*", default=list(SETUPS))
     parser.add_argument("--keep")
     options = parser.parse_intermixed_args()
     for name in options.setups:

@@ -30,10 +30,11 @@ period_mm = 8
 
 class Setup:
     def __init__(self, rig, plan, devices, straightness_um, angle_urad, measure="", targets=(0, 2, 4.1, 6.2),
-                 dwell_s=0.35, speed_mm_s=100):
+                 dwell_s=0.35, speed_mm_s=100, usb=False):
         self.rig = os.path.join(DATA, "devices", rig)
         self.plan, self.devices, self.measure = plan, devices, measure
         self.straightness_um, self.angle_urad = straightness_um, angle_urad
+        self.usb = usb  # needs the kernel's vhci_hcd, and root: in tests/vm
         self.targets, self.dwell_s, self.speed_mm_s = list(targets), dwell_s, speed_mm_s
 
     def plan_text(self):
@@ -194,6 +195,54 @@ rate_hz = 30
 """ + channels(**{c: (f"capacitance{k}", "area_mm2 = 5") for k, c in enumerate(inputs)})
                                                                     for i, inputs in enumerate(("AB", "CD", "E"))),
         straightness_um=0.03, angle_urad=3, measure="[measure]\nmax_gap_s = 0.2", dwell_s=0.8, speed_mm_s=20),
+    "labjack_u6": Setup("rig_volts_X.toml", """
+[[device]]
+name = "u6"
+kind = "labjack_u6"
+inputs = ["A", "B", "C", "D", "E"]
+um_per_count = 0.1
+""", """
+[[axis.device]]
+driver = "labjack_u6"
+name = "u6"
+rate_hz = 100
+""" + channels(encoder=("FIO0", "um_per_count = 0.1"), **AINS), straightness_um=0.03, angle_urad=3,
+        dwell_s=1, speed_mm_s=20, usb=True),
+    "mcc_usb1608fs_plus": Setup("rig_volts_X.toml", """
+[[device]]
+name = "mcc"
+kind = "mcc_usb1608fs_plus"
+inputs = ["A", "B", "C", "D", "E"]
+[[device]]
+name = "scale"
+kind = "qsb"
+um_per_count = 0.1
+""", """
+[[axis.device]]
+driver = "mcc_usb1608fs_plus"
+name = "mcc"
+rate_hz = 100
+""" + channels(**{c: f"CH{i}" for i, c in enumerate("ABCDE")}) + """
+[[axis.device]]
+driver = "qsb"
+name = "scale"
+port = "{scale serial}"
+""" + channels(encoder=("count", "um_per_count = 0.1")), straightness_um=0.03, angle_urad=3,
+        dwell_s=1, speed_mm_s=20, usb=True),
+    "pokeys57u": Setup("rig_volts_X.toml", T7_PLAN + """
+[[device]]
+name = "encoders"
+kind = "pokeys57u"
+um_per_count = 0.1
+""", """
+[[axis.device]]
+driver = "pokeys57u"
+name = "encoders"
+serial = 12345
+poll_ms = 10
+""" + channels(encoder=("encoder1", "um_per_count = 0.1")) + T7.replace("rate_hz = 1000", "rate_hz = 100") + channels(**AINS),
+        straightness_um=0.03, angle_urad=3,
+        dwell_s=1, speed_mm_s=20, usb=True),
 }
 
 
@@ -217,14 +266,18 @@ class Simulators:
         self.process.stdout.close()
 
 
-def worst_errors(points):
-    """The greatest difference from the truth by error, each up to a constant."""
-    truth = {"EYX_um": lambda d: 2 * math.sin(2 * math.pi * d / 10), "EZX_um": lambda d: 0,
-             "EAX_urad": lambda d: 0, "EBX_urad": lambda d: 30 * math.sin(2 * math.pi * d / 8),
-             "ECX_urad": lambda d: 0}
+def worst_errors(points, zero_mm=0.0):
+    """The greatest difference from the truth by error, each up to a constant. zero_mm: what the encoder shows at 0;
+    the point that the errors belong to is then elsewhere, and the pitch has a lever on EZX."""
+    def pitch_urad(d):
+        return 30 * math.sin(2 * math.pi * d / 8)
+
+    truth = {"EYX_um": lambda d: 2 * math.sin(2 * math.pi * d / 10),
+             "EZX_um": lambda d: -zero_mm * 1e-3 * pitch_urad(d),
+             "EAX_urad": lambda d: 0, "EBX_urad": pitch_urad, "ECX_urad": lambda d: 0}
     worst = {}
     for key, wave in truth.items():
-        error = [p[key] - wave(p["position_mm"]) for p in points]
+        error = [p[key] - wave(p["position_mm"] - zero_mm) for p in points]
         mean = sum(error) / len(error)
         worst[key] = max(abs(e - mean) for e in error)
     return worst

@@ -100,7 +100,7 @@ Result<std::int64_t> record_again(const CutOffRun& cut_off, const Storekeeper& k
   MDOF_CHECK(log.open());
   MDOF_TRY(auto writer, keeper.create_recording(run));
   run.begun.emplace(std::move(writer));
-  const auto end_ns = copy(log, *run.begun, pipeline, wanted);
+  auto end_ns = copy(log, *run.begun, pipeline, wanted);
   if (!end_ns) {
     run.begun.reset();
     remove_recording(run.recording);

@@ -1,10 +1,9 @@
 // mdof-simulate: devices without hardware, on real sockets, looking at one simulated machine.
-#include <signal.h>
-
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 
 #include "daemon/version.h"
 #include "tools/mdof_simulate/plan.h"
@@ -28,7 +27,7 @@ mdof::Status serve(const std::string& plan, const std::string& host) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app{"Simulated devices on TCP ports, for those who have none.", "mdof-simulate"};
   app.set_version_flag("--version", mdof::daemon::kVersion);
   std::string plan, host = "127.0.0.1";
@@ -45,4 +44,7 @@ int main(int argc, char** argv) {
   if (done) return 0;
   std::fprintf(stderr, "mdof-simulate: %s\n", done.error().message.c_str());
   return done.error().code == mdof::ErrorCode::io ? 4 : 3;
+} catch (const std::exception& e) {
+  std::fprintf(stderr, "mdof-simulate: %s\n", e.what());
+  return 4;
 }

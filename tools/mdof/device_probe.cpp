@@ -91,7 +91,7 @@ Status open_and_read(const drivers::DriverSpec& device, double for_s, const Stop
                      DeviceFinding& finding) {
   MDOF_TRY(const auto driver, device.make());
   MDOF_CHECK(driver->open());
-  const Status read = read_for(*driver, for_s, stop, finding);
+  Status read = read_for(*driver, for_s, stop, finding);
   const drivers::DeviceInfo info = driver->info();
   finding.description = info.description;
   finding.stated_rate_hz = info.rate_hz;

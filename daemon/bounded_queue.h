@@ -70,6 +70,16 @@ class BoundedQueue {
     return value;
   }
 
+  // All of them into `taken`, the oldest first; none if none came in time or the queue is closed
+  // and empty. What was in `taken` goes, its memory is reused.
+  void pop_all(std::deque<T>& taken, std::chrono::milliseconds timeout) {
+    taken.clear();
+    std::unique_lock lock(mutex_);
+    filled_.wait_for(lock, timeout, [&] { return closed_ || !items_.empty(); });
+    taken.swap(items_);
+    emptied_.notify_all();
+  }
+
   // No more pushes; what is inside can still be popped.
   void close() {
     const std::lock_guard lock(mutex_);

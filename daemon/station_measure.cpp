@@ -123,14 +123,16 @@ std::string points_json(std::int64_t run, Axis axis, const std::vector<MeasuredP
 void Station::measure() {
   const std::string name = std::string("measure-") + letter(config_.rig.axis);
   pthread_setname_np(pthread_self(), name.c_str());
+  std::deque<Item> items;
   while (!shared_->queue.closed_and_empty()) {
     measure_turn_ = steady_clock::now();
-    if (auto item = shared_->queue.pop(kPopTimeout)) {
-      handle(*item);
-    } else {
-      if (open_) record();
-      show_live();  // that nothing comes is news too
+    shared_->queue.pop_all(items, kPopTimeout);
+    if (items.empty() && open_) record();
+    for (Item& item : items) {
+      handle(item);
+      measure_turn_ = steady_clock::now();
     }
+    show_live();  // once all that has come is in it; that nothing came is news too
   }
   if (open_) finish(RunState::aborted, "the daemon was stopped", {}, {});
 }
@@ -187,7 +189,7 @@ void Station::take_samples(SampleBlock& block) {
     }
     // A view that trips over its input starts afresh with the next block.
     if (!view_->push(block)) view_.reset();
-    return show_live();
+    return;
   }
   view_.reset();
   if (open_->continues) open_->continues->shift(block);
@@ -198,7 +200,6 @@ void Station::take_samples(SampleBlock& block) {
   const auto& points = open_->pipeline.points();
   if (!points.empty() && !approach_assumed(points.back())) keep_new_points(points);
   if (all_asked_for(open_->request, open_->stored)) finish(RunState::complete, "", {}, {});
-  show_live();
 }
 
 void Station::keep_for_recording(const SampleBlock& block) {

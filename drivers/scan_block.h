@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -23,6 +24,13 @@ inline void start_block(SampleBlock& block, const std::string& device,
   block.quality.resize(channels.size());
   for (auto& column : block.value) column.clear();
   for (auto& column : block.quality) column.clear();
+}
+
+// Room for so many scans, so that a block of a few costs few allocations.
+inline void reserve_scans(SampleBlock& block, std::size_t scans) {
+  block.time_ns.reserve(scans);
+  for (auto& column : block.value) column.reserve(scans);
+  for (auto& column : block.quality) column.reserve(scans);
 }
 
 // One value a channel; NaN is missing, all others are of `quality`.

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "drivers/scan_block.h"
+
 namespace mdof::drivers::capancdt {
 namespace {
 
@@ -64,7 +66,7 @@ Status Capancdt::open() {
 }
 
 Result<ReadState> Capancdt::read(SampleBlock& block, milliseconds timeout) {
-  clear(block);
+  start_block(block, options_.name, channels_);
   if (!session_) return lasting({ErrorCode::io, "is not open; open it before reading"});
   Session& s = *session_;
   if ((s.waiting.empty() || !s.warm) && !s.failed)
@@ -157,20 +159,12 @@ tl::unexpected<Error> Capancdt::lasting(const Error& error) const {
   return in_context("device \"" + options_.name + "\"" + (named ? "" : " at " + place), error);
 }
 
-void Capancdt::clear(SampleBlock& block) const {
-  block.device = options_.name;
-  block.channels = channels_;
-  block.lost = 0;
-  block.time_ns.clear();
-  block.value.resize(channels_.size());
-  block.quality.resize(channels_.size());
-  for (auto& column : block.value) column.clear();
-  for (auto& column : block.quality) column.clear();
-}
-
 // A block ends before frames that were lost: they belong to the beginning of the next.
 void Capancdt::hand_out(SampleBlock& block) {
   auto& waiting = session_->waiting;
+  if (waiting.empty()) return;
+  const auto frames = static_cast<std::size_t>(waiting.front().packet.frames());
+  reserve_scans(block, std::min(kBlockScans, waiting.size() * frames));
   while (!waiting.empty() && block.scans() < kBlockScans) {
     if (waiting.front().lost > 0 && block.scans() > 0) break;
     append(block, waiting.front());

@@ -60,7 +60,6 @@ class Capancdt final : public Driver {
   Status tell_time(std::int64_t received_ns, bool all);
   Status check_silence() const;
   tl::unexpected<Error> lasting(const Error& error) const;
-  void clear(SampleBlock& block) const;
   void hand_out(SampleBlock& block);
   void append(SampleBlock& block, const PlacedPacket& placed);
   void append_value(SampleBlock& block, std::size_t channel, std::optional<std::int32_t> raw) const;

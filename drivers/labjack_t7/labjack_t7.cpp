@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "drivers/labjack_t7/setup.h"
+#include "drivers/scan_block.h"
 
 namespace mdof::drivers::labjack_t7 {
 namespace {
@@ -113,7 +114,7 @@ Status LabjackT7::start_clock() {
 }
 
 Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
-  clear(block);
+  start_block(block, settings_.name, channels_);
   if (!stream_) return io_error(place() + " is not open; open it before reading");
   if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
   hand_out(block);
@@ -165,19 +166,9 @@ std::int64_t LabjackT7::ticks_of(std::uint64_t scan) const {
   return start_ticks_ + std::llround(static_cast<double>(scan) * ticks_per_scan_);
 }
 
-void LabjackT7::clear(SampleBlock& block) const {
-  block.device = settings_.name;
-  block.channels = channels_;
-  block.lost = 0;
-  block.time_ns.clear();
-  block.value.resize(channels_.size());
-  block.quality.resize(channels_.size());
-  for (auto& column : block.value) column.clear();
-  for (auto& column : block.quality) column.clear();
-}
-
 // A block ends before lost scans; they stand before the next one.
 void LabjackT7::hand_out(SampleBlock& block) {
+  reserve_scans(block, scans_.size() - handed_out_);
   while (handed_out_ < scans_.size()) {
     const Scan& scan = scans_[handed_out_];
     if (scan.lost > 0 && block.scans() > 0) return;

@@ -45,7 +45,6 @@ class LabjackT7 final : public Driver {
   Status receive(std::chrono::milliseconds timeout);
   Status take_packets(std::int64_t received_ns);
   std::int64_t ticks_of(std::uint64_t scan) const;
-  void clear(SampleBlock& block) const;
   void hand_out(SampleBlock& block);
   void append(SampleBlock& block, const Scan& scan);
   void append_ain(SampleBlock& block, std::size_t channel, std::uint16_t raw) const;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "drivers/scan_block.h"
+
 namespace mdof::drivers {
 namespace {
 
@@ -60,7 +62,7 @@ Status Simulator::open() {
 }
 
 Result<ReadState> Simulator::read(SampleBlock& block, std::chrono::milliseconds timeout) {
-  clear(block);
+  start_block(block, name_, channels_);
   if (!start_ns_ || gone_)
     return io_error("device \"" + name_ + "\" is not open; open it before reading");
   const std::int64_t due_ns =
@@ -117,17 +119,6 @@ const Interval* Simulator::disconnect_at(std::int64_t t_ns) const {
   for (const Interval& gone : options_.disconnects)
     if (gone.holds(t_ns)) return &gone;
   return nullptr;
-}
-
-void Simulator::clear(SampleBlock& block) const {
-  block.device = name_;
-  block.channels = channels_;
-  block.lost = 0;
-  block.time_ns.clear();
-  block.value.resize(channels_.size());
-  block.quality.resize(channels_.size());
-  for (auto& column : block.value) column.clear();
-  for (auto& column : block.quality) column.clear();
 }
 
 void Simulator::append(SampleBlock& block, std::int64_t t_ns) {

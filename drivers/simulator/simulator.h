@@ -47,7 +47,6 @@ class Simulator final : public Driver {
   std::int64_t wait_for_packet(std::chrono::milliseconds timeout) const;
   bool ended(std::int64_t t_ns) const;
   const Interval* disconnect_at(std::int64_t t_ns) const;
-  void clear(SampleBlock& block) const;
   void append(SampleBlock& block, std::int64_t t_ns);
 
   std::string name_, description_;

@@ -18,8 +18,8 @@ try:
                                     ModbusSlaveContext)
     from pymodbus.server import StartTcpServer
     from pymodbus.transaction import ModbusRtuFramer, ModbusSocketFramer
-except ImportError:
-    print("python3-pymodbus is not installed")
+except ImportError as error:
+    print(f"python3-pymodbus, or what it needs, is not installed: {error}")
     sys.exit(77)
 if not shutil.which("mbpoll"):
     print("mbpoll is not installed")

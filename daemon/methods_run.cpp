@@ -79,6 +79,27 @@ Result<RunRequest> read_request(const Params& params) {
   return request;
 }
 
+// Where there are several clocks, what is said of those whose drift is not known yet.
+std::vector<std::string> unsettled_clocks(const Station& station) {
+  const auto devices = station.devices();
+  std::vector<std::string> warnings;
+  if (devices.size() < 2) return warnings;
+  for (const auto& device : devices) {
+    if (!device.info.clock || device.info.clock->settled) continue;
+    warnings.push_back("the clock of device \"" + device.info.name +
+                       "\" was not settled when the run began: its first samples may be some "
+                       "milliseconds off those of the other devices; begin a run 5 s after the "
+                       "devices were opened");
+  }
+  return warnings;
+}
+
+void begin_run(Station& station, RunRequest request, Reply reply) {
+  for (auto& warning : unsettled_clocks(station)) request.warnings.push_back(std::move(warning));
+  auto done = answer_with_run(std::move(reply), station.config().rig.axis, request);
+  station.start_run(request, done);
+}
+
 void start_run(Methods& m, const Params& params, Reply reply) {
   const auto axis = axis_param(params);
   if (!axis) return reply(tl::unexpected(axis.error()));
@@ -86,7 +107,7 @@ void start_run(Methods& m, const Params& params, Reply reply) {
   if (!station) return reply(tl::unexpected(station.error()));
   const auto request = read_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
-  (*station)->start_run(*request, answer_with_run(std::move(reply), *axis, *request));
+  begin_run(**station, *request, std::move(reply));
 }
 
 void resume_run(Methods& m, const Params& params, Reply reply) {
@@ -97,7 +118,7 @@ void resume_run(Methods& m, const Params& params, Reply reply) {
   if (!station) return reply(tl::unexpected(station.error()));
   const auto request = request_to_resume(m.reader, run, (*station)->config());
   if (!request) return reply(tl::unexpected(request.error()));
-  (*station)->start_run(*request, answer_with_run(std::move(reply), header->axis, *request));
+  begin_run(**station, *request, std::move(reply));
 }
 
 void stop_run(Methods& m, const Params& params, Reply reply) {

@@ -295,6 +295,19 @@ class Devices(unittest.TestCase):
         self.assertIn("of 8", done.stderr)
         self.assertIn("periodic error", done.stderr)
 
+    def test_7_a_run_begun_before_the_clocks_are_known_says_so(self):
+        def warnings():
+            started = self.client.call("run.start", axis="X", targets_mm=TARGETS)
+            self.client.call("run.stop", run=started["run"], abort=True)
+            return started["warnings"]
+
+        self.daemon.stop()
+        type(self).client = self.daemon.start()
+        self.wait_until(lambda: all(d["state"] == "open" for d in self.devices().values()), "not all are open")
+        self.assertTrue(any('clock of device "capa-1" was not settled' in w for w in warnings()))
+        self.wait_until(lambda: all(d["clock"]["settled"] for d in self.devices().values()), "clocks do not settle")
+        self.assertEqual(warnings(), [])
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

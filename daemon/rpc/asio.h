@@ -8,7 +8,7 @@
 #ifndef ASIO_NO_DEPRECATED
 #define ASIO_NO_DEPRECATED
 #endif
-#ifdef __SANITIZE_THREAD__  // which does not follow fences; the loop's queues have their mutex
+#ifdef MDOF_SANITIZED  // TSan does not follow fences; the loop's queues have their mutex
 #define ASIO_DISABLE_FENCED_BLOCK
 #endif
 #include <asio/buffer.hpp>

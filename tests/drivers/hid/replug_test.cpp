@@ -19,25 +19,6 @@
 #include "schema/random.h"
 #include "tests/drivers/hid/hid_bus.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define MDOF_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define MDOF_SANITIZED 1
-#endif
-#endif
-
-// The wrapper's library comes before the sanitizer's, which is all right.
-// NOLINTNEXTLINE(bugprone-reserved-identifier)
-extern "C" __attribute__((used)) const char* __asan_default_options() {
-  return "verify_asan_link_order=0";
-}
-// What these do among themselves is not seen by it, and not ours.
-// NOLINTNEXTLINE(bugprone-reserved-identifier)
-extern "C" __attribute__((used)) const char* __tsan_default_suppressions() {
-  return "race:libumockdev.so\nrace:libumockdev-preload.so\nrace:libudev.so\nrace:libglib-2.0.so\n";
-}
-
 namespace mdof::drivers {
 namespace {
 

@@ -20,10 +20,12 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // a sanitizer keeps what was freed
+#ifdef MDOF_SANITIZED  // it keeps what was freed, and opens the way to its symbolizer
+constexpr bool kSanitized = true;
+constexpr int kOfSymbolizer = 2;
 #else
 constexpr bool kSanitized = false;
+constexpr int kOfSymbolizer = 0;
 #endif
 constexpr double kMostReopen_s = 1;
 constexpr std::int64_t kMostGrowth_bytes = 1 << 20;
@@ -106,7 +108,7 @@ void expect_sound(const Found& found) {
       static_cast<long long>(found.growth_bytes / 1024));
   EXPECT_EQ(found.failures, 0);
   EXPECT_LE(p99_of(found), kMostReopen_s);
-  EXPECT_LE(found.descriptors, 0);
+  EXPECT_LE(found.descriptors, kOfSymbolizer);
   EXPECT_TRUE(kSanitized || found.growth_bytes <= kMostGrowth_bytes) << found.growth_bytes;
 }
 
@@ -145,7 +147,7 @@ TEST(UsbReplug, ALossWouldBeSeen) {
     kept.emplace_back(64 << 10, 'x');
   });
   for (const int fd : lost) ::close(fd);
-  EXPECT_EQ(found.descriptors, 18);
+  EXPECT_GE(found.descriptors, 18);
   EXPECT_GT(found.growth_bytes, kMostGrowth_bytes);
   EXPECT_NE(read_some(*driver), "");
 }

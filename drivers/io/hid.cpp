@@ -40,17 +40,6 @@ std::string why_not_opened(const std::string& path) {
 
 }  // namespace
 
-std::vector<HidEntry> list_hid(std::uint16_t vendor) {
-  const std::lock_guard lock(library());
-  std::vector<HidEntry> entries;
-  hid_device_info* const all = ::hid_enumerate(vendor, 0);
-  for (const hid_device_info* d = all; d; d = d->next)
-    if (d->path)
-      entries.push_back({d->path, d->product_id, narrow(d->serial_number), d->interface_number});
-  ::hid_free_enumeration(all);
-  return entries;
-}
-
 Result<HidDevice> HidDevice::open(const std::string& path) {
   const std::lock_guard lock(library());
   if (hid_device* const device = ::hid_open_path(path.c_str())) return HidDevice(device, path);

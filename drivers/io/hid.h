@@ -1,8 +1,9 @@
-// HID devices through hidapi's hidraw back end: the only place that calls it.
+// HID devices through hidapi's hidraw back end: the only place that calls it. They are found by
+// libudev (hid_list.cpp says why).
 //
-// hidapi keeps global state (its last error, its enumeration) and is not thread-safe: these calls
-// are made one at a time in the process, and the library is never shut down, as another driver may
-// be using it. An open device is used by one thread without that lock.
+// hidapi keeps global state (its last error) and is not thread-safe: devices are opened and closed
+// one at a time in the process, and the library is never shut down, as another driver may be using
+// it. An open device is used by one thread without that lock.
 #pragma once
 
 #include <chrono>

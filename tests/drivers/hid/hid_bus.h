@@ -80,6 +80,14 @@ class HidBus {
     forget_terminal(gone.fd);
     ::close(gone.fd);
   }
+  // What sysfs says of the HID device behind a node; it goes while the node is still listed.
+  std::filesystem::path uevent_of(int number) const {
+    gchar* const root = umockdev_testbed_get_root_dir(testbed_);
+    const auto& paths = plugged_.at(number).paths;
+    std::filesystem::path uevent = root + paths[paths.size() - 2] + "/uevent";
+    g_free(root);
+    return uevent;
+  }
   // Changes a device between two of its turns.
   template <class Act>
   void change(const Act& act) {

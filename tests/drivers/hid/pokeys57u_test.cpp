@@ -4,6 +4,10 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <filesystem>
+#include <thread>
+
 #include "drivers/pokeys57u/device.h"
 #include "tests/drivers/collect.h"
 #include "tests/drivers/hid/hid_bus.h"
@@ -12,6 +16,7 @@ namespace mdof::drivers::pokeys57u {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::steady_clock;
 
 // Counts are the milliseconds of the clock, so that each value says when it was true.
 double milliseconds_now(std::size_t, std::int64_t t_ns) {
@@ -255,6 +260,26 @@ TEST_F(PoKeys57uOnHid, TheKeyboardAndTheJoystickAreLeftAlone) {
   expect_error(settings_of(), "is not plugged in");
   EXPECT_EQ(keyboard.requests() + joystick.requests(), 0);
   bus.reset();
+}
+
+// hid_enumerate() of hidapi 0.13.1 crashes here within some milliseconds.
+TEST_F(PoKeys57uOnHid, OneThatGoesWhileItIsLookedForIsNotThere) {
+  ASSERT_NO_FATAL_FAILURE(bus->plug(0, device));
+  const auto uevent = bus->uevent_of(0);
+  std::atomic<bool> stop = false;
+  std::thread comes_and_goes([&] {
+    while (!stop) {
+      std::filesystem::rename(uevent, uevent.string() + ".gone");
+      std::filesystem::rename(uevent.string() + ".gone", uevent);
+    }
+  });
+  int there = 0, gone = 0;
+  const auto end = steady_clock::now() + milliseconds(500);
+  while (steady_clock::now() < end) ++(list_hid(kVendor).empty() ? gone : there);
+  stop = true;
+  comes_and_goes.join();
+  EXPECT_GT(there, 0);
+  EXPECT_GT(gone, 0);
 }
 
 TEST_F(PoKeys57uOnHid, ReadsBothBlocksAndTheAnalogueInputs) {

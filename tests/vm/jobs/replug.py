@@ -7,7 +7,7 @@ import time
 import guest
 
 ROUNDS = int(os.environ.get("MDOF_REPLUGS", "50"))
-WARM_UP = 6
+WARM_UP = 20  # until each arena of malloc has had its turn with the threads of the drivers
 MOST_S, MOST_GROWTH_KIB = 1.0, 1024
 
 # A device on the USB: its plan, the configuration with what is beside it, whether its node is there.

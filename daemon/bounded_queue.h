@@ -71,7 +71,8 @@ class BoundedQueue {
   }
 
   // All of them into `taken`, the oldest first; none if none came in time or the queue is closed
-  // and empty. What was in `taken` goes, its memory is reused.
+  // and empty. What was in `taken` goes, its memory is reused. There is room for as many again at
+  // once, so the bound holds for what waits, beside what is in hand.
   void pop_all(std::deque<T>& taken, std::chrono::milliseconds timeout) {
     taken.clear();
     std::unique_lock lock(mutex_);

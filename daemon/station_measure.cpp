@@ -2,6 +2,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <deque>
 
 #include "daemon/live_json.h"
 #include "daemon/open_run.h"

@@ -81,7 +81,8 @@ class HidBus {
     ::close(gone.fd);
   }
   // What sysfs says of the HID device behind a node; it goes while the node is still listed.
-  std::filesystem::path uevent_of(int number) const {
+  std::filesystem::path uevent_of(int number) {
+    const std::lock_guard lock(mutex_);
     gchar* const root = umockdev_testbed_get_root_dir(testbed_);
     const auto& paths = plugged_.at(number).paths;
     std::filesystem::path uevent = root + paths[paths.size() - 2] + "/uevent";

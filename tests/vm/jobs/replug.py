@@ -7,7 +7,7 @@ import time
 import guest
 
 ROUNDS = int(os.environ.get("MDOF_REPLUGS", "50"))
-WARM_UP = 20  # until each arena of malloc has had its turn with the threads of the drivers
+WARM_UP = 20  # in the first dozen, memory grows by up to 2 MiB and then no more
 MOST_S, MOST_GROWTH_KIB = 1.0, 1024
 
 # A device on the USB: its plan, the configuration with what is beside it, whether its node is there.

@@ -11,6 +11,7 @@ namespace {
 constexpr double kStretch_ns = 0.25e9;
 constexpr std::size_t kStretches = 256;      // 64 s
 constexpr std::size_t kStretchesToFit = 16;  // 4 s: before, the nominal rate
+constexpr std::size_t kShareToRefit = 32;    // as small a share of new ones hardly moves the line
 constexpr double kMostDrift = 1e-3;          // 1000 ppm: no clock is that wrong
 constexpr double kSlew = 2e-3;               // of the time, on top of the drift
 constexpr double kFirstSlew = 0.2;           // as long as quicker packets still tell the offset
@@ -57,7 +58,7 @@ void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
       const double line = intercept_ns_ + slope_ * nominal_ns(last.ticks);
       if (last.offset_ns > line + kStep_ns) return step(ticks, received_ns);
     }
-    if (best_.size() >= 1) fit();
+    if (++unfitted_ * kShareToRefit > best_.size()) fit();
     best_.push_back({stretch, ticks, received_ns, offset, offset});
     if (best_.size() > kStretches) best_.pop_front();
   } else {
@@ -78,6 +79,7 @@ void DeviceClock::step(std::int64_t ticks, std::int64_t received_ns) {
 // Through the best of each complete stretch.
 void DeviceClock::fit() {
   if (best_.size() < kStretchesToFit) return;
+  unfitted_ = 0;
   std::vector<double> slopes, rest;
   slopes.reserve(best_.size() * (best_.size() - 1) / 2);
   for (std::size_t i = 0; i < best_.size(); ++i)

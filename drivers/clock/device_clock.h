@@ -49,6 +49,7 @@ class DeviceClock {
 
   double tick_ns_;
   std::deque<Best> best_;
+  std::size_t unfitted_ = 0;  // stretches that the line does not know yet
   std::optional<std::int64_t> first_ticks_, first_ns_;
   double slope_ = 0, intercept_ns_ = 0;  // of the offset against nominal time
   std::int64_t given_ticks_ = 0;

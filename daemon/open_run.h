@@ -6,6 +6,7 @@
 
 #include "daemon/resume.h"
 #include "daemon/station.h"
+#include "daemon/unrecorded.h"
 
 namespace mdof::daemon {
 
@@ -15,7 +16,7 @@ struct Station::OpenRun {
   Pipeline pipeline;
   std::vector<MeasuredPoint> stored;               // as handed to the store
   std::optional<Continuation> continues;           // another run's recording
-  std::vector<SampleBlock> unrecorded;             // not yet handed to the store
+  Unrecorded unrecorded;                           // not yet handed to the store
   std::chrono::steady_clock::time_point recorded;  // when the last were
   std::uint64_t blocks_not_recorded = 0;           // the store's queue was full
 };

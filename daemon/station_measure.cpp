@@ -204,7 +204,7 @@ void Station::take_samples(SampleBlock& block) {
 }
 
 void Station::keep_for_recording(const SampleBlock& block) {
-  open_->unrecorded.push_back(block);
+  open_->unrecorded.add(block);
   const auto now = steady_clock::now();
   if (now - open_->recorded < kRecordInterval) return;
   open_->recorded = now;
@@ -213,10 +213,10 @@ void Station::keep_for_recording(const SampleBlock& block) {
 
 void Station::record() {
   if (open_->unrecorded.empty()) return;
-  const std::size_t blocks = open_->unrecorded.size();
-  const bool kept =
-      keeper_.record(open_->id, std::exchange(open_->unrecorded, {}), !config_.live());
-  if (!kept) open_->blocks_not_recorded += blocks;
+  std::vector<SampleBlock> blocks = open_->unrecorded.take();
+  const std::size_t count = blocks.size();
+  const bool kept = keeper_.record(open_->id, std::move(blocks), !config_.live());
+  if (!kept) open_->blocks_not_recorded += count;
 }
 
 // Hands to the store what it has not got of these points, after the samples that they come from.

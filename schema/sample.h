@@ -53,6 +53,10 @@ struct SampleBlock {
   }
 };
 
+// Scans `begin` to `end` of `from`, which has the channels of `to`, after those that are there.
+// What was lost is left to the caller.
+void append_scans(SampleBlock& to, const SampleBlock& from, std::size_t begin, std::size_t end);
+
 // All probes and the axis position on the encoder's time line: n instants, SI, calibrated.
 // probe_m[k] is the displacement of the target along probe k's `measures` direction, probes in
 // the order of the rig; a missing value is NaN with its quality beside it.

@@ -62,30 +62,6 @@ std::size_t max_scans(std::size_t channels) {
   return std::min(kScans, kMaxChunkBytes / (16 * (channels + 1)));
 }
 
-template <class T>
-void append_range(std::vector<T>& to, const std::vector<T>& from, std::size_t begin,
-                  std::size_t end) {
-  using Offset = typename std::vector<T>::difference_type;
-  to.insert(to.end(), from.begin() + static_cast<Offset>(begin),
-            from.begin() + static_cast<Offset>(end));
-}
-
-void append_quality(SampleBlock& to, const SampleBlock& from, std::size_t begin, std::size_t end) {
-  if (to.quality.empty() && from.quality.empty()) return;
-  to.quality.resize(to.channels.size());
-  for (std::size_t c = 0; c < to.channels.size(); ++c) {
-    to.quality[c].resize(to.scans(), Quality::good);
-    for (std::size_t i = begin; i < end; ++i) to.quality[c].push_back(from.quality_at(c, i));
-  }
-}
-
-void append_scans(SampleBlock& to, const SampleBlock& from, std::size_t begin, std::size_t end) {
-  append_quality(to, from, begin, end);
-  append_range(to.time_ns, from.time_ns, begin, end);
-  for (std::size_t c = 0; c < to.channels.size(); ++c)
-    append_range(to.value[c], from.value[c], begin, end);
-}
-
 void clear_scans(SampleBlock& block) {
   block.time_ns.clear();
   for (auto& values : block.value) values.clear();

@@ -31,7 +31,8 @@ struct Settings {
 
 // The scan list for these inputs, in their order; a counter takes two entries.
 std::vector<int> scan_list(const std::vector<Input>& inputs);
-// Whole scans for about 2 ms, so that a sample waits no longer for its packet.
+// Whole scans for about 4 ms, so that a sample waits no longer for its packet, and packets are few:
+// each wakes two threads.
 std::size_t quick_packet(double rate_hz, std::size_t words_per_scan);
 
 }  // namespace mdof::drivers::labjack_t7

@@ -121,7 +121,7 @@ std::vector<int> scan_list(const std::vector<Input>& inputs) {
 }
 
 std::size_t quick_packet(double rate_hz, std::size_t words_per_scan) {
-  constexpr double kWait_s = 2e-3;
+  constexpr double kWait_s = 4e-3;
   const double scans = std::clamp(std::floor(rate_hz * kWait_s), 1.0,
                                   std::floor(static_cast<double>(kMostSamples) / words_per_scan));
   return static_cast<std::size_t>(scans) * words_per_scan;

@@ -57,7 +57,7 @@ TEST(LabjackT7Configure, TheAddressAloneGivesTheDefaults) {
   EXPECT_EQ(s->stream.text(), "192.168.1.207:702");
   EXPECT_EQ(s->rate_hz, 1000);
   EXPECT_EQ(s->range_v, 10);
-  EXPECT_EQ(s->samples_per_packet, 8U);
+  EXPECT_EQ(s->samples_per_packet, 16U);
   EXPECT_EQ(labjack_t7::scan_list(s->inputs), (std::vector<int>{0, 26, 3000, 4899}));
   ASSERT_EQ(s->inputs.size(), 3U);
   EXPECT_EQ(s->inputs[1].channel, (Channel{"B", Unit::volt}));
@@ -88,9 +88,9 @@ TEST(LabjackT7Configure, EveryKeyIsRead) {
 }
 
 TEST(LabjackT7Configure, ThePacketIsQuickAtEveryRate) {
-  EXPECT_EQ(labjack_t7::quick_packet(4000, 7), 56U);  // 8 scans, 2 ms
+  EXPECT_EQ(labjack_t7::quick_packet(4000, 7), 112U);  // 16 scans, 4 ms
   EXPECT_EQ(labjack_t7::quick_packet(10, 7), 7U);
-  EXPECT_EQ(labjack_t7::quick_packet(100000, 1), 200U);
+  EXPECT_EQ(labjack_t7::quick_packet(100000, 1), 400U);
   EXPECT_LE(labjack_t7::quick_packet(1e9, 7), 512U);
 }
 

@@ -56,8 +56,9 @@ Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids) : opt
   for (auto& id : probe_ids) probes_.push_back({std::move(id), {}, INT64_MIN});
 }
 
-// Finds the rig's channels in the block; -1 where it has none.
+// Whether the block has all channels of the rig; finds them, -1 where it has none.
 bool Aligner::whole(const SampleBlock& block) {
+  if (block.channels.size() <= probes_.size()) return false;  // a device of several
   if (block.channels != known_channels_) {
     known_channels_ = block.channels;
     channel_of_.assign(probes_.size() + 1, -1);

@@ -174,18 +174,19 @@ void Capancdt::hand_out(SampleBlock& block) {
 
 void Capancdt::append(SampleBlock& block, const PlacedPacket& placed) {
   const Packet& packet = placed.packet;
+  const int frames = packet.frames();
   block.lost += placed.lost;
-  for (int frame = 0; frame < packet.frames(); ++frame)
+  for (int frame = 0; frame < frames; ++frame)
     block.time_ns.push_back(session_->clock.host_ns(placed.first_frame + frame));
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const auto position = packet.position(options_.channels[i].number);
-    for (int frame = 0; frame < packet.frames(); ++frame) {
+    for (int frame = 0; frame < frames; ++frame) {
       std::optional<std::int32_t> raw;
       if (position) raw = packet.value(frame, *position);
       append_value(block, i, raw);
     }
     if (packet.after_garbage)
-      for (auto q = block.quality[i].end() - packet.frames(); q != block.quality[i].end(); ++q)
+      for (auto q = block.quality[i].end() - frames; q != block.quality[i].end(); ++q)
         *q = std::max(*q, Quality::suspect);
   }
 }

@@ -99,7 +99,9 @@ Status FrameCounter::place(Packet packet, std::deque<PlacedPacket>& placed) {
         last_->first_frame + last_->packet.frames() + static_cast<std::int64_t>(next.lost);
   }
   lost_ += next.lost;
-  last_ = Last{packet, next.first_frame};
+  if (!last_) last_.emplace();
+  last_->packet = packet;  // into the memory of the one before
+  last_->first_frame = next.first_frame;
   next.packet = std::move(packet);
   placed.push_back(std::move(next));
   return {};

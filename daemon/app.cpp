@@ -110,8 +110,8 @@ Status App::Parts::listen() {
 
 // The watchdog is fed by the work: this loop turned, and every thread came round in time.
 void App::Parts::watch() {
-  loop.call_every(std::chrono::milliseconds(20), [this] {
-    const bool wanted = server.has_subscribers(kLiveTopic);
+  loop.call_every(std::chrono::milliseconds(50), [this] {
+    const auto wanted = server.wanted_every(kLiveTopic);
     for (auto& station : stations) station->watch(wanted);
   });
   if (const auto interval = systemd::watchdog_interval()) {

@@ -49,8 +49,11 @@ class Station {
   // The store gave up on this run.
   void storage_failed(std::int64_t run, const Error& error);
 
-  void wake_devices();                                 // one was plugged in
-  void watch(bool wanted) { watched_.store(wanted); }  // whether live() is worth its work
+  void wake_devices();  // one was plugged in
+  // How often live() is worth its work; nothing: not at all.
+  void watch(std::optional<std::chrono::milliseconds> every) {
+    live_every_.store(every.value_or(kNever));
+  }
   const AxisConfig& config() const { return config_; }
   std::vector<DeviceStatus> devices() const;
   // All threads came round within `limit`.
@@ -108,7 +111,8 @@ class Station {
   Storekeeper& keeper_;
   const std::shared_ptr<Shared> shared_;
 
-  std::atomic<bool> watched_{false};
+  static constexpr auto kNever = std::chrono::milliseconds::max();
+  std::atomic<std::chrono::milliseconds> live_every_{kNever};
   std::atomic<std::chrono::steady_clock::time_point> measure_turn_;
 
   std::unique_ptr<OpenRun> open_;  // measure thread only

@@ -20,7 +20,6 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kPopTimeout{100};
-constexpr milliseconds kLiveInterval{20};
 constexpr milliseconds kRecordInterval{20};  // each hand-over wakes the store's thread
 
 PipelineOptions without_points(PipelineOptions options) {
@@ -284,9 +283,10 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
 
 void Station::show_live() {
   const Pipeline* pipeline = open_ ? &open_->pipeline : view_ ? &*view_ : nullptr;
-  if (!watched_ || !pipeline || pipeline->newest().size() == 0) return;
+  const milliseconds every = live_every_.load();
+  if (every == kNever || !pipeline || pipeline->newest().size() == 0) return;
   const auto now = steady_clock::now();
-  if (now - last_live_ < kLiveInterval) return;
+  if (now - last_live_ < every) return;
   last_live_ = now;
   const LiveState state{config_.simulated(), stale(*pipeline), open_ ? open_->id : 0};
   shared_->events.live(live_json(config_.rig, *pipeline, state));

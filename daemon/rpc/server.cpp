@@ -82,8 +82,8 @@ void Server::add_topic(Topic topic) {
   impl_->core->topics.add(std::move(topic));
 }
 
-bool Server::has_subscribers(std::string_view topic) const {
-  return impl_->core->topics.has_subscribers(topic);
+std::optional<std::chrono::milliseconds> Server::wanted_every(std::string_view topic) const {
+  return impl_->core->topics.wanted_every(topic);
 }
 
 Status Server::publish(std::string_view topic, std::string json) {

@@ -2,8 +2,10 @@
 // the wire.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,8 +37,10 @@ class Server {
   Result<std::uint16_t> listen_tcp(const std::string& address, std::uint16_t port);
 
   void add_topic(Topic topic);
-  // To save the work of making a value that nobody wants.
-  bool has_subscribers(std::string_view topic) const;
+  // How often values are to be made, so that none is made in vain and each subscriber gets a fresh
+  // one: at their interval, and as often as the topic allows while one awaits his first or they
+  // have asked for different ones. Nothing: nobody has subscribed.
+  std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
   // `json` is one JSON value. Cheap: the value is shared by those who wait for it, and sent in a
   // later turn of the loop. Errors: no such topic, too large for a reply line.
   Status publish(std::string_view topic, std::string json);

@@ -22,6 +22,8 @@ class Subscription {
   Subscription(const Topic& topic, std::chrono::milliseconds interval, std::size_t max_queued);
 
   const Topic& topic() const { return topic_; }
+  std::chrono::milliseconds interval() const { return interval_; }
+  bool awaits_first() const { return next_ == Time{}; }
   void set_interval(std::chrono::milliseconds interval) { interval_ = interval; }
 
   // A value takes the place of the one that waits; an event queues, and the oldest goes when full.

@@ -30,7 +30,7 @@ class TopicHub {
   explicit TopicHub(const ServerOptions& options) : options_(options) {}
 
   void add(Topic topic);  // a name twice is a bug
-  bool has_subscribers(std::string_view topic) const;
+  std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
   Status publish(std::string_view topic, std::string json);
 
   Status subscribe(Subscriber& who, std::string_view topic, std::chrono::milliseconds interval);

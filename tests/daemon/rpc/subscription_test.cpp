@@ -86,7 +86,7 @@ class Subscriptions : public ::testing::Test {
     });
   }
   bool wanted(const std::string& topic) {
-    return server_.on_loop([&] { return server_.server->has_subscribers(topic); });
+    return server_.on_loop([&] { return server_.server->wanted_every(topic).has_value(); });
   }
   bool becomes_unwanted(const std::string& topic) {
     for (int i = 0; i < 2000 && wanted(topic); ++i) std::this_thread::sleep_for(5ms);
@@ -109,6 +109,33 @@ TEST_F(Subscriptions, ValuesComeNoFasterThanAsked) {
   EXPECT_GE(Clock::now() - begin, 450ms);
   stop = true;
   publisher.join();
+}
+
+// One who waits for his next value has a fresh one if it is made when it is due; where the times
+// differ, only many values are fresh enough for all.
+TEST_F(Subscriptions, ValuesAreWantedAtTheIntervalOfAll) {
+  const auto every = [&] {
+    return server_.on_loop([&] { return server_.server->wanted_every("live.frame"); });
+  };
+  const auto becomes = [&](std::chrono::milliseconds wanted) {
+    for (int i = 0; i < 2000 && every() != wanted; ++i) std::this_thread::sleep_for(5ms);
+    return every() == wanted;
+  };
+  EXPECT_EQ(every(), std::nullopt);
+  RawClient patient(server_.path);
+  patient.ask(subscribe("live.frame", 500));
+  EXPECT_EQ(every(), kValue.min_interval);  // the first is wanted at once
+  publish("live.frame", "1");
+  patient.line();
+  EXPECT_TRUE(becomes(500ms));
+  {
+    RawClient keen(server_.path);
+    keen.ask(subscribe("live.frame", 50));
+    publish("live.frame", "2");
+    keen.line();
+    EXPECT_TRUE(becomes(kValue.min_interval));
+  }
+  EXPECT_TRUE(becomes(500ms));
 }
 
 TEST_F(Subscriptions, TheLastValueComesThoughNoneFollows) {

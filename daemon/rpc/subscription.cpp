@@ -6,12 +6,18 @@
 #include "daemon/rpc/message.h"
 
 namespace mdof::rpc {
+namespace {
+
+constexpr std::chrono::milliseconds kOld{50};
+
+}  // namespace
 
 Subscription::Subscription(const Topic& topic, std::chrono::milliseconds interval,
                            std::size_t max_queued)
     : topic_(topic), interval_(interval), max_queued_(topic.event ? max_queued : 1) {}
 
-void Subscription::offer(Value value) {
+void Subscription::offer(Value value, Time now) {
+  offered_ = now;
   waiting_.push_back(std::move(value));
   if (waiting_.size() <= max_queued_) return;
   waiting_.pop_front();
@@ -20,7 +26,8 @@ void Subscription::offer(Value value) {
 
 std::optional<Subscription::Time> Subscription::due() const {
   if (waiting_.empty()) return std::nullopt;
-  return topic_.event ? Time{} : next_;
+  if (topic_.event) return Time{};
+  return next_ - offered_ > kOld ? next_ + interval_ : next_;
 }
 
 void Subscription::take(Time now, std::string& out) {

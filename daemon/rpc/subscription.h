@@ -27,8 +27,9 @@ class Subscription {
   void set_interval(std::chrono::milliseconds interval) { interval_ = interval; }
 
   // A value takes the place of the one that waits; an event queues, and the oldest goes when full.
-  void offer(Value value);
-  // When the next message may be sent; nothing: none waits.
+  void offer(Value value, Time now);
+  // When the next message may be sent; nothing: none waits. A value that will have grown old by
+  // then is held for another interval, for a newer one to take its place.
   std::optional<Time> due() const;
   // Appends that message with its line end.
   void take(Time now, std::string& out);
@@ -39,7 +40,7 @@ class Subscription {
   std::size_t max_queued_;
   std::deque<Value> waiting_;
   std::uint64_t missed_ = 0;
-  Time next_{};
+  Time next_{}, offered_{};
 };
 
 }  // namespace mdof::rpc

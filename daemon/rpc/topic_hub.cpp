@@ -56,8 +56,9 @@ Status TopicHub::publish(std::string_view topic, std::string json) {
                                       " bytes does not fit into a reply line");
   if (found->subscribers.empty()) return {};
   const auto value = std::make_shared<const std::string>(std::move(json));
+  const auto now = std::chrono::steady_clock::now();
   for (const auto& [who, entry] : found->subscribers) {
-    entry->offer(value);
+    entry->offer(value, now);
     who->wake();
   }
   return {};

@@ -22,20 +22,32 @@ std::string message(const std::string& topic, int missed, const std::string& tex
 TEST(Subscription, TheNewestValueWins) {
   Subscription subscription(kValue, 100ms, 64);
   EXPECT_FALSE(subscription.due());
-  for (int i = 1; i <= 5; ++i) subscription.offer(value(i));
-  std::string out;
   const Subscription::Time now(10s);
+  for (int i = 1; i <= 5; ++i) subscription.offer(value(i), now);
+  std::string out;
   EXPECT_LE(*subscription.due(), now);
   subscription.take(now, out);
   EXPECT_EQ(out, message("live.frame", 4, "5") + "\n");
   EXPECT_FALSE(subscription.due());
-  subscription.offer(value(6));
+  subscription.offer(value(6), now + 90ms);
   EXPECT_EQ(*subscription.due(), now + 100ms);
+}
+
+TEST(Subscription, AnOldValueWaitsForANewerOneButNotForEver) {
+  Subscription subscription(kValue, 100ms, 64);
+  const Subscription::Time now(10s);
+  std::string out;
+  subscription.offer(value(1), now);
+  subscription.take(now, out);
+  subscription.offer(value(2), now + 30ms);
+  EXPECT_EQ(*subscription.due(), now + 200ms);
+  subscription.offer(value(3), now + 130ms);
+  EXPECT_LE(*subscription.due(), now + 130ms);  // at once
 }
 
 TEST(Subscription, EventsQueueAndTheOldestGoesWhenFullAndIsCounted) {
   Subscription subscription(kEvent, 0ms, 3);
-  for (int i = 1; i <= 5; ++i) subscription.offer(value(i));
+  for (int i = 1; i <= 5; ++i) subscription.offer(value(i), Subscription::Time(10s));
   std::string out;
   while (subscription.due()) subscription.take(Subscription::Time(10s), out);
   EXPECT_EQ(out, message("run.event", 2, "3") + "\n" + message("run.event", 0, "4") + "\n" +

@@ -8,7 +8,7 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::chrono::milliseconds kOld{50};
+constexpr std::chrono::milliseconds kOld{50};  // none is where they are made every 20 ms
 
 }  // namespace
 

@@ -25,12 +25,12 @@ void TopicHub::add(Topic topic) {
 std::optional<std::chrono::milliseconds> TopicHub::wanted_every(std::string_view topic) const {
   const auto found = rows_.find(topic);
   if (found == rows_.end() || found->second.subscribers.empty()) return std::nullopt;
-  const auto& [of, subscribers] = found->second;
+  const auto& [wanted, subscribers] = found->second;
   const auto interval = subscribers.front().second->interval();
   const bool alike = std::all_of(subscribers.begin(), subscribers.end(), [&](const auto& entry) {
     return entry.second->interval() == interval && !entry.second->awaits_first();
   });
-  return alike ? interval : of.min_interval;
+  return alike ? interval : wanted.min_interval;
 }
 
 Result<TopicHub::Row*> TopicHub::row(std::string_view topic) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algo/line_fit.h"
+#include "algo/restate.h"
 #include "algo/series.h"
 #include "schema/sample.h"
 
@@ -58,10 +59,11 @@ std::array<Line, 5> references(Axis axis, const std::vector<TargetMean>& mean,
   return lines;
 }
 
-void fill_side(Axis axis, const std::vector<MeasuredPoint>& points, Approach approach,
-               const std::vector<TargetMean>& grid, const std::array<Line, 5>& reference,
-               std::array<std::vector<double>, 5>& values, std::array<std::vector<double>, 5>& u) {
-  const auto series = target_means(axis, points, approach);
+void fill_side(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+               Approach approach, const std::vector<TargetMean>& grid,
+               const std::array<Line, 5>& reference, std::array<std::vector<double>, 5>& values,
+               std::array<std::vector<double>, 5>& u) {
+  const auto series = target_means(moving, points, approach);
   const double window = kSameTargetShare * smallest_step(positions(grid));
   for (std::size_t k = 0; k < 5; ++k) {
     values[k].assign(grid.size(), kNaN);
@@ -112,13 +114,25 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return place.share == 1.0 ? high : low + (high - low) * place.share;
 }
 
-}  // namespace
+// Between the first and the last position at which a column has values.
+bool spans(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  std::size_t first = 0, last = x.size();
+  while (first < x.size() && !std::isfinite(y[first])) ++first;
+  while (last > 0 && !std::isfinite(y[last - 1])) --last;
+  return first < last && at >= x[first] && at <= x[last - 1];
+}
 
-Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options) {
-  if (runs.empty()) return bad_input("a compensation table needs at least one run");
-  CompensationTable table;
-  table.axis = runs.front().header.axis;
-  table.slope_removed = options.remove_slope;
+bool measured_there(const CompensationTable& table, double position_m, TableSide side) {
+  const auto all = [&](const std::array<std::vector<double>, 5>& columns) {
+    return std::all_of(columns.begin(), columns.end(),
+                       [&](const auto& y) { return spans(table.position_m, y, position_m); });
+  };
+  return (side == TableSide::reverse || all(table.forward)) &&
+         (side == TableSide::forward || all(table.reverse));
+}
+
+// Errors: a run that is not complete, of another axis, or of a rig with other sides.
+Status add_sources(const std::vector<Run>& runs, CompensationTable& table) {
   for (const Run& run : runs) {
     if (run.header.state != RunState::complete) {
       return bad_input("run " + std::to_string(run.header.id) + " is " +
@@ -129,28 +143,52 @@ Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableO
                        letter(run.header.axis) + ", run " + std::to_string(runs.front().header.id) +
                        " of " + letter(table.axis) + "; a table is of one axis");
     }
+    if (run.header.sides != table.sides) {
+      return bad_input("the rig of run " + std::to_string(run.header.id) +
+                       " has other sides (moves, travel) than that of run " +
+                       std::to_string(runs.front().header.id) +
+                       "; build one table from runs of one set-up");
+    }
     table.runs.push_back(run.header.id);
     table.simulated = table.simulated || run.header.simulated;
   }
-  const auto first = target_means(table.axis, runs.front().points, Approach::both);
+  return {};
+}
+
+}  // namespace
+
+Result<CompensationTable> build_table(const std::vector<Run>& measured,
+                                      const TableOptions& options) {
+  if (measured.empty()) return bad_input("a compensation table needs at least one run");
+  CompensationTable table;
+  table.axis = measured.front().header.axis;
+  table.sides = measured.front().header.sides;
+  table.slope_removed = options.remove_slope;
+  table.stated = options.stated;
+  table.machine = options.machine;
+  MDOF_CHECK(add_sources(measured, table));
+  std::vector<Run> runs;
+  for (const Run& run : measured) runs.push_back(restate(run, options.stated));
+  const MovingAxis moving{table.axis, table.sides};
+  const auto first = target_means(moving, runs.front().points, Approach::both);
   if (first.size() < 3 || !can_fit(positions(first))) {
     return bad_input("run " + std::to_string(runs.front().header.id) + " has " +
                      std::to_string(first.size()) +
                      " solved targets; a compensation table needs at least three");
   }
   MDOF_TRY(const auto points, on_one_grid(runs, positions(first)));
-  const auto grid = target_means(table.axis, points, Approach::both);
+  const auto grid = target_means(moving, points, Approach::both);
   const auto reference = references(table.axis, grid, options);
   table.position_m = positions(grid);
-  fill_side(table.axis, points, Approach::forward, grid, reference, table.forward, table.u_forward);
-  fill_side(table.axis, points, Approach::reverse, grid, reference, table.reverse, table.u_reverse);
+  fill_side(moving, points, Approach::forward, grid, reference, table.forward, table.u_forward);
+  fill_side(moving, points, Approach::reverse, grid, reference, table.reverse, table.u_reverse);
   return table;
 }
 
 TableValue table_at(const CompensationTable& table, double position_m, TableSide side) {
   TableValue value;
   const auto& x = table.position_m;
-  value.inside = position_m >= x.front() && position_m <= x.back();
+  value.inside = measured_there(table, position_m, side);
   const Place place = place_on(x, position_m);
   const auto at = [&](const std::vector<double>& y) {
     return interpolate(x, y, position_m, place);

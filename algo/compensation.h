@@ -13,8 +13,11 @@ namespace mdof::algo {
 // apart; angles referred to the first target of the mean of both approaches, straightness to its
 // least-squares line (`remove_slope`: the slope belongs to squareness) or as measured. Targets of
 // different runs are one where they lie within 2 % of the smallest step, else it is an error.
+// Straightness holds at `stated`.
 struct TableOptions {
   bool remove_slope = true;
+  StatedAt stated;
+  Chain machine;
 };
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
 
@@ -22,7 +25,9 @@ Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableO
 struct TableValue {
   Errors5 error{};  // named; NaN where the table has no value
   Errors5 u{};
-  bool inside = true;  // false: the end value is held
+  // Within what was measured of this approach (of both, for the mean). false: the end value is
+  // held, or the other approach's value is given.
+  bool inside = true;
 };
 enum class TableSide { forward, reverse, mean };
 TableValue table_at(const CompensationTable& table, double position_m, TableSide side);

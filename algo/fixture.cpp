@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace mdof::algo {
 namespace {
@@ -9,21 +10,6 @@ namespace {
 Eigen::Vector3d local_vector(Axis axis, const Vec3& v) {
   const Vec3 l = to_local(axis, v);
   return {l[0], l[1], l[2]};
-}
-
-const TargetPlane* nearest_plane(const Rig& rig, const Probe& probe) {
-  const TargetPlane* best = nullptr;
-  double best_cosine = 0;
-  for (const auto& plane : rig.planes) {
-    const double cosine =
-        std::abs(plane.normal[0] * probe.direction[0] + plane.normal[1] * probe.direction[1] +
-                 plane.normal[2] * probe.direction[2]);
-    if (cosine > best_cosine) {
-      best = &plane;
-      best_cosine = cosine;
-    }
-  }
-  return best_cosine > 0.5 ? best : nullptr;
 }
 
 struct Cell {
@@ -37,6 +23,90 @@ Cell cell_of(const std::vector<double>& grid, double x) {
   const auto upper = std::upper_bound(grid.begin(), grid.end(), x);
   const auto i = static_cast<std::size_t>(upper - grid.begin()) - 1;
   return {i, (x - grid[i]) / (grid[i + 1] - grid[i])};
+}
+
+double cosine(const TargetPlane& plane, const Probe& probe) {
+  return std::abs(plane.normal[0] * probe.direction[0] + plane.normal[1] * probe.direction[1] +
+                  plane.normal[2] * probe.direction[2]);
+}
+
+std::string ids_of(const Rig& rig) {
+  std::string ids;
+  for (const auto& plane : rig.planes) ids += (ids.empty() ? "\"" : ", \"") + plane.id + "\"";
+  return ids;
+}
+
+Result<const TargetPlane*> named_plane(const Rig& rig, const Probe& probe) {
+  for (const auto& plane : rig.planes)
+    if (plane.id == probe.plane) return &plane;
+  return bad_input(rig.source + ": probe \"" + probe.id + "\": plane = \"" + probe.plane +
+                   "\" is the id of no [[plane]]; there are " +
+                   (rig.planes.empty() ? "none" : ids_of(rig)));
+}
+
+// The plane that a probe looks at; nullptr: the rig has none, so one across the probe.
+Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
+  constexpr double kLooksAt = 0.5, kDoubt = 0.15;  // cosines
+  if (!probe.plane.empty()) return named_plane(rig, probe);
+  if (rig.planes.empty()) return nullptr;
+  const TargetPlane *best = nullptr, *second = nullptr;
+  for (const auto& plane : rig.planes) {
+    if (!best || cosine(plane, probe) > cosine(*best, probe)) {
+      second = best;
+      best = &plane;
+    } else if (!second || cosine(plane, probe) > cosine(*second, probe)) {
+      second = &plane;
+    }
+  }
+  if (cosine(*best, probe) <= kLooksAt)
+    return bad_input(rig.source + ": probe \"" + probe.id +
+                     "\" looks at none of the [[plane]] tables (its direction is more than 60° "
+                     "from every normal); add the plane it measures");
+  if (second && cosine(*second, probe) > cosine(*best, probe) - kDoubt)
+    return bad_input(rig.source + ": probe \"" + probe.id + "\" may look at the plane \"" +
+                     best->id + "\" or at \"" + second->id +
+                     "\": its direction leaves a doubt; say which with plane = \"...\" in its "
+                     "[[probe]]");
+  return best;
+}
+
+std::string in_mm(double m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g mm", m * 1e3);
+  return text;
+}
+
+constexpr double kOnPlane_m = 1e-6;
+
+// The position is where the probe's line meets the nominal surface: it lies on the plane.
+Status check_on_plane(const Rig& rig, const FixtureProbe& probe, const TargetPlane& plane) {
+  if (std::abs(probe.plane_offset_m - *plane.offset_m) <= kOnPlane_m) return {};
+  return bad_input(rig.source + ": probe \"" + probe.id + "\": its position_mm lies at " +
+                   in_mm(probe.plane_offset_m) + " along the normal of the plane \"" + plane.id +
+                   "\", whose offset_mm is " + in_mm(*plane.offset_m) +
+                   ": the position is the point where the probe's line meets that plane; correct "
+                   "one of the two, or name another plane");
+}
+
+// Probes of one plane, and without [[plane]] probes that look the same way, meet one surface.
+Status check_common_planes(const Rig& rig, const Fixture& fixture,
+                           const std::vector<const TargetPlane*>& looks_at) {
+  constexpr double kSameWay = 1 - 1e-9;
+  for (std::size_t i = 0; i < fixture.probes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const FixtureProbe &a = fixture.probes[j], &b = fixture.probes[i];
+      const double way = a.n_C.dot(b.n_C);
+      if (looks_at[i] != looks_at[j] || std::abs(way) < kSameWay) continue;
+      const double of_b = way > 0 ? b.plane_offset_m : -b.plane_offset_m;
+      if (std::abs(a.plane_offset_m - of_b) <= kOnPlane_m) continue;
+      return bad_input(rig.source + ": probes \"" + a.id + "\" and \"" + b.id +
+                       "\" look at one plane, and their position_mm put it at " +
+                       in_mm(a.plane_offset_m) + " and at " + in_mm(of_b) +
+                       "; correct position_mm, or declare two [[plane]] tables with offset_mm and "
+                       "name each probe's with plane = \"...\"");
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -59,24 +129,24 @@ double height_at(const HeightMap& map, double first_m, double second_m) {
 Result<Fixture> make_fixture(const Rig& rig) {
   Fixture fixture;
   fixture.axis = rig.axis;
+  std::vector<const TargetPlane*> looks_at;
   for (const auto& probe : rig.probes) {
     FixtureProbe p;
     p.id = probe.id;
     p.p_MP = local_vector(rig.axis, probe.position_m);
     p.u_M = local_vector(rig.axis, probe.direction);
     p.n_C = p.u_M;
-    p.plane_offset_m = p.n_C.dot(p.p_MP);
-    if (const TargetPlane* plane = nearest_plane(rig, probe)) {
+    MDOF_TRY(const TargetPlane* plane, plane_of(rig, probe));
+    if (plane) {
       p.n_C = local_vector(rig.axis, plane->normal);
-      p.plane_offset_m = plane->offset_m.value_or(p.n_C.dot(p.p_MP));
       p.flatness = plane->flatness;
-    } else if (!rig.planes.empty()) {
-      return bad_input(rig.source + ": probe \"" + probe.id +
-                       "\" looks at none of the [[plane]] tables (its direction is more than 60° "
-                       "from every normal); add the plane it measures");
     }
+    p.plane_offset_m = p.n_C.dot(p.p_MP);
+    if (plane && plane->offset_m) MDOF_CHECK(check_on_plane(rig, p, *plane));
+    looks_at.push_back(plane);
     fixture.probes.push_back(std::move(p));
   }
+  MDOF_CHECK(check_common_planes(rig, fixture, looks_at));
   return fixture;
 }
 

@@ -42,34 +42,10 @@ Surface meet(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC, const Eigen
   return surface;
 }
 
-// The rotations follow one another about the machine's axes, A first, whichever axis moves. With L
-// the local axes in machine coordinates, angles turn like vectors: e_machine = L e, and R = Lᵀ
-// Rz(C) Ry(B) Rx(A) L. L only exchanges coordinates and signs, so nothing is rounded.
-Rotation rotation_in_local_frame(Axis axis, const Errors5& local) {
-  const auto axes = local_axes(axis);
-  Eigen::Matrix3d L;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j < 3; ++j)
-      L(i, j) = axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  }
-  const Eigen::Vector3d e = L * Eigen::Vector3d(local[kEx], local[kEy], local[kEz]);
-  const Rotation machine = rotation(e.x(), e.y(), e.z());
-  Rotation r;
-  r.R_MC = L.transpose() * machine.R_MC * L;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const Eigen::Vector3d about = L.col(static_cast<Eigen::Index>(j));
-    r.dR_MC[j] = L.transpose() *
-                 (about.x() * machine.dR_MC[0] + about.y() * machine.dR_MC[1] +
-                  about.z() * machine.dR_MC[2]) *
-                 L;
-  }
-  return r;
-}
-
 }  // namespace
 
 Eigen::VectorXd rigid_readings(const Fixture& fixture, double travel_m, const Errors5& local) {
-  const Rotation r = rotation_in_local_frame(fixture.axis, local);
+  const Rotation r = local_rotation(fixture.axis, local);
   const Eigen::Vector3d t = carriage_position(travel_m, local);
   Eigen::VectorXd readings(static_cast<Eigen::Index>(fixture.probes.size()));
   Eigen::Index i = 0;
@@ -78,7 +54,7 @@ Eigen::VectorXd rigid_readings(const Fixture& fixture, double travel_m, const Er
 }
 
 Eigen::MatrixXd rigid_jacobian(const Fixture& fixture, double travel_m, const Errors5& local) {
-  const Rotation r = rotation_in_local_frame(fixture.axis, local);
+  const Rotation r = local_rotation(fixture.axis, local);
   const Eigen::Vector3d t = carriage_position(travel_m, local);
   Eigen::MatrixXd J(static_cast<Eigen::Index>(fixture.probes.size()), kErrorCount);
   Eigen::Index i = 0;

@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-TargetMean mean_of(Axis axis, const std::vector<const MeasuredPoint*>& points) {
+TargetMean mean_of(const MovingAxis& moving, const std::vector<const MeasuredPoint*>& points) {
   TargetMean mean;
   mean.n = points.size();
   const auto n = static_cast<double>(points.size());
@@ -15,8 +15,8 @@ TargetMean mean_of(Axis axis, const std::vector<const MeasuredPoint*>& points) {
   Errors5 noise2{};
   for (const MeasuredPoint* p : points) {
     mean.position_m += p->point.position_m / n;
-    named.push_back(named_from_local(axis, p->errors.local));
-    const Covariance5 cov = named_from_local(axis, p->errors.covariance);
+    named.push_back(named_from_local(moving, p->errors.local));
+    const Covariance5 cov = named_from_local(moving.axis, p->errors.covariance);
     for (std::size_t k = 0; k < 5; ++k) noise2[k] += cov[6 * k];
   }
   for (std::size_t k = 0; k < 5; ++k) {
@@ -44,13 +44,14 @@ TargetMean mean_of(const TargetMean& forward, const TargetMean& reverse) {
 
 using ByTarget = std::map<int, TargetMean>;
 
-ByTarget one_way(Axis axis, const std::vector<MeasuredPoint>& points, int direction) {
+ByTarget one_way(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                 int direction) {
   std::map<int, std::vector<const MeasuredPoint*>> groups;
   for (const auto& p : points) {
     if (p.errors.valid && p.point.direction == direction) groups[p.target].push_back(&p);
   }
   ByTarget means;
-  for (const auto& [target, group] : groups) means[target] = mean_of(axis, group);
+  for (const auto& [target, group] : groups) means[target] = mean_of(moving, group);
   return means;
 }
 
@@ -62,11 +63,11 @@ const char* to_string(Approach approach) {
                                          : "mean";
 }
 
-std::vector<TargetMean> target_means(Axis axis, const std::vector<MeasuredPoint>& points,
-                                     Approach approach) {
-  ByTarget means = one_way(axis, points, approach == Approach::reverse ? -1 : 1);
+std::vector<TargetMean> target_means(const MovingAxis& moving,
+                                     const std::vector<MeasuredPoint>& points, Approach approach) {
+  ByTarget means = one_way(moving, points, approach == Approach::reverse ? -1 : 1);
   if (approach == Approach::both) {
-    for (const auto& [target, reverse] : one_way(axis, points, -1)) {
+    for (const auto& [target, reverse] : one_way(moving, points, -1)) {
       const auto forward = means.find(target);
       means[target] = forward == means.end() ? reverse : mean_of(forward->second, reverse);
     }
@@ -79,6 +80,12 @@ std::vector<TargetMean> target_means(Axis axis, const std::vector<MeasuredPoint>
 std::vector<double> positions(const std::vector<TargetMean>& series) {
   std::vector<double> x;
   for (const TargetMean& m : series) x.push_back(m.position_m);
+  return x;
+}
+
+std::vector<double> own_travels(const Sides& sides, const std::vector<TargetMean>& series) {
+  std::vector<double> x;
+  for (const TargetMean& m : series) x.push_back(sides.own_travel_m(m.position_m));
   return x;
 }
 

@@ -14,19 +14,21 @@ const char* to_string(Approach approach);  // "forward", "reverse", "mean"
 
 struct TargetMean {
   double position_m = 0;  // mean of the encoder
-  Errors5 named{};        // mean over the runs, in the order of error_names(axis); m, rad
-  Errors5 u{};            // standard uncertainty of that mean, see below
+  Errors5 named{};  // of the moving body: mean over the runs, in the order of error_names(); m, rad
+  Errors5 u{};      // standard uncertainty of that mean, see below
   std::size_t n = 0;
 };
 
 // Means of the valid points of `points` at each target that has any, ascending in position.
 // Approach::both is the mean of the two directions' means where both are there.
 // u: the larger of the scatter between runs, s/√n (n > 1), and the mean's propagated noise.
-std::vector<TargetMean> target_means(Axis axis, const std::vector<MeasuredPoint>& points,
-                                     Approach approach);
+std::vector<TargetMean> target_means(const MovingAxis& moving,
+                                     const std::vector<MeasuredPoint>& points, Approach approach);
 
 // Columns of a series for the line fits.
 std::vector<double> positions(const std::vector<TargetMean>& series);
 std::vector<double> column(const std::vector<TargetMean>& series, std::size_t named);
+// The same positions as travel of the moving body along + of M.
+std::vector<double> own_travels(const Sides& sides, const std::vector<TargetMean>& series);
 
 }  // namespace mdof::algo

@@ -32,4 +32,25 @@ Rotation rotation(double ex, double ey, double ez) {
   return r;
 }
 
+Rotation local_rotation(Axis axis, const Errors5& local) {
+  const auto axes = local_axes(axis);
+  Eigen::Matrix3d L;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j)
+      L(i, j) = axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  }
+  const Eigen::Vector3d e = L * Eigen::Vector3d(local[kEx], local[kEy], local[kEz]);
+  const Rotation machine = rotation(e.x(), e.y(), e.z());
+  Rotation r;
+  r.R_MC = L.transpose() * machine.R_MC * L;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Eigen::Vector3d about = L.col(static_cast<Eigen::Index>(j));
+    r.dR_MC[j] = L.transpose() *
+                 (about.x() * machine.dR_MC[0] + about.y() * machine.dR_MC[1] +
+                  about.z() * machine.dR_MC[2]) *
+                 L;
+  }
+  return r;
+}
+
 }  // namespace mdof::algo

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "schema/axis.h"
+
 namespace mdof::algo {
 
 // Sine and cosine for |x| <= 0.25 rad by their Taylor series in plain arithmetic: within 1 ulp
@@ -19,5 +21,11 @@ struct Rotation {
   std::array<Eigen::Matrix3d, 3> dR_MC;  // ∂R/∂εx, ∂R/∂εy, ∂R/∂εz
 };
 Rotation rotation(double ex_rad, double ey_rad, double ez_rad);
+
+// The same for the errors of an axis, in its local frame. The rotations follow one another about
+// the machine's axes, A first, whichever axis moves. With L the local axes in machine coordinates,
+// angles turn like vectors: e_machine = L e, and R = Lᵀ Rz(C) Ry(B) Rx(A) L. L only exchanges
+// coordinates and signs, so nothing is rounded.
+Rotation local_rotation(Axis axis, const Errors5& local);
 
 }  // namespace mdof::algo

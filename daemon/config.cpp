@@ -153,6 +153,24 @@ Status check_names(TomlTable& table, const AxisConfig& axis, const Config& confi
   return {};
 }
 
+// One machine: of the rig or of the configuration; where both say it they must agree.
+void take_machine(TomlTable& table, const Chain& machine, Rig& rig) {
+  if (!machine.known()) return;
+  const std::string axis(1, letter(rig.axis));
+  const ChainAxis* in_chain = machine.find(axis[0]);
+  if (rig.machine.known() && rig.machine != machine) {
+    table.reject("rig", rig.source + " has another [machine] than this file; keep one of the two");
+  } else if (!in_chain) {
+    table.reject("rig",
+                 "is of the axis " + axis + ", which the chain " + machine.text + " has not");
+  } else if (in_chain->against_command != rig.sides.against_encoder) {
+    table.reject("rig", "has travel = \"" + std::string(rig.sides.travel()) +
+                            "\", and [machine] travel." + axis + " says otherwise");
+  } else {
+    rig.machine = machine;
+  }
+}
+
 Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& config) {
   AxisConfig axis;
   MDOF_TRY(axis.rig, read_rig(table, base, config.measure.model));
@@ -160,6 +178,7 @@ Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& co
     MDOF_TRY(auto spec, read_device(device, base, axis));
     axis.devices.push_back(std::move(spec));
   }
+  take_machine(table, config.machine, axis.rig);
   if (axis.devices.empty()) {
     table.reject("device", "is missing; add [axis.device] with driver = \"...\"");
     return table.finish();
@@ -192,6 +211,7 @@ Result<Config> load_config(const std::filesystem::path& file) {
   read_rpc(root, config);
   read_measure(root, config.measure);
   const auto base = std::filesystem::absolute(file).parent_path();
+  config.machine = read_machine(root);
   for (auto& axis : root.tables("axis")) {
     MDOF_CHECK(read_axis(axis, base, config));
   }

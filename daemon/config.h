@@ -32,6 +32,7 @@ struct Config {
   std::string socket;
   std::optional<std::uint16_t> tcp_port;  // loopback; off unless configured
   PipelineOptions measure;
+  Chain machine;  // [machine]; may be not known
   std::vector<AxisConfig> axes;
   std::string text;  // the TOML itself: provenance
 };

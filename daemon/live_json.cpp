@@ -60,12 +60,12 @@ void write_errors(JsonWriter& json, const Rig& rig, const Pipeline& pipeline) {
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {
     readings.push_back(usable(now.quality_at(k, 0)) ? now.probe_m[k][0] : kNaN);
   }
-  const AxisErrors errors = pipeline.solver().solve(now.encoder_m[0], readings, {});
+  const AxisErrors errors = pipeline.solve_at(now.encoder_m[0], readings, {});
   if (!errors.valid) {
     json.null();
     return;
   }
-  const Errors5 named = named_from_local(rig.axis, errors.local);
+  const Errors5 named = named_from_local(rig.moving(), errors.local);
   json.begin_object();
   for (std::size_t k = 0; k < 5; ++k) {
     json.field(error_names(rig.axis)[k].key, to_key_unit(named[k]));
@@ -100,7 +100,7 @@ std::string live_json(const Rig& rig, const Pipeline& pipeline, const LiveState&
         .end_object();
   }
   json.end_array();
-  json.key("errors");
+  json.field("reference", to_string(Reference::fixture)).key("errors");
   state.stale ? void(json.null()) : write_errors(json, rig, pipeline);
   json.key("run");
   state.run > 0 ? json.value(state.run) : json.null();

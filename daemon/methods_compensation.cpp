@@ -2,8 +2,10 @@
 #include <cmath>
 
 #include "algo/compensation.h"
+#include "daemon/evaluation.h"
 #include "daemon/methods.h"
 #include "daemon/paths.h"
+#include "schema/correction.h"
 #include "schema/json_writer.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -15,6 +17,10 @@ using rpc::Params;
 using rpc::ParamType;
 using rpc::Reply;
 
+constexpr const char* kSense =
+    "error = actual - nominal of the body that moves; correction is added to the command of the "
+    "axis "
+    "of its second letter (EYX: Y)";
 constexpr std::int64_t kMaxGridPage = 60;  // of about 700 bytes: under the limit of a reply line
 
 std::string actor_of(const Params& params) {
@@ -32,22 +38,24 @@ Result<const store::ActiveTable*> active_table(const Methods& m, const Params& p
                   "; build one from runs with compensation.build and activate it");
 }
 
+Result<TableRequest> read_request(const Params& params) {
+  TableRequest request;
+  MDOF_TRY(request.runs, params.integers("runs"));
+  request.keep_slope = params.boolean("keep_slope", false);
+  if (!params.has("reference")) return request;
+  const std::string name(params.string("reference"));
+  if (!reference_from(name, request.reference.emplace()))
+    return fail(ErrorCode::usage,
+                "reference \"" + name + "\" is none of \"fixture\", \"carriage\", \"tool\"");
+  return request;
+}
+
 void build(Methods& m, const Params& params, Reply reply) {
-  const auto ids = params.integers("runs");
-  if (!ids) return reply(tl::unexpected(ids.error()));
-  algo::TableOptions options;
-  options.remove_slope = !params.boolean("keep_slope", false);
+  const auto request = read_request(params);
+  if (!request) return reply(tl::unexpected(request.error()));
   answer_from_store(m, std::move(reply),
-                    [ids = *ids, options](store::Store& store) -> Result<std::string> {
-                      std::vector<Run> runs;
-                      for (const std::int64_t id : ids) {
-                        MDOF_TRY(Run run, store.run(id));
-                        runs.push_back(std::move(run));
-                      }
-                      MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
-                      table.created_utc = utc_now();
-                      table.sha256 = table_sha256(table);
-                      MDOF_TRY(table.id, store.add_table(table));
+                    [request = *request](store::Store& store) -> Result<std::string> {
+                      MDOF_TRY(const CompensationTable table, build_table(store, request));
                       JsonWriter json;
                       json.begin_object();
                       write_table_members(json, table);
@@ -118,13 +126,30 @@ Result<std::string> grid(const Methods& m, const Params& params) {
   return json.take();
 }
 
-void write_values(JsonWriter& json, const char* key, Axis axis, const Errors5& values,
-                  double sign) {
+void write_values(JsonWriter& json, const char* key, Axis axis, const Errors5& values) {
   json.key(key).begin_object();
-  for (std::size_t k = 0; k < 5; ++k) {
-    json.field(error_names(axis)[k].key, sign * to_key_unit(values[k]));
-  }
+  for (std::size_t k = 0; k < 5; ++k) json.field(error_names(axis)[k].key, to_key_unit(values[k]));
   json.end_object();
+}
+
+// null without a chain; a component that no axis of the chain can correct is null. Why, is said
+// once for each reason.
+void write_correction(JsonWriter& json, const CompensationTable& table, const Errors5& error) {
+  const CorrectionSigns signs = correction_signs(table.machine, table.axis);
+  Errors5 correction{};
+  std::string why;
+  for (std::size_t k = 0; k < 5; ++k) {
+    correction[k] = signs.factor[k] == 0 ? kNaN : signs.factor[k] * error[k];
+    if (!signs.gap[k].empty() && why.find(signs.gap[k]) == std::string::npos)
+      why += (why.empty() ? "" : "; ") + signs.gap[k];
+  }
+  if (table.machine.known()) {
+    write_values(json, "correction", table.axis, correction);
+  } else {
+    json.key("correction").null();
+  }
+  json.key("correction_reason");
+  why.empty() ? json.null() : json.value(why);
 }
 
 Result<std::string> at(const Methods& m, const Params& params) {
@@ -139,14 +164,16 @@ Result<std::string> at(const Methods& m, const Params& params) {
   const double position_mm = params.number("position_mm");
   const CompensationTable& table = active->table;
   const algo::TableValue value = algo::table_at(table, from_mm(position_mm), side);
-  JsonWriter json(768);
+  JsonWriter json(1280);
   json.begin_object()
       .field("axis", std::string_view(&"XYZ"[static_cast<std::size_t>(table.axis)], 1))
       .field("position_mm", position_mm)
-      .field("direction", direction)
-      .field("sense", "correction = -error is added to the command");
-  write_values(json, "correction", table.axis, value.error, -1.0);
-  write_values(json, "u", table.axis, value.u, 1.0);
+      .field("direction", direction);
+  write_reference(json, table.stated);
+  json.field("sense", kSense);
+  write_values(json, "error", table.axis, value.error);
+  write_correction(json, table, value.error);
+  write_values(json, "u", table.axis, value.u);
   json.field("inside", value.inside)
       .field("simulated", table.simulated)
       .field("table", table.id)
@@ -165,8 +192,12 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .params = {{"runs", ParamType::array, "ids of runs of one axis and the same targets", true},
                   {"keep_slope", ParamType::boolean,
                    "leave the slope in the straightness (by default squareness holds it)", false,
-                   "false"}},
-       .result = "table, axis, range, sense, sha256",
+                   "false"},
+                  {"reference", ParamType::string,
+                   "where straightness is stated: fixture, carriage or tool [the rig's tool point, "
+                   "else the fixture]",
+                   false}},
+       .result = "table, axis, range, reference, sense and sign of the correction, sha256",
        .example = R"({"runs": [1]})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
@@ -201,8 +232,9 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                         {"direction", ParamType::integer, "1 forward, -1 reverse, 0 their mean",
                          false, "0"}},
              .result =
-                 "correction in um and urad, to be added to the command; u; inside; simulated; "
-                 "generation",
+                 "error in um and urad; correction, to be added to the command, null with "
+                 "correction_reason where its sign is not known; u; inside: that approach was "
+                 "measured there; simulated; generation",
              .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
              .handler = [&m](const Params& p) { return at(m, p); }});
 }

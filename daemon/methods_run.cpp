@@ -1,5 +1,5 @@
 // run.start, run.resume, run.stop, run.list, run.get, run.points, squareness.fit.
-#include "algo/straightness.h"
+#include "daemon/evaluation.h"
 #include "daemon/methods.h"
 #include "daemon/paths.h"
 #include "daemon/resume.h"
@@ -163,8 +163,18 @@ Result<std::string> list_runs(Methods& m, const Params& params) {
   return json.take();
 }
 
+Result<Reference> reference_param(const Params& params) {
+  Reference reference = Reference::fixture;
+  if (!params.has("reference")) return reference;
+  const std::string name(params.string("reference"));
+  if (reference_from(name, reference)) return reference;
+  return fail(ErrorCode::usage,
+              "reference \"" + name + "\" is none of \"fixture\", \"carriage\", \"tool\"");
+}
+
 Result<std::string> get_run(Methods& m, const Params& params) {
-  MDOF_TRY(const auto run, m.reader.run(params.integer("run")));
+  MDOF_TRY(const Reference reference, reference_param(params));
+  MDOF_TRY(const auto run, run_stated_at(m.reader, params.integer("run"), reference));
   JsonWriter json;
   json.begin_object();
   write_header_members(json, run.header);
@@ -179,38 +189,30 @@ Result<std::string> get_run(Methods& m, const Params& params) {
 Result<std::string> run_points(Methods& m, const Params& params) {
   MDOF_TRY(const Page page, page_of(params, kMaxPointsPage));
   const std::int64_t id = params.integer("run");
-  MDOF_TRY(const auto header, m.reader.run_header(id));
+  MDOF_TRY(const Reference reference, reference_param(params));
   MDOF_TRY(const auto total, m.reader.count_points(id));
-  MDOF_TRY(const auto points, m.reader.points(id, page.offset, page.count));
+  MDOF_TRY(const Run run, points_stated_at(m.reader, id, page.offset, page.count, reference));
   JsonWriter json;
   json.begin_object()
       .field("run", id)
-      .field("axis", std::string(1, letter(header.axis)))
+      .field("axis", std::string(1, letter(run.header.axis)))
       .field("total", total)
-      .field("offset", page.offset)
-      .key("points")
-      .begin_array();
-  for (const auto& p : points) write_point(json, header.axis, p);
+      .field("offset", page.offset);
+  write_reference(json, run.header.stated);
+  json.key("points").begin_array();
+  for (const auto& p : run.points) write_point(json, run.header.moving(), p);
   json.end_array().end_object();
   return json.take();
 }
 
-void fit_squareness(Methods& m, const Params& params, Reply reply) {
+void squareness(Methods& m, const Params& params, Reply reply) {
   const std::int64_t x = params.integer("run_x"), y = params.integer("run_y");
-  const double u_artefact_rad = from_urad(params.number("u_artefact_urad", 0));
-  std::optional<double> artefact_rad;
-  if (params.has("artefact_angle_error_urad")) {
-    artefact_rad = from_urad(params.number("artefact_angle_error_urad"));
-  }
+  algo::ArtefactGiven given;
+  if (params.has("artefact_angle_error_urad"))
+    given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
+  if (params.has("u_artefact_urad")) given.u_rad = from_urad(params.number("u_artefact_urad"));
   answer_from_store(m, std::move(reply), [=](store::Store& store) -> Result<std::string> {
-    MDOF_TRY(const Run run_x, store.run(x));
-    MDOF_TRY(const Run run_y, store.run(y));
-    MDOF_TRY(const Rig rig, parse_rig(run_x.header.provenance.rig_text, "rig of run_x"));
-    MDOF_TRY(Squareness s,
-             algo::squareness(run_x, run_y, artefact_rad.value_or(rig.artefact_angle_error_rad),
-                              u_artefact_rad));
-    s.created_utc = utc_now();
-    MDOF_TRY(s.id, store.add_squareness(s));
+    MDOF_TRY(const Squareness s, fit_squareness(store, x, y, given));
     return squareness_json(s);
   });
 }
@@ -222,6 +224,9 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param run{"run", ParamType::integer, "id of the run", true};
   const rpc::Param offset{"offset", ParamType::integer, "rows to leave out", false, "0"};
   const rpc::Param count{"count", ParamType::integer, "rows at the most", false};
+  const rpc::Param reference{"reference", ParamType::string,
+                             "where errors are stated: fixture, carriage or tool", false,
+                             "\"fixture\""};
   table.add(
       {.name = "run.start",
        .summary = "Starts a run of an axis: its samples are recorded, its dwells become points.",
@@ -272,13 +277,13 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .handler = [&m](const Params& p) { return list_runs(m, p); }});
   table.add({.name = "run.get",
              .summary = "A run without its points: header, provenance, straightness, angles.",
-             .params = {run},
+             .params = {run, reference},
              .result = "the run; straightness in um, slopes and angles in urad",
              .example = R"({"run": 1})",
              .handler = [&m](const Params& p) { return get_run(m, p); }});
   table.add({.name = "run.points",
              .summary = "The points of a run in the order measured, a page at a time.",
-             .params = {run, offset, count},
+             .params = {run, offset, count, reference},
              .result = "total, points: position_mm, five errors in um and urad, u, flags",
              .example = R"({"run": 1, "offset": 0, "count": 20})",
              .handler = [&m](const Params& p) { return run_points(m, p); }});
@@ -289,12 +294,16 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
        .params = {{"run_x", ParamType::integer, "id of the run along X", true},
                   {"run_y", ParamType::integer, "id of the run along Y", true},
                   {"artefact_angle_error_urad", ParamType::number,
-                   "of the square: its angle is 90 deg + this; from the rig if not given", false},
-                  {"u_artefact_urad", ParamType::number, "its standard uncertainty", false, "0"}},
-       .result = "EC0Y_urad, u_EC0Y_urad and both slopes",
+                   "of the square: the material encloses 90 deg + this at the corner of its two "
+                   "faces; from the rigs if not given",
+                   false},
+                  {"u_artefact_urad", ParamType::number,
+                   "its standard uncertainty; from the rigs if not given", false}},
+       .result = "EC0Y_urad, u_EC0Y_urad, form_urad (how crooked the axes are) and both slopes, at "
+                 "the fixture",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,
-       .handler = [&m](const Params& p, Reply r) { fit_squareness(m, p, std::move(r)); }});
+       .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});
 }
 
 }  // namespace mdof::daemon

@@ -103,6 +103,14 @@ Result<ActiveTables> load_active(store::Store& store) {
   ActiveTables tables;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     auto active = store.active(axis);
+    if (active && active->table.of_schema_2) {
+      std::fprintf(stderr,
+                   "compensation table %lld of axis %c was built before tables said at which point "
+                   "they hold and which way a correction goes; it is not served: build it again "
+                   "from its runs and activate that\n",
+                   static_cast<long long>(active->table.id), letter(axis));
+      continue;
+    }
     if (active && table_sha256(active->table) != active->table.sha256) {
       std::fprintf(
           stderr,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "algo/restate.h"
 #include "algo/straightness.h"
 #include "schema/json_writer.h"
 #include "schema/units.h"
@@ -110,8 +111,15 @@ void Pipeline::take_points() {
   taken_ = found_.size();
   sequence_ = algo::recognise_sequence(found_, options_.sequence);
   for (auto& p : sequence_.points) {
-    p.errors = solver_.solve(p.point.position_m, p.point.probe_m, p.point.probe_u_m);
+    p.errors = solve_at(p.point.position_m, p.point.probe_m, p.point.probe_u_m);
   }
+}
+
+AxisErrors Pipeline::solve_at(double encoder_m, const std::vector<double>& readings_m,
+                              const std::vector<double>& u_m) const {
+  const double travel_m = rig_.sides.target_travel_m(encoder_m);
+  return algo::restate(solver_.solve(travel_m, readings_m, u_m), options_.model, rig_.axis,
+                       travel_m, kAtCarriage, kAtFixture);
 }
 
 bool Pipeline::moved() const {
@@ -171,13 +179,15 @@ Result<Run> Pipeline::finish() {
   MDOF_CHECK(reject_dead_probes());
   Run run;
   run.header.axis = rig_.axis;
+  run.header.sides = rig_.sides;
+  run.header.stated = kAtFixture;
   run.header.state = RunState::complete;
   run.header.scans = dwell_.summary().scans;
   run.header.scans_lost = lost_;
   run.header.warnings = sequence_.warnings;
   run.points = sequence_.points;
-  run.straightness = algo::straightness(rig_.axis, run.points);
-  run.angles = algo::angles(rig_.axis, run.points);
+  run.straightness = algo::straightness(rig_.moving(), run.points);
+  run.angles = algo::angles(rig_.moving(), run.points);
   return run;
 }
 

@@ -43,12 +43,16 @@ class Pipeline {
   // did.
   Status push(SampleBlock& raw);
 
-  // The points complete so far, in sequence, solved. Targets are as far as known until finish().
+  // The points complete so far, in sequence, solved, stated at the fixture. Targets are as far as
+  // known until finish().
   const std::vector<MeasuredPoint>& points();
   // The newest instant, calibrated, for the live view; size 0 before the first.
   const FrameBlock& newest() const { return newest_; }
   bool still() const { return dwell_.still(); }
   std::optional<std::string> waiting_for() const { return aligner_.waiting_for(); }
+  // The errors of the target at one instant, stated at the fixture.
+  AxisErrors solve_at(double encoder_m, const std::vector<double>& readings_m,
+                      const std::vector<double>& u_m) const;
   const algo::Solver& solver() const { return solver_; }
 
   // End of the data. Fills points, figures, scans and warnings of a run; the header's identity and

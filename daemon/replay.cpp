@@ -59,6 +59,7 @@ Provenance provenance_of(const ReplayLog& log, const Rig& rig, const PipelineOpt
   from.model = to_string(options.model);
   from.software_version = kVersion;
   from.options_json = options.json();
+  from.configuration = log.configuration();
   return from;
 }
 

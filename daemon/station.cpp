@@ -94,6 +94,7 @@ NewRun Station::describe_run(const RunRequest& request) const {
   const PipelineOptions options = options_for(request);
   if (request.resumes) h.supersedes = request.resumes->id;
   h.axis = config_.rig.axis;
+  h.sides = config_.rig.sides;
   h.simulated = config_.simulated();
   h.started_utc = utc_now();
   h.note = request.note;

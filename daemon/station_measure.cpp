@@ -104,16 +104,17 @@ std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request
   return json.take();
 }
 
-std::string points_json(std::int64_t run, Axis axis, const std::vector<MeasuredPoint>& points,
-                        std::size_t first_row) {
+std::string points_json(std::int64_t run, const MovingAxis& moving,
+                        const std::vector<MeasuredPoint>& points, std::size_t first_row) {
   JsonWriter json;
   json.begin_object()
       .field("type", "points")
       .field("run", run)
-      .field("axis", std::string(1, letter(axis)))
-      .field("offset", static_cast<std::uint64_t>(first_row));
+      .field("axis", std::string(1, letter(moving.axis)))
+      .field("offset", static_cast<std::uint64_t>(first_row))
+      .field("reference", to_string(Reference::fixture));
   json.key("points").begin_array();
-  for (const auto& p : points) write_point(json, axis, p);
+  for (const auto& p : points) write_point(json, moving, p);
   json.end_array().end_object();
   return json.take();
 }
@@ -227,7 +228,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
                                    points.end());
   open_->stored.insert(open_->stored.end(), fresh.begin(), fresh.end());
   const std::int64_t run = open_->id;
-  std::string json = points_json(run, config_.rig.axis, fresh, first);
+  std::string json = points_json(run, config_.rig.moving(), fresh, first);
   std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
   // Told to clients only once it is on the disk.
   keeper_.append_points(run, std::move(fresh),

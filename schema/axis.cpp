@@ -87,4 +87,16 @@ Covariance5 named_from_local(Axis axis, const Covariance5& local) {
   return named;
 }
 
+Errors5 named_from_local(const MovingAxis& moving, const Errors5& local) {
+  Errors5 named = named_from_local(moving.axis, local);
+  for (double& x : named) x *= moving.sides.error_sign();
+  return named;
+}
+
+Errors5 local_from_named(const MovingAxis& moving, const Errors5& named) {
+  Errors5 local = local_from_named(moving.axis, named);
+  for (double& x : local) x *= moving.sides.error_sign();
+  return local;
+}
+
 }  // namespace mdof

@@ -6,7 +6,9 @@
 //   X: EYX = δy   EZX = δz   EAX = εx   EBX = εy   ECX = εz
 //   Y: EXY = -δy  EZY = δz   EAY = -εy  EBY = εx   ECY = εz
 //   Z: EXZ = δy   EYZ = δz   EAZ = εy   EBZ = εz   ECZ = εx
-// Error = actual - nominal.
+// Error = actual - nominal. The local errors are those of the target in the metrology frame; the
+// ISO names are errors of the body that moves: the same for the target, the negative for the
+// fixture (schema/sides.h).
 #pragma once
 
 #include <array>
@@ -14,7 +16,11 @@
 #include <string>
 #include <string_view>
 
+#include "schema/sides.h"
+
 namespace mdof {
+
+using Vec3 = std::array<double, 3>;
 
 enum class Axis { x, y, z };
 char letter(Axis axis);                                  // 'X'
@@ -41,9 +47,19 @@ const std::array<ErrorName, 5>& error_names(Axis axis);
 std::array<std::array<double, 3>, 3> local_axes(Axis axis);
 std::array<double, 3> to_local(Axis axis, const std::array<double, 3>& v_machine);
 
+// Named errors of the target.
 Errors5 named_from_local(Axis axis, const Errors5& local);
 Errors5 local_from_named(Axis axis, const Errors5& named);
 Covariance5 named_from_local(Axis axis, const Covariance5& local);
+
+// An axis with the body that moves along it.
+struct MovingAxis {
+  Axis axis = Axis::x;
+  Sides sides;
+};
+// Named errors of the body that moves. The covariance has no sign to change.
+Errors5 named_from_local(const MovingAxis& moving, const Errors5& local);
+Errors5 local_from_named(const MovingAxis& moving, const Errors5& named);
 
 // SI to the unit of the key: µm or µrad, both a factor of 1e6.
 inline double to_key_unit(double si) {

@@ -8,21 +8,30 @@
 #include <vector>
 
 #include "schema/axis.h"
+#include "schema/chain.h"
+#include "schema/reference.h"
 
 namespace mdof {
 
-// Sense: the table holds errors (actual - nominal); what a controller adds to its command is
-// correction = -error, and every reply and export states which of the two it shows.
+// Sense: the table holds errors (actual - nominal) of the body that moves. What a controller adds
+// to the command of an axis follows from the machine's chain (schema/correction.h), and without one
+// is not known; every reply and export states which of the two it shows.
 struct CompensationTable {
   std::int64_t id = 0;  // 0 until stored
   Axis axis = Axis::x;
   bool simulated = false;          // built from simulated data, wholly or in part
   bool slope_removed = true;       // straightness is about its least-squares line
+  Sides sides;                     // of the rig that measured
+  StatedAt stated;                 // straightness holds at this point
+  Chain machine;                   // may be not known
   std::vector<std::int64_t> runs;  // built from
   std::vector<double> position_m;  // strictly increasing
   // [named error in the order of error_names()][position]; NaN: no value there
   std::array<std::vector<double>, 5> forward, reverse;
   std::array<std::vector<double>, 5> u_forward, u_reverse;  // standard uncertainty
+  // Built when tables did not say at which point they hold (at the carriage, in fact), nor which
+  // way a correction goes: not to be served.
+  bool of_schema_2 = false;
   std::string created_utc;
   std::string sha256;  // of the canonical JSON of the above
 };

@@ -25,7 +25,8 @@ enum class Model { simplified, exact, rigid };
 const char* to_string(Model model);
 bool model_from(std::string_view name, Model& model);
 
-// Five errors with their covariance. Starts as "not solved" and says why.
+// Five errors of the target with their covariance, stated at some point (schema/reference.h).
+// Starts as "not solved" and says why.
 struct AxisErrors {
   bool valid = false;
   std::string reason = "not solved";  // where !valid

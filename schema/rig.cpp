@@ -95,6 +95,7 @@ Probe read_probe(TomlTable& table) {
   probe.position_m = {from_mm(mm[0]), from_mm(mm[1]), from_mm(mm[2])};
   probe.direction = table.has("direction") ? read_vector_direction(table, "direction")
                                            : read_direction(table, "measures");
+  probe.plane = table.string("plane", "");
   const double range_um = table.number("range_um");
   if (range_um <= 0) table.reject("range_um", "must be greater than zero");
   probe.range_m = from_um(range_um);
@@ -135,6 +136,44 @@ TargetPlane read_plane(TomlTable& table) {
   if (table.has("offset_mm")) plane.offset_m = from_mm(table.number("offset_mm"));
   plane.flatness = read_flatness(table);
   return plane;
+}
+
+// One of two words; the first is the default.
+bool read_choice(TomlTable& table, const char* key, const char* first, const char* second) {
+  const std::string word = table.string(key, first);
+  if (word != first && word != second)
+    table.reject(key, "\"" + word + "\" must be \"" + first + "\" or \"" + second + "\"");
+  return word == second;
+}
+
+Sides read_sides(TomlTable& table) {
+  return {read_choice(table, "moves", "target", "fixture"), read_choice(table, "travel", "+", "-")};
+}
+
+void read_artefact(TomlTable& table, Rig& rig) {
+  constexpr double kMost_urad = 100'000;  // six degrees: not a square any more
+  if (table.has("artefact_angle_error_urad")) {
+    const double angle_urad = table.number("artefact_angle_error_urad");
+    if (std::abs(angle_urad) > kMost_urad)
+      table.reject("artefact_angle_error_urad", "must be the error of a right angle, in urad");
+    rig.artefact_angle_error_rad = from_urad(angle_urad);
+  }
+  const double u_urad = table.number("u_artefact_angle_urad", 0.0);
+  if (u_urad < 0) table.reject("u_artefact_angle_urad", "must not be negative");
+  rig.u_artefact_angle_rad = from_urad(u_urad);
+}
+
+// The chain must have the rig's axis, and the two must agree which way it goes.
+void check_machine(TomlTable& table, const Rig& rig) {
+  if (!rig.machine.known()) return;
+  const std::string axis(1, letter(rig.axis));
+  const ChainAxis* in_chain = rig.machine.find(axis[0]);
+  if (!in_chain)
+    return table.reject("machine", "its chain " + rig.machine.text + " has no axis " + axis);
+  if (in_chain->against_command != rig.sides.against_encoder)
+    table.reject("travel", "is \"" + std::string(rig.sides.travel()) + "\", and [machine] travel." +
+                               axis + " says otherwise (\"+\" where " +
+                               "it is not given): correct the one that is wrong");
 }
 
 void reject_doubles(TomlTable& table, const std::vector<Probe>& probes) {
@@ -186,7 +225,14 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
   } else {
     table.reject("axis", "\"" + axis_text + "\" is not an axis; use \"X\", \"Y\" or \"Z\"");
   }
-  rig.artefact_angle_error_rad = from_urad(table.number("artefact_angle_error_urad", 0.0));
+  rig.sides = read_sides(table);
+  if (table.has("tool_point_mm")) {
+    const Vec3 mm = table.vector3("tool_point_mm");
+    rig.tool_point_m = {from_mm(mm[0]), from_mm(mm[1]), from_mm(mm[2])};
+  }
+  read_artefact(table, rig);
+  rig.machine = read_machine(table);
+  check_machine(table, rig);
   for (auto& probe : table.tables("probe")) rig.probes.push_back(read_probe(probe));
   for (auto& plane : table.tables("plane")) rig.planes.push_back(read_plane(plane));
   if (rig.probes.empty()) table.reject("probe", "the rig has no probes; add [[probe]] tables");

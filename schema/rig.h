@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "schema/axis.h"
+#include "schema/chain.h"
 #include "schema/result.h"
 
 namespace mdof {
-
-using Vec3 = std::array<double, 3>;
 
 // From the raw number of a channel to the displacement of the target along `measures`:
 //   raw_um = raw (or raw_V * um_per_V);   t = raw_um - offset_um;   t += linearity(t);
@@ -39,6 +38,7 @@ struct Probe {
   std::string id;
   Vec3 position_m{};  // point of M where the probe's line meets the nominal target surface at d = 0
   Vec3 direction{};   // unit vector in M, machine axes: the probe reads displacement along it
+  std::string plane;  // id of the target plane it looks at; empty: the one that its direction tells
   double range_m = 0;  // full range; saturated at ±range/2 (a gap probe: at 0 and range)
   Calibration calibration;
 };
@@ -51,8 +51,8 @@ struct HeightMap {
   bool empty() const { return height_m.empty(); }
 };
 
-// A target plane in C: normal · p = offset. Each probe looks at the plane whose normal is nearest
-// to its direction.
+// A target plane in C: normal · p = offset. A probe looks at the plane that it names, else at the
+// one whose normal is nearest to its direction, where that leaves no doubt.
 struct TargetPlane {
   std::string id;
   Vec3 normal{};
@@ -64,10 +64,18 @@ struct Rig {
   std::string name;
   Axis axis = Axis::x;
   std::vector<Probe> probes;
-  std::vector<TargetPlane> planes;      // empty: planes normal to the probes' directions
-  double artefact_angle_error_rad = 0;  // of the square: its angle is 90° + this
-  std::string text;                     // the TOML itself: provenance
-  std::string source;                   // file name, for messages
+  Sides sides;                       // `moves` and `travel`
+  Chain machine;                     // [machine]; may be not known
+  std::vector<TargetPlane> planes;   // empty: planes normal to the probes' directions
+  std::optional<Vec3> tool_point_m;  // P in M at which tables are to hold
+  // Of the square: the material encloses 90° + this at the corner of the two faces that the rigs of
+  // X and Y look at; with its standard uncertainty.
+  std::optional<double> artefact_angle_error_rad;
+  double u_artefact_angle_rad = 0;
+  std::string text;    // the TOML itself: provenance
+  std::string source;  // file name, for messages
+
+  MovingAxis moving() const { return {axis, sides}; }
 
   std::optional<std::size_t> probe_index(std::string_view id) const;
 };

@@ -9,6 +9,7 @@
 
 #include "schema/axis.h"
 #include "schema/point.h"
+#include "schema/reference.h"
 
 namespace mdof {
 
@@ -27,7 +28,8 @@ struct Provenance {
 enum class RunState { open, complete, aborted, failed };
 const char* to_string(RunState state);
 
-// A reference line through a straightness series and what is left of it.
+// A reference line through a straightness series and what is left of it. Slopes are over the
+// moving body's own travel in M: they do not change with the way in which its encoder counts.
 struct StraightnessFigure {
   std::string error_key;  // "EYX_um"
   std::string approach;   // "forward", "reverse", "mean"
@@ -48,6 +50,8 @@ struct AngleFigure {
 struct RunHeader {
   std::int64_t id = 0;  // 0 until stored
   Axis axis = Axis::x;
+  Sides sides;
+  StatedAt stated;  // the points' errors and the figures
   RunState state = RunState::open;
   bool simulated = false;
   std::string started_utc;  // ISO 8601, for people
@@ -56,6 +60,8 @@ struct RunHeader {
   Provenance provenance;
   std::uint64_t scans = 0, scans_lost = 0;
   std::vector<std::string> warnings;
+
+  MovingAxis moving() const { return {axis, sides}; }
 };
 
 struct Run {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "schema/correction.h"
 #include "schema/sha256.h"
 #include "schema/units.h"
 
@@ -9,7 +10,23 @@ namespace mdof {
 namespace {
 
 constexpr const char* kTableSense =
-    "errors: actual - nominal; a controller adds correction = -error to its command";
+    "errors: actual - nominal, of the body that moves; correction says what is added to a command";
+
+// {"EYX_um": {"factor", "command", "reason"}, ...}: a correction is factor times the error, added
+// to the command of that axis; factor null: there is none, for that reason.
+void write_corrections(JsonWriter& json, const CompensationTable& t) {
+  const CorrectionSigns signs = correction_signs(t.machine, t.axis);
+  json.key("correction").begin_object();
+  for (std::size_t k = 0; k < 5; ++k) {
+    const ErrorName& name = error_names(t.axis)[k];
+    json.key(name.key).begin_object().key("factor");
+    signs.factor[k] == 0 ? json.null() : json.value(signs.factor[k]);
+    json.field("command", std::string(1, corrected_by(name)));
+    if (!signs.gap[k].empty()) json.field("reason", signs.gap[k]);
+    json.end_object();
+  }
+  json.end_object();
+}
 
 // Figures of one error follow one another by approach; they become nested objects.
 template <class Figure, class Write>
@@ -54,14 +71,26 @@ void write_side(JsonWriter& json, Axis axis, const std::array<std::vector<double
 
 }  // namespace
 
-void write_point(JsonWriter& json, Axis axis, const MeasuredPoint& p) {
+void write_reference(JsonWriter& json, const StatedAt& at) {
+  json.field("reference", to_string(at.reference)).key("reference_mm");
+  if (at.reference == Reference::carriage) {
+    json.null();
+    return;
+  }
+  json.begin_array();
+  for (const double x : at.point_m) json.value(to_mm(x));
+  json.end_array();
+}
+
+void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& p) {
+  const Axis axis = moving.axis;
   json.begin_object()
       .field("target", p.target)
       .field("target_mm", to_mm(p.target_m))
       .field("run", p.run)
       .field("direction", p.point.direction)
       .field("position_mm", to_mm(p.point.position_m));
-  const Errors5 named = named_from_local(axis, p.errors.local);
+  const Errors5 named = named_from_local(moving, p.errors.local);
   const Covariance5 cov = named_from_local(axis, p.errors.covariance);
   for (std::size_t k = 0; k < 5; ++k) {
     json.key(error_names(axis)[k].key);
@@ -82,9 +111,10 @@ void write_point(JsonWriter& json, Axis axis, const MeasuredPoint& p) {
 
 void write_header_members(JsonWriter& json, const RunHeader& h) {
   const std::string axis(1, letter(h.axis));
-  json.field("run", h.id)
-      .field("axis", axis)
-      .field("model", h.provenance.model)
+  json.field("run", h.id).field("axis", axis).field("model", h.provenance.model);
+  write_reference(json, h.stated);
+  json.field("moves", h.sides.moves())
+      .field("travel", h.sides.travel())
       .field("state", to_string(h.state))
       .field("simulated", h.simulated)
       .field("started_utc", h.started_utc)
@@ -130,7 +160,7 @@ std::string run_json(const Run& run) {
   json.begin_object();
   write_header_members(json, run.header);
   json.key("points").begin_array();
-  for (const auto& p : run.points) write_point(json, run.header.axis, p);
+  for (const auto& p : run.points) write_point(json, run.header.moving(), p);
   json.end_array();
   json.key("straightness");
   write_straightness(json, run.straightness);
@@ -148,11 +178,21 @@ std::string squareness_json(const Squareness& s) {
       .field("run_y", s.run_y)
       .field("EC0Y_urad", to_urad(s.EC0Y_rad))
       .field("u_EC0Y_urad", to_urad(s.u_EC0Y_rad))
+      .field("u_covers",
+             "noise and repeatability of both slopes, and the artefact; not mounting, calibration "
+             "and drift")
+      .field("form_urad", to_urad(s.form_rad))
+      .field("reference", to_string(Reference::fixture))
       .field("slope_EYX_urad", to_urad(s.slope_EYX_rad))
       .field("u_slope_EYX_urad", to_urad(s.u_slope_EYX_rad))
       .field("slope_EXY_urad", to_urad(s.slope_EXY_rad))
       .field("u_slope_EXY_urad", to_urad(s.u_slope_EXY_rad))
-      .field("artefact_angle_error_urad", to_urad(s.artefact_angle_error_rad))
+      .field("artefact_angle_error_urad", to_urad(s.artefact.angle_error_rad))
+      .field("u_artefact_angle_urad", to_urad(s.artefact.u_rad));
+  json.key("artefact_corner");
+  s.artefact.corner == 0 ? json.null()
+                         : json.value(s.artefact.corner > 0 ? "+X +Y or -X -Y" : "-X +Y or +X -Y");
+  json.field("slopes_over", "travel of the moving body along + of the axis")
       .field("sense", "the angle from +X to +Y is 90 deg + EC0Y")
       .field("simulated", s.simulated)
       .field("created_utc", s.created_utc)
@@ -175,6 +215,12 @@ void write_table_members(JsonWriter& json, const CompensationTable& t) {
   json.key("runs").begin_array();
   for (const auto id : t.runs) json.value(id);
   json.end_array();
+  write_reference(json, t.stated);
+  json.field("moves", t.sides.moves()).field("travel", t.sides.travel());
+  json.key("chain");
+  t.machine.known() ? json.value(t.machine.text) : json.null();
+  json.field("chain_travel", travels_of(t.machine));
+  write_corrections(json, t);
   json.field("sense", kTableSense)
       .field("straightness_reference", t.slope_removed ? "least squares line" : "as measured")
       .field("angle_reference", "first target, mean of both approaches")

@@ -10,7 +10,10 @@ namespace mdof {
 
 // {"target", "target_mm", "run", "direction", "position_mm", five errors, "u": {...}, "samples",
 //  "flags"}; an unsolved point has null errors and its "reason".
-void write_point(JsonWriter& json, Axis axis, const MeasuredPoint& point);
+void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& point);
+
+// "reference" and "reference_mm" (null for the carriage) of an open object.
+void write_reference(JsonWriter& json, const StatedAt& at);
 
 // Identity, state and provenance, without points; the members of an open object.
 void write_header_members(JsonWriter& json, const RunHeader& header);

@@ -6,16 +6,30 @@
 
 namespace mdof {
 
-// EC0Y: the angle from +X to +Y is 90° + EC0Y.
-//   EC0Y = -slope(EXY over y) - slope(EYX over x) - artefact angle error
+// What is known of the square: at the corner of the face that the X run looks at and the one that
+// the Y run looks at, the material encloses 90° + angle_error_rad.
+struct SquareArtefact {
+  double angle_error_rad = 0;
+  double u_rad = 0;  // standard uncertainty
+  // +1: the corner is the one at +X +Y or at -X -Y, -1: at -X +Y or at +X -Y; 0: not known
+  int corner = 0;
+};
+
+// EC0Y: the angle from +X to +Y is 90° + EC0Y. All of it stated at the fixture.
+//   EC0Y = -slope(EXY over y) - slope(EYX over x) + corner * artefact angle error
 struct Squareness {
   std::int64_t id = 0;  // 0 until stored
   std::int64_t run_x = 0, run_y = 0;
   double EC0Y_rad = 0;
-  double u_EC0Y_rad = 0;  // standard uncertainty: both slopes and the artefact
+  // Standard uncertainty: noise and repeatability of both slopes, and the artefact.
+  double u_EC0Y_rad = 0;
+  // How crooked the axes are: standard deviation of the two slopes by what the lines leave. It says
+  // how well one angle describes such axes, not how well it is known.
+  double form_rad = 0;
+  // Over the travel of the moving body along + of M.
   double slope_EYX_rad = 0, u_slope_EYX_rad = 0;
   double slope_EXY_rad = 0, u_slope_EXY_rad = 0;
-  double artefact_angle_error_rad = 0;
+  SquareArtefact artefact;
   bool simulated = false;
   std::string created_utc;
 };

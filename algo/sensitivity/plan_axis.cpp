@@ -128,6 +128,11 @@ Result<PlanAxis> PlanAxis::create(const StudyPlan& plan, const Rig& rig, const s
                                   bool point, bool series, std::vector<std::string>& causes) {
   auto solver = Solver::create(rig, plan.model);
   if (!solver) return in_context(plan.source + ": rig", solver.error());
+  if (rig.sides != Sides{})
+    return bad_input(
+        plan.source + ": a plan takes rigs with moves = \"target\" and travel = \"+\"; " +
+        rig.source + " has others. What an error of the rig does is of the same size " +
+        "with them: leave the two keys out of a copy of the rig");
   MDOF_CHECK(check_forward(plan, solver->fixture()));
   const std::size_t positions = series ? plan.series_positions : 0;
   MDOF_TRY(PlanDraws draws, PlanDraws::create(plan, rig, prefix, 1 + positions, causes));

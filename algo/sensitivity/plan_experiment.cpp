@@ -23,7 +23,18 @@ double named_at(const std::vector<double>& local, const AxisReadings& r, const E
   return name.sign * local[r.at(reading, static_cast<std::size_t>(name.local)) + j];
 }
 
-// Estimated and true series of one error over the positions, for the lines.
+// The same stated at the fixture, to first order: e(0) = (δy - d εz, δz + d εy).
+double named_at_fixture(const std::vector<double>& local, const AxisReadings& r,
+                        const ErrorName& name, std::size_t reading, std::size_t j,
+                        double travel_m) {
+  const double at_carriage = named_at(local, r, name, reading, j);
+  if (name.angle) return at_carriage;
+  const bool across = name.local == kDy;
+  const double turned = travel_m * local[r.at(reading, across ? kEz : kEy) + j];
+  return at_carriage + name.sign * (across ? -turned : turned);
+}
+
+// Estimated and true series of one error over the positions, for the lines; at the fixture.
 struct Series {
   std::vector<double> shown_m, found, travel_m, truth;
 
@@ -31,9 +42,9 @@ struct Series {
     for (auto* column : {&shown_m, &found, &travel_m, &truth}) column->clear();
     for (std::size_t k = 1; k <= positions; ++k) {
       shown_m.push_back(r.encoder_m[k * r.n + j]);
-      found.push_back(named_at(r.estimate, r, name, k, j));
+      found.push_back(named_at_fixture(r.estimate, r, name, k, j, shown_m.back()));
       travel_m.push_back(r.travel_m[k * r.n + j]);
-      truth.push_back(named_at(r.truth, r, name, k, j));
+      truth.push_back(named_at_fixture(r.truth, r, name, k, j, travel_m.back()));
     }
   }
   bool solved() const {

@@ -56,7 +56,7 @@ Result<SmallAngleFixture> nominal_fixture(const SimulationOptions& o) {
   Rig rig;
   rig.name = "nominal";
   const auto add = [&rig](const char* id, Vec3 position_m, Vec3 direction) {
-    rig.probes.push_back({id, position_m, direction, 1.0, {}});
+    rig.probes.push_back({id, position_m, direction, {}, 1.0, {}});
   };
   add("A", {l, 0, 0}, {0, 0, 1});
   add("B", {0, l, 0}, {0, 0, 1});

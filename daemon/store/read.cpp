@@ -15,7 +15,7 @@ constexpr std::string_view kHeader =
     "SELECT run.id, run.axis, run.simulated, run.started_utc, run.note, run.supersedes, "
     "recording.kind, recording.path, recording.sha256, rig.text, run.model, run.software_version, "
     "options.text, configuration.text, run_end.state, run_end.scans, run_end.scans_lost, "
-    "run_end.warnings "
+    "run_end.warnings, run.moves, run.travel, run.reference "
     "FROM run LEFT JOIN run_end ON run_end.run = run.id "
     "JOIN recording ON recording.id = coalesce(run_end.recording, run.recording) "
     "JOIN document AS rig ON rig.id = run.rig "
@@ -93,6 +93,8 @@ Result<RunHeader> Store::header_of(Statement& row) {
   header.note = row.text(4);
   if (!row.is_null(5)) header.supersedes = row.integer(5);
   header.provenance = provenance_of(row);
+  header.sides = {row.text(18) == "fixture", row.text(19) == "-"};
+  header.stated = row.text(20) == "carriage" ? kAtCarriage : kAtFixture;
   if (!row.is_null(14)) {
     header.state = state_from(row.text(14));
     header.scans = natural(row.integer(15));

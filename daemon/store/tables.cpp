@@ -1,5 +1,7 @@
 // Store: squareness and compensation tables.
 #include <array>
+#include <limits>
+#include <utility>
 
 #include "daemon/store/bytes.h"
 #include "daemon/store/store.h"
@@ -11,8 +13,11 @@ using sqlite::Transaction;
 
 namespace {
 
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
 constexpr std::string_view kTable =
-    "SELECT id, axis, simulated, slope_removed, created_utc, sha256, position_m, errors_m_rad "
+    "SELECT id, axis, simulated, slope_removed, created_utc, sha256, position_m, errors_m_rad, "
+    "moves, travel, reference, point_m, chain, chain_travel "
     "FROM compensation_table ";
 
 // The series in the order in which they are stored.
@@ -45,6 +50,24 @@ void set_series(CompensationTable& table, const std::vector<double>& all) {
   });
 }
 
+// At which point the table holds, of which set-up and machine.
+void bind_statement(Statement& insert, const CompensationTable& t) {
+  const std::string travels = travels_of(t.machine);
+  insert.bind(std::string_view(t.sides.moves())).bind(std::string_view(t.sides.travel()));
+  insert.bind(std::string_view(to_string(t.stated.reference)));
+  insert.bind_bytes(bytes_of(t.stated.point_m));
+  insert.bind(std::string_view(t.machine.text)).bind(std::string_view(travels));
+}
+
+Status read_statement(const Statement& row, CompensationTable& t) {
+  t.sides = {row.text(8) == "fixture", row.text(9) == "-"};
+  reference_from(row.text(10), t.stated.reference);
+  t.of_schema_2 = row.is_null(11);
+  doubles_from(row.bytes(11), t.stated.point_m);
+  MDOF_TRY(t.machine, chain_from(row.text(12), row.text(13)));
+  return {};
+}
+
 Squareness squareness_of(const Statement& row) {
   Squareness s;
   s.id = row.integer(0);
@@ -56,9 +79,13 @@ Squareness squareness_of(const Statement& row) {
   s.u_slope_EYX_rad = row.real(6);
   s.slope_EXY_rad = row.real(7);
   s.u_slope_EXY_rad = row.real(8);
-  s.artefact_angle_error_rad = row.real(9);
+  s.artefact.angle_error_rad = row.real(9);
   s.simulated = row.integer(10) != 0;
   s.created_utc = row.text(11);
+  s.form_rad = row.real(12);
+  s.artefact.u_rad = row.real(13);
+  s.artefact.corner = static_cast<int>(row.integer(14));
+  if (row.text(15) == "carriage") s.form_rad = std::exchange(s.u_EC0Y_rad, kNotKnown);  // schema 2
   return s;
 }
 
@@ -70,12 +97,14 @@ Result<std::int64_t> Store::add_squareness(const Squareness& s) {
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO squareness (run_x, run_y, EC0Y_rad, u_EC0Y_rad, "
                                "slope_EYX_rad, u_slope_EYX_rad, slope_EXY_rad, u_slope_EXY_rad, "
-                               "artefact_angle_error_rad, simulated, created_utc) "
-                               "VALUES (?,?,?,?,?,?,?,?,?,?,?)"));
+                               "artefact_angle_error_rad, simulated, created_utc, form_rad, "
+                               "u_artefact_rad, artefact_corner, reference) "
+                               "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,'fixture')"));
   insert.bind(s.run_x).bind(s.run_y).bind(s.EC0Y_rad).bind(s.u_EC0Y_rad);
   insert.bind(s.slope_EYX_rad).bind(s.u_slope_EYX_rad);
-  insert.bind(s.slope_EXY_rad).bind(s.u_slope_EXY_rad).bind(s.artefact_angle_error_rad);
+  insert.bind(s.slope_EXY_rad).bind(s.u_slope_EXY_rad).bind(s.artefact.angle_error_rad);
   insert.bind(std::int64_t{s.simulated}).bind(std::string_view(s.created_utc));
+  insert.bind(s.form_rad).bind(s.artefact.u_rad).bind(std::int64_t{s.artefact.corner});
   MDOF_CHECK(insert.run());
   return connection_.last_insert_rowid();
 }
@@ -99,14 +128,16 @@ Result<std::int64_t> Store::add_table(const CompensationTable& table) {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO compensation_table (axis, simulated, slope_removed, "
-                               "created_utc, sha256, position_m, errors_m_rad) "
-                               "VALUES (?, ?, ?, ?, ?, ?, ?)"));
+                               "created_utc, sha256, position_m, errors_m_rad, moves, travel, "
+                               "reference, point_m, chain, chain_travel) "
+                               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
   const char axis = letter(table.axis);
   const std::vector<double> errors = all_series(table);
   insert.bind(std::string_view(&axis, 1)).bind(std::int64_t{table.simulated});
   insert.bind(std::int64_t{table.slope_removed});
   insert.bind(std::string_view(table.created_utc)).bind(std::string_view(table.sha256));
   insert.bind_bytes(bytes_of(table.position_m)).bind_bytes(bytes_of(errors));
+  bind_statement(insert, table);
   MDOF_CHECK(insert.run());
   const std::int64_t id = connection_.last_insert_rowid();
   MDOF_TRY(Statement source, connection_.prepare("INSERT INTO compensation_source VALUES (?,?,?)"));
@@ -142,6 +173,7 @@ Result<CompensationTable> Store::table_of(Statement& row) {
     return bad_input(file().string() + ": compensation table " + std::to_string(table.id) +
                      " is damaged; restore the database from a backup");
   set_series(table, errors);
+  MDOF_CHECK(read_statement(row, table));
   MDOF_TRY(table.runs, sources(table.id));
   return table;
 }
@@ -193,7 +225,10 @@ Result<ActiveTable> Store::active(Axis axis) {
   if (!found)
     return fail(ErrorCode::not_found, std::string("axis ") + letter_of_axis +
                                           ": no compensation table is active; activate one");
-  ActiveTable active{{}, row.integer(0), std::string(row.text(2)), std::string(row.text(3))};
+  ActiveTable active;
+  active.generation = row.integer(0);
+  active.actor = row.text(2);
+  active.activated_utc = row.text(3);
   MDOF_TRY(active.table, table(row.integer(1)));
   return active;
 }

@@ -139,13 +139,16 @@ Result<std::int64_t> Store::insert_run(const RunHeader& header) {
   MDOF_TRY(const std::int64_t configuration, document_id(from.configuration));
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO run (axis, simulated, started_utc, note, supersedes, "
-                               "recording, rig, options, configuration, model, software_version) "
-                               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
+                               "recording, rig, options, configuration, model, "
+                               "software_version, moves, travel, reference) "
+                               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
   const char axis = letter(header.axis);
   insert.bind(std::string_view(&axis, 1)).bind(std::int64_t{header.simulated});
   insert.bind(std::string_view(header.started_utc)).bind(std::string_view(header.note));
   insert.bind(header.supersedes).bind(recording).bind(rig).bind(options).bind(configuration);
   insert.bind(std::string_view(from.model)).bind(std::string_view(from.software_version));
+  insert.bind(std::string_view(header.sides.moves())).bind(std::string_view(header.sides.travel()));
+  insert.bind(std::string_view(to_string(header.stated.reference)));
   MDOF_CHECK(insert.run());
   return connection_.last_insert_rowid();
 }

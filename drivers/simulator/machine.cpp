@@ -57,7 +57,8 @@ std::vector<Channel> Machine::channels() const {
 
 void Machine::append_scan(SampleBlock& block, std::uint64_t scan, std::int64_t t_ns) {
   const AxisState state = motion_.at(t_ns);
-  model_(state.travel_m, truth_at(state.travel_m, state.direction), probe_m_);
+  model_(rig_.sides.target_travel_m(state.travel_m), truth_at(state.travel_m, state.direction),
+         probe_m_);
   for (std::size_t k = 0; k < probe_m_.size(); ++k) {
     const Reading reading = probe_reading(k, scan, t_ns, probe_m_[k]);
     block.value[k].push_back(reading.um);
@@ -75,7 +76,7 @@ Errors5 Machine::truth_at(double travel_m, int direction) const {
   Errors5 named{};
   for (std::size_t i = 0; i < named.size(); ++i)
     named[i] = value_of(options_.errors[i], travel_m, direction);
-  return local_from_named(rig_.axis, named);
+  return local_from_named(rig_.moving(), named);
 }
 
 Machine::Reading Machine::probe_reading(std::size_t probe, std::uint64_t scan, std::int64_t t_ns,

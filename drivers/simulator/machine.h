@@ -32,7 +32,8 @@ class Machine {
   void append_scan(SampleBlock& block, std::uint64_t scan, std::int64_t t_ns);
   bool in_gap(std::int64_t t_ns) const;  // the scan never comes
 
-  Errors5 truth_at(double travel_m, int direction) const;  // local frame
+  // At the carriage, of the target, local frame; the options give the errors of the moving body.
+  Errors5 truth_at(double travel_m, int direction) const;
   const Motion& motion() const { return motion_; }
 
  private:

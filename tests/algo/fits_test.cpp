@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "algo/compensation.h"
 #include "algo/line_fit.h"
 #include "algo/robust_mean.h"
 #include "algo/series.h"
+#include "algo/squareness.h"
 #include "algo/straightness.h"
 
 namespace mdof::algo {
@@ -71,28 +73,127 @@ mdof::Run run_of(Axis axis, const std::vector<double>& x_m, const std::vector<do
   return run;
 }
 
-TEST(Squareness, IsMinusBothSlopesAndTheArtefact) {
+TEST(Squareness, IsMinusBothSlopesAndTheArtefactByItsCorner) {
   const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um),
                   y = run_of(Axis::y, kAxis2_m, kAxis2_um);
-  const Squareness s = squareness(x, y, 2e-6, 0.5e-6).value();
-  EXPECT_NEAR(s.EC0Y_rad * 1e6, 17.418182 - 7.654545 - 2, 1e-5);
-  EXPECT_NEAR(s.slope_EXY_rad * 1e6, -17.418182, 1e-6);
-  const double expected = std::sqrt(s.u_slope_EYX_rad * s.u_slope_EYX_rad +
-                                    s.u_slope_EXY_rad * s.u_slope_EXY_rad + 0.25e-12);
-  EXPECT_DOUBLE_EQ(s.u_EC0Y_rad, expected);
-  EXPECT_GT(s.u_EC0Y_rad, 0.5e-6);
+  for (const int corner : {-1, 1}) {
+    const Squareness s = squareness(x, y, {2e-6, 0.5e-6, corner}).value();
+    EXPECT_NEAR(s.EC0Y_rad * 1e6, 17.418182 - 7.654545 + 2 * corner, 1e-5);
+    EXPECT_NEAR(s.slope_EXY_rad * 1e6, -17.418182, 1e-6);
+    // These points have no noise, and the axes do not repeat: the artefact alone is not known.
+    EXPECT_DOUBLE_EQ(s.u_EC0Y_rad, 0.5e-6);
+    const double crooked_x = 1e-6 * least_squares_line(kAxis1_m, kAxis1_um).u_slope;
+    const double crooked_y = 1e-6 * least_squares_line(kAxis2_m, kAxis2_um).u_slope;
+    EXPECT_NEAR(s.form_rad, std::hypot(crooked_x, crooked_y), 1e-15);
+  }
+}
+
+// A run whose horizontal straightness has this slope, with noise of u_m in each point.
+mdof::Run noisy_run(Axis axis, double slope, double u_m, int repeat, std::mt19937_64& random) {
+  std::normal_distribution<double> noise(0, u_m);
+  mdof::Run run;
+  run.header.axis = axis;
+  run.header.state = RunState::complete;
+  for (int j = 1; j <= repeat; ++j) {
+    for (int i = 0; i < 8; ++i) {
+      for (const int direction : {1, -1}) {
+        MeasuredPoint p;
+        p.target = i + 1;
+        p.run = j;
+        p.point.direction = direction;
+        p.point.position_m = 0.01 * i;
+        p.errors.valid = true;
+        p.errors.local = local_from_named(axis, {slope * 0.01 * i + noise(random), 0, 0, 0, 0});
+        p.errors.covariance[0] = u_m * u_m;
+        run.points.push_back(p);
+      }
+    }
+  }
+  return run;
+}
+
+TEST(Squareness, ScattersAsItsUncertaintySays) {
+  std::mt19937_64 random(5);
+  for (const int repeats : {1, 3}) {
+    double sum = 0, square = 0, stated2 = 0;
+    constexpr int kTrials = 400;
+    for (int i = 0; i < kTrials; ++i) {
+      const auto x = noisy_run(Axis::x, 3e-6, 10e-9, repeats, random);
+      const auto y = noisy_run(Axis::y, -8e-6, 10e-9, repeats, random);
+      const Squareness s = squareness(x, y, {}).value();
+      sum += s.EC0Y_rad;
+      square += s.EC0Y_rad * s.EC0Y_rad;
+      stated2 += s.u_EC0Y_rad * s.u_EC0Y_rad;
+    }
+    const double mean = sum / kTrials, sd = std::sqrt(square / kTrials - mean * mean);
+    EXPECT_NEAR(mean, 5e-6, 4 * sd / std::sqrt(kTrials));
+    EXPECT_NEAR(std::sqrt(stated2 / kTrials) / sd, repeats == 1 ? 1 : 1.2, 0.25);
+  }
 }
 
 TEST(Squareness, NamesTheRunOfTheWrongAxis) {
   const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um);
-  const auto refused = squareness(x, x, 0, 0);
+  const auto refused = squareness(x, x, {});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("run 1 is of axis X"), std::string::npos);
 }
 
+// Side faces at y = face_x of the X rig and at x = face_y of the Y rig, mm.
+std::pair<Rig, Rig> rigs_at(double face_x, double face_y, const std::string& of_x = "",
+                            const std::string& of_y = "") {
+  const auto text = [](const char* axis, const std::string& extra, const std::string& side) {
+    return "name = \"t\"\naxis = \"" + std::string(axis) + "\"\n" + extra + "\n" +
+           R"([[probe]]
+id = "A"
+position_mm = [3, 4, 0]
+measures = "+Z"
+range_um = 200
+)" + side;
+  };
+  const std::string x = std::to_string(face_x), y = std::to_string(face_y);
+  return {parse_rig(text("X", of_x,
+                         "[[probe]]\nid = \"D\"\nposition_mm = [0, " + x +
+                             ", 20]\nmeasures = \"+Y\"\nrange_um = 200\n"),
+                    "rig_X")
+              .value(),
+          parse_rig(text("Y", of_y,
+                         "[[probe]]\nid = \"D\"\nposition_mm = [" + y +
+                             ", 0, 20]\nmeasures = \"-X\"\nrange_um = 200\n"),
+                    "rig_Y")
+              .value()};
+}
+
+TEST(Artefact, HasTheSignOfTheCornerThatItsFacesMake) {
+  for (const double x : {15.0, -15.0}) {
+    for (const double y : {15.0, -15.0}) {
+      const auto [rig_x, rig_y] = rigs_at(x, y, "artefact_angle_error_urad = 3");
+      const SquareArtefact artefact = artefact_of(rig_x, rig_y, {}).value();
+      EXPECT_EQ(artefact.corner, x * y > 0 ? 1 : -1);
+      EXPECT_DOUBLE_EQ(artefact.angle_error_rad, 3e-6);
+    }
+  }
+}
+
+TEST(Artefact, IsRefusedWhereTheRigsDifferOrTellNoCorner) {
+  const std::string three = "artefact_angle_error_urad = 3\nu_artefact_angle_urad = 0.5";
+  const std::string four = "artefact_angle_error_urad = 4\nu_artefact_angle_urad = 0.5";
+  const auto [x, y] = rigs_at(15, -15, three, four);
+  EXPECT_NE(artefact_of(x, y, {}).error().message.find("3 urad in rig_X and 4 urad in rig_Y"),
+            std::string::npos);
+  EXPECT_DOUBLE_EQ(artefact_of(x, y, {.angle_error_rad = 5e-6, .u_rad = {}})->angle_error_rad,
+                   5e-6);
+  const auto [same_x, same_y] = rigs_at(15, -15, three, three);
+  EXPECT_DOUBLE_EQ(artefact_of(same_x, same_y, {})->u_rad, 0.5e-6);
+  const auto [at_0, other] = rigs_at(0, -15, three);
+  EXPECT_NE(artefact_of(at_0, other, {}).error().message.find("rig_X: its side probes"),
+            std::string::npos);
+  const auto [no_angle, needs_none] = rigs_at(0, -15);
+  EXPECT_EQ(artefact_of(no_angle, needs_none, {})->corner, 0);
+}
+
 TEST(Straightness, ReportsBothReferenceLinesForEachApproach) {
   const mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
-  const auto figures = straightness(Axis::x, run.points);
+  const auto figures = straightness(run.header.moving(), run.points);
   ASSERT_EQ(figures.size(), 6u);  // two errors, three approaches
   EXPECT_EQ(figures[0].error_key, "EYX_um");
   EXPECT_NEAR(figures[0].straightness_least_squares_m * 1e6, 0.703636, 1e-6);
@@ -101,7 +202,7 @@ TEST(Straightness, ReportsBothReferenceLinesForEachApproach) {
 
 TEST(Angles, AreReferredToTheStart) {
   const mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
-  for (const auto& f : angles(Axis::x, run.points)) {
+  for (const auto& f : angles(run.header.moving(), run.points)) {
     EXPECT_EQ(f.min_rad, 0);
     EXPECT_NEAR(f.max_rad, f.error_key == "EAX_urad" ? 9e-6 : 0, 1e-18);
   }
@@ -128,7 +229,8 @@ TEST(Compensation, LeavesTheSlopeToSquareness) {
   const mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
   const CompensationTable table = build_table({run}, {}).value();
   EXPECT_NEAR(least_squares_line(table.position_m, table.forward[0]).slope, 0, 1e-18);
-  const CompensationTable raw = build_table({run}, {.remove_slope = false}).value();
+  const CompensationTable raw =
+      build_table({run}, {.remove_slope = false, .stated = {}, .machine = {}}).value();
   EXPECT_NEAR(raw.forward[0][9], 7.2e-6, 1e-18);
 }
 

@@ -18,6 +18,9 @@ from mdofd import DATA, Client, Daemon, RpcError, replay, simulator  # noqa: E40
 
 MDOFD, MDOF = sys.argv[1:3]
 TARGETS = [0, 2, 4.1, 6.2]
+# X and Y carry the work, Z the tool: the corrections of EYX and EZX go opposite ways (DESIGN 3).
+MACHINE = '[machine]\nchain = "w-Y-X-b-Z-t"\n'
+FACTOR = {"EYX_um": -1, "EZX_um": 1}
 
 
 def mdof(*words):
@@ -29,7 +32,7 @@ class EndToEnd(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        config = simulator("X", targets_mm=TARGETS) + replay(
+        config = MACHINE + simulator("X", targets_mm=TARGETS) + replay(
             "Y", os.path.join(DATA, "five-probe", "log_Y.csv.gz"))
         cls.daemon = Daemon(MDOFD, cls.folder.name, config)
         cls.client = cls.daemon.start()
@@ -111,8 +114,14 @@ class EndToEnd(unittest.TestCase):
                 at = self.client.call("compensation.at", axis="X", direction=direction,
                                       position_mm=point["position_mm"])
                 self.assertTrue(at["simulated"])
+                self.assertEqual(at["reference"], "fixture")
                 for key, correction in at["correction"].items():
-                    self.assertAlmostEqual(correction, -point[side][key], 9)
+                    self.assertAlmostEqual(at["error"][key], point[side][key], 9)
+                    if key in FACTOR:
+                        self.assertAlmostEqual(correction, FACTOR[key] * point[side][key], 9)
+                    else:  # no rotary axis
+                        self.assertIsNone(correction)
+                self.assertIn("no axis A", at["correction_reason"])
         inside, beyond = (self.client.call("compensation.at", axis="X", position_mm=x, direction=1)
                           for x in (grid["points"][-1]["position_mm"], 1000))
         self.assertTrue(inside["inside"])
@@ -121,6 +130,28 @@ class EndToEnd(unittest.TestCase):
         with self.assertRaises(RpcError) as changed:
             self.client.call("compensation.grid", axis="X", generation=active["generation"] - 1)
         self.assertEqual(changed.exception.code, -32001)
+
+    def test_without_a_chain_the_correction_is_null(self):
+        run = self.measured(axis="Y")
+        table = self.client.call("compensation.build", runs=[run], reference="carriage")
+        self.assertEqual((table["reference"], table["reference_mm"]), ("carriage", None))
+        self.assertEqual(table["chain"], "w-Y-X-b-Z-t")
+        folder = os.path.join(self.folder.name, "no_chain")
+        other = Daemon(MDOFD, folder, replay("Y", os.path.join(DATA, "five-probe", "log_Y.csv.gz")))
+        client = other.start()
+        try:
+            watcher = Client(other.socket)
+            watcher.call("live.subscribe", interval_ms=1000)
+            run = client.call("run.start", axis="Y")["run"]
+            while watcher.next_note()["params"]["value"].get("type") != "ended":
+                pass
+            client.call("compensation.activate", table=client.call("compensation.build", runs=[run])["table"])
+            at = client.call("compensation.at", axis="Y", position_mm=10, direction=1)
+            self.assertIsNone(at["correction"])
+            self.assertIn("chain is not known", at["correction_reason"])
+            self.assertNotEqual(at["error"]["EXY_um"], None)
+        finally:
+            other.stop()
 
     def test_a_table_survives_a_restart(self):
         run = self.measured(axis="X", targets_mm=TARGETS, repeats=1)

@@ -1,9 +1,8 @@
 // mdof compensation build|show|list|activate: what a controller corrects its commands with.
-#include "algo/compensation.h"
-
 #include <CLI/CLI.hpp>
 #include <optional>
 
+#include "daemon/evaluation.h"
 #include "daemon/paths.h"
 #include "schema/run_json.h"
 #include "tools/mdof/command.h"
@@ -19,7 +18,7 @@ namespace {
 constexpr std::int64_t kMostTables = 1'000'000;
 
 struct CompensationCommand {
-  std::string database, socket, axis;
+  std::string database, socket, axis, reference;  // empty: the rig's tool point, else the fixture
   std::vector<std::int64_t> runs;
   std::int64_t table = 0;
   bool keep_slope = false, json = false;
@@ -34,16 +33,10 @@ Status print_table(const CompensationTable& table, std::int64_t generation, bool
 
 Result<CompensationTable> build_and_store(const CompensationCommand& command) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  std::vector<Run> runs;
-  for (const std::int64_t id : command.runs) {
-    MDOF_TRY(Run run, store.run(id));
-    runs.push_back(std::move(run));
-  }
-  MDOF_TRY(CompensationTable table, algo::build_table(runs, {.remove_slope = !command.keep_slope}));
-  table.created_utc = daemon::utc_now();
-  table.sha256 = table_sha256(table);
-  MDOF_TRY(table.id, store.add_table(table));
-  return table;
+  daemon::TableRequest request{command.runs, command.keep_slope, {}};
+  if (!command.reference.empty())
+    reference_from(command.reference, request.reference.emplace());  // the option takes no other
+  return daemon::build_table(store, request);
 }
 
 Status ask_daemon_to_build(const CompensationCommand& command) {
@@ -52,6 +45,7 @@ Status ask_daemon_to_build(const CompensationCommand& command) {
   for (const std::int64_t id : command.runs) params.value(id);
   params.end_array();
   if (command.keep_slope) params.field("keep_slope", true);
+  if (!command.reference.empty()) params.field("reference", command.reference);
   params.end_object();
   return print_call(command.socket, "compensation.build", params.text(), command.json);
 }
@@ -154,6 +148,8 @@ void add_compensation(CLI::App& app, Action& chosen) {
       ->type_name("");
   of_build->add_flag("--keep-slope", o->keep_slope,
                      "Straightness as measured, not about its least-squares line");
+  add_reference_option(*of_build, o->reference)
+      ->description("fixture, carriage or tool [default: the rig's tool point, else the fixture]");
   add_socket_option(*of_build, o->socket);
   does(of_build, build);
   auto* of_show = declare(*group, "show", "Show a table [default: the one in force]", *o);

@@ -1,5 +1,6 @@
 #include "tools/mdof/compensation_text.h"
 
+#include "schema/correction.h"
 #include "schema/run_json.h"
 #include "tools/mdof/run_tables.h"
 #include "tools/mdof/text_table.h"
@@ -35,6 +36,21 @@ std::string runs_of(const CompensationTable& t) {
   return joined(ids, " ");
 }
 
+std::string corrections_text(const CompensationTable& t) {
+  const CorrectionSigns signs = correction_signs(t.machine, t.axis);
+  if (!t.machine.known()) return "correction: not known; " + signs.gap[0] + "\n";
+  std::string text = "machine " + t.machine.text + " (" + travels_of(t.machine) + ")\n";
+  for (std::size_t k = 0; k < 5; ++k) {
+    const ErrorName& name = error_names(t.axis)[k];
+    text += signs.factor[k] == 0
+                ? "no correction of " + std::string(name.name) + ": " + signs.gap[k]
+                : std::string(1, corrected_by(name)) + " command: add " +
+                      (signs.factor[k] > 0 ? "+" : "-") + name.name;
+    text += "\n";
+  }
+  return text;
+}
+
 std::string state_of(std::int64_t generation) {
   return generation > 0 ? "in force, generation " + std::to_string(generation) : "not in force";
 }
@@ -55,11 +71,11 @@ std::string table_document(const CompensationTable& t, std::int64_t generation) 
 std::string table_text(const CompensationTable& t, std::int64_t generation) {
   return simulated_notice(t.simulated) + "table " + std::to_string(t.id) + ", axis " +
          letter(t.axis) + ", " + state_of(generation) + ", of the runs " + runs_of(t) + ", " +
-         t.created_utc +
-         "\nerrors: actual - nominal; a controller adds correction = -error\nstraightness " +
-         (t.slope_removed ? "about its least-squares line" : "as measured") +
-         ", angles from the first target\n\nforward\n" + side_text(t, t.forward, t.u_forward) +
-         "\nreverse\n" + side_text(t, t.reverse, t.u_reverse);
+         t.created_utc + "\nerrors: actual - nominal, of the " + t.sides.moves() +
+         "\nstraightness " + (t.slope_removed ? "about its least-squares line" : "as measured") +
+         ", angles from the first target\n" + stated_text(t.stated) + corrections_text(t) +
+         "\nforward\n" + side_text(t, t.forward, t.u_forward) + "\nreverse\n" +
+         side_text(t, t.reverse, t.u_reverse);
 }
 
 std::string list_document(const std::vector<CompensationTable>& tables,

@@ -30,16 +30,17 @@ double in_key_unit(const ErrorName& name, const SolvedRows& rows, std::size_t ro
 
 }  // namespace
 
-ErrorRows::ErrorRows(RowForm form, Axis axis, Model model)
-    : form_(form), names_(error_names(axis)) {
+ErrorRows::ErrorRows(RowForm form, const MovingAxis& moving, Model model)
+    : form_(form), names_(error_names(moving.axis)) {
+  for (ErrorName& name : names_) name.sign *= moving.sides.error_sign();
   for (std::size_t k = 0; k < 5; ++k) {
     json_keys_[k] = std::string(k == 0 ? "{\"" : ",\"") + names_[k].key + "\":";
     head_ += std::string(k == 0 ? "" : ",") + names_[k].key;
   }
   head_ += '\n';
   if (form == RowForm::json) {
-    head_ = "{\"axis\":\"" + std::string(1, letter(axis)) + "\",\"model\":\"" + to_string(model) +
-            "\",\"rows\":[";
+    head_ = "{\"axis\":\"" + std::string(1, letter(moving.axis)) + "\",\"model\":\"" +
+            to_string(model) + "\",\"reference\":\"carriage\",\"rows\":[";
   }
   ::fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kPipeBytes);  // where it is a pipe: fewer changes of turn
   thread_ = std::thread([this] { work(); });

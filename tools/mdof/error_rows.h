@@ -16,13 +16,14 @@ namespace mdof::tools {
 
 enum class RowForm {
   csv,   // a header of the error keys, then a line a row; empty fields where it is not solved
-  json,  // {"axis", "model", "rows": [{"EYX_um": ...}, ...]}; null where it is not solved
+  json,  // {"axis", "model", "reference", "rows": [{"EYX_um": ...}, ...]}; null where it is not
+         // solved
 };
 
 // Thread-bound, but for its own thread "write rows". Memory: a few blocks.
 class ErrorRows {
  public:
-  ErrorRows(RowForm form, Axis axis, Model model);
+  ErrorRows(RowForm form, const MovingAxis& moving, Model model);
   ~ErrorRows();  // ends without the rest
 
   // The next block to fill; nullptr: nothing can be written any more, finish() knows why.
@@ -40,7 +41,7 @@ class ErrorRows {
   char* append_json(const SolvedRows& rows, char* out);
 
   const RowForm form_;
-  const std::array<ErrorName, 5> names_;
+  std::array<ErrorName, 5> names_;        // with the sign of the moving body
   std::array<std::string, 5> json_keys_;  // {"EYX_um":
   std::string head_;
   bool first_row_ = true;

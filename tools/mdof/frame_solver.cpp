@@ -1,6 +1,7 @@
 #include "tools/mdof/frame_solver.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace mdof::tools {
 namespace {
@@ -21,7 +22,10 @@ Result<FrameSolver> FrameSolver::create(const Rig& rig, Model model,
 }
 
 FrameSolver::FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels)
-    : solver_(std::move(solver)), calibrator_(rig), channels_(std::move(channels)) {
+    : solver_(std::move(solver)),
+      calibrator_(rig),
+      sides_(rig.sides),
+      channels_(std::move(channels)) {
   encoder_ = index_of(channels_, kEncoderChannel);
   for (const Probe& probe : rig.probes) probes_.push_back(index_of(channels_, probe.id));
 }
@@ -37,9 +41,17 @@ Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
   return {};
 }
 
-void FrameSolver::solve_columns(const SampleBlock& block, SolvedRows& out) const {
+// d of the models; a column of its own only where it is not the encoder's.
+const double* FrameSolver::travel(const std::vector<double>& encoder_m) {
+  if (sides_.target_travel_m(1.0) > 0) return encoder_m.data();
+  travel_m_.resize(encoder_m.size());
+  std::transform(encoder_m.begin(), encoder_m.end(), travel_m_.begin(), std::negate<>());
+  return travel_m_.data();
+}
+
+void FrameSolver::solve_columns(const SampleBlock& block, SolvedRows& out) {
   const algo::SmallAngleFixture& fixture = *solver_.small_angle();
-  algo::BatchIn in{block.value[encoder_].data(), {}};
+  algo::BatchIn in{travel(block.value[encoder_]), {}};
   algo::BatchOut to{};
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     in.reading_m[k] = block.value[probes_[fixture.probe[k]]].data();
@@ -52,7 +64,8 @@ void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
   std::vector<double> readings_m(probes_.size());
   for (std::size_t i = 0; i < block.scans(); ++i) {
     for (std::size_t p = 0; p < probes_.size(); ++p) readings_m[p] = block.value[probes_[p]][i];
-    const AxisErrors errors = solver_.solve(block.value[encoder_][i], readings_m, {});
+    const AxisErrors errors =
+        solver_.solve(sides_.target_travel_m(block.value[encoder_][i]), readings_m, {});
     for (std::size_t k = 0; k < kErrorCount; ++k)
       out.local[k][i] = errors.valid ? errors.local[k] : kNaN;
     if (errors.valid) continue;

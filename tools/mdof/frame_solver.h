@@ -14,7 +14,8 @@
 
 namespace mdof::tools {
 
-// One value a row in each column; m and rad in the axis' local frame, all NaN where not solved.
+// One value a row in each column; m and rad in the axis' local frame, of the target, at the
+// carriage (Eq. 2-12); all NaN where not solved.
 struct SolvedRows {
   std::array<std::vector<double>, kErrorCount> local;
   std::size_t size() const { return local[0].size(); }
@@ -37,12 +38,15 @@ class FrameSolver {
 
  private:
   FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels);
-  void solve_columns(const SampleBlock& block, SolvedRows& out) const;
+  const double* travel(const std::vector<double>& encoder_m);
+  void solve_columns(const SampleBlock& block, SolvedRows& out);
   void solve_singly(const SampleBlock& block, SolvedRows& out);
   void count_over_range(const SampleBlock& block);
 
   algo::Solver solver_;
   drivers::Calibrator calibrator_;
+  Sides sides_;
+  std::vector<double> travel_m_;  // where it is not the encoder
   std::vector<Channel> channels_;
   std::size_t encoder_ = 0;
   std::vector<std::size_t> probes_;  // [probe of the rig] -> channel

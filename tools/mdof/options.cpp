@@ -34,4 +34,12 @@ void add_model_option(CLI::App& command, std::string& model) {
       ->capture_default_str();
 }
 
+CLI::Option* add_reference_option(CLI::App& command, std::string& reference) {
+  return command
+      .add_option("--reference", reference,
+                  "Where straightness is stated: fixture, carriage or tool")
+      ->check(CLI::IsMember({"fixture", "carriage", "tool"}))
+      ->type_name("POINT");
+}
+
 }  // namespace mdof::tools

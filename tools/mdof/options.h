@@ -5,7 +5,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace mdof::tools {
 
@@ -13,5 +14,7 @@ void add_json_flag(CLI::App& command, bool& json);
 void add_database_option(CLI::App& command, std::string& database);
 void add_socket_option(CLI::App& command, std::string& socket);  // sets the default
 void add_model_option(CLI::App& command, std::string& model);    // one of the three names
+// One of the names of schema/reference.h.
+CLI::Option* add_reference_option(CLI::App& command, std::string& reference);
 
 }  // namespace mdof::tools

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "algo/restate.h"
 #include "daemon/config.h"
+#include "daemon/evaluation.h"
 #include "daemon/paths.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -20,6 +22,7 @@ namespace mdof::tools {
 namespace {
 
 struct ReplayCommand {
+  std::string reference = "fixture";
   std::string log, rig, database, model, note;  // model: empty where not given
   std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
   std::vector<double> targets_mm;
@@ -66,11 +69,20 @@ Status store_run(const ReplayCommand& command, Run& run) {
   return {};
 }
 
+Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
+  Reference reference{};
+  reference_from(command.reference, reference);  // the option takes no other
+  MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
+  return stated_at(rig, reference);
+}
+
 Status replay(const ReplayCommand& command) {
   MDOF_TRY(Run run, replay_log(command));
   if (run.header.started_utc.empty()) run.header.started_utc = daemon::utc_now();
   run.header.note = command.note;
+  MDOF_TRY(const StatedAt at, asked_reference(command, run));
   if (!command.keep_out) MDOF_CHECK(store_run(command, run));
+  run = algo::restate(std::move(run), at);  // what is stored is stated at the fixture
   for (const auto& warning : run.header.warnings) warn(warning);
   if (command.json) return write_line(run_json(run));
   run.header.warnings.clear();  // said already
@@ -89,6 +101,7 @@ void add_replay(CLI::App& app, Action& chosen) {
   command->add_option("--rig", o->rig, "Fixture; a recording has its own")->type_name("RIG.toml");
   add_database_option(*command, o->database);
   add_model_option(*command, o->model);
+  add_reference_option(*command, o->reference)->capture_default_str();
   command->add_option("--note", o->note, "Kept with the run")->type_name("TEXT");
   command->add_flag("--no-store", o->keep_out, "Only show the result");
   command->add_option("--targets-mm", o->targets_mm, "Nominal positions [default: recognised]")

@@ -21,6 +21,21 @@ std::string error_label(const std::string& key) {
   return name + "/" + (unit == "um" ? "µm" : "µrad");
 }
 
+std::string stated_text(const StatedAt& at) {
+  switch (at.reference) {
+    case Reference::carriage:
+      return "straightness of the carriage's origin, which travels with the target (Eq. 2-12)\n";
+    case Reference::tool: {
+      std::string text = "straightness at the tool point of the fixture,";
+      for (const double x : at.point_m) text += " " + in_mm(x);
+      return text + " mm\n";
+    }
+    case Reference::fixture:
+      break;
+  }
+  return "straightness at the fixture\n";
+}
+
 std::string head_text(const RunHeader& h) {
   const auto& from = h.provenance;
   std::string out = simulated_notice(h.simulated);
@@ -45,7 +60,7 @@ std::string points_text(const Run& run) {
   for (const MeasuredPoint& p : run.points) {
     std::vector<std::string> row{std::to_string(p.target), std::to_string(p.run),
                                  arrow(p.point.direction), in_mm(p.point.position_m)};
-    const Errors5 named = named_from_local(axis, p.errors.local);
+    const Errors5 named = named_from_local(run.header.moving(), p.errors.local);
     const Covariance5 cov = named_from_local(axis, p.errors.covariance);
     for (std::size_t k = 0; k < 5; ++k) {
       const auto show = error_names(axis)[k].angle ? in_urad : in_um;
@@ -57,7 +72,8 @@ std::string points_text(const Run& run) {
     row.insert(row.end(), {std::to_string(p.point.samples), flags});
     table.add(std::move(row));
   }
-  return table.text() + "± one standard uncertainty; error = actual - nominal\n";
+  return table.text() + "± one standard uncertainty; error = actual - nominal, of the " +
+         run.header.sides.moves() + "\n" + stated_text(run.header.stated);
 }
 
 std::string straightness_text(const std::vector<StraightnessFigure>& figures) {

@@ -12,6 +12,7 @@ namespace mdof::tools {
 // "Simulated data: ..." with a line end, or nothing.
 std::string simulated_notice(bool simulated);
 
+std::string stated_text(const StatedAt& at);     // a line: where straightness is stated
 std::string head_text(const RunHeader& header);  // identity, provenance, warnings
 std::string points_text(const Run& run);         // five errors ± u, samples, flags
 std::string straightness_text(const std::vector<StraightnessFigure>& figures);

@@ -1,6 +1,7 @@
 // mdof show RUN, mdof analyse RUN: a stored run, whole or its figures.
 #include <CLI/CLI.hpp>
 
+#include "daemon/evaluation.h"
 #include "schema/run_json.h"
 #include "tools/mdof/command.h"
 #include "tools/mdof/database.h"
@@ -12,7 +13,7 @@ namespace mdof::tools {
 namespace {
 
 struct ShowCommand {
-  std::string database;
+  std::string database, reference = "fixture";
   std::int64_t run = 0;
   bool json = false;
 };
@@ -23,9 +24,15 @@ std::string with_result_hash(std::string json, const std::string& sha256) {
   return json + ",\"result_sha256\":\"" + sha256 + "\"}";
 }
 
+Result<Run> load(store::Store& store, const ShowCommand& command) {
+  Reference reference{};
+  reference_from(command.reference, reference);  // the option takes no other
+  return daemon::run_stated_at(store, command.run, reference);
+}
+
 Status show(const ShowCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const Run run, store.run(command.run));
+  MDOF_TRY(const Run run, load(store, command));
   MDOF_TRY(const std::string sha256, store.result_sha256(command.run));
   if (command.json) return write_line(with_result_hash(run_json(run), sha256));
   return write_out(head_text(run.header) + "result     sha256 " + sha256 + "\n\n" +
@@ -39,6 +46,7 @@ std::string analysis_json(const Run& run) {
       .field("axis", std::string_view(std::string(1, letter(run.header.axis))))
       .field("model", run.header.provenance.model)
       .field("simulated", run.header.simulated);
+  write_reference(json, run.header.stated);
   json.key("straightness");
   write_straightness(json, run.straightness);
   json.key("angles");
@@ -49,7 +57,7 @@ std::string analysis_json(const Run& run) {
 
 Status analyse(const ShowCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const Run run, store.run(command.run));
+  MDOF_TRY(const Run run, load(store, command));
   if (command.json) return write_line(analysis_json(run));
   return write_out(head_text(run.header) + "\n" + straightness_text(run.straightness) + "\n" +
                    angles_text(run.angles));
@@ -58,6 +66,7 @@ Status analyse(const ShowCommand& command) {
 CLI::App* declare(CLI::App& app, const char* name, const char* what, ShowCommand& o) {
   auto* command = app.add_subcommand(name, what);
   command->add_option("RUN", o.run, "Number of the run, see mdof runs")->required()->type_name("");
+  add_reference_option(*command, o.reference)->capture_default_str();
   add_database_option(*command, o.database);
   add_json_flag(*command, o.json);
   return command;

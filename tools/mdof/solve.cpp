@@ -60,7 +60,7 @@ Status solve(const SolveCommand& command) {
   MDOF_CHECK(daemon::check_axis(header.source, header.comments, rig));
   MDOF_CHECK(daemon::check_channels(header.source, header.channels, rig));
   MDOF_TRY(FrameSolver solver, FrameSolver::create(rig, model, header.channels));
-  ErrorRows out(command.json ? RowForm::json : RowForm::csv, rig.axis, model);
+  ErrorRows out(command.json ? RowForm::json : RowForm::csv, rig.moving(), model);
   MDOF_CHECK(solve_rows(*frames, solver, out));
   MDOF_CHECK(out.finish());
   return judge(solver);

@@ -2,9 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "algo/straightness.h"
-#include "daemon/paths.h"
-#include "schema/rig.h"
+#include "daemon/evaluation.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/command.h"
@@ -21,29 +19,16 @@ namespace {
 struct SquarenessCommand {
   std::string database, socket;
   std::int64_t run_x = 0, run_y = 0;
-  std::optional<double> artefact_urad;
-  double u_artefact_urad = 0;
+  std::optional<double> artefact_urad, u_artefact_urad;
   bool json = false;
 };
 
-// Of the square that was clamped for run X, unless it was calibrated since.
-Result<double> artefact_angle_error_rad(const SquarenessCommand& command, const Run& run_x) {
-  if (command.artefact_urad) return from_urad(*command.artefact_urad);
-  MDOF_TRY(const Rig rig, parse_rig(run_x.header.provenance.rig_text,
-                                    "rig of run " + std::to_string(command.run_x)));
-  return rig.artefact_angle_error_rad;
-}
-
 Result<Squareness> fit(const SquarenessCommand& command) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(const Run run_x, store.run(command.run_x));
-  MDOF_TRY(const Run run_y, store.run(command.run_y));
-  MDOF_TRY(const double artefact_rad, artefact_angle_error_rad(command, run_x));
-  MDOF_TRY(Squareness s,
-           algo::squareness(run_x, run_y, artefact_rad, from_urad(command.u_artefact_urad)));
-  s.created_utc = daemon::utc_now();
-  MDOF_TRY(s.id, store.add_squareness(s));
-  return s;
+  algo::ArtefactGiven given;
+  if (command.artefact_urad) given.angle_error_rad = from_urad(*command.artefact_urad);
+  if (command.u_artefact_urad) given.u_rad = from_urad(*command.u_artefact_urad);
+  return daemon::fit_squareness(store, command.run_x, command.run_y, given);
 }
 
 std::string squareness_text(const Squareness& s) {
@@ -52,10 +37,16 @@ std::string squareness_text(const Squareness& s) {
              with_u(in_urad(s.slope_EYX_rad), in_urad(s.u_slope_EYX_rad))});
   table.add({"EXY, run " + std::to_string(s.run_y),
              with_u(in_urad(s.slope_EXY_rad), in_urad(s.u_slope_EXY_rad))});
-  table.add({"artefact", in_urad(s.artefact_angle_error_rad)});
+  table.add({"artefact", with_u(in_urad(s.artefact.corner * s.artefact.angle_error_rad),
+                                in_urad(s.artefact.u_rad))});
   return simulated_notice(s.simulated) + table.text() +
          "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), in_urad(s.u_EC0Y_rad)) +
-         " µrad (one standard uncertainty); the angle from +X to +Y is 90° + EC0Y\n";
+         " µrad; the angle from +X to +Y is 90° + EC0Y\n"
+         "form " +
+         in_urad(s.form_rad) +
+         " µrad: how crooked the axes are\n"
+         "± one standard uncertainty: noise and repeatability of the slopes, and the\n"
+         "artefact; not mounting, calibration and drift. Slopes at the fixture.\n";
 }
 
 // mdofd has the database: it fits and stores.
@@ -63,7 +54,7 @@ Status ask_daemon(const SquarenessCommand& command) {
   JsonWriter params;
   params.begin_object().field("run_x", command.run_x).field("run_y", command.run_y);
   if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
-  if (command.u_artefact_urad > 0) params.field("u_artefact_urad", command.u_artefact_urad);
+  if (command.u_artefact_urad) params.field("u_artefact_urad", *command.u_artefact_urad);
   params.end_object();
   return print_call(command.socket, "squareness.fit", params.text(), command.json);
 }
@@ -83,7 +74,7 @@ void add_squareness(CLI::App& app, Action& chosen) {
   command->add_option("RUN_X", o->run_x, "Run along X")->required()->type_name("");
   command->add_option("RUN_Y", o->run_y, "Run along Y, same square")->required()->type_name("");
   command->add_option("--artefact-urad", o->artefact_urad,
-                      "Angle error of the square [default: of the rig of RUN_X]");
+                      "Angle error of the square [default: of the rigs]");
   command->add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
       ->check(CLI::NonNegativeNumber);
   add_database_option(*command, o->database);

@@ -225,7 +225,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
   {
     auto store = writer();
     ASSERT_TRUE(store->add_run(make_run()));
-    ASSERT_TRUE(store->add_squareness({0, 1, 1, 0, 0, 0, 0, 0, 0, 0, false, "utc"}));
+    ASSERT_TRUE(store->add_squareness({0, 1, 1, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}));
     ASSERT_TRUE(store->activate(store->add_table(make_table({1})).value(), "me", "now"));
     ASSERT_TRUE(store->end_study(store->begin_study({}).value(), {}, std::nullopt));
   }
@@ -251,16 +251,20 @@ TEST_F(StoreTest, KeepsSquareness) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(1)));
   ASSERT_TRUE(store->add_run(make_run(1, Axis::y)));
-  const Squareness s{0, 1, 2, 1e-5, 2e-7, 3e-6, 4e-8, -5e-6, 6e-8, 7e-7, true, "utc"};
+  const Squareness s{0,    1,    2, 1e-5, 2e-7, 9e-6, 3e-6, 4e-8, -5e-6, 6e-8, {7e-7, 8e-8, -1},
+                     true, "utc"};
   EXPECT_EQ(store->add_squareness(s).value(), 1);
   const auto list = store->list_squareness(0, 10).value();
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].run_y, 2);
   EXPECT_EQ(list[0].EC0Y_rad, 1e-5);
   EXPECT_EQ(list[0].u_slope_EXY_rad, 6e-8);
-  EXPECT_EQ(list[0].artefact_angle_error_rad, 7e-7);
+  EXPECT_EQ(list[0].artefact.angle_error_rad, 7e-7);
+  EXPECT_EQ(list[0].artefact.u_rad, 8e-8);
+  EXPECT_EQ(list[0].artefact.corner, -1);
+  EXPECT_EQ(list[0].form_rad, 9e-6);
   EXPECT_TRUE(list[0].simulated);
-  EXPECT_EQ(store->add_squareness({0, 1, 9, 0, 0, 0, 0, 0, 0, 0, false, "utc"}).error().code,
+  EXPECT_EQ(store->add_squareness({0, 1, 9, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}).error().code,
             ErrorCode::not_found);
 }
 
@@ -269,9 +273,16 @@ TEST_F(StoreTest, GivesACompensationTableBackToTheLastBit) {
   for (int i = 0; i < 2; ++i) ASSERT_TRUE(store->add_run(make_run(1)));
   CompensationTable table = make_table({2, 1});
   table.reverse[4][1] = kNaN;
+  table.sides = {true, true};
+  table.stated = {Reference::tool, {1e-3, -2e-3, 0.1}};
+  table.machine = chain_from("w-Y-b-X-Z-t", "Y+ X- Z-").value();
   const CompensationTable back = store->table(store->add_table(table).value()).value();
   EXPECT_EQ(back.id, 1);
   EXPECT_EQ(back.runs, table.runs);
+  EXPECT_EQ(back.sides, table.sides);
+  EXPECT_EQ(back.stated, table.stated);
+  EXPECT_EQ(back.machine, table.machine);
+  EXPECT_FALSE(back.of_schema_2);
   EXPECT_EQ(bits(back.position_m), bits(table.position_m));
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_EQ(bits(back.forward[k]), bits(table.forward[k]));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algo/line_fit.h"
+#include "algo/restate.h"
 #include "algo/sensitivity/plan_axis.h"
 #include "algo/sensitivity/plan_base.h"
 #include "daemon/pipeline.h"
@@ -72,9 +73,13 @@ class RunTrial {
     return pipeline.finish();
   }
 
-  // In the order of error_names(); m and rad.
+  // At the fixture, in the order of error_names(); m and rad.
   Errors5 named_truth(double travel_m) const {
-    return named_from_local(axis_.axis(), truth_.at(travel_m, period_m_));
+    AxisErrors truth;
+    truth.valid = true;
+    truth.local = truth_.at(travel_m, period_m_);
+    truth = algo::restate(truth, Model::rigid, axis_.axis(), travel_m, kAtCarriage, kAtFixture);
+    return named_from_local(axis_.axis(), truth.local);
   }
 
  private:

@@ -1,0 +1,67 @@
+#include "algo/restate.h"
+
+#include "algo/small_rotation.h"
+#include "algo/straightness.h"
+
+namespace mdof::algo {
+namespace {
+
+// (R - I) arm.
+Eigen::Vector3d turned_away(Model model, Axis axis, const Errors5& local,
+                            const Eigen::Vector3d& arm) {
+  if (model == Model::rigid) return local_rotation(axis, local).R_MC * arm - arm;
+  const double ex = local[kEx], ey = local[kEy], ez = local[kEz];
+  return {ey * arm.z() - ez * arm.y(), ez * arm.x() - ex * arm.z(), ex * arm.y() - ey * arm.x()};
+}
+
+// J cov Jᵀ with J = I but for ∂(δy, δz)/∂(εx, εy, εz).
+Covariance5 carried(const Covariance5& covariance, const Eigen::Vector3d& arm) {
+  using Matrix5 = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
+  Matrix5 J = Matrix5::Identity();
+  J(kDy, kEx) = -arm.z();
+  J(kDy, kEz) = arm.x();
+  J(kDz, kEx) = arm.y();
+  J(kDz, kEy) = -arm.x();
+  const Eigen::Map<const Matrix5> before(covariance.data());
+  Covariance5 after{};
+  Eigen::Map<Matrix5>(after.data()) = J * before * J.transpose();
+  return after;
+}
+
+}  // namespace
+
+Eigen::Vector3d reference_point(const StatedAt& at, Axis axis, double travel_m) {
+  if (at.reference == Reference::carriage) return {travel_m, 0, 0};
+  const Vec3 local = to_local(axis, at.point_m);
+  return {local[0], local[1], local[2]};
+}
+
+AxisErrors restate(const AxisErrors& errors, Model model, Axis axis, double travel_m,
+                   const StatedAt& from, const StatedAt& to) {
+  if (!errors.valid || from == to) return errors;
+  const Eigen::Vector3d arm =
+      reference_point(to, axis, travel_m) - reference_point(from, axis, travel_m);
+  const Eigen::Vector3d change = turned_away(model, axis, errors.local, arm);
+  AxisErrors out = errors;
+  out.local[kDy] += change.y();
+  out.local[kDz] += change.z();
+  out.covariance = carried(errors.covariance, arm);
+  return out;
+}
+
+Run restate(Run run, const StatedAt& to) {
+  if (run.header.stated == to) return run;
+  Model model = Model::rigid;
+  model_from(run.header.provenance.model, model);
+  const MovingAxis moving = run.header.moving();
+  for (MeasuredPoint& p : run.points) {
+    const double travel_m = moving.sides.target_travel_m(p.point.position_m);
+    p.errors = restate(p.errors, model, moving.axis, travel_m, run.header.stated, to);
+  }
+  run.header.stated = to;
+  run.straightness = straightness(moving, run.points);
+  run.angles = angles(moving, run.points);
+  return run;
+}
+
+}  // namespace mdof::algo

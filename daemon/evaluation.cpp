@@ -1,0 +1,88 @@
+#include "daemon/evaluation.h"
+
+#include "algo/compensation.h"
+#include "algo/restate.h"
+#include "daemon/paths.h"
+#include "schema/run_json.h"
+#include "schema/toml_reader.h"
+
+namespace mdof::daemon {
+
+Result<Rig> rig_of(const RunHeader& run) {
+  const std::string name = "run " + std::to_string(run.id) + " (its rig)";
+  MDOF_TRY(Rig rig, parse_rig(run.provenance.rig_text, name));
+  if (rig.machine.known() || run.provenance.configuration.empty()) return rig;
+  MDOF_TRY(auto configuration,
+           TomlTable::parse(run.provenance.configuration,
+                            "run " + std::to_string(run.id) + " (its mdofd.toml)"));
+  rig.machine = read_machine(configuration);
+  return rig;
+}
+
+namespace {
+
+Result<Run> stated_anew(Run stored, Reference reference) {
+  if (reference != Reference::tool) return algo::restate(std::move(stored), {reference, {}});
+  MDOF_TRY(const Rig rig, rig_of(stored.header));
+  MDOF_TRY(const StatedAt at, stated_at(rig, reference));
+  return algo::restate(std::move(stored), at);
+}
+
+}  // namespace
+
+Result<Run> run_stated_at(store::Store& store, std::int64_t run, Reference reference) {
+  MDOF_TRY(Run stored, store.run(run));
+  return stated_anew(std::move(stored), reference);
+}
+
+Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t offset,
+                             std::int64_t count, Reference reference) {
+  Run page;
+  MDOF_TRY(page.header, store.run_header(run));
+  MDOF_TRY(page.points, store.points(run, offset, count));
+  return stated_anew(std::move(page), reference);
+}
+
+Result<CompensationTable> build_table(store::Store& store, const TableRequest& request) {
+  std::vector<Run> runs;
+  algo::TableOptions options;
+  options.remove_slope = !request.keep_slope;
+  for (const std::int64_t id : request.runs) {
+    MDOF_TRY(Run run, store.run(id));
+    MDOF_TRY(const Rig rig, rig_of(run.header));
+    MDOF_TRY(const StatedAt at, request.reference ? stated_at(rig, *request.reference)
+                                                  : Result<StatedAt>(stated_at_by_default(rig)));
+    if (!runs.empty() && (rig.machine != options.machine || at != options.stated))
+      return bad_input("the rigs of runs " + std::to_string(request.runs.front()) + " and " +
+                       std::to_string(id) +
+                       " differ in [machine] or in tool_point_mm; build one table from runs of one "
+                       "set-up");
+    options.machine = rig.machine;
+    options.stated = at;
+    runs.push_back(std::move(run));
+  }
+  MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
+  table.created_utc = utc_now();
+  table.sha256 = table_sha256(table);
+  MDOF_TRY(table.id, store.add_table(table));
+  return table;
+}
+
+Result<Squareness> fit_squareness(store::Store& store, std::int64_t run_x, std::int64_t run_y,
+                                  const algo::ArtefactGiven& given) {
+  MDOF_TRY(const Run x, store.run(run_x));
+  MDOF_TRY(const Run y, store.run(run_y));
+  MDOF_TRY(const Rig rig_x, rig_of(x.header));
+  MDOF_TRY(const Rig rig_y, rig_of(y.header));
+  if (rig_x.axis != Axis::x || rig_y.axis != Axis::y)
+    return bad_input("squareness needs a run of X, then one of Y, and has one of " +
+                     std::string(1, letter(rig_x.axis)) + " and one of " + letter(rig_y.axis) +
+                     ": squareness RUN_X RUN_Y");
+  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, given));
+  MDOF_TRY(Squareness s, algo::squareness(x, y, artefact));
+  s.created_utc = utc_now();
+  MDOF_TRY(s.id, store.add_squareness(s));
+  return s;
+}
+
+}  // namespace mdof::daemon

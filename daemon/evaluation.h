@@ -1,0 +1,39 @@
+// Results of stored runs: what the command line and the daemon make of them, in one way.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "algo/squareness.h"
+#include "daemon/store/store.h"
+#include "schema/compensation_table.h"
+#include "schema/result.h"
+#include "schema/rig.h"
+#include "schema/run.h"
+
+namespace mdof::daemon {
+
+// The rig of a run, with the machine of its configuration where the rig has none.
+Result<Rig> rig_of(const RunHeader& run);
+
+// The run, stated anew. Error: the tool is asked for and the rig has no tool_point_mm.
+Result<Run> run_stated_at(store::Store& store, std::int64_t run, Reference reference);
+
+// Some of its points alone, without figures.
+Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t offset,
+                             std::int64_t count, Reference reference);
+
+struct TableRequest {
+  std::vector<std::int64_t> runs;
+  bool keep_slope = false;
+  std::optional<Reference> reference;  // none: at the rig's tool point, else at the fixture
+};
+// Built and stored. Errors: those of algo::build_table(); runs of rigs with other machines.
+Result<CompensationTable> build_table(store::Store& store, const TableRequest& request);
+
+// Fitted and stored. Errors: those of algo::artefact_of() and algo::squareness().
+Result<Squareness> fit_squareness(store::Store& store, std::int64_t run_x, std::int64_t run_y,
+                                  const algo::ArtefactGiven& given);
+
+}  // namespace mdof::daemon

@@ -1,0 +1,44 @@
+// The machine's kinematic chain, from the work to the tool: "w-Y-X-b-Z-t" (DESIGN §3, "Sides and
+// signs"). w work, b bed, t tool; axes between w and b carry the work, those between b and t the
+// tool.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/result.h"
+#include "schema/toml_reader.h"
+
+namespace mdof {
+
+struct ChainAxis {
+  char letter = 'X';             // X Y Z linear, A B C rotary
+  bool carries_work = false;     // else it carries the tool
+  bool against_command = false;  // travel "-": its body goes along - when the command grows
+  bool operator==(const ChainAxis&) const = default;
+};
+
+struct Chain {
+  std::string text;             // empty: not known
+  std::vector<ChainAxis> axes;  // from w to t
+
+  bool known() const { return !text.empty(); }
+  const ChainAxis* find(char letter) const;
+  bool operator==(const Chain&) const = default;
+};
+
+// Error: what is wrong with the text, with an example.
+Result<Chain> parse_chain(std::string_view text);
+
+// [machine] of a rig or a configuration: chain = "w-Y-X-b-Z-t", and travel = { X = "-" } for axes
+// that do not go along + when their command grows. Absent: a chain that is not known.
+Chain read_machine(TomlTable& root);
+
+// "X+ Y-": the travel of each axis, for people and for the hash of a table.
+std::string travels_of(const Chain& chain);
+// The two as they are stored; the inverse of text and travels_of().
+Result<Chain> chain_from(std::string_view text, std::string_view travels);
+
+}  // namespace mdof

@@ -1,0 +1,41 @@
+#include "schema/reference.h"
+
+#include "schema/rig.h"
+
+namespace mdof {
+
+const char* to_string(Reference reference) {
+  switch (reference) {
+    case Reference::carriage:
+      return "carriage";
+    case Reference::tool:
+      return "tool";
+    case Reference::fixture:
+      break;
+  }
+  return "fixture";
+}
+
+bool reference_from(std::string_view name, Reference& reference) {
+  for (const Reference r : {Reference::fixture, Reference::carriage, Reference::tool}) {
+    if (name != to_string(r)) continue;
+    reference = r;
+    return true;
+  }
+  return false;
+}
+
+Result<StatedAt> stated_at(const Rig& rig, Reference reference) {
+  if (reference != Reference::tool) return StatedAt{reference, {}};
+  if (rig.tool_point_m) return StatedAt{reference, *rig.tool_point_m};
+  return fail(ErrorCode::usage,
+              rig.source +
+                  ": has no tool_point_mm, so that nothing can be stated at the tool; add "
+                  "tool_point_mm = [x, y, z], the tool's point in the metrology frame");
+}
+
+StatedAt stated_at_by_default(const Rig& rig) {
+  return rig.tool_point_m ? StatedAt{Reference::tool, *rig.tool_point_m} : kAtFixture;
+}
+
+}  // namespace mdof

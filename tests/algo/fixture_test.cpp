@@ -1,0 +1,86 @@
+// Rigs that contradict themselves are refused by name; those that leave a doubt ask for a key.
+#include "algo/fixture.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/algo/rigs.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr const char* kPlanes = R"(
+[[plane]]
+id = "top"
+normal = "+Z"
+offset_mm = 0
+[[plane]]
+id = "side"
+normal = "+Y"
+offset_mm = 15
+)";
+
+std::string refusal(const std::string& toml) {
+  const auto rig = parse_rig(toml, "rig.toml");
+  if (!rig) return rig.error().message;
+  const auto fixture = make_fixture(*rig);
+  return fixture ? "" : fixture.error().message;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+testing::AssertionResult says(const std::string& message,
+                              std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    if (message.find(word) == std::string::npos)
+      return testing::AssertionFailure() << "no \"" << word << "\" in: " << message;
+  return testing::AssertionSuccess();
+}
+
+TEST(Fixture, TakesTheDefaultWithAndWithoutItsPlanes) {
+  EXPECT_EQ(refusal(test::rig_x_toml()), "");
+  EXPECT_EQ(refusal(test::rig_x_toml() + kPlanes), "");
+}
+
+TEST(Fixture, RefusesAProbeOffItsPlane) {
+  EXPECT_TRUE(says(refusal(test::rig_x_toml(10, 14) + kPlanes),
+                   {"rig.toml", "\"D\"", "14 mm", "\"side\"", "15 mm", "correct"}));
+}
+
+TEST(Fixture, RefusesOnePlaneAtTwoPlaces) {
+  // Only E at y = 14: D and E look the same way, at one face.
+  const std::string moved =
+      replaced(test::rig_x_toml(), "[10.000000, 15.000000, 20.000000]", "[10, 14, 20]");
+  EXPECT_TRUE(says(refusal(moved), {"\"D\" and \"E\"", "15 mm", "14 mm", "[[plane]]"}));
+}
+
+TEST(Fixture, TakesAStepOfTheTargetThatIsDeclared) {
+  std::string stepped = replaced(test::rig_x_toml(), "[10.000000, 15.000000, 20.000000]\n",
+                                 "[10, 14, 20]\nplane = \"low\"\n");
+  stepped =
+      replaced(stepped, "[0.000000, 15.000000, 20.000000]\n", "[0, 15, 20]\nplane = \"side\"\n");
+  EXPECT_EQ(
+      refusal(stepped + kPlanes + "[[plane]]\nid = \"low\"\nnormal = \"+Y\"\noffset_mm = 14\n"),
+      "");
+}
+
+TEST(Fixture, AsksForThePlaneWhereTheDirectionLeavesADoubt) {
+  const std::string tilted =
+      replaced(test::rig_x_toml() + kPlanes, "measures = \"+Y\"", "direction = [0, 1, 1]");
+  EXPECT_TRUE(says(refusal(tilted), {"\"D\"", "\"top\"", "\"side\"", "doubt", "plane ="}));
+  const std::string named =
+      replaced(tilted, "direction = [0, 1, 1]", "direction = [0, 1, 1]\nplane = \"side\"");
+  EXPECT_EQ(refusal(named), "");
+}
+
+TEST(Fixture, NamesThePlanesThereAre) {
+  const std::string unknown = replaced(test::rig_x_toml() + kPlanes, "measures = \"+Y\"",
+                                       "measures = \"+Y\"\nplane = \"sied\"");
+  EXPECT_TRUE(says(refusal(unknown), {"\"D\"", "\"sied\"", "\"top\"", "\"side\""}));
+}
+
+}  // namespace
+}  // namespace mdof::algo

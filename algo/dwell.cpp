@@ -13,11 +13,8 @@ namespace {
 
 constexpr std::size_t kSlotsPerWindow = 4;
 constexpr double kAutoTolerance_m = 2e-6;
-// Noise of sd σ, voted by three, stays within 5 σ over a window; the σ found is that of the
-// quietest slot, up to a third below the true one.
-constexpr double kAutoNoiseFactor = 8;
-// Mean |second difference| of white noise over its σ: √6 · √(2/π).
-constexpr double kBendOfNoise = 1.9544;
+// Noise of sd σ, voted by three, stays within 5 σ over a window.
+constexpr double kAutoNoiseFactor = 6;
 constexpr double kCreepFactor = 5.0;  // a stop that wanders by more tolerances than this is none
 constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
@@ -201,13 +198,11 @@ void DwellDetector::close_slot(std::vector<Point>& out) {
   if (slots_.size() > kSlotsPerWindow) slots_.pop_front();
   summary_.encoder_min_m = std::min(summary_.encoder_min_m, open_.min_m);
   summary_.encoder_max_m = std::max(summary_.encoder_max_m, open_.max_m);
-  const double noise_m = open_.bend_m / static_cast<double>(open_.rows) / kBendOfNoise;
-  if (open_.rows >= kMinScansPerSlot && (encoder_noise_m_ < 0 || noise_m < encoder_noise_m_)) {
-    encoder_noise_m_ = noise_m;
-  }
+  if (open_.rows >= kMinScansPerSlot)
+    encoder_noise_.add(open_.bend_m / static_cast<double>(open_.rows), open_.rows);
   summary_.tolerance_m = options_.tolerance_m > 0
                              ? options_.tolerance_m
-                             : std::max(kAutoTolerance_m, kAutoNoiseFactor * encoder_noise_m_);
+                             : std::max(kAutoTolerance_m, kAutoNoiseFactor * encoder_noise_.sd());
   remember_path(open_.middle());
   const bool still = window_still();
   if (still && !dwelling_) begin_dwell();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "algo/noise_floor.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 
@@ -15,8 +16,8 @@ namespace mdof::algo {
 
 // Defaults need no tuning on logs of stages that settle within a tenth of a second.
 struct DwellOptions {
-  // The axis stands still while the encoder stays within this over `window_s`. 0: 2 µm, or 2.5
-  // times the quietest quarter of a window seen so far where the encoder is noisier than that.
+  // The axis stands still while the encoder stays within this over `window_s`. 0: 2 µm, or six
+  // times the encoder's own noise (its sd) where that is more.
   double tolerance_m = 0;
   double window_s = 0.05;
   double settle_s = 0.1;      // left out at the start of each stop
@@ -95,7 +96,7 @@ class DwellDetector {
   std::size_t row_ = 0;                     // of buffer_: the next that belongs to no slot yet
   Slot open_;
   bool slot_open_ = false;
-  double encoder_noise_m_ = -1;      // sd, of the quietest slot so far; below 0: not known
+  NoiseFloor encoder_noise_;
   std::deque<double> path_;          // positions at least approach_m apart, newest at the back
   std::deque<std::int64_t> breaks_;  // not yet passed
 

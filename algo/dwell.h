@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "algo/noise_floor.h"
+#include "algo/resolution.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 
@@ -45,6 +47,10 @@ class DwellDetector {
   // End of the data: the dwell under way is complete as well.
   void flush(std::vector<Point>& out);
 
+  // What never changed in a stop before the step of its readings was known has no uncertainty yet:
+  // gives it that of the rounding.
+  void settle_resolution(std::vector<Point>& points) const;
+
   struct Summary {
     std::uint64_t scans = 0;
     double encoder_min_m = 0, encoder_max_m = 0;
@@ -78,7 +84,10 @@ class DwellDetector {
   void end_of_sight(std::vector<Point>& out);
   void pass_break(std::vector<Point>& out);
   Point average(std::size_t from, std::size_t to);
+  std::span<const double> own_readings(std::size_t probe, std::size_t from, std::size_t to,
+                                       std::size_t& usable_rows, std::size_t& over_range);
   void average_probe(std::size_t probe, std::size_t from, std::size_t to, Point& point);
+  void learn_resolution(const Slot& slot);
   void drop_rows_before(std::size_t row);  // when it is worth moving the rest up
   void drop_rows(std::size_t row);
   void drop_cut_rows();
@@ -86,6 +95,7 @@ class DwellDetector {
   DwellOptions options_;
   std::vector<std::string> probe_ids_;
   std::vector<double> probe_range_m_;
+  std::vector<Resolution> resolution_;
   Summary summary_;
 
   FrameBlock early_;  // until the period is known

@@ -35,6 +35,7 @@ void clear_columns(FrameBlock& frames) {
   frames.encoder_m.clear();
   for (auto& column : frames.probe_m) column.clear();
   for (auto& column : frames.probe_quality) column.clear();
+  for (auto& column : frames.probe_fresh) column.clear();
 }
 
 // A reading is no better than the place it is of.
@@ -53,7 +54,7 @@ std::int64_t to_ns(double s) {
 
 Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids) : options_(options) {
   encoder_.id = kEncoderChannel;
-  for (auto& id : probe_ids) probes_.push_back({std::move(id), {}, INT64_MIN});
+  for (auto& id : probe_ids) probes_.push_back({std::move(id), {}});
 }
 
 // Whether the block has all channels of the rig; finds them, -1 where it has none.
@@ -80,6 +81,10 @@ void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
     append_or_take(out.probe_m[k], block.value[c], before == 0);
     append_quality(out.probe_quality[k], before,
                    block.quality.empty() ? nullptr : &block.quality[c], n);
+  }
+  for (auto& column : out.probe_fresh) {
+    if (before == 0) column.clear();
+    if (!column.empty()) column.resize(before + n, 1);
   }
   taint(out, before, block);
   append_or_take(out.encoder_m, block.value[static_cast<std::size_t>(channel_of_.back())],
@@ -158,6 +163,27 @@ Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
   return {time_ns, a.value + (b.value - a.value) * share, std::max(a.quality, b.quality)};
 }
 
+// Whether a sample of its own has come into the value at this instant; value_at() was asked before.
+bool Aligner::has_fresh(Track& track, std::int64_t time_ns) {
+  const auto& readings = track.readings;
+  if (readings.empty()) return true;  // nothing is known: not a matter of repeating it
+  const std::int64_t newest = readings.front().time_ns >= time_ns || readings.size() < 2
+                                  ? readings.front().time_ns
+                                  : readings[1].time_ns;
+  const bool fresh = newest != track.used_ns;
+  track.used_ns = newest;
+  return fresh;
+}
+
+// Columns appear with the first 0: a probe as fast as the encoder has none.
+void Aligner::mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const {
+  if (out.probe_fresh.size() < probes_.size()) out.probe_fresh.resize(probes_.size());
+  auto& column = out.probe_fresh[probe];
+  if (fresh && column.empty()) return;
+  column.resize(row, 1);
+  column.push_back(fresh);
+}
+
 void Aligner::emit(FrameBlock& out, bool at_end) {
   while (!encoder_.readings.empty()) {
     const Reading at = encoder_.readings.front();
@@ -170,6 +196,7 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
     const std::size_t row = out.size();
     for (std::size_t k = 0; k < probes_.size(); ++k) {
       Reading r = value_at(probes_[k], at.time_ns);
+      mark_fresh(out, row, k, has_fresh(probes_[k], at.time_ns));
       r.quality = std::max(r.quality, at.quality);  // of a place that is not sure
       given_up_ += r.quality == Quality::missing;
       out.probe_m[k].push_back(r.value);

@@ -25,7 +25,9 @@ struct AlignOptions {
 
 // Takes calibrated blocks (Unit::metre). Where one device gives the encoder and all probes, its
 // scans are the frames, bit for bit. Otherwise each probe is interpolated linearly between its two
-// samples around the encoder's instant; quality is the worst of the two and the encoder's.
+// samples around the encoder's instant; quality is the worst of the two and the encoder's. Where a
+// probe is slower than the encoder, frames say which instants have a new sample of its own
+// (probe_fresh): the others repeat what is known.
 // Thread-bound.
 class Aligner {
  public:
@@ -52,6 +54,7 @@ class Aligner {
     std::string id;
     std::deque<Reading> readings;
     std::int64_t newest_ns = INT64_MIN;
+    std::int64_t used_ns = INT64_MIN;  // the newest of its samples that is in the frames
   };
 
   bool whole(const SampleBlock& block);
@@ -61,6 +64,8 @@ class Aligner {
   Status enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track);
   void emit(FrameBlock& out, bool at_end);
   Reading value_at(Track& track, std::int64_t time_ns);
+  static bool has_fresh(Track& track, std::int64_t time_ns);
+  void mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const;
 
   AlignOptions options_;
   Track encoder_;

@@ -13,14 +13,12 @@ namespace {
 
 constexpr std::size_t kSlotsPerWindow = 4;
 constexpr double kAutoTolerance_m = 2e-6;
-// Noise of sd σ, voted by three, stays within 5 σ over a window; the σ found is that of the
-// quietest slot, up to a third below the true one.
-constexpr double kAutoNoiseFactor = 8;
-// Mean |second difference| of white noise over its σ: √6 · √(2/π).
-constexpr double kBendOfNoise = 1.9544;
+// Noise of sd σ, voted by three, stays within 5 σ over a window.
+constexpr double kAutoNoiseFactor = 6;
 constexpr double kCreepFactor = 5.0;  // a stop that wanders by more tolerances than this is none
 constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
+constexpr double kCoarseSteps = 3;  // no spike: a reading that flickers between its steps
 constexpr int kGapPeriods = 3;
 constexpr std::size_t kPathLength = 64;
 constexpr std::size_t kDropRows = 4096;  // rows no longer needed before the buffer is moved up
@@ -28,6 +26,19 @@ constexpr std::size_t kMinScans = 5;     // of a dwell, and of a probe in it
 
 double median3(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+// Marks of rows `first` to `last` behind `before` of them; an empty column stands for `none`.
+template <class Column>
+void append_marks(Column& to, const Column* from, std::size_t before, std::size_t first,
+                  std::size_t last, typename Column::value_type none) {
+  if (from && !from->empty()) {
+    to.resize(before, none);
+    to.insert(to.end(), from->begin() + static_cast<std::ptrdiff_t>(first),
+              from->begin() + static_cast<std::ptrdiff_t>(last));
+  } else if (!to.empty()) {
+    to.resize(before + last - first, none);
+  }
 }
 
 void append(FrameBlock& to, const FrameBlock& from, std::size_t first, std::size_t last) {
@@ -40,14 +51,11 @@ void append(FrameBlock& to, const FrameBlock& from, std::size_t first, std::size
   range(from.encoder_m, to.encoder_m);
   for (std::size_t k = 0; k < from.probe_m.size(); ++k) {
     range(from.probe_m[k], to.probe_m[k]);
-    const bool marked = !from.probe_quality.empty() && !from.probe_quality[k].empty();
-    auto& quality = to.probe_quality[k];
-    if (marked) {
-      quality.resize(before, Quality::good);
-      range(from.probe_quality[k], quality);
-    } else if (!quality.empty()) {
-      quality.resize(before + last - first, Quality::good);
-    }
+    append_marks(to.probe_quality[k],
+                 k < from.probe_quality.size() ? &from.probe_quality[k] : nullptr, before, first,
+                 last, Quality::good);
+    append_marks(to.probe_fresh[k], k < from.probe_fresh.size() ? &from.probe_fresh[k] : nullptr,
+                 before, first, last, std::uint8_t{1});
   }
 }
 
@@ -61,6 +69,7 @@ FrameBlock empty_frames(std::size_t probes) {
   FrameBlock frames;
   frames.probe_m.resize(probes);
   frames.probe_quality.resize(probes);
+  frames.probe_fresh.resize(probes);
   return frames;
 }
 
@@ -90,6 +99,7 @@ DwellDetector::DwellDetector(DwellOptions options, std::vector<std::string> prob
     : options_(options),
       probe_ids_(std::move(probe_ids)),
       probe_range_m_(std::move(probe_range_m)),
+      resolution_(probe_ids_.size()),
       early_(empty_frames(probe_ids_.size())),
       buffer_(empty_frames(probe_ids_.size())) {
   assert(probe_ids_.size() == probe_range_m_.size());
@@ -201,13 +211,12 @@ void DwellDetector::close_slot(std::vector<Point>& out) {
   if (slots_.size() > kSlotsPerWindow) slots_.pop_front();
   summary_.encoder_min_m = std::min(summary_.encoder_min_m, open_.min_m);
   summary_.encoder_max_m = std::max(summary_.encoder_max_m, open_.max_m);
-  const double noise_m = open_.bend_m / static_cast<double>(open_.rows) / kBendOfNoise;
-  if (open_.rows >= kMinScansPerSlot && (encoder_noise_m_ < 0 || noise_m < encoder_noise_m_)) {
-    encoder_noise_m_ = noise_m;
-  }
+  if (open_.rows >= kMinScansPerSlot)
+    encoder_noise_.add(open_.bend_m / static_cast<double>(open_.rows), open_.rows);
   summary_.tolerance_m = options_.tolerance_m > 0
                              ? options_.tolerance_m
-                             : std::max(kAutoTolerance_m, kAutoNoiseFactor * encoder_noise_m_);
+                             : std::max(kAutoTolerance_m, kAutoNoiseFactor * encoder_noise_.sd());
+  learn_resolution(open_);
   remember_path(open_.middle());
   const bool still = window_still();
   if (still && !dwelling_) begin_dwell();
@@ -276,33 +285,66 @@ Point DwellDetector::average(std::size_t from, std::size_t to) {
   return point;
 }
 
-void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size_t to,
-                                  Point& point) {
+// The readings of a probe that can be used, each of its own samples once. Where nothing is marked,
+// every value is one.
+std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size_t from,
+                                                    std::size_t to, std::size_t& usable_rows,
+                                                    std::size_t& over_range) {
   const auto& column = buffer_.probe_m[probe];
   const auto& quality = buffer_.probe_quality[probe];
-  std::span<const double> readings(&column[from], to - from);
-  std::size_t over_range = 0;
-  if (!quality.empty()) {  // where nothing is marked, every value is finite and usable
-    finite_.clear();
-    for (std::size_t i = from; i < to; ++i) {
-      over_range += quality[i] == Quality::over_range;
-      if (usable(quality[i]) && std::isfinite(column[i])) finite_.push_back(column[i]);
-    }
-    readings = finite_;
+  const auto& fresh = buffer_.probe_fresh[probe];
+  if (quality.empty() && fresh.empty()) return {&column[from], to - from};
+  finite_.clear();
+  usable_rows = 0;
+  for (std::size_t i = from; i < to; ++i) {
+    const Quality q = quality.empty() ? Quality::good : quality[i];
+    over_range += q == Quality::over_range;
+    if (!usable(q) || !std::isfinite(column[i])) continue;
+    ++usable_rows;
+    if (fresh.empty() || fresh[i]) finite_.push_back(column[i]);
   }
+  return finite_;
+}
+
+void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size_t to,
+                                  Point& point) {
+  std::size_t over_range = 0, usable_rows = to - from;
+  const std::span<const double> readings = own_readings(probe, from, to, usable_rows, over_range);
   const std::string& id = probe_ids_[probe];
   if (over_range > 0) add_flag(point, "saturated:" + id);
-  if (readings.size() < kMinScans || 2 * readings.size() < to - from) {
-    add_flag(point, "lost:" + id);
+  const bool lost = usable_rows < kMinScans || 2 * usable_rows < to - from;
+  if (!lost && readings.size() < kMinScans) add_flag(point, "slow:" + id);
+  if (lost) add_flag(point, "lost:" + id);
+  if (lost || readings.size() < kMinScans) {
     point.probe_m.push_back(kNaN);
     point.probe_u_m.push_back(kNaN);
     return;
   }
-  if (readings.size() + over_range < to - from) add_flag(point, "missing:" + id);
-  const RobustMean mean = robust_mean(readings, 1e-3 * probe_range_m_[probe], scratch_);
+  if (usable_rows + over_range < to - from) add_flag(point, "missing:" + id);
+  const double step = resolution_[probe].step();
+  const double coarse = std::max(1e-3 * probe_range_m_[probe], kCoarseSteps * step);
+  const RobustMean mean = robust_mean(readings, coarse, scratch_);
   if (mean.rejected > 0) add_flag(point, "spike:" + id);
   point.probe_m.push_back(mean.mean);
-  point.probe_u_m.push_back(mean.u);
+  point.probe_u_m.push_back(with_resolution(mean.u, mean.sd, step));
+}
+
+// Neighbours that are a probe's own samples: where it is interpolated its step is not in the
+// frames.
+void DwellDetector::learn_resolution(const Slot& slot) {
+  for (std::size_t k = 0; k < probe_ids_.size(); ++k) {
+    if (!buffer_.probe_fresh[k].empty()) continue;
+    resolution_[k].add({&buffer_.probe_m[k][slot.first_row], slot.rows});
+  }
+}
+
+void DwellDetector::settle_resolution(std::vector<Point>& points) const {
+  for (Point& point : points) {
+    for (std::size_t k = 0; k < point.probe_u_m.size(); ++k) {
+      if (point.probe_u_m[k] == 0)
+        point.probe_u_m[k] = with_resolution(0, 0, resolution_[k].step());
+    }
+  }
 }
 
 void DwellDetector::drop_rows_before(std::size_t row) {
@@ -313,9 +355,8 @@ void DwellDetector::drop_rows(std::size_t row) {
   drop_front(buffer_.time_ns, row);
   drop_front(buffer_.encoder_m, row);
   for (auto& column : buffer_.probe_m) drop_front(column, row);
-  for (auto& column : buffer_.probe_quality) {
-    if (!column.empty()) drop_front(column, row);
-  }
+  for (auto& column : buffer_.probe_quality) drop_front(column, row);
+  for (auto& column : buffer_.probe_fresh) drop_front(column, row);
   for (Slot& slot : slots_) slot.first_row -= std::min(slot.first_row, row);
   row_ -= row;
 }
@@ -332,6 +373,7 @@ void DwellDetector::drop_cut_rows() {
   erase(buffer_.encoder_m);
   for (auto& column : buffer_.probe_m) erase(column);
   for (auto& column : buffer_.probe_quality) erase(column);
+  for (auto& column : buffer_.probe_fresh) erase(column);
   for (Slot& slot : slots_) slot.first_row = std::min(slot.first_row, cut_row_);
   row_ -= end - cut_row_;
   open_.first_row -= end - cut_row_;

@@ -5,9 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "algo/noise_floor.h"
+#include "algo/resolution.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 
@@ -15,8 +18,8 @@ namespace mdof::algo {
 
 // Defaults need no tuning on logs of stages that settle within a tenth of a second.
 struct DwellOptions {
-  // The axis stands still while the encoder stays within this over `window_s`. 0: 2 µm, or 2.5
-  // times the quietest quarter of a window seen so far where the encoder is noisier than that.
+  // The axis stands still while the encoder stays within this over `window_s`. 0: 2 µm, or six
+  // times the encoder's own noise (its sd) where that is more.
   double tolerance_m = 0;
   double window_s = 0.05;
   double settle_s = 0.1;      // left out at the start of each stop
@@ -43,6 +46,10 @@ class DwellDetector {
   void break_after(std::int64_t time_ns);
   // End of the data: the dwell under way is complete as well.
   void flush(std::vector<Point>& out);
+
+  // What never changed in a stop before the step of its readings was known has no uncertainty yet:
+  // gives it that of the rounding.
+  void settle_resolution(std::vector<Point>& points) const;
 
   struct Summary {
     std::uint64_t scans = 0;
@@ -77,7 +84,10 @@ class DwellDetector {
   void end_of_sight(std::vector<Point>& out);
   void pass_break(std::vector<Point>& out);
   Point average(std::size_t from, std::size_t to);
+  std::span<const double> own_readings(std::size_t probe, std::size_t from, std::size_t to,
+                                       std::size_t& usable_rows, std::size_t& over_range);
   void average_probe(std::size_t probe, std::size_t from, std::size_t to, Point& point);
+  void learn_resolution(const Slot& slot);
   void drop_rows_before(std::size_t row);  // when it is worth moving the rest up
   void drop_rows(std::size_t row);
   void drop_cut_rows();
@@ -85,6 +95,7 @@ class DwellDetector {
   DwellOptions options_;
   std::vector<std::string> probe_ids_;
   std::vector<double> probe_range_m_;
+  std::vector<Resolution> resolution_;
   Summary summary_;
 
   FrameBlock early_;  // until the period is known
@@ -95,7 +106,7 @@ class DwellDetector {
   std::size_t row_ = 0;                     // of buffer_: the next that belongs to no slot yet
   Slot open_;
   bool slot_open_ = false;
-  double encoder_noise_m_ = -1;      // sd, of the quietest slot so far; below 0: not known
+  NoiseFloor encoder_noise_;
   std::deque<double> path_;          // positions at least approach_m apart, newest at the back
   std::deque<std::int64_t> breaks_;  // not yet passed
 

@@ -1,8 +1,10 @@
 #include "algo/robust_mean.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "algo/lane_sum.h"
+#include "algo/mean_uncertainty.h"
 
 namespace mdof::algo {
 namespace {
@@ -11,7 +13,6 @@ constexpr double kReject = 6.0;
 constexpr double kMadToSd = 1.4826;
 // Median and deviation of a long dwell are taken from at most this many readings, evenly spread.
 constexpr std::size_t kSubsample = 512;
-constexpr double kMaxCorrelation = 0.98;
 
 // Puts the values for which `first` holds before the others; gives their end. Without branches, as
 // no processor can guess how noise compares.
@@ -45,19 +46,6 @@ double median(std::vector<double>& values) {
   }
 }
 
-// Sum of term(&x) over x, as eight sums side by side: a single one would wait for each addition. In
-// the same order on every machine.
-template <class Term>
-double sum(std::span<const double> x, Term term) {
-  constexpr std::size_t kSums = 8;
-  std::array<double, kSums> sums{};
-  std::size_t i = 0;
-  for (; i + kSums <= x.size(); i += kSums)
-    for (std::size_t k = 0; k < kSums; ++k) sums[k] += term(&x[i + k]);
-  for (std::size_t k = 0; i < x.size(); ++i, ++k) sums[k] += term(&x[i]);
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
-}
-
 }  // namespace
 
 RobustMean robust_mean(std::span<const double> readings, double coarse,
@@ -81,15 +69,13 @@ RobustMean robust_mean(std::span<const double> readings, double coarse,
   result.rejected = readings.size() - result.used;
   const std::span<double> deviations(scratch.data(), result.used);
   const auto n = static_cast<double>(result.used);
-  const double offset = sum(deviations, [](const double* x) { return *x; }) / n;
+  const double offset = lane_sum(deviations, [](const double* x) { return *x; }) / n;
   result.mean = centre + offset;
   if (result.used < 2) return result;
   for (double& x : deviations) x -= offset;
-  const double square = sum(deviations, [](const double* e) { return *e * *e; });
-  const double lagged = sum(deviations.subspan(1), [](const double* e) { return e[0] * e[-1]; });
+  const double square = lane_sum(deviations, [](const double* e) { return *e * *e; });
   result.sd = std::sqrt(square / (n - 1));
-  const double rho = square > 0 ? std::clamp(lagged / square, 0.0, kMaxCorrelation) : 0.0;
-  result.u = result.sd / std::sqrt(n) * std::sqrt((1 + rho) / (1 - rho));
+  result.u = mean_uncertainty(deviations, result.sd);
   return result;
 }
 

@@ -16,8 +16,8 @@ struct RobustMean {
 
 // Readings further than 6 robust standard deviations (1.4826 · median absolute deviation) from the
 // median are left out; where more than half of the readings are the same number, further than
-// `coarse`. Sums have one order on every machine. u = sd/√n · √((1 + ρ)/(1 - ρ)), with ρ the
-// lag-1 correlation where positive (GUM 4.2.3 for readings that are not independent).
+// `coarse`. Sums have one order on every machine. u: mean_uncertainty(), for readings that are not
+// independent (GUM 4.2.3).
 // `readings` are finite; `scratch` is reused memory.
 RobustMean robust_mean(std::span<const double> readings, double coarse,
                        std::vector<double>& scratch);

@@ -109,6 +109,7 @@ const std::vector<MeasuredPoint>& Pipeline::points() {
 // long log asks once.
 void Pipeline::take_points() {
   taken_ = found_.size();
+  dwell_.settle_resolution(found_);
   sequence_ = algo::recognise_sequence(found_, options_.sequence);
   for (auto& p : sequence_.points) {
     p.errors = solve_at(p.point.position_m, p.point.probe_m, p.point.probe_u_m);

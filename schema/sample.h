@@ -65,6 +65,9 @@ struct FrameBlock {
   std::vector<double> encoder_m;
   std::vector<std::vector<double>> probe_m;         // [probe][instant]
   std::vector<std::vector<Quality>> probe_quality;  // [probe][instant]; empty: all good
+  // [probe][instant] 1 where a sample of the probe's own has come since the instant before, 0 where
+  // the value is only interpolated anew from the same samples; empty: 1 everywhere.
+  std::vector<std::vector<std::uint8_t>> probe_fresh = {};
 
   std::size_t size() const { return time_ns.size(); }
   Quality quality_at(std::size_t probe, std::size_t i) const {

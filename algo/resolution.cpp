@@ -1,0 +1,42 @@
+#include "algo/resolution.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kAlike = 1.05;  // readings printed with few digits have steps that differ a little
+constexpr std::size_t kFewest = 3;
+constexpr double kDithers = 0.5;  // steps
+
+}  // namespace
+
+void Resolution::add(std::span<const double> x) {
+  if (x.size() < 4 || x[0] != x[1]) return;  // noise larger than the step: most of all readings
+  for (std::size_t i = 1; i + 2 < x.size(); ++i) {
+    if (x[i - 1] == x[i] && x[i] != x[i + 1] && x[i + 1] == x[i + 2])
+      keep(std::abs(x[i + 1] - x[i]));
+  }
+}
+
+void Resolution::keep(double step) {
+  if (!std::isfinite(step) || (kept_ == kKept && step >= smallest_.back())) return;
+  if (kept_ < kKept) ++kept_;
+  std::size_t i = kept_ - 1;
+  for (; i > 0 && smallest_[i - 1] > step; --i) smallest_[i] = smallest_[i - 1];
+  smallest_[i] = step;
+  // Of few most have to agree, of many an eighth: a stray one is none.
+  const std::size_t alike = std::max(kFewest, kept_ < 16 ? kept_ * 3 / 4 : kept_ / 8);
+  step_ = 0;
+  for (std::size_t k = 0; k + alike <= kept_ && step_ == 0; ++k) {
+    if (smallest_[k + alike - 1] <= kAlike * smallest_[k]) step_ = smallest_[k];
+  }
+}
+
+double with_resolution(double u, double sd, double step) {
+  if (sd >= kDithers * step) return u;
+  return std::sqrt(u * u + step * step / 12);
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,180 @@
+// The stated uncertainty of a dwell's mean against the scatter of the means of many dwells.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "algo/align.h"
+#include "algo/dwell.h"
+#include "algo/robust_mean.h"
+#include "stepping_log.h"
+
+namespace mdof::algo {
+namespace {
+
+// Noise of sd 1 nm whose correlation falls by `phi` from one sample to the next.
+struct Noise {
+  explicit Noise(double correlation) : phi(correlation), state(unit(engine)) {}
+  double phi;
+  std::mt19937_64 engine{11};
+  std::normal_distribution<> unit;
+  double state;
+  double next() {
+    state = phi * state + std::sqrt(1 - phi * phi) * unit(engine);
+    return 1e-9 * state;
+  }
+};
+
+double stated_over_true(const std::vector<Point>& points, std::size_t skip = 0) {
+  double stated = 0, square = 0;
+  for (std::size_t i = skip; i < points.size(); ++i) {
+    stated += points[i].probe_u_m[0] * points[i].probe_u_m[0];
+    square += points[i].probe_m[0] * points[i].probe_m[0];  // the truth is 0
+  }
+  return std::sqrt(stated / square);
+}
+
+// An axis that goes back and forth between two stops of 0.5 s, `stops` times; one probe, that has a
+// sample of its own every `every` scans of the encoder, on a device of its own.
+std::vector<Point> measure(int every, double phi, int stops) {
+  constexpr double kRate_hz = 1000;
+  SampleBlock encoder{"scale", {{"encoder", Unit::metre}}, {}, {{}}, {}, 0};
+  SampleBlock probe{"amplifier", {{"A", Unit::metre}}, {}, {{}}, {}, 0};
+  Noise noise{phi};
+  std::int64_t row = 0;
+  for (int stop = 0; stop < stops; ++stop) {
+    for (int i = 0; i < 600; ++i, ++row) {
+      const double part = std::min(1.0, i / 100.0), from = stop % 2 ? 1e-3 : 0, to = 1e-3 - from;
+      const auto time_ns = static_cast<std::int64_t>(static_cast<double>(row) / kRate_hz * 1e9);
+      encoder.time_ns.push_back(time_ns);
+      encoder.value[0].push_back(from + (to - from) * part);
+      if (row % every != 0) continue;
+      probe.time_ns.push_back(time_ns + (every > 1 ? 300'000 : 0));
+      probe.value[0].push_back(noise.next());
+    }
+  }
+  Aligner aligner({.lag_bound_s = 3, .max_gap_s = 0.1}, {"A"});
+  DwellDetector detector({}, {"A"}, {200e-6});
+  FrameBlock frames;
+  std::vector<Point> points;
+  EXPECT_TRUE(aligner.push(probe, frames));
+  EXPECT_TRUE(aligner.push(encoder, frames));
+  aligner.flush(frames);
+  detector.push(frames, points);
+  detector.flush(points);
+  return points;
+}
+
+TEST(Uncertainty, CountsTheSamplesOfASlowProbeOnce) {
+  for (const int every : {1, 2, 10, 40}) {
+    const auto points = measure(every, 0, 400);
+    ASSERT_GE(points.size(), 399u);
+    const double ratio = stated_over_true(points, 2);
+    EXPECT_GT(ratio, 0.8) << every;
+    EXPECT_LT(ratio, 1.25) << every;
+  }
+}
+
+TEST(Uncertainty, SlowNoiseWithinADwellIsInIt) {
+  for (const double phi : {0.5, 0.9, 0.95}) {
+    const double ratio = stated_over_true(measure(1, phi, 400), 2);
+    EXPECT_GT(ratio, 0.8) << phi;
+    EXPECT_LT(ratio, 1.25) << phi;
+  }
+}
+
+TEST(Uncertainty, OfFewAndOfManyReadings) {
+  std::vector<double> scratch;
+  for (const std::size_t n : {5u, 10u, 50u, 400u, 4000u}) {
+    for (const double phi : {0.0, 0.5, 0.9, 0.99}) {
+      if ((1 + phi) / (1 - phi) > static_cast<double>(n) / 16) continue;
+      Noise noise{phi};
+      double stated = 0, square = 0;
+      for (int trial = 0; trial < 600; ++trial) {
+        noise.state = noise.unit(noise.engine);
+        std::vector<double> x(n);
+        for (double& v : x) v = noise.next();
+        const RobustMean mean = robust_mean(x, 1e-6, scratch);
+        stated += mean.u * mean.u;
+        square += mean.mean * mean.mean;
+      }
+      EXPECT_GT(std::sqrt(stated / square), 0.8) << n << " " << phi;
+      EXPECT_LT(std::sqrt(stated / square), 1.25) << n << " " << phi;
+    }
+  }
+}
+
+TEST(Uncertainty, AProbeWithHardlyAnySampleOfItsOwnIsNotUsed) {
+  const auto points = measure(90, 0, 4);  // four of its samples in a stop
+  ASSERT_FALSE(points.empty());
+  EXPECT_TRUE(std::isnan(points[1].probe_m[0]));
+  EXPECT_TRUE(has_flag(points[1], "slow:A"));
+}
+
+// A coarse probe: u covers the rounding whether the reading flickers or stands.
+TEST(Uncertainty, RoundingIsInIt) {
+  for (const double noise_um : {0.0, 0.002, 0.02}) {
+    SteppingLog log;
+    log.probe_noise_um = noise_um;
+    log.probe_step_um = 0.1;
+    log.drift_um_per_min = 0;
+    const FrameBlock frames = log.frames();
+    DwellDetector detector({}, log.ids(), std::vector<double>(5, 200e-6));
+    std::vector<Point> points;
+    detector.push(frames, points);
+    detector.flush(points);
+    detector.settle_resolution(points);
+    ASSERT_EQ(points.size(), 78u);
+    double stated = 0, square = 0;
+    for (const Point& p : points) {
+      const auto truth_um = log.readings_um(1e3 * p.position_m);
+      EXPECT_TRUE(p.flags.empty()) << p.flags.front();
+      for (std::size_t k = 0; k < 5; ++k) {
+        EXPECT_GT(p.probe_u_m[k], 0);
+        stated += p.probe_u_m[k] * p.probe_u_m[k];
+        square += std::pow(p.probe_m[k] - 1e-6 * truth_um[k], 2);
+      }
+    }
+    EXPECT_GT(std::sqrt(stated / square), 0.8) << noise_um;
+    // Between no noise and half a step the figure is a bound: some of the rounding averages out.
+    EXPECT_LT(std::sqrt(stated / square), noise_um > 0.01 ? 3.0 : 1.4) << noise_um;
+  }
+}
+
+TEST(Uncertainty, NoiseThatDithersAveragesTheRoundingOut) {
+  SteppingLog log;
+  log.probe_noise_um = 0.1;
+  log.probe_step_um = 0.1;
+  log.drift_um_per_min = 0;
+  DwellDetector detector({}, log.ids(), std::vector<double>(5, 200e-6));
+  std::vector<Point> points;
+  detector.push(log.frames(), points);
+  detector.flush(points);
+  double stated = 0, square = 0;
+  for (const Point& p : points) {
+    const auto truth_um = log.readings_um(1e3 * p.position_m);
+    for (std::size_t k = 0; k < 5; ++k) {
+      stated += p.probe_u_m[k] * p.probe_u_m[k];
+      square += std::pow(p.probe_m[k] - 1e-6 * truth_um[k], 2);
+    }
+  }
+  EXPECT_GT(std::sqrt(stated / square), 0.8);
+  EXPECT_LT(std::sqrt(stated / square), 1.25);
+}
+
+// Exact numbers have no step, and a ramp of equal steps is none.
+TEST(Uncertainty, ASimulationWithoutNoiseHasNoResolution) {
+  Resolution ramp, exact;
+  std::vector<double> x(200, 0.0), y(200, 0.0);
+  for (std::size_t i = 20; i < 180; ++i) x[i] = 1e-9 * static_cast<double>(i - 19);
+  for (std::size_t i = 180; i < 200; ++i) x[i] = x[179];
+  for (std::size_t i = 1; i < 200; ++i) y[i] = y[i - 1] + 1e-9 * std::abs(std::sin(double(i)));
+  ramp.add(x);
+  exact.add(y);
+  EXPECT_EQ(ramp.step(), 0);
+  EXPECT_EQ(exact.step(), 0);
+  EXPECT_DOUBLE_EQ(with_resolution(0, 0, 12e-9), 12e-9 / std::sqrt(12.0));
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -151,6 +151,7 @@ void DwellDetector::learn_period(const FrameBlock& frames) {
   encoder_before_ = {frames.encoder_m.front(), frames.encoder_m.front()};
   summary_.period_s = ns_to_s(period_ns_);
   summary_.encoder_min_m = summary_.encoder_max_m = frames.encoder_m.front();
+  way_ = {frames.encoder_m.front(), frames.encoder_m.front()};
 }
 
 // Rows row_ ... to - 1 belong to the open slot.
@@ -198,6 +199,11 @@ void DwellDetector::remember_path(double position_m) {
   if (path_.size() > kPathLength) path_.pop_front();
 }
 
+void DwellDetector::remember_way(const Slot& slot) {
+  way_.min_m = std::min(way_.min_m, slot.min_m);
+  way_.max_m = std::max(way_.max_m, slot.max_m);
+}
+
 int DwellDetector::direction_to(double position_m) const {
   for (auto it = path_.rbegin(); it != path_.rend(); ++it) {
     if (std::abs(*it - position_m) > options_.approach_m) return *it < position_m ? 1 : -1;
@@ -221,6 +227,7 @@ void DwellDetector::close_slot(std::vector<Point>& out) {
   const bool still = window_still();
   if (still && !dwelling_) begin_dwell();
   if (!still && dwelling_) end_dwell(out);
+  if (!dwelling_) remember_way(slots_.back());
   if (dwelling_) {
     truncated_ = truncated_ || slots_.back().first_row >= cut_row_;
   } else {
@@ -236,6 +243,8 @@ void DwellDetector::begin_dwell() {
   const bool same_stop = left_ns_ != 0 && slots_.front().begin_ns - left_ns_ <= 2 * slot_ns_ &&
                          std::abs(slots_.back().middle() - left_m_) < options_.approach_m;
   if (!same_stop) direction_ = direction_to(slots_.back().middle());
+  if (same_stop) way_ = gave_point_ ? Way{left_m_, left_m_} : way_in_;
+  way_in_ = way_;
   drop_rows_before(slots_.front().first_row);
   cut_row_ = slots_.front().first_row + options_.max_scans;
 }
@@ -243,6 +252,7 @@ void DwellDetector::begin_dwell() {
 // The newest slot has left the window; the one before it may hold the start of the motion.
 void DwellDetector::end_dwell(std::vector<Point>& out) {
   dwelling_ = false;
+  gave_point_ = false;
   left_ns_ = slots_.back().begin_ns;
   left_m_ = slots_[slots_.size() - 3].middle();
   const std::size_t end_row = std::min(slots_[slots_.size() - 2].first_row, cut_row_);
@@ -260,9 +270,19 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
                             buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(end_row));
     const bool spiky =
         std::find(point.flags.begin(), point.flags.end(), "spike:encoder") != point.flags.end();
-    if (*high - *low <= kCreepFactor * summary_.tolerance_m || spiky)
+    if (*high - *low <= kCreepFactor * summary_.tolerance_m || spiky) {
+      if (way_seen_) point.way_min_m = way_in_.min_m, point.way_max_m = way_in_.max_m;
       out.push_back(std::move(point));
+      gave_point_ = true;
+    }
   }
+  if (gave_point_) {
+    way_seen_ = true;
+    way_ = {left_m_, left_m_};
+  } else if (summary_.passed_over.size() < kMaxPassedOver) {
+    summary_.passed_over.push_back({left_m_, still_s, still_since_ns_, !long_enough});
+  }
+  remember_way(slots_[slots_.size() - 2]);
 }
 
 Point DwellDetector::average(std::size_t from, std::size_t to) {
@@ -318,6 +338,7 @@ void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size
   if (lost || readings.size() < kMinScans) {
     point.probe_m.push_back(kNaN);
     point.probe_u_m.push_back(kNaN);
+    point.probe_sd_m.push_back(kNaN);
     return;
   }
   if (usable_rows + over_range < to - from) add_flag(point, "missing:" + id);
@@ -327,6 +348,7 @@ void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size
   if (mean.rejected > 0) add_flag(point, "spike:" + id);
   point.probe_m.push_back(mean.mean);
   point.probe_u_m.push_back(with_resolution(mean.u, mean.sd, step));
+  point.probe_sd_m.push_back(mean.sd);
 }
 
 // Neighbours that are a probe's own samples: where it is interpolated its step is not in the
@@ -389,6 +411,7 @@ void DwellDetector::pass_break(std::vector<Point>& out) {
   slots_.clear();
   path_.clear();
   left_ns_ = 0;
+  way_seen_ = false;
   encoder_before_.fill(buffer_.encoder_m[row_]);
 }
 

@@ -58,7 +58,15 @@ class DwellDetector {
     std::uint64_t gaps = 0;      // intervals over three periods
     double longest_still_s = 0;  // to explain why nothing was found
     double tolerance_m = 0;      // in force at the end
+    // Stops that gave no point: too short, or creeping. The first kMaxPassedOver of them.
+    struct PassedOver {
+      double position_m = 0, length_s = 0;
+      std::int64_t begin_ns = 0;
+      bool too_short = false;  // else it crept
+    };
+    std::vector<PassedOver> passed_over;
   };
+  static constexpr std::size_t kMaxPassedOver = 10'000;
   const Summary& summary() const { return summary_; }
   bool still() const { return dwelling_; }
 
@@ -78,6 +86,7 @@ class DwellDetector {
   void close_slot(std::vector<Point>& out);
   bool window_still() const;
   void remember_path(double position_m);
+  void remember_way(const Slot& slot);
   int direction_to(double position_m) const;
   void begin_dwell();
   void end_dwell(std::vector<Point>& out);
@@ -115,7 +124,13 @@ class DwellDetector {
   std::size_t cut_row_ = 0;   // of the dwell under way: what comes after is not averaged
   std::int64_t left_ns_ = 0;  // when and where the last stop ended; 0: none yet
   double left_m_ = 0;
-  int direction_ = 0;  // of approach, taken before the axis leaves again
+  struct Way {
+    double min_m = 0, max_m = 0;
+  };
+  bool way_seen_ = true;     // from the point before, or the beginning, to now
+  Way way_, way_in_;         // since then; until the last stop began
+  bool gave_point_ = false;  // the last stop
+  int direction_ = 0;        // of approach, taken before the axis leaves again
   std::vector<double> scratch_, finite_;
 };
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "algo/sequence_cycle.h"
+#include "schema/plausibility.h"
 #include "schema/point.h"
 #include "schema/result.h"
 
@@ -22,15 +24,20 @@ struct SequenceOptions {
 struct Sequence {
   std::vector<MeasuredPoint> points;  // in time order, errors not yet solved
   std::vector<std::string> warnings;  // what was left out and why
+  std::vector<StopLeftOut> left_out;
+  std::vector<double> targets_m;  // ascending
+  Cycle cycle = Cycle::none;
+  bool by_passes = false;  // see CycleFound
   int targets = 0, runs = 0;
 };
 
-// Targets: positions are sorted and cut where the step to the next is ten times the scatter within
-// a target (and over 2 µm). A pass is a row of stops with one approach, in order; the k-th pass of
-// an approach is run k. Two stops in a row at one target with one approach are one interrupted
-// stop: the longer is kept. A point whose approach is not known (the log begins there, or nobody
-// saw the axis before it) is taken to go on with the stop before it at the same target, else to
-// belong to the motion that follows, and is flagged "approach_assumed".
+// Targets are those given, or where the axis stopped (sequence_stops.h). Stops of no target are
+// left out and told: near no given target; where none are given, those that the other stops show
+// to be a parked axis, a pause or a turning point. Two stops in a row at one target with one
+// approach, between which the axis did not leave it, are one interrupted stop: the longer is kept.
+// A point whose approach is not known (the log begins there, or nobody saw the axis before it) is
+// taken to go on with the stop before it at the same target, else to belong to the motion that
+// follows, and is flagged "approach_assumed". Runs: see recognise_cycle().
 Sequence recognise_sequence(const std::vector<Point>& points, const SequenceOptions& options);
 
 }  // namespace mdof::algo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,12 @@ struct Point {
   std::vector<double> probe_u_m;          // standard uncertainty of the mean (type A)
   std::uint64_t samples = 0;              // scans in the dwell
   std::vector<std::string> flags;         // "spike:A", "saturated:B", "lost:C", "gap", "short", ...
+
+  // For judging a run as a whole; neither stored nor part of the result.
+  std::vector<double> probe_sd_m;  // of single readings
+  // How far the axis went between the point before and this one; NaN where that was not seen.
+  double way_min_m = std::numeric_limits<double>::quiet_NaN();
+  double way_max_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 enum class Model { simplified, exact, rigid };

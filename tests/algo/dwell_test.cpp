@@ -248,7 +248,8 @@ TEST(Sequence, NominalTargetsLeaveOtherStopsOutAndSaySo) {
   options.targets_m = {0, 4e-3, 8e-3};
   const Sequence s = recognise_sequence(detect(axis.frames, 1000), options);
   EXPECT_EQ(s.points.size(), 6u);
-  EXPECT_EQ(s.warnings.size(), 4u);
+  EXPECT_EQ(s.left_out.size(), 4u);
+  EXPECT_EQ(s.warnings.size(), 1u);
   EXPECT_EQ(s.points[1].target_m, 4e-3);
 }
 

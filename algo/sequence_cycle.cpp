@@ -1,0 +1,186 @@
+#include "algo/sequence_cycle.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kMostOutOfOrder = 0.15;  // of the visits, in a cycle that still has its name
+constexpr double kAlwaysForgiven = 3;     // one target repeated, in a run of any length
+constexpr double kLeastAtOnce = 1.5;      // visits without leaving a target, of a pilgrim cycle
+
+using Runs = std::vector<int>;
+
+// Passes, by the turning points of the way over the targets; see the header for what counts as one.
+class Passes {
+ public:
+  explicit Passes(int targets) : turn_(std::max(1, targets / 2)) {}
+
+  int next(const Visit& visit) {
+    follow(visit.target);
+    if (heading_ == 0) ++(visit.direction > 0 ? forward_before_ : reverse_before_);
+    const bool goes_on = heading_ == visit.direction;
+    return (visit.direction > 0 ? forward_ : reverse_) + (goes_on ? 0 : 1);
+  }
+
+ private:
+  void follow(int target) {
+    if (low_ == 0) low_ = high_ = target;
+    low_ = std::min(low_, target);
+    high_ = std::max(high_, target);
+    if (heading_ <= 0 && target - low_ >= turn_) turn(1, target);
+    if (heading_ >= 0 && high_ - target >= turn_) turn(-1, target);
+  }
+  void turn(int heading, int target) {
+    // The first pass may have been short; a single stop before it turned is none.
+    if (heading_ == 0 && heading < 0 && forward_before_ > 1) forward_ = 1;
+    if (heading_ == 0 && heading > 0 && reverse_before_ > 1) reverse_ = 1;
+    heading_ = heading;
+    low_ = high_ = target;
+    ++(heading > 0 ? forward_ : reverse_);
+  }
+
+  int turn_;
+  int low_ = 0, high_ = 0;  // since the last turn
+  int heading_ = 0;
+  int forward_ = 0, reverse_ = 0;                // passes begun
+  int forward_before_ = 0, reverse_before_ = 0;  // visits before the first turn
+};
+
+Runs runs_by_passes(const std::vector<Visit>& visits, int targets) {
+  Passes passes(targets);
+  Runs runs;
+  for (const Visit& v : visits) runs.push_back(passes.next(v));
+  return runs;
+}
+
+Runs runs_by_visits(const std::vector<Visit>& visits) {
+  std::map<std::pair<int, int>, int> count;
+  Runs runs;
+  for (const Visit& v : visits) runs.push_back(++count[{v.target, v.direction}]);
+  return runs;
+}
+
+// Visits that do not go on in the direction of their pass, or that another pass interrupts.
+int out_of_order(const std::vector<Visit>& visits, const Runs& runs) {
+  std::map<std::pair<int, int>, int> last;  // target of each pass, by direction and run
+  int count = 0;
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    const Visit& v = visits[i];
+    const auto [pass, first] = last.try_emplace({v.direction, runs[i]}, v.target);
+    const bool onward = (v.target - pass->second) * v.direction > 0;
+    const bool at_once = i > 0 && visits[i - 1].direction == v.direction && runs[i - 1] == runs[i];
+    count += !first && !(onward && at_once);
+    pass->second = v.target;
+  }
+  return count;
+}
+
+// A pass goes over the targets: it has at least half of them, in the mean.
+bool go_over_the_targets(const std::vector<Visit>& visits, const Runs& runs, int targets) {
+  std::set<std::pair<int, int>> passes;
+  for (std::size_t i = 0; i < visits.size(); ++i) passes.insert({visits[i].direction, runs[i]});
+  return 2 * visits.size() >= passes.size() * static_cast<std::size_t>(targets);
+}
+
+// Stretches of visits to one target.
+int blocks(const std::vector<Visit>& visits) {
+  int n = 0;
+  for (std::size_t i = 0; i < visits.size(); ++i)
+    n += i == 0 || visits[i].target != visits[i - 1].target;
+  return n;
+}
+
+bool few(int n, std::size_t of) {
+  return n <= kMostOutOfOrder * static_cast<double>(of);
+}
+
+// From block to block the axis goes one way.
+bool goes_along(const std::vector<Visit>& visits) {
+  int up = 0, down = 0;
+  for (std::size_t i = 1; i < visits.size(); ++i) {
+    up += visits[i].target > visits[i - 1].target;
+    down += visits[i].target < visits[i - 1].target;
+  }
+  return few(std::min(up, down), static_cast<std::size_t>(up + down));
+}
+
+bool is_pilgrim(const std::vector<Visit>& visits, int targets) {
+  const int n = blocks(visits);
+  return n <= targets + std::max(1, targets / 4) && goes_along(visits) &&
+         static_cast<double>(visits.size()) >= kLeastAtOnce * n;
+}
+
+// Where the axis turned round at an end, has the end target a visit from either side?
+Cycle by_turns(const std::vector<Visit>& visits, int targets) {
+  int beyond = 0, at_target = 0;
+  for (std::size_t i = 1; i < visits.size(); ++i) {
+    const Visit &in = visits[i - 1], &out = visits[i];
+    const int end = in.direction > 0 ? targets : 1;
+    if (in.direction == out.direction || (in.target != end && out.target != end)) continue;
+    ++((out.target - in.target) * out.direction > 0 ? at_target : beyond);
+  }
+  return at_target > beyond ? Cycle::pendulum : Cycle::standard;
+}
+
+// Every target is visited about as often from either side as the others.
+bool is_balanced(const std::vector<Visit>& visits, const Runs& runs, int targets) {
+  if (visits.empty()) return false;
+  const int most = *std::max_element(runs.begin(), runs.end());
+  return few(2 * targets * most - static_cast<int>(visits.size()), visits.size());
+}
+
+// The axis turns at targets, or within a few of them, all along its way.
+bool turns_often(const std::vector<Visit>& visits, int targets) {
+  std::map<int, std::pair<std::size_t, std::size_t>> seen;  // first and last visit of each target
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    seen.try_emplace(visits[i].target, i, i).first->second.second = i;
+  }
+  std::vector<int> spans;
+  for (const auto& [target, span] : seen) {
+    const auto [low, high] =
+        std::minmax_element(visits.begin() + static_cast<std::ptrdiff_t>(span.first),
+                            visits.begin() + static_cast<std::ptrdiff_t>(span.second) + 1,
+                            [](const Visit& a, const Visit& b) { return a.target < b.target; });
+    spans.push_back(high->target - low->target + 1);
+  }
+  std::sort(spans.begin(), spans.end());
+  const bool local = 2 * spans[spans.size() / 2] <= targets;
+  const bool at_targets = 3 * blocks(visits) <= 2 * static_cast<int>(visits.size());
+  return local || at_targets;
+}
+
+}  // namespace
+
+const char* to_string(Cycle cycle) {
+  switch (cycle) {
+    case Cycle::standard:
+      return "standard";
+    case Cycle::pendulum:
+      return "pendulum";
+    case Cycle::pilgrim:
+      return "pilgrim";
+    case Cycle::quasi_pilgrim:
+      return "quasi-pilgrim";
+    case Cycle::none:
+      break;
+  }
+  return "none";
+}
+
+CycleFound recognise_cycle(const std::vector<Visit>& visits, int targets) {
+  Runs by_visits = runs_by_visits(visits);
+  if (is_pilgrim(visits, targets)) return {Cycle::pilgrim, false, std::move(by_visits)};
+  Runs passes = runs_by_passes(visits, targets);
+  const int wrong = out_of_order(visits, passes);
+  const bool ordered = wrong <= kAlwaysForgiven || few(wrong, visits.size());
+  if (ordered && go_over_the_targets(visits, passes, targets))
+    return {by_turns(visits, targets), true, std::move(passes)};
+  const bool regular = is_balanced(visits, by_visits, targets) && turns_often(visits, targets);
+  return {regular ? Cycle::quasi_pilgrim : Cycle::none, false, std::move(by_visits)};
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,210 @@
+// Which stops are at no target? What the others have, tells: the typical number of visits, whether
+// from both sides, the typical interval. See leave_out_odd_stops() in sequence_stops.h.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "algo/sequence_stops.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kEnough = 0.6;     // of the typical number of visits, of what is surely a target
+constexpr double kAsMany = 0.75;    // of the typical number of visits
+constexpr double kTooNear = 0.6;    // of the typical interval, to what is surely a target
+constexpr double kTooFar = 1.6;     // of the typical interval, beyond the last target
+constexpr std::size_t kFewest = 4;  // places, so that one of a single pass can be told to be odd
+constexpr int kSurelyNone = 3;      // typical visits, of which a target would not miss all but one
+
+// A place where the axis stopped.
+struct Place {
+  double position_m = 0;
+  int forward = 0, reverse = 0;
+  bool parked = false;  // only the first stop of the log, which nobody saw the axis come to
+  bool first = false, last = false;
+  bool kept = false, judged = false;
+  int visits() const { return forward + reverse; }
+};
+
+struct Typical {
+  double visits = 0;
+  bool both_sides = false;
+  int direction = 0;  // where they come from one side
+  double interval_m = 0;
+};
+
+std::vector<Place> places_of(const std::vector<MeasuredPoint>& points,
+                             const std::vector<double>& targets_m) {
+  std::vector<Place> places(targets_m.size());
+  for (std::size_t t = 0; t < places.size(); ++t) places[t].position_m = targets_m[t];
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Place& place = places[static_cast<std::size_t>(points[i].target) - 1];
+    ++(points[i].point.direction > 0 ? place.forward : place.reverse);
+    place.first = place.first || i == 0;
+    place.last = place.last || i + 1 == points.size();
+  }
+  if (points.empty()) return places;
+  const auto& flags = points.front().point.flags;
+  Place& start = places[static_cast<std::size_t>(points.front().target) - 1];
+  start.parked =
+      start.visits() == 1 && std::find(flags.begin(), flags.end(), kApproachAssumed) != flags.end();
+  return places;
+}
+
+// Three quarters of the stops are at places that are visited no more often.
+double typical_visits(const std::vector<Place>& places) {
+  std::vector<int> of_stops;
+  for (const Place& p : places)
+    of_stops.insert(of_stops.end(), static_cast<std::size_t>(p.visits()), p.visits());
+  if (of_stops.empty()) return 0;
+  std::sort(of_stops.begin(), of_stops.end());
+  return of_stops[(3 * of_stops.size() - 1) / 4];
+}
+
+bool surely_a_target(const Place& p, const Typical& typical) {
+  const double enough = kEnough * typical.visits;
+  if (typical.both_sides) return p.visits() >= enough && p.forward > 0 && p.reverse > 0;
+  return (typical.direction > 0 ? p.forward : p.reverse) >= enough;
+}
+
+double median(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  return x.empty() ? 0 : x[x.size() / 2];
+}
+
+Typical typical_of(std::vector<Place>& places) {
+  Typical typical;
+  typical.visits = typical_visits(places);
+  int both = 0, one = 0, balance = 0;
+  for (const Place& p : places) {
+    if (p.visits() < kAsMany * typical.visits) continue;
+    ++(p.forward > 0 && p.reverse > 0 ? both : one);
+    balance += p.forward - p.reverse;
+  }
+  typical.both_sides = both >= one;
+  typical.direction = balance >= 0 ? 1 : -1;
+  std::vector<double> intervals;
+  const Place* before = nullptr;
+  for (Place& p : places) {
+    p.kept = p.judged = surely_a_target(p, typical);
+    if (p.kept && before) intervals.push_back(p.position_m - before->position_m);
+    if (p.kept) before = &p;
+  }
+  typical.interval_m = median(std::move(intervals));
+  return typical;
+}
+
+struct Neighbours {
+  double below_m = std::numeric_limits<double>::infinity(), above_m = below_m;  // to what is kept
+  bool sure = false;  // the next place, kept or not, is surely a target
+};
+
+Neighbours neighbours(const std::vector<Place>& places, std::size_t at) {
+  Neighbours found;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i == at || !places[i].kept) continue;
+    const double d = places[at].position_m - places[i].position_m;
+    (i < at ? found.below_m : found.above_m) =
+        std::min(i < at ? found.below_m : found.above_m, std::abs(d));
+  }
+  found.sure = (at > 0 && places[at - 1].kept) || (at + 1 < places.size() && places[at + 1].kept);
+  return found;
+}
+
+bool may_be_a_target(const Place& place, const Neighbours& n, const Typical& typical) {
+  const double nearest_m = std::min(n.below_m, n.above_m);
+  if (nearest_m < kTooNear * typical.interval_m) return false;
+  const bool inside = std::isfinite(n.below_m) && std::isfinite(n.above_m);
+  if (inside) return true;
+  const bool once = place.visits() == 1 && n.sure;
+  if (once && (place.parked || typical.visits >= kSurelyNone)) return false;
+  return nearest_m <= kTooFar * typical.interval_m;
+}
+
+// Those nearest to a target first: a row of places with few visits goes on from there.
+void judge(std::vector<Place>& places, const Typical& typical) {
+  std::vector<std::size_t> order;
+  std::vector<double> distance(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].judged) continue;
+    const Neighbours n = neighbours(places, i);
+    distance[i] = std::min(n.below_m, n.above_m);
+    order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (places[a].visits() != places[b].visits()) return places[a].visits() > places[b].visits();
+    return distance[a] < distance[b];
+  });
+  for (const std::size_t i : order) {
+    places[i].kept = may_be_a_target(places[i], neighbours(places, i), typical);
+    places[i].judged = true;
+  }
+}
+
+// All places have one visit: only a start off the grid can be told.
+void judge_start(std::vector<Place>& places) {
+  const std::size_t n = places.size();
+  if (n < kFewest) return;
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < n; ++i)
+    intervals.push_back(places[i].position_m - places[i - 1].position_m);
+  const double typical_m = median(intervals);
+  const auto off_grid = [&](double interval_m) {
+    return interval_m < kTooNear * typical_m || interval_m > kTooFar * typical_m;
+  };
+  if (places.front().parked && off_grid(intervals.front())) places.front().kept = false;
+  if (places.back().parked && off_grid(intervals.back())) places.back().kept = false;
+}
+
+std::string reason(const std::vector<Place>& places, std::size_t at) {
+  const Place& p = places[at];
+  if (p.parked) return "the axis was parked there when the log began";
+  if (p.visits() == 1 && p.first) return "visited once, before the first target";
+  if (p.visits() == 1 && p.last) return "visited once, at the end of the log";
+  const auto kept = [](const Place& q) { return q.kept; };
+  const auto here = places.begin() + static_cast<std::ptrdiff_t>(at);
+  const bool inside =
+      std::any_of(places.begin(), here, kept) && std::any_of(here, places.end(), kept);
+  const std::string visits =
+      p.visits() == 1 ? "visited once"
+      : p.forward > 0 && p.reverse > 0
+          ? "visited " + std::to_string(p.visits()) + " times"
+          : "visited " + std::to_string(p.visits()) + " times, from one side only";
+  return visits +
+         (inside ? ", between targets: a pause" : ", beyond the end target: a turning point");
+}
+
+}  // namespace
+
+std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
+                                             std::vector<double>& targets_m) {
+  std::vector<Place> places = places_of(points, targets_m);
+  const Typical typical = typical_of(places);
+  if (typical.visits <= 1) {
+    for (Place& p : places) p.kept = true;
+    judge_start(places);
+  } else {
+    if (!(typical.interval_m > 0)) return {};
+    judge(places, typical);
+  }
+  std::vector<int> number(places.size(), 0);
+  std::vector<double> kept_m;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!places[i].kept) continue;
+    kept_m.push_back(targets_m[i]);
+    number[i] = static_cast<int>(kept_m.size());
+  }
+  std::vector<StopLeftOut> left_out;
+  for (MeasuredPoint& p : points) {
+    const auto at = static_cast<std::size_t>(p.target) - 1;
+    p.target = number[at];
+    if (p.target == 0)
+      left_out.push_back({p.point.position_m, p.point.begin_ns, reason(places, at)});
+  }
+  std::erase_if(points, [](const MeasuredPoint& p) { return p.target == 0; });
+  targets_m = std::move(kept_m);
+  return left_out;
+}
+
+}  // namespace mdof::algo

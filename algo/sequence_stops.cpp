@@ -1,0 +1,138 @@
+#include "algo/sequence_stops.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kMinStep_m = 2e-6;      // closer than this is one target whatever the ratio says
+constexpr double kMaxScatter_m = 50e-6;  // wider than this is never one target
+constexpr double kStepToScatter = 10;
+constexpr double kLeastOvershoot_m = 40e-6;  // less than counts for an approach
+
+// Largest distance between neighbours (sorted positions) that still belong to one target.
+double scatter_limit(const std::vector<double>& sorted) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < sorted.size(); ++i) steps.push_back(sorted[i] - sorted[i - 1]);
+  std::sort(steps.begin(), steps.end());
+  double limit = kMinStep_m, best_ratio = kStepToScatter;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+    const double scatter = std::max(steps[i], kMinStep_m);
+    const double ratio = steps[i + 1] / scatter;
+    if (scatter <= kMaxScatter_m && ratio >= best_ratio) {
+      best_ratio = ratio;
+      limit = scatter;
+    }
+  }
+  // Every step small: all stops are at one target.
+  if (!steps.empty() && steps.back() <= kMinStep_m) limit = steps.back();
+  return limit;
+}
+
+void add_flag(Point& point, const char* flag) {
+  auto& flags = point.flags;
+  if (std::find(flags.begin(), flags.end(), flag) == flags.end()) flags.emplace_back(flag);
+}
+
+// Between the point before `p` and `p` the axis was further from `p` than a merged stop allows.
+bool went_away(const Point& p) {
+  return p.way_max_m - p.position_m > kMaxScatter_m || p.position_m - p.way_min_m > kMaxScatter_m;
+}
+
+bool approach_assumed(const Point& p) {
+  return std::find(p.flags.begin(), p.flags.end(), kApproachAssumed) != p.flags.end();
+}
+
+}  // namespace
+
+std::vector<double> targets_of_stops(const std::vector<Point>& points) {
+  std::vector<double> sorted;
+  for (const Point& p : points) sorted.push_back(p.position_m);
+  std::sort(sorted.begin(), sorted.end());
+  const double limit = scatter_limit(sorted);
+  std::vector<double> targets;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (i == 0 || sorted[i] - sorted[i - 1] > limit) targets.push_back(sorted[i]);
+  }
+  std::vector<bool> named(targets.size(), false);
+  std::vector<double> first = targets;
+  for (const Point& p : points) {
+    const auto above = std::upper_bound(targets.begin(), targets.end(), p.position_m);
+    const auto t = static_cast<std::size_t>(above - targets.begin()) - 1;
+    if (!named[t]) first[t] = p.position_m;
+    named[t] = true;
+  }
+  return first;
+}
+
+std::size_t nearest_target(const std::vector<double>& targets_m, double position_m) {
+  const auto above = std::lower_bound(targets_m.begin(), targets_m.end(), position_m);
+  if (above == targets_m.begin()) return 0;
+  const auto i = static_cast<std::size_t>(above - targets_m.begin());
+  if (above == targets_m.end()) return i - 1;
+  return *above - position_m < position_m - targets_m[i - 1] ? i : i - 1;
+}
+
+int correct_overshot(std::vector<Point>& points) {
+  int count = 0;
+  for (Point& p : points) {
+    const double above_m = p.way_max_m - p.position_m, below_m = p.position_m - p.way_min_m;
+    // The last motion came from one side, the way as a whole from the other.
+    const double overshot_m = p.direction < 0 ? above_m : below_m;
+    const double came_m = p.direction < 0 ? below_m : above_m;
+    const bool overshot = overshot_m > kLeastOvershoot_m && overshot_m <= kMostOvershoot_m;
+    if (p.direction == 0 || !overshot || !(came_m > 2 * overshot_m)) continue;
+    p.direction = -p.direction;
+    add_flag(p, kOvershot);
+    ++count;
+  }
+  return count;
+}
+
+void assume_approaches(std::vector<MeasuredPoint>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Point& p = points[i].point;
+    if (p.direction != 0) continue;
+    const bool stayed = i > 0 && points[i - 1].target == points[i].target;
+    const bool back = i + 1 < points.size() && points[i + 1].target < points[i].target;
+    p.direction = stayed ? points[i - 1].point.direction : back ? -1 : 1;
+    add_flag(p, kApproachAssumed);
+  }
+}
+
+void merge_interrupted(std::vector<MeasuredPoint>& points) {
+  std::vector<MeasuredPoint> merged;
+  for (auto& p : points) {
+    const bool again = !merged.empty() && merged.back().target == p.target &&
+                       merged.back().point.direction == p.point.direction && !went_away(p.point);
+    if (!again) {
+      merged.push_back(std::move(p));
+      continue;
+    }
+    if (p.point.samples > merged.back().point.samples) {
+      // The way to the stop is that to its first part.
+      p.point.way_min_m = merged.back().point.way_min_m;
+      p.point.way_max_m = merged.back().point.way_max_m;
+      merged.back() = std::move(p);
+    }
+    add_flag(merged.back().point, kInterrupted);
+  }
+  points = std::move(merged);
+}
+
+std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& points) {
+  if (points.size() < 2) return {};
+  const MeasuredPoint &parked = points[0], &next = points[1];
+  const bool again = next.target == parked.target && next.point.direction == parked.point.direction;
+  if (!approach_assumed(parked.point) || !again || !went_away(next.point)) return {};
+  std::vector<StopLeftOut> left_out = {
+      {parked.point.position_m, parked.point.begin_ns,
+       "the axis was parked there when the log began, and then came to the same target"}};
+  points.erase(points.begin());
+  return left_out;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,276 @@
+// What is wrong with a run is said by name, and nothing of a run that is right.
+#include "algo/plausibility.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/algo/measured_machine.h"
+
+namespace mdof::algo {
+namespace {
+
+Rig rig_of_five() {
+  Rig rig;
+  const double l = 10e-3;
+  const std::vector<Vec3> at = {
+      {l, 0, 0}, {0, l, 0}, {0, -l, 0}, {0, 15e-3, 20e-3}, {l, 15e-3, 20e-3}};
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    Probe probe;
+    probe.id = std::string(1, static_cast<char>('A' + k));
+    probe.position_m = at[k];
+    probe.range_m = 400e-6;
+    rig.probes.push_back(probe);
+  }
+  return rig;
+}
+
+struct Judged {
+  Plausibility figures;
+  std::vector<std::string> warnings;
+
+  bool says(const std::string& what) const { return all().find(what) != std::string::npos; }
+  std::string all() const {
+    std::string out;
+    for (const auto& text : warnings) out += text + "\n";
+    return out;
+  }
+};
+
+// As the pipeline does it, with errors solved wherever `solved` says so.
+template <class Solved>
+Judged judge(const Machine& machine, const std::vector<double>& targets_m, Solved solved) {
+  Rig rig = rig_of_five();
+  rig.probes.resize(1);  // the machine has one
+  DwellDetector detector({}, {"A"}, {200e-6});
+  std::vector<Point> points;
+  detector.push(machine.frames, points);
+  detector.flush(points);
+  SequenceOptions options;
+  options.targets_m = targets_m;
+  Sequence sequence = recognise_sequence(points, options);
+  for (std::size_t i = 0; i < sequence.points.size(); ++i) {
+    auto& errors = sequence.points[i].errors;
+    errors.valid = solved(i);
+    errors.reason = errors.valid ? "" : "probe A is lost";
+  }
+  const RunToJudge run{rig, sequence, detector.summary(), 0, !targets_m.empty(), 0.2};
+  Judged judged{plausibility(run), sequence.warnings};
+  const auto more = warnings_of_visits(run, judged.figures);
+  judged.warnings.insert(judged.warnings.end(), more.begin(), more.end());
+  return judged;
+}
+
+Judged judge(const Machine& machine, const std::vector<double>& targets_m = {}) {
+  return judge(machine, targets_m, [](std::size_t) { return true; });
+}
+
+TEST(Plausibility, CountsWhatWasVisited) {
+  Machine m;
+  m.standard(3);
+  const Judged judged = judge(m);
+  EXPECT_EQ(judged.all(), "");
+  EXPECT_EQ(judged.figures.cycle, "standard");
+  EXPECT_EQ(judged.figures.runs, 3);
+  ASSERT_EQ(judged.figures.n_ij.size(), 7u);
+  for (const auto& row : judged.figures.n_ij) {
+    EXPECT_EQ(row.forward, (std::vector<int>{1, 1, 1}));
+    EXPECT_EQ(row.reverse, (std::vector<int>{1, 1, 1}));
+  }
+  EXPECT_NEAR(judged.figures.rate_hz, 500, 1e-9);
+  ASSERT_EQ(judged.figures.probes.size(), 1u);
+  EXPECT_NEAR(judged.figures.probes[0].sd_m, 10e-9, 1e-9);
+  EXPECT_NEAR(judged.figures.probes[0].travel_m, 30e-6, 50e-9);
+}
+
+TEST(Plausibility, NamesAHole) {
+  Machine m;
+  m.forward(1), m.beyond(7, 1), m.reverse(1), m.beyond(1, -1);
+  for (const int t : {1, 2, 4, 5, 6, 7}) m.visit(t, 2, 1);
+  m.beyond(7, 1), m.reverse(2);
+  const Judged judged = judge(m);
+  EXPECT_EQ(judged.all(), "target 3 (10.2000 mm): no forward visit in run 2\n");
+  EXPECT_EQ(judged.figures.n_ij[2].forward, (std::vector<int>{1, 0}));
+}
+
+TEST(Plausibility, NamesAVisitThatGaveNoErrors) {
+  Machine m;
+  m.standard(2);
+  const Judged judged = judge(m, {}, [](std::size_t i) { return i != 8; });
+  EXPECT_EQ(judged.all(),
+            "target 6 (25.1000 mm): the reverse visit in run 1 gave no errors (probe A is lost)\n");
+  EXPECT_EQ(judged.figures.n_ij[5].reverse, (std::vector<int>{0, 1}));
+}
+
+TEST(Plausibility, SaysWhatARunThatEndedEarlyLacks) {
+  Machine m;
+  m.standard(1);
+  m.forward(2);
+  m.beyond(7, 1);
+  m.visit(7, 2, -1), m.visit(6, 2, -1);
+  EXPECT_EQ(judge(m).all(),
+            "target 1 (0.0000 mm): no reverse visit in run 2\n"
+            "target 2 (5.0000 mm): no reverse visit in run 2\n"
+            "target 3 (10.2000 mm): no reverse visit in run 2\n"
+            "target 4 (14.9000 mm): no reverse visit in run 2\n"
+            "target 5 (20.0000 mm): no reverse visit in run 2\n");
+  Machine shorter;
+  shorter.standard(1);
+  shorter.forward(2);
+  EXPECT_EQ(judge(shorter).all(), "run 2, reverse: no visit at any target\n");
+}
+
+TEST(Plausibility, NamesADoubledVisit) {
+  Machine m;
+  for (int t = 1; t <= 7; ++t) {
+    m.visit(t, 1, 1);
+    if (t == 4) m.beyond(4, -1), m.visit(4, 1, 1);
+  }
+  m.beyond(7, 1), m.reverse(1);
+  EXPECT_EQ(judge(m).all(),
+            "target 4 (14.9000 mm): 2 forward visits in run 1; both count for its mean\n");
+}
+
+TEST(Plausibility, NamesATargetThatIsFoundLate) {
+  Machine m;
+  for (const int t : {1, 2, 4, 5, 6, 7}) m.visit(t, 1, 1);
+  m.beyond(7, 1), m.reverse(1), m.beyond(1, -1);
+  m.forward(2), m.beyond(7, 1), m.reverse(2);
+  const Judged judged = judge(m);
+  EXPECT_TRUE(judged.says("target 3 (10.2000 mm): no forward visit in run 1")) << judged.all();
+  EXPECT_TRUE(judged.says("target 3 found only after the first pass")) << judged.all();
+}
+
+TEST(Plausibility, NamesAGivenTargetThatWasNeverVisited) {
+  Machine m;
+  m.standard(2);
+  auto targets_m = m.targets;
+  targets_m.push_back(35e-3);
+  EXPECT_EQ(judge(m, targets_m).all(), "target 8 (35.0000 mm) was never visited\n");
+}
+
+TEST(Plausibility, TellsStopsThatWereTooShort) {
+  Machine m;
+  m.forward(1), m.beyond(7, 1), m.reverse(1), m.beyond(1, -1);
+  for (int t = 1; t <= 7; ++t) {
+    m.dwell_s = t == 5 ? 0.15 : 0.4;
+    m.stop(m.at(t));
+  }
+  m.beyond(7, 1), m.reverse(2);
+  const Judged judged = judge(m);
+  EXPECT_TRUE(judged.says("target 5 (20.0000 mm): no forward visit in run 2")) << judged.all();
+  EXPECT_TRUE(judged.says("1 visit of targets gave no point: 1 stop too short (up to 0.1"))
+      << judged.all();
+  EXPECT_EQ(judged.figures.short_stops, 1u);
+}
+
+TEST(Plausibility, TellsOneStopOfMany) {
+  Machine m;
+  m.dwell_s = 0.15;
+  m.forward(1), m.beyond(7, 1), m.reverse(1);
+  m.dwell_s = 1;
+  m.stop(m.at(3));
+  const Judged judged = judge(m);
+  EXPECT_TRUE(judged.says("stops were found at one place only (10.2000 mm)")) << judged.all();
+  EXPECT_TRUE(judged.says("14 other stops were too short")) << judged.all();
+}
+
+TEST(Plausibility, TellsThatGivenTargetsAreOfAnotherUnit) {
+  Machine m;
+  m.standard(2);
+  std::vector<double> in_m;
+  for (const double t : m.targets) in_m.push_back(1e-3 * t);
+  const Judged judged = judge(m, in_m);
+  EXPECT_TRUE(judged.says("more stops were left out")) << judged.all();
+}
+
+TEST(Plausibility, APendulumOfOneRunIsSaidToBeAGuess) {
+  Machine m;
+  m.forward(1);
+  for (int t = 6; t >= 1; --t) m.visit(t, 1, -1);
+  EXPECT_TRUE(judge(m).says("taken for a pendulum cycle"));
+}
+
+// ---- units ----
+
+Plausibility right() {
+  Plausibility p;
+  p.rate_hz = 1000;
+  p.encoder_min_m = -1e-3, p.encoder_max_m = 61e-3;
+  for (const char* id : {"A", "B", "C", "D", "E"})
+    p.probes.push_back({id, 78, 10e-9, 20e-6, -8e-6, 12e-6});
+  return p;
+}
+
+std::string said(const Rig& rig, const Plausibility& p) {
+  std::string out;
+  for (const auto& text : warnings_of_units(rig, p)) out += text + "\n";
+  return out;
+}
+
+void scale(ProbeFigures& p, double factor) {
+  p.sd_m *= factor, p.travel_m *= factor, p.min_m *= factor, p.max_m *= factor;
+}
+
+TEST(Units, NothingIsSaidOfARunThatIsRight) {
+  EXPECT_EQ(said(rig_of_five(), right()), "");
+  Plausibility quiet = right();  // a good axis, well adjusted
+  for (auto& p : quiet.probes) p = {p.id, 78, 1e-9, 0.1e-6, -0.05e-6, 0.05e-6};
+  EXPECT_EQ(said(rig_of_five(), quiet), "");
+}
+
+TEST(Units, OfTheEncoder) {
+  Plausibility p = right();
+  p.encoder_max_m = 61;
+  EXPECT_NE(said(rig_of_five(), p).find("encoder_mm seems to be in um"), std::string::npos);
+  p.encoder_min_m = 0, p.encoder_max_m = 60e-6;
+  EXPECT_NE(said(rig_of_five(), p).find("encoder_mm seems to be in m"), std::string::npos);
+}
+
+TEST(Units, OfTime) {
+  Plausibility p = right();
+  p.rate_hz = 1;
+  EXPECT_NE(said(rig_of_five(), p).find("time_s seems to be in ms"), std::string::npos);
+}
+
+TEST(Units, OfEachProbe) {
+  for (std::size_t k = 0; k < 5; ++k) {
+    Plausibility p = right();
+    scale(p.probes[k], 1e-3);
+    EXPECT_EQ(said(rig_of_five(), p).find("probe " + p.probes[k].id + ": all readings are within"),
+              0u);
+    scale(p.probes[k], 1e6);
+    EXPECT_EQ(said(rig_of_five(), p).find("probe " + p.probes[k].id + ": the noise in a dwell"),
+              0u);
+  }
+}
+
+TEST(Units, AFrozenProbeIsNotCalledOneInMillimetres) {
+  Plausibility p = right();
+  p.probes[2] = {"C", 78, 0, 0, 0, 0};
+  EXPECT_EQ(said(rig_of_five(), p), "");
+}
+
+TEST(Units, AGapWithoutOffset) {
+  Rig rig = rig_of_five();
+  Plausibility p = right();
+  rig.probes[1].calibration.reads_gap = true;
+  EXPECT_EQ(said(rig, p), "");
+  p.probes[1].min_m = -210e-6, p.probes[1].max_m = -190e-6;
+  EXPECT_NE(said(rig, p).find("probe B: reads the gap and has no offset_um"), std::string::npos);
+  EXPECT_NE(said(rig, p).find("B reads about 200 um"), std::string::npos);
+  rig.probes[1].calibration.offset_um = 50;
+  EXPECT_EQ(said(rig, p), "");
+}
+
+TEST(Units, OfTheFixture) {
+  for (const auto& [factor, unit] : {std::pair(1e3, "in um"), std::pair(1e-3, "in m\n")}) {
+    Rig rig = rig_of_five();
+    for (auto& probe : rig.probes)
+      for (double& x : probe.position_m) x *= factor;
+    EXPECT_NE(said(rig, right()).find(unit), std::string::npos) << said(rig, right());
+  }
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -70,6 +70,8 @@ const char* to_string(RunState state) {
       return "open";
     case RunState::complete:
       return "complete";
+    case RunState::partial:
+      return "partial";
     case RunState::aborted:
       return "aborted";
     case RunState::failed:

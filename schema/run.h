@@ -25,7 +25,9 @@ struct Provenance {
   std::string configuration;  // mdofd.toml for a live run, else empty
 };
 
-enum class RunState { open, complete, aborted, failed };
+// partial: it ended before all was measured that was asked for, or most of it could not be solved;
+// its warnings say what is missing.
+enum class RunState { open, complete, partial, aborted, failed };
 const char* to_string(RunState state);
 
 // A reference line through a straightness series and what is left of it. Slopes are over the

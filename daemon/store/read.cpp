@@ -32,7 +32,7 @@ std::uint64_t natural(std::int64_t x) {
 }
 
 RunState state_from(std::string_view name) {
-  for (const RunState state : {RunState::complete, RunState::aborted})
+  for (const RunState state : {RunState::complete, RunState::partial, RunState::aborted})
     if (name == to_string(state)) return state;
   return RunState::failed;
 }

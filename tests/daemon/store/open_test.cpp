@@ -114,6 +114,44 @@ TEST_F(StoreTest, AMigrationKeepsABackupFirst) {
   EXPECT_EQ(old->integer("PRAGMA application_id").value(), kApplication);
 }
 
+// Made by the mdof of schema version 2: two runs, one that was interrupted, a table in force.
+TEST_F(StoreTest, AnOldDatabaseKeepsWhatItHasAndTakesPartialRuns) {
+  const auto columns = [&](sqlite::Connection& db) {
+    auto row = db.prepare("SELECT group_concat(name) FROM pragma_table_info('run_end')");
+    EXPECT_TRUE(row->step().value());
+    return std::string(row->text(0));
+  };
+  std::string before;
+  {
+    auto db = sqlite::Connection::open(file_, sqlite::OpenMode::create);
+    ASSERT_TRUE(db->execute(contents(MDOF_TEST_DATA "/store/schema-2.sql")));
+    ASSERT_TRUE(db->execute("PRAGMA application_id = " + std::to_string(kApplication)));
+    ASSERT_TRUE(db->execute("PRAGMA user_version = 2"));
+    before = columns(*db);
+  }
+  auto store = writer();
+  ASSERT_TRUE(store) << store.error().message;
+  EXPECT_TRUE(fs::exists(file_.string() + ".schema-2.backup"));
+  EXPECT_TRUE(store->verify()->empty()) << store->verify()->front();
+  EXPECT_EQ(store->count_runs().value(), 3);
+  EXPECT_EQ(store->run(1)->points.size(), 14u);
+  EXPECT_EQ(store->run_header(2)->state, RunState::complete);
+  EXPECT_EQ(store->run_header(2)->scans, 5996u);
+  EXPECT_EQ(store->run_header(3)->state, RunState::aborted);
+  EXPECT_EQ(store->run_header(3)->warnings, std::vector<std::string>{"interrupted"});
+  EXPECT_EQ(store->active(Axis::x)->table.runs, std::vector<std::int64_t>{1});
+  mdof::Run run = make_run();
+  run.header.state = RunState::partial;
+  EXPECT_TRUE(store->add_run(run));
+  auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
+  EXPECT_TRUE(columns(*db).starts_with(before)) << columns(*db);
+  for (const char* sql : {"UPDATE run_end SET scans = 0", "DELETE FROM run_end"})
+    EXPECT_TRUE(contains(db->execute(sql).error().message, "append only")) << sql;
+  EXPECT_FALSE(
+      db->execute("INSERT INTO run_end (run, state, warnings, result_sha256) "
+                  "VALUES (99, 'whatever', '[]', '')"));
+}
+
 TEST_F(StoreTest, AFailingMigrationChangesNothing) {
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::create);
   const sql::Migration steps[] = {{1, "001", kOne}, {2, "002", kTwo}, {3, "003_broken", kBroken}};

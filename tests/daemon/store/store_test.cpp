@@ -162,6 +162,18 @@ TEST_F(StoreTest, ARunWithoutItsEndIsAbortedAndSaysSo) {
   EXPECT_TRUE(store->verify()->empty());
 }
 
+TEST_F(StoreTest, APartialRunComesBackAsOne) {
+  mdof::Run run = make_run();
+  run.header.state = RunState::partial;
+  run.header.warnings = {"3 of 12 points asked for are missing"};
+  auto store = writer();
+  const auto id = store->add_run(run);
+  ASSERT_TRUE(id) << id.error().message;
+  EXPECT_EQ(store->run_header(*id)->state, RunState::partial);
+  EXPECT_EQ(store->run_header(*id)->warnings, run.header.warnings);
+  EXPECT_TRUE(store->verify()->empty());
+}
+
 TEST_F(StoreTest, ListsRunsNewestFirstByPageAndAxis) {
   auto store = writer();
   for (int i = 0; i < 6; ++i) ASSERT_TRUE(store->add_run(make_run(1, i % 2 ? Axis::y : Axis::x)));

@@ -9,6 +9,7 @@
 #include "drivers/labjack_u6/configure.h"
 #include "drivers/linux_counter/configure.h"
 #include "drivers/linux_iio/configure.h"
+#include "drivers/locked_driver.h"
 #include "drivers/mcc_usb1608fs_plus/configure.h"
 #include "drivers/modbus/configure.h"
 #include "drivers/pokeys57u/configure.h"
@@ -105,7 +106,10 @@ Result<DriverSpec> configure_driver(const std::string& driver, TomlTable& table,
                                     const DriverContext& context) {
   std::string known;
   for (const Row& row : kDrivers) {
-    if (driver == row.name) return row.configure(table, context);
+    if (driver == row.name) {
+      MDOF_TRY(DriverSpec spec, row.configure(table, context));
+      return locked(std::move(spec));
+    }
     known += std::string(" ") + row.name;
   }
   table.reject("driver", "\"" + driver + "\" is no driver; known are:" + known);

@@ -35,6 +35,9 @@ struct DriverSpec {
   bool simulated = false;
   std::vector<std::string> channels;  // ids it gives; empty: all of the rig
   std::string source_path;            // of a replay
+  // The device itself, whatever it is called in the configuration (io/device_lock.h): while a
+  // driver that make() made has it open, nobody else opens it. Empty: its bus sees to that.
+  std::function<std::string()> identity;
   std::function<Result<std::unique_ptr<Driver>>()> make;
   std::function<SourceInfo(const Driver&)> source_info;  // of the driver that make() made
 };

@@ -7,6 +7,7 @@
 
 #include "drivers/capancdt/capancdt.h"
 #include "drivers/capancdt/options.h"
+#include "drivers/io/device_lock.h"
 
 namespace mdof::drivers {
 namespace {
@@ -106,6 +107,7 @@ Result<DriverSpec> configure_capancdt(TomlTable& table, const DriverContext& con
   spec.driver = "capancdt";
   spec.name = context.name;
   for (const auto& channel : options.channels) spec.channels.push_back(channel.input.id);
+  spec.identity = [at = options.command] { return identity_of(at); };
   spec.make = [options]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<capancdt::Capancdt>(options);
   };

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "drivers/csv_stream/csv_stream.h"
+#include "drivers/io/device_lock.h"
 
 namespace mdof::drivers {
 namespace {
@@ -55,6 +56,15 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
   return options;
 }
 
+// A program that is started may open a device: it is not to run twice.
+std::string identity(const CsvStreamOptions& options) {
+  if (options.server) return identity_of(*options.server);
+  if (!options.fifo.empty()) return identity_of_path(options.fifo);
+  std::string text = "program in " + identity_of_path(options.folder) + ":";
+  for (const std::string& word : options.command) text += " " + word;
+  return text;
+}
+
 }  // namespace
 
 Result<DriverSpec> configure_csv_stream(TomlTable& table, const DriverContext& context) {
@@ -63,6 +73,7 @@ Result<DriverSpec> configure_csv_stream(TomlTable& table, const DriverContext& c
   DriverSpec spec;
   spec.driver = "csv_stream";
   spec.name = context.name;
+  spec.identity = [options] { return identity(options); };
   spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<CsvStream>(name, options);
   };

@@ -41,8 +41,11 @@ std::string why_not_opened(const std::string& path) {
 }  // namespace
 
 Result<HidDevice> HidDevice::open(const std::string& path) {
+  auto own = DeviceLock::take(identity_of_path(path));
+  if (!own) return in_context(path, own.error());
   const std::lock_guard lock(library());
-  if (hid_device* const device = ::hid_open_path(path.c_str())) return HidDevice(device, path);
+  if (hid_device* const device = ::hid_open_path(path.c_str()))
+    return HidDevice(std::move(*own), device, path);
   return io_error(path + ": " + why_not_opened(path));
 }
 

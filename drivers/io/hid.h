@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/io/device_lock.h"
 #include "schema/result.h"
 
 namespace mdof::drivers {
@@ -30,7 +31,7 @@ std::vector<HidEntry> list_hid(std::uint16_t vendor);
 // Thread-bound.
 class HidDevice {
  public:
-  // Errors name the path and the remedy.
+  // Errors name the path and the remedy; also where another program has it (device_lock.h).
   static Result<HidDevice> open(const std::string& path);
   // Output report without a number. Error: the device is gone.
   Status write(std::string_view report);
@@ -42,7 +43,9 @@ class HidDevice {
   struct Close {
     void operator()(void* device) const;
   };
-  HidDevice(void* device, std::string path) : device_(device), path_(std::move(path)) {}
+  HidDevice(DeviceLock lock, void* device, std::string path)
+      : lock_(std::move(lock)), device_(device), path_(std::move(path)) {}
+  DeviceLock lock_;  // goes after the device
   std::unique_ptr<void, Close> device_;
   std::string path_;
 };

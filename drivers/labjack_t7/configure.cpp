@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "drivers/channels.h"
+#include "drivers/io/device_lock.h"
 #include "drivers/labjack_t7/labjack_t7.h"
 
 namespace mdof::drivers {
@@ -110,6 +111,7 @@ Result<DriverSpec> configure_labjack_t7(TomlTable& table, const DriverContext& c
   spec.driver = "labjack_t7";
   spec.name = context.name;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
+  spec.identity = [at = settings.command] { return identity_of(at); };
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<LabjackT7>(settings);
   };

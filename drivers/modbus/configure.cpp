@@ -1,6 +1,7 @@
 #include "drivers/modbus/configure.h"
 
 #include "drivers/channels.h"
+#include "drivers/io/device_lock.h"
 #include "drivers/modbus/modbus_driver.h"
 
 namespace mdof::drivers {
@@ -86,6 +87,15 @@ Status read_uses(TomlTable& table, const Rig& rig, ModbusSettings& settings) {
   return {};
 }
 
+// Modbus TCP is spoken with several units at one address, each by a connection of its own.
+std::string identity(const ModbusSettings& settings) {
+  if (settings.address.empty()) return identity_of_path(settings.port);
+  const auto at = parse_endpoint(settings.address, settings.profile.port);
+  const std::string where = at ? identity_of(*at) : settings.address;
+  if (settings.profile.framing == Framing::rtu) return where;
+  return where + " unit " + std::to_string(settings.profile.unit);
+}
+
 }  // namespace
 
 Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& context) {
@@ -109,6 +119,7 @@ Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& conte
   spec.driver = "modbus";
   spec.name = context.name;
   for (const auto& channel : settings.channels) spec.channels.push_back(channel.id);
+  spec.identity = [settings] { return identity(settings); };
   spec.make = [name = context.name, settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<ModbusDriver>(name, settings);
   };

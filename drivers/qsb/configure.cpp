@@ -1,5 +1,6 @@
 #include "drivers/qsb/configure.h"
 
+#include "drivers/io/device_lock.h"
 #include "drivers/qsb/qsb.h"
 
 namespace mdof::drivers {
@@ -47,6 +48,9 @@ Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context)
   spec.driver = "qsb";
   spec.name = context.name;
   spec.channels = {options.channel.id};
+  spec.identity = [at = options.address, port = options.port] {
+    return at ? identity_of(*at) : identity_of_path(port);
+  };
   spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<Qsb>(name, options);
   };

@@ -1,0 +1,66 @@
+#include "drivers/locked_driver.h"
+
+#include <optional>
+#include <utility>
+
+#include "drivers/io/device_lock.h"
+
+namespace mdof::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kDismissEvery{1};
+
+class LockedDriver final : public Driver {
+ public:
+  LockedDriver(std::unique_ptr<Driver> driver, std::string name,
+               std::function<std::string()> identity)
+      : name_(std::move(name)), identity_(std::move(identity)), driver_(std::move(driver)) {}
+
+  DeviceInfo info() const override { return driver_->info(); }
+  const Driver& device() const { return *driver_; }
+
+  Status open() override {
+    if (!lock_) {
+      auto taken = DeviceLock::take(identity_());
+      if (!taken) return in_context("device \"" + name_ + "\"", taken.error());
+      lock_.emplace(std::move(*taken));
+    }
+    return driver_->open();
+  }
+
+  Result<ReadState> read(SampleBlock& block, milliseconds timeout) override {
+    if (const auto now = steady_clock::now(); lock_ && now >= dismiss_at_) {
+      dismiss_at_ = now + kDismissEvery;
+      lock_->dismiss();
+    }
+    return driver_->read(block, timeout);
+  }
+
+ private:
+  const std::string name_;
+  const std::function<std::string()> identity_;
+  std::optional<DeviceLock> lock_;  // goes after the driver, which has by then let the device go
+  std::unique_ptr<Driver> driver_;
+  steady_clock::time_point dismiss_at_{};
+};
+
+}  // namespace
+
+DriverSpec locked(DriverSpec spec) {
+  if (!spec.identity) return spec;
+  spec.make = [make = std::move(spec.make), name = spec.name,
+               identity = spec.identity]() -> Result<std::unique_ptr<Driver>> {
+    MDOF_TRY(auto driver, make());
+    return std::unique_ptr<Driver>(
+        std::make_unique<LockedDriver>(std::move(driver), name, identity));
+  };
+  spec.source_info = [source_info = std::move(spec.source_info)](const Driver& driver) {
+    return source_info(static_cast<const LockedDriver&>(driver).device());
+  };
+  return spec;
+}
+
+}  // namespace mdof::drivers

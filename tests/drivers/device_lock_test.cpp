@@ -1,0 +1,112 @@
+// Two programs and one device: the second is refused and told who has it.
+#include "drivers/io/device_lock.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <filesystem>
+
+namespace mdof::drivers {
+namespace {
+
+// Unlike that of any test that runs beside this one.
+std::string fresh(const std::string& name) {
+  return name + " of test " + std::to_string(::getpid());
+}
+
+// Another program that holds `identity` until it goes.
+class Holder {
+ public:
+  explicit Holder(const std::string& identity) {
+    std::array<int, 2> ready{};
+    EXPECT_EQ(::pipe(ready.data()), 0);
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      const auto lock = DeviceLock::take(identity);
+      (void)!::write(ready[1], lock ? "1" : "0", 1);
+      for (;;) ::pause();
+    }
+    char answer = 0;
+    EXPECT_EQ(::read(ready[0], &answer, 1), 1);
+    EXPECT_EQ(answer, '1');
+    ::close(ready[0]);
+    ::close(ready[1]);
+  }
+  ~Holder() { kill(); }
+  void kill() {
+    if (pid_ <= 0) return;
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+    pid_ = -1;
+  }
+  pid_t pid() const { return pid_; }
+
+ private:
+  pid_t pid_;
+};
+
+bool free_again(const std::string& identity) {
+  return DeviceLock::take(identity).has_value();
+}
+
+TEST(DeviceLock, AnotherProgramIsNamedAndKeepsTheDeviceWhileItLives) {
+  const std::string identity = fresh("tcp 192.0.2.7:502");
+  Holder holder(identity);
+  const auto refused = DeviceLock::take(identity);
+  ASSERT_FALSE(refused);
+  const std::string process = "(process " + std::to_string(holder.pid()) + ")";
+  EXPECT_NE(refused.error().message.find(process), std::string::npos) << refused.error().message;
+  EXPECT_NE(refused.error().message.find("mdof device list"), std::string::npos);
+  EXPECT_TRUE(free_again(identity + "0"));
+  holder.kill();  // as a crash: nothing is left over
+  EXPECT_TRUE(free_again(identity));
+}
+
+TEST(DeviceLock, TheSameProgramIsToldThatItHasTheDeviceTwice) {
+  const std::string identity = fresh("tcp 192.0.2.8:502");
+  auto held = DeviceLock::take(identity);
+  ASSERT_TRUE(held);
+  const auto refused = DeviceLock::take(identity);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("two devices"), std::string::npos);
+  DeviceLock moved = std::move(*held);
+  EXPECT_FALSE(free_again(identity));
+}
+
+TEST(DeviceLock, WhoeverAsksIsAnsweredHoweverManyHaveAsked) {
+  const std::string identity = fresh("tcp 192.0.2.9:502");
+  auto held = DeviceLock::take(identity);
+  ASSERT_TRUE(held);
+  for (int i = 0; i < 300; ++i) {
+    if (i % 40 == 0) held->dismiss();
+    const auto refused = DeviceLock::take(identity);
+    ASSERT_FALSE(refused);
+    ASSERT_NE(refused.error().message.find("two devices"), std::string::npos) << i;
+  }
+}
+
+TEST(DeviceLock, ALongNameIsALock) {
+  const std::string identity = fresh(std::string(5000, 'x'));
+  auto held = DeviceLock::take(identity);
+  ASSERT_TRUE(held);
+  EXPECT_FALSE(free_again(identity));
+  EXPECT_TRUE(free_again(identity + "y"));
+}
+
+TEST(DeviceLock, OneDeviceHasOneIdentity) {
+  const auto folder = std::filesystem::temp_directory_path() / fresh("lock");
+  std::filesystem::create_directories(folder);
+  std::filesystem::create_symlink("/dev/null", folder / "by-id");
+  EXPECT_EQ(identity_of_path(folder / "by-id"), "/dev/null");
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(identity_of(Endpoint{"127.0.0.1", 502}), "tcp 127.0.0.1:502");
+  EXPECT_EQ(identity_of(Endpoint{"127.1", 502}), "tcp 127.0.0.1:502");
+  EXPECT_EQ(identity_of(Endpoint{"::1", 502}), "tcp [::1]:502");
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -6,7 +6,9 @@
 #include "algo/line_fit.h"
 #include "algo/restate.h"
 #include "algo/series.h"
+#include "schema/number_text.h"
 #include "schema/sample.h"
+#include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
@@ -32,7 +34,7 @@ Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
       });
       if (std::abs(*near - p.point.position_m) > window) {
         return bad_input("run " + std::to_string(run.header.id) + " stops at " +
-                         std::to_string(p.point.position_m * 1e3) + " mm where run " +
+                         plain_number(to_mm(p.point.position_m), 7) + " mm where run " +
                          std::to_string(runs.front().header.id) +
                          " has no target; build one table from runs of the same targets");
       }

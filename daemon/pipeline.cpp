@@ -1,13 +1,12 @@
 #include "daemon/pipeline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "algo/restate.h"
 #include "algo/straightness.h"
 #include "schema/json_writer.h"
+#include "schema/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -36,12 +35,6 @@ void keep_last(const FrameBlock& frames, FrameBlock& newest) {
     newest.probe_m[k].assign(1, frames.probe_m[k][last]);
     newest.probe_quality[k].assign(1, frames.quality_at(k, last));
   }
-}
-
-std::string number(const char* format, double x) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, x);
-  return text.data();
 }
 
 }  // namespace
@@ -133,8 +126,8 @@ Status Pipeline::explain_nothing() const {
   if (s.scans == 0) return bad_input("no samples of the rig's probes and the encoder came");
   if (!moved()) {
     const double travel_m = s.encoder_max_m - s.encoder_min_m;
-    return bad_input("the encoder stays at " + number("%.4f mm", to_mm(s.encoder_min_m)) +
-                     " (within " + number("%.3g um", to_um(travel_m)) +
+    return bad_input("the encoder stays at " + plain_number(to_mm(s.encoder_min_m), 7) + " mm" +
+                     " (within " + plain_number(to_um(travel_m)) + " um" +
                      "): the axis did not move or encoder_mm is not its position; check the "
                      "encoder's channel and unit");
   }
@@ -143,11 +136,11 @@ Status Pipeline::explain_nothing() const {
                      " stops is near a given target; check targets_mm");
   }
   return bad_input("no dwell found in " + std::to_string(s.scans) + " scans from " +
-                   number("%.3f", to_mm(s.encoder_min_m)) + " to " +
-                   number("%.3f mm", to_mm(s.encoder_max_m)) + ": the longest stop was " +
-                   number("%.3f s", s.longest_still_s) + " within " +
-                   number("%.3g um", to_um(s.tolerance_m)) + ", needed are " +
-                   number("%.3f s", options_.dwell.settle_s + options_.dwell.min_length_s) +
+                   plain_number(to_mm(s.encoder_min_m), 6) + " to " +
+                   plain_number(to_mm(s.encoder_max_m), 6) + " mm" + ": the longest stop was " +
+                   plain_number(s.longest_still_s) + " s" + " within " +
+                   plain_number(to_um(s.tolerance_m)) + " um" + ", needed are " +
+                   plain_number(options_.dwell.settle_s + options_.dwell.min_length_s) + " s" +
                    "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um");
 }
 
@@ -160,7 +153,7 @@ Status Pipeline::reject_dead_probes() const {
     const std::string& id = rig_.probes[k].id;
     const bool saturated = std::find(flags.begin(), flags.end(), "saturated:" + id) != flags.end();
     return bad_input(saturated ? "probe \"" + id + "\" is at the end of its range (" +
-                                     number("%g um", to_um(rig_.probes[k].range_m)) +
+                                     plain_number(to_um(rig_.probes[k].range_m), 6) + " um" +
                                      ") in every dwell: shim it into range, or correct range_um, "
                                      "offset_um or reads in the rig"
                                : "probe \"" + id +

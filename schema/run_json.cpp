@@ -1,5 +1,6 @@
 #include "schema/run_json.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "schema/correction.h"
@@ -69,6 +70,27 @@ void write_side(JsonWriter& json, Axis axis, const std::array<std::vector<double
   json.end_object().end_object();
 }
 
+// -0 is noise of a subtraction: people and scripts read 0.
+double plain(double x) {
+  return x + 0.0;
+}
+
+// An uncertainty of nothing at all is one that is not known.
+double known_u(double u) {
+  return u > 0 ? plain(u) : std::nan("");
+}
+
+// Five readings leave no equation over: what the model leaves of them says nothing.
+bool redundant(const MeasuredPoint& p) {
+  return std::count_if(p.point.probe_m.begin(), p.point.probe_m.end(),
+                       [](double m) { return std::isfinite(m); }) > kErrorCount;
+}
+
+// The scans of a CSV log are not numbered: nobody knows of one that it is missing.
+bool lost_is_known(const RunHeader& h) {
+  return h.provenance.recording_kind != "csv" || h.scans_lost > 0;
+}
+
 }  // namespace
 
 void write_reference(JsonWriter& json, const StatedAt& at) {
@@ -86,23 +108,24 @@ void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint
   const Axis axis = moving.axis;
   json.begin_object()
       .field("target", p.target)
-      .field("target_mm", to_mm(p.target_m))
+      .field("target_mm", plain(to_mm(p.target_m)))
       .field("run", p.run)
       .field("direction", p.point.direction)
-      .field("position_mm", to_mm(p.point.position_m));
+      .field("position_mm", plain(to_mm(p.point.position_m)));
   const Errors5 named = named_from_local(moving, p.errors.local);
   const Covariance5 cov = named_from_local(axis, p.errors.covariance);
   for (std::size_t k = 0; k < 5; ++k) {
     json.key(error_names(axis)[k].key);
-    p.errors.valid ? json.value(to_key_unit(named[k])) : json.null();
+    p.errors.valid ? json.value(plain(to_key_unit(named[k]))) : json.null();
   }
   json.key("u").begin_object();
   for (std::size_t k = 0; k < 5; ++k) {
     json.key(error_names(axis)[k].key);
-    p.errors.valid ? json.value(to_key_unit(std::sqrt(cov[6 * k]))) : json.null();
+    p.errors.valid ? json.value(known_u(to_key_unit(std::sqrt(cov[6 * k])))) : json.null();
   }
   json.end_object();
-  json.field("residual_um", p.errors.valid ? to_um(p.errors.residual_m) : std::nan(""))
+  const bool judged = p.errors.valid && redundant(p);
+  json.field("residual_um", judged ? to_um(p.errors.residual_m) : std::nan(""))
       .field("samples", p.point.samples);
   write_strings(json, "flags", p.point.flags);
   if (!p.errors.valid) json.field("reason", p.errors.reason);
@@ -121,7 +144,8 @@ void write_header_members(JsonWriter& json, const RunHeader& h) {
       .field("note", h.note);
   json.key("supersedes");
   h.supersedes ? json.value(*h.supersedes) : json.null();
-  json.field("scans", h.scans).field("scans_lost", h.scans_lost);
+  json.field("scans", h.scans).key("scans_lost");
+  lost_is_known(h) ? json.value(h.scans_lost) : json.null();
   json.key("recording")
       .begin_object()
       .field("kind", h.provenance.recording_kind)
@@ -138,19 +162,19 @@ void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>&
   write_by_key(json, figures, [&](const StraightnessFigure& f) {
     json.field("least_squares_um", to_um(f.straightness_least_squares_m))
         .field("end_point_um", to_um(f.straightness_end_point_m))
-        .field("slope_least_squares_urad", to_urad(f.slope_least_squares_rad))
-        .field("u_slope_least_squares_urad", to_urad(f.u_slope_least_squares_rad))
-        .field("slope_end_point_urad", to_urad(f.slope_end_point_rad))
-        .field("peak_mm", to_mm(f.peak_position_m))
-        .field("valley_mm", to_mm(f.valley_position_m));
+        .field("slope_least_squares_urad", plain(to_urad(f.slope_least_squares_rad)))
+        .field("u_slope_least_squares_urad", known_u(to_urad(f.u_slope_least_squares_rad)))
+        .field("slope_end_point_urad", plain(to_urad(f.slope_end_point_rad)))
+        .field("peak_mm", plain(to_mm(f.peak_position_m)))
+        .field("valley_mm", plain(to_mm(f.valley_position_m)));
   });
 }
 
 void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures) {
   write_by_key(json, figures, [&](const AngleFigure& f) {
-    json.field("start_urad", to_urad(f.start_rad))
-        .field("min_urad", to_urad(f.min_rad))
-        .field("max_urad", to_urad(f.max_rad))
+    json.field("start_urad", plain(to_urad(f.start_rad)))
+        .field("min_urad", plain(to_urad(f.min_rad)))
+        .field("max_urad", plain(to_urad(f.max_rad)))
         .field("range_urad", to_urad(f.max_rad - f.min_rad));
   });
 }

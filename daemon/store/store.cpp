@@ -24,7 +24,8 @@ Status make_parent(const fs::path& file) {
   if (!file.has_parent_path()) return {};
   std::error_code ec;
   fs::create_directories(file.parent_path(), ec);
-  if (ec && !fs::is_directory(file.parent_path()))
+  std::error_code ignored;  // what cannot be looked at is not there for us
+  if (ec && !fs::is_directory(file.parent_path(), ignored))
     return io_error(file.parent_path().string() + ": the database's folder cannot be made: " +
                     ec.message() + "; make it, or name another place");
   return {};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "drivers/capancdt/command_port.h"
+#include "schema/number_text.h"
 
 namespace mdof::drivers::capancdt {
 namespace {
@@ -114,8 +115,8 @@ Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& chann
                  "give its range_um");
   const double range_um = channel.range_um > 0 ? channel.range_um : *told_um;
   if (told_um && std::abs(range_um - *told_um) > kSameRange * *told_um)
-    return wrong(where + ": range_um is " + std::to_string(range_um) + ", the controller says " +
-                     std::to_string(*told_um) + " of channel " + channel.input.input,
+    return wrong(where + ": range_um is " + plain_number(range_um) + ", the controller says " +
+                     plain_number(*told_um) + " of channel " + channel.input.input,
                  "correct it, or leave it out");
   return Setup::Input{range_um, false};
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "schema/number_text.h"
+
 namespace mdof::drivers::labjack_t7 {
 namespace {
 
@@ -103,8 +105,8 @@ Result<double> set_up_stream(Registers& registers, const Settings& settings) {
                                static_cast<std::uint32_t>(list[i])));
   MDOF_TRY(const float rate, registers.f32(reg::stream_rate));
   if (!(std::abs(rate / settings.rate_hz - 1) < 0.1))
-    return io_error("the T7 would scan at " + std::to_string(rate) + " Hz instead of rate_hz = " +
-                    std::to_string(settings.rate_hz) + "; choose another rate");
+    return io_error("the T7 would scan at " + plain_number(rate) + " Hz instead of rate_hz = " +
+                    plain_number(settings.rate_hz) + "; choose another rate");
   return static_cast<double>(rate);
 }
 

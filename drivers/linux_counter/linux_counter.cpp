@@ -68,7 +68,8 @@ Result<SysfsInput> open_count(const LinuxCounterOptions& options, const std::str
 Result<SysfsDevice> open_counter(const LinuxCounterOptions& options) {
   const std::string folder = options.sysfs_root + "/bus/counter/devices/" + options.device;
   MDOF_TRY(const auto chip, read_sysfs(folder + "/name"));
-  if (!chip && !std::filesystem::exists(folder))
+  std::error_code ec;
+  if (!chip && !std::filesystem::exists(folder, ec))
     return io_error(folder + ": " + sysfs_error(ENODEV) + "; ls " + options.sysfs_root +
                     "/bus/counter/devices shows what there is");
   if (!options.chip.empty() && chip.value_or("") != options.chip)

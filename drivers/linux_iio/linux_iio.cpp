@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "schema/number_text.h"
+
 namespace mdof::drivers {
 namespace {
 
@@ -49,7 +51,7 @@ Status set_sampling(const LinuxIioOptions& options, const std::string& folder) {
                         (1 / static_cast<double>(*value) + kOverhead_s);
   if (options.rate_hz * scan_s <= 1) return {};
   return bad_input(file + ": " + std::to_string(options.channels.size()) + " channels at " +
-                   std::to_string(*value) + " Hz take " + std::to_string(scan_s) +
+                   std::to_string(*value) + " Hz take " + plain_number(scan_s) +
                    " s; lower rate_hz or raise sampling_hz");
 }
 

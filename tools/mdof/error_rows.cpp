@@ -25,7 +25,7 @@ char* append(char* out, std::string_view text) {
 }
 
 double in_key_unit(const ErrorName& name, const SolvedRows& rows, std::size_t row) {
-  return to_key_unit(name.sign * rows.local[name.local][row]);
+  return to_key_unit(name.sign * rows.local[name.local][row]) + 0.0;  // -0 is 0
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "algo/line_fit.h"
 #include "algo/series.h"
+#include "algo/usable_runs.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {
@@ -116,14 +117,11 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options) {
   if (runs.empty()) return bad_input("a compensation table needs at least one run");
+  MDOF_CHECK(check_usable(all_of(runs), options.take_partial, "a table"));
   CompensationTable table;
   table.axis = runs.front().header.axis;
   table.slope_removed = options.remove_slope;
   for (const Run& run : runs) {
-    if (run.header.state != RunState::complete) {
-      return bad_input("run " + std::to_string(run.header.id) + " is " +
-                       to_string(run.header.state) + "; build a table from complete runs");
-    }
     if (run.header.axis != table.axis) {
       return bad_input("run " + std::to_string(run.header.id) + " is of axis " +
                        letter(run.header.axis) + ", run " + std::to_string(runs.front().header.id) +

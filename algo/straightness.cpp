@@ -5,6 +5,7 @@
 
 #include "algo/line_fit.h"
 #include "algo/series.h"
+#include "algo/usable_runs.h"
 
 namespace mdof::algo {
 namespace {
@@ -30,18 +31,16 @@ StraightnessFigure figure_of(const ErrorName& name, std::size_t index, Approach 
   return f;
 }
 
+Status check_axis(const Run& run, Axis axis) {
+  if (run.header.axis == axis) return {};
+  return bad_input("run " + std::to_string(run.header.id) + " is of axis " +
+                   letter(run.header.axis) + ", squareness needs the run of " + letter(axis) +
+                   " in this place: squareness RUN_X RUN_Y");
+}
+
 // Slope of the horizontal straightness, EYX for X and EXY for Y: the first named error of both.
 Result<Line> horizontal_slope(const Run& run, Axis axis) {
   const std::string name = "run " + std::to_string(run.header.id);
-  if (run.header.axis != axis) {
-    return bad_input(name + " is of axis " + letter(run.header.axis) +
-                     ", squareness needs the run of " + letter(axis) +
-                     " in this place: squareness RUN_X RUN_Y");
-  }
-  if (run.header.state != RunState::complete) {
-    return bad_input(name + " is " + to_string(run.header.state) +
-                     "; squareness needs complete runs");
-  }
   const auto series = target_means(axis, run.points, Approach::both);
   const auto x = positions(series);
   if (series.size() < 3 || !can_fit(x)) {
@@ -84,7 +83,10 @@ std::vector<AngleFigure> angles(Axis axis, const std::vector<MeasuredPoint>& poi
 }
 
 Result<Squareness> squareness(const Run& run_x, const Run& run_y, double artefact_angle_error_rad,
-                              double u_artefact_rad) {
+                              double u_artefact_rad, bool take_partial) {
+  MDOF_CHECK(check_axis(run_x, Axis::x));
+  MDOF_CHECK(check_axis(run_y, Axis::y));
+  MDOF_CHECK(check_usable({&run_x, &run_y}, take_partial, "squareness"));
   MDOF_TRY(const Line along_x, horizontal_slope(run_x, Axis::x));
   MDOF_TRY(const Line along_y, horizontal_slope(run_y, Axis::y));
   Squareness s;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "algo/compensation.h"
+#include "algo/usable_runs.h"
 #include "daemon/methods.h"
 #include "daemon/paths.h"
 #include "schema/json_writer.h"
@@ -37,6 +38,7 @@ void build(Methods& m, const Params& params, Reply reply) {
   if (!ids) return reply(tl::unexpected(ids.error()));
   algo::TableOptions options;
   options.remove_slope = !params.boolean("keep_slope", false);
+  options.take_partial = params.boolean("partial", false);
   answer_from_store(m, std::move(reply),
                     [ids = *ids, options](store::Store& store) -> Result<std::string> {
                       std::vector<Run> runs;
@@ -52,7 +54,7 @@ void build(Methods& m, const Params& params, Reply reply) {
                       json.begin_object();
                       write_table_members(json, table);
                       json.end_object();
-                      return json.take();
+                      return with_warnings(json.take(), algo::partial_warnings(algo::all_of(runs)));
                     });
 }
 
@@ -165,8 +167,9 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .params = {{"runs", ParamType::array, "ids of runs of one axis and the same targets", true},
                   {"keep_slope", ParamType::boolean,
                    "leave the slope in the straightness (by default squareness holds it)", false,
-                   "false"}},
-       .result = "table, axis, range, sense, sha256",
+                   "false"},
+                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
+       .result = "table, axis, range, sense, sha256, warnings",
        .example = R"({"runs": [1]})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});

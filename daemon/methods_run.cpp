@@ -1,5 +1,6 @@
 // run.start, run.resume, run.stop, run.list, run.get, run.points, squareness.fit.
 #include "algo/straightness.h"
+#include "algo/usable_runs.h"
 #include "daemon/methods.h"
 #include "daemon/paths.h"
 #include "daemon/resume.h"
@@ -202,16 +203,17 @@ void fit_squareness(Methods& m, const Params& params, Reply reply) {
   if (params.has("artefact_angle_error_urad")) {
     artefact_rad = from_urad(params.number("artefact_angle_error_urad"));
   }
+  const bool partial = params.boolean("partial", false);
   answer_from_store(m, std::move(reply), [=](store::Store& store) -> Result<std::string> {
     MDOF_TRY(const Run run_x, store.run(x));
     MDOF_TRY(const Run run_y, store.run(y));
     MDOF_TRY(const Rig rig, parse_rig(run_x.header.provenance.rig_text, "rig of run_x"));
     MDOF_TRY(Squareness s,
              algo::squareness(run_x, run_y, artefact_rad.value_or(rig.artefact_angle_error_rad),
-                              u_artefact_rad));
+                              u_artefact_rad, partial));
     s.created_utc = utc_now();
     MDOF_TRY(s.id, store.add_squareness(s));
-    return squareness_json(s);
+    return with_warnings(squareness_json(s), algo::partial_warnings({&run_x, &run_y}));
   });
 }
 
@@ -290,8 +292,9 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                   {"run_y", ParamType::integer, "id of the run along Y", true},
                   {"artefact_angle_error_urad", ParamType::number,
                    "of the square: its angle is 90 deg + this; from the rig if not given", false},
-                  {"u_artefact_urad", ParamType::number, "its standard uncertainty", false, "0"}},
-       .result = "EC0Y_urad, u_EC0Y_urad and both slopes",
+                  {"u_artefact_urad", ParamType::number, "its standard uncertainty", false, "0"},
+                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
+       .result = "EC0Y_urad, u_EC0Y_urad, both slopes, warnings",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { fit_squareness(m, p, std::move(r)); }});

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
+#include "algo/usable_runs.h"
 #include "daemon/paths.h"
 #include "schema/run_json.h"
 #include "tools/mdof/command.h"
@@ -22,7 +23,7 @@ struct CompensationCommand {
   std::string database, socket, axis;
   std::vector<std::int64_t> runs;
   std::int64_t table = 0;
-  bool keep_slope = false, json = false;
+  bool keep_slope = false, partial = false, json = false;
 };
 
 Status print_table(const CompensationTable& table, std::int64_t generation, bool json) {
@@ -32,14 +33,17 @@ Status print_table(const CompensationTable& table, std::int64_t generation, bool
 
 // ---- build ----
 
-Result<CompensationTable> build_and_store(const CompensationCommand& command) {
+Result<CompensationTable> build_and_store(const CompensationCommand& command,
+                                          std::vector<std::string>& warnings) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
   std::vector<Run> runs;
   for (const std::int64_t id : command.runs) {
     MDOF_TRY(Run run, store.run(id));
     runs.push_back(std::move(run));
   }
-  MDOF_TRY(CompensationTable table, algo::build_table(runs, {.remove_slope = !command.keep_slope}));
+  const algo::TableOptions options{!command.keep_slope, command.partial};
+  MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
+  warnings = algo::partial_warnings(algo::all_of(runs));
   table.created_utc = daemon::utc_now();
   table.sha256 = table_sha256(table);
   MDOF_TRY(table.id, store.add_table(table));
@@ -52,6 +56,7 @@ Status ask_daemon_to_build(const CompensationCommand& command) {
   for (const std::int64_t id : command.runs) params.value(id);
   params.end_array();
   if (command.keep_slope) params.field("keep_slope", true);
+  if (command.partial) params.field("partial", true);
   params.end_object();
   return print_call(command.socket, "compensation.build", params.text(), command.json);
 }
@@ -59,8 +64,11 @@ Status ask_daemon_to_build(const CompensationCommand& command) {
 Status build(const CompensationCommand& command) {
   MDOF_TRY(const bool busy, somebody_writes(command.database));
   if (busy) return ask_daemon_to_build(command);
-  MDOF_TRY(const CompensationTable table, build_and_store(command));
-  MDOF_CHECK(print_table(table, 0, command.json));
+  std::vector<std::string> warnings;
+  MDOF_TRY(const CompensationTable table, build_and_store(command, warnings));
+  for (const auto& warning : warnings) warn(warning);
+  MDOF_CHECK(command.json ? write_line(with_warnings(table_document(table, 0), warnings))
+                          : write_out(table_text(table, 0)));
   say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id));
   return {};
 }
@@ -154,6 +162,7 @@ void add_compensation(CLI::App& app, Action& chosen) {
       ->type_name("");
   of_build->add_flag("--keep-slope", o->keep_slope,
                      "Straightness as measured, not about its least-squares line");
+  of_build->add_flag("--partial", o->partial, "Take partial runs as well");
   add_socket_option(*of_build, o->socket);
   does(of_build, build);
   auto* of_show = declare(*group, "show", "Show a table [default: the one in force]", *o);

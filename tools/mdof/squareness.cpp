@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "algo/straightness.h"
+#include "algo/usable_runs.h"
 #include "daemon/paths.h"
 #include "schema/rig.h"
 #include "schema/run_json.h"
@@ -23,7 +24,7 @@ struct SquarenessCommand {
   std::int64_t run_x = 0, run_y = 0;
   std::optional<double> artefact_urad;
   double u_artefact_urad = 0;
-  bool json = false;
+  bool partial = false, json = false;
 };
 
 // Of the square that was clamped for run X, unless it was calibrated since.
@@ -34,13 +35,14 @@ Result<double> artefact_angle_error_rad(const SquarenessCommand& command, const 
   return rig.artefact_angle_error_rad;
 }
 
-Result<Squareness> fit(const SquarenessCommand& command) {
+Result<Squareness> fit(const SquarenessCommand& command, std::vector<std::string>& warnings) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(const Run run_x, store.run(command.run_x));
   MDOF_TRY(const Run run_y, store.run(command.run_y));
   MDOF_TRY(const double artefact_rad, artefact_angle_error_rad(command, run_x));
-  MDOF_TRY(Squareness s,
-           algo::squareness(run_x, run_y, artefact_rad, from_urad(command.u_artefact_urad)));
+  MDOF_TRY(Squareness s, algo::squareness(run_x, run_y, artefact_rad,
+                                          from_urad(command.u_artefact_urad), command.partial));
+  warnings = algo::partial_warnings({&run_x, &run_y});
   s.created_utc = daemon::utc_now();
   MDOF_TRY(s.id, store.add_squareness(s));
   return s;
@@ -64,6 +66,7 @@ Status ask_daemon(const SquarenessCommand& command) {
   params.begin_object().field("run_x", command.run_x).field("run_y", command.run_y);
   if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
   if (command.u_artefact_urad > 0) params.field("u_artefact_urad", command.u_artefact_urad);
+  if (command.partial) params.field("partial", true);
   params.end_object();
   return print_call(command.socket, "squareness.fit", params.text(), command.json);
 }
@@ -71,8 +74,11 @@ Status ask_daemon(const SquarenessCommand& command) {
 Status squareness(const SquarenessCommand& command) {
   MDOF_TRY(const bool busy, somebody_writes(command.database));
   if (busy) return ask_daemon(command);
-  MDOF_TRY(const Squareness s, fit(command));
-  return command.json ? write_line(squareness_json(s)) : write_out(squareness_text(s));
+  std::vector<std::string> warnings;
+  MDOF_TRY(const Squareness s, fit(command, warnings));
+  for (const auto& warning : warnings) warn(warning);
+  return command.json ? write_line(with_warnings(squareness_json(s), warnings))
+                      : write_out(squareness_text(s));
 }
 
 }  // namespace
@@ -86,6 +92,7 @@ void add_squareness(CLI::App& app, Action& chosen) {
                       "Angle error of the square [default: of the rig of RUN_X]");
   command->add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
       ->check(CLI::NonNegativeNumber);
+  command->add_flag("--partial", o->partial, "Take partial runs as well");
   add_database_option(*command, o->database);
   add_socket_option(*command, o->socket);
   add_json_flag(*command, o->json);

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "algo/straightness.h"
+#include "daemon/completeness.h"
 #include "schema/json_writer.h"
 #include "schema/units.h"
 
@@ -161,6 +163,13 @@ Status Pipeline::reject_dead_probes() const {
   return {};
 }
 
+// Complete is what has all that was asked for.
+void Pipeline::judge(Run& run) const {
+  auto missing = what_is_missing(options_.sequence.targets_m, options_.repeats, run.points);
+  run.header.state = missing.empty() ? RunState::complete : RunState::partial;
+  std::move(missing.begin(), missing.end(), std::back_inserter(run.header.warnings));
+}
+
 Result<Run> Pipeline::finish() {
   aligner_.flush(frames_);
   dwell_.push(frames_, found_);
@@ -171,11 +180,11 @@ Result<Run> Pipeline::finish() {
   MDOF_CHECK(reject_dead_probes());
   Run run;
   run.header.axis = rig_.axis;
-  run.header.state = RunState::complete;
   run.header.scans = dwell_.summary().scans;
   run.header.scans_lost = lost_;
   run.header.warnings = sequence_.warnings;
   run.points = sequence_.points;
+  judge(run);
   run.straightness = algo::straightness(rig_.axis, run.points);
   run.angles = algo::angles(rig_.axis, run.points);
   return run;

@@ -6,6 +6,7 @@
 #include "algo/line_fit.h"
 #include "algo/restate.h"
 #include "algo/series.h"
+#include "algo/usable_runs.h"
 #include "schema/number_text.h"
 #include "schema/sample.h"
 #include "schema/units.h"
@@ -133,13 +134,9 @@ bool measured_there(const CompensationTable& table, double position_m, TableSide
          (side == TableSide::forward || all(table.reverse));
 }
 
-// Errors: a run that is not complete, of another axis, or of a rig with other sides.
+// Errors: a run of another axis, or of a rig with other sides.
 Status add_sources(const std::vector<Run>& runs, CompensationTable& table) {
   for (const Run& run : runs) {
-    if (run.header.state != RunState::complete) {
-      return bad_input("run " + std::to_string(run.header.id) + " is " +
-                       to_string(run.header.state) + "; build a table from complete runs");
-    }
     if (run.header.axis != table.axis) {
       return bad_input("run " + std::to_string(run.header.id) + " is of axis " +
                        letter(run.header.axis) + ", run " + std::to_string(runs.front().header.id) +
@@ -168,6 +165,7 @@ Result<CompensationTable> build_table(const std::vector<Run>& measured,
   table.slope_removed = options.remove_slope;
   table.stated = options.stated;
   table.machine = options.machine;
+  MDOF_CHECK(check_usable(all_of(measured), options.take_partial, "a table"));
   MDOF_CHECK(add_sources(measured, table));
   std::vector<Run> runs;
   for (const Run& run : measured) runs.push_back(restate(run, options.stated));

@@ -13,9 +13,10 @@ namespace mdof::algo {
 // apart; angles referred to the first target of the mean of both approaches, straightness to its
 // least-squares line (`remove_slope`: the slope belongs to squareness) or as measured. Targets of
 // different runs are one where they lie within 2 % of the smallest step, else it is an error.
-// Straightness holds at `stated`.
+// Straightness holds at `stated`. Errors as of check_usable(), too.
 struct TableOptions {
   bool remove_slope = true;
+  bool take_partial = false;
   StatedAt stated;
   Chain machine;
 };

@@ -8,6 +8,7 @@
 #include "algo/line_fit.h"
 #include "algo/restate.h"
 #include "algo/series.h"
+#include "algo/usable_runs.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -84,20 +85,14 @@ double scatter_of_repeats(const Run& run) {
   return std::sqrt(square / (n - 1) / n);
 }
 
-Status check_run(const Run& run, Axis axis) {
-  const std::string name = "run " + std::to_string(run.header.id);
-  if (run.header.axis != axis) {
-    return bad_input(name + " is of axis " + letter(run.header.axis) +
-                     ", squareness needs the run of " + letter(axis) +
-                     " in this place: squareness RUN_X RUN_Y");
-  }
-  if (run.header.state == RunState::complete) return {};
-  return bad_input(name + " is " + to_string(run.header.state) +
-                   "; squareness needs complete runs");
+Status check_axis(const Run& run, Axis axis) {
+  if (run.header.axis == axis) return {};
+  return bad_input("run " + std::to_string(run.header.id) + " is of axis " +
+                   letter(run.header.axis) + ", squareness needs the run of " + letter(axis) +
+                   " in this place: squareness RUN_X RUN_Y");
 }
 
 Result<HorizontalSlope> horizontal_slope(const Run& measured, Axis axis) {
-  MDOF_CHECK(check_run(measured, axis));
   const Run run = restate(measured, kAtFixture);
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
   const auto x = own_travels(run.header.sides, series);
@@ -138,7 +133,11 @@ Result<SquareArtefact> artefact_of(const Rig& rig_x, const Rig& rig_y, const Art
                    "offset_mm of its [[plane]]");
 }
 
-Result<Squareness> squareness(const Run& run_x, const Run& run_y, const SquareArtefact& artefact) {
+Result<Squareness> squareness(const Run& run_x, const Run& run_y, const SquareArtefact& artefact,
+                              bool take_partial) {
+  MDOF_CHECK(check_axis(run_x, Axis::x));
+  MDOF_CHECK(check_axis(run_y, Axis::y));
+  MDOF_CHECK(check_usable({&run_x, &run_y}, take_partial, "squareness"));
   MDOF_TRY(const HorizontalSlope along_x, horizontal_slope(run_x, Axis::x));
   MDOF_TRY(const HorizontalSlope along_y, horizontal_slope(run_y, Axis::y));
   Squareness s;

@@ -5,6 +5,7 @@
 
 #include "algo/line_fit.h"
 #include "algo/series.h"
+#include "algo/usable_runs.h"
 
 namespace mdof::algo {
 namespace {

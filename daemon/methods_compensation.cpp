@@ -60,7 +60,7 @@ void build(Methods& m, const Params& params, Reply reply) {
                       json.begin_object();
                       write_table_members(json, table);
                       json.end_object();
-                      return json.take();
+                      return with_warnings(json.take(), algo::partial_warnings(algo::all_of(runs)));
                     });
 }
 
@@ -193,11 +193,13 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                   {"keep_slope", ParamType::boolean,
                    "leave the slope in the straightness (by default squareness holds it)", false,
                    "false"},
+                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"},
                   {"reference", ParamType::string,
                    "where straightness is stated: fixture, carriage or tool [the rig's tool point, "
                    "else the fixture]",
                    false}},
-       .result = "table, axis, range, reference, sense and sign of the correction, sha256",
+       .result =
+           "table, axis, range, reference, sense and sign of the correction, sha256, warnings",
        .example = R"({"runs": [1]})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});

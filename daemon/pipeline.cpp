@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "algo/restate.h"
 #include "algo/straightness.h"
+#include "daemon/completeness.h"
 #include "schema/json_writer.h"
 #include "schema/number_text.h"
 #include "schema/units.h"
@@ -163,6 +165,13 @@ Status Pipeline::reject_dead_probes() const {
   return {};
 }
 
+// Complete is what has all that was asked for.
+void Pipeline::judge(Run& run) const {
+  auto missing = what_is_missing(options_.sequence.targets_m, options_.repeats, run.points);
+  run.header.state = missing.empty() ? RunState::complete : RunState::partial;
+  std::move(missing.begin(), missing.end(), std::back_inserter(run.header.warnings));
+}
+
 Result<Run> Pipeline::finish() {
   aligner_.flush(frames_);
   dwell_.push(frames_, found_);
@@ -175,11 +184,11 @@ Result<Run> Pipeline::finish() {
   run.header.axis = rig_.axis;
   run.header.sides = rig_.sides;
   run.header.stated = kAtFixture;
-  run.header.state = RunState::complete;
   run.header.scans = dwell_.summary().scans;
   run.header.scans_lost = lost_;
   run.header.warnings = sequence_.warnings;
   run.points = sequence_.points;
+  judge(run);
   run.straightness = algo::straightness(rig_.moving(), run.points);
   run.angles = algo::angles(rig_.moving(), run.points);
   return run;

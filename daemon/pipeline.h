@@ -55,9 +55,10 @@ class Pipeline {
                       const std::vector<double>& u_m) const;
   const algo::Solver& solver() const { return solver_; }
 
-  // End of the data. Fills points, figures, scans and warnings of a run; the header's identity and
-  // provenance are the caller's. Error: nothing was measured, with the reason: the encoder stood
-  // still, no dwell was long enough, a probe was at the end of its range throughout.
+  // End of the data. Fills points, figures, scans and warnings of a run, and its state: complete,
+  // or partial (completeness.h); the header's identity and provenance are the caller's. Error:
+  // nothing was measured, with the reason: the encoder stood still, no dwell was long enough, a
+  // probe was at the end of its range throughout.
   Result<Run> finish();
 
  private:
@@ -67,6 +68,7 @@ class Pipeline {
   bool moved() const;
   Status explain_nothing() const;
   Status reject_dead_probes() const;
+  void judge(Run& run) const;
 
   Rig rig_;
   PipelineOptions options_;

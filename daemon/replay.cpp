@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "daemon/config.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
 
@@ -88,8 +89,12 @@ std::string ReplayLog::started_utc() const {
   return recording_ ? recording_->header().started_utc : "";
 }
 
-std::string ReplayLog::configuration() const {
-  return recording_ ? recording_->header().configuration : "";
+Result<AskedFor> ReplayLog::asked_for() const {
+  if (!recording_) return AskedFor{};
+  MDOF_TRY(const auto measure, measure_options(recording_->header().configuration));
+  auto asked = read_request_json(recording_->header().request, measure);
+  if (!asked) return in_context(path_ + ": what was asked of its run", asked.error());
+  return asked;
 }
 
 std::vector<std::string> ReplayLog::comments() const {
@@ -136,6 +141,7 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
                    const ReplayProgress& progress) {
   MDOF_CHECK(check_axis(log.path(), log.comments(), rig));
   MDOF_CHECK(check_channels(log.path(), log.driver().info().channels, rig));
+  MDOF_TRY(const AskedFor asked, log.asked_for());
   MDOF_TRY(Pipeline pipeline, Pipeline::create(rig, options));
   MDOF_CHECK(read_through(log, pipeline, progress));
   auto run = pipeline.finish();
@@ -143,8 +149,9 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   run->header.simulated = log.driver().info().simulated;
   run->header.started_utc = log.started_utc();
   run->header.provenance = provenance_of(log, rig, options);
-  const auto more = log.warnings();
-  run->header.warnings.insert(run->header.warnings.end(), more.begin(), more.end());
+  run->header.note = asked.note;
+  for (const auto& more : {log.warnings(), asked.warnings})
+    run->header.warnings.insert(run->header.warnings.end(), more.begin(), more.end());
   const std::string day = log.started_utc().empty() ? utc_now() : log.started_utc();
   const auto overdue = overdue_calibrations(rig, day);
   run->header.warnings.insert(run->header.warnings.end(), overdue.begin(), overdue.end());

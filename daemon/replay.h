@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/pipeline.h"
+#include "daemon/request_json.h"
 #include "drivers/csv/csv_log.h"
 #include "drivers/recording/recording_log.h"
 #include "schema/result.h"
@@ -26,9 +27,11 @@ class ReplayLog {
   drivers::Driver& driver() { return *driver_; }
   const std::string& path() const { return path_; }
   const char* kind() const { return recording_ ? "recording" : "csv"; }
-  std::string rig_text() const;               // of a recording, else empty
-  std::string started_utc() const;            // of a recording, else empty: not known
-  std::string configuration() const;          // mdofd.toml of a recording, else empty
+  std::string rig_text() const;     // of a recording, else empty
+  std::string started_utc() const;  // of a recording, else empty: not known
+  // How the run was measured of which this is the recording: by its mdofd.toml, then by what was
+  // asked of it. Defaults for a CSV log.
+  Result<AskedFor> asked_for() const;
   std::vector<std::string> comments() const;  // of a CSV log
   double progress() const;                    // 0 ... 1; 0 where it is not known (a pipe)
   // After the end of the log:

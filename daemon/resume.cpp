@@ -1,11 +1,9 @@
 #include "daemon/resume.h"
 
-#include <simdjson.h>
-
 #include <algorithm>
 
+#include "daemon/request_json.h"
 #include "drivers/recording/recording_log.h"
-#include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
@@ -14,29 +12,10 @@ constexpr std::chrono::milliseconds kReadTimeout{1000};
 // Between the parts: longer than the devices of an axis lie apart.
 constexpr std::int64_t kPause_ns = 5'000'000'000;
 constexpr int kBlocksPerCommit = 64;
+constexpr std::string_view kGoesOn = "goes on from run ";
 
 tl::unexpected<Error> refused(std::int64_t run, const std::string& why) {
   return fail(ErrorCode::conflict, "run " + std::to_string(run) + " cannot go on: " + why);
-}
-
-// The targets and repeats of options_json (PipelineOptions::json()).
-Result<RunRequest> asked_for(const std::string& options_json) {
-  simdjson::dom::parser parser;
-  simdjson::dom::element options;
-  simdjson::dom::array targets;
-  RunRequest request;
-  if (parser.parse(simdjson::padded_string(options_json)).get(options) ||
-      options["targets_mm"].get(targets))
-    return bad_input("its options cannot be read");
-  for (const simdjson::dom::element target : targets) {
-    double target_mm = 0;
-    if (target.get(target_mm)) return bad_input("its targets cannot be read");
-    request.targets_m.push_back(from_mm(target_mm));
-  }
-  std::int64_t repeats = 0;
-  // Runs of older versions do not say it: until stopped.
-  if (!options["repeats"].get(repeats)) request.repeats = static_cast<int>(repeats);
-  return request;
 }
 
 Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisConfig& axis) {
@@ -83,13 +62,18 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
                                      const AxisConfig& axis) {
   MDOF_TRY(const RunHeader header, reader.run_header(run));
   MDOF_CHECK(check_can_go_on(reader, header, axis));
-  auto request = asked_for(header.provenance.options_json);
-  if (!request) return refused(run, request.error().message);
-  request->note = header.note;
-  request->resumes = CutOffRun{run, header.provenance.recording_path};
-  request->warnings.push_back(
-      "goes on from run " + std::to_string(run) +
-      ", which was cut off: whether the encoder kept its zero and the machine its temperature in "
+  const auto options = read_options_json(header.provenance.options_json, {});
+  if (!options) return refused(run, "what it was asked for: " + options.error().message);
+  RunRequest request;
+  request.note = header.note;
+  request.targets_m = options->sequence.targets_m;
+  request.repeats = options->repeats;
+  request.resumes = CutOffRun{run, header.provenance.recording_path};
+  for (const std::string& warning : header.warnings)  // of a run that had gone on before
+    if (warning.starts_with(kGoesOn)) request.warnings.push_back(warning);
+  request.warnings.push_back(
+      std::string(kGoesOn) + std::to_string(run) +
+      ", which ended early: whether the encoder kept its zero and the machine its temperature in "
       "between is not known");
   return request;
 }

@@ -1,5 +1,5 @@
-// A run that was cut off goes on as a new run that supersedes it: what was recorded of it is
-// recorded again and measured again, then the devices follow.
+// A run that was cut off, or stopped before it had all, goes on as a new run that supersedes it:
+// what was recorded of it is recorded again and measured again, then the devices follow.
 #pragma once
 
 #include <atomic>

@@ -7,6 +7,7 @@
 #include "daemon/live_json.h"
 #include "daemon/open_run.h"
 #include "daemon/paths.h"
+#include "daemon/request_json.h"
 #include "daemon/version.h"
 
 namespace mdof::daemon {
@@ -111,8 +112,13 @@ NewRun Station::describe_run(const RunRequest& request) const {
   run.recording = recordings_ / (file_stamp(h.started_utc) + "-" + letter(h.axis) + ".mdofrec");
   h.provenance.recording_kind = "recording";
   h.provenance.recording_path = std::filesystem::absolute(run.recording).string();
-  run.recording_header = {kVersion,       config_.rig.text, devices_json(devices()),
-                          configuration_, h.started_utc,    h.simulated};
+  run.recording_header = {kVersion,
+                          config_.rig.text,
+                          devices_json(devices()),
+                          configuration_,
+                          h.started_utc,
+                          h.simulated,
+                          request_json({request.note, request.warnings, options})};
   return run;
 }
 

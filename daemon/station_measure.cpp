@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "daemon/completeness.h"
 #include "daemon/live_json.h"
 #include "daemon/open_run.h"
 #include "daemon/paths.h"
@@ -42,19 +43,6 @@ bool approach_assumed(const MeasuredPoint& p) {
   return std::find(flags.begin(), flags.end(), algo::kApproachAssumed) != flags.end();
 }
 
-// Each target has been measured as often as was asked for, both ways.
-bool all_asked_for(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
-  if (request.repeats == 0) return false;
-  std::vector<int> forward(request.targets_m.size()), reverse(request.targets_m.size());
-  for (const auto& p : points) {
-    if (!p.errors.valid) continue;
-    ++(p.point.direction > 0 ? forward : reverse)[static_cast<std::size_t>(p.target) - 1];
-  }
-  const auto enough = [&](int n) { return n >= request.repeats; };
-  return std::all_of(forward.begin(), forward.end(), enough) &&
-         std::all_of(reverse.begin(), reverse.end(), enough);
-}
-
 // The target that comes after the last point: onward in its direction, and at an end back again.
 std::optional<std::size_t> awaited_target(const RunRequest& request,
                                           const std::vector<MeasuredPoint>& points) {
@@ -80,6 +68,18 @@ std::string event_json(const char* type, std::int64_t run, Axis axis) {
       .field("type", type)
       .field("run", run)
       .field("axis", std::string(1, letter(axis)))
+      .end_object();
+  return json.take();
+}
+
+// The run to read, and what has become of it.
+std::string ended_json(std::int64_t run, Axis axis, RunState state) {
+  JsonWriter json;
+  json.begin_object()
+      .field("type", "ended")
+      .field("run", run)
+      .field("axis", std::string(1, letter(axis)))
+      .field("state", to_string(state))
       .end_object();
   return json.take();
 }
@@ -200,7 +200,9 @@ void Station::take_samples(SampleBlock& block) {
   }
   const auto& points = open_->pipeline.points();
   if (!points.empty() && !approach_assumed(points.back())) keep_new_points(points);
-  if (all_asked_for(open_->request, open_->stored)) finish(RunState::complete, "", {}, {});
+  const RunRequest& asked = open_->request;
+  if (all_measured(asked.targets_m, asked.repeats, open_->stored))
+    finish(RunState::complete, "", {}, {});
 }
 
 void Station::keep_for_recording(const SampleBlock& block) {
@@ -256,7 +258,11 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
     run.header.warnings.push_back(result.error().message);
     if (state == RunState::complete) state = RunState::failed;
   }
-  run.header.state = state;
+  // Else as it turned out: complete or partial.
+  if (state != RunState::complete) run.header.state = state;
+  if (run.header.state == RunState::partial && config_.recorded())
+    run.header.warnings.emplace_back(
+        "this run is partial; to go on with it: mdof record --resume RUN");
   run.header.provenance.recording_sha256 = source.sha256;
   run.header.warnings.insert(run.header.warnings.end(), source.warnings.begin(),
                              source.warnings.end());
@@ -273,13 +279,15 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
   const bool differs = result && !same_points(open->stored, run.points);
   const std::int64_t id = open->id;
   const Axis axis = config_.rig.axis;
-  keeper_.end_run(
-      id, std::move(run), differs,
-      [shared = shared_, id, axis, done = std::move(done)](const Result<std::int64_t>& stored) {
-        shared->run = 0;
-        shared->events.run_event(event_json("ended", stored ? *stored : id, axis));
-        if (done) done(stored);
-      });
+  const RunState became = run.header.state;
+  keeper_.end_run(id, std::move(run), differs,
+                  [shared = shared_, id, axis, became,
+                   done = std::move(done)](const Result<std::int64_t>& stored) {
+                    shared->run = 0;
+                    shared->events.run_event(ended_json(stored ? *stored : id, axis,
+                                                        stored ? became : RunState::failed));
+                    if (done) done(stored);
+                  });
 }
 
 void Station::show_live() {

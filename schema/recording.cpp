@@ -17,8 +17,8 @@ void add(std::string& text, Integer x) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> entries(const RecordingHeader& header) {
-  return {
-      {"format_version", std::to_string(kRecordingFormat)},
+  std::vector<std::pair<std::string, std::string>> rows = {
+      {"format_version", std::to_string(header.format)},
       {"software_version", header.software_version},
       {"rig", header.rig_text},
       {"devices", header.devices},
@@ -26,6 +26,8 @@ std::vector<std::pair<std::string, std::string>> entries(const RecordingHeader& 
       {"started_utc", header.started_utc},
       {"simulated", header.simulated ? "1" : "0"},
   };
+  if (header.format >= 2) rows.emplace_back("request", header.request);
+  return rows;
 }
 
 std::string sha256_of(const RecordingHeader& header) {

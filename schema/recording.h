@@ -8,6 +8,8 @@
 //                      finished_utc
 //
 // Numbers are decimal, hashes are lower-case hex. The hash of the last chunk is the recording's.
+//
+// Format 1 had no header entry "request"; its files are read and checked as they were written.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +20,7 @@
 
 namespace mdof {
 
-inline constexpr int kRecordingFormat = 1;                // SQLite's user_version
+inline constexpr int kRecordingFormat = 2;                // SQLite's user_version
 inline constexpr int kRecordingApplication = 0x6d646f72;  // SQLite's application_id: "mdor"
 
 // What has to be known to make results of the samples again.
@@ -29,6 +31,8 @@ struct RecordingHeader {
   std::string configuration;  // mdofd.toml, or empty
   std::string started_utc;    // for people
   bool simulated = false;
+  std::string request;            // JSON: what was asked of the run, with all options; or empty
+  int format = kRecordingFormat;  // of the file that it was read from
 };
 
 struct RecordingChunk {

@@ -224,6 +224,15 @@ std::string squareness_json(const Squareness& s) {
   return json.take();
 }
 
+std::string with_warnings(std::string json, const std::vector<std::string>& warnings) {
+  JsonWriter list;
+  list.begin_array();
+  for (const auto& warning : warnings) list.value(warning);
+  list.end_array();
+  json.pop_back();
+  return json + ",\"warnings\":" + list.text() + "}";
+}
+
 void write_table_row(JsonWriter& json, const CompensationTable& t, std::size_t row) {
   json.begin_object().field("position_mm", to_mm(t.position_m[row]));
   json.key("forward");

@@ -27,6 +27,9 @@ void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 
 std::string squareness_json(const Squareness& squareness);
 
+// A JSON object with one member more, "warnings".
+std::string with_warnings(std::string json, const std::vector<std::string>& warnings);
+
 // One grid point: {"position_mm", "forward": {...}, "reverse": {...}}: errors, with "u" inside.
 void write_table_row(JsonWriter& json, const CompensationTable& table, std::size_t row);
 // What holds for the whole table; the members of an open object.

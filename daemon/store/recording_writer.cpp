@@ -51,7 +51,7 @@ Status set_up(Connection& connection, const RecordingHeader& header,
   MDOF_TRY(Transaction transaction, Transaction::begin(connection));
   MDOF_CHECK(
       connection.execute("PRAGMA application_id = " + std::to_string(kRecordingApplication)));
-  MDOF_CHECK(connection.execute("PRAGMA user_version = " + std::to_string(kRecordingFormat)));
+  MDOF_CHECK(connection.execute("PRAGMA user_version = " + std::to_string(header.format)));
   MDOF_CHECK(write_header(connection, header));
   return transaction.commit();
 }

@@ -60,6 +60,7 @@ Status RecordingLog::check_kind() {
     return bad_input(file_.string() + ": has recording format " + std::to_string(format) +
                      ", this program reads up to " + std::to_string(kRecordingFormat) +
                      "; use the newer mdof that wrote it");
+  header_.format = static_cast<int>(format);
   return {};
 }
 
@@ -74,6 +75,7 @@ Status RecordingLog::read_header() {
   MDOF_TRY(header_.devices, value("devices"));
   MDOF_TRY(header_.configuration, value("configuration"));
   MDOF_TRY(header_.started_utc, value("started_utc"));
+  MDOF_TRY(header_.request, value("request"));
   MDOF_TRY(const std::string simulated, value("simulated"));
   MDOF_TRY(const std::string sha256, value("sha256"));
   header_.simulated = info_.simulated = simulated != "0";  // in doubt it is not a measurement

@@ -239,6 +239,7 @@ TEST(Compensation, RefusesRunsOfTwoAxesAndOfOtherTargets) {
                   y = run_of(Axis::y, kAxis2_m, kAxis2_um);
   EXPECT_FALSE(build_table({x, y}, {}));
   mdof::Run shifted = x;
+  shifted.header.id = 3;
   for (auto& p : shifted.points) p.point.position_m += 0.02;
   EXPECT_NE(build_table({x, shifted}, {}).error().message.find("no target"), std::string::npos);
   EXPECT_FALSE(build_table({}, {}));

@@ -60,8 +60,8 @@ def measured(daemon, client, targets):
             return header
 
 
-def replayed(mdof, recording, targets):
-    done = subprocess.run([mdof, "replay", recording, "--no-store", "--json", "--targets-mm", *map(str, targets)],
+def replayed(mdof, recording, *options):
+    done = subprocess.run([mdof, "replay", recording, "--no-store", "--json", *map(str, options)],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
@@ -87,8 +87,10 @@ def check(options, name):
             daemon.process.kill()
             daemon.process.wait()
         recording = header["recording"]["path"]
-        again = replayed(options.mdof, recording, targets)
+        again = replayed(options.mdof, recording)  # no option: what was asked for is in the recording
         assert again["points"] == points, f"{name}: a replay gives other points"
+        for key in ("state", "options", "straightness", "angles", "note"):
+            assert again[key] == header[key], f"{name}: a replay gives another {key}"
         worst = worst_errors(points, zero_mm)
         for key, error in worst.items():
             bound = setup.straightness_um if key.endswith("_um") else setup.angle_urad
@@ -96,14 +98,14 @@ def check(options, name):
         assert {(p["target"], p["direction"]) for p in points} >= {
             (t + 1, d) for t in range(len(setup.targets)) for d in (1, -1)}
         if options.keep:
-            keep(options.keep, name, recording, targets, again)
+            keep(options.keep, name, recording, again)
         return f"{name}: {len(points)} points, worst " + ", ".join(f"{k} {v:.3g}" for k, v in worst.items())
 
 
-def keep(folder, name, recording, targets, result):
+def keep(folder, name, recording, result):
     os.makedirs(folder, exist_ok=True)
     shutil.copy(recording, os.path.join(folder, name + ".mdofrec"))
-    expected = {"targets_mm": targets, "points": result["points"]}
+    expected = {"points": result["points"]}
     with open(os.path.join(folder, name + ".json"), "w") as f:
         json.dump(expected, f, indent=1)
         f.write("\n")

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """The recordings of live runs that are kept, one for each driver, give the results that they gave then.
 
-usage: kept_recordings_test.py MDOF. They were made by each_device_test.py --keep."""
+usage: kept_recordings_test.py MDOF. They were made by each_device_test.py --keep, some of them in format 1, which had
+not yet what was asked of the run: it was put into their headers afterwards, but for that in format-1/, which needs to
+be told its targets."""
 import glob
 import json
 import os
@@ -10,13 +12,26 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from each_device_test import replayed  # noqa: E402
 from mdofd import DATA  # noqa: E402
+from recording_file import checked_hash, header_of  # noqa: E402
 
-files = sorted(glob.glob(os.path.join(DATA, "devices", "recordings", "*.mdofrec")))
-assert files, "no recordings are kept"
-for file in files:
+
+def check(file, *options):
     with open(file.replace(".mdofrec", ".json")) as f:
         expected = json.load(f)
-    result = replayed(sys.argv[1], file, expected["targets_mm"])
+    result = replayed(sys.argv[1], file, *options)
+    assert result["recording"]["sha256"] == checked_hash(file), file
     assert len(expected["points"]) >= 8, file
     assert result["points"] == expected["points"], f"{file}: the points are others"
     print(f"{os.path.basename(file)}: {len(result['points'])} points to the bit")
+
+
+FOLDER = os.path.join(DATA, "devices", "recordings")
+files = sorted(glob.glob(os.path.join(FOLDER, "*.mdofrec")))
+assert files, "no recordings are kept"
+for file in files:
+    assert header_of(file)["format_version"] == "2", file
+    check(file)
+old = os.path.join(FOLDER, "format-1", "mcc_usb1608fs_plus.mdofrec")
+assert header_of(old)["format_version"] == "1", old
+with open(old.replace(".mdofrec", ".json")) as f:
+    check(old, "--targets-mm", *json.load(f)["targets_mm"])

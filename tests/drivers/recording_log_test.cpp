@@ -35,7 +35,8 @@ class RecordingTest : public testing::Test {
 };
 
 RecordingHeader header() {
-  return {"0.1.0", "name = \"rig\"\n", "[]", "", "2026-11-21T04:00:00Z", true};
+  return {"0.1.0", "name = \"rig\"\n",  "[]", "", "2026-11-21T04:00:00Z",
+          true,    R"({"note":"warm"})"};
 }
 
 constexpr std::int64_t kPeriodNs = 250'000;  // 4 kHz
@@ -360,7 +361,45 @@ TEST_F(RecordingTest, ANewerFormatIsRefusedWithBothVersions) {
   const Outcome outcome = read_all(file_);
   ASSERT_FALSE(outcome.status);
   EXPECT_TRUE(contains(outcome.status.error().message, "format 9"));
-  EXPECT_TRUE(contains(outcome.status.error().message, "up to 1"));
+  EXPECT_TRUE(
+      contains(outcome.status.error().message, "up to " + std::to_string(kRecordingFormat)));
+}
+
+// Made by an mdof of before there was a format 2.
+TEST_F(RecordingTest, AFileOfFormatOneIsReadAndCheckedAsItWasWritten) {
+  const fs::path kept = MDOF_TEST_DATA "/devices/recordings/format-1/mcc_usb1608fs_plus.mdofrec";
+  RecordingLog log("replay", kept);
+  ASSERT_TRUE(log.open());
+  EXPECT_EQ(log.header().format, 1);
+  EXPECT_EQ(log.header().request, "");
+  const Outcome outcome = read_all(kept);
+  ASSERT_TRUE(outcome.status) << outcome.status.error().message;
+  EXPECT_GT(outcome.time_ns.size(), 1000u);
+}
+
+TEST_F(RecordingTest, TheRequestIsKeptAndGuarded) {
+  write(file_, 1, true);
+  {
+    RecordingLog log("replay", file_);
+    ASSERT_TRUE(log.open());
+    EXPECT_EQ(log.header().request, header().request);
+  }
+  const auto outcome_of = [&](const std::string& sql) {
+    fs::copy_file(file_, folder_ / "changed.mdofrec", fs::copy_options::overwrite_existing);
+    auto db = sqlite::Connection::open(folder_ / "changed.mdofrec", sqlite::OpenMode::read_write);
+    EXPECT_TRUE(
+        db->execute("DROP TRIGGER header_no_update; DROP TRIGGER header_no_delete; " + sql));
+    return read_all(folder_ / "changed.mdofrec");
+  };
+  for (const char* sql : {"UPDATE header SET value = '{}' WHERE key = 'request'",
+                          "DELETE FROM header WHERE key = 'request'",
+                          "PRAGMA user_version = 1"}) {  // whose hash would leave it out
+    const Outcome outcome = outcome_of(sql);
+    ASSERT_FALSE(outcome.status) << sql;
+    EXPECT_TRUE(contains(outcome.status.error().message, "header"))
+        << outcome.status.error().message;
+  }
+  EXPECT_TRUE(outcome_of("").status);
 }
 
 TEST_F(RecordingTest, ReadingLeavesNothingBesideASealedFile) {

@@ -21,7 +21,7 @@ struct CompensationCommand {
   std::string database, socket, axis, reference;  // empty: the rig's tool point, else the fixture
   std::vector<std::int64_t> runs;
   std::int64_t table = 0;
-  bool keep_slope = false, json = false;
+  bool keep_slope = false, partial = false, json = false;
 };
 
 Status print_table(const CompensationTable& table, std::int64_t generation, bool json) {
@@ -31,7 +31,8 @@ Status print_table(const CompensationTable& table, std::int64_t generation, bool
 
 // ---- build ----
 
-Result<CompensationTable> build_and_store(const CompensationCommand& command) {
+Result<CompensationTable> build_and_store(const CompensationCommand& command,
+                                          std::vector<std::string>& warnings) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
   daemon::TableRequest request{command.runs, command.keep_slope, {}};
   if (!command.reference.empty())
@@ -46,6 +47,7 @@ Status ask_daemon_to_build(const CompensationCommand& command) {
   params.end_array();
   if (command.keep_slope) params.field("keep_slope", true);
   if (!command.reference.empty()) params.field("reference", command.reference);
+  if (command.partial) params.field("partial", true);
   params.end_object();
   return print_call(command.socket, "compensation.build", params.text(), command.json);
 }
@@ -53,8 +55,11 @@ Status ask_daemon_to_build(const CompensationCommand& command) {
 Status build(const CompensationCommand& command) {
   MDOF_TRY(const bool busy, somebody_writes(command.database));
   if (busy) return ask_daemon_to_build(command);
-  MDOF_TRY(const CompensationTable table, build_and_store(command));
-  MDOF_CHECK(print_table(table, 0, command.json));
+  std::vector<std::string> warnings;
+  MDOF_TRY(const CompensationTable table, build_and_store(command, warnings));
+  for (const auto& warning : warnings) warn(warning);
+  MDOF_CHECK(command.json ? write_line(with_warnings(table_document(table, 0), warnings))
+                          : write_out(table_text(table, 0)));
   say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id));
   return {};
 }
@@ -148,6 +153,7 @@ void add_compensation(CLI::App& app, Action& chosen) {
       ->type_name("");
   of_build->add_flag("--keep-slope", o->keep_slope,
                      "Straightness as measured, not about its least-squares line");
+  of_build->add_flag("--partial", o->partial, "Take partial runs as well");
   add_reference_option(*of_build, o->reference)
       ->description("fixture, carriage or tool [default: the rig's tool point, else the fixture]");
   add_socket_option(*of_build, o->socket);

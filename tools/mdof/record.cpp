@@ -130,8 +130,13 @@ Status print_result(std::int64_t run, const std::string& result, bool as_json) {
   simdjson::dom::parser parser;
   const std::string state = text(parser.parse(simdjson::padded_string(result)), "state");
   if (state == "complete") return {};
+  const std::string id = std::to_string(run);
   return fail(ErrorCode::check,
-              "run " + std::to_string(run) + " is " + state + "; its warnings say why");
+              "run " + id + " is " + state +
+                  (state == "partial" ? ": its warnings say what is missing; go on with it: mdof "
+                                        "record --resume " +
+                                            id
+                                      : "; its warnings say why"));
 }
 
 Status record(RecordCommand command) {
@@ -170,7 +175,7 @@ void add_record(CLI::App& app, Action& chosen) {
   command->add_option("--seed", o->seed, "Of the jitter")->capture_default_str();
   command->add_option("--scale-period-um", o->scale_period_um,
                       "Signal period of the scale: warns where the intervals hide its error");
-  command->add_option("--resume", o->resume, "Goes on with this run, which was cut off")
+  command->add_option("--resume", o->resume, "Goes on with this run, which ended early")
       ->check(CLI::PositiveNumber)
       ->excludes(axis);
   command->add_option("--repeats", o->repeats, "Ends by itself after so many, both ways")

@@ -29,16 +29,18 @@ struct ReplayCommand {
   bool json = false, keep_out = false;
 };
 
-// As mdofd measured what it recorded, but for what is given here.
+// As the run was asked for whose recording this is, but for what is given here.
 Result<daemon::PipelineOptions> pipeline_options(const ReplayCommand& command,
                                                  const daemon::ReplayLog& log) {
-  MDOF_TRY(auto options, daemon::measure_options(log.configuration()));
+  MDOF_TRY(const auto asked, log.asked_for());
+  daemon::PipelineOptions options = asked.options;
   if (!command.model.empty()) model_from(command.model, options.model);
   if (command.tolerance_um) options.dwell.tolerance_m = from_um(*command.tolerance_um);
   options.dwell.settle_s = command.settle_s.value_or(options.dwell.settle_s);
   options.dwell.min_length_s = command.min_length_s.value_or(options.dwell.min_length_s);
   options.align.lag_bound_s = command.lag_bound_s.value_or(options.align.lag_bound_s);
   options.align.max_gap_s = command.max_gap_s.value_or(options.align.max_gap_s);
+  if (!command.targets_mm.empty()) options.sequence.targets_m.clear();
   for (const double t : command.targets_mm) options.sequence.targets_m.push_back(from_mm(t));
   std::sort(options.sequence.targets_m.begin(), options.sequence.targets_m.end());
   return options;
@@ -79,7 +81,7 @@ Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
 Status replay(const ReplayCommand& command) {
   MDOF_TRY(Run run, replay_log(command));
   if (run.header.started_utc.empty()) run.header.started_utc = daemon::utc_now();
-  run.header.note = command.note;
+  if (!command.note.empty()) run.header.note = command.note;
   MDOF_TRY(const StatedAt at, asked_reference(command, run));
   if (!command.keep_out) MDOF_CHECK(store_run(command, run));
   run = algo::restate(std::move(run), at);  // what is stored is stated at the fixture
@@ -104,7 +106,9 @@ void add_replay(CLI::App& app, Action& chosen) {
   add_reference_option(*command, o->reference)->capture_default_str();
   command->add_option("--note", o->note, "Kept with the run")->type_name("TEXT");
   command->add_flag("--no-store", o->keep_out, "Only show the result");
-  command->add_option("--targets-mm", o->targets_mm, "Nominal positions [default: recognised]")
+  command
+      ->add_option("--targets-mm", o->targets_mm,
+                   "Nominal positions [default: as recorded, else recognised]")
       ->delimiter(',');
   command->add_option("--tolerance-um", o->tolerance_um, "Encoder at rest; 0: by itself")
       ->check(CLI::NonNegativeNumber);
@@ -118,7 +122,7 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->check(CLI::PositiveNumber);
   add_json_flag(*command, o->json);
   command->footer(
-      "A recording is measured as its mdofd.toml says; an option changes that.\n"
+      "A recording is measured as its run was asked for; an option changes that.\n"
       "Example:\n  mdof replay log_X.csv.gz --rig rig_X.toml --json > run.json");
   command->callback([o, &chosen] { chosen = [o] { return replay(*o); }; });
 }

@@ -55,6 +55,8 @@ Status ask_daemon(const SquarenessCommand& command) {
   params.begin_object().field("run_x", command.run_x).field("run_y", command.run_y);
   if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
   if (command.u_artefact_urad) params.field("u_artefact_urad", *command.u_artefact_urad);
+  if (command.u_artefact_urad > 0) params.field("u_artefact_urad", command.u_artefact_urad);
+  if (command.partial) params.field("partial", true);
   params.end_object();
   return print_call(command.socket, "squareness.fit", params.text(), command.json);
 }
@@ -62,8 +64,11 @@ Status ask_daemon(const SquarenessCommand& command) {
 Status squareness(const SquarenessCommand& command) {
   MDOF_TRY(const bool busy, somebody_writes(command.database));
   if (busy) return ask_daemon(command);
-  MDOF_TRY(const Squareness s, fit(command));
-  return command.json ? write_line(squareness_json(s)) : write_out(squareness_text(s));
+  std::vector<std::string> warnings;
+  MDOF_TRY(const Squareness s, fit(command, warnings));
+  for (const auto& warning : warnings) warn(warning);
+  return command.json ? write_line(with_warnings(squareness_json(s), warnings))
+                      : write_out(squareness_text(s));
 }
 
 }  // namespace
@@ -77,6 +82,7 @@ void add_squareness(CLI::App& app, Action& chosen) {
                       "Angle error of the square [default: of the rigs]");
   command->add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
       ->check(CLI::NonNegativeNumber);
+  command->add_flag("--partial", o->partial, "Take partial runs as well");
   add_database_option(*command, o->database);
   add_socket_option(*command, o->socket);
   add_json_flag(*command, o->json);

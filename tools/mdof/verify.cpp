@@ -1,6 +1,8 @@
-// mdof verify: is the database, or a recording, what was once written?
+// mdof verify: are the database, with the recordings and logs of its runs, or one recording, what
+// was once written?
 #include <CLI/CLI.hpp>
 
+#include "daemon/verify_sources.h"
 #include "drivers/recording/recording_log.h"
 #include "schema/json_writer.h"
 #include "tools/mdof/command.h"
@@ -16,51 +18,65 @@ struct VerifyCommand {
   bool json = false;
 };
 
-// What was found wrong; a file that cannot be judged is an error.
-using Findings = std::vector<std::string>;
+// What was found wrong, and what cannot be checked; a file that cannot be judged is an error.
+using daemon::SourceCheck;
 
-Result<Findings> verify_database(const std::string& option) {
-  MDOF_TRY(store::Store store, open_to_read(option));
-  return store.verify();
+void add(const std::vector<std::string>& more, std::vector<std::string>& to) {
+  to.insert(to.end(), more.begin(), more.end());
 }
 
-Result<Findings> verify_recording(const std::string& file) {
+// The database itself, then the files that its runs were made from.
+Status verify_database(const std::string& option, SourceCheck& check) {
+  MDOF_TRY(store::Store store, open_to_read(option));
+  MDOF_TRY(const auto findings, store.verify());
+  add(findings, check.findings);
+  const auto sources = daemon::verify_sources(store);
+  // A database that is damaged has said so above, and may not tell its files.
+  if (!sources) return findings.empty() ? Status(tl::unexpected(sources.error())) : Status();
+  add(sources->findings, check.findings);
+  add(sources->notes, check.notes);
+  return {};
+}
+
+Status verify_recording(const std::string& file, SourceCheck& check) {
   drivers::RecordingLog log("recording", file);
   MDOF_CHECK(log.open());
   for (const auto& warning : log.warnings()) warn(warning);
   SampleBlock block;
   for (;;) {
     const auto state = log.read(block, {});
-    if (!state && state.error().code == ErrorCode::bad_input)
-      return Findings{state.error().message};
-    if (!state) return tl::unexpected(state.error());
-    if (*state == drivers::ReadState::end) return Findings{};
+    if (!state && state.error().code != ErrorCode::bad_input) return tl::unexpected(state.error());
+    if (!state) check.findings.push_back(state.error().message);
+    if (!state || *state == drivers::ReadState::end) return {};
   }
 }
 
-std::string verify_json(const Findings& findings) {
+void write_texts(JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
+  json.key(key).begin_array();
+  for (const auto& text : texts) json.value(text);
+  json.end_array();
+}
+
+std::string verify_json(const SourceCheck& check) {
   JsonWriter json;
-  json.begin_object().field("sound", findings.empty()).key("findings").begin_array();
-  for (const auto& finding : findings) json.value(finding);
-  json.end_array().end_object();
+  json.begin_object().field("sound", check.findings.empty());
+  write_texts(json, "findings", check.findings);
+  write_texts(json, "notes", check.notes);
+  json.end_object();
   return json.take();
 }
 
 Status verify(const VerifyCommand& command) {
-  Findings findings;
-  if (!command.recording.empty()) {
-    MDOF_TRY(findings, verify_recording(command.recording));
-  }
-  if (command.recording.empty() || !command.database.empty()) {
-    MDOF_TRY(const Findings more, verify_database(command.database));
-    findings.insert(findings.end(), more.begin(), more.end());
-  }
-  if (command.json) MDOF_CHECK(write_line(verify_json(findings)));
-  if (!findings.empty()) {
-    for (const auto& finding : findings) say(finding);
-    return fail(ErrorCode::check, "verify: " + std::to_string(findings.size()) +
-                                      " finding(s); restore the file from a copy");
-  }
+  SourceCheck check;
+  if (!command.recording.empty()) MDOF_CHECK(verify_recording(command.recording, check));
+  if (command.recording.empty() || !command.database.empty())
+    MDOF_CHECK(verify_database(command.database, check));
+  if (command.json) MDOF_CHECK(write_line(verify_json(check)));
+  for (const auto& note : check.notes) say("note: " + note);
+  for (const auto& finding : check.findings) say(finding);
+  if (!check.findings.empty())
+    return fail(ErrorCode::check, "verify: " + std::to_string(check.findings.size()) +
+                                      " finding(s); restore what is named above from a copy");
   return command.json ? Status() : write_line("sound: every checksum and reference holds");
 }
 
@@ -68,7 +84,8 @@ Status verify(const VerifyCommand& command) {
 
 void add_verify(CLI::App& app, Action& chosen) {
   const auto o = std::make_shared<VerifyCommand>();
-  auto* command = app.add_subcommand("verify", "Check every hash and reference of the database");
+  auto* command = app.add_subcommand(
+      "verify", "Check every hash of the database and of the recordings and logs of its runs");
   add_database_option(*command, o->database);
   command
       ->add_option("--recording", o->recording, "Check this recording instead (or, with --db, too)")

@@ -1,0 +1,89 @@
+#include "algo/usable_runs.h"
+
+#include <algorithm>
+#include <map>
+
+namespace mdof::algo {
+namespace {
+
+std::string name_of(const Run& run) {
+  return "run " + std::to_string(run.header.id);
+}
+
+Status check_state(const Run& run, bool take_partial, const std::string& what) {
+  const RunState state = run.header.state;
+  if (state == RunState::complete || (take_partial && state == RunState::partial)) return {};
+  const std::string remedy =
+      state == RunState::partial
+          ? ": its warnings say what is missing. Build " + what +
+                " from complete runs, or ask for a partial one: --partial on the command line, "
+                "\"partial\": true in the call"
+          : "; build " + what + " from complete runs";
+  return bad_input(name_of(run) + " is " + to_string(state) + remedy);
+}
+
+bool goes_on_from(const Run& run, const Run& other) {
+  return run.header.supersedes && *run.header.supersedes == other.header.id;
+}
+
+// The mean of the same samples: a log that was compressed in between has another hash.
+bool same_reading(const MeasuredPoint& a, const MeasuredPoint& b) {
+  return a.point.begin_ns == b.point.begin_ns && a.point.end_ns == b.point.end_ns &&
+         a.point.position_m == b.point.position_m && a.point.probe_m == b.point.probe_m &&
+         !a.point.probe_m.empty();
+}
+
+bool share_a_reading(const Run& a, const Run& b) {
+  std::multimap<std::int64_t, const MeasuredPoint*> by_time;
+  for (const MeasuredPoint& p : b.points) by_time.emplace(p.point.begin_ns, &p);
+  return std::any_of(a.points.begin(), a.points.end(), [&](const MeasuredPoint& p) {
+    const auto [from, to] = by_time.equal_range(p.point.begin_ns);
+    return std::any_of(from, to, [&](const auto& at) { return same_reading(p, *at.second); });
+  });
+}
+
+// Why the readings of both are the same; empty: they are not.
+std::string in_common(const Run& a, const Run& b) {
+  const std::string& sha256 = a.header.provenance.recording_sha256;
+  if (a.header.id != 0 && a.header.id == b.header.id) return name_of(a) + " is given twice";
+  if (!sha256.empty() && sha256 == b.header.provenance.recording_sha256)
+    return name_of(a) + " and " + name_of(b) + " are of the same recording (" +
+           b.header.provenance.recording_path + ")";
+  if (goes_on_from(b, a)) return name_of(b) + " goes on from " + name_of(a) + " and holds it";
+  if (goes_on_from(a, b)) return name_of(a) + " goes on from " + name_of(b) + " and holds it";
+  if (share_a_reading(a, b)) return name_of(a) + " and " + name_of(b) + " have readings in common";
+  return "";
+}
+
+Status check_independent(const Run& a, const Run& b) {
+  const std::string common = in_common(a, b);
+  if (common.empty()) return {};
+  return bad_input(common +
+                   ": readings that count twice make the uncertainty too small; leave one out");
+}
+
+}  // namespace
+
+Runs all_of(const std::vector<Run>& runs) {
+  Runs all;
+  for (const Run& run : runs) all.push_back(&run);
+  return all;
+}
+
+Status check_usable(const Runs& runs, bool take_partial, const std::string& what) {
+  for (const Run* run : runs) MDOF_CHECK(check_state(*run, take_partial, what));
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) MDOF_CHECK(check_independent(*runs[j], *runs[i]));
+  return {};
+}
+
+std::vector<std::string> partial_warnings(const Runs& runs) {
+  std::vector<std::string> warnings;
+  for (const Run* run : runs)
+    if (run->header.state == RunState::partial)
+      warnings.push_back("made from " + name_of(*run) +
+                         ", which is partial: its warnings say what is missing");
+  return warnings;
+}
+
+}  // namespace mdof::algo

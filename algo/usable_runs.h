@@ -1,0 +1,24 @@
+// May a figure be made of these runs together?
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/result.h"
+#include "schema/run.h"
+
+namespace mdof::algo {
+
+using Runs = std::vector<const Run*>;
+Runs all_of(const std::vector<Run>& runs);
+
+// Refuses a run that is not complete (a partial one is taken where `take_partial` asks for it), and
+// readings that would count twice: the same run, the same recording, a run with the one that it
+// goes on from, the same log in two files; their scatter would make the uncertainty too small.
+// `what`: "a table".
+Status check_usable(const Runs& runs, bool take_partial, const std::string& what);
+
+// For whoever asked for partial runs: which they are, with what they miss.
+std::vector<std::string> partial_warnings(const Runs& runs);
+
+}  // namespace mdof::algo

@@ -1,0 +1,161 @@
+#include "daemon/request_json.h"
+
+#include <simdjson.h>
+
+#include <cmath>
+
+#include "schema/json_writer.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+using simdjson::dom::element;
+
+// Members of an object, each into its place; the first that is of another kind is the error. One
+// that is absent, or null, leaves its place as it is.
+class Members {
+ public:
+  explicit Members(element object) : object_(object) {}
+  const Status& status() const { return status_; }
+
+  template <class T>
+  void take(const char* key, T& to) {
+    const auto found = find(key);
+    if (found && found->get(to)) reject(key);
+  }
+  void take(const char* key, std::string& to) {
+    std::string_view text(to);
+    take(key, text);
+    to = std::string(text);
+  }
+  void take(const char* key, double& to_si, double (*from)(double)) {
+    double x = std::nan("");
+    take(key, x);
+    if (!std::isnan(x)) to_si = from(x);
+  }
+  template <class Take>
+  void each(const char* key, Take take_item) {
+    const auto found = find(key);
+    simdjson::dom::array items;
+    if (!found) return;
+    if (found->get(items)) return reject(key);
+    for (const element item : items)
+      if (!take_item(item)) return reject(key);
+  }
+  std::optional<element> find(const char* key) const {
+    element found;
+    if (object_[key].get(found) || found.is_null()) return std::nullopt;
+    return found;
+  }
+  std::optional<element> object(const char* key) {
+    const auto found = find(key);
+    if (!found || found->is_object()) return found;
+    reject(key);
+    return std::nullopt;
+  }
+  void reject(const char* key) {
+    if (status_) status_ = bad_input(std::string("its \"") + key + "\" cannot be read");
+  }
+
+ private:
+  element object_;
+  Status status_;
+};
+
+double seconds(double x_s) {
+  return x_s;
+}
+
+Status read_align(element object, algo::AlignOptions& align) {
+  Members members(object);
+  members.take("lag_bound_s", align.lag_bound_s, seconds);
+  members.take("max_gap_s", align.max_gap_s, seconds);
+  return members.status();
+}
+
+Status read_dwell(element object, algo::DwellOptions& dwell) {
+  Members members(object);
+  members.take("tolerance_um", dwell.tolerance_m, from_um);
+  members.take("window_s", dwell.window_s, seconds);
+  members.take("settle_s", dwell.settle_s, seconds);
+  members.take("min_length_s", dwell.min_length_s, seconds);
+  members.take("approach_um", dwell.approach_m, from_um);
+  std::uint64_t max_scans = dwell.max_scans;
+  members.take("max_scans", max_scans);
+  dwell.max_scans = max_scans;
+  return members.status();
+}
+
+Status read_targets(Members& members, PipelineOptions& options) {
+  if (members.find("targets_mm")) options.sequence.targets_m.clear();
+  members.each("targets_mm", [&](element item) {
+    double target_mm = 0;
+    if (item.get(target_mm)) return false;
+    options.sequence.targets_m.push_back(from_mm(target_mm));
+    return true;
+  });
+  members.take("target_window_mm", options.sequence.target_window_m, from_mm);
+  // Runs of older versions do not say it: until stopped.
+  std::int64_t repeats = options.repeats;
+  members.take("repeats", repeats);
+  options.repeats = static_cast<int>(repeats);
+  return members.status();
+}
+
+Result<PipelineOptions> read_options(element object, PipelineOptions options) {
+  Members members(object);
+  std::string model = to_string(options.model);
+  members.take("model", model);
+  if (!model_from(model, options.model)) members.reject("model");
+  if (const auto align = members.object("align")) MDOF_CHECK(read_align(*align, options.align));
+  if (const auto dwell = members.object("dwell")) MDOF_CHECK(read_dwell(*dwell, options.dwell));
+  MDOF_CHECK(read_targets(members, options));
+  return options;
+}
+
+Result<element> parsed(simdjson::dom::parser& parser, const std::string& text) {
+  element root;
+  if (parser.parse(simdjson::padded_string(text)).get(root) || !root.is_object())
+    return bad_input("is no JSON object");
+  return root;
+}
+
+}  // namespace
+
+std::string request_json(const AskedFor& asked) {
+  JsonWriter json;
+  json.begin_object().field("note", asked.note).key("warnings").begin_array();
+  for (const std::string& warning : asked.warnings) json.value(warning);
+  json.end_array().key("options").raw(asked.options.json()).end_object();
+  return json.take();
+}
+
+Result<AskedFor> read_request_json(const std::string& text, const PipelineOptions& base) {
+  AskedFor asked;
+  asked.options = base;
+  if (text.empty()) return asked;
+  simdjson::dom::parser parser;
+  MDOF_TRY(const element root, parsed(parser, text));
+  Members members(root);
+  members.take("note", asked.note);
+  members.each("warnings", [&](element item) {
+    std::string_view words;
+    if (item.get(words)) return false;
+    asked.warnings.emplace_back(words);
+    return true;
+  });
+  if (const auto options = members.object("options")) {
+    MDOF_TRY(asked.options, read_options(*options, base));
+  }
+  MDOF_CHECK(members.status());
+  return asked;
+}
+
+Result<PipelineOptions> read_options_json(const std::string& text, const PipelineOptions& base) {
+  simdjson::dom::parser parser;
+  MDOF_TRY(const element root, parsed(parser, text));
+  return read_options(root, base);
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,115 @@
+#include "daemon/verify_sources.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <utility>
+
+#include "drivers/recording/recording_log.h"
+#include "schema/sha256.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr std::int64_t kPage = 500;
+
+// A file with the hash that it had, and the runs that were made from it.
+using Source = std::pair<std::string, std::string>;  // path, sha256
+using Sources = std::map<Source, std::vector<std::int64_t>>;
+
+std::string runs_text(const std::vector<std::int64_t>& runs) {
+  constexpr std::size_t kNamed = 8;
+  std::string text = runs.size() == 1 ? "run " : "runs ";
+  for (std::size_t i = 0; i < std::min(runs.size(), kNamed); ++i)
+    text += (i == 0 ? "" : ", ") + std::to_string(runs[i]);
+  return runs.size() <= kNamed ? text
+                               : text + " and " + std::to_string(runs.size() - kNamed) + " more";
+}
+
+// Error: it cannot be read.
+Result<std::string> sha256_of_file(const std::string& path) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string piece(kPiece, '\0');
+  Sha256 hash;
+  while (file) {
+    file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    hash.update(std::string_view(piece.data(), static_cast<std::size_t>(file.gcount())));
+  }
+  if (file.eof()) return hash.hex();
+  return io_error(path + ": cannot be read: " + std::strerror(errno ? errno : EIO));
+}
+
+// Error: it cannot be read, or is damaged.
+Result<std::string> sha256_of_recording(const std::string& path) {
+  drivers::RecordingLog log("recording", path);
+  MDOF_CHECK(log.open());
+  SampleBlock block;
+  for (;;) {
+    MDOF_TRY(const auto state, log.read(block, {}));
+    if (state == drivers::ReadState::end) return log.sha256();
+  }
+}
+
+void check_file(const Source& source, const std::string& of, SourceCheck& check) {
+  const auto& [path, expected] = source;
+  std::error_code ec;
+  if (!std::filesystem::exists(path, ec)) {
+    check.findings.push_back(
+        of + ": the file " + path + " is gone" +
+        (expected.empty() ? std::string() : " (its sha256 was " + expected + ")") +
+        "; put it back, or a link to it, so that the run can be replayed");
+    return;
+  }
+  const bool recording = drivers::is_recording(path);
+  if (expected.empty() && !recording) {
+    check.notes.push_back(of + ": " + path +
+                          " was not read to its end, so there is no hash to check it by");
+    return;
+  }
+  const auto actual = recording ? sha256_of_recording(path) : sha256_of_file(path);
+  if (!actual) {
+    check.findings.push_back(of + ": " + actual.error().message);
+  } else if (!expected.empty() && *actual != expected) {
+    check.findings.push_back(of + ": the file " + path +
+                             " is not the one that was measured: its sha256 is " + *actual +
+                             ", expected is " + expected + "; restore it from a copy");
+  }
+}
+
+void add_source(const RunHeader& run, Sources& sources, SourceCheck& check) {
+  const Provenance& from = run.provenance;
+  const std::string of = "run " + std::to_string(run.id);
+  if (run.state == RunState::open) {
+    check.notes.push_back(of + ": is being measured; its recording is checked once it has ended");
+  } else if (from.recording_path == "-") {
+    check.notes.push_back(of + ": its log came from the standard input and cannot be read again");
+  } else if (from.recording_path.empty()) {
+    check.notes.push_back(of + ": names no recording or log");
+  } else {
+    sources[{from.recording_path, from.recording_sha256}].push_back(run.id);
+  }
+}
+
+}  // namespace
+
+Result<SourceCheck> verify_sources(store::Store& store) {
+  SourceCheck check;
+  Sources sources;
+  for (std::int64_t offset = 0;; offset += kPage) {
+    MDOF_TRY(const auto page, store.list_runs(offset, kPage));
+    for (const RunHeader& run : page) add_source(run, sources, check);
+    if (static_cast<std::int64_t>(page.size()) < kPage) break;
+  }
+  for (auto& [source, runs] : sources) {
+    std::sort(runs.begin(), runs.end());
+    check_file(source, runs_text(runs), check);
+  }
+  return check;
+}
+
+}  // namespace mdof::daemon

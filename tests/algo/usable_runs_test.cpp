@@ -1,0 +1,111 @@
+#include "algo/usable_runs.h"
+
+#include <gtest/gtest.h>
+
+#include "algo/compensation.h"
+#include "algo/straightness.h"
+
+namespace mdof::algo {
+namespace {
+
+mdof::Run run_of(std::int64_t id, RunState state, const std::string& recording,
+                 Axis axis = Axis::x) {
+  mdof::Run run;
+  run.header.id = id;
+  run.header.axis = axis;
+  run.header.state = state;
+  run.header.provenance.recording_path = "/data/log.mdofrec";
+  run.header.provenance.recording_sha256 = recording;
+  for (const int direction : {1, -1}) {
+    for (int i = 0; i < 5; ++i) {
+      MeasuredPoint p;
+      p.target = i + 1;
+      p.run = 1;
+      p.point.direction = direction;
+      p.point.position_m = p.target_m = 0.01 * i;
+      p.errors.valid = true;
+      p.errors.local[0] = 1e-6 * (i % 2);
+      run.points.push_back(p);
+    }
+  }
+  return run;
+}
+
+std::string refusal(const std::vector<mdof::Run>& runs, TableOptions options = {}) {
+  const auto table = build_table(runs, options);
+  return table ? "" : table.error().message;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(UsableRuns, APartialRunIsTakenOnlyIfAskedFor) {
+  const mdof::Run partial = run_of(7, RunState::partial, "a");
+  const std::string why = refusal({partial});
+  EXPECT_TRUE(contains(why, "run 7 is partial")) << why;
+  EXPECT_TRUE(contains(why, "--partial") && contains(why, "\"partial\": true")) << why;
+  EXPECT_EQ(refusal({partial}, {.take_partial = true}), "");
+  const auto warnings = partial_warnings({&partial});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0], "run 7")) << warnings[0];
+}
+
+TEST(UsableRuns, AnAbortedOrFailedOneIsNeverTaken) {
+  for (const RunState state : {RunState::aborted, RunState::failed, RunState::open}) {
+    const mdof::Run run = run_of(7, state, "a");
+    EXPECT_TRUE(contains(refusal({run}, {.take_partial = true}), to_string(state)));
+  }
+  EXPECT_TRUE(partial_warnings(all_of({run_of(7, RunState::complete, "a")})).empty());
+}
+
+// Counted twice, the same readings would make u smaller by the square root of two.
+TEST(UsableRuns, TheSameRecordingCountsOnce) {
+  const auto run = [](std::int64_t id, const char* recording) {
+    return run_of(id, RunState::complete, recording);
+  };
+  const std::string why = refusal({run(1, "a"), run(2, "b"), run(5, "a")});
+  EXPECT_TRUE(contains(why, "run 1 and run 5 are of the same recording")) << why;
+  EXPECT_TRUE(contains(why, "leave one out") && contains(why, "/data/log.mdofrec")) << why;
+  EXPECT_EQ(refusal({run(1, "a"), run(2, "b")}), "");
+  EXPECT_EQ(refusal({run(1, ""), run(2, "")}), "");  // not known to be the same
+  EXPECT_TRUE(contains(refusal({run(1, ""), run(1, "")}), "run 1 is given twice"));
+}
+
+TEST(UsableRuns, ARunAndTheOneThatGoesOnFromItCountOnce) {
+  const mdof::Run first = run_of(4, RunState::complete, "a");
+  mdof::Run second = run_of(6, RunState::complete, "b");
+  second.header.supersedes = 4;
+  for (const auto& runs : {std::vector{first, second}, std::vector{second, first}})
+    EXPECT_TRUE(contains(refusal(runs), "run 6 goes on from run 4")) << refusal(runs);
+}
+
+// A log and its compressed copy, or a run and one that goes on from it at the second remove.
+TEST(UsableRuns, ReadingsInCommonCountOnce) {
+  mdof::Run log = run_of(1, RunState::complete, "a"), copy = run_of(2, RunState::complete, "b");
+  for (std::size_t i = 0; i < log.points.size(); ++i)
+    for (mdof::Run* run : {&log, &copy}) {
+      run->points[i].point.begin_ns = static_cast<std::int64_t>(i) * 1'000'000'000;
+      run->points[i].point.probe_m = {1e-6, 2e-6 * static_cast<double>(i)};
+    }
+  mdof::Run other = copy;
+  for (auto& p : other.points) p.point.probe_m[0] += 1e-12;
+  EXPECT_EQ(refusal({log, other}), "");
+  other.points[6].point = log.points[6].point;
+  for (const mdof::Run& run : {copy, other})
+    EXPECT_TRUE(contains(refusal({log, run}), "readings in common")) << refusal({log, run});
+}
+
+TEST(UsableRuns, SquarenessAsksTheSame) {
+  const mdof::Run x = run_of(1, RunState::complete, "a"),
+                  y = run_of(2, RunState::partial, "b", Axis::y);
+  EXPECT_TRUE(contains(squareness(x, y, 0, 0).error().message, "run 2 is partial"));
+  EXPECT_TRUE(squareness(x, y, 0, 0, true));
+  mdof::Run same = y;
+  same.header.state = RunState::complete;
+  same.header.provenance.recording_sha256 = "a";
+  EXPECT_TRUE(contains(squareness(x, same, 0, 0).error().message, "the same recording"));
+}
+
+}  // namespace
+}  // namespace mdof::algo

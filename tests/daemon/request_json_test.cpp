@@ -1,0 +1,84 @@
+#include "daemon/request_json.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+PipelineOptions asked_options() {
+  PipelineOptions options;
+  options.model = Model::exact;
+  options.sequence.targets_m = {from_mm(0), from_mm(2), from_mm(4.1), from_mm(6.2)};
+  options.repeats = 3;
+  return options;
+}
+
+TEST(RequestJson, ComesBackAsItWas) {
+  const AskedFor asked{"after \"scraping\"\n", {"a warning", "another"}, asked_options()};
+  const auto back = read_request_json(request_json(asked), {});
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->note, asked.note);
+  EXPECT_EQ(back->warnings, asked.warnings);
+  EXPECT_EQ(back->options.json(), asked.options.json());
+  EXPECT_EQ(back->options.model, Model::exact);
+  EXPECT_EQ(back->options.repeats, 3);
+}
+
+// Whoever adds an option to PipelineOptions::json() must read it back as well: else a replay of a
+// recording is measured otherwise than its run.
+TEST(RequestJson, EveryNumberOfTheOptionsIsReadBack) {
+  const std::string text = asked_options().json();
+  const std::regex number(R"(("[a-z_]+":)([0-9][0-9.e+-]*))");
+  int numbers = 0;
+  for (auto at = std::sregex_iterator(text.begin(), text.end(), number);
+       at != std::sregex_iterator(); ++at, ++numbers) {
+    const std::string digits = (*at)[2], other = digits == "0" ? "17" : digits + "17";
+    const std::string changed =
+        text.substr(0, static_cast<std::size_t>(at->position(2))) + other + at->suffix().str();
+    const auto back = read_options_json(changed, {});
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->json(), changed);
+  }
+  EXPECT_GE(numbers, 10);
+}
+
+TEST(RequestJson, TargetsComeBackToTheLastBit) {
+  PipelineOptions options;
+  for (int i = 0; i < 5000; ++i) options.sequence.targets_m.push_back(from_mm(0.037 + 0.1 * i));
+  EXPECT_EQ(read_options_json(options.json(), {})->sequence.targets_m, options.sequence.targets_m);
+}
+
+TEST(RequestJson, WhatIsNotSaidStaysAsItWas) {
+  const PipelineOptions base = asked_options();
+  EXPECT_EQ(read_request_json("", base)->options.json(), base.json());
+  EXPECT_EQ(read_request_json("{}", base)->options.json(), base.json());
+  const auto back = read_request_json(R"({"options":{"dwell":{"settle_s":0.7},"new":[1]}})", base);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->options.dwell.settle_s, 0.7);
+  EXPECT_EQ(back->options.sequence.targets_m, base.sequence.targets_m);
+}
+
+TEST(RequestJson, WhatCannotBeReadIsNamed) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"{", "no JSON"},
+      {"[]", "no JSON object"},
+      {R"({"note":5})", "note"},
+      {R"({"warnings":[1]})", "warnings"},
+      {R"({"options":{"model":"magic"}})", "model"},
+      {R"({"options":{"targets_mm":["x"]}})", "targets_mm"},
+      {R"({"options":{"align":{"max_gap_s":"long"}}})", "max_gap_s"},
+      {R"({"options":{"dwell":7}})", "dwell"},
+  };
+  for (const auto& [text, says] : cases) {
+    const auto back = read_request_json(text, {});
+    ASSERT_FALSE(back) << text;
+    EXPECT_NE(back.error().message.find(says), std::string::npos) << back.error().message;
+  }
+}
+
+}  // namespace
+}  // namespace mdof::daemon

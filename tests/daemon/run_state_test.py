@@ -1,0 +1,158 @@
+#!/usr/bin/python3
+"""A live run is complete only with all targets of all repeats; ended early it is partial, says what is missing, is
+built on only if that is asked for, and can be gone on with.
+
+usage: run_state_test.py MDOFD MDOF"""
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from mdofd import Client, Daemon, RpcError, simulator  # noqa: E402
+
+MDOFD, MDOF = sys.argv[1:3]
+TARGETS = [0, 2, 4.1, 6.2]
+
+
+def mdof(*words):
+    done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+class RunState(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.daemon = Daemon(MDOFD, cls.folder.name, simulator("X", targets_mm=TARGETS))
+        cls.client = cls.daemon.start()
+        cls.partial = cls.stopped_early()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.daemon.stop()
+        cls.folder.cleanup()
+
+    @classmethod
+    def watcher(cls):
+        watcher = Client(cls.daemon.socket, timeout_s=60)
+        watcher.call("live.subscribe", interval_ms=1000)
+        return watcher
+
+    @classmethod
+    def stopped_early(cls):
+        """A run of two repeats, stopped after six points of sixteen: its header."""
+        watcher = cls.watcher()
+        run = cls.client.call("run.start", axis="X", targets_mm=TARGETS, repeats=2, note="half")["run"]
+        points = 0
+        while points < 6:
+            value = watcher.next_note()["params"]["value"]
+            points = value["points"] if value.get("type") == "progress" else points
+        stopped = cls.client.call("run.stop", run=run)["run"]
+        while (value := watcher.next_note()["params"]["value"]).get("type") != "ended":
+            pass
+        assert (value["run"], value["state"]) == (stopped, "partial"), value
+        return cls.client.call("run.get", run=stopped)
+
+    def ended(self, watcher):
+        while True:
+            value = watcher.next_note()["params"]["value"]
+            if value.get("type") == "ended":
+                return self.client.call("run.get", run=value["run"])
+
+    def missing_of(self, header):
+        """By an account of its own: (target, direction) -> how many points are missing."""
+        missing = {(t + 1, d): 2 for t in range(len(TARGETS)) for d in (1, -1)}
+        for p in self.client.points(header["run"]):
+            if p["EYX_um"] is not None and missing[p["target"], p["direction"]] > 0:
+                missing[p["target"], p["direction"]] -= 1
+        return missing
+
+    def test_a_run_ended_early_is_partial_and_says_what_is_missing(self):
+        self.assertEqual(self.partial["state"], "partial")
+        missing = self.missing_of(self.partial)
+        said = [w for w in self.partial["warnings"] if "asked for are missing" in w]
+        self.assertEqual(len(said), 1, self.partial["warnings"])
+        self.assertIn(f"{sum(missing.values())} of 16 points", said[0])
+        for (target, direction), n in missing.items():
+            if n > 0:
+                of_target = said[0].split(f"target {target} at")[1].split(";")[0]
+                self.assertIn(f"{n} {'forward' if direction > 0 else 'reverse'}", of_target)
+        self.assertIn("mdof record --resume", str(self.partial["warnings"]))
+
+    def test_what_lists_runs_says_partial(self):
+        code, out, err = mdof("runs", "--db", self.daemon.database, "--json")
+        self.assertEqual(code, 0, err)
+        states = {r["run"]: r["state"] for r in json.loads(out)["runs"]}
+        self.assertEqual(states[self.partial["run"]], "partial")
+
+    def test_its_recording_replays_to_the_same_partial_run(self):
+        code, out, err = mdof("replay", self.partial["recording"]["path"], "--no-store", "--json")
+        self.assertEqual(code, 0, err)
+        again = json.loads(out)
+        self.assertEqual(again["points"], self.client.points(self.partial["run"]))
+        self.assertEqual((again["state"], again["note"]), ("partial", "half"))
+        self.assertEqual(again["options"], self.partial["options"])
+
+    def test_a_table_from_it_is_asked_for(self):
+        run = self.partial["run"]
+        with self.assertRaisesRegex(RpcError, f"run {run} is partial.*--partial"):
+            self.client.call("compensation.build", runs=[run])
+        built = self.client.call("compensation.build", runs=[run], partial=True)
+        self.assertIn(f"run {run}, which is partial", built["warnings"][0])
+        code, _, err = mdof("compensation", "build", run, "--db", self.daemon.database, "--socket", self.daemon.socket)
+        self.assertEqual(code, 3)
+        self.assertIn("--partial", err)
+        code, out, err = mdof("compensation", "build", run, "--partial", "--json", "--db", self.daemon.database,
+                              "--socket", self.daemon.socket)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(len(json.loads(out)["warnings"]), 1)
+
+    def test_it_can_be_gone_on_with(self):
+        """And what was asked for is in the recording of the run that goes on, too."""
+        partial = self.stopped_early()
+        watcher = self.watcher()
+        resumed = self.client.call("run.resume", run=partial["run"])["run"]
+        header = self.ended(watcher)
+        self.assertEqual(header["state"], "complete", header["warnings"])
+        self.assertIn(header["supersedes"], (partial["run"], resumed))
+        self.assertTrue(all(n == 0 for n in self.missing_of(header).values()))
+        code, out, err = mdof("replay", header["recording"]["path"], "--no-store", "--json")
+        self.assertEqual(code, 0, err)
+        again = json.loads(out)
+        self.assertEqual(again["points"], self.client.points(header["run"]))
+        for key in ("state", "note", "options", "warnings"):
+            self.assertEqual(again[key], header[key])
+        with self.assertRaisesRegex(RpcError, "is complete"):
+            self.client.call("run.resume", run=header["run"])
+
+    def test_a_free_run_stopped_is_what_was_asked_for(self):
+        watcher = self.watcher()
+        run = self.client.call("run.start", axis="X")["run"]
+        while watcher.next_note()["params"]["value"].get("type") != "points":
+            pass
+        self.client.call("run.stop", run=run)
+        self.assertEqual(self.ended(watcher)["state"], "complete")
+
+    def test_record_ended_by_the_user_fails_and_says_how_to_go_on(self):
+        record = subprocess.Popen([MDOF, "record", "--socket", self.daemon.socket, "--axis", "X", "--targets-mm",
+                                   ",".join(map(str, TARGETS)), "--repeats", "9", "--json"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        said = ""
+        while "point 2 of 72" not in said:
+            said = record.stderr.readline()
+            self.assertTrue(said, "mdof record ended")
+        record.send_signal(signal.SIGINT)
+        out, err = record.communicate(timeout=60)
+        self.assertEqual(record.returncode, 1, err)
+        header = json.loads(out)
+        self.assertEqual(header["state"], "partial")
+        self.assertIn(f"run {header['run']} is partial", err)
+        self.assertIn(f"mdof record --resume {header['run']}", err)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2, warnings="ignore")

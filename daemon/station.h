@@ -101,8 +101,9 @@ class Station {
   void attach(Item& item);
   void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
               RunDone done);
+  const Pipeline* pipeline() const;
+  void note_newest();
   void show_live();
-  bool stale(const Pipeline& pipeline);
 
   const AxisConfig config_;
   const PipelineOptions options_;
@@ -118,7 +119,7 @@ class Station {
   std::unique_ptr<OpenRun> open_;  // measure thread only
   std::optional<Pipeline> view_;   // measure thread only: between runs
   std::chrono::steady_clock::time_point last_live_{};
-  std::int64_t newest_ns_ = 0;  // of the last instant that was new, and when it was
+  std::int64_t newest_ns_ = 0;  // of the newest instant, and when it came
   std::chrono::steady_clock::time_point newest_since_{};
   std::vector<std::unique_ptr<Acquisition>> acquisitions_;
   std::thread measure_thread_;

@@ -133,6 +133,7 @@ void Station::measure() {
       handle(item);
       measure_turn_ = steady_clock::now();
     }
+    note_newest();
     show_live();  // once all that has come is in it; that nothing came is news too
   }
   if (open_) finish(RunState::aborted, "the daemon was stopped", {}, {});
@@ -282,26 +283,28 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
       });
 }
 
+const Pipeline* Station::pipeline() const {
+  return open_ ? &open_->pipeline : view_ ? &*view_ : nullptr;
+}
+
+// Whoever looks or not: the first who does is to be told how old it is.
+void Station::note_newest() {
+  const Pipeline* from = pipeline();
+  if (!from || from->newest().size() == 0 || from->newest().time_ns[0] == newest_ns_) return;
+  newest_ns_ = from->newest().time_ns[0];
+  newest_since_ = steady_clock::now();
+}
+
 void Station::show_live() {
-  const Pipeline* pipeline = open_ ? &open_->pipeline : view_ ? &*view_ : nullptr;
+  const Pipeline* from = pipeline();
   const milliseconds every = live_every_.load();
-  if (every == kNever || !pipeline || pipeline->newest().size() == 0) return;
+  if (every == kNever || !from || from->newest().size() == 0) return;
   const auto now = steady_clock::now();
   if (now - last_live_ < every) return;
   last_live_ = now;
-  const LiveState state{config_.simulated(), stale(*pipeline), open_ ? open_->id : 0};
-  shared_->events.live(live_json(config_.rig, *pipeline, state));
-}
-
-// Whether the newest instant has been the newest for too long.
-bool Station::stale(const Pipeline& pipeline) {
-  const std::int64_t newest_ns = pipeline.newest().time_ns[0];
-  const auto now = steady_clock::now();
-  if (newest_ns != newest_ns_) {
-    newest_ns_ = newest_ns;
-    newest_since_ = now;
-  }
-  return now - newest_since_ > std::chrono::duration<double>(options_.stale_s);
+  const bool stale = now - newest_since_ > std::chrono::duration<double>(options_.stale_s);
+  const LiveState state{config_.simulated(), stale, open_ ? open_->id : 0};
+  shared_->events.live(live_json(config_.rig, *from, state));
 }
 
 }  // namespace mdof::daemon

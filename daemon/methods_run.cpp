@@ -94,7 +94,17 @@ std::vector<std::string> unsettled_clocks(const Station& station) {
   return warnings;
 }
 
+// What was wrong before the run began; what comes after it is added at its end.
+std::vector<std::string> standing_trouble(const Station& station) {
+  std::vector<std::string> warnings;
+  for (const auto& device : station.devices())
+    for (const auto& trouble : device.standing)
+      warnings.push_back("when the run began: " + trouble_line(trouble));
+  return warnings;
+}
+
 void begin_run(Station& station, RunRequest request, Reply reply) {
+  for (auto& warning : standing_trouble(station)) request.warnings.push_back(std::move(warning));
   for (auto& warning : unsettled_clocks(station)) request.warnings.push_back(std::move(warning));
   auto done = answer_with_run(std::move(reply), station.config().rig.axis, request);
   station.start_run(request, done);

@@ -42,6 +42,18 @@ bool approach_assumed(const MeasuredPoint& p) {
   return std::find(flags.begin(), flags.end(), algo::kApproachAssumed) != flags.end();
 }
 
+// How many of the points asked for there are: solved, each target as often as asked, both ways.
+std::size_t done(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
+  std::vector<int> ways(2 * request.targets_m.size());
+  std::size_t done = 0;
+  for (const auto& p : points) {
+    if (!p.errors.valid || p.target < 1) continue;
+    const auto way = 2 * (static_cast<std::size_t>(p.target) - 1) + (p.point.direction > 0);
+    done += way < ways.size() && ways[way]++ < request.repeats;
+  }
+  return done;
+}
+
 // Each target has been measured as often as was asked for, both ways.
 bool all_asked_for(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
   if (request.repeats == 0) return false;
@@ -97,6 +109,8 @@ std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request
   const std::size_t of = 2 * request.targets_m.size() * static_cast<std::size_t>(request.repeats);
   json.key("of");
   of > 0 ? json.value(static_cast<std::uint64_t>(of)) : json.null();
+  json.key("done");
+  of > 0 ? json.value(static_cast<std::uint64_t>(done(request, points))) : json.null();
   json.key("awaited_mm");
   const auto next = awaited_target(request, points);
   next ? json.value(to_mm(request.targets_m[*next])) : json.null();
@@ -157,6 +171,9 @@ void Station::handle(Item& item) {
     case Item::Kind::storage_failed:
       if (!open_ || open_->id != item.run) return;
       return finish(RunState::failed, item.reason, item.source, {});
+    case Item::Kind::trouble:
+      if (open_) open_->troubles.add(*item.trouble);
+      return;
   }
 }
 
@@ -220,6 +237,21 @@ void Station::record() {
   if (!kept) open_->blocks_not_recorded += count;
 }
 
+void Station::tell_unsolved(const std::vector<MeasuredPoint>& points) {
+  const auto solved = [](const MeasuredPoint& p) { return p.errors.valid; };
+  if (std::all_of(points.begin(), points.end(), solved)) return;
+  ChannelsByDevice channels;
+  for (const auto& device : devices())
+    for (const auto& channel : device.info.channels)
+      channels[device.info.name].push_back(channel.id);
+  for (const auto& point : points) {
+    const auto trouble = unsolved(point, config_.rig, channels, utc_now());
+    if (!trouble) continue;
+    open_->troubles.add(*trouble);
+    shared_->events.trouble(config_.rig.axis, open_->id, *trouble);
+  }
+}
+
 // Hands to the store what it has not got of these points, after the samples that they come from.
 void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   const std::size_t first = open_->stored.size();
@@ -228,6 +260,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   std::vector<MeasuredPoint> fresh(points.begin() + static_cast<std::ptrdiff_t>(first),
                                    points.end());
   open_->stored.insert(open_->stored.end(), fresh.begin(), fresh.end());
+  tell_unsolved(fresh);
   const std::int64_t run = open_->id;
   std::string json = points_json(run, config_.rig.moving(), fresh, first);
   std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
@@ -263,6 +296,7 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
                              source.warnings.end());
   run.header.warnings.insert(run.header.warnings.end(), open->request.warnings.begin(),
                              open->request.warnings.end());
+  for (auto& line : open->troubles.summary()) run.header.warnings.push_back(std::move(line));
   const auto overdue = overdue_calibrations(config_.rig, utc_now());
   run.header.warnings.insert(run.header.warnings.end(), overdue.begin(), overdue.end());
   if (!why.empty()) run.header.warnings.push_back(why);
@@ -295,6 +329,13 @@ void Station::note_newest() {
   newest_since_ = steady_clock::now();
 }
 
+std::vector<std::string> Station::standing_trouble() const {
+  std::vector<std::string> lines;
+  for (const auto& device : devices())
+    for (const auto& trouble : device.standing) lines.push_back(trouble_line(trouble));
+  return lines;
+}
+
 void Station::show_live() {
   const Pipeline* from = pipeline();
   const milliseconds every = live_every_.load();
@@ -303,7 +344,7 @@ void Station::show_live() {
   if (now - last_live_ < every) return;
   last_live_ = now;
   const bool stale = now - newest_since_ > std::chrono::duration<double>(options_.stale_s);
-  const LiveState state{config_.simulated(), stale, open_ ? open_->id : 0};
+  const LiveState state{config_.simulated(), stale, open_ ? open_->id : 0, standing_trouble()};
   shared_->events.live(live_json(config_.rig, *from, state));
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "daemon/check_start.h"
 #include "daemon/hotplug.h"
 #include "daemon/methods.h"
 #include "daemon/paths.h"
@@ -115,7 +116,10 @@ Status App::Parts::listen() {
   add_compensation_methods(table, *methods);
   MDOF_TRY(const auto handed_over, systemd::take_listen_sockets());
   for (const int fd : handed_over) MDOF_CHECK(server.listen_fd(fd));
-  if (handed_over.empty()) MDOF_CHECK(server.listen_unix(config.socket));
+  if (handed_over.empty()) {
+    MDOF_CHECK(make_socket_folder(config.socket));
+    MDOF_CHECK(server.listen_unix(config.socket));
+  }
   if (config.tcp_port) {
     MDOF_TRY(const auto port, server.listen_tcp("127.0.0.1", *config.tcp_port));
     (void)port;

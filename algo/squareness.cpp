@@ -92,7 +92,7 @@ Status check_axis(const Run& run, Axis axis) {
                    " in this place: squareness RUN_X RUN_Y");
 }
 
-Result<HorizontalSlope> horizontal_slope(const Run& measured, Axis axis) {
+Result<HorizontalSlope> horizontal_slope(const Run& measured) {
   const Run run = restate(measured, kAtFixture);
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
   const auto x = own_travels(run.header.sides, series);
@@ -138,8 +138,8 @@ Result<Squareness> squareness(const Run& run_x, const Run& run_y, const SquareAr
   MDOF_CHECK(check_axis(run_x, Axis::x));
   MDOF_CHECK(check_axis(run_y, Axis::y));
   MDOF_CHECK(check_usable({&run_x, &run_y}, take_partial, "squareness"));
-  MDOF_TRY(const HorizontalSlope along_x, horizontal_slope(run_x, Axis::x));
-  MDOF_TRY(const HorizontalSlope along_y, horizontal_slope(run_y, Axis::y));
+  MDOF_TRY(const HorizontalSlope along_x, horizontal_slope(run_x));
+  MDOF_TRY(const HorizontalSlope along_y, horizontal_slope(run_y));
   Squareness s;
   s.run_x = run_x.header.id;
   s.run_y = run_y.header.id;

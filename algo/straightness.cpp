@@ -5,7 +5,6 @@
 
 #include "algo/line_fit.h"
 #include "algo/series.h"
-#include "algo/usable_runs.h"
 
 namespace mdof::algo {
 namespace {

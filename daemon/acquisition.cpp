@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
+
+#include "daemon/paths.h"
 
 namespace mdof::daemon {
 namespace {
@@ -17,6 +20,17 @@ constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
 constexpr milliseconds kNap{10}, kRefresh{1000};
 // Some devices take seconds to be found, asked and set up; to be in there is no hang-up.
 constexpr milliseconds kOpening{20'000};
+
+// The rate is looked at over this time: below the first share of it a device is slow, above the
+// second it is well again.
+constexpr std::chrono::seconds kWindow{5};
+constexpr double kSlow = 0.8, kWell = 0.95;
+
+std::string with_one_decimal(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", x);
+  return text;
+}
 
 // Names of threads end after 15 characters.
 void name_thread(const std::string& device) {
@@ -54,18 +68,52 @@ void Acquisition::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Acquisition::set_state(const std::string& state, const std::string& error) {
+void Acquisition::set_state(const std::string& state) {
   const std::lock_guard lock(status_mutex_);
   status_.state = state;
-  if (!error.empty()) status_.error = error;
+}
+
+void Acquisition::fail(const std::string& error) {
+  {
+    const std::lock_guard lock(status_mutex_);
+    status_.state = "failed: reopening";
+    status_.error = error;
+  }
+  if (lost_since_) return;  // told once
+  lost_since_ = steady_clock::now();
+  // Who it is has been said.
+  const std::string who = "device \"" + spec_.name + "\"";
+  const std::size_t begin = error.starts_with(who) ? error.find_first_not_of(": ", who.size()) : 0;
+  tell(Trouble::Kind::lost, begin == std::string::npos ? error : error.substr(begin));
+}
+
+// What holds now is in the status, too, for those who come later.
+void Acquisition::tell(Trouble::Kind kind, const std::string& text) {
+  const Trouble trouble{kind, spec_.name, text, utc_now()};
+  {
+    const std::lock_guard lock(status_mutex_);
+    auto& standing = status_.standing;
+    const bool back = kind == Trouble::Kind::back;
+    std::erase_if(standing, [&](const Trouble& t) {
+      return t.kind == kind || (back && t.kind != Trouble::Kind::suspect);
+    });
+    if (!back) standing.push_back(trouble);
+  }
+  if (sink_.trouble) sink_.trouble(trouble);
 }
 
 void Acquisition::acquire(std::uint64_t pass) {
   name_thread(spec_.name);
   backoff_ = kFirstBackoff;
   last_ns_.reset();
+  lost_since_.reset();
+  datum_lost_ = false;
+  {
+    const std::lock_guard lock(status_mutex_);
+    status_.standing.clear();
+  }
   auto driver = spec_.make();
-  if (!driver) set_state("failed: reopening", driver.error().message);
+  if (!driver) fail(driver.error().message);
   while (acquiring_) {
     turn_ = steady_clock::now();
     if (driver && open_and_read(**driver, pass)) {
@@ -89,10 +137,12 @@ bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
   const Status opened = driver.open();
   turn_ = steady_clock::now();
   if (!opened) {
-    set_state("failed: reopening", opened.error().message);
+    fail(opened.error().message);
     return false;
   }
   set_state("open");
+  window_end_ = steady_clock::now() + kWindow;
+  scans_in_window_ = lost_in_window_ = 0;
   refresh_info(driver);
   just_opened_ = true;
   return read_until_trouble(driver, pass);
@@ -101,8 +151,20 @@ bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
 // What the device says of itself grows with time: its clock.
 void Acquisition::refresh_info(const drivers::Driver& driver) {
   next_refresh_ = steady_clock::now() + kRefresh;
-  const std::lock_guard lock(status_mutex_);
-  status_.info = driver.info();
+  const drivers::DeviceInfo info = driver.info();
+  {
+    const std::lock_guard lock(status_mutex_);
+    status_.info = info;
+  }
+  watch_datum(info);
+}
+
+// A datum that is lost stays lost: told once.
+void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
+  if (info.datum_lost.empty() || datum_lost_) return;
+  datum_lost_ = true;
+  tell(Trouble::Kind::suspect, "the encoder's datum is lost and no stop can be placed any more: " +
+                                   info.datum_lost + " and measure anew");
 }
 
 bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
@@ -111,18 +173,62 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
     SampleBlock block;
     const auto state = driver.read(block, kReadTimeout);
     if (!state) {
-      set_state("failed: reopening", state.error().message);
+      fail(state.error().message);
       return false;
     }
     if (block.scans() > 0) {
       backoff_ = kFirstBackoff;  // it works; to be opened alone is no proof of that
       if (steady_clock::now() > next_refresh_) refresh_info(driver);
       note_loss(block);
+      const bool came_back = mend(block);
+      watch_rate(block.scans(), came_back ? 0 : block.lost);
       hand_over(block, pass);
+    } else {
+      watch_rate(0, 0);
     }
     if (*state == drivers::ReadState::end) return true;
   }
   return false;
+}
+
+// With the first samples: to be open alone is no proof that it works. Whether it was lost.
+bool Acquisition::mend(const SampleBlock& block) {
+  if (!lost_since_) return false;
+  const std::chrono::duration<double> away = steady_clock::now() - *lost_since_;
+  lost_since_.reset();
+  {
+    const std::lock_guard lock(status_mutex_);
+    status_.last_error = std::exchange(status_.error, "");
+    status_.mended_utc = utc_now();
+  }
+  std::string text = "it gives samples again after " + with_one_decimal(away.count()) + " s";
+  if (block.lost > 0) text += "; scans lost meanwhile: " + std::to_string(block.lost);
+  tell(Trouble::Kind::back, text);
+  return true;
+}
+
+// Fewer scans than the device states, or scans lost on the way.
+void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
+  scans_in_window_ += scans;
+  lost_in_window_ += lost;
+  const auto now = steady_clock::now();
+  if (!spec_.live || now < window_end_) return;
+  const DeviceStatus is = status();
+  const double window_s = std::chrono::duration<double>(now - window_end_ + kWindow).count();
+  const double rate_hz = static_cast<double>(scans_in_window_) / window_s;
+  const bool was_slow = std::any_of(is.standing.begin(), is.standing.end(),
+                                    [](const Trouble& t) { return t.kind == Trouble::Kind::slow; });
+  const bool slow = lost_in_window_ > 0 || rate_hz < (was_slow ? kWell : kSlow) * is.info.rate_hz;
+  if (slow && !was_slow) {
+    tell(Trouble::Kind::slow,
+         "it gives " + with_one_decimal(rate_hz) + " of " + with_one_decimal(is.info.rate_hz) +
+             " scans a second, " + std::to_string(lost_in_window_) +
+             " were lost in 5 s; look at its network or cable and at the load of this machine, or "
+             "lower its rate");
+  }
+  if (was_slow && !slow) tell(Trouble::Kind::back, "it gives all its scans again");
+  window_end_ = now + kWindow;
+  scans_in_window_ = lost_in_window_ = 0;
 }
 
 // Scans of a device that was away, at least one, where it cannot count them itself, and those

@@ -1,5 +1,6 @@
 // One device at work: its thread "acq-<device>" makes the driver, opens it, reads it, and opens it
-// again after an error, with growing pauses. What was lost on the way is told with the next block.
+// again after an error, with growing pauses. What was lost on the way is told with the next block;
+// that a device is lost, back, suspect or slow is told at once.
 #pragma once
 
 #include <atomic>
@@ -11,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "daemon/trouble.h"
 #include "drivers/registry.h"
 #include "schema/sample.h"
 
@@ -18,7 +20,10 @@ namespace mdof::daemon {
 
 struct DeviceStatus {
   std::string state = "closed";  // "open", "closed", "failed: reopening", "ended"
-  std::string error;             // of the last failure
+  std::string error;             // of the failure that holds; "": it is well
+  std::string last_error;        // of the last one that is mended, and when that was
+  std::string mended_utc;
+  std::vector<Trouble> standing;  // what holds now
   drivers::DeviceInfo info;
   std::uint64_t scans = 0;     // since the start
   std::uint64_t lost = 0;      // scans that are known to have been lost
@@ -37,6 +42,7 @@ class Acquisition {
     // The source has come to its end, or, with a reason, to one it will not recover from.
     std::function<void(std::uint64_t pass, const std::string& reason, const drivers::SourceInfo&)>
         ended;
+    std::function<void(const Trouble&)> trouble;  // may be none
   };
 
   Acquisition(drivers::DriverSpec spec, Sink sink);
@@ -61,7 +67,12 @@ class Acquisition {
   void note_loss(SampleBlock& block);
   void refresh_info(const drivers::Driver& driver);
   void pause();
-  void set_state(const std::string& state, const std::string& error = "");
+  void set_state(const std::string& state);
+  void fail(const std::string& error);
+  bool mend(const SampleBlock& block);
+  void watch_rate(std::uint64_t scans, std::uint64_t lost);
+  void watch_datum(const drivers::DeviceInfo& info);
+  void tell(Trouble::Kind kind, const std::string& text);
 
   const drivers::DriverSpec spec_;
   const Sink sink_;
@@ -76,6 +87,10 @@ class Acquisition {
   bool just_opened_ = false;             // no block since
   std::chrono::steady_clock::time_point next_refresh_;
   std::uint64_t dropped_scans_ = 0;  // to be told with the next block
+  std::optional<std::chrono::steady_clock::time_point> lost_since_;
+  bool datum_lost_ = false;
+  std::chrono::steady_clock::time_point window_end_;  // of watch_rate()
+  std::uint64_t scans_in_window_ = 0, lost_in_window_ = 0;
 
   std::uint64_t pass_ = 0;  // by whoever calls start()
   std::thread thread_;

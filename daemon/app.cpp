@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "daemon/check_start.h"
 #include "daemon/hotplug.h"
 #include "daemon/methods.h"
 #include "daemon/paths.h"
@@ -37,6 +38,7 @@ struct App::Parts {
   std::unique_ptr<Storekeeper> keeper;
   std::unique_ptr<store::Store> reader;
   ActiveTables active;
+  JournalLimit journal;
   std::vector<std::unique_ptr<Station>> stations;
   std::unique_ptr<Methods> methods;
   rpc::MethodTable table;
@@ -48,6 +50,7 @@ struct App::Parts {
   }
   Status open_store();
   void start_stations();
+  void to_journal(Axis axis, const Trouble& trouble);
   Status listen();
   void watch();
   void watch_hotplug();
@@ -82,10 +85,23 @@ void App::Parts::start_stations() {
   events.run_event = [this](std::string json) {
     loop.post([this, json = std::move(json)] { (void)server.publish(kRunTopic, json); });
   };
+  events.trouble = [this](Axis axis, std::int64_t run, const Trouble& trouble) {
+    loop.post([this, axis, run, trouble] {
+      (void)server.publish(kRunTopic, trouble_json(axis, run, trouble));
+      to_journal(axis, trouble);
+    });
+  };
   for (auto& axis : config.axes) {
     stations.push_back(std::make_unique<Station>(axis, config.measure, config.text,
                                                  config.recordings, *keeper, events));
   }
+}
+
+void App::Parts::to_journal(Axis axis, const Trouble& trouble) {
+  const std::string line = std::string("axis ") + letter(axis) + ": " + trouble_line(trouble);
+  const std::string key = std::string(1, letter(axis)) + to_string(trouble.kind) + trouble.device;
+  if (const auto text = journal.admit(key, line, std::chrono::steady_clock::now()))
+    std::fprintf(stderr, "%s\n", text->c_str());
 }
 
 Status App::Parts::listen() {
@@ -100,7 +116,10 @@ Status App::Parts::listen() {
   add_compensation_methods(table, *methods);
   MDOF_TRY(const auto handed_over, systemd::take_listen_sockets());
   for (const int fd : handed_over) MDOF_CHECK(server.listen_fd(fd));
-  if (handed_over.empty()) MDOF_CHECK(server.listen_unix(config.socket));
+  if (handed_over.empty()) {
+    MDOF_CHECK(make_socket_folder(config.socket));
+    MDOF_CHECK(server.listen_unix(config.socket));
+  }
   if (config.tcp_port) {
     MDOF_TRY(const auto port, server.listen_tcp("127.0.0.1", *config.tcp_port));
     (void)port;

@@ -1,5 +1,7 @@
 #include "daemon/config.h"
 
+#include <sys/un.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -7,6 +9,7 @@
 #include "daemon/forward_model.h"
 #include "daemon/paths.h"
 #include "daemon/replay.h"
+#include "drivers/calibration.h"
 #include "schema/files.h"
 #include "schema/toml_reader.h"
 #include "schema/units.h"
@@ -15,8 +18,12 @@ namespace mdof::daemon {
 namespace {
 
 Status read_store(TomlTable& root, Config& config) {
+  config.database_key = config.source + ": store.database (by default)";
+  config.recordings_key = config.source + ": store.recordings (by default)";
   auto table = root.table("store");
   if (table) {
+    if (table->has("database")) config.database_key = table->where("database");
+    if (table->has("recordings")) config.recordings_key = table->where("recordings");
     config.database = table->string("database", "");
     config.recordings = table->string("recordings", "");
     const std::string durability = table->string("durability", "full");
@@ -40,9 +47,17 @@ Status read_store(TomlTable& root, Config& config) {
 
 void read_rpc(TomlTable& root, Config& config) {
   config.socket = default_socket();
+  config.socket_key = config.source + ": rpc.socket (by default)";
   auto table = root.table("rpc");
   if (!table) return;
+  if (table->has("socket")) config.socket_key = table->where("socket");
   config.socket = table->string("socket", config.socket);
+  constexpr std::size_t kLongest = sizeof(sockaddr_un::sun_path) - 1;
+  if (config.socket.size() > kLongest)
+    table->reject("socket", "has " + std::to_string(config.socket.size()) +
+                                " bytes, and a socket's "
+                                "path at most " +
+                                std::to_string(kLongest) + "; choose a shorter one");
   if (!table->has("tcp_port")) return;
   const auto port = table->integer("tcp_port");
   if (port < 1 || port > 65535) table->reject("tcp_port", "must be from 1 to 65535");
@@ -95,6 +110,20 @@ Status check_log(drivers::DriverSpec& device, const Rig& rig) {
   return {};
 }
 
+// That the rig can make lengths of what the device gives, as far as that is known before it is
+// opened: volts need a scale.
+Status check_units(const TomlTable& table, const drivers::DriverSpec& device, const Rig& rig) {
+  if (!device.live || device.simulated) return {};
+  MDOF_TRY(const auto driver, device.make());
+  SampleBlock block;
+  block.channels = driver->info().channels;
+  block.time_ns.assign(1, 0);
+  block.value.assign(block.channels.size(), {0.0});
+  if (auto applied = drivers::Calibrator(rig).apply(block); !applied)
+    return in_context(table.where("channel"), std::move(applied.error()));
+  return {};
+}
+
 Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem::path& base,
                                         const AxisConfig& axis) {
   const std::string driver = table.string("driver");
@@ -106,6 +135,7 @@ Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem:
   MDOF_TRY(context.forward, forward_model(axis.rig));
   MDOF_TRY(auto device, drivers::configure_driver(driver, table, context));
   if (!device.recorded) MDOF_CHECK(check_log(device, axis.rig));
+  MDOF_CHECK(check_units(table, device, axis.rig));
   return device;
 }
 
@@ -206,6 +236,7 @@ Result<Config> load_config(const std::filesystem::path& file) {
   MDOF_TRY(std::string text, read_text_file(file));
   MDOF_TRY(auto root, TomlTable::parse(text, file.string()));
   Config config;
+  config.source = file.string();
   config.text = std::move(text);
   MDOF_CHECK(read_store(root, config));
   read_rpc(root, config);

@@ -35,6 +35,8 @@ struct Config {
   Chain machine;  // [machine]; may be not known
   std::vector<AxisConfig> axes;
   std::string text;  // the TOML itself: provenance
+  // For messages: the file, and where in it the paths are, or would be.
+  std::string source, database_key, recordings_key, socket_key;
 };
 
 // [measure] of a configuration that mdofd has accepted. Error: it is no TOML.

@@ -2,6 +2,7 @@
 
 #include "algo/compensation.h"
 #include "algo/restate.h"
+#include "algo/usable_runs.h"
 #include "daemon/paths.h"
 #include "schema/run_json.h"
 #include "schema/toml_reader.h"
@@ -43,10 +44,11 @@ Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t
   return stated_anew(std::move(page), reference);
 }
 
-Result<CompensationTable> build_table(store::Store& store, const TableRequest& request) {
+Result<BuiltTable> build_table(store::Store& store, const TableRequest& request) {
   std::vector<Run> runs;
   algo::TableOptions options;
   options.remove_slope = !request.keep_slope;
+  options.take_partial = request.partial;
   for (const std::int64_t id : request.runs) {
     MDOF_TRY(Run run, store.run(id));
     MDOF_TRY(const Rig rig, rig_of(run.header));
@@ -65,20 +67,19 @@ Result<CompensationTable> build_table(store::Store& store, const TableRequest& r
   table.created_utc = utc_now();
   table.sha256 = table_sha256(table);
   MDOF_TRY(table.id, store.add_table(table));
-  return table;
+  return BuiltTable{std::move(table), algo::partial_warnings(algo::all_of(runs))};
 }
 
-Result<Squareness> fit_squareness(store::Store& store, std::int64_t run_x, std::int64_t run_y,
-                                  const algo::ArtefactGiven& given) {
-  MDOF_TRY(const Run x, store.run(run_x));
-  MDOF_TRY(const Run y, store.run(run_y));
+Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
+  MDOF_TRY(const Run x, store.run(request.run_x));
+  MDOF_TRY(const Run y, store.run(request.run_y));
   MDOF_TRY(const Rig rig_x, rig_of(x.header));
   MDOF_TRY(const Rig rig_y, rig_of(y.header));
-  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, given));
-  MDOF_TRY(Squareness s, algo::squareness(x, y, artefact));
+  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
+  MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
   s.created_utc = utc_now();
   MDOF_TRY(s.id, store.add_squareness(s));
-  return s;
+  return FittedSquareness{std::move(s), algo::partial_warnings({&x, &y})};
 }
 
 }  // namespace mdof::daemon

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "algo/squareness.h"
@@ -27,13 +28,26 @@ Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t
 struct TableRequest {
   std::vector<std::int64_t> runs;
   bool keep_slope = false;
+  bool partial = false;                // take partial runs as well
   std::optional<Reference> reference;  // none: at the rig's tool point, else at the fixture
 };
+struct BuiltTable {
+  CompensationTable table;
+  std::vector<std::string> warnings;  // which runs are partial, and what they miss
+};
 // Built and stored. Errors: those of algo::build_table(); runs of rigs with other machines.
-Result<CompensationTable> build_table(store::Store& store, const TableRequest& request);
+Result<BuiltTable> build_table(store::Store& store, const TableRequest& request);
 
+struct SquarenessRequest {
+  std::int64_t run_x = 0, run_y = 0;
+  algo::ArtefactGiven given;
+  bool partial = false;
+};
+struct FittedSquareness {
+  Squareness squareness;
+  std::vector<std::string> warnings;
+};
 // Fitted and stored. Errors: those of algo::artefact_of() and algo::squareness().
-Result<Squareness> fit_squareness(store::Store& store, std::int64_t run_x, std::int64_t run_y,
-                                  const algo::ArtefactGiven& given);
+Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request);
 
 }  // namespace mdof::daemon

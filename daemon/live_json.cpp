@@ -34,7 +34,13 @@ std::string device_json(const DeviceStatus& s) {
       .field("reopened", s.reopened);
   json.key("error");
   s.error.empty() ? json.null() : json.value(s.error);
-  json.key("clock");
+  json.key("last_error");
+  s.last_error.empty() ? json.null() : json.value(s.last_error);
+  json.key("mended_utc");
+  s.mended_utc.empty() ? json.null() : json.value(s.mended_utc);
+  json.key("trouble").begin_array();
+  for (const auto& trouble : s.standing) json.value(trouble_line(trouble));
+  json.end_array().key("clock");
   write_clock(json, s.info.clock);
   json.key("channels").begin_array();
   for (const auto& channel : s.info.channels) {
@@ -104,7 +110,9 @@ std::string live_json(const Rig& rig, const Pipeline& pipeline, const LiveState&
   state.stale ? void(json.null()) : write_errors(json, rig, pipeline);
   json.key("run");
   state.run > 0 ? json.value(state.run) : json.null();
-  json.end_object();
+  json.key("trouble").begin_array();
+  for (const auto& line : state.trouble) json.value(line);
+  json.end_array().end_object();
   return json.take();
 }
 

@@ -23,11 +23,12 @@ struct LiveState {
   bool simulated = false;
   bool stale = false;    // nothing newer has come for the stated age: no value is shown as good
   std::int64_t run = 0;  // 0: none
+  std::vector<std::string> trouble = {};  // of the axis' devices, as it stands
 };
 
 // The value of live.update: {"axis", "time_ns", "encoder_mm", "still", "simulated", "stale",
 // "waiting_for", "probes": [{"id", "um", "quality", "range_um"}], "errors": {...} | null,
-// "run": id | null}. Errors are null while stale.
+// "run": id | null, "trouble": [...]}. Errors are null while stale.
 std::string live_json(const Rig& rig, const Pipeline& pipeline, const LiveState& state);
 
 }  // namespace mdof::daemon

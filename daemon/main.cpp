@@ -3,8 +3,11 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <system_error>
 
 #include "daemon/app.h"
+#include "daemon/check_start.h"
 #include "daemon/version.h"
 
 namespace {
@@ -15,9 +18,15 @@ int failed(const mdof::Error& error) {
 }
 
 int run(const std::string& config_file, bool check_only) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(config_file, ignored)) {
+    std::fprintf(stderr, "mdofd: %s", mdof::daemon::first_configuration(config_file).c_str());
+    return 3;
+  }
   auto config = mdof::daemon::load_config(config_file);
   if (!config) return failed(config.error());
   if (check_only) {
+    if (auto checked = mdof::daemon::check_start(*config); !checked) return failed(checked.error());
     std::printf("%s: ok, %zu axes\n", config_file.c_str(), config->axes.size());
     return 0;
   }

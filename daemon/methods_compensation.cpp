@@ -42,6 +42,7 @@ Result<TableRequest> read_request(const Params& params) {
   TableRequest request;
   MDOF_TRY(request.runs, params.integers("runs"));
   request.keep_slope = params.boolean("keep_slope", false);
+  request.partial = params.boolean("partial", false);
   if (!params.has("reference")) return request;
   const std::string name(params.string("reference"));
   if (!reference_from(name, request.reference.emplace()))
@@ -55,12 +56,12 @@ void build(Methods& m, const Params& params, Reply reply) {
   if (!request) return reply(tl::unexpected(request.error()));
   answer_from_store(m, std::move(reply),
                     [request = *request](store::Store& store) -> Result<std::string> {
-                      MDOF_TRY(const CompensationTable table, build_table(store, request));
+                      MDOF_TRY(const BuiltTable built, build_table(store, request));
                       JsonWriter json;
                       json.begin_object();
-                      write_table_members(json, table);
+                      write_table_members(json, built.table);
                       json.end_object();
-                      return with_warnings(json.take(), algo::partial_warnings(algo::all_of(runs)));
+                      return with_warnings(json.take(), built.warnings);
                     });
 }
 

@@ -94,7 +94,17 @@ std::vector<std::string> unsettled_clocks(const Station& station) {
   return warnings;
 }
 
+// What was wrong before the run began; what comes after it is added at its end.
+std::vector<std::string> standing_trouble(const Station& station) {
+  std::vector<std::string> warnings;
+  for (const auto& device : station.devices())
+    for (const auto& trouble : device.standing)
+      warnings.push_back("when the run began: " + trouble_line(trouble));
+  return warnings;
+}
+
 void begin_run(Station& station, RunRequest request, Reply reply) {
+  for (auto& warning : standing_trouble(station)) request.warnings.push_back(std::move(warning));
   for (auto& warning : unsettled_clocks(station)) request.warnings.push_back(std::move(warning));
   auto done = answer_with_run(std::move(reply), station.config().rig.axis, request);
   station.start_run(request, done);
@@ -206,14 +216,15 @@ Result<std::string> run_points(Methods& m, const Params& params) {
 }
 
 void squareness(Methods& m, const Params& params, Reply reply) {
-  const std::int64_t x = params.integer("run_x"), y = params.integer("run_y");
-  algo::ArtefactGiven given;
+  SquarenessRequest request{params.integer("run_x"), params.integer("run_y"), {},
+                            params.boolean("partial", false)};
   if (params.has("artefact_angle_error_urad"))
-    given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
-  if (params.has("u_artefact_urad")) given.u_rad = from_urad(params.number("u_artefact_urad"));
-  answer_from_store(m, std::move(reply), [=](store::Store& store) -> Result<std::string> {
-    MDOF_TRY(const Squareness s, fit_squareness(store, x, y, given));
-    return squareness_json(s);
+    request.given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
+  if (params.has("u_artefact_urad"))
+    request.given.u_rad = from_urad(params.number("u_artefact_urad"));
+  answer_from_store(m, std::move(reply), [request](store::Store& store) -> Result<std::string> {
+    MDOF_TRY(const FittedSquareness fitted, fit_squareness(store, request));
+    return with_warnings(squareness_json(fitted.squareness), fitted.warnings);
   });
 }
 
@@ -298,9 +309,10 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                    "faces; from the rigs if not given",
                    false},
                   {"u_artefact_urad", ParamType::number,
-                   "its standard uncertainty; from the rigs if not given", false}},
+                   "its standard uncertainty; from the rigs if not given", false},
+                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
        .result = "EC0Y_urad, u_EC0Y_urad, form_urad (how crooked the axes are) and both slopes, at "
-                 "the fixture",
+                 "the fixture; warnings",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});

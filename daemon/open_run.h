@@ -6,6 +6,7 @@
 
 #include "daemon/resume.h"
 #include "daemon/station.h"
+#include "daemon/trouble.h"
 #include "daemon/unrecorded.h"
 
 namespace mdof::daemon {
@@ -19,6 +20,7 @@ struct Station::OpenRun {
   Unrecorded unrecorded;                           // not yet handed to the store
   std::chrono::steady_clock::time_point recorded;  // when the last were
   std::uint64_t blocks_not_recorded = 0;           // the store's queue was full
+  TroubleLog troubles = {};                        // of the devices, since it began
 };
 
 // What a run that goes on from another begins with.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "algo/restate.h"
 #include "algo/straightness.h"
@@ -74,7 +75,7 @@ Pipeline::Pipeline(Rig rig, PipelineOptions options, algo::Solver solver)
 
 Status Pipeline::push(SampleBlock& raw) {
   lost_ += raw.lost;
-  note_break(raw);
+  note_encoder(raw);
   MDOF_CHECK(calibrator_.apply(raw));
   MDOF_CHECK(aligner_.push(raw, frames_));
   if (frames_.size() == 0) return {};
@@ -85,10 +86,55 @@ Status Pipeline::push(SampleBlock& raw) {
   return {};
 }
 
-void Pipeline::note_break(const SampleBlock& raw) {
+void Pipeline::note_encoder(const SampleBlock& raw) {
   const auto is_encoder = [](const Channel& channel) { return channel.id == kEncoderChannel; };
-  if (raw.scans() == 0 || std::none_of(raw.channels.begin(), raw.channels.end(), is_encoder))
-    return;
+  const auto at = std::find_if(raw.channels.begin(), raw.channels.end(), is_encoder);
+  if (raw.scans() == 0 || at == raw.channels.end()) return;
+  note_break(raw);
+  const auto channel = static_cast<std::size_t>(at - raw.channels.begin());
+  if (!raw.quality.empty() && !raw.quality[channel].empty())
+    note_suspect(raw, raw.quality[channel]);
+  else if (std::exchange(suspect_now_, false))
+    end_stretch();
+}
+
+// One that no stop fits into is of no account, as a single late reading.
+void Pipeline::end_stretch() {
+  const double length_s = ns_to_s(suspect_.back().end_ns - suspect_.back().begin_ns);
+  if (length_s < options_.dwell.min_length_s / 2) suspect_.pop_back();
+}
+
+void Pipeline::note_suspect(const SampleBlock& raw, const std::vector<Quality>& quality) {
+  const auto suspect = [](Quality q) { return q == Quality::suspect; };
+  if (!suspect_now_ && std::none_of(quality.begin(), quality.end(), suspect)) return;
+  encoder_device_ = raw.device;
+  for (std::size_t i = 0; i < quality.size(); ++i) {
+    const bool was = std::exchange(suspect_now_, suspect(quality[i]));
+    if (was && !suspect_now_) end_stretch();
+    if (!suspect_now_) continue;
+    if (!was) suspect_.push_back({raw.time_ns[i], raw.time_ns[i]});
+    suspect_.back().end_ns = raw.time_ns[i];
+  }
+}
+
+bool Pipeline::unplaced(const Point& stop) const {
+  return std::any_of(suspect_.begin(), suspect_.end(), [&](const Stretch& stretch) {
+    return stretch.begin_ns <= stop.begin_ns && stop.end_ns <= stretch.end_ns;
+  });
+}
+
+std::string Pipeline::explain_unplaced() const {
+  const auto first = std::find_if(found_.begin(), found_.end(),
+                                  [this](const Point& stop) { return unplaced(stop); });
+  return std::to_string(unplaced_) + (unplaced_ == 1 ? " stop" : " stops") + " from " +
+         plain_number(ns_to_s(first->begin_ns - *begin_ns_)) +
+         " s on cannot be placed and are left out: the encoder (device \"" + encoder_device_ +
+         "\") was suspect there, as after it was without power and has lost its datum; find its "
+         "zero, restart mdofd and measure them anew";
+}
+
+void Pipeline::note_break(const SampleBlock& raw) {
+  if (!begin_ns_) begin_ns_ = raw.time_ns.front();
   const auto unseen_ns = static_cast<std::int64_t>(options_.dwell.window_s * 1e9);
   if (raw.lost > 0 && encoder_ns_ && raw.time_ns.front() - *encoder_ns_ > unseen_ns)
     dwell_.break_after(*encoder_ns_);
@@ -105,7 +151,13 @@ const std::vector<MeasuredPoint>& Pipeline::points() {
 void Pipeline::take_points() {
   taken_ = found_.size();
   dwell_.settle_resolution(found_);
-  sequence_ = algo::recognise_sequence(found_, options_.sequence);
+  std::vector<Point> placed;  // only where some are not
+  if (!suspect_.empty()) {
+    std::copy_if(found_.begin(), found_.end(), std::back_inserter(placed),
+                 [this](const Point& stop) { return !unplaced(stop); });
+    unplaced_ = found_.size() - placed.size();
+  }
+  sequence_ = algo::recognise_sequence(unplaced_ > 0 ? placed : found_, options_.sequence);
   for (auto& p : sequence_.points) {
     p.errors = solve_at(p.point.position_m, p.point.probe_m, p.point.probe_u_m);
   }
@@ -133,6 +185,7 @@ Status Pipeline::explain_nothing() const {
                      "): the axis did not move or encoder_mm is not its position; check the "
                      "encoder's channel and unit");
   }
+  if (unplaced_ > 0 && unplaced_ == found_.size()) return bad_input(explain_unplaced());
   if (!found_.empty()) {
     return bad_input("none of the " + std::to_string(found_.size()) +
                      " stops is near a given target; check targets_mm");
@@ -187,6 +240,7 @@ Result<Run> Pipeline::finish() {
   run.header.scans = dwell_.summary().scans;
   run.header.scans_lost = lost_;
   run.header.warnings = sequence_.warnings;
+  if (unplaced_ > 0) run.header.warnings.push_back(explain_unplaced());
   run.points = sequence_.points;
   judge(run);
   run.straightness = algo::straightness(rig_.moving(), run.points);

@@ -63,7 +63,12 @@ class Pipeline {
 
  private:
   Pipeline(Rig rig, PipelineOptions options, algo::Solver solver);
+  void note_encoder(const SampleBlock& raw);
   void note_break(const SampleBlock& raw);
+  void note_suspect(const SampleBlock& raw, const std::vector<Quality>& quality);
+  void end_stretch();
+  bool unplaced(const Point& stop) const;
+  std::string explain_unplaced() const;
   void take_points();
   bool moved() const;
   Status explain_nothing() const;
@@ -81,7 +86,16 @@ class Pipeline {
   std::size_t taken_ = 0;  // of found_: those that sequence_ was made of
   algo::Sequence sequence_;
   std::uint64_t lost_ = 0;
-  std::optional<std::int64_t> encoder_ns_;  // of its last scan
+  std::optional<std::int64_t> begin_ns_, encoder_ns_;  // of the encoder's first and last scan
+  // Stretches in which the encoder was suspect throughout: where it was without power its datum is
+  // lost, and a stop in one has no place.
+  struct Stretch {
+    std::int64_t begin_ns, end_ns;
+  };
+  std::vector<Stretch> suspect_;
+  bool suspect_now_ = false;
+  std::string encoder_device_;
+  std::size_t unplaced_ = 0;  // of found_
 };
 
 }  // namespace mdof::daemon

@@ -97,6 +97,10 @@ Result<AskedFor> ReplayLog::asked_for() const {
   return asked;
 }
 
+std::string ReplayLog::configuration() const {
+  return recording_ ? recording_->header().configuration : "";
+}
+
 std::vector<std::string> ReplayLog::comments() const {
   return csv_ ? csv_->comments() : std::vector<std::string>();
 }

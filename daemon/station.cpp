@@ -77,6 +77,13 @@ Acquisition::Sink Station::sink() {
     item.source = source;
     shared_->queue.push_always(std::move(item));
   };
+  sink.trouble = [this](const Trouble& trouble) {
+    shared_->events.trouble(config_.rig.axis, run(), trouble);
+    Item item;
+    item.kind = Item::Kind::trouble;
+    item.trouble = std::make_shared<const Trouble>(trouble);
+    shared_->queue.push_always(std::move(item));
+  };
   return sink;
 }
 

@@ -28,6 +28,8 @@ namespace mdof::daemon {
 struct StationEvents {
   std::function<void(std::string json)> live;       // newest instant, for live.update
   std::function<void(std::string json)> run_event;  // for run.event
+  // Of a device; the run under way, 0: none.
+  std::function<void(Axis axis, std::int64_t run, const Trouble&)> trouble;
 };
 
 // Told the id of a run, once it is on the disk, or why there is none; on the store's or a station's
@@ -62,7 +64,7 @@ class Station {
  private:
   struct Beginning;
   struct Item {
-    enum class Kind { samples, ended, attach, stop, storage_failed } kind = Kind::samples;
+    enum class Kind { samples, ended, attach, stop, storage_failed, trouble } kind = Kind::samples;
     SampleBlock block;
     std::int64_t run = 0;
     RunRequest request;
@@ -72,6 +74,7 @@ class Station {
     drivers::SourceInfo source;
     std::uint64_t pass = 0;  // of a source that is read once a run
     RunDone done;
+    std::shared_ptr<const Trouble> trouble;
   };
   using Queue = BoundedQueue<Item>;
   struct OpenRun;
@@ -97,12 +100,15 @@ class Station {
   void keep_for_recording(const SampleBlock& block);
   void record();
   bool of_this_pass(const Item& item) const;
+  void tell_unsolved(const std::vector<MeasuredPoint>& points);
   void keep_new_points(const std::vector<MeasuredPoint>& points);
   void attach(Item& item);
   void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
               RunDone done);
+  const Pipeline* pipeline() const;
+  void note_newest();
   void show_live();
-  bool stale(const Pipeline& pipeline);
+  std::vector<std::string> standing_trouble() const;
 
   const AxisConfig config_;
   const PipelineOptions options_;
@@ -118,7 +124,7 @@ class Station {
   std::unique_ptr<OpenRun> open_;  // measure thread only
   std::optional<Pipeline> view_;   // measure thread only: between runs
   std::chrono::steady_clock::time_point last_live_{};
-  std::int64_t newest_ns_ = 0;  // of the last instant that was new, and when it was
+  std::int64_t newest_ns_ = 0;  // of the newest instant, and when it came
   std::chrono::steady_clock::time_point newest_since_{};
   std::vector<std::unique_ptr<Acquisition>> acquisitions_;
   std::thread measure_thread_;

@@ -43,6 +43,18 @@ bool approach_assumed(const MeasuredPoint& p) {
   return std::find(flags.begin(), flags.end(), algo::kApproachAssumed) != flags.end();
 }
 
+// How many of the points asked for there are: solved, each target as often as asked, both ways.
+std::size_t done(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
+  std::vector<int> ways(2 * request.targets_m.size());
+  std::size_t done = 0;
+  for (const auto& p : points) {
+    if (!p.errors.valid || p.target < 1) continue;
+    const auto way = 2 * (static_cast<std::size_t>(p.target) - 1) + (p.point.direction > 0);
+    done += way < ways.size() && ways[way]++ < request.repeats;
+  }
+  return done;
+}
+
 // The target that comes after the last point: onward in its direction, and at an end back again.
 std::optional<std::size_t> awaited_target(const RunRequest& request,
                                           const std::vector<MeasuredPoint>& points) {
@@ -97,6 +109,8 @@ std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request
   const std::size_t of = 2 * request.targets_m.size() * static_cast<std::size_t>(request.repeats);
   json.key("of");
   of > 0 ? json.value(static_cast<std::uint64_t>(of)) : json.null();
+  json.key("done");
+  of > 0 ? json.value(static_cast<std::uint64_t>(done(request, points))) : json.null();
   json.key("awaited_mm");
   const auto next = awaited_target(request, points);
   next ? json.value(to_mm(request.targets_m[*next])) : json.null();
@@ -133,6 +147,7 @@ void Station::measure() {
       handle(item);
       measure_turn_ = steady_clock::now();
     }
+    note_newest();
     show_live();  // once all that has come is in it; that nothing came is news too
   }
   if (open_) finish(RunState::aborted, "the daemon was stopped", {}, {});
@@ -156,6 +171,9 @@ void Station::handle(Item& item) {
     case Item::Kind::storage_failed:
       if (!open_ || open_->id != item.run) return;
       return finish(RunState::failed, item.reason, item.source, {});
+    case Item::Kind::trouble:
+      if (open_) open_->troubles.add(*item.trouble);
+      return;
   }
 }
 
@@ -221,6 +239,21 @@ void Station::record() {
   if (!kept) open_->blocks_not_recorded += count;
 }
 
+void Station::tell_unsolved(const std::vector<MeasuredPoint>& points) {
+  const auto solved = [](const MeasuredPoint& p) { return p.errors.valid; };
+  if (std::all_of(points.begin(), points.end(), solved)) return;
+  ChannelsByDevice channels;
+  for (const auto& device : devices())
+    for (const auto& channel : device.info.channels)
+      channels[device.info.name].push_back(channel.id);
+  for (const auto& point : points) {
+    const auto trouble = unsolved(point, config_.rig, channels, utc_now());
+    if (!trouble) continue;
+    open_->troubles.add(*trouble);
+    shared_->events.trouble(config_.rig.axis, open_->id, *trouble);
+  }
+}
+
 // Hands to the store what it has not got of these points, after the samples that they come from.
 void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   const std::size_t first = open_->stored.size();
@@ -229,6 +262,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   std::vector<MeasuredPoint> fresh(points.begin() + static_cast<std::ptrdiff_t>(first),
                                    points.end());
   open_->stored.insert(open_->stored.end(), fresh.begin(), fresh.end());
+  tell_unsolved(fresh);
   const std::int64_t run = open_->id;
   std::string json = points_json(run, config_.rig.moving(), fresh, first);
   std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
@@ -268,6 +302,7 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
                              source.warnings.end());
   run.header.warnings.insert(run.header.warnings.end(), open->request.warnings.begin(),
                              open->request.warnings.end());
+  for (auto& line : open->troubles.summary()) run.header.warnings.push_back(std::move(line));
   const auto overdue = overdue_calibrations(config_.rig, utc_now());
   run.header.warnings.insert(run.header.warnings.end(), overdue.begin(), overdue.end());
   if (!why.empty()) run.header.warnings.push_back(why);
@@ -290,26 +325,35 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
                   });
 }
 
+const Pipeline* Station::pipeline() const {
+  return open_ ? &open_->pipeline : view_ ? &*view_ : nullptr;
+}
+
+// Whoever looks or not: the first who does is to be told how old it is.
+void Station::note_newest() {
+  const Pipeline* from = pipeline();
+  if (!from || from->newest().size() == 0 || from->newest().time_ns[0] == newest_ns_) return;
+  newest_ns_ = from->newest().time_ns[0];
+  newest_since_ = steady_clock::now();
+}
+
+std::vector<std::string> Station::standing_trouble() const {
+  std::vector<std::string> lines;
+  for (const auto& device : devices())
+    for (const auto& trouble : device.standing) lines.push_back(trouble_line(trouble));
+  return lines;
+}
+
 void Station::show_live() {
-  const Pipeline* pipeline = open_ ? &open_->pipeline : view_ ? &*view_ : nullptr;
+  const Pipeline* from = pipeline();
   const milliseconds every = live_every_.load();
-  if (every == kNever || !pipeline || pipeline->newest().size() == 0) return;
+  if (every == kNever || !from || from->newest().size() == 0) return;
   const auto now = steady_clock::now();
   if (now - last_live_ < every) return;
   last_live_ = now;
-  const LiveState state{config_.simulated(), stale(*pipeline), open_ ? open_->id : 0};
-  shared_->events.live(live_json(config_.rig, *pipeline, state));
-}
-
-// Whether the newest instant has been the newest for too long.
-bool Station::stale(const Pipeline& pipeline) {
-  const std::int64_t newest_ns = pipeline.newest().time_ns[0];
-  const auto now = steady_clock::now();
-  if (newest_ns != newest_ns_) {
-    newest_ns_ = newest_ns;
-    newest_since_ = now;
-  }
-  return now - newest_since_ > std::chrono::duration<double>(options_.stale_s);
+  const bool stale = now - newest_since_ > std::chrono::duration<double>(options_.stale_s);
+  const LiveState state{config_.simulated(), stale, open_ ? open_->id : 0, standing_trouble()};
+  shared_->events.live(live_json(config_.rig, *from, state));
 }
 
 }  // namespace mdof::daemon

@@ -23,6 +23,10 @@ struct DeviceInfo {
   double rate_hz = 0;               // scans a second; 0: not known
   bool simulated = false;           // no machine behind it: said on every result
   std::optional<ClockState> clock;  // of a device that counts or stamps its samples
+  // Of an encoder that counts from where it was switched on, once it has been without power since
+  // it was first opened: why, and what to do. Its places are suspect from then on, for the life of
+  // the driver. "": its datum holds, or it is absolute.
+  std::string datum_lost = {};
 };
 
 enum class ReadState {

@@ -20,11 +20,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Of the socket, where its folder may be looked into. Nobody is to join root to read a gauge.
 std::string group_of(const std::string& path) {
   struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) return "of the daemon";
+  if (::stat(path.c_str(), &info) != 0 || info.st_gid == 0) return "mdof";
   const struct group* entry = ::getgrgid(info.st_gid);
   return entry != nullptr ? std::string(entry->gr_name) : std::to_string(info.st_gid);
+}
+
+// A daemon that root started by hand has a socket of root's.
+std::string whose(const std::string& path) {
+  struct stat info {};
+  const bool roots = ::stat(path.c_str(), &info) == 0 && info.st_gid == 0;
+  return roots ? "mdofd was started by root: run it as the user mdof (systemctl start mdofd), and "
+               : "";
 }
 
 tl::unexpected<Error> cannot_connect(const std::string& path, int number) {
@@ -34,8 +43,9 @@ tl::unexpected<Error> cannot_connect(const std::string& path, int number) {
   if (number == ECONNREFUSED)
     return io_error(path + ": no daemon is running (the socket is a left-over)" + kStart);
   if (number == EACCES)
-    return io_error(path + ": permission denied; become a member of the group " + group_of(path) +
-                    " (\"sudo usermod -aG " + group_of(path) + " $USER\") and log in again");
+    return io_error(path + ": permission denied; " + whose(path) + "become a member of the group " +
+                    group_of(path) + " (\"sudo usermod -aG " + group_of(path) +
+                    " $USER\") and log in again");
   return io_error(path + ": " + system_error_text(number));
 }
 

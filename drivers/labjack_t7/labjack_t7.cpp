@@ -16,6 +16,8 @@ using std::chrono::steady_clock;
 constexpr milliseconds kConnect{2000};
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr int kClockReads = 5;
+constexpr const char* kZeroLost =
+    "it was without power and its counter counts from 0 again; find the zero, then restart mdofd";
 
 std::int64_t now_ns() {
   return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count();
@@ -49,7 +51,8 @@ LabjackT7::~LabjackT7() {
 }
 
 DeviceInfo LabjackT7::info() const {
-  return {settings_.name, "labjack_t7", description_, channels_, rate_hz_, false, clock_.state()};
+  return {settings_.name, "labjack_t7", description_,   channels_,
+          rate_hz_,       false,        clock_.state(), zero_lost_ ? kZeroLost : ""};
 }
 
 std::string LabjackT7::place() const {

@@ -14,6 +14,8 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr double kSilence_s = 2;
+constexpr const char* kZeroLost =
+    "it was without power and its timer counts from 0 again; find the zero, then restart mdofd";
 
 bool counts(const Input& input) {
   return input.ain < 0;
@@ -49,8 +51,8 @@ LabjackU6::~LabjackU6() {
 }
 
 DeviceInfo LabjackU6::info() const {
-  return {settings_.name,      "labjack_u6", description_,  channels_,
-          scan_clock_.rate_hz, false,        clock_.state()};
+  return {settings_.name,      "labjack_u6", description_,   channels_,
+          scan_clock_.rate_hz, false,        clock_.state(), zero_lost_ ? kZeroLost : ""};
 }
 
 std::string LabjackU6::place() const {

@@ -53,8 +53,8 @@ DeviceInfo PoKeys57u::info() const {
   if (identity_.serial) text += " " + std::to_string(identity_.serial);
   if (!identity_.firmware.empty()) text += ", firmware " + identity_.firmware;
   if (device_) text += ", at " + device_->path();
-  return {settings_.name, "pokeys57u", text + doubt_, channels_, 1000 / settings_.poll_ms,
-          false,          {}};
+  return {settings_.name,           "pokeys57u", text, channels_,
+          1000 / settings_.poll_ms, false,       {},   doubt_};
 }
 
 Status PoKeys57u::open() {
@@ -175,7 +175,8 @@ Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
   const auto behind = static_cast<std::int32_t>(
       before->ms + static_cast<std::uint32_t>(std::llround(passed_ms)) - now.ms);
   if (behind < kTickSlack_ms + passed_ms * kTickDrift) return reply->span;
-  doubt_ = "; has been without power: its counts began at 0, find the zero again and restart mdofd";
+  doubt_ =
+      "it was without power and its encoders count from 0 again; find the zero, then restart mdofd";
   for (Counter& counter : counters_) {
     counter = {};
     counter.sure = false;
@@ -292,8 +293,8 @@ double PoKeys57u::value_of(std::size_t i, Time time, Quality& quality) {
   const auto step = static_cast<double>(count - counter.last.value_or(count));
   if (counter.sure && std::abs(step) > most + kStepSlack_counts) {
     counter.sure = false;
-    doubt_ = "; " + input.name + " jumped by " + std::to_string(std::llround(step)) +
-             " counts, faster than it can count: find the zero again and restart mdofd";
+    doubt_ = input.name + " jumped by " + std::to_string(std::llround(step)) +
+             " counts, faster than it can count; find the zero, then restart mdofd";
   }
   counter.last = count;
   counter.at = time;

@@ -16,6 +16,8 @@ using std::chrono::steady_clock;
 constexpr milliseconds kConnect{2000}, kAnswer{300}, kBanner{1000};
 constexpr milliseconds kQuiet{50}, kDrain{500};
 constexpr std::size_t kLongestLine = 256;
+constexpr const char* kDatumLost =
+    "it was reset or without power and counts from 0 again; find the zero, then restart mdofd";
 constexpr double kAhead_ns = 2e9;  // that a stamp may be before what the host's clock allows
 
 }  // namespace
@@ -34,7 +36,8 @@ DeviceInfo Qsb::info() const {
     text += " " + identity_.serial + ", firmware " + std::to_string(identity_.firmware);
   if (power_was_lost_) text += "; has been without power: its count began at 0";
   const double rate_hz = 1e9 / (tick_.ns() * options_.interval);
-  return {name_, "qsb", text, {{options_.channel.id, Unit::um}}, rate_hz, false, clock_.state()};
+  return {name_,   "qsb", text,           {{options_.channel.id, Unit::um}},
+          rate_hz, false, clock_.state(), datum_lost_ ? kDatumLost : ""};
 }
 
 Status Qsb::open() {
@@ -51,7 +54,9 @@ Status Qsb::open() {
   MDOF_CHECK(connect());
   MDOF_CHECK(make_it_answer());
   MDOF_CHECK(check_identity());
+  MDOF_CHECK(watch_for_reset());
   MDOF_CHECK(configure());
+  counted_ = true;
   last_sample_ns_ = monotonic_ns();
   return stream_->write(qsb_command('S', qsb::kCount), kAnswer);
 }
@@ -71,6 +76,7 @@ Status Qsb::connect() {
 Status Qsb::make_it_answer() {
   for (const bool reset : {false, true}) {
     if (reset && !options_.address) {
+      datum_lost_ = datum_lost_ || counted_;
       pulse_dtr(*stream_);
       MDOF_TRY(const auto banner, stream_->drain(kBanner / 2, kBanner));
       (void)banner;
@@ -97,6 +103,14 @@ Status Qsb::check_identity() {
   if (options_.serial.empty() || options_.serial == identity_.serial) return {};
   return io_error(place() + ": its serial number is " + identity_.serial + " where serial is " +
                   options_.serial + "; another device has its port: use /dev/serial/by-id");
+}
+
+// A reset takes with the count what was set up before.
+Status Qsb::watch_for_reset() {
+  if (!counted_) return {};
+  MDOF_TRY(const QsbReply interval, ask('R', qsb::kInterval, std::nullopt));
+  datum_lost_ = datum_lost_ || interval.data != options_.interval;
+  return {};
 }
 
 Status Qsb::configure() {
@@ -169,7 +183,8 @@ void Qsb::give_out(SampleBlock& block) {
   while (!samples_.empty() && (block.scans() == 0 || samples_.front().lost == 0)) {
     const Sample& sample = samples_.front();
     block.lost += sample.lost;
-    add_scan(block, clock_.host_ns(sample.device_ns), std::array{sample.um});
+    add_scan(block, clock_.host_ns(sample.device_ns), std::array{sample.um},
+             datum_lost_ ? Quality::suspect : Quality::good);
     samples_.pop_front();
   }
 }

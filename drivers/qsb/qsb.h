@@ -30,7 +30,9 @@ struct QsbOptions {
   std::chrono::milliseconds silence{2000};  // is an error
 };
 
-// Thread-bound. A device that answers is not reset: its count goes on over open().
+// Thread-bound. A device that answers is not reset: its count goes on over open(). If it was reset
+// meanwhile its datum is lost: from then on its values are Quality::suspect, for the life of this
+// object.
 class Qsb final : public Driver {
  public:
   static constexpr int kMalformedAllowed = 10;  // in a row
@@ -57,6 +59,7 @@ class Qsb final : public Driver {
   Status connect();
   Status make_it_answer();
   Status check_identity();
+  Status watch_for_reset();
   Status configure();
   Result<QsbReply> ask(char type, std::uint8_t reg, std::optional<std::uint32_t> data);
   Result<std::optional<QsbReply>> one_reply(std::uint8_t reg, std::chrono::milliseconds timeout);
@@ -71,7 +74,9 @@ class Qsb final : public Driver {
   std::optional<ByteStream> stream_;
   QsbIdentity identity_;
   bool power_was_lost_ = false;
-  std::string received_;  // not yet cut into lines
+  bool counted_ = false;     // it has been open since this object was made
+  bool datum_lost_ = false;  // its count has begun at 0 again since
+  std::string received_;     // not yet cut into lines
   TickLength tick_{qsb::kTick_ns};
   DeviceClock clock_{1.0};  // its ticks are nanoseconds of the device
   Unwrap count_{32, true}, stamp_{32};

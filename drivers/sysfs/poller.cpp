@@ -33,7 +33,14 @@ SysfsPoller::SysfsPoller(std::string name, std::string driver, double rate_hz, s
       open_(std::move(open)) {}
 
 DeviceInfo SysfsPoller::info() const {
-  return {name_, driver_, device_.description, channels_, rate_hz_, false, {}};
+  return {name_,
+          driver_,
+          device_.description,
+          channels_,
+          rate_hz_,
+          false,
+          {},
+          datum_lost_ ? device_.datum_lost : ""};
 }
 
 Status SysfsPoller::open() {
@@ -43,6 +50,8 @@ Status SysfsPoller::open() {
   channels_.clear();
   for (const auto& input : device_.inputs) channels_.push_back(input.channel);
   is_open_ = true;
+  datum_lost_ = opened_before_ && !device_.datum_lost.empty();
+  opened_before_ = true;
   next_ns_ = monotonic_ns();
   lost_ = 0;
   failures_ = 0;
@@ -68,7 +77,7 @@ Result<ReadState> SysfsPoller::read(SampleBlock& block, std::chrono::millisecond
 
 Status SysfsPoller::poll(SampleBlock& block) {
   std::vector<double> values;
-  Quality quality = failures_ > 0 ? Quality::suspect : Quality::good;
+  Quality quality = failures_ > 0 || datum_lost_ ? Quality::suspect : Quality::good;
   std::vector<Quality> own;
   const std::int64_t before_ns = monotonic_ns();
   for (const auto& input : device_.inputs) {

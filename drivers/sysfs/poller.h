@@ -24,6 +24,9 @@ struct SysfsInput {
 };
 struct SysfsDevice {
   std::string description;
+  // Of an incremental encoder: what is to be said of its datum once it was opened again, from when
+  // on its values are suspect. "": it has none to lose.
+  std::string datum_lost = {};
   std::vector<SysfsInput> inputs;
 };
 
@@ -55,7 +58,7 @@ class SysfsPoller final : public Driver {
   std::function<Result<SysfsDevice>()> open_;
   SysfsDevice device_;
   std::vector<Channel> channels_;
-  bool is_open_ = false;
+  bool is_open_ = false, opened_before_ = false, datum_lost_ = false;
   std::int64_t next_ns_ = 0;
   std::uint64_t lost_ = 0;
   int failures_ = 0;  // in a row

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "algo/compensation.h"
-#include "algo/straightness.h"
+#include "algo/squareness.h"
 
 namespace mdof::algo {
 namespace {
@@ -99,12 +99,12 @@ TEST(UsableRuns, ReadingsInCommonCountOnce) {
 TEST(UsableRuns, SquarenessAsksTheSame) {
   const mdof::Run x = run_of(1, RunState::complete, "a"),
                   y = run_of(2, RunState::partial, "b", Axis::y);
-  EXPECT_TRUE(contains(squareness(x, y, 0, 0).error().message, "run 2 is partial"));
-  EXPECT_TRUE(squareness(x, y, 0, 0, true));
+  EXPECT_TRUE(contains(squareness(x, y, {}).error().message, "run 2 is partial"));
+  EXPECT_TRUE(squareness(x, y, {}, true));
   mdof::Run same = y;
   same.header.state = RunState::complete;
   same.header.provenance.recording_sha256 = "a";
-  EXPECT_TRUE(contains(squareness(x, same, 0, 0).error().message, "the same recording"));
+  EXPECT_TRUE(contains(squareness(x, same, {}).error().message, "the same recording"));
 }
 
 }  // namespace

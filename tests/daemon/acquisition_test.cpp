@@ -14,7 +14,7 @@ using std::chrono::steady_clock;
 
 // What the fake device does at each call of open() and read(), in turn; then it stays silent.
 struct Script {
-  enum class Act { open, slow_open, refuse, block, silence, fail, end };
+  enum class Act { open, slow_open, open_anew, refuse, block, silence, fail, end };
   std::deque<Act> acts;
   std::int64_t time_ns = 0;  // of the next scan
 };
@@ -23,10 +23,11 @@ class Scripted final : public drivers::Driver {
  public:
   explicit Scripted(Script script) : script_(std::move(script)) {}
   drivers::DeviceInfo info() const override {
-    return {"fake", "fake", "", {{"A", Unit::um}}, 1000, false, {}};
+    return {"fake", "fake", "", {{"A", Unit::um}}, 1000, false, {}, datum_lost_};
   }
   Status open() override {
     const auto act = next();
+    if (act == Script::Act::open_anew) datum_lost_ = "it counts from 0 again";
     if (act == Script::Act::slow_open) std::this_thread::sleep_for(milliseconds(300));
     return act == Script::Act::refuse ? io_error("10.0.0.9: no route") : Status();
   }
@@ -67,6 +68,7 @@ class Scripted final : public drivers::Driver {
       script_.time_ns += 1'000'000'000;
   }
   Script script_;
+  std::string datum_lost_;
 };
 
 // Collects what comes; takes only so many blocks where told so.
@@ -92,7 +94,15 @@ class Collector {
       reason_ = reason;
       changed_.notify_all();
     };
+    sink.trouble = [this](const Trouble& trouble) {
+      const std::lock_guard lock(mutex_);
+      troubles_.push_back(trouble_line(trouble));
+    };
     return sink;
+  }
+  std::vector<std::string> troubles() {
+    const std::lock_guard lock(mutex_);
+    return troubles_;
   }
   void refuse_after_the_first(int blocks) { refuse_ = blocks; }
   bool wait_for(std::size_t blocks) {
@@ -116,6 +126,7 @@ class Collector {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<SampleBlock> blocks_;
+  std::vector<std::string> troubles_;
   bool ended_ = false;
   std::string reason_;
 };
@@ -148,10 +159,69 @@ TEST(Acquisition, ReopensAFailedDeviceAndTellsWhatWasLost) {
   EXPECT_EQ(status.reopened, 3u);
   EXPECT_EQ(status.lost, 1000u);
   EXPECT_EQ(status.scans, 20u);
-  EXPECT_EQ(status.error, "10.0.0.9: no route");  // the last one stays to be read
+  EXPECT_EQ(status.error, "");  // it is well again, and what it was is no state
+  EXPECT_EQ(status.last_error, "10.0.0.9: no route");
+  EXPECT_FALSE(status.mended_utc.empty());
+  EXPECT_TRUE(status.standing.empty());
   EXPECT_TRUE(acquisition.healthy(std::chrono::seconds(5)));
   acquisition.stop();
   EXPECT_EQ(acquisition.status().state, "closed");
+}
+
+TEST(Acquisition, TellsOnceThatADeviceIsLostAndThatItIsBack) {
+  Collector collector;
+  Acquisition acquisition(spec_of({open, block, fail, refuse, refuse, open, silence, block}),
+                          collector.sink());
+  acquisition.start();
+  ASSERT_TRUE(collector.wait_for(2));
+  const auto told = collector.troubles();
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_EQ(told[0], "device \"fake\": lost: 10.0.0.9: gone");
+  EXPECT_TRUE(told[1].starts_with("device \"fake\": back: it gives samples again after "))
+      << told[1];
+  EXPECT_TRUE(told[1].ends_with("; scans lost meanwhile: 1000")) << told[1];
+}
+
+TEST(Acquisition, TellsThatAnEncoderHasLostItsDatumAndHoldsToIt) {
+  Collector collector;
+  Acquisition acquisition(spec_of({open, block, fail, open_anew, block, fail, open, block}),
+                          collector.sink());
+  acquisition.start();
+  ASSERT_TRUE(collector.wait_for(3));
+  const auto told = collector.troubles();
+  ASSERT_EQ(told.size(), 5u);  // lost, suspect, back, lost, back
+  EXPECT_NE(told[1].find("suspect: the encoder's datum is lost"), std::string::npos) << told[1];
+  EXPECT_NE(told[1].find("it counts from 0 again"), std::string::npos) << told[1];
+  const auto standing = acquisition.status().standing;
+  ASSERT_EQ(standing.size(), 1u);
+  EXPECT_EQ(standing[0].kind, Trouble::Kind::suspect);
+}
+
+TEST(Acquisition, TellsThatADeviceCannotBeOpenedAndKeepsItForThoseWhoAskLater) {
+  Collector collector;
+  Acquisition acquisition(spec_of(std::deque<Script::Act>(100, refuse)), collector.sink());
+  acquisition.start();
+  while (acquisition.status().reopened < 3) std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_EQ(collector.troubles(),
+            std::vector<std::string>{"device \"fake\": lost: 10.0.0.9: no route"});
+  const DeviceStatus status = acquisition.status();
+  ASSERT_EQ(status.standing.size(), 1u);
+  EXPECT_EQ(status.standing[0].kind, Trouble::Kind::lost);
+  EXPECT_EQ(status.error, "10.0.0.9: no route");
+}
+
+// At 1 kHz the window of 5 s would have 5000 scans; these are 10.
+TEST(Acquisition, TellsThatADeviceIsSlow) {
+  Collector collector;
+  Acquisition acquisition(spec_of({open, block}), collector.sink());
+  acquisition.start();
+  const auto begin = steady_clock::now();
+  while (collector.troubles().empty() && steady_clock::now() - begin < std::chrono::seconds(20))
+    std::this_thread::sleep_for(milliseconds(10));
+  ASSERT_EQ(collector.troubles().size(), 1u);
+  EXPECT_NE(collector.troubles()[0].find("slow: it gives 2.0 of 1000.0 scans a second"),
+            std::string::npos)
+      << collector.troubles()[0];
 }
 
 TEST(Acquisition, ADeviceThatTakesLongToOpenIsNoHungThread) {

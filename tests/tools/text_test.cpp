@@ -77,7 +77,7 @@ TEST(LiveUpdate, AnythingElseIsNone) {
 }
 
 TEST(LiveScreen, IsOneLineAnUpdateWhereThereIsNoTerminal) {
-  LiveScreen screen(false);
+  LiveScreen screen(false, 80);
   const std::string line = screen.next(*read_update(kUpdate));
   EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1);
   EXPECT_EQ(line.find('\x1b'), std::string::npos);
@@ -86,7 +86,7 @@ TEST(LiveScreen, IsOneLineAnUpdateWhereThereIsNoTerminal) {
 }
 
 TEST(LiveScreen, DrawsAgainInPlaceOnATerminal) {
-  LiveScreen screen(true);
+  LiveScreen screen(true, 80);
   const std::string first = screen.next(*read_update(kUpdate));
   const std::string second = screen.next(*read_update(kUpdate));
   EXPECT_EQ(first.find("\x1b["), first.find("\x1b[K"));

@@ -31,10 +31,9 @@ Status print_table(const CompensationTable& table, std::int64_t generation, bool
 
 // ---- build ----
 
-Result<CompensationTable> build_and_store(const CompensationCommand& command,
-                                          std::vector<std::string>& warnings) {
+Result<daemon::BuiltTable> build_and_store(const CompensationCommand& command) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  daemon::TableRequest request{command.runs, command.keep_slope, {}};
+  daemon::TableRequest request{command.runs, command.keep_slope, command.partial, {}};
   if (!command.reference.empty())
     reference_from(command.reference, request.reference.emplace());  // the option takes no other
   return daemon::build_table(store, request);
@@ -55,8 +54,8 @@ Status ask_daemon_to_build(const CompensationCommand& command) {
 Status build(const CompensationCommand& command) {
   MDOF_TRY(const bool busy, somebody_writes(command.database));
   if (busy) return ask_daemon_to_build(command);
-  std::vector<std::string> warnings;
-  MDOF_TRY(const CompensationTable table, build_and_store(command, warnings));
+  MDOF_TRY(const auto built, build_and_store(command));
+  const auto& [table, warnings] = built;
   for (const auto& warning : warnings) warn(warning);
   MDOF_CHECK(command.json ? write_line(with_warnings(table_document(table, 0), warnings))
                           : write_out(table_text(table, 0)));

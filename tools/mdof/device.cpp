@@ -9,16 +9,18 @@
 #include "schema/json_writer.h"
 #include "tools/mdof/command.h"
 #include "tools/mdof/device_probe.h"
+#include "tools/mdof/device_table.h"
 #include "tools/mdof/interrupt.h"
-#include "tools/mdof/json_text.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/own_daemon.h"
+#include "tools/mdof/terminal.h"
 
 namespace mdof::tools {
 namespace {
 
 struct DeviceCommand {
-  std::string socket, config, name;
+  std::string socket, own_socket, config, name;
   double for_s = 2;
   bool json = false;
 };
@@ -26,11 +28,14 @@ struct DeviceCommand {
 Status list(const DeviceCommand& command) {
   MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
   MDOF_TRY(const std::string devices, client.call("device.list"));
-  return command.json ? write_line(devices) : write_out(readable(devices));
+  return command.json ? write_line(devices) : write_out(device_table(devices, terminal_columns()));
 }
 
-Result<std::vector<drivers::DriverSpec>> devices_of(const DeviceCommand& command) {
+// Those to be opened here, by `verb`: not while mdofd has them.
+Result<std::vector<drivers::DriverSpec>> devices_of(const DeviceCommand& command,
+                                                    const std::string& verb) {
   MDOF_TRY(const daemon::Config config, daemon::load_config(command.config));
+  MDOF_CHECK(refuse_beside_daemon("device " + verb, own_socket(config, command.own_socket)));
   std::vector<drivers::DriverSpec> chosen;
   std::string names;
   for (const auto& axis : config.axes) {
@@ -46,7 +51,7 @@ Result<std::vector<drivers::DriverSpec>> devices_of(const DeviceCommand& command
 
 // Every device in turn; one that fails does not keep the others from being asked.
 Status probe(const DeviceCommand& command) {
-  MDOF_TRY(const auto devices, devices_of(command));
+  MDOF_TRY(const auto devices, devices_of(command, "probe"));
   const Interrupt interrupt;
   Status worst;
   JsonWriter json;
@@ -63,14 +68,10 @@ Status probe(const DeviceCommand& command) {
 }
 
 Status monitor(const DeviceCommand& command) {
-  if (command.name.empty()) {
-    MDOF_TRY(const auto all, devices_of(command));
-    if (all.size() > 1)
-      return fail(ErrorCode::usage,
-                  "device monitor: which one? Give its name; mdof device probe "
-                  "asks all of them");
-  }
-  MDOF_TRY(const auto devices, devices_of(command));
+  MDOF_TRY(const auto devices, devices_of(command, "monitor"));
+  if (command.name.empty() && devices.size() > 1)
+    return fail(ErrorCode::usage,
+                "device monitor: which one? Give its name; mdof device probe asks all of them");
   const Interrupt interrupt;
   return monitor_device(devices.front(), Interrupt::requested);
 }
@@ -81,6 +82,7 @@ CLI::App* on_config(CLI::App& group, const char* name, const char* what, DeviceC
   command->add_option("--config", o.config, "Configuration of mdofd")
       ->capture_default_str()
       ->type_name("FILE");
+  add_own_socket_option(*command, o.own_socket);
   return command;
 }
 

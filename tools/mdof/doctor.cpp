@@ -1,5 +1,7 @@
 // mdof doctor: what is wrong with this machine, its configuration and its devices, and the remedy.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <set>
 
 #include "daemon/rpc/client.h"
 #include "schema/json_writer.h"
@@ -7,8 +9,11 @@
 #include "tools/mdof/device_probe.h"
 #include "tools/mdof/doctor_checks.h"
 #include "tools/mdof/interrupt.h"
+#include "tools/mdof/json_read.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/own_daemon.h"
+#include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
 namespace {
@@ -44,16 +49,58 @@ Diagnosis diagnose(const drivers::DriverSpec& device) {
       found.lost > 0 ? "lower its rate, or find what keeps this machine busy" : ""};
 }
 
-// A running mdofd holds its devices: it is asked. Otherwise they are opened here.
-std::vector<Diagnosis> check_devices(const daemon::Config& config, const std::string& socket) {
-  if (rpc::Client::connect(socket))
-    return {{Level::good, "mdofd is running and holds the devices; see mdof device list", ""}};
+// As mdofd says of one of its devices.
+Diagnosis as_told(const simdjson::dom::element& device) {
+  const std::string state = text(device, "state"), error = text(device, "error");
+  std::string what =
+      "device " + text(device, "device") + " (" + text(device, "driver") + "): " + state;
+  if (!error.empty()) return {Level::bad, what + ": " + error, ""};
+  what += ", " + std::to_string(integer(device, "scans").value_or(0)) + " scans, " +
+          std::to_string(integer(device, "scans_lost").value_or(0)) + " lost";
+  const std::string trouble = joined(texts(device, "trouble"), "; ");
+  return {trouble.empty() ? Level::good : Level::bad, what, trouble};
+}
+
+// A running mdofd holds its devices: it is asked.
+std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::string& socket) {
+  std::vector<Diagnosis> all = {
+      {Level::good, "mdofd is running (" + socket + ") and holds the devices", ""}};
+  auto client = rpc::Client::connect(socket);
+  const auto list = client ? client->call("device.list") : tl::unexpected(client.error());
+  simdjson::dom::parser parser;
+  simdjson::dom::array devices;
+  if (!list || parser.parse(simdjson::padded_string(*list))["devices"].get_array().get(devices)) {
+    all.push_back({Level::bad, "mdofd does not say how its devices are", "mdof device list"});
+    return all;
+  }
+  std::set<std::string> known;
+  for (const auto device : devices) {
+    known.insert(text(device, "device"));
+    all.push_back(as_told(device));
+  }
+  for (const auto& axis : config.axes)
+    for (const auto& device : axis.devices)
+      if (!known.contains(device.name))
+        all.push_back({Level::doubtful, "device " + device.name + ": mdofd does not have it",
+                       "it runs with another configuration: restart it with this one"});
+  return all;
+}
+
+std::vector<Diagnosis> try_devices(const daemon::Config& config) {
   std::vector<Diagnosis> all = {{Level::good, "mdofd is not running: devices are tried here", ""}};
   const Interrupt interrupt;
   for (const auto& axis : config.axes)
     for (const auto& device : axis.devices)
       if (device.live) all.push_back(diagnose(device));
   return all;
+}
+
+std::vector<Diagnosis> check_devices(const daemon::Config& config, const std::string& socket) {
+  const auto runs = daemon_runs(socket);
+  if (!runs)
+    return {
+        {Level::bad, "devices: not tried, as mdofd may hold them: " + runs.error().message, ""}};
+  return *runs ? ask_daemon(config, socket) : try_devices(config);
 }
 
 std::vector<Diagnosis> examine(const DoctorCommand& command) {
@@ -77,7 +124,7 @@ std::vector<Diagnosis> examine(const DoctorCommand& command) {
   }
   all.push_back({Level::good, "configuration: " + command.config, ""});
   all.push_back(check_storage(*config));
-  add(check_devices(*config, command.socket));
+  add(check_devices(*config, own_socket(*config, command.socket)));
   return all;
 }
 
@@ -117,7 +164,7 @@ void add_doctor(CLI::App& app, Action& chosen) {
   command->add_option("--config", o->config, "Configuration of mdofd")
       ->capture_default_str()
       ->type_name("FILE");
-  add_socket_option(*command, o->socket);
+  add_own_socket_option(*command, o->socket);
   add_json_flag(*command, o->json);
   command->footer("Example:\n  mdof doctor --config mdofd.toml");
   command->callback([o, &chosen] { chosen = [o] { return doctor(*o); }; });

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mdof::tools {
 
@@ -28,6 +29,19 @@ template <class Json>
 std::string text(const Json& of, std::string_view key) {
   std::string_view found;
   return of.at_key(key).get_string().get(found) ? "" : std::string(found);
+}
+
+// Of an array of them.
+template <class Json>
+std::vector<std::string> texts(const Json& of, std::string_view key) {
+  std::vector<std::string> found;
+  simdjson::dom::array items;
+  if (of.at_key(key).get_array().get(items)) return found;
+  for (const simdjson::dom::element item : items) {
+    std::string_view words;
+    if (!item.get_string().get(words)) found.emplace_back(words);
+  }
+  return found;
 }
 
 template <class Json>

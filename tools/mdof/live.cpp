@@ -1,44 +1,79 @@
 // mdof live: the probes against their ranges, as mdofd sees them now.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "daemon/rpc/client.h"
 #include "schema/json_writer.h"
 #include "tools/mdof/command.h"
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/json_read.h"
 #include "tools/mdof/live_view.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
 namespace {
 
 constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::milliseconds kTurn{100};  // within which Ctrl-C is seen
 
 struct LiveCommand {
   std::string socket, axis;
   std::int64_t count = 0, interval_ms = 200;
-  bool json = false;
+  bool json = false, ndjson = false;
 };
+
+// Values come as fast as they are made, so an axis that there is not would be waited for in vain.
+Status check_axis(rpc::Client& client, const std::string& axis) {
+  MDOF_TRY(const std::string info, client.call("server.info"));
+  simdjson::dom::parser parser;
+  simdjson::dom::array axes;
+  if (parser.parse(simdjson::padded_string(info))["axes"].get_array().get(axes)) return {};
+  std::vector<std::string> names;
+  for (const auto known : axes) names.push_back(text(known, "axis"));
+  if (names.empty())
+    return fail(ErrorCode::not_found,
+                "live: mdofd measures no axis; its configuration needs an [[axis]]");
+  if (axis.empty() || std::find(names.begin(), names.end(), axis) != names.end()) return {};
+  return fail(ErrorCode::not_found,
+              "live: mdofd does not measure axis " + axis + "; there is " + joined(names));
+}
 
 Result<rpc::Client> subscribe(const LiveCommand& command) {
   MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
+  MDOF_CHECK(check_axis(client, command.axis));
   JsonWriter params;
   params.begin_object().field("interval_ms", command.interval_ms).end_object();
   MDOF_CHECK(client.call("live.subscribe", params.text()));
   return client;
 }
 
+// What goes wrong while it is watched is told when it does; a screen has it in the next update.
+Status tell(const std::string& notification, const LiveCommand& command) {
+  const auto trouble = read_trouble(notification);
+  if (!trouble || (!command.axis.empty() && trouble->axis != command.axis)) return {};
+  if (command.ndjson) return write_line(trouble->json);
+  if (!out_is_terminal() || !messages_are_on_terminal())
+    say(wrapped(trouble->line, terminal_columns(), 2));
+  return {};
+}
+
 // The next update of the axis asked for.
 Result<LiveUpdate> next_update(rpc::Client& client, const LiveCommand& command) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (std::chrono::steady_clock::now() < end) {
-    auto line = client.next_notification(kPatience);
-    if (!line) break;
+  while (std::chrono::steady_clock::now() < end && !Interrupt::requested()) {
+    const auto line = client.next_notification(kTurn);
+    if (!line && !client.connected()) return tl::unexpected(line.error());
+    if (!line) continue;
     const auto update = read_update(*line);
     if (update && (command.axis.empty() || update->axis == command.axis)) return *update;
+    if (!update) MDOF_CHECK(tell(*line, command));
   }
   return io_error("mdofd sends no readings" +
                   (command.axis.empty() ? std::string() : " of the axis " + command.axis) +
-                  "; see mdof status for the state of its devices");
+                  "; see mdof device list for the state of its devices");
 }
 
 // A document has an end: one update unless a count is given.
@@ -53,15 +88,22 @@ Status print_document(rpc::Client& client, const LiveCommand& command) {
   return write_line(json.text());
 }
 
-Status live(const LiveCommand& command) {
-  MDOF_TRY(rpc::Client client, subscribe(command));
-  if (command.json) return print_document(client, command);
-  LiveScreen screen(out_is_terminal());
+// Lines as they come: JSON objects or text, or a screen that is drawn anew.
+Status print_updates(rpc::Client& client, const LiveCommand& command) {
+  const Interrupt interrupt;
+  LiveScreen screen(out_is_terminal(), terminal_columns());
   for (std::int64_t i = 0; command.count == 0 || i < command.count; ++i) {
-    MDOF_TRY(const LiveUpdate update, next_update(client, command));
-    MDOF_CHECK(write_out(screen.next(update)));
+    const auto update = next_update(client, command);
+    if (Interrupt::requested()) return {};
+    if (!update) return tl::unexpected(update.error());
+    MDOF_CHECK(command.ndjson ? write_line(update->json) : write_out(screen.next(*update)));
   }
   return {};
+}
+
+Status live(const LiveCommand& command) {
+  MDOF_TRY(rpc::Client client, subscribe(command));
+  return command.json ? print_document(client, command) : print_updates(client, command);
 }
 
 }  // namespace
@@ -77,7 +119,14 @@ void add_live(CLI::App& app, Action& chosen) {
       ->capture_default_str();
   add_socket_option(*command, o->socket);
   add_json_flag(*command, o->json);
-  command->footer("Example:\n  mdof live --axis X");
+  command
+      ->add_flag("--ndjson", o->ndjson,
+                 "Print a JSON object a line: updates, and what goes wrong (type \"trouble\")")
+      ->excludes("--json");
+  command->footer(
+      "Examples:\n"
+      "  mdof live --axis X\n"
+      "  mdof live --ndjson --interval-ms 20 > readings.ndjson");
   command->callback([o, &chosen] { chosen = [o] { return live(*o); }; });
 }
 

@@ -10,8 +10,10 @@
 #include "tools/mdof/interrupt.h"
 #include "tools/mdof/json_read.h"
 #include "tools/mdof/json_text.h"
+#include "tools/mdof/live_view.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
@@ -61,21 +63,29 @@ Result<std::string> begin(rpc::Client& client, const RecordCommand& c) {
   return client.call("run.resume", params.text());
 }
 
+void warn_wrapped(std::string_view words) {
+  say(wrapped("warning: " + std::string(words), terminal_columns(), 2));
+}
+
 void show_warnings(const auto& reply) {
   simdjson::dom::array warnings;
   if (reply.at_key("warnings").get_array().get(warnings)) return;
   for (const element warning : warnings) {
     std::string_view words;
-    if (!warning.get_string().get(words)) warn(words);
+    if (!warning.get_string().get(words)) warn_wrapped(words);
   }
 }
 
-// "point 3 of 26, next 15.000 mm"; a run without targets or repeats knows less.
+// "point 3 of 26, next 15.000 mm"; a run without targets or repeats knows less. Of those asked for
+// only solved ones count, each once; further ones are told of.
 std::string progress_line(const auto& event) {
-  const std::int64_t points = integer(event, "points").value_or(0);
+  const std::int64_t all = integer(event, "points").value_or(0);
+  const std::int64_t points = integer(event, "done").value_or(all);
   const auto of = integer(event, "of");
   std::string line = "point " + std::to_string(points);
   if (of) line += " of " + std::to_string(*of);
+  if (all > points)
+    line += ", and " + std::to_string(all - points) + " not solved or more than asked for";
   const double awaited_mm = number(event, "awaited_mm");
   return points == of || std::isnan(awaited_mm) ? line
                                                 : line + ", next " + fixed(awaited_mm, 3) + " mm";
@@ -87,6 +97,7 @@ std::optional<std::int64_t> take_event(std::string_view notification, std::int64
   simdjson::dom::parser parser;
   const auto event = parser.parse(simdjson::padded_string(notification))["params"]["value"];
   if (text(event, "axis") != axis) return std::nullopt;
+  if (const auto trouble = read_trouble(notification)) warn_wrapped(trouble->line);
   const std::string type = text(event, "type");
   if (type == "progress" && integer(event, "run") == run) say(progress_line(event));
   return type == "ended" ? integer(event, "run") : std::nullopt;

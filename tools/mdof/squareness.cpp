@@ -20,15 +20,15 @@ struct SquarenessCommand {
   std::string database, socket;
   std::int64_t run_x = 0, run_y = 0;
   std::optional<double> artefact_urad, u_artefact_urad;
-  bool json = false;
+  bool partial = false, json = false;
 };
 
-Result<Squareness> fit(const SquarenessCommand& command) {
+Result<daemon::FittedSquareness> fit(const SquarenessCommand& command) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  algo::ArtefactGiven given;
-  if (command.artefact_urad) given.angle_error_rad = from_urad(*command.artefact_urad);
-  if (command.u_artefact_urad) given.u_rad = from_urad(*command.u_artefact_urad);
-  return daemon::fit_squareness(store, command.run_x, command.run_y, given);
+  daemon::SquarenessRequest request{command.run_x, command.run_y, {}, command.partial};
+  if (command.artefact_urad) request.given.angle_error_rad = from_urad(*command.artefact_urad);
+  if (command.u_artefact_urad) request.given.u_rad = from_urad(*command.u_artefact_urad);
+  return daemon::fit_squareness(store, request);
 }
 
 std::string squareness_text(const Squareness& s) {
@@ -55,7 +55,6 @@ Status ask_daemon(const SquarenessCommand& command) {
   params.begin_object().field("run_x", command.run_x).field("run_y", command.run_y);
   if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
   if (command.u_artefact_urad) params.field("u_artefact_urad", *command.u_artefact_urad);
-  if (command.u_artefact_urad > 0) params.field("u_artefact_urad", command.u_artefact_urad);
   if (command.partial) params.field("partial", true);
   params.end_object();
   return print_call(command.socket, "squareness.fit", params.text(), command.json);
@@ -64,8 +63,8 @@ Status ask_daemon(const SquarenessCommand& command) {
 Status squareness(const SquarenessCommand& command) {
   MDOF_TRY(const bool busy, somebody_writes(command.database));
   if (busy) return ask_daemon(command);
-  std::vector<std::string> warnings;
-  MDOF_TRY(const Squareness s, fit(command, warnings));
+  MDOF_TRY(const auto fitted, fit(command));
+  const auto& [s, warnings] = fitted;
   for (const auto& warning : warnings) warn(warning);
   return command.json ? write_line(with_warnings(squareness_json(s), warnings))
                       : write_out(squareness_text(s));

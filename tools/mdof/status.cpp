@@ -1,29 +1,82 @@
 // mdof status: what mdofd is doing.
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "daemon/rpc/client.h"
 #include "schema/json_writer.h"
 #include "tools/mdof/command.h"
-#include "tools/mdof/json_text.h"
+#include "tools/mdof/device_table.h"
+#include "tools/mdof/json_read.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
 namespace {
+
+using simdjson::dom::array;
+using simdjson::dom::element;
 
 struct StatusCommand {
   std::string socket;
   bool json = false;
 };
 
+std::string or_dash(const std::optional<std::int64_t>& number) {
+  return number ? std::to_string(*number) : "-";
+}
+
+std::string server_text(const element& info, std::size_t columns) {
+  std::string lines = text(info, "server") + " " + text(info, "version") + ", up for " +
+                      fixed(number(info, "uptime_s"), 0) + " s\n" +
+                      wrapped("database " + text(info, "database"), columns, 2) + "\n";
+  array axes;
+  if (info["axes"].get_array().get(axes)) return lines;
+  TextTable table({"axis", "run", "rig", "devices", "simulated"});
+  for (const element axis : axes)
+    table.add({text(axis, "axis"), or_dash(integer(axis, "run")), text(axis, "rig"),
+               joined(texts(axis, "devices")), flag(axis, "simulated") ? "SIMULATED" : "no"});
+  return lines + (axes.size() > 0 ? "\n" + table.text(columns) : "no axis is configured\n");
+}
+
+std::string compensation_text(const element& status, std::size_t columns) {
+  std::string head = "generation " + or_dash(integer(status, "generation")) + "\n";
+  simdjson::dom::object axes;
+  if (status["axes"].get_object().get(axes) || axes.size() == 0)
+    return head + "no table is in force\n";
+  TextTable table({"axis", "table", "from/mm", "to/mm", "since", "simulated"});
+  for (const auto [axis, of] : axes)
+    table.add({std::string(axis), or_dash(integer(of, "table")), fixed(number(of, "first_mm"), 3),
+               fixed(number(of, "last_mm"), 3), text(of, "activated_utc"),
+               flag(of, "simulated") ? "SIMULATED" : "no"});
+  return head + table.text(columns);
+}
+
+std::string runs_text(const element& list, std::size_t columns) {
+  array runs;
+  if (list["runs"].get_array().get(runs) || runs.size() == 0) return "none\n";
+  TextTable table({"run", "axis", "state", "started", "lost", "warnings", "note"});
+  for (const element run : runs)
+    table.add({or_dash(integer(run, "run")), text(run, "axis"), text(run, "state"),
+               text(run, "started_utc").substr(0, 19), or_dash(integer(run, "scans_lost")),
+               std::to_string(texts(run, "warnings").size()), text(run, "note")});
+  return table.text(columns);
+}
+
+std::string devices_text(const element& list, std::size_t columns) {
+  return device_table(simdjson::to_string(list), columns);
+}
+
 struct Section {
   const char *title, *method, *params;
+  std::string (*text)(const element& result, std::size_t columns);
 };
 constexpr Section kSections[] = {
-    {"server", "server.info", "{}"},
-    {"devices", "device.list", "{}"},
-    {"compensation", "compensation.status", "{}"},
-    {"runs", "run.list", "{\"count\":10}"},
+    {"server", "server.info", "{}", server_text},
+    {"devices", "device.list", "{}", devices_text},
+    {"compensation", "compensation.status", "{}", compensation_text},
+    {"runs", "run.list", "{\"count\":10}", runs_text},
 };
 
 Status status(const StatusCommand& command) {
@@ -35,8 +88,10 @@ Status status(const StatusCommand& command) {
     auto result = client.call(section.method, section.params);
     if (!result) return in_context(std::string("mdofd: ") + section.method, result.error());
     json.key(section.title).raw(*result);
-    text +=
-        std::string(text.empty() ? "" : "\n") + "== " + section.title + "\n" + readable(*result);
+    simdjson::dom::parser parser;
+    const auto parsed = parser.parse(simdjson::padded_string(*result));
+    text += std::string(text.empty() ? "" : "\n") + "== " + section.title + "\n";
+    if (!parsed.error()) text += section.text(parsed.value_unsafe(), terminal_columns());
   }
   json.end_object();
   return command.json ? write_line(json.text()) : write_out(text);

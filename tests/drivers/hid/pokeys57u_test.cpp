@@ -190,7 +190,7 @@ TEST_F(PoKeys57uOnHid, AnIndexThatSetsTheCountToZeroMakesItSuspect) {
   EXPECT_EQ(got.first_quality(4), Quality::good);
   EXPECT_EQ(got.first_quality(5), Quality::suspect);
   EXPECT_EQ(got.first_quality(19), Quality::suspect);
-  EXPECT_NE(driver.info().description.find("encoder1 jumped by -"), std::string::npos);
+  EXPECT_NE(driver.info().datum_lost.find("encoder1 jumped by -"), std::string::npos);
   bus.reset();
 }
 
@@ -199,7 +199,7 @@ TEST_F(PoKeys57uOnHid, PowerThatWasLostMakesItSuspectOverReopens) {
   ASSERT_TRUE(driver.open());
   got = collect(driver, 5);
   EXPECT_EQ(got.first_quality(4), Quality::suspect);
-  EXPECT_NE(driver.info().description.find("without power"), std::string::npos);
+  EXPECT_NE(driver.info().datum_lost.find("without power"), std::string::npos);
 }
 
 TEST_F(PoKeys57uOnHid, UnpluggedIsAnErrorAndReplugAnOpening) {

@@ -274,6 +274,7 @@ TEST_F(LabjackT7Driver, ACountThatWasRestartedIsSuspect) {
   ASSERT_EQ(read(before + 20), "");
   EXPECT_EQ(quality[3].back(), Quality::suspect);
   EXPECT_EQ(quality[0].back(), Quality::good);
+  EXPECT_TRUE(has(driver().info().datum_lost, "counts from 0 again"));
 }
 
 TEST_F(LabjackT7Driver, NobodyThereIsAnErrorWithTheAddress) {

@@ -160,6 +160,20 @@ TEST_F(LinuxCounter, AFewFailuresAreLostAndTheNextIsSuspect) {
   EXPECT_EQ(all.first_quality(0), Quality::suspect);
 }
 
+// What the counter did meanwhile nobody knows.
+TEST_F(LinuxCounter, AfterItWasAwayItsDatumIsLost) {
+  const auto driver = make_linux_counter("scale", options_);
+  ASSERT_TRUE(driver->open());
+  EXPECT_EQ(collect(*driver, 3).first_quality(2), Quality::good);
+  EXPECT_EQ(driver->info().datum_lost, "");
+  tree_->fail_reads(ENODEV);
+  EXPECT_NE(collect(*driver, 20).error, "");
+  tree_->fail_reads(0, 0);
+  ASSERT_TRUE(driver->open());
+  EXPECT_EQ(collect(*driver, 3).first_quality(2), Quality::suspect);
+  EXPECT_NE(driver->info().datum_lost, "");
+}
+
 TEST_F(LinuxCounter, ManyFailuresAreAnErrorUntilItIsOpenedAgain) {
   const auto driver = make_linux_counter("scale", options_);
   for (const int error : {EBUSY, EIO, ENODEV}) {

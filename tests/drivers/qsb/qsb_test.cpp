@@ -57,6 +57,8 @@ TEST(Qsb, TheCountGoesOnOverAReopen) {
     ASSERT_TRUE(driver.open());
     const Collected all = collect(driver, 5);
     EXPECT_EQ(all.scans.at(0)[0], -2.5);
+    EXPECT_EQ(all.first_quality(0), Quality::good);
+    EXPECT_EQ(driver.info().datum_lost, "");
     EXPECT_GT(all.time_ns.at(0), last_ns);
     last_ns = all.time_ns.back();
   }
@@ -79,7 +81,10 @@ TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
   EXPECT_FALSE(driver.read(block, std::chrono::milliseconds(1)));
   ASSERT_TRUE(driver.open());
   EXPECT_NE(driver.info().description.find("has been without power"), std::string::npos);
-  EXPECT_EQ(collect(driver, 1).scans.at(0)[0], 0);
+  const Collected anew = collect(driver, 1);
+  EXPECT_EQ(anew.scans.at(0)[0], 0);
+  EXPECT_EQ(anew.first_quality(0), Quality::suspect);  // 0 is no place
+  EXPECT_NE(driver.info().datum_lost.find("counts from 0 again"), std::string::npos);
 }
 
 TEST(Qsb, ACutLineIsCountedAndItsScansAreLost) {

@@ -1,0 +1,155 @@
+#include "daemon/check_start.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <system_error>
+
+namespace mdof::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr mode_t kFolderMode = 0755;
+
+// The folder itself, or the nearest above it that there is.
+fs::path nearest_folder(fs::path folder) {
+  std::error_code failed;
+  folder = fs::absolute(folder, failed);
+  while (folder.has_relative_path() && !fs::exists(folder, failed)) folder = folder.parent_path();
+  return folder;
+}
+
+std::string remedy_of_permission(const fs::path& folder) {
+  return "; choose another, or give it to the user and group mdof and run mdofd as that user "
+         "(sudo install -d -o mdof -g mdof -m 750 " +
+         folder.string() + ")";
+}
+
+// `folder` is there or can be made, and can be written to.
+Status check_folder(const std::string& key, const fs::path& folder) {
+  const fs::path nearest = nearest_folder(folder);
+  std::error_code failed;
+  if (!fs::is_directory(nearest, failed))
+    return bad_input(key + ": " + nearest.string() + " is no folder; choose another path");
+  if (::access(nearest.c_str(), W_OK | X_OK) == 0) return {};
+  const bool there = nearest == fs::absolute(folder, failed);
+  return bad_input(key + ": " +
+                   (there ? "there is no permission to write in " + folder.string()
+                          : folder.string() +
+                                " is not there, and there is no permission to make "
+                                "it in " +
+                                nearest.string()) +
+                   remedy_of_permission(folder));
+}
+
+Status check_file(const std::string& key, const fs::path& file) {
+  std::error_code failed;
+  if (fs::is_directory(file, failed))
+    return bad_input(key + ": " + file.string() + " is a folder; name a file in it");
+  MDOF_CHECK(check_folder(key, fs::absolute(file, failed).parent_path()));
+  if (!fs::exists(file, failed) || ::access(file.c_str(), R_OK | W_OK) == 0) return {};
+  return bad_input(key + ": there is no permission to read and write " + file.string() +
+                   "; give it to the user and group mdof and run mdofd as that user (sudo chown "
+                   "mdof:mdof " +
+                   file.string() + ")");
+}
+
+Status check_socket(const Config& config) {
+  std::error_code failed;
+  const fs::path socket = config.socket;
+  if (fs::exists(socket, failed) && !fs::is_socket(socket, failed))
+    return bad_input(config.socket_key + ": " + config.socket +
+                     " is there and no socket; remove it or choose another path");
+  return check_folder(config.socket_key, fs::absolute(socket, failed).parent_path());
+}
+
+Status check_identities(const Config& config) {
+  std::map<std::string, std::string> names;
+  for (const auto& axis : config.axes) {
+    for (const auto& device : axis.devices) {
+      if (!device.identity) continue;
+      const auto [other, fresh] = names.emplace(device.identity(), device.name);
+      if (fresh) continue;
+      return bad_input(config.source + ": the devices \"" + other->second + "\" and \"" +
+                       device.name + "\" are one (" + other->first +
+                       "): it can be opened only once; take one away or correct its address");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Status check_start(const Config& config) {
+  MDOF_CHECK(check_file(config.database_key, config.database));
+  MDOF_CHECK(check_folder(config.recordings_key, config.recordings));
+  MDOF_CHECK(check_socket(config));
+  return check_identities(config);
+}
+
+Status make_socket_folder(const std::string& socket) {
+  std::error_code failed;
+  const fs::path folder = fs::absolute(socket, failed).parent_path();
+  fs::path made;
+  for (const fs::path& part : folder) {
+    made /= part;
+    if (fs::exists(made, failed)) continue;
+    if (::mkdir(made.c_str(), kFolderMode) != 0 && errno != EEXIST)
+      return io_error("rpc.socket: the folder " + made.string() +
+                      " cannot be made: " + std::strerror(errno) + remedy_of_permission(folder));
+    (void)::chmod(made.c_str(), kFolderMode);  // whatever the umask
+  }
+  return {};
+}
+
+std::string first_configuration(const std::string& file) {
+  return file + R"(: is not there. Two files are needed: this configuration and a rig for each axis.
+Write them there (--config FILE names another place); with the simulator as the device all works
+without hardware. Then: mdofd --check-config
+
+# --- )" +
+         file +
+         R"(
+[[axis]]
+rig = "rig_X.toml"
+[axis.device]
+driver = "simulator"
+rate_hz = 1000
+targets_mm = [0, 5, 10, 15, 20]
+
+# --- rig_X.toml, beside it
+name = "five probes, X axis"
+axis = "X"
+[[probe]]
+id = "A"
+position_mm = [10, 0, 0]
+measures = "+Z"
+range_um = 200
+[[probe]]
+id = "B"
+position_mm = [0, 10, 0]
+measures = "+Z"
+range_um = 200
+[[probe]]
+id = "C"
+position_mm = [0, -10, 0]
+measures = "+Z"
+range_um = 200
+[[probe]]
+id = "D"
+position_mm = [0, 15, 20]
+measures = "+Y"
+range_um = 200
+[[probe]]
+id = "E"
+position_mm = [10, 15, 20]
+measures = "+Y"
+range_um = 200
+)";
+}
+
+}  // namespace mdof::daemon

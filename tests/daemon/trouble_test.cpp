@@ -1,0 +1,88 @@
+#include "daemon/trouble.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mdof::daemon {
+namespace {
+
+using Kind = Trouble::Kind;
+
+Trouble at(const char* time, Kind kind, const char* text, const char* device = "t7") {
+  return {kind, device, text, std::string("2026-11-22T") + time + ".250Z"};
+}
+
+TEST(TroubleLog, ADeviceThatCameBackIsOneLineWithItsCause) {
+  TroubleLog log;
+  log.add(at("14:02:11", Kind::lost, "no packet for 2 s"));
+  log.add(at("14:02:14", Kind::back, "it gives samples again after 3.2 s"));
+  EXPECT_EQ(log.summary(),
+            std::vector<std::string>{"device \"t7\": lost at 14:02:11 UTC: no packet for 2 s; it "
+                                     "gives samples again after 3.2 s"});
+}
+
+TEST(TroubleLog, ManyAreSummarised) {
+  TroubleLog log;
+  for (int i = 0; i < 150; ++i) {
+    log.add(at("14:02:11", Kind::lost, "no route"));
+    log.add(at("14:02:12", Kind::back, "it gives samples again after 0.1 s"));
+  }
+  log.add(at("14:05:00", Kind::lost, "no route"));
+  log.add(at("14:05:01", Kind::suspect, "the encoder's datum is lost"));
+  log.add(at("14:05:02", Kind::slow, "it gives 1 of 10", "capa"));
+  const auto lines = log.summary();
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0],
+            "device \"t7\": lost 151 times, first at 14:02:11 UTC: no route; it was not back when "
+            "the run ended");
+  EXPECT_EQ(lines[1], "device \"t7\": suspect at 14:05:01 UTC: the encoder's datum is lost");
+  EXPECT_EQ(lines[2], "device \"capa\": slow at 14:05:02 UTC: it gives 1 of 10");
+}
+
+MeasuredPoint stop(std::vector<double> probe_m, std::vector<std::string> flags, bool valid) {
+  MeasuredPoint point;
+  point.point.position_m = 0.0125;
+  point.point.probe_m = std::move(probe_m);
+  point.point.flags = std::move(flags);
+  point.errors.valid = valid;
+  point.errors.reason = "five probes are needed";
+  return point;
+}
+
+TEST(Unsolved, NamesTheProbesAndTheirDeviceAndNotTheConsequence) {
+  const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
+  const ChannelsByDevice two = {{"capa", {"A", "B"}}, {"t7", {"encoder", "C", "D", "E"}}};
+  const double nan = std::nan("");
+  EXPECT_FALSE(unsolved(stop({0, 0, 0, 0, 0}, {}, true), rig, two, "now"));
+  const auto of_one =
+      unsolved(stop({nan, nan, 0, 0, 0}, {"lost:A", "lost:B"}, false), rig, two, "now");
+  ASSERT_TRUE(of_one);
+  EXPECT_EQ(trouble_line(*of_one),
+            "device \"capa\": unsolved: the stop at 12.500 mm is not solved: no usable readings of "
+            "probe A, B");
+  const auto of_both = unsolved(
+      stop({nan, 0, nan, 0, 0}, {"lost:A", "saturated:C", "lost:C"}, false), rig, two, "now");
+  EXPECT_EQ(trouble_line(*of_both),
+            "unsolved: the stop at 12.500 mm is not solved: no usable readings of probe A; probe C "
+            "at the end of its range");
+}
+
+TEST(TroubleLog, NoTroubleIsNoLine) {
+  EXPECT_TRUE(TroubleLog().summary().empty());
+}
+
+TEST(JournalLimit, TheFirstIsToldAtOnceAndAFloodIsCounted) {
+  JournalLimit journal;
+  JournalLimit::Time now{};
+  EXPECT_EQ(journal.admit("a", "a: lost", now), "a: lost");
+  EXPECT_EQ(journal.admit("b", "b: lost", now), "b: lost");
+  for (int i = 0; i < 99; ++i) EXPECT_FALSE(journal.admit("a", "a: lost", now));
+  now += std::chrono::seconds(11);
+  EXPECT_EQ(journal.admit("a", "a: lost", now), "a: lost (and 99 times more before)");
+  now += std::chrono::seconds(11);
+  EXPECT_EQ(journal.admit("a", "a: lost", now), "a: lost");
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -74,6 +74,10 @@ Result<Squareness> fit_squareness(store::Store& store, std::int64_t run_x, std::
   MDOF_TRY(const Run y, store.run(run_y));
   MDOF_TRY(const Rig rig_x, rig_of(x.header));
   MDOF_TRY(const Rig rig_y, rig_of(y.header));
+  if (rig_x.axis != Axis::x || rig_y.axis != Axis::y)
+    return bad_input("squareness needs a run of X, then one of Y, and has one of " +
+                     std::string(1, letter(rig_x.axis)) + " and one of " + letter(rig_y.axis) +
+                     ": squareness RUN_X RUN_Y");
   MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, given));
   MDOF_TRY(Squareness s, algo::squareness(x, y, artefact));
   s.created_utc = utc_now();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/plausibility.h"
 #include "algo/restate.h"
 #include "algo/straightness.h"
 #include "schema/json_writer.h"
@@ -131,6 +132,7 @@ Status Pipeline::explain_nothing() const {
                      "): the axis did not move or encoder_mm is not its position; check the "
                      "encoder's channel and unit");
   }
+  const std::string doubt = algo::encoder_unit_doubt(s.encoder_max_m - s.encoder_min_m);
   if (!found_.empty()) {
     return bad_input("none of the " + std::to_string(found_.size()) +
                      " stops is near a given target; check targets_mm");
@@ -141,7 +143,8 @@ Status Pipeline::explain_nothing() const {
                    plain_number(s.longest_still_s) + " s" + " within " +
                    plain_number(to_um(s.tolerance_m)) + " um" + ", needed are " +
                    plain_number(options_.dwell.settle_s + options_.dwell.min_length_s) + " s" +
-                   "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um");
+                   "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um" +
+                   (doubt.empty() ? "" : "; " + doubt));
 }
 
 Status Pipeline::reject_dead_probes() const {
@@ -163,6 +166,21 @@ Status Pipeline::reject_dead_probes() const {
   return {};
 }
 
+void Pipeline::judge(Run& run) const {
+  const auto& dwell = options_.dwell;
+  const algo::RunToJudge whole{rig_,
+                               sequence_,
+                               dwell_.summary(),
+                               lost_,
+                               !options_.sequence.targets_m.empty(),
+                               dwell.settle_s + dwell.min_length_s};
+  run.plausibility = algo::plausibility(whole);
+  auto& warnings = run.header.warnings = sequence_.warnings;
+  for (const auto& more : {algo::warnings_of_visits(whole, *run.plausibility),
+                           algo::warnings_of_units(rig_, *run.plausibility)})
+    warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 Result<Run> Pipeline::finish() {
   aligner_.flush(frames_);
   dwell_.push(frames_, found_);
@@ -178,7 +196,7 @@ Result<Run> Pipeline::finish() {
   run.header.state = RunState::complete;
   run.header.scans = dwell_.summary().scans;
   run.header.scans_lost = lost_;
-  run.header.warnings = sequence_.warnings;
+  judge(run);
   run.points = sequence_.points;
   run.straightness = algo::straightness(rig_.moving(), run.points);
   run.angles = algo::angles(rig_.moving(), run.points);

@@ -67,6 +67,7 @@ class Pipeline {
   bool moved() const;
   Status explain_nothing() const;
   Status reject_dead_probes() const;
+  void judge(Run& run) const;
 
   Rig rig_;
   PipelineOptions options_;

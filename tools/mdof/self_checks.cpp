@@ -158,14 +158,6 @@ Result<Run> measure_synthetic_log(const Rig& rig) {
   return run;
 }
 
-// The carriage's constant errors as they are at the fixture, to first order.
-Errors5 constant_at_fixture(double travel_m) {
-  Errors5 e = kConstant;
-  e[kDy] -= travel_m * e[kEz];
-  e[kDz] += travel_m * e[kEy];
-  return e;
-}
-
 void check_detection(const Result<Run>& run, std::vector<SelfCheck>& checks) {
   const std::string problem = run ? "" : run.error().message;
   Worst worst;
@@ -173,7 +165,7 @@ void check_detection(const Result<Run>& run, std::vector<SelfCheck>& checks) {
   if (run) {
     missed = std::abs(missed - static_cast<double>(run->points.size()));
     for (const auto& p : run->points) {
-      worst.add(p.errors.local, constant_at_fixture(p.point.position_m));
+      worst.add(p.errors.local, kConstant);
       missed += !p.errors.valid;
     }
   }

@@ -9,9 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// Of a hundred normal readings the median absolute deviation is up to a third too small: a limit of
-// six threw a good reading out once in some hundred dwells.
-constexpr double kReject = 8.0;
+constexpr double kReject = 6.0;
 constexpr double kMadToSd = 1.4826;
 // Median and deviation of a long dwell are taken from at most this many readings, evenly spread.
 constexpr std::size_t kSubsample = 512;

@@ -4,6 +4,7 @@
 #include "daemon/paths.h"
 #include "daemon/resume.h"
 #include "schema/json_writer.h"
+#include "schema/plausibility_json.h"
 #include "schema/run_json.h"
 #include "schema/targets.h"
 #include "schema/units.h"
@@ -16,6 +17,7 @@ using rpc::ParamType;
 using rpc::Reply;
 
 constexpr std::int64_t kMaxPointsPage = 60;  // of about 700 bytes: under the limit of a reply line
+constexpr std::size_t kMaxVisits = 1500;     // numbers of n_ij in one reply
 constexpr std::int64_t kMaxRunsPage = 40;
 
 std::string run_reply(std::int64_t id, Axis axis, const RunRequest& request) {
@@ -192,6 +194,9 @@ Result<std::string> get_run(Methods& m, const Params& params) {
   write_straightness(json, run.straightness);
   json.key("angles");
   write_angles(json, run.angles);
+  json.key("plausibility");
+  run.plausibility ? write_plausibility(json, *run.plausibility, kMaxVisits)
+                   : static_cast<void>(json.null());
   json.end_object();
   return json.take();
 }
@@ -287,9 +292,12 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .example = R"({"offset": 0, "count": 10})",
              .handler = [&m](const Params& p) { return list_runs(m, p); }});
   table.add({.name = "run.get",
-             .summary = "A run without its points: header, provenance, straightness, angles.",
+             .summary = "A run without its points: header, provenance, straightness, angles, "
+                        "plausibility.",
              .params = {run, reference},
-             .result = "the run; straightness in um, slopes and angles in urad",
+             .result =
+                 "the run; straightness in um, slopes and angles in urad; n_ij is null where it "
+                 "is too long for a reply",
              .example = R"({"run": 1})",
              .handler = [&m](const Params& p) { return get_run(m, p); }});
   table.add({.name = "run.points",

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "algo/plausibility.h"
 #include "algo/restate.h"
 #include "algo/straightness.h"
 #include "daemon/completeness.h"
@@ -186,6 +187,7 @@ Status Pipeline::explain_nothing() const {
                      "encoder's channel and unit");
   }
   if (unplaced_ > 0 && unplaced_ == found_.size()) return bad_input(explain_unplaced());
+  const std::string doubt = algo::encoder_unit_doubt(s.encoder_max_m - s.encoder_min_m);
   if (!found_.empty()) {
     return bad_input("none of the " + std::to_string(found_.size()) +
                      " stops is near a given target; check targets_mm");
@@ -196,7 +198,8 @@ Status Pipeline::explain_nothing() const {
                    plain_number(s.longest_still_s) + " s" + " within " +
                    plain_number(to_um(s.tolerance_m)) + " um" + ", needed are " +
                    plain_number(options_.dwell.settle_s + options_.dwell.min_length_s) + " s" +
-                   "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um");
+                   "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um" +
+                   (doubt.empty() ? "" : "; " + doubt));
 }
 
 Status Pipeline::reject_dead_probes() const {
@@ -225,6 +228,22 @@ void Pipeline::judge(Run& run) const {
   std::move(missing.begin(), missing.end(), std::back_inserter(run.header.warnings));
 }
 
+// What the run looks like as a whole, and what of it is to be doubted.
+void Pipeline::add_plausibility(Run& run) const {
+  const auto& dwell = options_.dwell;
+  const algo::RunToJudge whole{rig_,
+                               sequence_,
+                               dwell_.summary(),
+                               lost_,
+                               !options_.sequence.targets_m.empty(),
+                               dwell.settle_s + dwell.min_length_s};
+  run.plausibility = algo::plausibility(whole);
+  auto& warnings = run.header.warnings;
+  for (const auto& more : {algo::warnings_of_visits(whole, *run.plausibility),
+                           algo::warnings_of_units(rig_, *run.plausibility)})
+    warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 Result<Run> Pipeline::finish() {
   aligner_.flush(frames_);
   dwell_.push(frames_, found_);
@@ -241,6 +260,7 @@ Result<Run> Pipeline::finish() {
   run.header.scans_lost = lost_;
   run.header.warnings = sequence_.warnings;
   if (unplaced_ > 0) run.header.warnings.push_back(explain_unplaced());
+  add_plausibility(run);
   run.points = sequence_.points;
   judge(run);
   run.straightness = algo::straightness(rig_.moving(), run.points);

@@ -74,6 +74,7 @@ class Pipeline {
   Status explain_nothing() const;
   Status reject_dead_probes() const;
   void judge(Run& run) const;
+  void add_plausibility(Run& run) const;
 
   Rig rig_;
   PipelineOptions options_;

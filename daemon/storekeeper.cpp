@@ -21,6 +21,7 @@ store::RunEnd end_of(const Run& run) {
   end.recording_sha256 = run.header.provenance.recording_sha256;
   end.straightness = run.straightness;
   end.angles = run.angles;
+  end.plausibility = run.plausibility;
   return end;
 }
 
@@ -157,6 +158,7 @@ Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, bool differ
   provisional.state = RunState::failed;  // of use to nobody: the next run has it all
   provisional.straightness.clear();
   provisional.angles.clear();
+  provisional.plausibility.reset();
   provisional.warnings.emplace_back(
       "once all was known the points turned out otherwise; the run that supersedes this one has "
       "them");

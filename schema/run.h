@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "schema/axis.h"
+#include "schema/plausibility.h"
 #include "schema/point.h"
 #include "schema/reference.h"
 
@@ -71,6 +72,7 @@ struct Run {
   std::vector<MeasuredPoint> points;
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
+  std::optional<Plausibility> plausibility;  // none: the run has no points, or is older than this
 };
 
 }  // namespace mdof

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "schema/correction.h"
+#include "schema/plausibility_json.h"
 #include "schema/sha256.h"
 #include "schema/units.h"
 
@@ -190,6 +191,8 @@ std::string run_json(const Run& run) {
   write_straightness(json, run.straightness);
   json.key("angles");
   write_angles(json, run.angles);
+  json.key("plausibility");
+  run.plausibility ? write_plausibility(json, *run.plausibility) : static_cast<void>(json.null());
   json.end_object();
   return json.take();
 }

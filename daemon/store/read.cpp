@@ -225,6 +225,7 @@ Result<Run> Store::run(std::int64_t run) {
   MDOF_TRY(whole.points, points(run, 0, -1));  // a negative limit is none
   MDOF_TRY(whole.straightness, straightness(run));
   MDOF_TRY(whole.angles, angles(run));
+  MDOF_TRY(whole.plausibility, plausibility(run));
   return whole;
 }
 

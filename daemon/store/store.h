@@ -40,6 +40,7 @@ struct RunEnd {
   std::string recording_sha256;  // of a recording that was still being written at the start
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
+  std::optional<Plausibility> plausibility = std::nullopt;
 };
 
 // A table in force.
@@ -132,6 +133,7 @@ class Store {
                        const std::vector<MeasuredPoint>& points);
   Status insert_figures(std::int64_t run, const RunEnd& end);
   Result<std::optional<std::int64_t>> final_recording(std::int64_t run, const RunEnd& end);
+  Status insert_plausibility(std::int64_t run, const RunEnd& end);
   Status insert_end(std::int64_t run, const RunEnd& end, const std::string& sha256);
   Status check_open(std::int64_t run) const;
   // read.cpp
@@ -143,6 +145,8 @@ class Store {
   Result<std::vector<AngleFigure>> angles(std::int64_t run);
   Result<std::vector<std::string>> texts(std::string_view json_array);
   Status check_exists(std::string_view sql, const char* what, std::int64_t id);
+  // plausibility_read.cpp
+  Result<std::optional<Plausibility>> plausibility(std::int64_t run);
   // tables.cpp
   Result<CompensationTable> table_of(sqlite::Statement& row);
   Result<std::vector<std::int64_t>> sources(std::int64_t table);

@@ -6,6 +6,7 @@
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
 #include "schema/json_writer.h"
+#include "schema/plausibility_json.h"
 #include "schema/sha256.h"
 
 namespace mdof::store {
@@ -50,7 +51,7 @@ void bind_errors(Statement& insert, const AxisErrors& errors) {
 RunEnd end_of(const Run& run) {
   const RunHeader& header = run.header;
   return {header.state, header.scans,     header.scans_lost, header.warnings,
-          {},           run.straightness, run.angles};
+          {},           run.straightness, run.angles,        run.plausibility};
 }
 
 }  // namespace
@@ -66,6 +67,7 @@ Result<std::int64_t> Store::add_run(const Run& run) {
   MDOF_CHECK(insert_points(id, 0, run.points));
   const RunEnd end = end_of(run);
   MDOF_CHECK(insert_figures(id, end));
+  MDOF_CHECK(insert_plausibility(id, end));
   MDOF_CHECK(insert_end(id, end, sha256.get()));
   MDOF_CHECK(transaction.commit());
   return id;
@@ -94,6 +96,7 @@ Status Store::end_run(std::int64_t run, const RunEnd& end) {
   MDOF_CHECK(check_open(run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_CHECK(insert_figures(run, end));
+  MDOF_CHECK(insert_plausibility(run, end));
   MDOF_TRY(const std::string sha256, result_sha256(run));
   MDOF_CHECK(insert_end(run, end, sha256));
   MDOF_CHECK(transaction.commit());
@@ -220,6 +223,14 @@ Status Store::insert_figures(std::int64_t run, const RunEnd& end) {
     MDOF_CHECK(angle.run());
   }
   return {};
+}
+
+Status Store::insert_plausibility(std::int64_t run, const RunEnd& end) {
+  if (!end.plausibility) return {};
+  MDOF_TRY(Statement insert,
+           connection_.prepare("INSERT INTO run_plausibility (run, json) VALUES (?, ?)"));
+  const std::string json = plausibility_json(*end.plausibility);
+  return insert.bind(run).bind(std::string_view(json)).run();
 }
 
 // The recording row of a live run got no hash at the start; the end refers to one that has it.

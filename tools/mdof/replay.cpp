@@ -15,6 +15,7 @@
 #include "tools/mdof/database.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/plausibility_text.h"
 #include "tools/mdof/progress.h"
 #include "tools/mdof/run_tables.h"
 
@@ -89,7 +90,8 @@ Status replay(const ReplayCommand& command) {
   if (command.json) return write_line(run_json(run));
   run.header.warnings.clear();  // said already
   return write_out(head_text(run.header) + "\n" + points_text(run) + "\n" +
-                   straightness_text(run.straightness) + "\n" + angles_text(run.angles));
+                   straightness_text(run.straightness) + "\n" + angles_text(run.angles) +
+                   (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : ""));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "tools/mdof/database.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/plausibility_text.h"
 #include "tools/mdof/run_tables.h"
 
 namespace mdof::tools {
@@ -36,7 +37,8 @@ Status show(const ShowCommand& command) {
   MDOF_TRY(const std::string sha256, store.result_sha256(command.run));
   if (command.json) return write_line(with_result_hash(run_json(run), sha256));
   return write_out(head_text(run.header) + "result     sha256 " + sha256 + "\n\n" +
-                   points_text(run));
+                   points_text(run) +
+                   (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : ""));
 }
 
 std::string analysis_json(const Run& run) {

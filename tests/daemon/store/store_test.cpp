@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "daemon/store/result_hash.h"
+#include "schema/plausibility_json.h"
 #include "schema/sample.h"
 #include "tests/daemon/store/fixtures.h"
 
@@ -87,6 +88,33 @@ TEST_F(StoreTest, KeepsFigures) {
   ASSERT_EQ(back.angles.size(), 1u);
   EXPECT_EQ(back.angles[0].error_key, "EAX_urad");
   EXPECT_EQ(back.angles[0].max_rad, 3e-6);
+}
+
+TEST_F(StoreTest, KeepsThePlausibilityOfARun) {
+  mdof::Run run = make_run();
+  Plausibility p;
+  p.cycle = "standard";
+  p.runs = 2;
+  p.n_ij = {{0.0123456789012, {1, 0}, {1, 1}}, {30.1e-3, {1, 2}, {0, 1}}};
+  p.left_out = {{-5e-3, 123'456'789'012, "the axis was \"parked\" there"}};
+  p.short_stops = 3;
+  p.rate_hz = 1000 / 3.0;
+  p.encoder_min_m = -1e-3, p.encoder_max_m = 61e-3;
+  p.scans = 123456, p.scans_lost = 7, p.gaps = 2;
+  p.probes = {{"A", 78, 10.4e-9, 12e-6, -3e-6, 9e-6}, {"B", 0, kNaN, kNaN, kNaN, kNaN}};
+  run.plausibility = p;
+  auto store = writer();
+  const auto id = store->add_run(run).value();
+  const auto back = store->run(id).value().plausibility;
+  ASSERT_TRUE(back);
+  EXPECT_EQ(plausibility_json(*back), plausibility_json(p));
+  EXPECT_EQ(back->n_ij[1].forward, (std::vector<int>{1, 2}));
+  EXPECT_EQ(back->left_out[0].reason, p.left_out[0].reason);
+  EXPECT_TRUE(std::isnan(back->probes[1].sd_m));
+  EXPECT_EQ(result_sha256(run), result_sha256(make_run()));  // no part of the result
+  EXPECT_FALSE(store->run(store->add_run(make_run()).value()).value().plausibility);
+  tamper("DROP TRIGGER run_plausibility_no_update; UPDATE run_plausibility SET json = '{'");
+  EXPECT_TRUE(contains(store->run(id).error().message, "plausibility of run 1"));
 }
 
 TEST_F(StoreTest, AnUnknownScalarStaysUnknown) {

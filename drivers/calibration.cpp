@@ -20,7 +20,7 @@ double correction_um(const Calibration& c, double reading_um) {
     return sum;
   }
   const auto& table = c.linearity;
-  if (table.empty()) return 0.0;
+  if (table.empty() || std::isnan(reading_um)) return 0.0;  // NaN has no place in the table
   if (reading_um <= table.front()[0]) return table.front()[1];
   if (reading_um >= table.back()[0]) return table.back()[1];
   const auto above =

@@ -128,6 +128,10 @@ Status check_encoding(std::string_view text, const std::string& source) {
 
 }  // namespace
 
+bool CsvHeader::may_be_missing(std::size_t channel) const {
+  return kind == CsvKind::stream || channels[channel].id != kEncoderChannel;
+}
+
 Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const std::string& source) {
   MDOF_CHECK(check_encoding(text, source));
   CsvHeader header;

@@ -23,6 +23,18 @@ bool has_channel(const std::vector<Channel>& channels, const std::string& id) {
                      [&](const Channel& c) { return c.id == id; });
 }
 
+Status check_unit(const std::string& source, const std::vector<Channel>& channels,
+                  const std::string& probe) {
+  for (const Channel& c : channels) {
+    if (c.id != probe || (c.unit != Unit::other && c.unit != Unit::deg_c)) continue;
+    return bad_input(source + ": column \"" + column_name(c) + "\" is of the probe \"" + probe +
+                     "\", but " + (c.unit == Unit::other ? "has no unit" : "is in °C") +
+                     "; name it " + probe + "_um, " + probe + "_mm or " + probe +
+                     "_V, whichever it is in");
+  }
+  return {};
+}
+
 // "X" of "axis: X"; empty where no comment says it.
 std::string stated_axis(const std::vector<std::string>& comments) {
   constexpr std::string_view kKey = "axis:";
@@ -122,6 +134,7 @@ Status check_channels(const std::string& source, const std::vector<Channel>& cha
   std::string columns;
   for (const Channel& c : channels) columns += (columns.empty() ? "" : ", ") + column_name(c);
   for (const Probe& probe : rig.probes) {
+    MDOF_CHECK(check_unit(source, channels, probe.id));
     if (has_channel(channels, probe.id)) continue;
     return bad_input(source + ": has no column of the probe \"" + probe.id + "\" of " + rig.source +
                      " (" + probe.id + "_um or " + probe.id + "_V); its columns are " + columns +

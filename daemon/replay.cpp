@@ -5,6 +5,7 @@
 
 #include "daemon/paths.h"
 #include "daemon/version.h"
+#include "schema/rig_check.h"
 
 namespace mdof::daemon {
 namespace {
@@ -160,6 +161,8 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   const std::string day = log.started_utc().empty() ? utc_now() : log.started_utc();
   const auto overdue = overdue_calibrations(rig, day);
   run->header.warnings.insert(run->header.warnings.end(), overdue.begin(), overdue.end());
+  const auto doubtful = doubtful_values(rig);
+  run->header.warnings.insert(run->header.warnings.end(), doubtful.begin(), doubtful.end());
   return run;
 }
 

@@ -59,10 +59,11 @@ class Pipeline {
  private:
   Pipeline(Rig rig, PipelineOptions options, algo::Solver solver);
   void note_break(const SampleBlock& raw);
+  void note_temperature(const SampleBlock& raw);
   void take_points();
   bool moved() const;
   Status explain_nothing() const;
-  Status reject_dead_probes() const;
+  Status judge_dead_probes(std::vector<std::string>& warnings) const;
 
   Rig rig_;
   PipelineOptions options_;
@@ -76,6 +77,8 @@ class Pipeline {
   algo::Sequence sequence_;
   std::uint64_t lost_ = 0;
   std::optional<std::int64_t> encoder_ns_;  // of its last scan
+  std::optional<Temperature> temperature_;  // mean_C: the sum of
+  std::uint64_t temperatures_ = 0;          // so many readings
 };
 
 }  // namespace mdof::daemon

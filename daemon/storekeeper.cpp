@@ -21,6 +21,7 @@ store::RunEnd end_of(const Run& run) {
   end.recording_sha256 = run.header.provenance.recording_sha256;
   end.straightness = run.straightness;
   end.angles = run.angles;
+  end.temperature = run.header.temperature;
   return end;
 }
 

@@ -40,6 +40,7 @@ struct RunEnd {
   std::string recording_sha256;  // of a recording that was still being written at the start
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
+  std::optional<Temperature> temperature;
 };
 
 // A table in force.
@@ -132,6 +133,8 @@ class Store {
                        const std::vector<MeasuredPoint>& points);
   Status insert_figures(std::int64_t run, const RunEnd& end);
   Result<std::optional<std::int64_t>> final_recording(std::int64_t run, const RunEnd& end);
+  Status insert_temperature(std::int64_t run, const std::optional<Temperature>& read);
+  Result<std::optional<Temperature>> temperature(std::int64_t run);
   Status insert_end(std::int64_t run, const RunEnd& end, const std::string& sha256);
   Status check_open(std::int64_t run) const;
   // read.cpp

@@ -20,11 +20,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string group_of(const std::string& path) {
+std::string join(const std::string& group) {
+  return "become a member of the group " + group + " (\"sudo usermod -aG " + group +
+         " $USER\") and log in again";
+}
+
+// Nobody is to become root for this: where the socket is root's it is the wrong one.
+std::string remedy_for_permission(const std::string& path) {
   struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) return "of the daemon";
+  if (::stat(path.c_str(), &info) != 0) return join("mdof");  // the service's folder is closed, too
   const struct group* entry = ::getgrgid(info.st_gid);
-  return entry != nullptr ? std::string(entry->gr_name) : std::to_string(info.st_gid);
+  if (info.st_gid != 0 && entry != nullptr) return join(entry->gr_name);
+  return "start mdofd as the service (\"systemctl start mdofd\"), whose socket is the group "
+         "mdof's, and " +
+         join("mdof");
 }
 
 tl::unexpected<Error> cannot_connect(const std::string& path, int number) {
@@ -34,8 +43,7 @@ tl::unexpected<Error> cannot_connect(const std::string& path, int number) {
   if (number == ECONNREFUSED)
     return io_error(path + ": no daemon is running (the socket is a left-over)" + kStart);
   if (number == EACCES)
-    return io_error(path + ": permission denied; become a member of the group " + group_of(path) +
-                    " (\"sudo usermod -aG " + group_of(path) + " $USER\") and log in again");
+    return io_error(path + ": permission denied; " + remedy_for_permission(path));
   return io_error(path + ": " + system_error_text(number));
 }
 

@@ -77,6 +77,7 @@ Pipeline::Pipeline(Rig rig, PipelineOptions options, algo::Solver solver)
 Status Pipeline::push(SampleBlock& raw) {
   lost_ += raw.lost;
   note_encoder(raw);
+  note_temperature(raw);
   MDOF_CHECK(calibrator_.apply(raw));
   MDOF_CHECK(aligner_.push(raw, frames_));
   if (frames_.size() == 0) return {};
@@ -142,6 +143,20 @@ void Pipeline::note_break(const SampleBlock& raw) {
   encoder_ns_ = raw.time_ns.back();
 }
 
+void Pipeline::note_temperature(const SampleBlock& raw) {
+  const Channel wanted{"temperature", Unit::deg_c};
+  const auto found = std::find(raw.channels.begin(), raw.channels.end(), wanted);
+  if (found == raw.channels.end()) return;
+  const auto channel = static_cast<std::size_t>(found - raw.channels.begin());
+  for (const double read_C : raw.value[channel]) {
+    if (!std::isfinite(read_C)) continue;
+    if (temperatures_++ == 0) temperature_ = Temperature{0, read_C, read_C};
+    temperature_->mean_C += read_C;
+    temperature_->min_C = std::min(temperature_->min_C, read_C);
+    temperature_->max_C = std::max(temperature_->max_C, read_C);
+  }
+}
+
 const std::vector<MeasuredPoint>& Pipeline::points() {
   if (taken_ != found_.size()) take_points();
   return sequence_.points;
@@ -202,7 +217,10 @@ Status Pipeline::explain_nothing() const {
                    (doubt.empty() ? "" : "; " + doubt));
 }
 
-Status Pipeline::reject_dead_probes() const {
+// A probe without a value is an error where the others are too few to do without it.
+Status Pipeline::judge_dead_probes(std::vector<std::string>& warnings) const {
+  const bool needed = std::none_of(sequence_.points.begin(), sequence_.points.end(),
+                                   [](const MeasuredPoint& p) { return p.errors.valid; });
   for (std::size_t k = 0; k < rig_.probes.size(); ++k) {
     const bool dead = std::all_of(found_.begin(), found_.end(),
                                   [&](const Point& p) { return std::isnan(p.probe_m[k]); });
@@ -210,13 +228,16 @@ Status Pipeline::reject_dead_probes() const {
     const auto& flags = found_.front().flags;
     const std::string& id = rig_.probes[k].id;
     const bool saturated = std::find(flags.begin(), flags.end(), "saturated:" + id) != flags.end();
-    return bad_input(saturated ? "probe \"" + id + "\" is at the end of its range (" +
-                                     plain_number(to_um(rig_.probes[k].range_m), 6) + " um" +
-                                     ") in every dwell: shim it into range, or correct range_um, "
-                                     "offset_um or reads in the rig"
-                               : "probe \"" + id +
-                                     "\" gave no usable value in any dwell; check its cable "
-                                     "and channel");
+    const std::string why = saturated
+                                ? "probe \"" + id + "\" is at the end of its range (" +
+                                      plain_number(to_um(rig_.probes[k].range_m), 6) + " um" +
+                                      ") in every dwell: shim it into range, or correct range_um, "
+                                      "offset_um or reads in the rig"
+                                : "probe \"" + id +
+                                      "\" gave no usable value in any dwell; check its cable "
+                                      "and channel";
+    if (needed) return bad_input(why);
+    warnings.push_back(why);
   }
   return {};
 }
@@ -251,14 +272,17 @@ Result<Run> Pipeline::finish() {
   dwell_.flush(found_);
   take_points();
   if (sequence_.points.empty() || !moved()) MDOF_CHECK(explain_nothing());
-  MDOF_CHECK(reject_dead_probes());
   Run run;
+  MDOF_CHECK(judge_dead_probes(run.header.warnings));
   run.header.axis = rig_.axis;
   run.header.sides = rig_.sides;
   run.header.stated = kAtFixture;
   run.header.scans = dwell_.summary().scans;
   run.header.scans_lost = lost_;
-  run.header.warnings = sequence_.warnings;
+  run.header.temperature = temperature_;
+  if (temperature_) run.header.temperature->mean_C /= static_cast<double>(temperatures_);
+  run.header.warnings.insert(run.header.warnings.end(), sequence_.warnings.begin(),
+                             sequence_.warnings.end());
   if (unplaced_ > 0) run.header.warnings.push_back(explain_unplaced());
   add_plausibility(run);
   run.points = sequence_.points;

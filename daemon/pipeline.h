@@ -66,13 +66,14 @@ class Pipeline {
   void note_encoder(const SampleBlock& raw);
   void note_break(const SampleBlock& raw);
   void note_suspect(const SampleBlock& raw, const std::vector<Quality>& quality);
+  void note_temperature(const SampleBlock& raw);
   void end_stretch();
   bool unplaced(const Point& stop) const;
   std::string explain_unplaced() const;
   void take_points();
   bool moved() const;
   Status explain_nothing() const;
-  Status reject_dead_probes() const;
+  Status judge_dead_probes(std::vector<std::string>& warnings) const;
   void judge(Run& run) const;
   void add_plausibility(Run& run) const;
 
@@ -96,7 +97,9 @@ class Pipeline {
   std::vector<Stretch> suspect_;
   bool suspect_now_ = false;
   std::string encoder_device_;
-  std::size_t unplaced_ = 0;  // of found_
+  std::size_t unplaced_ = 0;                // of found_
+  std::optional<Temperature> temperature_;  // mean_C: the sum of
+  std::uint64_t temperatures_ = 0;          // so many readings
 };
 
 }  // namespace mdof::daemon

@@ -6,6 +6,7 @@
 #include "daemon/config.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
+#include "schema/rig_check.h"
 
 namespace mdof::daemon {
 namespace {
@@ -22,6 +23,18 @@ std::string column_name(const Channel& channel) {
 bool has_channel(const std::vector<Channel>& channels, const std::string& id) {
   return std::any_of(channels.begin(), channels.end(),
                      [&](const Channel& c) { return c.id == id; });
+}
+
+Status check_unit(const std::string& source, const std::vector<Channel>& channels,
+                  const std::string& probe) {
+  for (const Channel& c : channels) {
+    if (c.id != probe || (c.unit != Unit::other && c.unit != Unit::deg_c)) continue;
+    return bad_input(source + ": column \"" + column_name(c) + "\" is of the probe \"" + probe +
+                     "\", but " + (c.unit == Unit::other ? "has no unit" : "is in °C") +
+                     "; name it " + probe + "_um, " + probe + "_mm or " + probe +
+                     "_V, whichever it is in");
+  }
+  return {};
 }
 
 // "X" of "axis: X"; empty where no comment says it.
@@ -132,6 +145,7 @@ Status check_channels(const std::string& source, const std::vector<Channel>& cha
   std::string columns;
   for (const Channel& c : channels) columns += (columns.empty() ? "" : ", ") + column_name(c);
   for (const Probe& probe : rig.probes) {
+    MDOF_CHECK(check_unit(source, channels, probe.id));
     if (has_channel(channels, probe.id)) continue;
     return bad_input(source + ": has no column of the probe \"" + probe.id + "\" of " + rig.source +
                      " (" + probe.id + "_um or " + probe.id + "_V); its columns are " + columns +
@@ -159,6 +173,8 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   const std::string day = log.started_utc().empty() ? utc_now() : log.started_utc();
   const auto overdue = overdue_calibrations(rig, day);
   run->header.warnings.insert(run->header.warnings.end(), overdue.begin(), overdue.end());
+  const auto doubtful = doubtful_values(rig);
+  run->header.warnings.insert(run->header.warnings.end(), doubtful.begin(), doubtful.end());
   return run;
 }
 

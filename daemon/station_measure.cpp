@@ -11,6 +11,7 @@
 #include "daemon/station.h"
 #include "daemon/store/result_hash.h"
 #include "schema/json_writer.h"
+#include "schema/rig_check.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 
@@ -305,6 +306,8 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
   for (auto& line : open->troubles.summary()) run.header.warnings.push_back(std::move(line));
   const auto overdue = overdue_calibrations(config_.rig, utc_now());
   run.header.warnings.insert(run.header.warnings.end(), overdue.begin(), overdue.end());
+  const auto doubtful = doubtful_values(config_.rig);
+  run.header.warnings.insert(run.header.warnings.end(), doubtful.begin(), doubtful.end());
   if (!why.empty()) run.header.warnings.push_back(why);
   if (open->blocks_not_recorded > 0) {
     run.header.warnings.push_back(std::to_string(open->blocks_not_recorded) +

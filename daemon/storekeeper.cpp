@@ -22,6 +22,7 @@ store::RunEnd end_of(const Run& run) {
   end.straightness = run.straightness;
   end.angles = run.angles;
   end.plausibility = run.plausibility;
+  end.temperature = run.header.temperature;
   return end;
 }
 

@@ -20,7 +20,7 @@ double correction_um(const Calibration& c, double reading_um) {
     return sum;
   }
   const auto& table = c.linearity;
-  if (table.empty()) return 0.0;
+  if (table.empty() || std::isnan(reading_um)) return 0.0;  // NaN has no place in the table
   if (reading_um <= table.front()[0]) return table.front()[1];
   if (reading_um >= table.back()[0]) return table.back()[1];
   const auto above =
@@ -101,6 +101,18 @@ bool displace(const Calibration& c, double um_per_unit, Window window, std::span
 
 }  // namespace
 
+namespace {
+
+Status reject_encoder(const SampleBlock& block, const Channel& encoder) {
+  const std::string unit = suffix(encoder.unit);
+  return bad_input((block.device.empty() ? "" : "device \"" + block.device + "\": ") +
+                   "channel \"encoder\" is " + (unit.empty() ? "without a unit" : "in " + unit) +
+                   ", and the axis position must be a length: give it um_per_count, or name its "
+                   "column encoder_mm or encoder_um");
+}
+
+}  // namespace
+
 Calibrator::Calibrator(const Rig& rig) : rig_source_(rig.source) {
   for (const auto& probe : rig.probes) probes_.emplace(probe.id, probe);
 }
@@ -143,6 +155,7 @@ Status Calibrator::apply(SampleBlock& block) const {
     const Channel& what = block.channels[channel];
     if (what.unit == Unit::metre) continue;
     if (what.id == kEncoderChannel) {
+      if (what.unit != Unit::um && what.unit != Unit::mm) return reject_encoder(block, what);
       const double per_metre = what.unit == Unit::um ? 1e6 : 1e3;
       for (double& value : block.value[channel]) value /= per_metre;
     } else if (const auto probe = probes_.find(what.id); probe != probes_.end()) {

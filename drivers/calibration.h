@@ -21,8 +21,8 @@ class Calibrator {
 
   // Turns the probes and the encoder of `block` into Unit::metre, in place. A reading at the end of
   // its probe's range (within 0.05 % of it) becomes Quality::over_range, a NaN Quality::missing.
-  // Channels the rig does not know are left as they are. Error: volts without um_per_V, a probe in
-  // a unit that is no length.
+  // Channels the rig does not know are left as they are. Error: volts without um_per_V, a probe or
+  // the encoder in a unit that is no length.
   Status apply(SampleBlock& block) const;
 
  private:

@@ -99,7 +99,7 @@ Status get_channels(ByteReader& in, SampleBlock& block) {
   for (Channel& channel : block.channels) {
     channel.id = in.string();
     const std::uint8_t unit = in.number<std::uint8_t>();
-    if (unit > static_cast<std::uint8_t>(Unit::other)) return damaged("unknown unit");
+    if (unit > static_cast<std::uint8_t>(Unit::metre)) return damaged("unknown unit");
     channel.unit = static_cast<Unit>(unit);
   }
   return {};

@@ -90,6 +90,12 @@ bool parse_seconds(std::string_view field, std::int64_t& time_ns) {
   return true;
 }
 
+bool is_missing_value(std::string_view field) {
+  if (field.starts_with('-')) field.remove_prefix(1);  // the "-nan" of printf
+  const auto is = [&](std::size_t i, char c) { return (field[i] | 0x20) == c; };
+  return field.empty() || (field.size() == 3 && is(0, 'n') && is(1, 'a') && is(2, 'n'));
+}
+
 CsvLine parse_csv_line(std::string_view line, const CsvHeader& header) {
   CsvLine result;
   line = trimmed(line);
@@ -103,7 +109,7 @@ CsvLine parse_csv_line(std::string_view line, const CsvHeader& header) {
   for (std::size_t column = 0; column < fields.size(); ++column) {
     const std::string_view field = without_plus(fields[column]);
     const bool is_time = static_cast<int>(column) == header.time_column;
-    if (header.kind == CsvKind::stream && !is_time && (field.empty() || field == "nan")) {
+    if (!is_time && is_missing_value(field) && header.may_be_missing(result.values.size())) {
       result.values.push_back(kNaN);
       continue;
     }

@@ -21,8 +21,11 @@ struct CsvLine {
   State state = State::good;
   std::string reason;          // begins with the column where it has one; ends with the remedy
   std::int64_t time_ns = 0;    // where the header has a time column
-  std::vector<double> values;  // [channel]
+  std::vector<double> values;  // [channel]; NaN: missing
 };
+
+// Whether a field without spaces says that there is no value: empty, or nan as programs write it.
+bool is_missing_value(std::string_view field);
 
 // `line` without its line end. Spaces around a field and one '+' before a number are tolerated.
 CsvLine parse_csv_line(std::string_view line, const CsvHeader& header);

@@ -1,7 +1,10 @@
 #include "schema/csv_row_parser.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -9,7 +12,7 @@
 
 #include "schema/csv_line.h"
 #include "schema/csv_stops.h"
-#include "schema/number_columns.h"
+#include "schema/units.h"
 
 namespace mdof {
 namespace {
@@ -25,6 +28,17 @@ std::string stops_of_rows(std::size_t columns, const std::string& line_end) {
   return rows;
 }
 
+std::string seconds(std::int64_t time_ns) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.3f s", ns_to_s(time_ns));
+  return text.data();
+}
+
+std::string_view field(const ColumnText& column, std::size_t row) {
+  const std::uint32_t* const stop = column.stop + row * column.stride;
+  return {column.text + (stop[0] + 1u), column.text + stop[1]};
+}
+
 }  // namespace
 
 CsvRowParser::CsvRowParser(CsvHeader header, CsvLimits limits)
@@ -33,6 +47,7 @@ CsvRowParser::CsvRowParser(CsvHeader header, CsvLimits limits)
       line_(header_.lines + 1),
       last_time_ns_(std::numeric_limits<std::int64_t>::min()) {
   assert(limits_.scans_per_block > 0);
+  missing_.resize(header_.channels.size());
   plain_rows_ = stops_of_rows(header_.columns.size(), "\n");
   plain_crlf_rows_ = stops_of_rows(header_.columns.size(), "\r\n");
   prepare_block();
@@ -79,11 +94,28 @@ Result<bool> CsvRowParser::last(SampleBlock& block) {
 void CsvRowParser::hand_over(SampleBlock& block) {
   block_.time_ns.resize(row_);
   for (std::vector<double>& column : block_.value) column.resize(row_);
+  for (std::size_t channel = 0; channel < missing_.size(); ++channel)
+    if (std::exchange(missing_[channel].in_block, false)) mark_missing(channel);
   std::swap(block, block_);
   rows_before_ += row_;
   row_ = 0;
   block_ends_ = false;
   prepare_block();
+}
+
+void CsvRowParser::mark_missing(std::size_t channel) {
+  const std::vector<double>& value = block_.value[channel];
+  Missing& missing = missing_[channel];
+  for (std::size_t row = 0; row < row_; ++row) {
+    if (!std::isnan(value[row])) continue;
+    if (missing.values++ == 0) {
+      missing.first_row = rows_before_ + row + 1;
+      missing.first_ns = block_.time_ns[row];
+    }
+    block_.quality.resize(block_.channels.size());
+    block_.quality[channel].resize(row_, Quality::good);
+    block_.quality[channel][row] = Quality::missing;
+  }
 }
 
 // As many rows as follow one another without anything odd. Column by column in batches: text and
@@ -123,9 +155,28 @@ std::size_t CsvRowParser::plain_rows_ahead(bool crlf) const {
 std::size_t CsvRowParser::read_columns(std::size_t rows, std::size_t stride) {
   for (std::size_t channel = 0; channel < header_.channels.size(); ++channel) {
     const std::uint32_t* stop = stops_.at.get() + next_stop_ + header_.channel_columns[channel];
-    rows = read_doubles({text_.data(), stop, stride}, rows, block_.value[channel].data() + row_);
+    const ColumnText column{text_.data(), stop, stride};
+    const std::size_t read = read_doubles(column, rows, block_.value[channel].data() + row_);
+    rows = read == rows || !header_.may_be_missing(channel)
+               ? read
+               : read_past_missing(channel, column, rows, read);
   }
   return rows;
+}
+
+// Of `rows` rows `read` are read, and the next is no number. A probe that was lost has no value in
+// many rows one after the other.
+std::size_t CsvRowParser::read_past_missing(std::size_t channel, const ColumnText& column,
+                                            std::size_t rows, std::size_t read) {
+  double* const out = block_.value[channel].data() + row_;
+  while (read < rows && is_missing_value(field(column, read))) {
+    missing_[channel].in_block = true;
+    out[read++] = kNaN;
+    if (read == rows || is_missing_value(field(column, read))) continue;
+    const ColumnText rest{column.text, column.stop + read * column.stride, column.stride};
+    read += read_doubles(rest, rows - read, out + read);
+  }
+  return read;
 }
 
 // The same for the times; they end where time does not grow.
@@ -179,10 +230,28 @@ Status CsvRowParser::store(const CsvLine& line) {
   }
   if (row_ == 0) block_.lost = std::exchange(lost_, 0);
   block_.time_ns[row_] = last_time_ns_ = time_ns;
-  for (std::size_t channel = 0; channel < line.values.size(); ++channel)
+  for (std::size_t channel = 0; channel < line.values.size(); ++channel) {
     block_.value[channel][row_] = line.values[channel];
+    missing_[channel].in_block |= std::isnan(line.values[channel]);
+  }
   ++row_;
   return {};
+}
+
+std::vector<std::string> CsvRowParser::missing_values() const {
+  std::vector<std::string> lines;
+  for (std::size_t channel = 0; channel < missing_.size(); ++channel) {
+    const Missing& missing = missing_[channel];
+    if (missing.values == 0) continue;
+    const std::string first = header_.time_column < 0
+                                  ? "in row " + std::to_string(missing.first_row)
+                                  : "at " + seconds(missing.first_ns);
+    lines.push_back(header_.source + ": column " +
+                    header_.columns[header_.channel_columns[channel]] + ": " +
+                    std::to_string(missing.values) + " of " + std::to_string(rows_before_) +
+                    " values are missing (empty or nan), the first " + first);
+  }
+  return lines;
 }
 
 // Blank lines that turn out not to be the end of the file.

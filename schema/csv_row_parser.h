@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "schema/csv_stops.h"
+#include "schema/number_columns.h"
 #include "schema/probe_log.h"
 #include "schema/result.h"
 #include "schema/sample.h"
@@ -22,7 +23,8 @@ struct CsvLimits {
   std::size_t scans_per_block = 8192;  // half a megabyte of columns: stays in a core's cache
 };
 
-// Values are raw, in the channel's unit; all are finite. A block has `scans_per_block` scans, but
+// Values are raw, in the channel's unit; all are finite but for the missing ones (NaN, marked as
+// Quality::missing). A block has `scans_per_block` scans, but
 // for the last and for one that ends before a skipped line; the next block's `lost` counts those
 // lines. In a frames file, which has no time, time_ns is the row's number from 0 on.
 class CsvRowParser {
@@ -41,11 +43,16 @@ class CsvRowParser {
   const CsvHeader& header() const { return header_; }
   const std::vector<std::string>& bad_lines() const { return bad_lines_; }  // file:line: reason
   std::uint64_t rows() const { return rows_before_ + row_; }
+  // A line for each column with missing values: how many, and where the first is. Of the blocks
+  // handed over.
+  std::vector<std::string> missing_values() const;
 
  private:
   void parse_plain_rows();
   std::size_t plain_rows_ahead(bool crlf) const;
   std::size_t read_columns(std::size_t rows, std::size_t stride);
+  std::size_t read_past_missing(std::size_t channel, const ColumnText& column, std::size_t rows,
+                                std::size_t read);
   std::size_t read_times(std::size_t rows, std::size_t stride);
   Status parse_one_line();
   Status store(const struct CsvLine& line);
@@ -54,6 +61,7 @@ class CsvRowParser {
   std::string where(std::uint64_t line) const;
   void prepare_block();
   void hand_over(SampleBlock& block);
+  void mark_missing(std::size_t channel);
 
   CsvHeader header_;
   CsvLimits limits_;
@@ -71,6 +79,13 @@ class CsvRowParser {
   std::uint64_t rows_before_ = 0;  // in the blocks handed over
   std::int64_t last_time_ns_;
   std::vector<std::string> bad_lines_;
+  struct Missing {
+    bool in_block = false;  // some may be in block_
+    std::uint64_t values = 0;
+    std::uint64_t first_row = 0;  // from 1 on
+    std::int64_t first_ns = 0;
+  };
+  std::vector<Missing> missing_;  // [channel]
 };
 
 }  // namespace mdof

@@ -10,6 +10,7 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 constexpr const char* kTimeColumn = "time_s";
 constexpr const char* kEncoderColumn = "encoder_mm";
+constexpr std::string_view kTimeName = "time";
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
@@ -42,9 +43,10 @@ std::optional<Channel> channel_of(const std::string& name) {
   static constexpr std::array kKept = {"s", "hz", "urad", "percent", "hPa"};
   const std::size_t bar = name.rfind('_');
   if (bar == name.npos) return Channel{name, Unit::other};
-  const std::string unit = name.substr(bar + 1);
+  const std::string id = name.substr(0, bar), unit = name.substr(bar + 1);
   for (const Unit known : kRead)
-    if (unit == suffix(known)) return Channel{name.substr(0, bar), known};
+    if (unit == suffix(known)) return Channel{id, known};
+  if (id == kEncoderChannel && unit == suffix(Unit::metre)) return Channel{id, Unit::metre};
   if (std::find(kKept.begin(), kKept.end(), unit) != kKept.end()) return Channel{name, Unit::other};
   return std::nullopt;
 }
@@ -69,6 +71,30 @@ Status check_first_name(const CsvHeader& header) {
                    "encoder_mm,A_um,B_um\" before it");
 }
 
+// Whether `name` is `of` with a unit or without: "encoder", "encoder_counts".
+bool is_named(std::string_view name, std::string_view of) {
+  return name == of || (name.starts_with(of) && name.substr(of.size()).starts_with('_'));
+}
+
+// Time and place are to be in units that leave no doubt; what a user may have meant is said.
+Status check_unit(const CsvHeader& header, std::size_t column) {
+  const std::string& name = header.columns[column];
+  if (is_named(name, kTimeName) && name != kTimeColumn && header.kind != CsvKind::frames)
+    return bad_input(where(header, column) +
+                     (name == kTimeName ? "has no unit; name it time_s where it is in seconds, else"
+                                        : "time is read in seconds only;") +
+                     " convert it to seconds from the start and name it time_s");
+  if (!is_named(name, kEncoderChannel)) return {};
+  for (const char* known : {kEncoderColumn, "encoder_um", "encoder_m"})
+    if (name == known) return {};
+  return bad_input(where(header, column) +
+                   (name == kEncoderChannel ? "has no unit; name it encoder_mm, encoder_um or "
+                                              "encoder_m, whichever it is in"
+                                            : "the axis position is read in mm, um or m, and this "
+                                              "log says no scale; convert it and name it "
+                                              "encoder_mm"));
+}
+
 Status add_column(CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (name.empty())
@@ -79,11 +105,12 @@ Status add_column(CsvHeader& header, std::size_t column) {
     header.time_column = static_cast<int>(column);
     return {};
   }
+  MDOF_CHECK(check_unit(header, column));
   const std::optional<Channel> channel = channel_of(name);
   if (!channel || channel->id.empty())
     return bad_input(where(header, column) +
                      "unknown unit; known are _um _mm _V _C (and _s _hz _urad _percent _hPa, kept "
-                     "unread): convert or rename the column");
+                     "unread): convert the readings, of a probe to um, or rename the column");
   for (std::size_t k = 0; k < header.channels.size(); ++k)
     if (header.channels[k].id == channel->id)
       return bad_input(where(header, column) + "channel \"" + channel->id + "\" is there twice (" +
@@ -102,9 +129,10 @@ Status check_required(const CsvHeader& header) {
   };
   if (header.kind == CsvKind::probe_log && header.time_column < 0) return missing(kTimeColumn);
   if (header.kind == CsvKind::stream) return header.channels.empty() ? missing("A_um") : Status{};
-  const Channel encoder{kEncoderChannel, Unit::mm};
-  if (std::find(header.channels.begin(), header.channels.end(), encoder) == header.channels.end())
-    return missing(kEncoderColumn);
+  const bool encoder =
+      std::any_of(header.channels.begin(), header.channels.end(),
+                  [](const Channel& channel) { return channel.id == kEncoderChannel; });
+  if (!encoder) return missing(kEncoderColumn);
   if (header.channels.size() < 2)
     return bad_input(where(header) + "no column of a probe; add columns like A_um");
   return {};
@@ -127,6 +155,10 @@ Status check_encoding(std::string_view text, const std::string& source) {
 }
 
 }  // namespace
+
+bool CsvHeader::may_be_missing(std::size_t channel) const {
+  return kind == CsvKind::stream || channels[channel].id != kEncoderChannel;
+}
 
 Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const std::string& source) {
   MDOF_CHECK(check_encoding(text, source));

@@ -8,7 +8,8 @@
 // Columns in any order; comma separated, '.' decimal, LF or CRLF, a UTF-8 byte order mark is
 // skipped. A column "A_um" is channel "A" in micrometres. Suffixes: _um _mm _V _C; a column that
 // ends in another unit of the project (_s _hz _urad _percent _hPa) or in none is kept as
-// Unit::other under its whole name; any other suffix is an error.
+// Unit::other under its whole name; any other suffix is an error. The axis position may also be
+// encoder_um or encoder_m; in no other unit, and time in seconds alone.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +25,7 @@ namespace mdof {
 
 enum class CsvKind {
   probe_log,  // samples against time: time_s must grow from row to row
-  stream,     // rows as they come from a device: a field that is empty or nan is a missing value
+  stream,     // rows as they come from a device
   frames,     // positions and readings in any order; time_s, if there, is a column like any other
 };
 
@@ -38,6 +39,10 @@ struct CsvHeader {
   std::vector<std::size_t> channel_columns;  // [channel] -> column
   std::uint64_t lines = 0;                   // of the file, header included
   std::size_t bytes = 0;                     // of the file, header included
+
+  // Whether a field of this channel may be empty or nan: a missing value. Not that of the encoder,
+  // without which a row has no place (but for a stream, whose channels come when they come).
+  bool may_be_missing(std::size_t channel) const;
 };
 
 // `text` is the beginning of a file, or all of it; it must reach beyond the header line.

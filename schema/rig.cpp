@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "schema/files.h"
+#include "schema/rig_check.h"
 #include "schema/toml_reader.h"
 #include "schema/units.h"
 
@@ -238,6 +239,7 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
   if (rig.probes.empty()) table.reject("probe", "the rig has no probes; add [[probe]] tables");
   reject_doubles(table, rig.probes);
   MDOF_CHECK(table.finish());
+  MDOF_CHECK(check_rig(rig));
   return rig;
 }
 

@@ -50,6 +50,12 @@ struct AngleFigure {
   double min_rad = 0, max_rad = 0;
 };
 
+// What the column temperature_C said from the first scan of a run to the last.
+struct Temperature {
+  double mean_C = 0, min_C = 0, max_C = 0;
+  bool operator==(const Temperature&) const = default;
+};
+
 struct RunHeader {
   std::int64_t id = 0;  // 0 until stored
   Axis axis = Axis::x;
@@ -63,6 +69,7 @@ struct RunHeader {
   Provenance provenance;
   std::uint64_t scans = 0, scans_lost = 0;
   std::vector<std::string> warnings;
+  std::optional<Temperature> temperature;  // none: nobody read it
 
   MovingAxis moving() const { return {axis, sides}; }
 };

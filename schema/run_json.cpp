@@ -133,6 +133,23 @@ void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint
   json.end_object();
 }
 
+namespace {
+
+void write_temperature(JsonWriter& json, const std::optional<Temperature>& read) {
+  json.key("temperature_C");
+  if (!read) {
+    json.null();
+    return;
+  }
+  json.begin_object()
+      .field("mean", read->mean_C)
+      .field("min", read->min_C)
+      .field("max", read->max_C)
+      .end_object();
+}
+
+}  // namespace
+
 void write_header_members(JsonWriter& json, const RunHeader& h) {
   const std::string axis(1, letter(h.axis));
   json.field("run", h.id).field("axis", axis).field("model", h.provenance.model);
@@ -147,6 +164,7 @@ void write_header_members(JsonWriter& json, const RunHeader& h) {
   h.supersedes ? json.value(*h.supersedes) : json.null();
   json.field("scans", h.scans).key("scans_lost");
   lost_is_known(h) ? json.value(h.scans_lost) : json.null();
+  write_temperature(json, h.temperature);
   json.key("recording")
       .begin_object()
       .field("kind", h.provenance.recording_kind)

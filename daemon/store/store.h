@@ -41,6 +41,7 @@ struct RunEnd {
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
   std::optional<Plausibility> plausibility = std::nullopt;
+  std::optional<Temperature> temperature = std::nullopt;
 };
 
 // A table in force.
@@ -134,6 +135,8 @@ class Store {
   Status insert_figures(std::int64_t run, const RunEnd& end);
   Result<std::optional<std::int64_t>> final_recording(std::int64_t run, const RunEnd& end);
   Status insert_plausibility(std::int64_t run, const RunEnd& end);
+  Status insert_temperature(std::int64_t run, const std::optional<Temperature>& read);
+  Result<std::optional<Temperature>> temperature(std::int64_t run);
   Status insert_end(std::int64_t run, const RunEnd& end, const std::string& sha256);
   Status check_open(std::int64_t run) const;
   // read.cpp

@@ -51,7 +51,8 @@ void bind_errors(Statement& insert, const AxisErrors& errors) {
 RunEnd end_of(const Run& run) {
   const RunHeader& header = run.header;
   return {header.state, header.scans,     header.scans_lost, header.warnings,
-          {},           run.straightness, run.angles,        run.plausibility};
+          {},           run.straightness, run.angles,        run.plausibility,
+          header.temperature};
 }
 
 }  // namespace
@@ -253,7 +254,8 @@ Status Store::insert_end(std::int64_t run, const RunEnd& end, const std::string&
   insert.bind(run).bind(std::string_view(to_string(end.state)));
   insert.bind(integer(end.scans)).bind(integer(end.scans_lost));
   insert.bind(std::string_view(warnings)).bind(recording).bind(std::string_view(sha256));
-  return insert.run();
+  MDOF_CHECK(insert.run());
+  return insert_temperature(run, end.temperature);
 }
 
 }  // namespace mdof::store

@@ -25,7 +25,7 @@ class CsvLog : public Driver {
 
   std::vector<std::string> comments() const;  // of the header, without '#'; after open()
   std::string sha256() const;                 // of the file as stored, after the end; else ""
-  std::vector<std::string> warnings() const;  // after the end or an error: the lines skipped
+  std::vector<std::string> warnings() const;  // after the end or an error: as of CsvRows
   std::uint64_t bytes() const;                // read so far, as stored
   std::uint64_t bytes_total() const;          // 0: not known
 

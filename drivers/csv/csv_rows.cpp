@@ -117,6 +117,7 @@ Result<ReadState> CsvRows::Reading::next(SampleBlock& block, std::chrono::millis
   }
   block.time_ns.clear();
   for (std::vector<double>& column : block.value) column.clear();
+  block.quality.clear();
   if (!ended_) return ReadState::more;
   MDOF_CHECK(status_);
   return ReadState::end;
@@ -153,7 +154,10 @@ std::string CsvRows::sha256() const {
 }
 
 std::vector<std::string> CsvRows::warnings() const {
-  return reading_->ended() ? reading_->rows().bad_lines() : std::vector<std::string>();
+  if (!reading_->ended()) return {};
+  std::vector<std::string> all = reading_->rows().bad_lines();
+  for (std::string& line : reading_->rows().missing_values()) all.push_back(std::move(line));
+  return all;
 }
 
 std::uint64_t CsvRows::bytes() const {

@@ -42,7 +42,8 @@ class CsvRows {
 
   // After the end, else empty. Of the bytes as stored; also empty without options.sha256.
   std::string sha256() const;
-  // After the end or an error, else empty: one line of text for each line skipped.
+  // After the end or an error, else empty: one line of text for each line skipped, and for
+  // each column with missing values.
   std::vector<std::string> warnings() const;
   std::uint64_t bytes() const;        // stored bytes read so far
   std::uint64_t bytes_total() const;  // 0: not known

@@ -32,8 +32,8 @@ std::string why_not_opened(const std::string& path) {
   const int error = fd < 0 ? errno : 0;
   if (fd >= 0) ::close(fd);
   if (error == EACCES || error == EPERM)
-    return "no permission; install daemon/systemd/60-mdof.rules in /etc/udev/rules.d, run udevadm "
-           "control --reload and udevadm trigger, and join the group mdof";
+    return "no permission; install the udev rules (mdof doctor shows how) and become a member of "
+           "the group mdof (sudo usermod -aG mdof $USER, log in anew)";
   if (error == ENOENT || error == ENODEV || error == ENXIO) return "was unplugged just now";
   return narrow(::hid_error(nullptr));
 }

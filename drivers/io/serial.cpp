@@ -30,8 +30,8 @@ const Rate* find_rate(int baud) {
 
 std::string why_not_opened(int error) {
   if (error == EACCES)
-    return "no permission; install the udev rules (mdof doctor shows how) or join the group "
-           "dialout";
+    return "no permission; install the udev rules (mdof doctor shows how) and become a member of "
+           "the groups mdof and dialout (sudo usermod -aG mdof,dialout $USER, log in anew)";
   if (error == ENOENT) return "is not there; plug the device in or correct the path";
   if (error == EBUSY || error == EWOULDBLOCK) return "is in use by another program; end that one";
   return std::strerror(error);

@@ -119,7 +119,8 @@ class Search {
   std::string not_opened(int code) const {
     if (code != LIBUSB_ERROR_ACCESS) return text_of_error(code);
     return std::string("no permission to use it: install the udev rule ") + kRules +
-           " (in mdof's daemon/systemd), add the user to the group mdof, then unplug the " +
+           " (mdof doctor shows how), become a member of the group mdof (sudo usermod -aG mdof "
+           "$USER, log in anew), then unplug the " +
            wanted_.model + " and plug it in again";
   }
 

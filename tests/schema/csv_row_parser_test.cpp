@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <random>
 #include <string>
@@ -14,7 +18,8 @@ namespace {
 struct Parsed {
   std::vector<SampleBlock> blocks;
   std::vector<std::string> bad_lines;
-  std::string error;  // empty: none
+  std::vector<std::string> missing;  // columns
+  std::string error;                 // empty: none
 
   std::vector<std::int64_t> times() const {
     std::vector<std::int64_t> all;
@@ -34,7 +39,7 @@ Parsed parse(std::string text, CsvLimits limits = {}, CsvKind kind = CsvKind::pr
              std::size_t piece = 1'000'000) {
   Parsed result;
   auto header = parse_csv_header(text, kind, "x.csv");
-  if (!header) return {{}, {}, header.error().message};
+  if (!header) return {{}, {}, {}, header.error().message};
   text.erase(0, header->bytes);
   if (!text.empty() && text.back() != '\n') text += '\n';
   CsvRowParser parser(*header, limits);
@@ -57,6 +62,7 @@ Parsed parse(std::string text, CsvLimits limits = {}, CsvKind kind = CsvKind::pr
   }
   if (result.error.empty()) take(&CsvRowParser::last);
   result.bad_lines = parser.bad_lines();
+  result.missing = parser.missing_values();
   return result;
 }
 
@@ -114,7 +120,7 @@ TEST(CsvRowParser, ToleratesSpacesAndPlusSigns) {
 
 TEST(CsvRowParser, ReportsAndSkipsBadLines) {
   const Parsed p = parse(kHeader +
-                         "0,1.0,2.0\n1,abc,2.0\n2,1.0\n3,1.0,2.0,3.0\n4,1.0,nan\n5,inf,2.0\n"
+                         "0,1.0,2.0\n1,abc,2.0\n2,1.0\n3,1.0,2.0,3.0\n4,1.0,inf\n5,inf,2.0\n"
                          "6,1.0,1e999\n7,,2.0\n8,1.0,1/5\n9,1.0,2.0\n\n10,1.0,2.0\n");
   ASSERT_EQ(p.error, "");
   EXPECT_EQ(p.times(), (std::vector<std::int64_t>{0, 9'000'000'000, 10'000'000'000}));
@@ -128,6 +134,72 @@ TEST(CsvRowParser, ReportsAndSkipsBadLines) {
   expect_contains(p.bad_lines[6], {"x.csv:9: ", "encoder_mm", "is empty"});
   expect_contains(p.bad_lines[7], {"x.csv:10: ", "A_um", "\"1/5\""});
   expect_contains(p.bad_lines[8], {"x.csv:12: ", "empty line"});
+}
+
+// ---- missing values ----
+
+const std::string kTwoProbes = "time_s,encoder_mm,A_um,B_um\n";
+
+TEST(CsvRowParser, TakesAnEmptyFieldOrNanForAMissingValue) {
+  const Parsed p = parse(kTwoProbes +
+                         "0,1.0,,2.0\n1,1.0,nan,2.0\n2,1.0,3.0,NaN\n3,1.0,-nan,\n4,1.0, ,2.0\n"
+                         "5,1.0,4.0,5.0\n6,1.0,4.0,\r\n");
+  ASSERT_EQ(p.error, "");
+  EXPECT_TRUE(p.bad_lines.empty());
+  ASSERT_EQ(p.blocks.size(), 1u);
+  const std::vector<int> a_missing = {1, 1, 0, 1, 1, 0, 0}, b_missing = {0, 0, 1, 1, 0, 0, 1};
+  for (std::size_t row = 0; row < 7; ++row) {
+    EXPECT_EQ(std::isnan(p.column(1)[row]), a_missing[row] == 1) << row;
+    EXPECT_EQ(std::isnan(p.column(2)[row]), b_missing[row] == 1) << row;
+    EXPECT_EQ(p.blocks[0].quality_at(1, row), a_missing[row] ? Quality::missing : Quality::good);
+    EXPECT_EQ(p.blocks[0].quality_at(2, row), b_missing[row] ? Quality::missing : Quality::good);
+  }
+  EXPECT_TRUE(p.blocks[0].quality[0].empty());  // of the encoder: nothing is marked
+  ASSERT_EQ(p.missing.size(), 2u);
+  EXPECT_EQ(p.missing[0],
+            "x.csv: column A_um: 4 of 7 values are missing (empty or nan), the first at 0.000 s");
+  expect_contains(p.missing[1], {"column B_um", "3 of 7", "the first at 2.000 s"});
+}
+
+TEST(CsvRowParser, SkipsALineWithoutAPlaceOrATime) {
+  const Parsed p =
+      parse(kTwoProbes + "0,1.0,2.0,2.0\n1,,2.0,2.0\n,1.0,2.0,2.0\n3,nan,,2.0\n4,1.0,2.0,2.0\n");
+  ASSERT_EQ(p.error, "");
+  EXPECT_EQ(p.times(), (std::vector<std::int64_t>{0, 4'000'000'000}));
+  ASSERT_EQ(p.bad_lines.size(), 3u);
+  expect_contains(p.bad_lines[0], {"x.csv:3: ", "encoder_mm", "is empty"});
+  expect_contains(p.bad_lines[1], {"x.csv:4: ", "time_s", "is empty"});
+  expect_contains(p.bad_lines[2], {"x.csv:5: ", "encoder_mm", "nan"});
+  EXPECT_TRUE(p.missing.empty()) << "a line that is skipped has no missing values: "
+                                 << p.missing[0];
+}
+
+// A probe that is lost for good, and every other pattern in batches of 256 rows.
+TEST(CsvRowParser, FindsEachMissingValueOfManyInItsPlace) {
+  std::string text = kTwoProbes;
+  std::mt19937_64 random(3);
+  std::vector<bool> missing;
+  for (int i = 0; i < 20'000; ++i) {
+    missing.push_back(i >= 10'000 || random() % 50 == 0);
+    text += std::to_string(i) + "," + std::to_string(i) + (missing.back() ? ",," : ",7.5,") +
+            std::to_string(-i) + "\n";
+  }
+  const Parsed p = parse(text, {.bad_lines = 0});
+  ASSERT_EQ(p.error, "");
+  const std::vector<double> a = p.column(1), b = p.column(2);
+  ASSERT_EQ(a.size(), missing.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(std::isnan(a[i]), missing[i]) << i;
+    if (!missing[i]) {
+      ASSERT_EQ(a[i], 7.5) << i;
+    }
+    ASSERT_EQ(b[i], -static_cast<double>(i));
+  }
+  std::uint64_t marked = 0;
+  for (const SampleBlock& block : p.blocks)
+    for (std::size_t i = 0; i < block.scans(); ++i)
+      marked += block.quality_at(1, i) == Quality::missing;
+  EXPECT_EQ(marked, static_cast<std::uint64_t>(std::count(missing.begin(), missing.end(), true)));
 }
 
 TEST(CsvRowParser, CountsSkippedLinesAsLostBeforeTheNextBlock) {
@@ -197,10 +269,22 @@ std::string wild_log(int rows) {
     const std::uint64_t kind = random() % 1000;
     std::snprintf(line, sizeof line, formats[kind < 4 ? kind : kind % 2], x, i / 1000, i % 1000,
                   x / 3, std::abs(x) / 7);
-    text += kind == 10 ? "bad" : line;
+    const std::string_view from_time = std::strchr(line, ',');
+    text += kind == 10        ? "bad"
+            : kind == 11      ? "nan" + std::string(from_time)
+            : kind / 20 == 20 ? from_time
+                              : line;
     text += random() % 100 ? "\n" : "\r\n";
   }
   return text;
+}
+
+// NaN is to be equal to itself.
+std::vector<std::uint64_t> bits(const std::vector<std::vector<double>>& columns) {
+  std::vector<std::uint64_t> all;
+  for (const auto& column : columns)
+    for (const double x : column) all.push_back(std::bit_cast<std::uint64_t>(x));
+  return all;
 }
 
 TEST(CsvRowParser, GivesTheSameBlocksHoweverTheTextIsCut) {
@@ -217,7 +301,8 @@ TEST(CsvRowParser, GivesTheSameBlocksHoweverTheTextIsCut) {
     EXPECT_EQ(cut.bad_lines, whole.bad_lines);
     for (std::size_t b = 0; b < cut.blocks.size(); ++b) {
       EXPECT_EQ(cut.blocks[b].time_ns, whole.blocks[b].time_ns);
-      EXPECT_EQ(cut.blocks[b].value, whole.blocks[b].value);
+      EXPECT_EQ(bits(cut.blocks[b].value), bits(whole.blocks[b].value));
+      EXPECT_EQ(cut.blocks[b].quality, whole.blocks[b].quality);
       EXPECT_EQ(cut.blocks[b].lost, whole.blocks[b].lost);
     }
   }

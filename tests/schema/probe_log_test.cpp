@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mdof {
@@ -68,7 +69,6 @@ TEST(ProbeLogHeader, NamesWhatIsMissing) {
   expect_error("\n\n", {"no header"});
   expect_error("encoder_mm,A_um\n", {":1:", "time_s", "encoder_mm, A_um"});
   expect_error("# c\ntime_s,A_um\n", {":2:", "encoder_mm"});
-  expect_error("time_s,encoder_um,A_um\n", {"encoder_mm"});
   expect_error("time_s,encoder_mm\n", {"probe"});
   expect_error("0.0,1.0,2.0\n0.1,1.0,2.0\n", {"header", "numbers"});
 }
@@ -80,6 +80,29 @@ TEST(ProbeLogHeader, NamesTheColumnThatIsWrong) {
   expect_error("time_s,encoder_mm,A_nm\n", {"column 3", "A_nm", "_um _mm _V _C"});
   expect_error("time_s,encoder_mm,A_um,,B_um\n", {"column 4", "name"});
   expect_error("time_s,encoder_mm,_um\n", {"column 3"});
+}
+
+TEST(ProbeLogHeader, TakesThePositionInAnyUnitOfLengthThatIsNamed) {
+  for (const auto& [name, unit] :
+       {std::pair{"encoder_um", Unit::um}, {"encoder_mm", Unit::mm}, {"encoder_m", Unit::metre}}) {
+    const auto header = log_header("time_s," + std::string(name) + ",A_um\n");
+    ASSERT_TRUE(header) << header.error().message;
+    EXPECT_EQ(header->channels[0], (Channel{"encoder", unit})) << name;
+  }
+}
+
+TEST(ProbeLogHeader, RefusesTimeAndPositionInAnyOtherUnitByName) {
+  for (const char* name : {"encoder", "encoder_V", "encoder_nm", "encoder_counts", "encoder_C",
+                           "encoder_urad", "encoder_s", "encoder_in"})
+    expect_error("time_s," + std::string(name) + ",A_um\n",
+                 {"column 2 \"" + std::string(name) + "\"", "encoder_mm"});
+  for (const char* name : {"time", "time_ms", "time_us", "time_ns", "time_min", "time_hz"})
+    expect_error(std::string(name) + ",encoder_mm,A_um\n",
+                 {"column 1 \"" + std::string(name) + "\"", "time_s", "seconds"});
+  expect_error("time_s,encoder_mm,A_m\n", {"column 3", "A_m", "to um"});
+  // Both say what they mean, though neither is in its place.
+  expect_error("t_s,encoder_mm,A_um\n", {"time_s", "t_s"});
+  EXPECT_TRUE(log_header("time_s,encoder_mm,A_um,timer,encoders\n"));
 }
 
 TEST(ProbeLogHeader, RecognisesOtherSpreadsheetFormats) {

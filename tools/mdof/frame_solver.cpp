@@ -58,6 +58,12 @@ void FrameSolver::solve_columns(const SampleBlock& block, SolvedRows& out) {
     to.local[k] = out.local[k].data();
   }
   algo::solve_batch(solver_.model(), fixture, in, to, block.scans());
+  if (block.quality.empty()) return;
+  for (std::size_t i = 0; i < block.scans(); ++i) {
+    if (!has_missing(block, i)) continue;
+    ++without_reading_;
+    for (auto& column : out.local) column[i] = kNaN;  // also those that need the others alone
+  }
 }
 
 void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
@@ -69,7 +75,9 @@ void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
     for (std::size_t k = 0; k < kErrorCount; ++k)
       out.local[k][i] = errors.valid ? errors.local[k] : kNaN;
     if (errors.valid) continue;
-    if (unsolved_++ == 0)
+    if (has_missing(block, i))
+      ++without_reading_;
+    else if (unsolved_++ == 0)
       why_unsolved_ = "row " + std::to_string(rows_ + i + 1) + ": " + errors.reason;
   }
 }
@@ -77,9 +85,15 @@ void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
 void FrameSolver::count_over_range(const SampleBlock& block) {
   if (block.quality.empty()) return;
   for (std::size_t i = 0; i < block.scans(); ++i) {
-    over_range_ += std::any_of(probes_.begin(), probes_.end(),
-                               [&](std::size_t c) { return !usable(block.quality_at(c, i)); });
+    over_range_ += std::any_of(probes_.begin(), probes_.end(), [&](std::size_t c) {
+      return block.quality_at(c, i) == Quality::over_range;
+    });
   }
+}
+
+bool FrameSolver::has_missing(const SampleBlock& block, std::size_t row) const {
+  return std::any_of(probes_.begin(), probes_.end(),
+                     [&](std::size_t c) { return block.quality_at(c, row) == Quality::missing; });
 }
 
 }  // namespace mdof::tools

@@ -33,6 +33,8 @@ class FrameSolver {
 
   std::uint64_t rows() const { return rows_; }
   std::uint64_t over_range() const { return over_range_; }  // rows with a probe at its range's end
+  // Rows without errors because a probe's value is missing; not counted as unsolved.
+  std::uint64_t without_reading() const { return without_reading_; }
   std::uint64_t unsolved() const { return unsolved_; }
   const std::string& why_unsolved() const { return why_unsolved_; }  // of the first such row
 
@@ -42,6 +44,7 @@ class FrameSolver {
   void solve_columns(const SampleBlock& block, SolvedRows& out);
   void solve_singly(const SampleBlock& block, SolvedRows& out);
   void count_over_range(const SampleBlock& block);
+  bool has_missing(const SampleBlock& block, std::size_t row) const;
 
   algo::Solver solver_;
   drivers::Calibrator calibrator_;
@@ -50,7 +53,7 @@ class FrameSolver {
   std::vector<Channel> channels_;
   std::size_t encoder_ = 0;
   std::vector<std::size_t> probes_;  // [probe of the rig] -> channel
-  std::uint64_t rows_ = 0, over_range_ = 0, unsolved_ = 0;
+  std::uint64_t rows_ = 0, over_range_ = 0, without_reading_ = 0, unsolved_ = 0;
   std::string why_unsolved_;
 };
 

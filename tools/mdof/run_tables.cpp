@@ -1,6 +1,8 @@
 #include "tools/mdof/run_tables.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "schema/axis.h"
 #include "tools/mdof/text_table.h"
@@ -36,6 +38,17 @@ std::string stated_text(const StatedAt& at) {
   return "straightness at the fixture\n";
 }
 
+namespace {
+
+std::string temperature_text(const Temperature& read) {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "%.2f °C (%.2f to %.2f)", read.mean_C, read.min_C,
+                read.max_C);
+  return text.data();
+}
+
+}  // namespace
+
 std::string head_text(const RunHeader& h) {
   const auto& from = h.provenance;
   std::string out = simulated_notice(h.simulated);
@@ -46,6 +59,7 @@ std::string head_text(const RunHeader& h) {
   if (h.supersedes) out += "supersedes run " + std::to_string(*h.supersedes) + "\n";
   out += from.recording_kind + "  " + from.recording_path + "\n";
   out += "scans      " + std::to_string(h.scans) + ", lost " + std::to_string(h.scans_lost) + "\n";
+  if (h.temperature) out += "at         " + temperature_text(*h.temperature) + "\n";
   out += "software   " + from.software_version + "\n";
   for (const auto& warning : h.warnings) out += "warning    " + warning + "\n";
   return out;

@@ -40,6 +40,13 @@ Status solve_rows(drivers::CsvRows& frames, FrameSolver& solver, ErrorRows& out)
   }
 }
 
+void warn_of_missing(const drivers::CsvRows& frames, const FrameSolver& solver) {
+  for (const std::string& column : frames.warnings()) warn(column);
+  if (solver.without_reading() == 0) return;
+  warn(std::to_string(solver.without_reading()) + " of " + std::to_string(solver.rows()) +
+       " rows lack a probe that their errors need: these are empty");
+}
+
 Status judge(const FrameSolver& solver) {
   if (solver.over_range() > 0) {
     warn(std::to_string(solver.over_range()) + " of " + std::to_string(solver.rows()) +
@@ -63,6 +70,7 @@ Status solve(const SolveCommand& command) {
   ErrorRows out(command.json ? RowForm::json : RowForm::csv, rig.moving(), model);
   MDOF_CHECK(solve_rows(*frames, solver, out));
   MDOF_CHECK(out.finish());
+  warn_of_missing(*frames, solver);
   return judge(solver);
 }
 

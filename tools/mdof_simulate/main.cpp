@@ -33,7 +33,9 @@ int main(int argc, char** argv) try {
   std::string plan, host = "127.0.0.1";
   app.add_option("PLAN", plan, "The machine and its devices, TOML")->required()->type_name("");
   app.add_option("--host", host, "Address to listen on")->capture_default_str();
-  app.footer("Example:\n  mdof-simulate devices.toml\nThe keys: tools/mdof_simulate/plan.h");
+  app.footer(
+      "Example:\n  mdof-simulate devices.toml\nThe keys: mdof-simulate(1) or "
+      "tools/mdof_simulate/README.md");
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGPIPE, SIG_IGN);
   struct sigaction action = {};

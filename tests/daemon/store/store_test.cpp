@@ -62,6 +62,7 @@ TEST_F(StoreTest, GivesARunBackToTheLastBit) {
   run.points[2].point.probe_m[3] = kNaN;
   run.points[3].errors = AxisErrors{};
   run.points[3].errors.reason = "probe \"C\" lost";
+  run.header.temperature = Temperature{20.1, 19.9, 20.3};
   auto store = writer();
   ASSERT_TRUE(store) << store.error().message;
   const auto id = store->add_run(run);
@@ -70,6 +71,7 @@ TEST_F(StoreTest, GivesARunBackToTheLastBit) {
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->header.id, *id);
   expect_same(run.header, back->header);
+  EXPECT_EQ(back->header.temperature, run.header.temperature);
   ASSERT_EQ(back->points.size(), run.points.size());
   for (std::size_t i = 0; i < run.points.size(); ++i) expect_same(run.points[i], back->points[i]);
   EXPECT_EQ(result_sha256(run), result_sha256(*back));
@@ -162,11 +164,19 @@ TEST_F(StoreTest, ALiveRunIsFilledInPieces) {
     const auto at = run.points.begin() + static_cast<std::ptrdiff_t>(i);
     ASSERT_TRUE(store->append_points(id, {at, at + 10}));
   }
-  RunEnd end{RunState::complete, 99, 1, {"w"}, std::string(64, 'c'), run.straightness, run.angles};
+  RunEnd end{RunState::complete,
+             99,
+             1,
+             {"w"},
+             std::string(64, 'c'),
+             run.straightness,
+             run.angles,
+             Temperature{20.125, 19.5, 20.75}};
   ASSERT_TRUE(store->end_run(id, end));
   const RunHeader back = store->run_header(id).value();
   EXPECT_EQ(back.state, RunState::complete);
   EXPECT_EQ(back.scans, 99u);
+  EXPECT_EQ(back.temperature, (Temperature{20.125, 19.5, 20.75}));
   EXPECT_EQ(back.provenance.recording_sha256, std::string(64, 'c'));
   EXPECT_EQ(back.provenance.recording_path, header.provenance.recording_path);
   EXPECT_EQ(store->result_sha256(id).value(), result_sha256(run));

@@ -1,0 +1,12 @@
+# What "cmake --install" puts beside the programs: man pages, the licence, and an example configuration that
+# mdofd runs as it is, with simulated axes. (The programs themselves, units and rules: in their folders.)
+install(FILES tools/mdof/mdof.1 tools/mdof_simulate/mdof-simulate.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES daemon/mdofd.toml.5 DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
+install(FILES daemon/mdofd.8 DESTINATION ${CMAKE_INSTALL_MANDIR}/man8)
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES drivers/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME drivers.md)
+install(FILES schema/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME schema.md)
+install(FILES tools/mdof_simulate/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME mdof-simulate.md)
+install(DIRECTORY daemon/examples/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)
+install(FILES tools/mdof_simulate/example.toml DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
+        RENAME mdof-simulate.toml)

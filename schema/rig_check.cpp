@@ -1,0 +1,172 @@
+#include "schema/rig_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "schema/toml_reader.h"
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+// Outside `possible` no number is right; outside `usual` it may be.
+struct Bounds {
+  double least_possible, least_usual, most_usual, most_possible;
+};
+constexpr double kMost_m = 0.5;                       // of a fixture, from the origin of M
+constexpr Bounds kExtent_mm = {0.1, 1, 500, 500};     // of all probes' positions
+constexpr Bounds kRange_um = {1, 5, 20e3, 100e3};     // capacitive: 10 µm to 10 mm
+constexpr Bounds kFull_V = {1e-3, 0.05, 100, 1000};   // that um_per_V makes of the range
+constexpr Bounds kShare = {0, 0, 0.1, 1};             // a correction, of the range
+constexpr Bounds kFlatness_um = {0, 0, 100, 10e3};    // heights of a target plane
+constexpr Bounds kArtefact_urad = {0, 0, 10e3, 1e5};  // of a square
+
+struct Finding {
+  bool impossible;
+  std::string text;
+};
+
+std::string text_of(double x) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", x);
+  return text.data();
+}
+
+// "rig.toml:12: probe.range_um: ". The rig is read again: this is asked only when something is odd.
+std::string place(const Rig& rig, const char* table, std::size_t index, const char* key) {
+  auto root = TomlTable::parse(rig.text, rig.source);
+  if (!root) return rig.source + ": " + key + ": ";
+  if (*table == '\0') return root->where(key) + ": ";
+  auto tables = root->tables(table);
+  return (index < tables.size() ? tables[index].where(key) : rig.source + ": " + key) + ": ";
+}
+
+class Check {
+ public:
+  explicit Check(const Rig& rig) : rig_(rig) {
+    for (std::size_t k = 0; k < rig.probes.size(); ++k) check_probe(k);
+    check_distances();
+    for (std::size_t k = 0; k < rig.planes.size(); ++k) check_plane(k);
+    within(kArtefact_urad, std::abs(to_urad(rig.artefact_angle_error_rad)), "", 0,
+           "artefact_angle_error_urad",
+           " urad from a right angle; give what the square is off 90 degrees, in urad");
+  }
+
+  std::vector<Finding> take() { return std::move(findings_); }
+
+ private:
+  void add(bool impossible, const char* table, std::size_t index, const char* key,
+           const std::string& why) {
+    findings_.push_back({impossible, place(rig_, table, index, key) + why});
+  }
+  // `why` begins with the unit of x and ends with the remedy.
+  void within(const Bounds& bounds, double x, const char* table, std::size_t index, const char* key,
+              const std::string& why) {
+    if (x >= bounds.least_usual && x <= bounds.most_usual) return;
+    add(!(x >= bounds.least_possible && x <= bounds.most_possible), table, index, key,
+        text_of(x) + why);
+  }
+  void check_probe(std::size_t k);
+  void check_calibration(std::size_t k);
+  void check_distances();
+  void check_plane(std::size_t k);
+
+  const Rig& rig_;
+  std::vector<Finding> findings_;
+};
+
+double length(const Vec3& v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+void Check::check_probe(std::size_t k) {
+  const Probe& probe = rig_.probes[k];
+  if (!(length(probe.position_m) <= kMost_m))
+    add(true, "probe", k, "position_mm",
+        "probe \"" + probe.id + "\" is " + text_of(to_mm(length(probe.position_m))) +
+            " mm from the origin of M, and a fixture ends at " + text_of(to_mm(kMost_m)) +
+            " mm; give it in mm, not um");
+  within(
+      kRange_um, to_um(probe.range_m), "probe", k, "range_um",
+      " um is no range of the probe \"" + probe.id + "\"; give its full range in um, not mm or nm");
+  check_calibration(k);
+}
+
+void Check::check_calibration(std::size_t k) {
+  const Probe& probe = rig_.probes[k];
+  const Calibration& c = probe.calibration;
+  const double range_um = to_um(probe.range_m);
+  if (c.um_per_V)
+    within(kFull_V, range_um / std::abs(*c.um_per_V), "probe", k, "um_per_V",
+           " V would be the full range of the probe \"" + probe.id +
+               "\"; give um of displacement for a volt");
+  double most_um = 0;
+  for (const auto& [reading_um, correction_um] : c.linearity)
+    most_um = std::max(most_um, std::abs(correction_um));
+  within(kShare, most_um / range_um, "probe", k, "linearity",
+         " of its range is no correction of the probe \"" + probe.id +
+             "\"; give pairs [reading_um, correction_um]");
+  const double low_um = c.valid_um ? (*c.valid_um)[0] : c.reads_gap ? 0 : -range_um / 2;
+  const double high_um = c.valid_um ? (*c.valid_um)[1] : c.reads_gap ? range_um : range_um / 2;
+  if (c.offset_um >= low_um && c.offset_um <= high_um) return;
+  add(std::abs(c.offset_um) > kRange_um.most_possible, "probe", k, "offset_um",
+      text_of(c.offset_um) + " um is outside of what the probe \"" + probe.id + "\" can read (" +
+          text_of(low_um) + " to " + text_of(high_um) +
+          " um); give the raw reading at the nominal surface, in um");
+}
+
+// The farthest two.
+void Check::check_distances() {
+  double extent_m = 0;
+  std::size_t a = 0, b = 0;
+  for (std::size_t i = 0; i < rig_.probes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec3 &p = rig_.probes[i].position_m, &q = rig_.probes[j].position_m;
+      const double distance_m = length({p[0] - q[0], p[1] - q[1], p[2] - q[2]});
+      if (distance_m <= extent_m) continue;
+      extent_m = distance_m;
+      a = j, b = i;
+    }
+  }
+  if (extent_m == 0) return;  // no geometry at all, which the solver says better
+  within(kExtent_mm, to_mm(extent_m), "probe", b, "position_mm",
+         " mm is the distance of the probes \"" + rig_.probes[a].id + "\" and \"" +
+             rig_.probes[b].id + "\", the largest; give positions in mm, not " +
+             (to_mm(extent_m) > kExtent_mm.most_usual ? "um" : "m"));
+}
+
+void Check::check_plane(std::size_t k) {
+  const TargetPlane& plane = rig_.planes[k];
+  if (plane.offset_m && !(std::abs(*plane.offset_m) <= kMost_m))
+    add(true, "plane", k, "offset_mm",
+        text_of(to_mm(*plane.offset_m)) + " mm from C's origin is no place of a target; give mm");
+  double most_m = 0;
+  for (const double height_m : plane.flatness.height_m)
+    most_m = std::max(most_m, std::abs(height_m));
+  within(kFlatness_um, to_um(most_m), "plane", k, "flatness_um",
+         " um is no flatness of a target; give heights in um, not nm");
+}
+
+std::vector<Finding> findings_of(const Rig& rig) {
+  return Check(rig).take();
+}
+
+}  // namespace
+
+Status check_rig(const Rig& rig) {
+  for (const Finding& finding : findings_of(rig))
+    if (finding.impossible) return bad_input(finding.text);
+  return {};
+}
+
+std::vector<std::string> doubtful_values(const Rig& rig) {
+  std::vector<std::string> warnings;
+  for (const Finding& finding : findings_of(rig))
+    if (!finding.impossible) warnings.push_back(finding.text + " (if it is right, ignore this)");
+  return warnings;
+}
+
+}  // namespace mdof

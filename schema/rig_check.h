@@ -1,0 +1,20 @@
+// Whether the numbers of a rig can be those of a fixture: what a wrong unit makes of them (mm typed
+// as µm, metres or volts) is found before anything is measured with it. What is impossible is an
+// error; what is only odd, a warning.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/result.h"
+#include "schema/rig.h"
+
+namespace mdof {
+
+// Error: the first impossible number, with file, line, key and the unit that was probably meant.
+Status check_rig(const Rig& rig);
+
+// The odd ones, each with file, line and key, for whoever measures with this rig.
+std::vector<std::string> doubtful_values(const Rig& rig);
+
+}  // namespace mdof

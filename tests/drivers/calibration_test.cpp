@@ -1,0 +1,65 @@
+// What calibration makes of values that are missing, and of positions in other units.
+#include "drivers/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace mdof::drivers {
+namespace {
+
+Rig rig_with(const std::string& more) {
+  const auto rig = parse_rig(
+      "name = \"r\"\naxis = \"X\"\n[[probe]]\nid = \"A\"\nposition_mm = [0, 0, 0]\n"
+      "measures = \"+Z\"\nrange_um = 200\n" +
+          more,
+      "r.toml");
+  EXPECT_TRUE(rig) << rig.error().message;
+  return *rig;
+}
+
+SampleBlock block_of(const Channel& channel, const std::vector<double>& values) {
+  SampleBlock block;
+  block.device = "d";
+  block.channels = {channel};
+  block.value = {values};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    block.time_ns.push_back(static_cast<std::int64_t>(i));
+  return block;
+}
+
+TEST(Calibration, AMissingValueStaysMissingWhateverTheCalibration) {
+  for (const char* more :
+       {"", "offset_um = 3\n", "reads = \"gap\"\n", "polynomial_um = [0.1, 0.001]\n",
+        "linearity = [[-100, 0.5], [0, 0], [100, -0.5]]\n"}) {
+    SampleBlock block = block_of({"A", Unit::um}, {50, kNaN, 60});
+    ASSERT_TRUE(Calibrator(rig_with(more)).apply(block)) << more;
+    EXPECT_TRUE(std::isnan(block.value[0][1])) << more;
+    EXPECT_EQ(block.quality_at(0, 1), Quality::missing) << more;
+    EXPECT_EQ(block.quality_at(0, 0), Quality::good) << more;
+    EXPECT_TRUE(std::isfinite(block.value[0][2])) << more;
+  }
+}
+
+TEST(Calibration, TakesThePositionInAnyUnitOfLengthAndNoOther) {
+  const Calibrator calibrator(rig_with(""));
+  for (const auto& [unit, value] :
+       {std::pair{Unit::mm, 12.5}, {Unit::um, 12500.0}, {Unit::metre, 0.0125}}) {
+    SampleBlock block = block_of({kEncoderChannel, unit}, {value});
+    ASSERT_TRUE(calibrator.apply(block));
+    EXPECT_EQ(block.value[0][0], 0.0125);
+    EXPECT_EQ(block.channels[0].unit, Unit::metre);
+  }
+  for (const Unit unit : {Unit::volt, Unit::deg_c, Unit::other}) {
+    SampleBlock block = block_of({kEncoderChannel, unit}, {12.5});
+    const Status done = calibrator.apply(block);
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find("\"encoder\""), std::string::npos) << done.error().message;
+    EXPECT_NE(done.error().message.find("um_per_count"), std::string::npos);
+    EXPECT_NE(done.error().message.find("device \"d\""), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -1,0 +1,120 @@
+// What a wrong unit makes of a rig, key by key: each is found with its line, and right rigs,
+// however small, are left alone.
+#include "schema/rig_check.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace mdof {
+namespace {
+
+const std::string kRig = R"(name = "r"
+axis = "X"
+
+[[probe]]
+id = "A"
+position_mm = [10, 0, 0]
+measures = "+Z"
+range_um = 200
+
+[[probe]]
+id = "B"
+position_mm = [0, 10, 0]
+measures = "+Z"
+range_um = 200
+)";
+
+std::string with(const std::string& from, const std::string& to, std::string text = kRig) {
+  const std::size_t at = text.rfind(from);
+  EXPECT_NE(at, text.npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+void expect_refused(const std::string& text, const std::vector<std::string>& words) {
+  const Result<Rig> rig = parse_rig(text, "r.toml");
+  ASSERT_FALSE(rig) << words[0];
+  EXPECT_EQ(rig.error().code, ErrorCode::bad_input);
+  for (const std::string& word : words)
+    EXPECT_NE(rig.error().message.find(word), std::string::npos)
+        << rig.error().message << "\nlacks: " << word;
+}
+
+void expect_warned(const std::string& text, const std::vector<std::string>& words) {
+  const Result<Rig> rig = parse_rig(text, "r.toml");
+  ASSERT_TRUE(rig) << rig.error().message;
+  const auto warnings = doubtful_values(*rig);
+  ASSERT_EQ(warnings.size(), 1u) << words[0];
+  for (const std::string& word : words)
+    EXPECT_NE(warnings[0].find(word), std::string::npos) << warnings[0] << "\nlacks: " << word;
+}
+
+void expect_right(const std::string& text) {
+  const Result<Rig> rig = parse_rig(text, "r.toml");
+  ASSERT_TRUE(rig) << rig.error().message;
+  for (const auto& warning : doubtful_values(*rig)) ADD_FAILURE() << warning;
+}
+
+TEST(RigCheck, LeavesRightRigsAlone) {
+  expect_right(kRig);
+  expect_right(with("[10, 0, 0]", "[1.5, 0, 0]", with("[0, 10, 0]", "[0, 1.5, 0]")));  // tiny
+  expect_right(with("[10, 0, 0]", "[200, 0, 0]", with("[0, 10, 0]", "[0, 200, 100]")));
+  for (const char* range : {"range_um = 10", "range_um = 50", "range_um = 12700"})
+    expect_right(with("range_um = 200", range));
+  expect_right(kRig + "um_per_V = 10\n");
+  expect_right(kRig + "um_per_V = -20\n");
+  expect_right(kRig + "reads = \"gap\"\noffset_um = 150\n");
+  expect_right(kRig + "linearity = [[-100, 0.2], [100, -3]]\n");
+  expect_right("artefact_angle_error_urad = -24.5\n" + kRig);
+  expect_right(kRig +
+               "[[plane]]\nnormal = \"+Z\"\noffset_mm = -15\nflatness_first_mm = [0, 9]\n"
+               "flatness_second_mm = [0, 9]\nflatness_um = [[0, 1], [2, 0.5]]\n");
+}
+
+TEST(RigCheck, PositionsInOtherUnits) {
+  // 12 m, as in µm; and 10 mm, as in m
+  expect_refused(with("[10, 0, 0]", "[12000, 0, 0]"),
+                 {"r.toml:6: ", "position_mm", "\"A\"", "1.2e+04 mm", "mm, not um"});
+  expect_refused(with("[0, 10, 0]", "[0, -501, 0]"), {"r.toml:12: ", "position_mm", "\"B\""});
+  expect_refused(with("[10, 0, 0]", "[-300, 0, 0]", with("[0, 10, 0]", "[300, 10, 0]")),
+                 {"r.toml:12: ", "position_mm", "600", "\"A\" and \"B\"", "mm, not um"});
+  expect_refused(with("[10, 0, 0]", "[0.01, 0, 0]", with("[0, 10, 0]", "[0, 0.01, 0]")),
+                 {"position_mm", "mm, not m"});
+  expect_warned(with("[10, 0, 0]", "[0.5, 0, 0]", with("[0, 10, 0]", "[0, 0.5, 0]")),
+                {"position_mm", "0.7071"});
+}
+
+TEST(RigCheck, RangesInOtherUnits) {
+  for (const char* range : {"0.2", "2e5", "2e6", "200e3", "2e-4"})
+    expect_refused(with("range_um = 200", "range_um = " + std::string(range)),
+                   {"r.toml:14: ", "range_um", "\"B\"", "um, not mm or nm"});
+  expect_warned(with("range_um = 200", "range_um = 2"), {"r.toml:14: ", "range_um"});
+  expect_warned(with("range_um = 200", "range_um = 50e3"), {"r.toml:14: ", "range_um"});
+}
+
+TEST(RigCheck, CalibrationsInOtherUnits) {
+  expect_refused(kRig + "um_per_V = 0.01\n", {"r.toml:15: ", "um_per_V", "2e+04 V"});
+  expect_refused(kRig + "um_per_V = 1e6\n", {"r.toml:15: ", "um_per_V"});
+  expect_warned(kRig + "um_per_V = 0.5\n", {"r.toml:15: ", "um_per_V", "400 V"});
+  expect_refused(kRig + "offset_um = 5e5\n", {"r.toml:15: ", "offset_um"});
+  expect_warned(kRig + "offset_um = 150\n", {"r.toml:15: ", "offset_um", "-100 to 100"});
+  expect_warned(kRig + "reads = \"gap\"\noffset_um = -10\n", {"r.toml:16: ", "0 to 200"});
+  expect_refused(kRig + "linearity = [[-100, 300], [100, -10]]\n", {"r.toml:15: ", "linearity"});
+  expect_warned(kRig + "linearity = [[-100, 30], [100, -10]]\n", {"r.toml:15: ", "linearity"});
+}
+
+TEST(RigCheck, TargetsInOtherUnits) {
+  expect_refused("artefact_angle_error_urad = 1.5708e6\n" + kRig,
+                 {"r.toml:1: ", "artefact_angle_error_urad", "90 degrees"});
+  expect_warned("artefact_angle_error_urad = 2e4\n" + kRig, {"artefact_angle_error_urad"});
+  expect_refused(kRig + "[[plane]]\nnormal = \"+Z\"\noffset_mm = 15000\n",
+                 {"r.toml:17: ", "offset_mm"});
+  const std::string map = kRig +
+                          "[[plane]]\nnormal = \"+Z\"\nflatness_first_mm = [0, 9]\n"
+                          "flatness_second_mm = [0, 9]\nflatness_um = [[0, 1], [2, HEIGHT]]\n";
+  expect_refused(with("HEIGHT", "5e4", map), {"r.toml:19: ", "flatness_um"});
+  expect_warned(with("HEIGHT", "500", map), {"r.toml:19: ", "flatness_um", "not nm"});
+}
+
+}  // namespace
+}  // namespace mdof

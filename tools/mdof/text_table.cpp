@@ -6,17 +6,14 @@
 #include <cstdio>
 
 #include "schema/units.h"
+#include "tools/mdof/terminal.h"
 
 namespace mdof::tools {
 namespace {
 
-constexpr const char* kGap = "  ";
-
-// Characters, not bytes: of UTF-8 only continuation bytes begin with 10.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
+constexpr std::string_view kGap = "  ";
+constexpr std::size_t kNarrowest = 24;  // a column of words is not broken into shorter lines
+constexpr double kLongest = 1e9;        // from here on a number is written with an exponent
 
 bool is_number(const std::string& cell) {
   return cell.empty() || (cell.find_first_of("0123456789-+") == 0 &&
@@ -24,48 +21,140 @@ bool is_number(const std::string& cell) {
 }
 
 std::string aligned(const std::string& cell, std::size_t to, bool right) {
-  const std::string space(to - width(cell), ' ');
+  const std::size_t width = text_width(cell);
+  const std::string space(to > width ? to - width : 0, ' ');
   return right ? space + cell : cell + space;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines(1);
+  for (const char c : text) c == '\n' ? lines.emplace_back() : lines.back().append(1, c);
+  return lines;
+}
+
+std::size_t total(const std::vector<std::size_t>& widths) {
+  std::size_t sum = 0;
+  for (const std::size_t width : widths) sum += width + kGap.size();
+  return sum == 0 ? 0 : sum - kGap.size();
 }
 
 }  // namespace
 
-TextTable::TextTable(std::vector<std::string> head) : rows_{std::move(head)} {}
+TextTable::TextTable(std::vector<std::string> head, std::size_t keys)
+    : rows_{std::move(head)}, keys_(std::min(keys, rows_.front().size())) {}
 
 void TextTable::add(std::vector<std::string> row) {
   assert(row.size() == rows_.front().size());
   rows_.push_back(std::move(row));
 }
 
-std::string TextTable::text() const {
-  const std::size_t columns = rows_.front().size();
-  std::vector<std::size_t> widths(columns);
-  std::vector<bool> right(columns, rows_.size() > 1);
-  for (std::size_t c = 0; c < columns; ++c) {
+TextTable::Block TextTable::columns() const {
+  Block columns(rows_.front().size());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    columns[c] = {c, 0, rows_.size() > 1, rows_.size() > 1};
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-      widths[c] = std::max(widths[c], width(rows_[r][c]));
-      right[c] = right[c] && (r == 0 || is_number(rows_[r][c]));
+      columns[c].width = std::max(columns[c].width, text_width(rows_[r][c]));
+      columns[c].right = columns[c].right && (r == 0 || is_number(rows_[r][c]));
+      columns[c].empty = columns[c].empty && (r == 0 || rows_[r][c].empty());
     }
   }
-  std::string out;
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    std::string line, rule;
-    for (std::size_t c = 0; c < columns; ++c) {
-      line += (c == 0 ? "" : kGap) + aligned(rows_[r][c], widths[c], right[c]);
-      rule += (c == 0 ? "" : kGap) + std::string(widths[c], '-');
+  return columns;
+}
+
+std::vector<TextTable::Block> TextTable::blocks(std::size_t width) const {
+  Block all = columns();
+  const auto used = [](const Block& block) {
+    std::vector<std::size_t> widths;
+    for (const Column& column : block) widths.push_back(column.width);
+    return total(widths);
+  };
+  if (used(all) <= width) return {all};
+  const Block keys(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(keys_));
+  std::vector<Block> blocks{keys};
+  for (std::size_t c = keys_; c < all.size(); ++c) {
+    Column column = all[c];
+    if (column.empty) continue;
+    const auto room = [&] {
+      const std::size_t taken = used(blocks.back()) + kGap.size();
+      return width > taken ? width - taken : 0;
+    };
+    const bool fits = column.width <= room() || (!column.right && room() >= kNarrowest);
+    if (!fits && blocks.back().size() > keys_) blocks.push_back(keys);
+    if (!column.right) column.width = std::min(column.width, std::max(room(), kNarrowest));
+    blocks.back().push_back(column);
+  }
+  return blocks;
+}
+
+// A cell of words that is too wide goes on below.
+void TextTable::append_row(std::string& out, const Block& block, std::size_t row) const {
+  std::vector<std::vector<std::string>> cells;
+  std::size_t height = 1;
+  for (const Column& column : block) {
+    const std::string& cell = rows_[row][column.of];
+    const bool whole = text_width(cell) <= column.width;
+    cells.push_back(whole ? std::vector{cell} : lines_of(wrapped(cell, column.width)));
+    height = std::max(height, cells.back().size());
+  }
+  for (std::size_t h = 0; h < height; ++h) {
+    std::string line;
+    for (std::size_t c = 0; c < block.size(); ++c) {
+      if (c > 0) line += kGap;
+      line += aligned(h < cells[c].size() ? cells[c][h] : "", block[c].width, block[c].right);
     }
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + '\n';
+    out += line.erase(line.find_last_not_of(' ') + 1) + '\n';
+  }
+}
+
+std::string TextTable::text_of(const Block& block) const {
+  std::string out, rule;
+  for (const Column& column : block) {
+    if (!rule.empty()) rule += kGap;
+    rule.append(column.width, '-');
+  }
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    append_row(out, block, r);
     if (r == 0) out += rule + '\n';
+  }
+  return out;
+}
+
+std::string TextTable::text() const {
+  return text_of(columns());
+}
+
+std::string TextTable::text(std::size_t width) const {
+  std::string out;
+  for (const Block& block : blocks(width)) out += (out.empty() ? "" : "\n") + text_of(block);
+  return out;
+}
+
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
+  std::string out;
+  std::size_t used = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::size_t wide = text_width(word);
+    if (used > 0 && used + 1 + wide > width) {
+      out.append("\n").append(indent, ' ').append(word);
+      used = indent + wide;
+    } else {
+      out.append(out.empty() ? "" : " ").append(word);
+      used += wide + (used > 0 ? 1 : 0);
+    }
   }
   return out;
 }
 
 std::string fixed(double x, int decimals) {
   if (!std::isfinite(x)) return "-";
-  char text[400];  // the longest double has 309 digits before its point
-  std::snprintf(text, sizeof text, "%.*f", decimals, x);
-  return text;
+  char text[64];
+  std::snprintf(text, sizeof text, std::abs(x) < kLongest ? "%.*f" : "%.*e", decimals, x);
+  const std::string_view digits = text;
+  const bool zero = digits.find_first_not_of("-0.") == std::string_view::npos;
+  return text + (zero && text[0] == '-' ? 1 : 0);
 }
 
 std::string in_mm(double x_m) {

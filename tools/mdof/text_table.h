@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mdof::tools {
@@ -9,15 +10,36 @@ namespace mdof::tools {
 // Columns of numbers are set to the right, others to the left; a rule stands below the head.
 class TextTable {
  public:
-  explicit TextTable(std::vector<std::string> head);
+  // The first `keys` columns say which row it is.
+  explicit TextTable(std::vector<std::string> head, std::size_t keys = 1);
   void add(std::vector<std::string> row);  // as many cells as the head has
-  std::string text() const;                // lines, each with its end
+  std::string text() const;                // lines, each with its end, as wide as they are
+  // Where that is wider than `width`: blocks of columns one below the other, each beginning with
+  // the keys; columns of words are broken into lines, and those without a word are left out.
+  std::string text(std::size_t width) const;
 
  private:
+  struct Column {
+    std::size_t of = 0, width = 0;
+    bool right = false, empty = false;
+  };
+  using Block = std::vector<Column>;
+
+  Block columns() const;
+  std::vector<Block> blocks(std::size_t width) const;
+  std::string text_of(const Block& block) const;
+  void append_row(std::string& out, const Block& block, std::size_t row) const;
+
   std::vector<std::vector<std::string>> rows_;  // the head first
+  std::size_t keys_;
 };
 
-std::string fixed(double x, int decimals);                           // not finite: "-"
+// Words in lines of at most `width` characters; a word that is longer stays whole, so that a path
+// can be copied. Every line but the first begins with `indent` spaces; no line end after the last.
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
+
+// Never "-0.00"; a number too long for a column has an exponent; not finite: "-".
+std::string fixed(double x, int decimals);
 std::string in_mm(double x_m);                                       // 4 decimals
 std::string in_um(double x_m);                                       // 4 decimals
 std::string in_urad(double x_rad);                                   // 3 decimals

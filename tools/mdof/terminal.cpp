@@ -1,0 +1,48 @@
+#include "tools/mdof/terminal.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
+#include "tools/mdof/output.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::size_t kFewestColumns = 40, kMostColumns = 10'000;  // below, nothing can be laid out
+
+// 0: not said.
+std::size_t stated_columns() {
+  const char* text = std::getenv("COLUMNS");
+  const std::string_view digits = text ? text : "";
+  std::size_t columns = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), columns);
+  return error == std::errc() && end == digits.data() + digits.size() ? columns : 0;
+}
+
+std::size_t columns_of_terminal() {
+  winsize size{};
+  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsualColumns;
+  return size.ws_col;
+}
+
+}  // namespace
+
+std::size_t terminal_columns() {
+  const std::size_t stated = stated_columns();
+  const std::size_t columns = !out_is_terminal() ? std::max(stated, kUsualColumns)
+                              : stated > 0       ? stated
+                                                 : columns_of_terminal();
+  return std::clamp(columns, kFewestColumns, kMostColumns);
+}
+
+// Of UTF-8 only continuation bytes begin with 10.
+std::size_t text_width(std::string_view utf8) {
+  return static_cast<std::size_t>(
+      std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace mdof::tools

@@ -61,7 +61,8 @@ class Stop(CommandLine):
 
 class Record(CommandLine):
     def test_ends_with_what_show_prints_and_fits_the_terminal(self):
-        out = self.done("record", "--axis", "X", "--targets-mm", "0,2,4.1,6.2", "--repeats", 1, "--socket", self.daemon.socket)
+        # Complete or not: it is shown.
+        _, out, _ = mdof("record", "--axis", "X", "--for-s", 6, "--socket", self.daemon.socket)
         run = self.client.call("run.list")["runs"][0]["run"]
         self.assertEqual(out, self.done("show", run, "--db", self.daemon.database))
         self.assertIn("EYX/µm", out)

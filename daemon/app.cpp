@@ -40,11 +40,13 @@ struct App::Parts {
   ActiveTables active;
   JournalLimit journal;
   std::vector<std::unique_ptr<Station>> stations;
+  std::unique_ptr<Replayer> replayer;
   std::unique_ptr<Methods> methods;
   rpc::MethodTable table;
   rpc::Server server;
 
   ~Parts() {
+    replayer.reset();
     stations.clear();
     keeper.reset();
   }
@@ -108,11 +110,15 @@ Status App::Parts::listen() {
   server.add_topic({.name = kLiveTopic});
   server.add_topic(
       {.name = kRunTopic, .event = true, .min_interval = std::chrono::milliseconds(0)});
+  replayer = std::make_unique<Replayer>(*keeper);
   methods = std::make_unique<Methods>(Methods{loop, *keeper, *reader, stations, active,
                                               config.database.string(), utc_now(),
                                               std::chrono::steady_clock::now()});
+  methods->replayer = replayer.get();
+  MDOF_TRY(methods->generation, reader->generation());
   add_server_methods(table, *methods);
   add_run_methods(table, *methods);
+  add_replay_methods(table, *methods);
   add_compensation_methods(table, *methods);
   MDOF_TRY(const auto handed_over, systemd::take_listen_sockets());
   for (const int fd : handed_over) MDOF_CHECK(server.listen_fd(fd));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/replayer.h"
 #include "daemon/rpc/event_loop.h"
 #include "daemon/rpc/method_table.h"
 #include "daemon/station.h"
@@ -32,10 +33,13 @@ struct Methods {
   std::string database;
   std::string started_utc;
   std::chrono::steady_clock::time_point started;
+  std::int64_t generation = 0;   // of what is in force: rises with each change of it
+  Replayer* replayer = nullptr;  // none: run.replay is refused
 };
 
 void add_server_methods(rpc::MethodTable& table, Methods& m);  // server.info device.list live.*
 void add_run_methods(rpc::MethodTable& table, Methods& m);     // run.* squareness.fit
+void add_replay_methods(rpc::MethodTable& table, Methods& m);  // run.replay
 void add_compensation_methods(rpc::MethodTable& table, Methods& m);  // compensation.*
 
 // Shared by the groups.

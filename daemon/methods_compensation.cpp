@@ -1,4 +1,4 @@
-// compensation.build, activate, status, grid, at.
+// compensation.build, activate, deactivate, status, grid, at.
 #include <cmath>
 
 #include "algo/compensation.h"
@@ -65,31 +65,46 @@ void build(Methods& m, const Params& params, Reply reply) {
                     });
 }
 
-// On the disk first, then in force for everybody at once on the main thread, then the answer.
+// On the disk first, then in force for everybody at once on the main thread, then the answer, which
+// is `reply_members` with the generation.
+void change_what_is_in_force(Methods& m, Reply reply, std::string reply_members,
+                             std::function<Result<store::Activation>(store::Store&)> change) {
+  auto shared = std::make_shared<Reply>(std::move(reply));
+  const bool posted = m.keeper.post([&m, shared, members = std::move(reply_members),
+                                     change = std::move(change)](store::Store& store) {
+    const auto done = change(store);
+    if (!done) return (*shared)(tl::unexpected(done.error()));
+    auto tables = load_active(store);
+    if (!tables) return (*shared)(tl::unexpected(tables.error()));
+    m.loop.post([&m, members, done = *done, tables = std::move(*tables), shared] {
+      m.active = tables;
+      if (done.changed) m.generation = done.generation;
+      (*shared)(activation_json(members, done));
+    });
+  });
+  if (!posted) (*shared)(io_error("the store is behind with its work; try again"));
+}
+
 void activate(Methods& m, const Params& params, Reply reply) {
   const std::int64_t id = params.integer("table");
-  auto shared = std::make_shared<Reply>(std::move(reply));
-  const bool posted =
-      m.keeper.post([&m, id, actor = actor_of(params), shared](store::Store& store) {
-        const auto generation = store.activate(id, actor, utc_now());
-        if (!generation) return (*shared)(tl::unexpected(generation.error()));
-        auto tables = load_active(store);
-        if (!tables) return (*shared)(tl::unexpected(tables.error()));
-        m.loop.post([&m, id, generation = *generation, tables = std::move(*tables), shared] {
-          m.active = tables;
-          JsonWriter json;
-          json.begin_object().field("table", id).field("generation", generation).end_object();
-          (*shared)(json.take());
-        });
-      });
-  if (!posted) (*shared)(io_error("the store is behind with its work; try again"));
+  change_what_is_in_force(m, std::move(reply), "\"table\":" + std::to_string(id),
+                          [id, actor = actor_of(params)](store::Store& store) {
+                            return store.activate(id, actor, utc_now());
+                          });
+}
+
+void deactivate(Methods& m, const Params& params, Reply reply) {
+  const auto axis = axis_param(params);
+  if (!axis) return reply(tl::unexpected(axis.error()));
+  change_what_is_in_force(m, std::move(reply), std::string("\"axis\":\"") + letter(*axis) + "\"",
+                          [axis = *axis, actor = actor_of(params)](store::Store& store) {
+                            return store.deactivate(axis, actor, utc_now());
+                          });
 }
 
 std::string status(const Methods& m) {
   JsonWriter json;
-  std::int64_t generation = 0;
-  for (const auto& a : m.active) generation = std::max(generation, a ? a->generation : 0);
-  json.begin_object().field("generation", generation).key("axes").begin_object();
+  json.begin_object().field("generation", m.generation).key("axes").begin_object();
   for (const auto& active : m.active) {
     if (!active) continue;
     json.key(std::string(1, letter(active->table.axis))).begin_object();
@@ -129,7 +144,8 @@ Result<std::string> grid(const Methods& m, const Params& params) {
 
 void write_values(JsonWriter& json, const char* key, Axis axis, const Errors5& values) {
   json.key(key).begin_object();
-  for (std::size_t k = 0; k < 5; ++k) json.field(error_names(axis)[k].key, to_key_unit(values[k]));
+  for (std::size_t k = 0; k < 5; ++k)
+    json.field(error_names(axis)[k].key, to_key_unit(values[k]) + 0.0);  // -0 is 0
   json.end_object();
 }
 
@@ -207,10 +223,17 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "compensation.activate",
              .summary = "Puts a stored table in force on its axis, at once and for everybody.",
              .params = {{"table", ParamType::integer, "id of the table", true}},
-             .result = "table, generation: the new one",
+             .result = "table, generation, changed: false where it was in force already",
              .example = R"({"table": 1})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
+  table.add({.name = "compensation.deactivate",
+             .summary = "Takes the table in force on an axis out of force: none is from then on.",
+             .params = {axis},
+             .result = "axis, generation, changed: false where none was in force",
+             .example = R"({"axis": "X"})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
   table.add({.name = "compensation.status",
              .summary = "The tables in force by axis, with the generation that tells of a change.",
              .result = "generation; axes: table, runs, range, sense, simulated, who and when",

@@ -1,5 +1,6 @@
 // server.info, device.list, live.subscribe, live.unsubscribe; and what all groups share.
 #include <cstdio>
+#include <filesystem>
 
 #include "daemon/live_json.h"
 #include "daemon/methods.h"
@@ -15,10 +16,8 @@ using rpc::ParamType;
 
 std::string server_info(const Methods& m) {
   const auto up = std::chrono::steady_clock::now() - m.started;
-  std::int64_t generation = 0;
-  for (const auto& table : m.active) {
-    if (table) generation = std::max(generation, table->generation);
-  }
+  std::error_code ec;  // a client is in another folder
+  const auto database = std::filesystem::absolute(m.database, ec);
   JsonWriter json;
   json.begin_object()
       .field("server", "mdofd")
@@ -26,8 +25,8 @@ std::string server_info(const Methods& m) {
       .field("protocol", "1.0")
       .field("started_utc", m.started_utc)
       .field("uptime_s", std::chrono::duration<double>(up).count())
-      .field("database", m.database)
-      .field("generation", generation)
+      .field("database", ec ? m.database : database.string())
+      .field("generation", m.generation)
       .field("store_jobs_dropped", m.keeper.dropped_blocks());
   json.key("axes").begin_array();
   for (const auto& station : m.stations) {

@@ -57,7 +57,8 @@ Status read_through(ReplayLog& log, Pipeline& pipeline, const ReplayProgress& pr
       if (const Status taken = pipeline.push(block); !taken)
         return in_context(log.path(), taken.error());
     }
-    if (progress) progress(log.progress());
+    if (progress && !progress(log.progress()))
+      return io_error(log.path() + ": given up before its end; replay it again");
     if (state == ReadState::end) return {};
   }
 }

@@ -55,7 +55,8 @@ Status check_axis(const std::string& source, const std::vector<std::string>& com
 Status check_channels(const std::string& source, const std::vector<Channel>& channels,
                       const Rig& rig);
 
-using ReplayProgress = std::function<void(double share)>;  // called after every block
+// Called after every block; false: the log is given up, which is an error.
+using ReplayProgress = std::function<bool(double share)>;
 
 // Reads the log to its end through the pipeline. The run has everything but its id, and a starting
 // time only if the log has one. Errors: a rig that does not fit the log, the driver's and the

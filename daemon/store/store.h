@@ -52,6 +52,15 @@ struct ActiveTable {
   std::string activated_utc;
 };
 
+// What came of activate() or deactivate().
+struct Activation {
+  std::int64_t generation = 0;
+  bool changed = false;  // false: it was so already, and is of that generation
+};
+
+// {`members`,"generation":7,"changed":true}: `members` say of what, as JSON.
+std::string activation_json(const std::string& members, const Activation& activation);
+
 // Thread-bound. A message names the file; not_found names the run or table that is not there.
 // Doubles come back with the bits that they went in with; a NaN comes back as a NaN.
 class Store {
@@ -94,9 +103,10 @@ class Store {
                                                      std::optional<Axis> axis = std::nullopt);
   // Puts a table in force on its axis; gives the new generation. Generations rise strictly over all
   // axes, so that one number tells a client whether anything has changed.
-  Result<std::int64_t> activate(std::int64_t table, const std::string& actor,
-                                const std::string& utc);
-  Result<ActiveTable> active(Axis axis);  // not_found where none was ever activated
+  Result<Activation> activate(std::int64_t table, const std::string& actor, const std::string& utc);
+  // No table is in force on the axis from then on.
+  Result<Activation> deactivate(Axis axis, const std::string& actor, const std::string& utc);
+  Result<ActiveTable> active(Axis axis);  // not_found where none is in force
   Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
 
   // ---- sensitivity studies ----

@@ -203,23 +203,49 @@ Result<std::vector<CompensationTable>> Store::list_tables(std::int64_t offset, s
   }
 }
 
-Result<std::int64_t> Store::activate(std::int64_t table, const std::string& actor,
-                                     const std::string& utc) {
-  MDOF_CHECK(
-      check_exists("SELECT 1 FROM compensation_table WHERE id = ?", "compensation table", table));
-  MDOF_TRY(Statement insert,
-           connection_.prepare("INSERT INTO activation (generation, axis, compensation_table, "
-                               "actor, activated_utc) SELECT (SELECT coalesce(max(generation), 0) "
-                               "+ 1 FROM activation), axis, id, ?, ? FROM compensation_table "
-                               "WHERE id = ?"));
-  MDOF_CHECK(insert.bind(std::string_view(actor)).bind(std::string_view(utc)).bind(table).run());
-  return connection_.last_insert_rowid();
+std::string activation_json(const std::string& members, const Activation& activation) {
+  return "{" + members + ",\"generation\":" + std::to_string(activation.generation) +
+         ",\"changed\":" + (activation.changed ? "true" : "false") + "}";
+}
+
+Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
+                                   const std::string& utc) {
+  MDOF_TRY(const CompensationTable wanted, this->table(table));
+  const auto now = active(wanted.axis);
+  if (now && now->table.id == table) return Activation{now->generation, false};
+  if (!now && now.error().code != ErrorCode::not_found) return tl::unexpected(now.error());
+  MDOF_TRY(const std::int64_t generation, this->generation());
+  const char axis = letter(wanted.axis);
+  MDOF_TRY(Statement insert, connection_.prepare("INSERT INTO activation VALUES (?, ?, ?, ?, ?)"));
+  MDOF_CHECK(insert.bind(generation + 1)
+                 .bind(std::string_view(&axis, 1))
+                 .bind(table)
+                 .bind(std::string_view(actor))
+                 .bind(std::string_view(utc))
+                 .run());
+  return Activation{generation + 1, true};
+}
+
+Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const std::string& utc) {
+  MDOF_TRY(const std::int64_t generation, this->generation());
+  const auto now = active(axis);
+  if (!now && now.error().code == ErrorCode::not_found) return Activation{generation, false};
+  const char letter_of_axis = letter(axis);
+  MDOF_TRY(Statement insert, connection_.prepare("INSERT INTO deactivation VALUES (?, ?, ?, ?)"));
+  MDOF_CHECK(insert.bind(generation + 1)
+                 .bind(std::string_view(&letter_of_axis, 1))
+                 .bind(std::string_view(actor))
+                 .bind(std::string_view(utc))
+                 .run());
+  return Activation{generation + 1, true};
 }
 
 Result<ActiveTable> Store::active(Axis axis) {
   MDOF_TRY(Statement row,
            connection_.prepare("SELECT generation, compensation_table, actor, activated_utc FROM "
-                               "activation WHERE axis = ? ORDER BY generation DESC LIMIT 1"));
+                               "activation WHERE axis = ?1 AND generation > (SELECT "
+                               "coalesce(max(generation), 0) FROM deactivation WHERE axis = ?1) "
+                               "ORDER BY generation DESC LIMIT 1"));
   const char letter_of_axis = letter(axis);
   MDOF_TRY(const bool found, row.bind(std::string_view(&letter_of_axis, 1)).step());
   if (!found)
@@ -234,7 +260,9 @@ Result<ActiveTable> Store::active(Axis axis) {
 }
 
 Result<std::int64_t> Store::generation() {
-  return connection_.integer("SELECT max(generation) FROM activation");
+  return connection_.integer(
+      "SELECT max(generation) FROM (SELECT generation FROM activation UNION ALL "
+      "SELECT generation FROM deactivation)");
 }
 
 }  // namespace mdof::store

@@ -26,6 +26,8 @@ void add_studies(CLI::App& app, Action& chosen);
 void add_study(CLI::App& app, Action& chosen);
 void add_verify(CLI::App& app, Action& chosen);
 void add_record(CLI::App& app, Action& chosen);
+void add_stop(CLI::App& app, Action& chosen);
+void add_export(CLI::App& app, Action& chosen);
 void add_device(CLI::App& app, Action& chosen);
 void add_doctor(CLI::App& app, Action& chosen);
 void add_status(CLI::App& app, Action& chosen);

@@ -7,10 +7,13 @@
 #include "schema/run_json.h"
 #include "tools/mdof/command.h"
 #include "tools/mdof/compensation_text.h"
-#include "tools/mdof/daemon_call.h"
 #include "tools/mdof/database.h"
+#include "tools/mdof/holder.h"
+#include "tools/mdof/json_read.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/run_choice.h"
+#include "tools/mdof/table_csv.h"
 
 namespace mdof::tools {
 namespace {
@@ -19,9 +22,10 @@ constexpr std::int64_t kMostTables = 1'000'000;
 
 struct CompensationCommand {
   std::string database, socket, axis, reference;  // empty: the rig's tool point, else the fixture
+  std::vector<std::string> words;                 // runs as they were given
   std::vector<std::int64_t> runs;
   std::int64_t table = 0;
-  bool keep_slope = false, partial = false, json = false;
+  bool keep_slope = false, partial = false, csv = false, json = false;
 };
 
 Status print_table(const CompensationTable& table, std::int64_t generation, bool json) {
@@ -39,7 +43,9 @@ Result<daemon::BuiltTable> build_and_store(const CompensationCommand& command) {
   return daemon::build_table(store, request);
 }
 
-Status ask_daemon_to_build(const CompensationCommand& command) {
+// mdofd has the database: it builds and stores. What it stored is read and shown like a table of
+// this program's.
+Result<daemon::BuiltTable> build_there(rpc::Client& mdofd, const CompensationCommand& command) {
   JsonWriter params;
   params.begin_object().key("runs").begin_array();
   for (const std::int64_t id : command.runs) params.value(id);
@@ -48,37 +54,79 @@ Status ask_daemon_to_build(const CompensationCommand& command) {
   if (!command.reference.empty()) params.field("reference", command.reference);
   if (command.partial) params.field("partial", true);
   params.end_object();
-  return print_call(command.socket, "compensation.build", params.text(), command.json);
+  MDOF_TRY(const std::string reply, mdofd.call("compensation.build", params.text()));
+  simdjson::dom::parser parser;
+  const auto json = parser.parse(simdjson::padded_string(reply));
+  daemon::BuiltTable built;
+  built.warnings = texts(json, "warnings");
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(built.table, store.table(integer(json, "table").value_or(0)));
+  return built;
 }
 
-Status build(const CompensationCommand& command) {
-  MDOF_TRY(const bool busy, somebody_writes(command.database));
-  if (busy) return ask_daemon_to_build(command);
-  MDOF_TRY(const auto built, build_and_store(command));
+Status choose_runs(CompensationCommand& command) {
+  for (const auto& word : command.words) {
+    MDOF_TRY(const auto run, run_number(command.database, word, axis_from(command.axis)));
+    command.runs.push_back(run);
+  }
+  return {};
+}
+
+Status build(const CompensationCommand& asked) {
+  CompensationCommand command = asked;
+  MDOF_CHECK(choose_runs(command));
+  MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
+  MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
   const auto& [table, warnings] = built;
   for (const auto& warning : warnings) warn(warning);
   MDOF_CHECK(command.json ? write_line(with_warnings(table_document(table, 0), warnings))
-                          : write_out(table_text(table, 0)));
+                          : print_table(table, 0, false));
   say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id));
   return {};
 }
 
-// ---- activate ----
+// ---- activate and deactivate ----
+
+constexpr const char* kActor = "mdof";
+
+// What came of it as text; the same JSON from mdofd and from here.
+Status print_activation(const CompensationCommand& command, const std::string& reply,
+                        const std::string& done, const std::string& already) {
+  if (command.json) return write_line(reply);
+  simdjson::dom::parser parser;
+  const auto json = parser.parse(simdjson::padded_string(reply));
+  return write_line((flag(json, "changed") ? done : already) + ", generation " +
+                    std::to_string(integer(json, "generation").value_or(0)));
+}
+
+Result<std::string> activated(const CompensationCommand& command) {
+  const std::string table = "\"table\":" + std::to_string(command.table);
+  MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
+  if (mdofd) return mdofd->call("compensation.activate", "{" + table + "}");
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(const auto done, store.activate(command.table, kActor, daemon::utc_now()));
+  return store::activation_json(table, done);
+}
 
 Status activate(const CompensationCommand& command) {
-  MDOF_TRY(const bool busy, somebody_writes(command.database));
-  if (busy) {
-    JsonWriter params;
-    params.begin_object().field("table", command.table).end_object();
-    return print_call(command.socket, "compensation.activate", params.text(), command.json);
-  }
+  MDOF_TRY(const std::string reply, activated(command));
+  const std::string table = "table " + std::to_string(command.table);
+  return print_activation(command, reply, table + " is in force", table + " is already in force");
+}
+
+Result<std::string> deactivated(const CompensationCommand& command) {
+  const std::string axis = "\"axis\":\"" + command.axis + "\"";
+  MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
+  if (mdofd) return mdofd->call("compensation.deactivate", "{" + axis + "}");
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(const auto generation, store.activate(command.table, "mdof", daemon::utc_now()));
-  JsonWriter json;
-  json.begin_object().field("table", command.table).field("generation", generation).end_object();
-  return command.json ? write_line(json.text())
-                      : write_line("table " + std::to_string(command.table) +
-                                   " is in force, generation " + std::to_string(generation));
+  MDOF_TRY(const auto done, store.deactivate(*axis_from(command.axis), kActor, daemon::utc_now()));
+  return store::activation_json(axis, done);
+}
+
+Status deactivate(const CompensationCommand& command) {
+  MDOF_TRY(const std::string reply, deactivated(command));
+  return print_activation(command, reply, "axis " + command.axis + " is no longer compensated",
+                          "axis " + command.axis + ": no table was in force");
 }
 
 // ---- show and list ----
@@ -110,6 +158,7 @@ Result<CompensationTable> choose_table(store::Store& store, const CompensationCo
 Status show(const CompensationCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const CompensationTable table, choose_table(store, command));
+  if (command.csv) return write_out(table_csv(table));
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   return print_table(table, generation, command.json);
 }
@@ -129,7 +178,6 @@ Status list(const CompensationCommand& command) {
 CLI::App* declare(CLI::App& group, const char* name, const char* what, CompensationCommand& o) {
   auto* command = group.add_subcommand(name, what);
   add_database_option(*command, o.database);
-  add_json_flag(*command, o.json);
   return command;
 }
 
@@ -147,27 +195,43 @@ void add_compensation(CLI::App& app, Action& chosen) {
     command->callback([o, &chosen, what] { chosen = [o, what] { return what(*o); }; });
   };
   auto* of_build = declare(*group, "build", "Mean errors of runs of one axis as a table", *o);
-  of_build->add_option("RUN", o->runs, "Runs of one axis, the same targets")
-      ->required()
-      ->type_name("");
+  add_run_arguments(*of_build, o->words, "Runs of one axis, the same targets; or latest");
+  add_axis_of_latest(*of_build, o->axis);
   of_build->add_flag("--keep-slope", o->keep_slope,
                      "Straightness as measured, not about its least-squares line");
   of_build->add_flag("--partial", o->partial, "Take partial runs as well");
   add_reference_option(*of_build, o->reference)
       ->description("fixture, carriage or tool [default: the rig's tool point, else the fixture]");
   add_socket_option(*of_build, o->socket);
+  add_json_flag(*of_build, o->json);
+  of_build->footer(
+      "Examples:\n  mdof compensation build 1 3 5\n  mdof compensation build latest --axis X");
   does(of_build, build);
   auto* of_show = declare(*group, "show", "Show a table [default: the one in force]", *o);
   of_show->add_option("TABLE", o->table, "Number of the table")->type_name("");
   add_axis_option(*of_show, o->axis);
+  add_csv_and_json_flags(*of_show, o->csv, o->json);
+  of_show->footer("Example:\n  mdof compensation show --axis X --csv > table_X.csv");
   does(of_show, show);
   auto* of_list = declare(*group, "list", "List the stored tables, newest first", *o);
   add_axis_option(*of_list, o->axis);
+  add_json_flag(*of_list, o->json);
+  of_list->footer("Example:\n  mdof compensation list --axis X");
   does(of_list, list);
   auto* of_activate = declare(*group, "activate", "Put a table in force on its axis", *o);
   of_activate->add_option("TABLE", o->table, "Number of the table")->required()->type_name("");
   add_socket_option(*of_activate, o->socket);
+  add_json_flag(*of_activate, o->json);
+  of_activate->footer("Example:\n  mdof compensation activate 1");
   does(of_activate, activate);
+  auto* of_deactivate = declare(*group, "deactivate", "Take the table of an axis out of force", *o);
+  of_deactivate->add_option("--axis", o->axis, "Of the machine")
+      ->required()
+      ->check(CLI::IsMember({"X", "Y", "Z"}));
+  add_socket_option(*of_deactivate, o->socket);
+  add_json_flag(*of_deactivate, o->json);
+  of_deactivate->footer("Example:\n  mdof compensation deactivate --axis X");
+  does(of_deactivate, deactivate);
 }
 
 }  // namespace mdof::tools

@@ -3,6 +3,7 @@
 #include "schema/correction.h"
 #include "schema/run_json.h"
 #include "tools/mdof/run_tables.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
@@ -27,7 +28,7 @@ std::string side_text(const CompensationTable& t, const Columns& values, const C
     }
     out.add(std::move(row));
   }
-  return out.text();
+  return out.text(terminal_columns());
 }
 
 std::string runs_of(const CompensationTable& t) {
@@ -69,10 +70,12 @@ std::string table_document(const CompensationTable& t, std::int64_t generation) 
 }
 
 std::string table_text(const CompensationTable& t, std::int64_t generation) {
-  return simulated_notice(t.simulated) + "table " + std::to_string(t.id) + ", axis " +
-         letter(t.axis) + ", " + state_of(generation) + ", of the runs " + runs_of(t) + ", " +
-         t.created_utc + "\nerrors: actual - nominal, of the " + t.sides.moves() +
-         "\nstraightness " + (t.slope_removed ? "about its least-squares line" : "as measured") +
+  return simulated_notice(t.simulated) +
+         wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) + ", " +
+                     state_of(generation) + ", of the runs " + runs_of(t) + ", " + t.created_utc,
+                 terminal_columns()) +
+         "\nerrors: actual - nominal, of the " + t.sides.moves() + "\nstraightness " +
+         (t.slope_removed ? "about its least-squares line" : "as measured") +
          ", angles from the first target\n" + stated_text(t.stated) + corrections_text(t) +
          "\nforward\n" + side_text(t, t.forward, t.u_forward) + "\nreverse\n" +
          side_text(t, t.reverse, t.u_reverse);
@@ -103,7 +106,7 @@ std::string list_text(const std::vector<CompensationTable>& tables,
              std::to_string(t.position_m.size()), in_mm(t.position_m.front()),
              in_mm(t.position_m.back()), t.created_utc});
   }
-  return out.text();
+  return out.text(terminal_columns());
 }
 
 }  // namespace mdof::tools

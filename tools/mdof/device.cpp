@@ -97,6 +97,7 @@ void add_device(CLI::App& app, Action& chosen) {
   auto* listing = group->add_subcommand("list", "Devices of mdofd with state and counts");
   add_socket_option(*listing, o->socket);
   add_json_flag(*listing, o->json);
+  listing->footer("Example:\n  mdof device list");
   listing->callback([o, &chosen] { chosen = [o] { return list(*o); }; });
 
   auto* probing = on_config(*group, "probe", "Open a device: identity, rate, noise, clock", *o);
@@ -104,9 +105,11 @@ void add_device(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
   add_json_flag(*probing, o->json);
+  probing->footer("Example:\n  mdof device probe --config mdofd.toml");
   probing->callback([o, &chosen] { chosen = [o] { return probe(*o); }; });
 
   auto* monitoring = on_config(*group, "monitor", "Print a device's values until Ctrl-C", *o);
+  monitoring->footer("Example:\n  mdof device monitor --config mdofd.toml");
   monitoring->callback([o, &chosen] { chosen = [o] { return monitor(*o); }; });
   group->footer(
       "Examples:\n"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
@@ -45,7 +46,7 @@ std::string table(const array& items) {
     }
     out.add(std::move(row));
   }
-  return out.text();
+  return out.text(terminal_columns());
 }
 
 std::string members(const object& of, const std::string& prefix) {

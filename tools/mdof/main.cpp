@@ -1,6 +1,7 @@
 // mdof: the command line of the bench (DESIGN §6).
 #include <csignal>
 #include <exception>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
 
@@ -31,7 +32,6 @@ constexpr const char* kExamples =
 void declare(CLI::App& app, Action& chosen) {
   app.set_version_flag("--version", daemon::kVersion);
   app.set_help_flag("-h,--help", "Print this help and end");
-  app.footer(kExamples);
   add_solve(app, chosen);
   add_replay(app, chosen);
   add_runs(app, chosen);
@@ -43,12 +43,15 @@ void declare(CLI::App& app, Action& chosen) {
   add_studies(app, chosen);
   add_study(app, chosen);
   add_verify(app, chosen);
+  add_export(app, chosen);
   add_record(app, chosen);
+  add_stop(app, chosen);
   add_device(app, chosen);
   add_doctor(app, chosen);
   add_status(app, chosen);
   add_live(app, chosen);
   add_selftest(app, chosen);
+  app.footer(kExamples);  // last: a command has examples of its own
 }
 
 int run(int argc, char** argv) {
@@ -79,6 +82,10 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // write_out() sees EPIPE
   try {
     return run(argc, argv);
+  } catch (const std::filesystem::filesystem_error& error) {
+    say("mdof: " + error.path1().string() + ": " + error.code().message() +
+        "; check that the folder exists and may be used");
+    return kDeviceOrIo;
   } catch (const std::exception& error) {  // memory is used up, or a bug
     say(std::string("mdof: ") + error.what());
     return kDeviceOrIo;

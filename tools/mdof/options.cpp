@@ -10,6 +10,15 @@ void add_json_flag(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "Print one JSON document");
 }
 
+void add_csv_and_json_flags(CLI::App& command, bool& csv, bool& json) {
+  auto* first = command.add_flag("--csv", csv, "Print CSV: units in the header, 17 digits");
+  command.add_flag("--json", json, "Print one JSON document")->excludes(first);
+}
+
+void add_all_warnings_flag(CLI::App& command, bool& all) {
+  command.add_flag("--all-warnings", all, "Also those that are like three before");
+}
+
 void add_database_option(CLI::App& command, std::string& database) {
   command
       .add_option("--db", database,

@@ -11,6 +11,8 @@ class Option;
 namespace mdof::tools {
 
 void add_json_flag(CLI::App& command, bool& json);
+void add_csv_and_json_flags(CLI::App& command, bool& csv, bool& json);  // one or the other
+void add_all_warnings_flag(CLI::App& command, bool& all);
 void add_database_option(CLI::App& command, std::string& database);
 void add_socket_option(CLI::App& command, std::string& socket);  // sets the default
 void add_model_option(CLI::App& command, std::string& model);    // one of the three names

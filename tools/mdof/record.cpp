@@ -13,6 +13,7 @@
 #include "tools/mdof/live_view.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored_run.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text_table.h"
 
@@ -135,9 +136,11 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
   }
 }
 
-// The run's header and figures; an error where it is not what was asked for.
-Status print_result(std::int64_t run, const std::string& result, bool as_json) {
-  MDOF_CHECK(as_json ? write_line(result) : write_out(readable(result)));
+// The run as `mdof show` prints it; an error where it is not what was asked for.
+Status print_result(rpc::Client& client, std::int64_t run, const std::string& result,
+                    bool as_json) {
+  MDOF_CHECK(as_json ? write_line(result)
+                     : write_out(stored_run_text(client, run).value_or(readable(result))));
   simdjson::dom::parser parser;
   const std::string state = text(parser.parse(simdjson::padded_string(result)), "state");
   if (state == "complete") return {};
@@ -168,7 +171,7 @@ Status record(RecordCommand command) {
   JsonWriter params;
   params.begin_object().field("run", id).end_object();
   MDOF_TRY(const std::string result, client.call("run.get", params.text()));
-  return print_result(id, result, command.json);
+  return print_result(client, id, result, command.json);
 }
 
 }  // namespace

@@ -1,75 +1,110 @@
 // mdof replay LOG: a recorded log becomes a stored run.
-#include "daemon/replay.h"
-
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 
 #include "algo/restate.h"
-#include "daemon/config.h"
 #include "daemon/evaluation.h"
-#include "daemon/paths.h"
+#include "daemon/replay_order.h"
+#include "schema/files.h"
 #include "schema/run_json.h"
-#include "schema/units.h"
 #include "tools/mdof/command.h"
 #include "tools/mdof/database.h"
+#include "tools/mdof/holder.h"
+#include "tools/mdof/json_read.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/plausibility_text.h"
 #include "tools/mdof/progress.h"
 #include "tools/mdof/run_tables.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/warnings.h"
 
 namespace mdof::tools {
 namespace {
 
+constexpr std::chrono::hours kPatience{24};  // mdofd says nothing before a log is done
+
 struct ReplayCommand {
   std::string reference = "fixture";
-  std::string log, rig, database, model, note;  // model: empty where not given
+  std::string log, rig, database, socket, model, note;  // model: empty where not given
   std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
   std::vector<double> targets_mm;
-  bool json = false, keep_out = false;
+  bool json = false, keep_out = false, all_warnings = false;
 };
 
-// As the run was asked for whose recording this is, but for what is given here.
-Result<daemon::PipelineOptions> pipeline_options(const ReplayCommand& command,
-                                                 const daemon::ReplayLog& log) {
-  MDOF_TRY(const auto asked, log.asked_for());
-  daemon::PipelineOptions options = asked.options;
-  if (!command.model.empty()) model_from(command.model, options.model);
-  if (command.tolerance_um) options.dwell.tolerance_m = from_um(*command.tolerance_um);
-  options.dwell.settle_s = command.settle_s.value_or(options.dwell.settle_s);
-  options.dwell.min_length_s = command.min_length_s.value_or(options.dwell.min_length_s);
-  options.align.lag_bound_s = command.lag_bound_s.value_or(options.align.lag_bound_s);
-  options.align.max_gap_s = command.max_gap_s.value_or(options.align.max_gap_s);
-  if (!command.targets_mm.empty()) options.sequence.targets_m.clear();
-  for (const double t : command.targets_mm) options.sequence.targets_m.push_back(from_mm(t));
-  std::sort(options.sequence.targets_m.begin(), options.sequence.targets_m.end());
-  return options;
+Result<daemon::ReplayOrder> order_of(const ReplayCommand& c) {
+  daemon::ReplayOrder order;
+  order.log = c.log;
+  order.rig_source = c.rig;
+  if (!c.rig.empty()) {
+    MDOF_TRY(order.rig_text, read_text_file(c.rig));
+  }
+  order.model = c.model;
+  order.note = c.note;
+  order.tolerance_um = c.tolerance_um;
+  order.settle_s = c.settle_s;
+  order.min_length_s = c.min_length_s;
+  order.lag_bound_s = c.lag_bound_s;
+  order.max_gap_s = c.max_gap_s;
+  order.targets_mm = c.targets_mm;
+  return order;
 }
 
-Result<Rig> rig_of(const ReplayCommand& command, const daemon::ReplayLog& log) {
-  if (!command.rig.empty()) return load_rig(command.rig);
-  const std::string text = log.rig_text();
-  if (!text.empty()) return parse_rig(text, command.log + " (its rig)");
-  return fail(ErrorCode::usage,
-              command.log + ": is a CSV log, which has no rig in it; give one with --rig RIG.toml");
-}
-
-Result<Run> replay_log(const ReplayCommand& command) {
-  MDOF_TRY(daemon::ReplayLog log, daemon::ReplayLog::open(command.log));
-  MDOF_TRY(const Rig rig, rig_of(command, log));
+Result<Run> replay_here(const daemon::ReplayOrder& order) {
   std::error_code ec;
-  const auto size = std::filesystem::file_size(command.log, ec);
+  const auto size = std::filesystem::file_size(order.log, ec);
   const double bytes = ec ? 0 : static_cast<double>(size);
   Progress progress("replay", "B");
-  MDOF_TRY(const auto options, pipeline_options(command, log));
-  return daemon::replay(log, rig, options, [&](double share) { progress.show(share, bytes); });
+  return daemon::replay(order, [&](double share) {
+    progress.show(share, bytes);
+    return true;
+  });
 }
 
-Status store_run(const ReplayCommand& command, Run& run) {
+std::string params_of(const daemon::ReplayOrder& order, const std::string& path) {
+  JsonWriter json;
+  json.begin_object().field("path", path).field("note", order.note);
+  if (!order.rig_source.empty())
+    json.field("rig", order.rig_text).field("rig_source", order.rig_source);
+  if (!order.model.empty()) json.field("model", order.model);
+  const auto number = [&](const char* key, const std::optional<double>& value) {
+    if (value) json.field(key, *value);
+  };
+  number("tolerance_um", order.tolerance_um);
+  number("settle_s", order.settle_s);
+  number("min_length_s", order.min_length_s);
+  number("max_gap_s", order.max_gap_s);
+  number("lag_bound_s", order.lag_bound_s);
+  json.key("targets_mm").begin_array();
+  for (const double target_mm : order.targets_mm) json.value(target_mm);
+  json.end_array().end_object();
+  return json.take();
+}
+
+// mdofd has the database: it reads the log, computes and stores.
+Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command,
+                         const daemon::ReplayOrder& order) {
+  if (order.log == "-")
+    return fail(ErrorCode::conflict,
+                "mdofd holds the database and cannot read the standard input of this program; "
+                "write the log to a file, or name another database with --db");
+  std::error_code ec;
+  const std::string path = std::filesystem::absolute(order.log, ec);
+  const auto reply = mdofd.call("run.replay", params_of(order, path), kPatience);
+  if (!reply) return in_context("mdofd", reply.error());
+  simdjson::dom::parser parser;
+  const auto id = integer(parser.parse(simdjson::padded_string(*reply)), "run");
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  return store.run(id.value_or(0));
+}
+
+Result<Run> replay_and_store(const ReplayCommand& command, const daemon::ReplayOrder& order) {
+  MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
+  if (mdofd) return replay_there(*mdofd, command, order);
+  MDOF_TRY(Run run, replay_here(order));
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id, store.add_run(run));
-  return {};
+  return run;
 }
 
 Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
@@ -80,18 +115,15 @@ Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
 }
 
 Status replay(const ReplayCommand& command) {
-  MDOF_TRY(Run run, replay_log(command));
-  if (run.header.started_utc.empty()) run.header.started_utc = daemon::utc_now();
-  if (!command.note.empty()) run.header.note = command.note;
+  MDOF_TRY(const auto order, order_of(command));
+  MDOF_TRY(Run run, command.keep_out ? replay_here(order) : replay_and_store(command, order));
   MDOF_TRY(const StatedAt at, asked_reference(command, run));
-  if (!command.keep_out) MDOF_CHECK(store_run(command, run));
   run = algo::restate(std::move(run), at);  // what is stored is stated at the fixture
-  for (const auto& warning : run.header.warnings) warn(warning);
+  for (const auto& warning : summarised(run.header.warnings, command.all_warnings)) warn(warning);
   if (command.json) return write_line(run_json(run));
   run.header.warnings.clear();  // said already
-  return write_out(head_text(run.header) + "\n" + points_text(run) + "\n" +
-                   straightness_text(run.straightness) + "\n" + angles_text(run.angles) +
-                   (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : ""));
+  return write_out(show_text(run, "", terminal_columns()) + "\n" +
+                   figures_text(run, terminal_columns()));
 }
 
 }  // namespace
@@ -104,6 +136,7 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->type_name("");
   command->add_option("--rig", o->rig, "Fixture; a recording has its own")->type_name("RIG.toml");
   add_database_option(*command, o->database);
+  add_socket_option(*command, o->socket);
   add_model_option(*command, o->model);
   add_reference_option(*command, o->reference)->capture_default_str();
   command->add_option("--note", o->note, "Kept with the run")->type_name("TEXT");
@@ -122,6 +155,7 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->check(CLI::PositiveNumber);
   command->add_option("--lag-bound-s", o->lag_bound_s, "A probe silent for longer is given up [3]")
       ->check(CLI::PositiveNumber);
+  add_all_warnings_flag(*command, o->all_warnings);
   add_json_flag(*command, o->json);
   command->footer(
       "A recording is measured as its run was asked for; an option changes that.\n"

@@ -5,9 +5,45 @@
 #include <cstdio>
 
 #include "schema/axis.h"
+#include "tools/mdof/plausibility_text.h"
 #include "tools/mdof/text_table.h"
+#include "tools/mdof/warnings.h"
 
 namespace mdof::tools {
+namespace {
+
+constexpr std::size_t kLabel = 11;  // "recording  "
+
+std::string labelled(std::string label, const std::string& text, std::size_t width) {
+  label.resize(kLabel, ' ');
+  return wrapped(label + text, width, kLabel) + "\n";
+}
+
+std::string temperature_text(const Temperature& read) {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "%.2f °C (%.2f to %.2f)", read.mean_C, read.min_C,
+                read.max_C);
+  return text.data();
+}
+
+// The scans of a CSV log have no number: whether some are lost is not known.
+std::string lost_of(const RunHeader& h) {
+  const bool unknown = h.provenance.recording_kind == "csv" && h.scans_lost == 0;
+  return unknown ? "lost not known" : "lost " + std::to_string(h.scans_lost);
+}
+
+std::string flags_of(const MeasuredPoint& p) {
+  const std::string flags = joined(p.point.flags, " ");
+  if (p.errors.valid) return flags;
+  return flags + (flags.empty() ? "" : " ") + "unsolved: " + p.errors.reason;
+}
+
+// No noise is known: so is no uncertainty.
+std::string value_with_u(double value, double u, std::string (*show)(double)) {
+  return u > 0 ? with_u(show(value), show(u)) : show(value);
+}
+
+}  // namespace
 
 std::string simulated_notice(bool simulated) {
   return simulated ? "SIMULATED DATA: no machine was measured.\n" : "";
@@ -38,39 +74,44 @@ std::string stated_text(const StatedAt& at) {
   return "straightness at the fixture\n";
 }
 
-namespace {
-
-std::string temperature_text(const Temperature& read) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "%.2f °C (%.2f to %.2f)", read.mean_C, read.min_C,
-                read.max_C);
-  return text.data();
+std::string show_text(const Run& run, const std::string& result_sha256, std::size_t width,
+                      bool all_warnings) {
+  return head_text(run.header, result_sha256, width, all_warnings) + "\n" +
+         points_text(run, width) +
+         (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : "");
 }
 
-}  // namespace
+std::string figures_text(const Run& run, std::size_t width) {
+  return straightness_text(run.straightness, width) + "\n" + angles_text(run.angles, width);
+}
 
-std::string head_text(const RunHeader& h) {
+std::string head_text(const RunHeader& h, const std::string& result_sha256, std::size_t width,
+                      bool all_warnings) {
   const auto& from = h.provenance;
   std::string out = simulated_notice(h.simulated);
-  out += "run " + (h.id == 0 ? std::string("(not stored)") : std::to_string(h.id)) + ", axis " +
-         letter(h.axis) + ", " + to_string(h.state) + ", model " + from.model + ", " +
-         h.started_utc + "\n";
-  if (!h.note.empty()) out += "note       " + h.note + "\n";
-  if (h.supersedes) out += "supersedes run " + std::to_string(*h.supersedes) + "\n";
-  out += from.recording_kind + "  " + from.recording_path + "\n";
-  out += "scans      " + std::to_string(h.scans) + ", lost " + std::to_string(h.scans_lost) + "\n";
-  if (h.temperature) out += "at         " + temperature_text(*h.temperature) + "\n";
-  out += "software   " + from.software_version + "\n";
-  for (const auto& warning : h.warnings) out += "warning    " + warning + "\n";
+  out += wrapped("run " + (h.id == 0 ? std::string("(not stored)") : std::to_string(h.id)) +
+                     ", axis " + letter(h.axis) + ", " + to_string(h.state) + ", model " +
+                     from.model + ", " + h.started_utc,
+                 width) +
+         "\n";
+  if (!h.note.empty()) out += labelled("note", h.note, width);
+  if (h.supersedes) out += labelled("supersedes", "run " + std::to_string(*h.supersedes), width);
+  out += labelled(from.recording_kind, from.recording_path, width);
+  out += labelled("scans", std::to_string(h.scans) + ", " + lost_of(h), width);
+  if (h.temperature) out += labelled("at", temperature_text(*h.temperature), width);
+  out += labelled("software", from.software_version, width);
+  for (const auto& warning : summarised(h.warnings, all_warnings))
+    out += labelled("warning", warning, width);
+  if (!result_sha256.empty()) out += labelled("sha256", result_sha256, width);
   return out;
 }
 
-std::string points_text(const Run& run) {
+std::string points_text(const Run& run, std::size_t width) {
   const Axis axis = run.header.axis;
-  std::vector<std::string> head{"target", "run", "dir", "position/mm"};
+  std::vector<std::string> head{"target", "run", "dir", "at/mm"};
   for (const auto& name : error_names(axis)) head.push_back(error_label(name.key));
   head.insert(head.end(), {"samples", "flags"});
-  TextTable table(std::move(head));
+  TextTable table(std::move(head), 4);
   for (const MeasuredPoint& p : run.points) {
     std::vector<std::string> row{std::to_string(p.target), std::to_string(p.run),
                                  arrow(p.point.direction), in_mm(p.point.position_m)};
@@ -78,38 +119,39 @@ std::string points_text(const Run& run) {
     const Covariance5 cov = named_from_local(axis, p.errors.covariance);
     for (std::size_t k = 0; k < 5; ++k) {
       const auto show = error_names(axis)[k].angle ? in_urad : in_um;
-      row.push_back(p.errors.valid ? with_u(show(named[k]), show(std::sqrt(cov[6 * k]))) : "-");
+      row.push_back(p.errors.valid ? value_with_u(named[k], std::sqrt(cov[6 * k]), show) : "-");
     }
-    const std::string why = p.errors.valid ? "" : "unsolved: " + p.errors.reason;
-    std::string flags = joined(p.point.flags, " ");
-    flags += (flags.empty() || why.empty() ? "" : " ") + why;
-    row.insert(row.end(), {std::to_string(p.point.samples), flags});
+    row.insert(row.end(), {std::to_string(p.point.samples), flags_of(p)});
     table.add(std::move(row));
   }
-  return table.text() + "± one standard uncertainty; error = actual - nominal, of the " +
-         run.header.sides.moves() + "\n" + stated_text(run.header.stated);
+  return table.text(width) +
+         wrapped("± one standard uncertainty; error = actual - nominal, of the " +
+                     std::string(run.header.sides.moves()),
+                 width) +
+         "\n" + stated_text(run.header.stated);
 }
 
-std::string straightness_text(const std::vector<StraightnessFigure>& figures) {
+std::string straightness_text(const std::vector<StraightnessFigure>& figures, std::size_t width) {
   TextTable table({"error", "approach", "least squares/µm", "end points/µm", "slope/µrad",
-                   "end slope/µrad", "peak at/mm", "valley at/mm"});
+                   "end slope/µrad", "peak at/mm", "valley at/mm"},
+                  2);
   for (const auto& f : figures) {
     table.add({f.error_key.substr(0, 3), f.approach, in_um(f.straightness_least_squares_m),
                in_um(f.straightness_end_point_m),
-               with_u(in_urad(f.slope_least_squares_rad), in_urad(f.u_slope_least_squares_rad)),
+               value_with_u(f.slope_least_squares_rad, f.u_slope_least_squares_rad, in_urad),
                in_urad(f.slope_end_point_rad), in_mm(f.peak_position_m),
                in_mm(f.valley_position_m)});
   }
-  return "straightness, peak to valley about each reference line\n" + table.text();
+  return "straightness, peak to valley about each reference line\n" + table.text(width);
 }
 
-std::string angles_text(const std::vector<AngleFigure>& figures) {
-  TextTable table({"error", "approach", "at start/µrad", "min/µrad", "max/µrad", "range/µrad"});
+std::string angles_text(const std::vector<AngleFigure>& figures, std::size_t width) {
+  TextTable table({"error", "approach", "at start/µrad", "min/µrad", "max/µrad", "range/µrad"}, 2);
   for (const auto& f : figures) {
     table.add({f.error_key.substr(0, 3), f.approach, in_urad(f.start_rad), in_urad(f.min_rad),
                in_urad(f.max_rad), in_urad(f.max_rad - f.min_rad)});
   }
-  return "angles, referred to the first target\n" + table.text();
+  return "angles, referred to the first target\n" + table.text(width);
 }
 
 }  // namespace mdof::tools

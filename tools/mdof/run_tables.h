@@ -1,4 +1,4 @@
-// A run as tables for people.
+// A run as tables for people, at most `width` characters wide.
 #pragma once
 
 #include <string>
@@ -12,11 +12,20 @@ namespace mdof::tools {
 // "Simulated data: ..." with a line end, or nothing.
 std::string simulated_notice(bool simulated);
 
-std::string stated_text(const StatedAt& at);     // a line: where straightness is stated
-std::string head_text(const RunHeader& header);  // identity, provenance, warnings
-std::string points_text(const Run& run);         // five errors ± u, samples, flags
-std::string straightness_text(const std::vector<StraightnessFigure>& figures);
-std::string angles_text(const std::vector<AngleFigure>& figures);
+std::string stated_text(const StatedAt& at);  // a line: where straightness is stated
+
+// What `mdof show` prints of a run.
+std::string show_text(const Run& run, const std::string& result_sha256, std::size_t width,
+                      bool all_warnings = false);
+// What `mdof analyse` prints.
+std::string figures_text(const Run& run, std::size_t width);
+
+// Identity, provenance, warnings. `result_sha256` may be empty.
+std::string head_text(const RunHeader& header, const std::string& result_sha256, std::size_t width,
+                      bool all_warnings = false);
+std::string points_text(const Run& run, std::size_t width);  // five errors ± u, samples, flags
+std::string straightness_text(const std::vector<StraightnessFigure>& figures, std::size_t width);
+std::string angles_text(const std::vector<AngleFigure>& figures, std::size_t width);
 
 std::string arrow(int direction);                 // "+", "-", "?"
 std::string error_label(const std::string& key);  // "EYX_um" -> "EYX/µm"

@@ -7,6 +7,7 @@
 #include "tools/mdof/database.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
@@ -39,7 +40,7 @@ std::string runs_text(const std::vector<RunHeader>& runs, std::int64_t total) {
                h.simulated ? "SIMULATED" : "measured",
                std::filesystem::path(from.recording_path).filename().string(), h.note});
   }
-  std::string out = table.text();
+  std::string out = table.text(terminal_columns());
   const auto shown = static_cast<std::int64_t>(runs.size());
   if (shown < total)
     out += std::to_string(shown) + " of " + std::to_string(total) + " runs; --offset, --count\n";
@@ -67,6 +68,7 @@ void add_runs(CLI::App& app, Action& chosen) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_json_flag(*command, o->json);
+  command->footer("Example:\n  mdof runs --axis X --count 10");
   command->callback([o, &chosen] { chosen = [o] { return list_runs(*o); }; });
 }
 

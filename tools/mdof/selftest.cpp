@@ -59,6 +59,7 @@ void add_selftest(CLI::App& app, Action& chosen) {
   const auto json = std::make_shared<bool>(false);
   auto* command = app.add_subcommand("selftest", "Check this installation; needs no files");
   add_json_flag(*command, *json);
+  command->footer("Example:\n  mdof selftest");
   command->callback([json, &chosen] { chosen = [json] { return selftest(*json); }; });
 }
 

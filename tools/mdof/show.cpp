@@ -7,16 +7,17 @@
 #include "tools/mdof/database.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/plausibility_text.h"
+#include "tools/mdof/run_choice.h"
+#include "tools/mdof/run_csv.h"
 #include "tools/mdof/run_tables.h"
+#include "tools/mdof/terminal.h"
 
 namespace mdof::tools {
 namespace {
 
 struct ShowCommand {
-  std::string database, reference = "fixture";
-  std::int64_t run = 0;
-  bool json = false;
+  std::string database, run, axis, reference = "fixture";
+  bool csv = false, json = false, all_warnings = false;
 };
 
 // run_json() with one member more.
@@ -28,17 +29,17 @@ std::string with_result_hash(std::string json, const std::string& sha256) {
 Result<Run> load(store::Store& store, const ShowCommand& command) {
   Reference reference{};
   reference_from(command.reference, reference);  // the option takes no other
-  return daemon::run_stated_at(store, command.run, reference);
+  MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
+  return daemon::run_stated_at(store, id, reference);
 }
 
 Status show(const ShowCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const Run run, load(store, command));
-  MDOF_TRY(const std::string sha256, store.result_sha256(command.run));
+  if (command.csv) return write_out(points_csv(run));
+  MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   if (command.json) return write_line(with_result_hash(run_json(run), sha256));
-  return write_out(head_text(run.header) + "result     sha256 " + sha256 + "\n\n" +
-                   points_text(run) +
-                   (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : ""));
+  return write_out(show_text(run, sha256, terminal_columns(), command.all_warnings));
 }
 
 std::string analysis_json(const Run& run) {
@@ -60,17 +61,21 @@ std::string analysis_json(const Run& run) {
 Status analyse(const ShowCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const Run run, load(store, command));
+  if (command.csv) return write_out(figures_csv(run));
   if (command.json) return write_line(analysis_json(run));
-  return write_out(head_text(run.header) + "\n" + straightness_text(run.straightness) + "\n" +
-                   angles_text(run.angles));
+  const std::size_t width = terminal_columns();
+  return write_out(head_text(run.header, "", width, command.all_warnings) + "\n" +
+                   figures_text(run, width));
 }
 
 CLI::App* declare(CLI::App& app, const char* name, const char* what, ShowCommand& o) {
   auto* command = app.add_subcommand(name, what);
-  command->add_option("RUN", o.run, "Number of the run, see mdof runs")->required()->type_name("");
+  add_run_argument(*command, "RUN", o.run, "Number of the run, see mdof runs; or latest");
+  add_axis_of_latest(*command, o.axis);
   add_reference_option(*command, o.reference)->capture_default_str();
   add_database_option(*command, o.database);
-  add_json_flag(*command, o.json);
+  add_all_warnings_flag(*command, o.all_warnings);
+  add_csv_and_json_flags(*command, o.csv, o.json);
   return command;
 }
 
@@ -79,12 +84,20 @@ CLI::App* declare(CLI::App& app, const char* name, const char* what, ShowCommand
 void add_show(CLI::App& app, Action& chosen) {
   const auto o = std::make_shared<ShowCommand>();
   auto* command = declare(app, "show", "Show the points of a run with uncertainty and flags", *o);
+  command->footer(
+      "Examples:\n"
+      "  mdof show 12\n"
+      "  mdof show latest --axis X --csv > points_X.csv");
   command->callback([o, &chosen] { chosen = [o] { return show(*o); }; });
 }
 
 void add_analyse(CLI::App& app, Action& chosen) {
   const auto o = std::make_shared<ShowCommand>();
   auto* command = declare(app, "analyse", "Show straightness by both lines, and angles", *o);
+  command->footer(
+      "Examples:\n"
+      "  mdof analyse latest\n"
+      "  mdof analyse 12 --csv > figures.csv");
   command->callback([o, &chosen] { chosen = [o] { return analyse(*o); }; });
 }
 

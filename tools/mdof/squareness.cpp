@@ -6,18 +6,22 @@
 #include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/command.h"
-#include "tools/mdof/daemon_call.h"
 #include "tools/mdof/database.h"
+#include "tools/mdof/holder.h"
+#include "tools/mdof/json_read.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/run_choice.h"
 #include "tools/mdof/run_tables.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
 namespace {
 
+constexpr std::int64_t kNewest = 1000;  // of these one is what mdofd has just stored
+
 struct SquarenessCommand {
-  std::string database, socket;
+  std::string database, socket, word_x, word_y;
   std::int64_t run_x = 0, run_y = 0;
   std::optional<double> artefact_urad, u_artefact_urad;
   bool partial = false, json = false;
@@ -49,21 +53,31 @@ std::string squareness_text(const Squareness& s) {
          "artefact; not mounting, calibration and drift. Slopes at the fixture.\n";
 }
 
-// mdofd has the database: it fits and stores.
-Status ask_daemon(const SquarenessCommand& command) {
+// mdofd has the database: it fits and stores. What it stored is read like that of this program, so
+// that both say the same.
+Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessCommand& command) {
   JsonWriter params;
   params.begin_object().field("run_x", command.run_x).field("run_y", command.run_y);
   if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
   if (command.u_artefact_urad) params.field("u_artefact_urad", *command.u_artefact_urad);
   if (command.partial) params.field("partial", true);
   params.end_object();
-  return print_call(command.socket, "squareness.fit", params.text(), command.json);
+  MDOF_TRY(const std::string reply, mdofd.call("squareness.fit", params.text()));
+  simdjson::dom::parser parser;
+  const auto json = parser.parse(simdjson::padded_string(reply));
+  const auto id = integer(json, "squareness");
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const auto newest, store.list_squareness(0, kNewest));
+  for (const auto& s : newest)
+    if (s.id == id) return daemon::FittedSquareness{s, texts(json, "warnings")};
+  return io_error("mdofd stored a squareness that its database does not have: " + reply);
 }
 
-Status squareness(const SquarenessCommand& command) {
-  MDOF_TRY(const bool busy, somebody_writes(command.database));
-  if (busy) return ask_daemon(command);
-  MDOF_TRY(const auto fitted, fit(command));
+Status squareness(SquarenessCommand command) {
+  MDOF_TRY(command.run_x, run_number(command.database, command.word_x, Axis::x));
+  MDOF_TRY(command.run_y, run_number(command.database, command.word_y, Axis::y));
+  MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
+  MDOF_TRY(const auto fitted, mdofd ? fit_there(*mdofd, command) : fit(command));
   const auto& [s, warnings] = fitted;
   for (const auto& warning : warnings) warn(warning);
   return command.json ? write_line(with_warnings(squareness_json(s), warnings))
@@ -75,8 +89,8 @@ Status squareness(const SquarenessCommand& command) {
 void add_squareness(CLI::App& app, Action& chosen) {
   const auto o = std::make_shared<SquarenessCommand>();
   auto* command = app.add_subcommand("squareness", "Angle between two axes from a run along each");
-  command->add_option("RUN_X", o->run_x, "Run along X")->required()->type_name("");
-  command->add_option("RUN_Y", o->run_y, "Run along Y, same square")->required()->type_name("");
+  add_run_argument(*command, "RUN_X", o->word_x, "Run along X, or latest");
+  add_run_argument(*command, "RUN_Y", o->word_y, "Run along Y, same square; or latest");
   command->add_option("--artefact-urad", o->artefact_urad,
                       "Angle error of the square [default: of the rigs]");
   command->add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")

@@ -104,6 +104,7 @@ void add_status(CLI::App& app, Action& chosen) {
   auto* command = app.add_subcommand("status", "What mdofd is doing");
   add_socket_option(*command, o->socket);
   add_json_flag(*command, o->json);
+  command->footer("Example:\n  mdof status --json");
   command->callback([o, &chosen] { chosen = [o] { return status(*o); }; });
 }
 

@@ -9,6 +9,7 @@
 #include "tools/mdof/plot/study_plots.h"
 #include "tools/mdof/study/json.h"
 #include "tools/mdof/study/output.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
@@ -55,7 +56,7 @@ std::string rows_text(const std::vector<Row>& rows) {
                wanted ? std::to_string(*wanted) : "adaptive", std::to_string(row.record.seed),
                row.record.started_utc, row.record.name});
   }
-  return table.text();
+  return table.text(terminal_columns());
 }
 
 Status list_studies(const StudiesCommand& command) {
@@ -105,6 +106,7 @@ void add_studies(CLI::App& app, Action& chosen) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_json_flag(*command, o->json);
+  command->footer("Example:\n  mdof studies --count 10");
   command->callback([o, &chosen] { chosen = [o] { return list_studies(*o); }; });
 }
 
@@ -116,6 +118,7 @@ void add_study(CLI::App& app, Action& chosen) {
   auto* csv = command->add_flag("--csv", o->csv, "Print one row an output and bin");
   command->add_flag("--json", o->json, "Print one JSON document")->excludes(csv);
   command->add_option("--plot", o->plots, "Draw it again as SVG")->type_name("DIR");
+  command->footer("Example:\n  mdof study 3 --csv > study.csv");
   command->callback([o, &chosen] { chosen = [o] { return show_study(*o); }; });
 }
 

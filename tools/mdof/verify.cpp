@@ -91,6 +91,10 @@ void add_verify(CLI::App& app, Action& chosen) {
       ->add_option("--recording", o->recording, "Check this recording instead (or, with --db, too)")
       ->type_name("FILE.mdofrec");
   add_json_flag(*command, o->json);
+  command->footer(
+      "Examples:\n"
+      "  mdof verify\n"
+      "  mdof verify --recording run-12.mdofrec");
   command->callback([o, &chosen] { chosen = [o] { return verify(*o); }; });
 }
 

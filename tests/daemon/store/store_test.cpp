@@ -277,6 +277,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
     ASSERT_TRUE(store->add_run(make_run()));
     ASSERT_TRUE(store->add_squareness({0, 1, 1, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}));
     ASSERT_TRUE(store->activate(store->add_table(make_table({1})).value(), "me", "now"));
+    ASSERT_TRUE(store->deactivate(Axis::x, "me", "now"));
     ASSERT_TRUE(store->end_study(store->begin_study({}).value(), {}, std::nullopt));
   }
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
@@ -294,7 +295,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
       EXPECT_TRUE(contains(done.error().message, "append only")) << done.error().message;
     }
   }
-  EXPECT_EQ(tables, 13);
+  EXPECT_EQ(tables, 14);
 }
 
 TEST_F(StoreTest, KeepsSquareness) {
@@ -344,15 +345,36 @@ TEST_F(StoreTest, GivesACompensationTableBackToTheLastBit) {
   EXPECT_EQ(store->add_table(table).error().code, ErrorCode::usage);
 }
 
+TEST_F(StoreTest, WhatIsInForceOrNotIsNotMadeSoAgain) {
+  auto store = writer();
+  ASSERT_TRUE(store->add_run(make_run(1)));
+  for (const Axis axis : {Axis::x, Axis::x, Axis::y})
+    ASSERT_TRUE(store->add_table(make_table({1}, axis)));
+  EXPECT_FALSE(store->deactivate(Axis::x, "anna", "t0")->changed);
+  ASSERT_TRUE(store->activate(1, "anna", "t1")->changed);
+  ASSERT_TRUE(store->activate(3, "anna", "t2")->changed);
+  const auto again = store->activate(1, "ben", "t3");
+  EXPECT_FALSE(again->changed);
+  EXPECT_EQ(again->generation, 1);
+  EXPECT_EQ(store->active(Axis::x)->actor, "anna");
+  EXPECT_EQ(store->deactivate(Axis::x, "ben", "t4")->generation, 3);
+  EXPECT_EQ(store->active(Axis::x).error().code, ErrorCode::not_found);
+  EXPECT_EQ(store->active(Axis::y)->table.id, 3);
+  EXPECT_EQ(store->generation().value(), 3);
+  EXPECT_FALSE(store->deactivate(Axis::x, "ben", "t5")->changed);
+  EXPECT_EQ(store->activate(1, "ben", "t6")->generation, 4);  // in force again
+  EXPECT_EQ(store->active(Axis::x)->generation, 4);
+}
+
 TEST_F(StoreTest, GenerationsRiseOverAllAxes) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(1)));
   for (const Axis axis : {Axis::x, Axis::x, Axis::y})
     ASSERT_TRUE(store->add_table(make_table({1}, axis)));
   EXPECT_EQ(store->generation().value(), 0);
-  EXPECT_EQ(store->activate(2, "anna", "t1").value(), 1);
-  EXPECT_EQ(store->activate(3, "anna", "t2").value(), 2);
-  EXPECT_EQ(store->activate(1, "ben", "t3").value(), 3);
+  EXPECT_EQ(store->activate(2, "anna", "t1")->generation, 1);
+  EXPECT_EQ(store->activate(3, "anna", "t2")->generation, 2);
+  EXPECT_EQ(store->activate(1, "ben", "t3")->generation, 3);
   const ActiveTable x = store->active(Axis::x).value();
   EXPECT_EQ(x.table.id, 1);
   EXPECT_EQ(x.generation, 3);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tools/mdof/study/output.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text_table.h"
 
 namespace mdof::tools {
@@ -13,23 +14,15 @@ int decimals_for(double size) {
   return std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 9);
 }
 
-// As fixed(), but nothing is "-0.000".
-std::string number(double x, int decimals) {
-  std::string text = fixed(x, decimals);
-  if (text.find_first_not_of("-0.") == std::string::npos && text.size() > 1 && text[0] == '-')
-    text.erase(0, 1);
-  return text;
-}
-
 std::string percent(double share) {
-  std::string text = number(share * 100, 3);
+  std::string text = fixed(share * 100, 3);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text + " %";
 }
 
 std::string interval(const CoverageInterval& x, int decimals) {
-  return "[" + number(x.low, decimals) + ", " + number(x.high, decimals) + "]";
+  return "[" + fixed(x.low, decimals) + ", " + fixed(x.high, decimals) + "]";
 }
 
 std::string overall(const StudyResult& result) {
@@ -38,13 +31,18 @@ std::string overall(const StudyResult& result) {
                    "resolution"});
   for (const OutputSummary& s : result.outputs) {
     const int d = decimals_for(s.sd);
-    table.add({with_unit(s.key), number(s.mean, d), number(s.mean_se, d + 2), number(s.sd, d + 1),
-               number(s.sd_se, d + 2), number(s.min, d), number(s.max, d), interval(s.symmetric, d),
-               interval(s.shortest, d), number(s.resolution, d + 2)});
+    table.add({with_unit(s.key), fixed(s.mean, d), fixed(s.mean_se, d + 2), fixed(s.sd, d + 1),
+               fixed(s.sd_se, d + 2), fixed(s.min, d), fixed(s.max, d), interval(s.symmetric, d),
+               interval(s.shortest, d), fixed(s.resolution, d + 2)});
   }
-  return table.text() +
-         "se: standard error. Symmetric and shortest coverage intervals (JCGM 101 7.7, 5.3.4) and "
-         "quantiles lie\nwithin the resolution of what sorting all trials would give.\n";
+  const std::size_t width = terminal_columns();
+  return table.text(width) +
+         wrapped(
+             "se: standard error. Symmetric and shortest coverage intervals (JCGM 101 7.7, "
+             "5.3.4) and quantiles lie within the resolution of what sorting all trials would "
+             "give.",
+             width) +
+         "\n";
 }
 
 std::string bins(const StudyResult& result) {
@@ -52,36 +50,37 @@ std::string bins(const StudyResult& result) {
   for (const OutputSummary& s : result.outputs) head.push_back("sd " + with_unit(s.key));
   TextTable table(head);
   for (const StudyBin& bin : result.bins) {
-    std::vector<std::string> row{number(bin.from, 3) + " to " + number(bin.to, 3)};
+    std::vector<std::string> row{fixed(bin.from, 3) + " to " + fixed(bin.to, 3)};
     for (std::size_t k = 0; k < bin.outputs.size(); ++k)
-      row.push_back(number(bin.outputs[k].sd, decimals_for(result.outputs[k].sd) + 1));
+      row.push_back(fixed(bin.outputs[k].sd, decimals_for(result.outputs[k].sd) + 1));
     table.add(std::move(row));
   }
-  return "\n" + table.text();
+  return "\n" + table.text(terminal_columns());
 }
 
 std::string indices(const OutputIndices& output) {
   TextTable table({"cause", "first order", "total"});
   for (const CauseIndex& c : output.causes)
-    table.add({c.cause, with_u(number(c.first, 4), number(c.first_se, 4)),
-               with_u(number(c.total, 4), number(c.total_se, 4))});
-  return "\nShares of the variance of " + with_unit(output.key) + "\n" + table.text();
+    table.add({c.cause, with_u(fixed(c.first, 4), fixed(c.first_se, 4)),
+               with_u(fixed(c.total, 4), fixed(c.total_se, 4))});
+  return "\nShares of the variance of " + with_unit(output.key) + "\n" +
+         table.text(terminal_columns());
 }
 
 std::string tolerance(const AllocatedTolerance& t) {
   if (std::isnan(t.value) || std::isinf(t.value)) return t.tolerance + ": does not matter";
   const int d = decimals_for(t.value);
-  if (std::isnan(t.low)) return t.tolerance + " " + number(t.value, d);
-  return t.tolerance + " " + number(t.value, d) + " (" + number(t.low, d) + " ... " +
-         number(t.high, d) + ")";
+  if (std::isnan(t.low)) return t.tolerance + " " + fixed(t.value, d);
+  return t.tolerance + " " + fixed(t.value, d) + " (" + fixed(t.low, d) + " ... " +
+         fixed(t.high, d) + ")";
 }
 
 std::string allocation(const Allocation& a) {
   std::string text = "\nTolerances for |" + with_unit(a.output) +
-                     "| <= " + number(a.limit, decimals_for(a.limit)) + " with probability " +
+                     "| <= " + fixed(a.limit, decimals_for(a.limit)) + " with probability " +
                      percent(a.probability) + "; as planned: " + percent(a.reached) + "\n";
   for (const AllocatedTolerance& t : a.alone) text += "  alone     " + tolerance(t) + "\n";
-  text += "  together  the planned values times " + number(a.common_factor, 4) + "\n";
+  text += "  together  the planned values times " + fixed(a.common_factor, 4) + "\n";
   for (const auto& pair : a.frontier) {
     std::vector<std::string> words;
     for (const AllocatedTolerance& t : pair) words.push_back(tolerance(t));
@@ -94,16 +93,16 @@ std::string comparison(const std::vector<ComparedOutput>& compared) {
   TextTable table({"", "sd of this", "sd of the other", "other / this"});
   for (const ComparedOutput& c : compared) {
     const int d = decimals_for(c.sd_this) + 1;
-    table.add({with_unit(c.key), number(c.sd_this, d), number(c.sd_other, d),
-               with_u(number(c.ratio, 4), number(c.ratio_se, 4))});
+    table.add({with_unit(c.key), fixed(c.sd_this, d), fixed(c.sd_other, d),
+               with_u(fixed(c.ratio, 4), fixed(c.ratio_se, 4))});
   }
-  return "\nThe other fixture, with the same random numbers\n" + table.text();
+  return "\nThe other fixture, with the same random numbers\n" + table.text(terminal_columns());
 }
 
 std::string head(const StudyResult& result) {
   std::string text = result.name + ": " + std::to_string(result.trials) + " trials";
   if (result.trials_wanted > result.trials) text += " of " + std::to_string(result.trials_wanted);
-  text += ", seed " + std::to_string(result.seed) + ", " + number(result.elapsed_s, 2) + " s";
+  text += ", seed " + std::to_string(result.seed) + ", " + fixed(result.elapsed_s, 2) + " s";
   return text + (result.state == StudyState::interrupted ? ", INTERRUPTED\n\n" : "\n\n");
 }
 

@@ -1,0 +1,100 @@
+// run.replay.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "daemon/methods.h"
+#include "daemon/replayer.h"
+#include "schema/json_writer.h"
+
+namespace mdof::daemon {
+namespace {
+
+using rpc::Params;
+using rpc::ParamType;
+using rpc::Reply;
+
+// The daemon reads on behalf of the caller: nothing that the caller may not read. A log of the
+// daemon's own group is open to who may use the socket.
+bool may_read(const rpc::Credentials& who, const struct stat& file) {
+  if (who.uid == 0 || who.uid == ::geteuid()) return true;
+  if (who.uid == file.st_uid) return (file.st_mode & S_IRUSR) != 0;
+  if (file.st_gid == who.gid || file.st_gid == ::getegid()) return (file.st_mode & S_IRGRP) != 0;
+  return (file.st_mode & S_IROTH) != 0;
+}
+
+Status check_log(const Params& params, const std::string& path) {
+  const auto who = params.caller().credentials();
+  if (!who) return fail(ErrorCode::usage, "run.replay: only over the Unix socket");
+  if (!path.starts_with('/'))
+    return fail(ErrorCode::usage, "path \"" + path + "\" must be absolute");
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0)
+    return io_error(path + ": " + std::strerror(errno) +
+                    "; mdofd reads the log itself: put it where its user can read it");
+  if (!S_ISREG(file.st_mode)) return bad_input(path + ": is no file");
+  if (may_read(*who, file)) return {};
+  return io_error(path + ": is not yours to read; check its owner and mode");
+}
+
+std::optional<double> optional_number(const Params& params, const char* name) {
+  return params.has(name) ? std::optional(params.number(name)) : std::nullopt;
+}
+
+Result<ReplayOrder> read_order(const Params& params) {
+  ReplayOrder order;
+  order.log = params.string("path");
+  MDOF_CHECK(check_log(params, order.log));
+  order.rig_text = params.string("rig");
+  if (params.has("rig")) order.rig_source = params.string("rig_source", "rig");
+  order.model = params.string("model");
+  order.note = params.string("note");
+  order.tolerance_um = optional_number(params, "tolerance_um");
+  order.settle_s = optional_number(params, "settle_s");
+  order.min_length_s = optional_number(params, "min_length_s");
+  order.max_gap_s = optional_number(params, "max_gap_s");
+  order.lag_bound_s = optional_number(params, "lag_bound_s");
+  MDOF_TRY(order.targets_mm, params.numbers("targets_mm"));
+  return order;
+}
+
+void replay_log(Methods& m, const Params& params, Reply reply) {
+  auto order = read_order(params);
+  if (!order) return reply(tl::unexpected(order.error()));
+  if (!m.replayer) return reply(io_error("this daemon replays no logs"));
+  auto shared = std::make_shared<Reply>(std::move(reply));
+  m.replayer->start(std::move(*order), [shared](const Result<std::int64_t>& id) {
+    if (!id) return (*shared)(tl::unexpected(id.error()));
+    JsonWriter json;
+    json.begin_object().field("run", *id).end_object();
+    (*shared)(json.take());
+  });
+}
+
+}  // namespace
+
+void add_replay_methods(rpc::MethodTable& table, Methods& m) {
+  table.add(
+      {.name = "run.replay",
+       .summary = "Replays a log or a recording and stores its run, one at a time.",
+       .params =
+           {{"path", ParamType::string, "absolute; a file that caller and daemon may read", true},
+            {"rig", ParamType::string, "as TOML; of a recording its own by default", false, "\"\""},
+            {"rig_source", ParamType::string, "its file name, for messages", false},
+            {"model", ParamType::string, "simplified, exact or rigid", false, "\"\""},
+            {"targets_mm", ParamType::array, "nominal positions", false, "[]"},
+            {"tolerance_um", ParamType::number, "encoder at rest; 0: by itself", false},
+            {"settle_s", ParamType::number, "left out at the start of a stop", false},
+            {"min_length_s", ParamType::number, "averaged of a stop at least", false},
+            {"max_gap_s", ParamType::number, "no interpolation into a longer gap", false},
+            {"lag_bound_s", ParamType::number, "a probe silent for longer is given up", false},
+            {"note", ParamType::string, "for people", false, "\"\""}},
+       .result = "run: its id, once it is stored; a long log takes long",
+       .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) { replay_log(m, p, std::move(r)); }});
+}
+
+}  // namespace mdof::daemon

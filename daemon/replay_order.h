@@ -1,0 +1,24 @@
+// What somebody wants replayed, and how: the same words on the command line and on the RPC.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/replay.h"
+
+namespace mdof::daemon {
+
+struct ReplayOrder {
+  std::string log;                   // a file, or "-" for CSV from the standard input
+  std::string rig_text, rig_source;  // source empty: the log's own
+  std::string model, note;           // model empty: as it was measured
+  std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
+  std::vector<double> targets_mm;
+};
+
+// As mdofd measured what it recorded, but for what the order says. The run has all but its id.
+// Errors: replay()'s; a CSV log without a rig; an option that is out of its range.
+Result<Run> replay(const ReplayOrder& order, const ReplayProgress& progress = {});
+
+}  // namespace mdof::daemon

@@ -1,0 +1,229 @@
+#!/usr/bin/python3
+"""mdof beside a daemon: stop, replay into its database, and the same answers with it and without it.
+
+usage: command_line_test.py MDOFD MDOF"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from mdofd import DATA, RIG, Daemon, RpcError, simulator  # noqa: E402
+
+MDOFD, MDOF = sys.argv[1:3]
+LOG = {axis: os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz") for axis in "XY"}
+
+
+def mdof(*words, stdin=None):
+    done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True, stdin=stdin, timeout=300)
+    return done.returncode, done.stdout, done.stderr
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.daemon = Daemon(MDOFD, os.path.join(self.folder.name, "d"),
+                             simulator("X", targets_mm=(0, 2, 4.1, 6.2), dwell_s=0.2))
+        self.client = self.daemon.start()
+        self.at = ("--db", self.daemon.database, "--socket", self.daemon.socket)
+
+    def tearDown(self):
+        self.daemon.stop()
+        self.folder.cleanup()
+
+    def done(self, *words):
+        code, out, err = mdof(*words)
+        self.assertEqual(code, 0, err)
+        return out
+
+
+class Stop(CommandLine):
+    def test_ends_the_run_under_way(self):
+        started = self.client.call("run.start", axis="X")["run"]
+        time.sleep(2.5)
+        stopped = json.loads(self.done("stop", "--socket", self.daemon.socket, "--json"))["stopped"]
+        self.assertEqual([s["axis"] for s in stopped], ["X"])
+        self.assertIn(started, (stopped[0]["run"], self.client.call("run.get", run=stopped[0]["run"])["supersedes"]))
+        self.assertNotEqual(self.client.call("run.get", run=stopped[0]["run"])["state"], "open")
+
+    def test_without_a_run_it_is_an_error(self):
+        for words, message in (((), "no run is under way;"), (("--axis", "X"), "no run is under way of axis X"),
+                               (("--axis", "Z"), "mdofd measures no axis Z")):
+            code, _, err = mdof("stop", *words, "--socket", self.daemon.socket)
+            self.assertEqual(code, 3)
+            self.assertIn(message, err)
+
+
+class Record(CommandLine):
+    def test_ends_with_what_show_prints_and_fits_the_terminal(self):
+        # Complete or not: it is shown.
+        _, out, _ = mdof("record", "--axis", "X", "--for-s", 6, "--socket", self.daemon.socket)
+        run = self.client.call("run.list")["runs"][0]["run"]
+        self.assertEqual(out, self.done("show", run, "--db", self.daemon.database))
+        self.assertIn("EYX/µm", out)
+        self.assertEqual([line for line in out.splitlines() if len(line) > 80 and " /" not in line], [])
+
+
+class Replay(CommandLine):
+    def test_goes_through_the_daemon_and_says_the_same(self):
+        words = ("replay", LOG["X"], "--rig", RIG["X"], "--model", "exact",
+                 "--note", "x", "--settle-s", "0.15", "--tolerance-um", "1.5", "--json")
+        alone = json.loads(self.done(*words, "--db", os.path.join(self.folder.name, "other.db")))
+        through = json.loads(self.done(*words, *self.at))
+        self.assertEqual(through["run"], self.client.call("run.list")["runs"][0]["run"])
+        for document in (alone, through):
+            document.pop("started_utc")
+            document.pop("run")
+        self.assertEqual(through, alone)
+        self.assertEqual(through["note"], "x")
+        self.assertIn('"settle_s":0.15', json.dumps(through["options"]).replace(" ", ""))
+
+    def test_an_error_of_the_daemon_is_told(self):
+        missing = os.path.join(self.folder.name, "none.csv")
+        code, _, err = mdof("replay", missing, "--rig", RIG["X"], *self.at)
+        self.assertEqual(code, 4)
+        self.assertIn("none.csv: No such file", err)
+        code, _, err = mdof("replay", LOG["Y"], "--rig", RIG["X"], *self.at)
+        self.assertEqual(code, 3)
+        self.assertIn("is of the axis Y", err)
+        self.assertEqual(self.client.call("run.list")["total"], 0)
+
+    def test_the_standard_input_cannot_be_handed_over(self):
+        code, _, err = mdof("replay", "-", "--rig", RIG["X"], *self.at, stdin=subprocess.DEVNULL)
+        self.assertEqual(code, 3)
+        self.assertIn("standard input", err)
+
+    def test_only_what_the_caller_may_read_and_a_file(self):
+        for path, words in (("log.csv", "must be absolute"), ("/dev/zero", "is no file"),
+                            (self.folder.name, "is no file")):
+            with self.subTest(path=path), self.assertRaisesRegex(RpcError, words):
+                self.client.call("run.replay", path=path)
+        with self.assertRaisesRegex(RpcError, "settle_s must be"):
+            self.client.call("run.replay", path=LOG["X"], rig=open(RIG["X"]).read(), settle_s=-1)
+
+    def test_a_daemon_that_stops_gives_the_log_up(self):
+        log = os.path.join(self.folder.name, "long.csv")
+        with open(log, "w") as file:
+            file.write("time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n")
+            for i in range(1_500_000):
+                file.write(f"{i * 0.001:.3f},{i // 1000}.{i % 7},1,2,3,4,{i % 5}\n")
+        asked = subprocess.Popen([MDOF, "replay", log, "--rig", RIG["X"], *self.at], stderr=subprocess.PIPE)
+        time.sleep(0.3)
+        begin = time.monotonic()
+        self.daemon.stop()
+        self.assertLess(time.monotonic() - begin, 5)
+        asked.communicate()
+        self.assertNotEqual(asked.returncode, 0)
+        self.daemon.start()
+
+
+class Holder(CommandLine):
+    """A command acts on the database it names, or not at all."""
+
+    def setUp(self):
+        super().setUp()
+        self.other = Daemon(MDOFD, os.path.join(self.folder.name, "e"), simulator("Y", targets_mm=(0, 2)))
+        self.client_of_other = self.other.start()
+
+    def tearDown(self):
+        self.other.stop()
+        super().tearDown()
+
+    def test_the_daemon_of_another_database_is_asked_for_nothing(self):
+        crossed = ("--db", self.daemon.database, "--socket", self.other.socket)
+        code, _, err = mdof("replay", LOG["X"], "--rig", RIG["X"], *crossed)
+        self.assertEqual(code, 3)
+        self.assertIn(f"{self.daemon.database}: is being written by mdofd (process {self.daemon.process.pid})", err)
+        self.assertIn(f"holds {self.other.database}", err)
+        for client in (self.client, self.client_of_other):
+            self.assertEqual(client.call("run.list")["total"], 0)
+
+    def test_no_daemon_at_the_socket(self):
+        code, _, err = mdof("replay", LOG["X"], "--rig", RIG["X"], "--db", self.daemon.database,
+                            "--socket", os.path.join(self.folder.name, "none"))
+        self.assertEqual(code, 3)
+        self.assertIn("no mdofd answers at", err)
+        self.assertIn(f"process {self.daemon.process.pid}", err)
+
+    def test_a_name_for_the_same_file_is_the_same_database(self):
+        link = os.path.join(self.folder.name, "link")
+        os.symlink(os.path.dirname(self.daemon.database), link)
+        out = self.done("replay", LOG["X"], "--rig", RIG["X"], "--db", os.path.join(link, "mdof.db"),
+                        "--socket", self.daemon.socket, "--json")
+        self.assertEqual(self.client.call("run.get", run=json.loads(out)["run"])["axis"], "X")
+
+
+class TheSame(unittest.TestCase):
+    """What mdof says does not depend on whether a daemon holds the database."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        alone = os.path.join(self.folder.name, "alone.db")
+        for axis in "XY":
+            code, _, err = mdof("replay", LOG[axis], "--rig", RIG[axis], "--db", alone)
+            self.assertEqual(code, 0, err)
+        self.daemon = Daemon(MDOFD, os.path.join(self.folder.name, "d"), simulator("X"))
+        shutil.copy(alone, self.daemon.database)
+        self.client = self.daemon.start()
+        self.at = {"alone": ("--db", alone), "daemon": ("--db", self.daemon.database, "--socket", self.daemon.socket)}
+
+    def tearDown(self):
+        self.daemon.stop()
+        self.folder.cleanup()
+
+    def both(self, *words, code=0):
+        said = {}
+        for name, at in self.at.items():
+            reads = words[:2] in (("compensation", "show"), ("compensation", "list"))
+            got, out, err = mdof(*words, *(at[:2] if reads else at))
+            self.assertEqual(got, code, err)
+            said[name] = re.sub(r"\d{4}-\d\d-\d\dT[\d:.]+Z", "TIME", out), err.replace(at[1], "DB")
+        self.assertEqual(said["alone"], said["daemon"])
+        return said["alone"][0]
+
+    def test_text_and_json_with_and_without_it(self):
+        for form in ((), ("--json",)):
+            self.both("squareness", 1, 2, *form)
+            self.both("squareness", "latest", "latest", "--artefact-urad", -1.3, "--u-artefact-urad", 0.5, *form)
+            self.both("compensation", "build", 1, *form)
+            self.both("compensation", "build", "latest", "--axis", "X", "--keep-slope", *form)
+        first = self.both("compensation", "activate", 1)
+        self.assertEqual(first, "table 1 is in force, generation 1\n")
+        self.assertEqual(self.both("compensation", "activate", 1), "table 1 is already in force, generation 1\n")
+        self.assertEqual(json.loads(self.both("compensation", "activate", 2, "--json")),
+                         {"table": 2, "generation": 2, "changed": True})
+        for form in ((), ("--json",), ("--csv",)):
+            self.both("compensation", "show", *form)
+        self.both("compensation", "list")
+        self.both("compensation", "activate", 99, code=3)
+        self.both("squareness", 1, 99, code=3)
+
+    def test_a_table_out_of_force(self):
+        self.both("compensation", "build", 1)
+        self.both("compensation", "activate", 1)
+        at = dict(axis="X", position_mm=10)
+        self.assertEqual(self.client.call("compensation.at", **at)["generation"], 1)
+        self.assertEqual(self.both("compensation", "deactivate", "--axis", "X"),
+                         "axis X is no longer compensated, generation 2\n")
+        self.assertEqual(self.both("compensation", "deactivate", "--axis", "X"),
+                         "axis X: no table was in force, generation 2\n")
+        with self.assertRaisesRegex(RpcError, "no compensation table is active for axis X"):
+            self.client.call("compensation.at", **at)
+        status = self.client.call("compensation.status")
+        self.assertEqual((status["generation"], status["axes"]), (2, {}))
+        self.assertEqual(self.client.call("server.info")["generation"], 2)
+        self.daemon.stop()
+        self.client = self.daemon.start()
+        self.assertEqual(self.client.call("compensation.status"), status)
+        self.assertEqual(self.both("compensation", "activate", 1), "table 1 is in force, generation 3\n")
+        self.assertEqual(self.client.call("compensation.at", **at)["generation"], 3)
+
+
+if __name__ == "__main__":
+    del sys.argv[1:3]
+    unittest.main(warnings="ignore")

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "schema/sample.h"
+#include "tools/mdof/csv_text.h"
+#include "tools/mdof/log_csv.h"
+#include "tools/mdof/run_csv.h"
+#include "tools/mdof/run_tables.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text_table.h"
+#include "tools/mdof/warnings.h"
+
+namespace mdof::tools {
+namespace {
+
+std::size_t widest(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t widest = 0;
+  for (std::string line; std::getline(lines, line);) widest = std::max(widest, text_width(line));
+  return widest;
+}
+
+TEST(TextTable, InFewColumnsIsBlocksThatBeginWithTheKeys) {
+  TextTable table({"run", "dir", "a/µm", "b/µm", "flags"}, 2);
+  table.add({"1", "+", "1.0000", "2.0000", ""});
+  table.add({"2", "-", "3.0000", "4.0000", ""});
+  EXPECT_EQ(table.text(40), table.text());
+  EXPECT_EQ(table.text(18),
+            "run  dir    a/µm\n"
+            "---  ---  ------\n"
+            "  1    +  1.0000\n"
+            "  2    -  3.0000\n"
+            "\n"
+            "run  dir    b/µm\n"
+            "---  ---  ------\n"
+            "  1    +  2.0000\n"
+            "  2    -  4.0000\n");
+}
+
+TEST(TextTable, BreaksWordsIntoLinesWithinTheirColumn) {
+  TextTable table({"run", "flags"});
+  table.add({"1", "saturated:A lost:B unsolved: five probes are needed and three are left"});
+  table.add({"2", "short"});
+  EXPECT_EQ(table.text(36),
+            "run  flags\n"
+            "---  -------------------------------\n"
+            "  1  saturated:A lost:B unsolved:\n"
+            "     five probes are needed and\n"
+            "     three are left\n"
+            "  2  short\n");
+}
+
+TEST(Wrapped, KeepsALongWordWholeAndCountsCharacters) {
+  EXPECT_EQ(wrapped("note       a bb ccc", 14, 11), "note       a\n           bb\n           ccc");
+  EXPECT_EQ(wrapped("/a/path/that/is/longer x", 10), "/a/path/that/is/longer\nx");
+  EXPECT_EQ(wrapped("µµµµ ±±±± µ", 11), "µµµµ ±±±± µ");
+  EXPECT_EQ(wrapped("", 10), "");
+}
+
+TEST(Fixed, HasNoMinusZeroAndNo300Digits) {
+  EXPECT_EQ(fixed(-0.0, 4), "0.0000");
+  EXPECT_EQ(fixed(-4e-5, 4), "0.0000");
+  EXPECT_EQ(fixed(-6e-5, 4), "-0.0001");
+  EXPECT_EQ(fixed(-0.0, 0), "0");
+  EXPECT_EQ(fixed(-1e300, 4), "-1.0000e+300");
+  EXPECT_EQ(fixed(123456789.5, 1), "123456789.5");
+  EXPECT_EQ(fixed(kNaN, 4), "-");
+}
+
+TEST(Warnings, OfAKindAreThreeAndACount) {
+  std::vector<std::string> many{"another"};
+  for (int i = 0; i < 100; ++i)
+    many.push_back("point " + std::to_string(i) + " at " + std::to_string(i * 1.25) + " mm: short");
+  const auto few = summarised(many);
+  ASSERT_EQ(few.size(), 5u);
+  EXPECT_EQ(few[0], "another");
+  EXPECT_EQ(few[3], many[3]);
+  EXPECT_EQ(few[4], "and 97 more like it; --all-warnings shows them");
+  EXPECT_EQ(summarised(many, true), many);
+  const std::vector<std::string> four(many.begin() + 1, many.begin() + 5);
+  EXPECT_EQ(summarised(four), four);  // "and 1 more" would save nothing
+}
+
+TEST(TerminalColumns, OfAPipeAre80OrWhatColumnsSays) {
+  if (::isatty(STDOUT_FILENO) == 1) GTEST_SKIP() << "the standard output is a terminal";
+  const std::pair<const char*, std::size_t> cases[] = {
+      {"132", 132}, {"20", 80}, {"0", 80}, {"", 80}, {"x", 80}, {"99999999999999999999", 80}};
+  for (const auto& [stated, columns] : cases) {
+    ::setenv("COLUMNS", stated, 1);
+    EXPECT_EQ(terminal_columns(), columns) << stated;
+  }
+  ::unsetenv("COLUMNS");
+  EXPECT_EQ(terminal_columns(), 80u);
+}
+
+TEST(CsvText, KnowsWhatIsNotKnownAndQuotesWhatMustBe) {
+  CsvText csv;
+  csv.cell(0.1).cell(kNaN).cell(-0.0).cell(7LL).cell("a, \"b\"").cell("c").end_row();
+  EXPECT_EQ(csv.take(), "0.10000000000000001,,0,7,\"a, \"\"b\"\"\",c\n");
+}
+
+Run one_point(bool valid, const std::string& reason) {
+  Run run;
+  run.header.warnings.assign(40, "a warning that is longer than eighty characters: " +
+                                     std::string("it must be broken into lines"));
+  MeasuredPoint p;
+  p.target = 1;
+  p.run = 1;
+  p.point.position_m = -0.12345678;
+  p.point.flags = {"saturated:A", "spike:B", "frozen:C", "lost:D", "short", "gap"};
+  p.errors.valid = valid;
+  p.errors.reason = reason;
+  p.errors.local = {-123.4567e-6, 1e-9, -4999.123e-6, -0.0, 1e290};
+  for (std::size_t k = 0; k < 5; ++k) p.errors.covariance[6 * k] = k == 3 ? 0 : 1e-14;
+  run.points.push_back(p);
+  return run;
+}
+
+TEST(RunTables, FitAnyTerminalWhateverTheNumbersAre) {
+  for (const bool valid : {true, false}) {
+    const auto run = one_point(valid, "five probes are needed, and of A, B, C two are left");
+    for (const std::size_t width : {80u, 100u, 132u, 200u})
+      EXPECT_LE(widest(show_text(run, std::string(64, 'a'), width)), width) << width;
+  }
+}
+
+TEST(RunTables, AnUncertaintyThatIsNotKnownIsNotZero) {
+  const std::string text = points_text(one_point(true, ""), 200);
+  EXPECT_EQ(text.find("± 0.000"), std::string::npos) << text;
+  EXPECT_EQ(text.find("-0.000 "), std::string::npos) << text;
+}
+
+TEST(RunCsv, HasUnitsInItsHeaderAndNothingWhereNothingIsKnown) {
+  const std::string csv = points_csv(one_point(true, ""));
+  EXPECT_TRUE(
+      csv.starts_with("target,target_mm,run,direction,position_mm,EYX_um,EZX_um,EAX_urad,"
+                      "EBX_urad,ECX_urad,u_EYX_um,u_EZX_um,u_EAX_urad,u_EBX_urad,"
+                      "u_ECX_urad,samples,flags,reason\n1,0,1,0,-123.45678"));
+  EXPECT_NE(csv.find(",0.099999999999999992,,0.099999999999999992,0,"), std::string::npos) << csv;
+  EXPECT_NE(points_csv(one_point(false, "why")).find(",,,,,,,,,,0,saturated:A"), std::string::npos);
+}
+
+TEST(LogCsv, IsALogWithTimesToTheNanosecond) {
+  const std::vector<Channel> channels{
+      {"encoder", Unit::um}, {"A", Unit::volt}, {"temperature", Unit::deg_c}, {"n", Unit::other}};
+  EXPECT_EQ(log_csv_head({"axis: X"}, channels),
+            "# axis: X\ntime_s,encoder_mm,A_V,temperature_C,n\n");
+  SampleBlock block;
+  block.channels = channels;
+  block.time_ns = {-1, 1'000'000'002};
+  block.value = {{1500, kNaN}, {0.5, 1}, {20.25, 3}, {1, 2}};
+  block.quality = {{}, {Quality::good, Quality::missing}, {Quality::over_range, Quality::good}, {}};
+  std::string rows;
+  append_log_csv(rows, block);
+  EXPECT_EQ(rows, "-0.000000001,1.5,0.5,20.25,1\n1.000000002,,,3,2\n");
+  EXPECT_EQ(marked_values(block), 1u);
+}
+
+}  // namespace
+}  // namespace mdof::tools

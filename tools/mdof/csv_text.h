@@ -1,0 +1,27 @@
+// CSV documents that are written whole: a header with units, a row a point.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace mdof::tools {
+
+// Numbers have 17 significant digits, so that they read back to the same bits; what is not known is
+// an empty cell, and a text with a comma, a quote or a line end is quoted (RFC 4180).
+class CsvText {
+ public:
+  CsvText& cell(double x);
+  CsvText& cell(long long n);
+  CsvText& cell(std::string_view text);
+  CsvText& cells(std::initializer_list<std::string_view> texts);
+  CsvText& end_row();
+  std::string take() { return std::move(text_); }
+
+ private:
+  void separate();
+  std::string text_;
+  bool begun_ = false;  // the row has a cell
+};
+
+}  // namespace mdof::tools

@@ -1,0 +1,69 @@
+#include "tools/mdof/run_choice.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+#include "tools/mdof/database.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr const char* kLatest = "latest";
+constexpr std::int64_t kPage = 50;
+
+std::int64_t number_of(const std::string& word) {
+  std::int64_t n = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), n);
+  return error == std::errc() && end == word.data() + word.size() && n > 0 ? n : 0;
+}
+
+tl::unexpected<Error> no_run(const store::Store& store, std::optional<Axis> axis) {
+  return fail(ErrorCode::not_found, store.file().string() + ": has no run" +
+                                        (axis ? std::string(" of axis ") + letter(*axis) : "") +
+                                        " that has ended; see mdof runs");
+}
+
+Result<std::int64_t> latest(store::Store& store, std::optional<Axis> axis) {
+  for (std::int64_t offset = 0;; offset += kPage) {
+    MDOF_TRY(const auto runs, store.list_runs(offset, kPage, axis));
+    for (const auto& header : runs)
+      if (header.state != RunState::open) return header.id;
+    if (runs.empty()) return no_run(store, axis);
+  }
+}
+
+}  // namespace
+
+std::string run_word_error(const std::string& word) {
+  if (word == kLatest || number_of(word) > 0) return "";
+  return "\"" + word + "\" is no run: give its number (see mdof runs), or latest";
+}
+
+CLI::Option* add_run_argument(CLI::App& command, const char* name, std::string& run,
+                              const char* what) {
+  return command.add_option(name, run, what)->required()->type_name("")->check(run_word_error);
+}
+
+CLI::Option* add_run_arguments(CLI::App& command, std::vector<std::string>& runs,
+                               const char* what) {
+  return command.add_option("RUN", runs, what)->required()->type_name("")->check(run_word_error);
+}
+
+void add_axis_of_latest(CLI::App& command, std::string& axis) {
+  command.add_option("--axis", axis, "Of this axis the latest run")
+      ->check(CLI::IsMember({"X", "Y", "Z"}));
+}
+
+Result<std::int64_t> run_number(store::Store& store, const std::string& run,
+                                std::optional<Axis> axis) {
+  return run == kLatest ? latest(store, axis) : Result<std::int64_t>(number_of(run));
+}
+
+Result<std::int64_t> run_number(const std::string& database, const std::string& run,
+                                std::optional<Axis> axis) {
+  if (run != kLatest) return number_of(run);
+  MDOF_TRY(store::Store store, open_to_read(database));
+  return latest(store, axis);
+}
+
+}  // namespace mdof::tools

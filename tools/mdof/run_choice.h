@@ -1,0 +1,37 @@
+// Which run a command means: its number, or "latest".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/store/store.h"
+#include "schema/axis.h"
+#include "schema/result.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace mdof::tools {
+
+// What the validators of CLI11 accept as a run: a number from 1 on, or "latest".
+std::string run_word_error(const std::string& word);  // empty: right
+
+// A required argument RUN, or many of it.
+CLI::Option* add_run_argument(CLI::App& command, const char* name, std::string& run,
+                              const char* what);
+CLI::Option* add_run_arguments(CLI::App& command, std::vector<std::string>& runs, const char* what);
+void add_axis_of_latest(CLI::App& command, std::string& axis);
+
+// The number; of "latest" that of the newest run (of `axis`, where given) that has ended.
+Result<std::int64_t> run_number(store::Store& store, const std::string& run,
+                                std::optional<Axis> axis = std::nullopt);
+
+// The same; of what --db gave the database is opened only where it must be looked into.
+Result<std::int64_t> run_number(const std::string& database, const std::string& run,
+                                std::optional<Axis> axis = std::nullopt);
+
+}  // namespace mdof::tools

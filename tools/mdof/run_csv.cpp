@@ -1,0 +1,65 @@
+#include "tools/mdof/run_csv.h"
+
+#include <cmath>
+
+#include "schema/sample.h"
+#include "schema/units.h"
+#include "tools/mdof/csv_text.h"
+#include "tools/mdof/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+// Without noise nothing is known of the uncertainty.
+double known_u(double variance) {
+  return variance > 0 ? to_key_unit(std::sqrt(variance)) : kNaN;
+}
+
+void add_point(CsvText& csv, Axis axis, const MeasuredPoint& p) {
+  const Errors5 named = named_from_local(axis, p.errors.local);
+  const Covariance5 cov = named_from_local(axis, p.errors.covariance);
+  const bool valid = p.errors.valid;
+  csv.cell(static_cast<long long>(p.target)).cell(to_mm(p.target_m));
+  csv.cell(static_cast<long long>(p.run)).cell(static_cast<long long>(p.point.direction));
+  csv.cell(to_mm(p.point.position_m));
+  for (const double error : named) csv.cell(valid ? to_key_unit(error) : kNaN);
+  for (std::size_t k = 0; k < 5; ++k) csv.cell(valid ? known_u(cov[6 * k]) : kNaN);
+  csv.cell(static_cast<long long>(p.point.samples)).cell(joined(p.point.flags, " "));
+  csv.cell(valid ? "" : p.errors.reason).end_row();
+}
+
+}  // namespace
+
+std::string points_csv(const Run& run) {
+  CsvText csv;
+  csv.cells({"target", "target_mm", "run", "direction", "position_mm"});
+  for (const auto& name : error_names(run.header.axis)) csv.cell(std::string_view(name.key));
+  for (const auto& name : error_names(run.header.axis)) csv.cell("u_" + std::string(name.key));
+  csv.cells({"samples", "flags", "reason"}).end_row();
+  for (const auto& point : run.points) add_point(csv, run.header.axis, point);
+  return csv.take();
+}
+
+std::string figures_csv(const Run& run) {
+  CsvText csv;
+  csv.cells({"error", "approach", "least_squares_um", "end_point_um", "slope_least_squares_urad",
+             "u_slope_least_squares_urad", "slope_end_point_urad", "peak_mm", "valley_mm",
+             "start_urad", "min_urad", "max_urad", "range_urad"});
+  csv.end_row();
+  for (const auto& f : run.straightness) {
+    const double u_urad = to_urad(f.u_slope_least_squares_rad);
+    csv.cells({f.error_key.substr(0, 3), f.approach}).cell(to_um(f.straightness_least_squares_m));
+    csv.cell(to_um(f.straightness_end_point_m)).cell(to_urad(f.slope_least_squares_rad));
+    csv.cell(u_urad > 0 ? u_urad : kNaN).cell(to_urad(f.slope_end_point_rad));
+    csv.cell(to_mm(f.peak_position_m)).cell(to_mm(f.valley_position_m));
+    csv.cells({"", "", "", ""}).end_row();
+  }
+  for (const auto& f : run.angles) {
+    csv.cells({f.error_key.substr(0, 3), f.approach, "", "", "", "", "", "", ""});
+    csv.cell(to_urad(f.start_rad)).cell(to_urad(f.min_rad)).cell(to_urad(f.max_rad));
+    csv.cell(to_urad(f.max_rad - f.min_rad)).end_row();
+  }
+  return csv.take();
+}
+
+}  // namespace mdof::tools

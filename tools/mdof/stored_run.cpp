@@ -1,0 +1,29 @@
+#include "tools/mdof/stored_run.h"
+
+#include "daemon/evaluation.h"
+#include "daemon/store/store.h"
+#include "tools/mdof/json_read.h"
+#include "tools/mdof/run_tables.h"
+#include "tools/mdof/terminal.h"
+
+namespace mdof::tools {
+namespace {
+
+Result<std::string> read_text(rpc::Client& daemon, std::int64_t id) {
+  MDOF_TRY(const std::string info, daemon.call("server.info"));
+  simdjson::dom::parser parser;
+  const std::string database = text(parser.parse(simdjson::padded_string(info)), "database");
+  MDOF_TRY(store::Store store, store::Store::open(database, store::Access::read_only));
+  MDOF_TRY(const Run run, daemon::run_stated_at(store, id, Reference::fixture));
+  MDOF_TRY(const std::string sha256, store.result_sha256(id));
+  return show_text(run, sha256, terminal_columns());
+}
+
+}  // namespace
+
+std::optional<std::string> stored_run_text(rpc::Client& daemon, std::int64_t run) {
+  auto text = read_text(daemon, run);
+  return text ? std::optional(std::move(*text)) : std::nullopt;
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,30 @@
+#include "tools/mdof/table_csv.h"
+
+#include "schema/units.h"
+#include "tools/mdof/csv_text.h"
+
+namespace mdof::tools {
+
+std::string table_csv(const CompensationTable& t) {
+  const struct {
+    const char* prefix;
+    const std::array<std::vector<double>, 5>& values;
+  } groups[] = {{"forward_", t.forward},
+                {"u_forward_", t.u_forward},
+                {"reverse_", t.reverse},
+                {"u_reverse_", t.u_reverse}};
+  CsvText csv;
+  csv.cell("position_mm");
+  for (const auto& group : groups)
+    for (const auto& name : error_names(t.axis)) csv.cell(std::string(group.prefix) + name.key);
+  csv.end_row();
+  for (std::size_t i = 0; i < t.position_m.size(); ++i) {
+    csv.cell(to_mm(t.position_m[i]));
+    for (const auto& group : groups)
+      for (const auto& series : group.values) csv.cell(to_key_unit(series[i]));
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+}  // namespace mdof::tools

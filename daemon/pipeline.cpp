@@ -37,6 +37,16 @@ void keep_last(const FrameBlock& frames, FrameBlock& newest) {
   }
 }
 
+// Why a probe is missing, before what follows from it.
+std::string by_cause(const Point& point) {
+  constexpr std::string_view kFrozen = "frozen:";
+  for (const std::string& flag : point.flags) {
+    if (flag.starts_with(kFrozen))
+      return "probe " + flag.substr(kFrozen.size()) + " no longer changes: ";
+  }
+  return "";
+}
+
 std::string number(const char* format, double x) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), format, x);
@@ -108,10 +118,11 @@ const std::vector<MeasuredPoint>& Pipeline::points() {
 // long log asks once.
 void Pipeline::take_points() {
   taken_ = found_.size();
-  dwell_.settle_resolution(found_);
+  dwell_.mark(found_);
   sequence_ = algo::recognise_sequence(found_, options_.sequence);
   for (auto& p : sequence_.points) {
     p.errors = solver_.solve(p.point.position_m, p.point.probe_m, p.point.probe_u_m);
+    if (!p.errors.valid) p.errors.reason = by_cause(p.point) + p.errors.reason;
   }
 }
 
@@ -144,12 +155,19 @@ Status Pipeline::explain_nothing() const {
 }
 
 Status Pipeline::reject_dead_probes() const {
+  const bool solved = std::any_of(sequence_.points.begin(), sequence_.points.end(),
+                                  [](const MeasuredPoint& p) { return p.errors.valid; });
+  if (solved) return {};  // by the other probes
   for (std::size_t k = 0; k < rig_.probes.size(); ++k) {
     const bool dead = std::all_of(found_.begin(), found_.end(),
                                   [&](const Point& p) { return std::isnan(p.probe_m[k]); });
     if (!dead) continue;
     const auto& flags = found_.front().flags;
     const std::string& id = rig_.probes[k].id;
+    if (std::find(flags.begin(), flags.end(), "frozen:" + id) != flags.end())
+      return bad_input("probe \"" + id +
+                       "\" reads the same in every scan while the others change; check its cable, "
+                       "amplifier and channel");
     const bool saturated = std::find(flags.begin(), flags.end(), "saturated:" + id) != flags.end();
     return bad_input(saturated ? "probe \"" + id + "\" is at the end of its range (" +
                                      number("%g um", to_um(rig_.probes[k].range_m)) +
@@ -177,6 +195,8 @@ Result<Run> Pipeline::finish() {
   run.header.scans_lost = lost_;
   run.header.warnings = sequence_.warnings;
   run.points = sequence_.points;
+  const auto more = dwell_.warnings(found_);
+  run.header.warnings.insert(run.header.warnings.end(), more.begin(), more.end());
   run.straightness = algo::straightness(rig_.axis, run.points);
   run.angles = algo::angles(rig_.axis, run.points);
   return run;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "algo/chi_square.h"
 #include "algo/straightness.h"
 #include "schema/json_writer.h"
 #include "schema/units.h"
@@ -120,9 +121,11 @@ void Pipeline::take_points() {
   taken_ = found_.size();
   dwell_.mark(found_);
   sequence_ = algo::recognise_sequence(found_, options_.sequence);
+  const algo::Residuals residuals(solver_, probe_ranges(rig_));
   for (auto& p : sequence_.points) {
     p.errors = solver_.solve(p.point.position_m, p.point.probe_m, p.point.probe_u_m);
     if (!p.errors.valid) p.errors.reason = by_cause(p.point) + p.errors.reason;
+    residuals.test(p);
   }
 }
 
@@ -195,7 +198,9 @@ Result<Run> Pipeline::finish() {
   run.header.scans_lost = lost_;
   run.header.warnings = sequence_.warnings;
   run.points = sequence_.points;
-  const auto more = dwell_.warnings(found_);
+  auto more = dwell_.warnings(found_);
+  const algo::Residuals residuals(solver_, probe_ranges(rig_));
+  if (const auto contradiction = residuals.warning(run.points)) more.push_back(*contradiction);
   run.header.warnings.insert(run.header.warnings.end(), more.begin(), more.end());
   run.straightness = algo::straightness(rig_.axis, run.points);
   run.angles = algo::angles(rig_.axis, run.points);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "algo/frame_rows.h"
 #include "algo/robust_mean.h"
 #include "schema/json_writer.h"
 #include "schema/units.h"
@@ -18,59 +19,17 @@ constexpr double kAutoNoiseFactor = 6;
 constexpr double kCreepFactor = 5.0;  // a stop that wanders by more tolerances than this is none
 constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
-constexpr double kCoarseSteps = 3;  // no spike: a reading that flickers between its steps
+constexpr double kCoarseSteps = 3.5;  // no spike: a reading that flickers between its steps
 constexpr int kGapPeriods = 3;
+constexpr std::int64_t kHolePeriods = 5;          // longer than a slot
+constexpr std::int64_t kUnseen_ns = 500'000'000;  // in which an axis may have turned
+constexpr double kMostCreep_m = 50e-6;            // of a stop that is kept
 constexpr std::size_t kPathLength = 64;
 constexpr std::size_t kDropRows = 4096;  // rows no longer needed before the buffer is moved up
 constexpr std::size_t kMinScans = 5;     // of a dwell, and of a probe in it
 
 double median3(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
-
-// Marks of rows `first` to `last` behind `before` of them; an empty column stands for `none`.
-template <class Column>
-void append_marks(Column& to, const Column* from, std::size_t before, std::size_t first,
-                  std::size_t last, typename Column::value_type none) {
-  if (from && !from->empty()) {
-    to.resize(before, none);
-    to.insert(to.end(), from->begin() + static_cast<std::ptrdiff_t>(first),
-              from->begin() + static_cast<std::ptrdiff_t>(last));
-  } else if (!to.empty()) {
-    to.resize(before + last - first, none);
-  }
-}
-
-void append(FrameBlock& to, const FrameBlock& from, std::size_t first, std::size_t last) {
-  const auto range = [&](const auto& column, auto& target) {
-    target.insert(target.end(), column.begin() + static_cast<std::ptrdiff_t>(first),
-                  column.begin() + static_cast<std::ptrdiff_t>(last));
-  };
-  const std::size_t before = to.size();
-  range(from.time_ns, to.time_ns);
-  range(from.encoder_m, to.encoder_m);
-  for (std::size_t k = 0; k < from.probe_m.size(); ++k) {
-    range(from.probe_m[k], to.probe_m[k]);
-    append_marks(to.probe_quality[k],
-                 k < from.probe_quality.size() ? &from.probe_quality[k] : nullptr, before, first,
-                 last, Quality::good);
-    append_marks(to.probe_fresh[k], k < from.probe_fresh.size() ? &from.probe_fresh[k] : nullptr,
-                 before, first, last, std::uint8_t{1});
-  }
-}
-
-template <class Column>
-void drop_front(Column& column, std::size_t n) {
-  if (!column.empty())
-    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(n));
-}
-
-FrameBlock empty_frames(std::size_t probes) {
-  FrameBlock frames;
-  frames.probe_m.resize(probes);
-  frames.probe_quality.resize(probes);
-  frames.probe_fresh.resize(probes);
-  return frames;
 }
 
 void add_flag(Point& point, const std::string& flag) {
@@ -101,7 +60,8 @@ DwellDetector::DwellDetector(DwellOptions options, std::vector<std::string> prob
       probe_range_m_(std::move(probe_range_m)),
       resolution_(probe_ids_.size()),
       early_(empty_frames(probe_ids_.size())),
-      buffer_(empty_frames(probe_ids_.size())) {
+      buffer_(empty_frames(probe_ids_.size())),
+      watch_(probe_ids_.size()) {
   assert(probe_ids_.size() == probe_range_m_.size());
 }
 
@@ -109,15 +69,16 @@ void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
   std::size_t from = 0;
   if (period_ns_ == 0) {
     from = std::min(frames.size(), kRowsForPeriod - early_.size());
-    append(early_, frames, 0, from);
+    append_rows(early_, frames, 0, from);
     if (early_.size() < kRowsForPeriod) return;
     learn_period(early_);
     const FrameBlock early = std::move(early_);
     early_ = empty_frames(probe_ids_.size());
     push(early, out);
   }
-  append(buffer_, frames, from, frames.size());
+  append_rows(buffer_, frames, from, frames.size());
   while (row_ < buffer_.size()) {
+    if (buffer_.time_ns[row_] - last_ns_ > hole_ns_) pass_hole();
     if (!breaks_.empty() && buffer_.time_ns[row_] > breaks_.front()) pass_break(out);
     const std::int64_t index = (buffer_.time_ns[row_] - origin_ns_) / slot_ns_;
     if (slot_open_ && index != open_.index) close_slot(out);
@@ -147,6 +108,8 @@ void DwellDetector::learn_period(const FrameBlock& frames) {
   const auto quarter_ns = static_cast<std::int64_t>(options_.window_s * 1e9) /
                           static_cast<std::int64_t>(kSlotsPerWindow);
   slot_ns_ = std::max<std::int64_t>(quarter_ns, kMinScansPerSlot * period_ns_);
+  hole_ns_ =
+      std::max(static_cast<std::int64_t>(options_.window_s * 1e9), kHolePeriods * period_ns_);
   origin_ns_ = last_ns_ = frames.time_ns.front();
   encoder_before_ = {frames.encoder_m.front(), frames.encoder_m.front()};
   summary_.period_s = ns_to_s(period_ns_);
@@ -158,14 +121,16 @@ void DwellDetector::learn_period(const FrameBlock& frames) {
 void DwellDetector::add_rows(std::size_t to) {
   double low = open_.rows ? open_.min_m : std::numeric_limits<double>::infinity();
   double high = open_.rows ? open_.max_m : -low;
-  double bend = open_.bend_m;
+  double bend = open_.bend_m, sharp = open_.sharp_m;
   auto [before2, before1] = encoder_before_;
   for (std::size_t i = row_; i < to; ++i) {
     const double encoder = buffer_.encoder_m[i];
     const double voted = median3(before2, before1, encoder);
     low = std::min(low, voted);
     high = std::max(high, voted);
-    bend += std::abs(encoder - 2 * before1 + before2);
+    const double bent = std::abs(encoder - 2 * before1 + before2);
+    bend += bent;
+    sharp = std::max(sharp, bent);
     before2 = before1;
     before1 = encoder;
   }
@@ -178,19 +143,19 @@ void DwellDetector::add_rows(std::size_t to) {
   open_.min_m = low;
   open_.max_m = high;
   open_.bend_m = bend;
+  open_.sharp_m = sharp;
   open_.rows += to - row_;
   summary_.scans += to - row_;
   row_ = to;
 }
 
-bool DwellDetector::window_still() const {
-  if (slots_.size() < kSlotsPerWindow) return false;
+double DwellDetector::window_range() const {
   double low = slots_.front().min_m, high = slots_.front().max_m;
   for (const Slot& slot : slots_) {
     low = std::min(low, slot.min_m);
     high = std::max(high, slot.max_m);
   }
-  return high - low <= summary_.tolerance_m;
+  return high - low;
 }
 
 void DwellDetector::remember_path(double position_m) {
@@ -222,9 +187,9 @@ void DwellDetector::close_slot(std::vector<Point>& out) {
   summary_.tolerance_m = options_.tolerance_m > 0
                              ? options_.tolerance_m
                              : std::max(kAutoTolerance_m, kAutoNoiseFactor * encoder_noise_.sd());
-  learn_resolution(open_);
   remember_path(open_.middle());
   const bool still = window_still();
+  look_at_window(still);
   if (still && !dwelling_) begin_dwell();
   if (!still && dwelling_) end_dwell(out);
   if (!dwelling_) remember_way(slots_.back());
@@ -265,16 +230,9 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
       still_s >= options_.settle_s + options_.min_length_s && end_row >= first_row + kMinScans;
   if (long_enough) {
     Point point = average(first_row, end_row);
-    const auto [low, high] =
-        std::minmax_element(buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(first_row),
-                            buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(end_row));
-    const bool spiky =
-        std::find(point.flags.begin(), point.flags.end(), "spike:encoder") != point.flags.end();
-    if (*high - *low <= kCreepFactor * summary_.tolerance_m || spiky) {
-      if (way_seen_) point.way_min_m = way_in_.min_m, point.way_max_m = way_in_.max_m;
-      out.push_back(std::move(point));
-      gave_point_ = true;
-    }
+    gave_point_ = keep_or_tell(std::move(point), first_row, end_row, out);
+  } else if (still_s >= options_.min_length_s) {
+    note({NoticeKind::short_stop, still_since_ns_, left_m_, 0, still_s});
   }
   if (gave_point_) {
     way_seen_ = true;
@@ -283,6 +241,28 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
     summary_.passed_over.push_back({left_m_, still_s, still_since_ns_, !long_enough});
   }
   remember_way(slots_[slots_.size() - 2]);
+}
+
+// A stop that creeps a little has readings that belong to its mean position; one that creeps far is
+// a slow travel.
+bool DwellDetector::keep_or_tell(Point point, std::size_t first_row, std::size_t end_row,
+                                 std::vector<Point>& out) {
+  const auto begin = buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(first_row);
+  const auto end = buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(end_row);
+  const auto [low, high] = std::minmax_element(begin, end);
+  const double crept_m = *high - *low;
+  const bool spiky =
+      std::find(point.flags.begin(), point.flags.end(), "spike:encoder") != point.flags.end();
+  if (crept_m > kCreepFactor * summary_.tolerance_m && !spiky) {
+    const bool kept = crept_m <= kMostCreep_m;
+    note({kept ? NoticeKind::crept : NoticeKind::creep, point.begin_ns, point.position_m,
+          std::copysign(crept_m, *(end - 1) - *begin), ns_to_s(point.end_ns - point.begin_ns)});
+    if (!kept) return false;
+    add_flag(point, "creep");
+  }
+  if (way_seen_) point.way_min_m = way_in_.min_m, point.way_max_m = way_in_.max_m;
+  out.push_back(std::move(point));
+  return true;
 }
 
 Point DwellDetector::average(std::size_t from, std::size_t to) {
@@ -302,6 +282,9 @@ Point DwellDetector::average(std::size_t from, std::size_t to) {
     }
   }
   if (truncated_) add_flag(point, "truncated");
+  const double jumped_m =
+      point.end_ns < last_jump_.time_ns ? jumped_m_ - last_jump_.size_m : jumped_m_;
+  if (std::abs(jumped_m) > summary_.tolerance_m) add_flag(point, "jump");
   return point;
 }
 
@@ -346,27 +329,10 @@ void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size
   const double coarse = std::max(1e-3 * probe_range_m_[probe], kCoarseSteps * step);
   const RobustMean mean = robust_mean(readings, coarse, scratch_);
   if (mean.rejected > 0) add_flag(point, "spike:" + id);
+  watch_.take_stop(probe, mean, step);
   point.probe_m.push_back(mean.mean);
   point.probe_u_m.push_back(with_resolution(mean.u, mean.sd, step));
   point.probe_sd_m.push_back(mean.sd);
-}
-
-// Neighbours that are a probe's own samples: where it is interpolated its step is not in the
-// frames.
-void DwellDetector::learn_resolution(const Slot& slot) {
-  for (std::size_t k = 0; k < probe_ids_.size(); ++k) {
-    if (!buffer_.probe_fresh[k].empty()) continue;
-    resolution_[k].add({&buffer_.probe_m[k][slot.first_row], slot.rows});
-  }
-}
-
-void DwellDetector::settle_resolution(std::vector<Point>& points) const {
-  for (Point& point : points) {
-    for (std::size_t k = 0; k < point.probe_u_m.size(); ++k) {
-      if (point.probe_u_m[k] == 0)
-        point.probe_u_m[k] = with_resolution(0, 0, resolution_[k].step());
-    }
-  }
 }
 
 void DwellDetector::drop_rows_before(std::size_t row) {
@@ -374,11 +340,7 @@ void DwellDetector::drop_rows_before(std::size_t row) {
 }
 
 void DwellDetector::drop_rows(std::size_t row) {
-  drop_front(buffer_.time_ns, row);
-  drop_front(buffer_.encoder_m, row);
-  for (auto& column : buffer_.probe_m) drop_front(column, row);
-  for (auto& column : buffer_.probe_quality) drop_front(column, row);
-  for (auto& column : buffer_.probe_fresh) drop_front(column, row);
+  erase_rows(buffer_, 0, row);
   for (Slot& slot : slots_) slot.first_row -= std::min(slot.first_row, row);
   row_ -= row;
 }
@@ -386,16 +348,7 @@ void DwellDetector::drop_rows(std::size_t row) {
 // The dwell goes on, what is averaged of it does not: its closed slots beyond the cut are not kept.
 void DwellDetector::drop_cut_rows() {
   const std::size_t end = slot_open_ ? open_.first_row : row_;
-  const auto erase = [&](auto& column) {
-    if (column.empty()) return;
-    column.erase(column.begin() + static_cast<std::ptrdiff_t>(cut_row_),
-                 column.begin() + static_cast<std::ptrdiff_t>(end));
-  };
-  erase(buffer_.time_ns);
-  erase(buffer_.encoder_m);
-  for (auto& column : buffer_.probe_m) erase(column);
-  for (auto& column : buffer_.probe_quality) erase(column);
-  for (auto& column : buffer_.probe_fresh) erase(column);
+  erase_rows(buffer_, cut_row_, end);
   for (Slot& slot : slots_) slot.first_row = std::min(slot.first_row, cut_row_);
   row_ -= end - cut_row_;
   open_.first_row -= end - cut_row_;
@@ -403,6 +356,18 @@ void DwellDetector::drop_cut_rows() {
 
 void DwellDetector::break_after(std::int64_t time_ns) {
   breaks_.push_back(time_ns);
+}
+
+// Nobody saw the axis for a while: told, and after a longer while the approach is not known either.
+void DwellDetector::pass_hole() {
+  const std::int64_t length_ns = buffer_.time_ns[row_] - last_ns_;
+  const double before_m = encoder_before_[1];
+  note({NoticeKind::hole, last_ns_, before_m, buffer_.encoder_m[row_] - before_m,
+        ns_to_s(length_ns)});
+  const bool told = !breaks_.empty() && breaks_.front() <= last_ns_;
+  if (length_ns > std::max(kUnseen_ns, 2 * hole_ns_) && !told) {
+    breaks_.push_front(last_ns_);
+  }
 }
 
 void DwellDetector::pass_break(std::vector<Point>& out) {

@@ -9,8 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "algo/dwell_notice.h"
+#include "algo/encoder_jump.h"
 #include "algo/noise_floor.h"
+#include "algo/probe_watch.h"
 #include "algo/resolution.h"
+#include "algo/slow_stretch.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 
@@ -47,9 +51,13 @@ class DwellDetector {
   // End of the data: the dwell under way is complete as well.
   void flush(std::vector<Point>& out);
 
-  // What never changed in a stop before the step of its readings was known has no uncertainty yet:
-  // gives it that of the rounding.
-  void settle_resolution(std::vector<Point>& points) const;
+  // What only the log as far as it is known tells of the points found in it: those of a probe that
+  // froze or stepped are marked, and a reading that never changed in a stop before the step of its
+  // probe's readings was known gets the uncertainty of the rounding.
+  void mark(std::vector<Point>& points) const;
+  // What the user has to know of the log beside the points: one sentence each.
+  std::vector<std::string> warnings(const std::vector<Point>& points) const;
+  const std::vector<DwellNotice>& notices() const { return notices_; }
 
   struct Summary {
     std::uint64_t scans = 0;
@@ -77,14 +85,23 @@ class DwellDetector {
     std::size_t first_row = 0, rows = 0;  // in buffer_
     std::int64_t begin_ns = 0;
     double min_m = 0, max_m = 0;
-    double bend_m = 0;  // sum of |second differences|: noise, whatever the speed
+    double bend_m = 0;   // sum of |second differences|: noise, whatever the speed
+    double sharp_m = 0;  // the largest of them
     double middle() const { return 0.5 * (min_m + max_m); }
   };
 
   void learn_period(const FrameBlock& frames);
   void add_rows(std::size_t to);
   void close_slot(std::vector<Point>& out);
-  bool window_still() const;
+  double window_range() const;
+  bool window_still() const { return slots_.size() == 4 && window_range() <= summary_.tolerance_m; }
+  void pass_hole();
+  void look_at_window(bool still);
+  void look_for_jump();
+  void note(const DwellNotice& notice);
+  // Whether it has become a point.
+  bool keep_or_tell(Point point, std::size_t first_row, std::size_t end_row,
+                    std::vector<Point>& out);
   void remember_path(double position_m);
   void remember_way(const Slot& slot);
   int direction_to(double position_m) const;
@@ -108,7 +125,7 @@ class DwellDetector {
   Summary summary_;
 
   FrameBlock early_;  // until the period is known
-  std::int64_t period_ns_ = 0, slot_ns_ = 0, origin_ns_ = 0, last_ns_ = 0;
+  std::int64_t period_ns_ = 0, slot_ns_ = 0, hole_ns_ = 0, origin_ns_ = 0, last_ns_ = 0;
   std::array<double, 2> encoder_before_{};  // for the median of three
   FrameBlock buffer_;                       // rows of the slots below and of the dwell under way
   std::deque<Slot> slots_;                  // the last window, newest at the back
@@ -132,6 +149,13 @@ class DwellDetector {
   bool gave_point_ = false;  // the last stop
   int direction_ = 0;        // of approach, taken before the axis leaves again
   std::vector<double> scratch_, finite_;
+
+  std::vector<DwellNotice> notices_;
+  ProbeWatch watch_;
+  SlowStretch slow_;
+  EncoderJump last_jump_;
+  double jumped_m_ = 0;              // the sum of the encoder's jumps
+  std::int64_t jumps_until_ns_ = 0;  // looked for up to here
 };
 
 }  // namespace mdof::algo

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algo/lane_sum.h"
 #include "algo/mean_uncertainty.h"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kReject = 6.0;
 constexpr double kMadToSd = 1.4826;
+constexpr double kFlickerSteps = 3.5;
 // Median and deviation of a long dwell are taken from at most this many readings, evenly spread.
 constexpr std::size_t kSubsample = 512;
 
@@ -46,6 +48,28 @@ double median(std::vector<double>& values) {
   }
 }
 
+// Deviations of rounded readings come in steps, and so does their median, up to half a step too
+// small: halfway to the next larger one. Of readings that are not rounded it is the same.
+double between_steps(const std::vector<double>& deviations, double middle) {
+  if (middle == 0) return 0;
+  double next = std::numeric_limits<double>::infinity();
+  for (const double x : deviations)
+    if (x > 1.001 * middle) next = std::min(next, x);
+  return std::isfinite(next) ? 0.5 * (middle + next) : middle;
+}
+
+// Where most readings are the same: how far others may lie from it. Several at the same distance
+// are the next step of a rounded reading, whatever `coarse` says.
+double flicker_limit(std::span<const double> readings, double centre, double coarse) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double x : readings)
+    if (x != centre) least = std::min(least, std::abs(x - centre));
+  const auto alike = std::count_if(readings.begin(), readings.end(), [&](double x) {
+    return x != centre && std::abs(x - centre) <= 1.05 * least;
+  });
+  return alike > 1 ? std::max(coarse, kFlickerSteps * least) : coarse;
+}
+
 }  // namespace
 
 RobustMean robust_mean(std::span<const double> readings, double coarse,
@@ -57,8 +81,9 @@ RobustMean robust_mean(std::span<const double> readings, double coarse,
   for (std::size_t i = 0; i < readings.size(); i += stride) scratch.push_back(readings[i]);
   const double centre = median(scratch);
   for (double& x : scratch) x = std::abs(x - centre);
-  const double robust_sd = kMadToSd * median(scratch);
-  const double limit = robust_sd > 0 ? kReject * robust_sd : coarse;
+  const double robust_sd = kMadToSd * between_steps(scratch, median(scratch));
+  const double limit =
+      robust_sd > 0 ? kReject * robust_sd : flicker_limit(readings, centre, coarse);
 
   // From here on small numbers: nothing is lost to the offset.
   scratch.resize(readings.size());

@@ -1,6 +1,7 @@
 #include "algo/series.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -42,6 +43,32 @@ TargetMean mean_of(const TargetMean& forward, const TargetMean& reverse) {
   return mean;
 }
 
+// u of the mean over runs and both directions at this target by the scatter of the runs' own means:
+// what is slow, and shifts a run both ways alike, is not halved by going both ways. 0: under two
+// runs.
+Errors5 scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                        int target) {
+  std::map<int, std::array<std::vector<Errors5>, 2>> runs;
+  for (const auto& p : points) {
+    if (!p.errors.valid || p.target != target || p.point.direction == 0) continue;
+    runs[p.run][p.point.direction > 0 ? 0 : 1].push_back(named_from_local(moving, p.errors.local));
+  }
+  Errors5 u{};
+  for (std::size_t k = 0; k < 5; ++k) {
+    double n = 0, mean = 0, square = 0;
+    for (const auto& [run, ways] : runs) {
+      if (ways[0].empty() || ways[1].empty()) continue;
+      const double of_run = 0.5 * (ways[0].front()[k] + ways[1].front()[k]);
+      n += 1;
+      const double off = of_run - mean;
+      mean += off / n;
+      square += off * (of_run - mean);
+    }
+    if (n > 1) u[k] = std::sqrt(square / (n - 1) / n);
+  }
+  return u;
+}
+
 using ByTarget = std::map<int, TargetMean>;
 
 ByTarget one_way(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
@@ -69,7 +96,14 @@ std::vector<TargetMean> target_means(const MovingAxis& moving,
   if (approach == Approach::both) {
     for (const auto& [target, reverse] : one_way(moving, points, -1)) {
       const auto forward = means.find(target);
-      means[target] = forward == means.end() ? reverse : mean_of(forward->second, reverse);
+      if (forward == means.end()) {
+        means[target] = reverse;
+        continue;
+      }
+      const Errors5 of_runs = scatter_of_runs(moving, points, target);
+      means[target] = mean_of(forward->second, reverse);
+      for (std::size_t k = 0; k < 5; ++k)
+        means[target].u[k] = std::max(means[target].u[k], of_runs[k]);
     }
   }
   std::vector<TargetMean> series;

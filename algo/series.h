@@ -21,7 +21,10 @@ struct TargetMean {
 
 // Means of the valid points of `points` at each target that has any, ascending in position.
 // Approach::both is the mean of the two directions' means where both are there.
-// u: the larger of the scatter between runs, s/√n (n > 1), and the mean's propagated noise.
+// u: the larger of the scatter between runs, s/√n (n > 1), and the mean's propagated noise: where
+// runs repeat, what is slow between them is in it, and runs that are close by chance keep the
+// noise. Of both directions' mean it is at least the scatter of the runs' means, both ways taken
+// together.
 std::vector<TargetMean> target_means(const MovingAxis& moving,
                                      const std::vector<MeasuredPoint>& points, Approach approach);
 

@@ -41,6 +41,16 @@ void keep_last(const FrameBlock& frames, FrameBlock& newest) {
   }
 }
 
+// Why a probe is missing, before what follows from it.
+std::string by_cause(const Point& point) {
+  constexpr std::string_view kFrozen = "frozen:";
+  for (const std::string& flag : point.flags) {
+    if (flag.starts_with(kFrozen))
+      return "probe " + flag.substr(kFrozen.size()) + " no longer changes: ";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string PipelineOptions::json() const {
@@ -166,7 +176,7 @@ const std::vector<MeasuredPoint>& Pipeline::points() {
 // long log asks once.
 void Pipeline::take_points() {
   taken_ = found_.size();
-  dwell_.settle_resolution(found_);
+  dwell_.mark(found_);
   std::vector<Point> placed;  // only where some are not
   if (!suspect_.empty()) {
     std::copy_if(found_.begin(), found_.end(), std::back_inserter(placed),
@@ -174,9 +184,16 @@ void Pipeline::take_points() {
     unplaced_ = found_.size() - placed.size();
   }
   sequence_ = algo::recognise_sequence(unplaced_ > 0 ? placed : found_, options_.sequence);
-  for (auto& p : sequence_.points) {
-    p.errors = solve_at(p.point.position_m, p.point.probe_m, p.point.probe_u_m);
-  }
+  const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
+  for (auto& p : sequence_.points) solve_point(p, residuals);
+}
+
+void Pipeline::solve_point(MeasuredPoint& p, const algo::Residuals& residuals) const {
+  const double travel_m = rig_.sides.target_travel_m(p.point.position_m);
+  p.errors = solver_.solve(travel_m, p.point.probe_m, p.point.probe_u_m);
+  if (!p.errors.valid) p.errors.reason = by_cause(p.point) + p.errors.reason;
+  residuals.test(p);
+  p.errors = algo::restate(p.errors, options_.model, rig_.axis, travel_m, kAtCarriage, kAtFixture);
 }
 
 AxisErrors Pipeline::solve_at(double encoder_m, const std::vector<double>& readings_m,
@@ -227,8 +244,12 @@ Status Pipeline::judge_dead_probes(std::vector<std::string>& warnings) const {
     if (!dead) continue;
     const auto& flags = found_.front().flags;
     const std::string& id = rig_.probes[k].id;
+    const bool frozen = std::find(flags.begin(), flags.end(), "frozen:" + id) != flags.end();
     const bool saturated = std::find(flags.begin(), flags.end(), "saturated:" + id) != flags.end();
-    const std::string why = saturated
+    const std::string why = frozen ? "probe \"" + id +
+                                         "\" reads the same in every scan while the others "
+                                         "change; check its cable, amplifier and channel"
+                            : saturated
                                 ? "probe \"" + id + "\" is at the end of its range (" +
                                       plain_number(to_um(rig_.probes[k].range_m), 6) + " um" +
                                       ") in every dwell: shim it into range, or correct range_um, "
@@ -286,6 +307,10 @@ Result<Run> Pipeline::finish() {
   if (unplaced_ > 0) run.header.warnings.push_back(explain_unplaced());
   add_plausibility(run);
   run.points = sequence_.points;
+  auto more = dwell_.warnings(found_);
+  const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
+  if (const auto contradiction = residuals.warning(run.points)) more.push_back(*contradiction);
+  run.header.warnings.insert(run.header.warnings.end(), more.begin(), more.end());
   judge(run);
   run.straightness = algo::straightness(rig_.moving(), run.points);
   run.angles = algo::angles(rig_.moving(), run.points);

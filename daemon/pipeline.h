@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algo/align.h"
+#include "algo/chi_square.h"
 #include "algo/dwell.h"
 #include "algo/sequence.h"
 #include "algo/solver.h"
@@ -71,6 +72,7 @@ class Pipeline {
   bool unplaced(const Point& stop) const;
   std::string explain_unplaced() const;
   void take_points();
+  void solve_point(MeasuredPoint& p, const algo::Residuals& residuals) const;
   bool moved() const;
   Status explain_nothing() const;
   Status judge_dead_probes(std::vector<std::string>& warnings) const;

@@ -276,10 +276,11 @@ TEST(Sequence, WhatNobodySawIsNoApproach) {
   EXPECT_TRUE(told.points[2].point.flags.empty());
   EXPECT_EQ(told.points[3].point.direction, -1);
   EXPECT_EQ(told.points[3].point.flags, std::vector<std::string>{"approach_assumed"});
-  // Where it is not told, it is taken for what it looks like: a stop on the way forward.
+  // The hole in the time line says it as well.
   const Sequence untold = recognise_sequence(detect(axis.frames, 1000), {});
   ASSERT_EQ(untold.points.size(), 6u);
-  EXPECT_EQ(untold.points[3].point.direction, 1);
+  EXPECT_EQ(untold.points[3].point.direction, -1);
+  EXPECT_EQ(untold.points[3].point.flags, std::vector<std::string>{"approach_assumed"});
 }
 
 TEST(Sequence, AStopThatNobodySawInBetweenCountsOnce) {

@@ -1,0 +1,151 @@
+#include "algo/chi_square.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "algo/rigid.h"
+#include "schema/sample.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr const char* kFlag = "residual";
+// χ² at 1 - 1e-6 for 1, 2 ... degrees of freedom.
+constexpr std::array<double, 11> kLimits = {23.928, 27.631, 30.665, 33.377, 35.888, 38.258,
+                                            40.522, 42.701, 44.811, 46.863, 48.866};
+constexpr double kLinearity = 1e-4;  // of the range
+constexpr double kLever_m = 0.02;    // that makes an angle a length
+
+bool flagged(const MeasuredPoint& p) {
+  const auto& flags = p.point.flags;
+  return std::find(flags.begin(), flags.end(), kFlag) != flags.end();
+}
+
+double square_distance(const Errors5& a, const Errors5& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 5; ++k) {
+    const double difference = (a[k] - b[k]) * (k < 2 ? 1 : kLever_m);
+    sum += difference * difference;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double chi_square_limit(int freedom) {
+  const auto k = static_cast<std::size_t>(std::max(freedom, 1)) - 1;
+  // Beyond the table a straight line, above the true value.
+  return k < kLimits.size() ? kLimits[k] : kLimits.back() + 2.1 * static_cast<double>(k - 10);
+}
+
+bool Agreement::explained() const {
+  return freedom <= 0 || chi_square <= chi_square_limit(freedom);
+}
+
+Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
+                    const std::vector<double>& u_m, const AxisErrors& errors) {
+  Agreement result;
+  if (!errors.valid || solver.model() != Model::rigid) return result;
+  const Eigen::VectorXd model = rigid_readings(solver.fixture(), travel_m, errors.local);
+  result.freedom = -5;
+  for (std::size_t k = 0; k < readings_m.size(); ++k) {
+    if (!std::isfinite(readings_m[k])) continue;
+    const double left = (readings_m[k] - model(static_cast<Eigen::Index>(k))) / u_m[k];
+    result.chi_square += left * left;
+    ++result.freedom;
+  }
+  return result;
+}
+
+Residuals::Residuals(const Solver& solver, const std::vector<double>& range_m, const Sides& sides)
+    : solver_(solver), sides_(sides) {
+  for (const double range : range_m) linearity_m_.push_back(kLinearity * range / std::sqrt(3.0));
+}
+
+std::vector<double> Residuals::allowed(const std::vector<double>& u_m) const {
+  std::vector<double> all(u_m.size());
+  for (std::size_t k = 0; k < u_m.size(); ++k) all[k] = std::hypot(u_m[k], linearity_m_[k]);
+  return all;
+}
+
+void Residuals::test(MeasuredPoint& p) const {
+  const Point& point = p.point;
+  if (point.probe_m.size() <= 5) return;
+  const Agreement found =
+      agreement(solver_, sides_.target_travel_m(point.position_m), point.probe_m, allowed(point.probe_u_m), p.errors);
+  if (!found.explained() && !flagged(p)) p.point.flags.emplace_back(kFlag);
+}
+
+// Infinite where the others contradict each other too. Else the mean square distance of the errors
+// from those of the unsuspected points of the same target, since several probes may fit without any
+// one of them.
+double Residuals::misfit_without(std::size_t probe, const MeasuredPoint& p,
+                                 const std::vector<MeasuredPoint>& all) const {
+  const double travel_m = sides_.target_travel_m(p.point.position_m);
+  std::vector<double> readings_m = p.point.probe_m;
+  readings_m[probe] = kNaN;
+  const std::vector<double> u_m = allowed(p.point.probe_u_m);
+  const AxisErrors errors = solver_.solve(travel_m, readings_m, u_m);
+  if (!errors.valid) return std::numeric_limits<double>::infinity();
+  const Agreement others = agreement(solver_, travel_m, readings_m, u_m, errors);
+  if (!others.explained()) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  std::size_t n = 0;
+  for (const MeasuredPoint& other : all) {
+    if (other.target != p.target || flagged(other) || !other.errors.valid) continue;
+    const auto sound =
+        solver_.solve(sides_.target_travel_m(other.point.position_m), other.point.probe_m, allowed(other.point.probe_u_m));
+    sum += square_distance(errors.local, sound.local);
+    ++n;
+  }
+  return n > 0 ? sum / static_cast<double>(n) : 0;
+}
+
+std::optional<std::size_t> Residuals::suspect(const std::vector<const MeasuredPoint*>& bad,
+                                              const std::vector<MeasuredPoint>& all) const {
+  std::optional<std::size_t> best;
+  double least = 0, next = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < linearity_m_.size(); ++k) {
+    double misfit = 0;
+    for (const MeasuredPoint* p : bad) misfit += misfit_without(k, *p, all);
+    if (!std::isfinite(misfit)) continue;
+    if (!best || misfit < least) {
+      if (best) next = std::min(next, least);
+      best = k;
+      least = misfit;
+    } else {
+      next = std::min(next, misfit);
+    }
+  }
+  // Nobody is named where two are alike.
+  return best && 2 * least < next ? best : std::nullopt;
+}
+
+std::optional<std::string> Residuals::warning(const std::vector<MeasuredPoint>& points) const {
+  std::vector<const MeasuredPoint*> bad;
+  double most_m = 0;
+  for (const MeasuredPoint& p : points) {
+    if (!flagged(p)) continue;
+    bad.push_back(&p);
+    most_m = std::max(most_m, p.errors.residual_m);
+  }
+  if (bad.empty()) return std::nullopt;
+  const auto probe = suspect(bad, points);
+  const std::string who =
+      probe ? "probe \"" + solver_.fixture().probes[*probe].id + "\" is the most suspect"
+            : "which probe it is cannot be told";
+  std::array<char, 400> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "the probes contradict each other in %zu of %zu points by up to %.3g um rms, more than "
+      "their uncertainties explain (chi-square, 1 in 1e6; flag residual): %s; check its "
+      "position, sensitivity and mount",
+      bad.size(), points.size(), to_um(most_m), who.c_str());
+  return text.data();
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,51 @@
+// Do more probes than five agree with each other as well as their uncertainties say?
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algo/solver.h"
+#include "schema/point.h"
+
+namespace mdof::algo {
+
+struct Agreement {
+  int freedom = 0;        // probes in use - 5; 0: nothing to test
+  double chi_square = 0;  // sum of (what the model leaves / u)²
+  bool explained() const;
+};
+
+// Value that χ² exceeds by chance once in a million points.
+double chi_square_limit(int freedom);
+
+// `u_m` of each reading, not 0; `errors` as the rigid model has solved them, those of the carriage.
+Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
+                    const std::vector<double>& u_m, const AxisErrors& errors);
+
+// Flags the points whose residual is not explained ("residual") and says so in one sentence that
+// names the most suspect probe: the one without which χ² is least or, where six probes leave
+// nothing to test without one, without which the errors come nearest to those of the other points
+// of the target. As long as a rig states no uncertainty of its probes, each is allowed a linearity
+// of 1e-4 of its range (rectangular) beside its noise. Only for the rigid model: the others use
+// five probes.
+class Residuals {
+ public:
+  Residuals(const Solver& solver, const std::vector<double>& range_m, const Sides& sides = {});
+  // Right after a point was solved, its errors still those of the carriage.
+  void test(MeasuredPoint& point) const;
+  std::optional<std::string> warning(const std::vector<MeasuredPoint>& points) const;
+
+ private:
+  std::vector<double> allowed(const std::vector<double>& u_m) const;
+  std::optional<std::size_t> suspect(const std::vector<const MeasuredPoint*>& bad,
+                                     const std::vector<MeasuredPoint>& all) const;
+  double misfit_without(std::size_t probe, const MeasuredPoint& point,
+                        const std::vector<MeasuredPoint>& all) const;
+
+  const Solver& solver_;
+  Sides sides_;
+  std::vector<double> linearity_m_;
+};
+
+}  // namespace mdof::algo

@@ -1,0 +1,102 @@
+// What the dwell detection sees beside the stops: creeping, jumps, probes that froze or stepped.
+#include <algorithm>
+#include <cmath>
+
+#include "algo/dwell.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kJumpTolerances = 10;
+constexpr std::size_t kReach = 6;  // rows that find_jump() wants on either side
+constexpr std::int64_t kGlitch_ns = 1'000'000'000;
+constexpr double kMostCreep_m = 200e-6;  // further is a slow travel
+constexpr std::size_t kMostNotices = 10'000;
+
+}  // namespace
+
+void DwellDetector::note(const DwellNotice& notice) {
+  if (notices_.size() < kMostNotices) notices_.push_back(notice);
+}
+
+// The window ends with the slot that was just closed.
+void DwellDetector::look_at_window(bool still) {
+  const Slot& newest = slots_.back();
+  learn_resolution(newest);
+  watch_.take_newest(buffer_, newest.first_row, newest.first_row + newest.rows, newest.min_m,
+                     newest.max_m);
+  if (slots_.size() < 4) return;
+  const auto creep =
+      slow_.take({slots_.front().begin_ns, newest.begin_ns, slots_.front().middle(),
+                  newest.middle(), window_range(), still},
+                 summary_.tolerance_m, options_.settle_s + options_.min_length_s, kMostCreep_m);
+  if (creep) note(*creep);
+  const std::size_t end = newest.first_row + newest.rows;
+  for (std::size_t k = 0; k + 1 < slots_.size(); ++k)
+    if (slots_[k].first_row + slots_[k].rows != slots_[k + 1].first_row)
+      return;  // rows were dropped
+  if (buffer_.time_ns[end - 1] - slots_.front().begin_ns > 8 * slot_ns_) return;  // a hole
+  watch_.look_for_steps(
+      {buffer_, slots_[0].first_row, slots_[1].first_row, slots_[2].first_row, end});
+  look_for_jump();
+}
+
+// A count that comes back within a second is a glitch: the positions after it are right.
+void DwellDetector::look_for_jump() {
+  const std::size_t begin = slots_.front().first_row;
+  const std::size_t rows = slots_.back().first_row + slots_.back().rows - begin;
+  if (rows <= 2 * kReach) return;
+  const std::int64_t until_ns = buffer_.time_ns[begin + rows - kReach - 1];
+  const double least_m = kJumpTolerances * summary_.tolerance_m;
+  const bool sharp = std::any_of(slots_.begin(), slots_.end(),
+                                 [&](const Slot& slot) { return slot.sharp_m > least_m; });
+  if (sharp) {
+    const auto begin_row = buffer_.time_ns.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto from =
+        std::upper_bound(begin_row, begin_row + static_cast<std::ptrdiff_t>(rows), jumps_until_ns_);
+    const auto jump =
+        find_jump({&buffer_.time_ns[begin], rows}, {&buffer_.encoder_m[begin], rows},
+                  static_cast<std::size_t>(from - begin_row), rows - kReach, period_ns_, least_m);
+    if (jump) {
+      jumped_m_ += jump->size_m;
+      last_jump_ = *jump;
+      const bool back = !notices_.empty() && notices_.back().kind == NoticeKind::jump &&
+                        jump->time_ns - notices_.back().time_ns < kGlitch_ns &&
+                        std::abs(notices_.back().size_m + jump->size_m) < 0.5 * least_m;
+      if (back) {
+        notices_.pop_back();
+      } else {
+        note({NoticeKind::jump, jump->time_ns, jump->position_m, jump->size_m, 0});
+      }
+    }
+  }
+  jumps_until_ns_ = std::max(jumps_until_ns_, until_ns);
+}
+
+// Neighbours that are a probe's own samples: where it is interpolated its step is not in the
+// frames.
+void DwellDetector::learn_resolution(const Slot& slot) {
+  for (std::size_t k = 0; k < probe_ids_.size(); ++k) {
+    if (!buffer_.probe_fresh[k].empty()) continue;
+    resolution_[k].add({&buffer_.probe_m[k][slot.first_row], slot.rows});
+  }
+}
+
+void DwellDetector::mark(std::vector<Point>& points) const {
+  for (Point& point : points) {
+    for (std::size_t k = 0; k < point.probe_u_m.size(); ++k)
+      if (point.probe_u_m[k] == 0)
+        point.probe_u_m[k] = with_resolution(0, 0, resolution_[k].step());
+  }
+  watch_.mark(points, probe_ids_);
+}
+
+std::vector<std::string> DwellDetector::warnings(const std::vector<Point>& points) const {
+  auto all = describe(notices_, points, origin_ns_, options_.settle_s + options_.min_length_s);
+  const auto probes = describe(watch_, probe_ids_, origin_ns_);
+  all.insert(all.end(), probes.begin(), probes.end());
+  return all;
+}
+
+}  // namespace mdof::algo

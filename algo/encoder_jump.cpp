@@ -1,0 +1,51 @@
+#include "algo/encoder_jump.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kReach = 5;  // rows before and after
+constexpr double kGreatest_m_s2 = 10;
+
+// Voted by its neighbours: a spike of one scan is no jump.
+double voted(std::span<const double> x, std::size_t i) {
+  return std::max(std::min(x[i - 1], x[i]), std::min(std::max(x[i - 1], x[i]), x[i + 1]));
+}
+
+struct Step {
+  double size = 0, speed_change = 0;  // m, m per scan
+};
+
+// The step from i - 1 to i that is left when the axis goes on as before and after.
+Step step_at(std::span<const double> x, std::size_t i) {
+  const double before = (voted(x, i - 1) - voted(x, i - 4)) / 3;
+  const double after = (voted(x, i + 3) - voted(x, i)) / 3;
+  return {voted(x, i) - voted(x, i - 1) - 0.5 * (before + after), after - before};
+}
+
+}  // namespace
+
+std::optional<EncoderJump> find_jump(std::span<const std::int64_t> time_ns,
+                                     std::span<const double> encoder_m, std::size_t first,
+                                     std::size_t last, std::int64_t period_ns, double least_m) {
+  std::optional<EncoderJump> largest;
+  const double period_s = 1e-9 * static_cast<double>(period_ns);
+  for (std::size_t i = std::max(first, kReach + 1); i < last && i + kReach + 1 < encoder_m.size();
+       ++i) {
+    const Step step = step_at(encoder_m, i);
+    const double size = std::abs(step.size);
+    if (!(size > least_m) || 4 * size < kGreatest_m_s2 * period_s * period_s) continue;
+    if (size < 3 * std::abs(step.speed_change)) continue;
+    // Where the axis itself moves that fast, the neighbours show the like.
+    const double beside = std::max(std::abs(step_at(encoder_m, i - 1).size),
+                                   std::abs(step_at(encoder_m, i + 1).size));
+    if (size < 4 * beside || (largest && size < std::abs(largest->size_m))) continue;
+    if (time_ns[i + 1] - time_ns[i - 2] > 6 * period_ns) continue;  // a hole
+    largest = {time_ns[i], encoder_m[i - 1], step.size};
+  }
+  return largest;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,15 @@
+// Rows of a frame block: append, drop from the front, erase.
+#pragma once
+
+#include <cstddef>
+
+#include "schema/sample.h"
+
+namespace mdof::algo {
+
+FrameBlock empty_frames(std::size_t probes);
+// Rows `first` to `last` - 1 of `from`, behind those of `to`.
+void append_rows(FrameBlock& to, const FrameBlock& from, std::size_t first, std::size_t last);
+void erase_rows(FrameBlock& frames, std::size_t first, std::size_t last);
+
+}  // namespace mdof::algo

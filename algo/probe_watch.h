@@ -1,0 +1,90 @@
+// Probes that died or shifted: a value that no longer changes, a step that nothing else makes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algo/robust_mean.h"
+#include "schema/point.h"
+#include "schema/sample.h"
+
+namespace mdof::algo {
+
+struct FrozenProbe {
+  std::size_t probe = 0;
+  std::int64_t begin_ns = 0, end_ns = INT64_MAX;  // INT64_MAX: to the end
+  double value_m = 0;
+};
+
+struct SteppedProbe {
+  std::size_t probe = 0;
+  std::int64_t time_ns = 0;
+  double size_m = 0;
+};
+
+// A probe is frozen when its reading stays the same to the last bit
+//  - 128 scans long and eight times longer than ever before, where its noise is larger than its
+//    resolution in every stop before (three at least): rounding cannot hide such noise;
+//  - over four fifths of the travel, where it changed by four times its resolution before: rounding
+//    can hide the noise, not the errors of the whole axis;
+//  - from the first scan to the last, while half of the others have noise larger than their
+//    resolution.
+// A probe steps when its reading changes from one scan to the next by more than 12 times its noise
+// in the stops, four times its resolution and eight times what it does around, and stays there,
+// while no other probe changes by a quarter of that and the axis goes on as around.
+// Streaming, in memory that grows by the stop; the same however the data are cut.
+class ProbeWatch {
+ public:
+  explicit ProbeWatch(std::size_t probes) : probes_(probes) {}
+
+  // A slot's rows in the log, with what was done before it and comes after it.
+  struct Rows {
+    const FrameBlock& frames;
+    std::size_t begin, first, last,
+        end;  // begin <= first < last <= end; the slot is first ... last
+  };
+  // The newest slot: its readings that stay the same; travel of the axis in it.
+  void take_newest(const FrameBlock& frames, std::size_t first, std::size_t last, double low_m,
+                   double high_m);
+  // A slot with others before and after it: steps in it.
+  void look_for_steps(const Rows& rows);
+  void take_stop(std::size_t probe, const RobustMean& mean, double resolution_m);
+
+  // What is known so far.
+  std::vector<FrozenProbe> frozen() const;
+  std::vector<SteppedProbe> steps() const;
+  // Readings of a frozen probe are lost: NaN, flag "frozen:C". Those after a step have "step:C".
+  void mark(std::vector<Point>& points, const std::vector<std::string>& ids) const;
+
+ private:
+  struct Probe {
+    bool begun = false, changed = false, is_frozen = false;
+    double held_m = 0, low_m = 0, high_m = 0;  // low, high: of all readings before held_m
+    std::int64_t since_ns = 0;
+    std::size_t rows = 0, longest = 0;       // of the same reading
+    double axis_low_m = 0, axis_high_m = 0;  // meanwhile
+    double resolution_m = 0;
+    std::size_t changes = 0, stops = 0, noisy_stops = 0;
+    std::vector<double> sd_m;  // of each stop
+    std::vector<FrozenProbe> frozen;
+    std::vector<SteppedProbe> steps;  // candidates
+  };
+
+  void hold(Probe& probe, std::size_t index, double low_m, double high_m);
+  void let_go(Probe& probe, double reading_m, std::int64_t time_ns);
+  bool noise_says_frozen(const Probe& probe) const;
+  bool travel_says_frozen(const Probe& probe) const;
+
+  std::vector<Probe> probes_;
+  bool moved_ = false;
+  double axis_low_m_ = 0, axis_high_m_ = 0;
+};
+
+// One sentence for each, with its time after `start_ns` and what to do.
+std::vector<std::string> describe(const ProbeWatch& watch, const std::vector<std::string>& ids,
+                                  std::int64_t start_ns);
+
+}  // namespace mdof::algo

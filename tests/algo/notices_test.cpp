@@ -1,0 +1,147 @@
+// Nothing that happens to a stop vanishes without word.
+#include <gtest/gtest.h>
+
+#include "algo/dwell.h"
+#include "stepping_log.h"
+
+namespace mdof::algo {
+namespace {
+
+struct Found {
+  std::vector<Point> points;
+  std::vector<DwellNotice> notices;
+  std::vector<std::string> warnings;
+};
+
+Found detect(const SteppingLog& log, const FrameBlock& frames, std::size_t block = 1000) {
+  DwellDetector detector({}, log.ids(), std::vector<double>(log.probes, 200e-6));
+  Found found;
+  for (std::size_t i = 0; i < frames.size(); i += block)
+    detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);
+  detector.flush(found.points);
+  detector.mark(found.points);
+  found.notices = detector.notices();
+  found.warnings = detector.warnings(found.points);
+  return found;
+}
+
+std::vector<DwellNotice> of_kind(const Found& found, NoticeKind kind) {
+  std::vector<DwellNotice> all;
+  for (const DwellNotice& n : found.notices)
+    if (n.kind == kind) all.push_back(n);
+  return all;
+}
+
+void shift_from(FrameBlock& frames, std::size_t row, double by_m) {
+  for (std::size_t i = row; i < frames.size(); ++i) frames.encoder_m[i] += by_m;
+}
+
+TEST(Notices, ACountJumpIsToldByItsSizeAndFlagsWhatFollows) {
+  for (const double rate : {200.0, 500.0, 4000.0}) {
+    for (const bool moving : {false, true}) {
+      for (const double noise_um : {0.005, 1.0}) {
+        SteppingLog log;
+        log.rate_hz = rate;
+        log.encoder_noise_um = noise_um;
+        log.runs = 1;
+        FrameBlock frames = log.frames();
+        const auto clean = detect(log, frames);
+        const std::int64_t at_ns =
+            moving ? (clean.points[4].end_ns + clean.points[5].begin_ns) / 2 - 50'000'000
+                   : (clean.points[5].begin_ns + clean.points[5].end_ns) / 2;
+        const std::size_t row = row_at(frames, 1e-9 * static_cast<double>(at_ns));
+        shift_from(frames, row, 100e-6);
+        const auto found = detect(log, frames);
+        const auto jumps = of_kind(found, NoticeKind::jump);
+        ASSERT_EQ(jumps.size(), 1u) << rate << " Hz, moving " << moving << ", " << noise_um;
+        EXPECT_NEAR(jumps[0].size_m, 100e-6, 10e-6);
+        EXPECT_NEAR(static_cast<double>(jumps[0].time_ns - frames.time_ns[row]), 0, 2e9 / rate);
+        for (const Point& p : found.points)
+          EXPECT_EQ(has_flag(p, "jump"), p.begin_ns > at_ns) << p.position_m;
+        ASSERT_FALSE(found.warnings.empty());
+        EXPECT_NE(found.warnings[0].find("the encoder jumped by +"), std::string::npos);
+      }
+    }
+  }
+}
+
+TEST(Notices, AGlitchThatComesBackIsNoJump) {
+  SteppingLog log;
+  log.runs = 1;
+  FrameBlock frames = log.frames();
+  const std::size_t row = row_at(frames, 5.0);
+  for (std::size_t i = row; i < row + 30; ++i) frames.encoder_m[i] += 200e-6;
+  const auto found = detect(log, frames);
+  EXPECT_TRUE(of_kind(found, NoticeKind::jump).empty());
+  EXPECT_FALSE(has_flag(found.points.back(), "jump"));
+}
+
+TEST(Notices, AHoleInTheTimeLineIsTold) {
+  SteppingLog log;
+  log.runs = 1;
+  const FrameBlock whole = log.frames();
+  FrameBlock frames = cut_frames(whole, 0, row_at(whole, 5.0));
+  const FrameBlock rest = cut_frames(whole, row_at(whole, 8.0), whole.size());
+  frames.time_ns.insert(frames.time_ns.end(), rest.time_ns.begin(), rest.time_ns.end());
+  frames.encoder_m.insert(frames.encoder_m.end(), rest.encoder_m.begin(), rest.encoder_m.end());
+  for (std::size_t k = 0; k < 5; ++k)
+    frames.probe_m[k].insert(frames.probe_m[k].end(), rest.probe_m[k].begin(),
+                             rest.probe_m[k].end());
+  for (const std::size_t block : {7u, 100000u}) {
+    const auto found = detect(log, frames, block);
+    const auto holes = of_kind(found, NoticeKind::hole);
+    ASSERT_EQ(holes.size(), 1u);
+    EXPECT_NEAR(holes[0].length_s, 3.0, 0.01);
+    EXPECT_NEAR(1e-9 * static_cast<double>(holes[0].time_ns), 5.0, 0.01);
+    EXPECT_NE(found.warnings.at(0).find("nothing was recorded for 3.00"), std::string::npos);
+  }
+}
+
+// The axis comes to rest `creep_um` short of where it goes, and creeps there.
+FrameBlock creeping(const SteppingLog& log, double creep_um, double from_s, double to_s) {
+  constexpr double kApproach_s = 0.2;
+  FrameBlock frames = log.frames();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const double t_s = 1e-9 * static_cast<double>(frames.time_ns[i]);
+    const double short_of = t_s < from_s ? std::max(0.0, 1 - (from_s - t_s) / kApproach_s)
+                                         : std::max(0.0, (to_s - t_s) / (to_s - from_s));
+    frames.encoder_m[i] -= 1e-6 * creep_um * short_of;
+  }
+  return frames;
+}
+
+TEST(Notices, ACreepingStopIsKeptWithAFlagOrLeftOutWithAWord) {
+  SteppingLog log;
+  log.runs = 1;
+  const auto clean = detect(log, log.frames());
+  const double from_s = 1e-9 * static_cast<double>(clean.points[2].begin_ns) - 0.13;
+  const double to_s = 1e-9 * static_cast<double>(clean.points[2].end_ns) + 0.02;
+  const auto little = detect(log, creeping(log, 18, from_s, to_s));
+  ASSERT_EQ(little.points.size(), 26u);
+  EXPECT_TRUE(has_flag(little.points[2], "creep"));
+  EXPECT_NEAR(little.points[2].position_m, 10e-3, 18e-6);
+  ASSERT_EQ(little.warnings.size(), 1u);
+  EXPECT_NE(little.warnings[0].find("the flag creep"), std::string::npos);
+  for (const double creep_um : {60.0, 100.0}) {
+    const auto far = detect(log, creeping(log, creep_um, from_s, to_s));
+    ASSERT_EQ(far.points.size(), 25u) << creep_um;
+    ASSERT_EQ(far.warnings.size(), 1u) << creep_um;
+    EXPECT_NE(far.warnings[0].find("a stop near 9.9"), std::string::npos) << far.warnings[0];
+    EXPECT_NE(far.warnings[0].find("was left out"), std::string::npos);
+  }
+}
+
+TEST(Notices, AStopTooShortToAverageIsTold) {
+  SteppingLog log;
+  log.runs = 1;
+  log.dwell_s = 0.15;
+  log.move_s = 0.5;
+  const auto found = detect(log, log.frames());
+  EXPECT_TRUE(found.points.empty());
+  EXPECT_EQ(of_kind(found, NoticeKind::short_stop).size(), 26u);
+  ASSERT_EQ(found.warnings.size(), 11u);
+  EXPECT_EQ(found.warnings.back(), "and 16 more short stops");
+}
+
+}  // namespace
+}  // namespace mdof::algo

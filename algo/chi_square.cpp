@@ -75,8 +75,8 @@ std::vector<double> Residuals::allowed(const std::vector<double>& u_m) const {
 void Residuals::test(MeasuredPoint& p) const {
   const Point& point = p.point;
   if (point.probe_m.size() <= 5) return;
-  const Agreement found =
-      agreement(solver_, sides_.target_travel_m(point.position_m), point.probe_m, allowed(point.probe_u_m), p.errors);
+  const Agreement found = agreement(solver_, sides_.target_travel_m(point.position_m),
+                                    point.probe_m, allowed(point.probe_u_m), p.errors);
   if (!found.explained() && !flagged(p)) p.point.flags.emplace_back(kFlag);
 }
 
@@ -97,8 +97,8 @@ double Residuals::misfit_without(std::size_t probe, const MeasuredPoint& p,
   std::size_t n = 0;
   for (const MeasuredPoint& other : all) {
     if (other.target != p.target || flagged(other) || !other.errors.valid) continue;
-    const auto sound =
-        solver_.solve(sides_.target_travel_m(other.point.position_m), other.point.probe_m, allowed(other.point.probe_u_m));
+    const auto sound = solver_.solve(sides_.target_travel_m(other.point.position_m),
+                                     other.point.probe_m, allowed(other.point.probe_u_m));
     sum += square_distance(errors.local, sound.local);
     ++n;
   }

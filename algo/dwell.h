@@ -96,6 +96,7 @@ class DwellDetector {
   double window_range() const;
   bool window_still() const { return slots_.size() == 4 && window_range() <= summary_.tolerance_m; }
   void pass_hole();
+  void learn_resolution(const Slot& slot);
   void look_at_window(bool still);
   void look_for_jump();
   void note(const DwellNotice& notice);
@@ -113,7 +114,6 @@ class DwellDetector {
   std::span<const double> own_readings(std::size_t probe, std::size_t from, std::size_t to,
                                        std::size_t& usable_rows, std::size_t& over_range);
   void average_probe(std::size_t probe, std::size_t from, std::size_t to, Point& point);
-  void learn_resolution(const Slot& slot);
   void drop_rows_before(std::size_t row);  // when it is worth moving the rest up
   void drop_rows(std::size_t row);
   void drop_cut_rows();

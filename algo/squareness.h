@@ -23,8 +23,8 @@ Result<SquareArtefact> artefact_of(const Rig& rig_x, const Rig& rig_y, const Art
 // Least-squares lines through the mean of both approaches of EYX over x and of EXY over y, at the
 // fixture: slope and face are then compared, and neither run needs to be zeroed against the other.
 // u of a slope: the larger of what follows from the targets' u (GUM 5.1.2) and of the scatter of
-// the repeats' slopes, s/√n. Refuses runs of the wrong axes, series of fewer than three targets, and
-// as check_usable().
+// the repeats' slopes, s/√n. Refuses runs of the wrong axes, series of fewer than three targets,
+// and as check_usable().
 Result<Squareness> squareness(const Run& run_x, const Run& run_y, const SquareArtefact& artefact,
                               bool take_partial = false);
 

@@ -221,8 +221,8 @@ Result<std::string> run_points(Methods& m, const Params& params) {
 }
 
 void squareness(Methods& m, const Params& params, Reply reply) {
-  SquarenessRequest request{params.integer("run_x"), params.integer("run_y"), {},
-                            params.boolean("partial", false)};
+  SquarenessRequest request{
+      params.integer("run_x"), params.integer("run_y"), {}, params.boolean("partial", false)};
   if (params.has("artefact_angle_error_urad"))
     request.given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
   if (params.has("u_artefact_urad"))

@@ -27,8 +27,8 @@ class ReplayLog {
   drivers::Driver& driver() { return *driver_; }
   const std::string& path() const { return path_; }
   const char* kind() const { return recording_ ? "recording" : "csv"; }
-  std::string rig_text() const;     // of a recording, else empty
-  std::string started_utc() const;  // of a recording, else empty: not known
+  std::string rig_text() const;       // of a recording, else empty
+  std::string started_utc() const;    // of a recording, else empty: not known
   std::string configuration() const;  // mdofd.toml of a recording, else empty
   // How the run was measured of which this is the recording: by its mdofd.toml, then by what was
   // asked of it. Defaults for a CSV log.

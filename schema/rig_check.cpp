@@ -50,7 +50,7 @@ class Check {
     for (std::size_t k = 0; k < rig.probes.size(); ++k) check_probe(k);
     check_distances();
     for (std::size_t k = 0; k < rig.planes.size(); ++k) check_plane(k);
-    within(kArtefact_urad, std::abs(to_urad(rig.artefact_angle_error_rad)), "", 0,
+    within(kArtefact_urad, std::abs(to_urad(rig.artefact_angle_error_rad.value_or(0))), "", 0,
            "artefact_angle_error_urad",
            " urad from a right angle; give what the square is off 90 degrees, in urad");
   }

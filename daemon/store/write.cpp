@@ -50,9 +50,8 @@ void bind_errors(Statement& insert, const AxisErrors& errors) {
 
 RunEnd end_of(const Run& run) {
   const RunHeader& header = run.header;
-  return {header.state, header.scans,     header.scans_lost, header.warnings,
-          {},           run.straightness, run.angles,        run.plausibility,
-          header.temperature};
+  return {header.state,     header.scans, header.scans_lost, header.warnings,   {},
+          run.straightness, run.angles,   run.plausibility,  header.temperature};
 }
 
 }  // namespace

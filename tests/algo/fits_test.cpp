@@ -230,7 +230,9 @@ TEST(Compensation, LeavesTheSlopeToSquareness) {
   const CompensationTable table = build_table({run}, {}).value();
   EXPECT_NEAR(least_squares_line(table.position_m, table.forward[0]).slope, 0, 1e-18);
   const CompensationTable raw =
-      build_table({run}, {.remove_slope = false, .take_partial = false, .stated = {}, .machine = {}}).value();
+      build_table({run},
+                  {.remove_slope = false, .take_partial = false, .stated = {}, .machine = {}})
+          .value();
   EXPECT_NEAR(raw.forward[0][9], 7.2e-6, 1e-18);
 }
 

@@ -123,7 +123,7 @@ TEST(Uncertainty, RoundingIsInIt) {
     std::vector<Point> points;
     detector.push(frames, points);
     detector.flush(points);
-    detector.settle_resolution(points);
+    detector.mark(points);
     ASSERT_EQ(points.size(), 78u);
     double stated = 0, square = 0;
     for (const Point& p : points) {

@@ -40,12 +40,18 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+TableOptions partial_too() {
+  TableOptions options;
+  options.take_partial = true;
+  return options;
+}
+
 TEST(UsableRuns, APartialRunIsTakenOnlyIfAskedFor) {
   const mdof::Run partial = run_of(7, RunState::partial, "a");
   const std::string why = refusal({partial});
   EXPECT_TRUE(contains(why, "run 7 is partial")) << why;
   EXPECT_TRUE(contains(why, "--partial") && contains(why, "\"partial\": true")) << why;
-  EXPECT_EQ(refusal({partial}, {.take_partial = true}), "");
+  EXPECT_EQ(refusal({partial}, partial_too()), "");
   const auto warnings = partial_warnings({&partial});
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(contains(warnings[0], "run 7")) << warnings[0];
@@ -54,7 +60,7 @@ TEST(UsableRuns, APartialRunIsTakenOnlyIfAskedFor) {
 TEST(UsableRuns, AnAbortedOrFailedOneIsNeverTaken) {
   for (const RunState state : {RunState::aborted, RunState::failed, RunState::open}) {
     const mdof::Run run = run_of(7, state, "a");
-    EXPECT_TRUE(contains(refusal({run}, {.take_partial = true}), to_string(state)));
+    EXPECT_TRUE(contains(refusal({run}, partial_too()), to_string(state)));
   }
   EXPECT_TRUE(partial_warnings(all_of({run_of(7, RunState::complete, "a")})).empty());
 }

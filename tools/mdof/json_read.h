@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-#include <vector>
 
 namespace mdof::tools {
 
@@ -43,18 +42,6 @@ std::vector<std::string> texts(const Json& of, std::string_view key) {
     if (!item.get_string().get(words)) found.emplace_back(words);
   }
   return found;
-}
-
-template <class Json>
-std::vector<std::string> texts(const Json& of, std::string_view key) {
-  std::vector<std::string> all;
-  simdjson::dom::array found;
-  if (of.at_key(key).get_array().get(found)) return all;
-  for (const simdjson::dom::element e : found) {
-    std::string_view words;
-    if (!e.get_string().get(words)) all.emplace_back(words);
-  }
-  return all;
 }
 
 template <class Json>

@@ -171,6 +171,7 @@ TEST_F(StoreTest, ALiveRunIsFilledInPieces) {
              std::string(64, 'c'),
              run.straightness,
              run.angles,
+             std::nullopt,
              Temperature{20.125, 19.5, 20.75}};
   ASSERT_TRUE(store->end_run(id, end));
   const RunHeader back = store->run_header(id).value();

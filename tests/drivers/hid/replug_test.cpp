@@ -137,7 +137,8 @@ Figures replug(int rounds, const Sabotage& sabotage) {
   Scans scans;
   daemon::Acquisition acquisition(
       reader(), {[&](auto& block, auto pass, auto wait) { return scans.take(block, pass, wait); },
-                 [](auto, const auto&, const auto&) {}});
+                 [](auto, const auto&, const auto&) {},
+                 {}});
   acquisition.start();
   Figures figures;
   figures.rounds = rounds;

@@ -14,7 +14,7 @@ struct RobustMean {
   std::size_t used = 0, rejected = 0;
 };
 
-// Readings further than 6 robust standard deviations (1.4826 · median absolute deviation) from the
+// Readings further than 8 robust standard deviations (1.4826 · median absolute deviation) from the
 // median are left out; where more than half of the readings are the same number, further than
 // `coarse`. Sums have one order on every machine. u: mean_uncertainty(), for readings that are not
 // independent (GUM 4.2.3).

@@ -16,15 +16,18 @@ constexpr std::chrono::seconds kDismissEvery{1};
 class LockedDriver final : public Driver {
  public:
   LockedDriver(std::unique_ptr<Driver> driver, std::string name,
-               std::function<std::string()> identity)
-      : name_(std::move(name)), identity_(std::move(identity)), driver_(std::move(driver)) {}
+               std::function<std::string()> identity, bool shared)
+      : name_(std::move(name)),
+        identity_(std::move(identity)),
+        shared_(shared),
+        driver_(std::move(driver)) {}
 
   DeviceInfo info() const override { return driver_->info(); }
   const Driver& device() const { return *driver_; }
 
   Status open() override {
     if (!lock_) {
-      auto taken = DeviceLock::take(identity_());
+      auto taken = DeviceLock::take(identity_(), shared_);
       if (!taken) return in_context("device \"" + name_ + "\"", taken.error());
       lock_.emplace(std::move(*taken));
     }
@@ -42,6 +45,7 @@ class LockedDriver final : public Driver {
  private:
   const std::string name_;
   const std::function<std::string()> identity_;
+  const bool shared_;
   std::optional<DeviceLock> lock_;  // goes after the driver, which has by then let the device go
   std::unique_ptr<Driver> driver_;
   steady_clock::time_point dismiss_at_{};
@@ -52,10 +56,10 @@ class LockedDriver final : public Driver {
 DriverSpec locked(DriverSpec spec) {
   if (!spec.identity) return spec;
   spec.make = [make = std::move(spec.make), name = spec.name,
-               identity = spec.identity]() -> Result<std::unique_ptr<Driver>> {
+               identity = spec.identity, shared = spec.shared]() -> Result<std::unique_ptr<Driver>> {
     MDOF_TRY(auto driver, make());
     return std::unique_ptr<Driver>(
-        std::make_unique<LockedDriver>(std::move(driver), name, identity));
+        std::make_unique<LockedDriver>(std::move(driver), name, identity, shared));
   };
   spec.source_info = [source_info = std::move(spec.source_info)](const Driver& driver) {
     return source_info(static_cast<const LockedDriver&>(driver).device());

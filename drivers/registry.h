@@ -38,6 +38,7 @@ struct DriverSpec {
   // The device itself, whatever it is called in the configuration (io/device_lock.h): while a
   // driver that make() made has it open, nobody else opens it. Empty: its bus sees to that.
   std::function<std::string()> identity;
+  bool shared = false;  // a device that speaks with several drivers of one program at a time
   std::function<Result<std::unique_ptr<Driver>>()> make;
   std::function<SourceInfo(const Driver&)> source_info;  // of the driver that make() made
 };

@@ -152,12 +152,8 @@ Sides read_sides(TomlTable& table) {
 }
 
 void read_artefact(TomlTable& table, Rig& rig) {
-  constexpr double kMost_urad = 100'000;  // six degrees: not a square any more
   if (table.has("artefact_angle_error_urad")) {
-    const double angle_urad = table.number("artefact_angle_error_urad");
-    if (std::abs(angle_urad) > kMost_urad)
-      table.reject("artefact_angle_error_urad", "must be the error of a right angle, in urad");
-    rig.artefact_angle_error_rad = from_urad(angle_urad);
+    rig.artefact_angle_error_rad = from_urad(table.number("artefact_angle_error_urad"));
   }
   const double u_urad = table.number("u_artefact_angle_urad", 0.0);
   if (u_urad < 0) table.reject("u_artefact_angle_urad", "must not be negative");

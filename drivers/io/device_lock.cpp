@@ -85,7 +85,7 @@ std::string identity_of_path(const std::string& path) {
   return failed ? path : real.string();
 }
 
-Result<DeviceLock> DeviceLock::take(const std::string& identity) {
+Result<DeviceLock> DeviceLock::take(const std::string& identity, bool shared) {
   Name name = name_of(identity);
   DeviceLock lock(::socket(AF_UNIX, kKind, 0));
   if (lock.fd_ < 0) return lock;
@@ -94,7 +94,9 @@ Result<DeviceLock> DeviceLock::take(const std::string& identity) {
     return lock;
   }
   if (errno != EADDRINUSE) return lock;
-  return io_error(in_use_by(holder_of(name)));
+  const pid_t holder = holder_of(name);
+  if (shared && holder == ::getpid()) return DeviceLock(-1);
+  return io_error(in_use_by(holder));
 }
 
 void DeviceLock::dismiss() const {

@@ -19,7 +19,8 @@ class DeviceLock {
  public:
   // Error: another has it, with its name and process id. Where the kernel gives no such names the
   // lock is none: it is advisory.
-  static Result<DeviceLock> take(const std::string& identity);
+  // `shared`: this program may have it more than once, as a device that speaks with several.
+  static Result<DeviceLock> take(const std::string& identity, bool shared = false);
   ~DeviceLock();
   DeviceLock(DeviceLock&& other) noexcept;
   DeviceLock& operator=(DeviceLock&& other) noexcept;

@@ -41,7 +41,7 @@ std::string why_not_opened(const std::string& path) {
 }  // namespace
 
 Result<HidDevice> HidDevice::open(const std::string& path) {
-  auto own = DeviceLock::take(identity_of_path(path));
+  auto own = DeviceLock::take(path);  // hidapi and udev give /dev/hidrawN: no link to follow
   if (!own) return in_context(path, own.error());
   const std::lock_guard lock(library());
   if (hid_device* const device = ::hid_open_path(path.c_str()))

@@ -120,6 +120,7 @@ Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& conte
   spec.name = context.name;
   for (const auto& channel : settings.channels) spec.channels.push_back(channel.id);
   spec.identity = [settings] { return identity(settings); };
+  spec.shared = !settings.address.empty() && settings.profile.framing != Framing::rtu;
   spec.make = [name = context.name, settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<ModbusDriver>(name, settings);
   };

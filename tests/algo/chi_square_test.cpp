@@ -4,7 +4,7 @@
 #include "algo/chi_square.h"
 #include "algo/dwell.h"
 #include "algo/sequence.h"
-#include "stepping_log.h"
+#include "tests/algo/stepping_log.h"
 
 namespace mdof::algo {
 namespace {

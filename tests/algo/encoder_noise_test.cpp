@@ -3,7 +3,7 @@
 
 #include "algo/dwell.h"
 #include "algo/noise_floor.h"
-#include "stepping_log.h"
+#include "tests/algo/stepping_log.h"
 
 namespace mdof::algo {
 namespace {

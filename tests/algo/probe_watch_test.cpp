@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "algo/dwell.h"
-#include "stepping_log.h"
+#include "tests/algo/stepping_log.h"
 
 namespace mdof::algo {
 namespace {

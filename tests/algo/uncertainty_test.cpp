@@ -7,7 +7,7 @@
 #include "algo/align.h"
 #include "algo/dwell.h"
 #include "algo/robust_mean.h"
-#include "stepping_log.h"
+#include "tests/algo/stepping_log.h"
 
 namespace mdof::algo {
 namespace {

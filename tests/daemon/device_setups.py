@@ -267,13 +267,13 @@ class Simulators:
 
 
 def worst_errors(points, zero_mm=0.0):
-    """The greatest difference from the truth by error, each up to a constant. zero_mm: what the encoder shows at 0;
-    the point that the errors belong to is then elsewhere, and the pitch has a lever on EZX."""
+    """The greatest difference from the truth by error, at the fixture, each up to a constant. zero_mm: what the
+    encoder shows at 0, which moves the positions and no error. The pitch has a lever on EZX."""
     def pitch_urad(d):
         return 30 * math.sin(2 * math.pi * d / 8)
 
     truth = {"EYX_um": lambda d: 2 * math.sin(2 * math.pi * d / 10),
-             "EZX_um": lambda d: -zero_mm * 1e-3 * pitch_urad(d),
+             "EZX_um": lambda d: d * 1e-3 * pitch_urad(d),
              "EAX_urad": lambda d: 0, "EBX_urad": pitch_urad, "ECX_urad": lambda d: 0}
     worst = {}
     for key, wave in truth.items():

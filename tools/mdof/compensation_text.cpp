@@ -37,9 +37,9 @@ std::string runs_of(const CompensationTable& t) {
   return joined(ids, " ");
 }
 
-std::string corrections_text(const CompensationTable& t) {
+std::string corrections_text(const CompensationTable& t, std::size_t width) {
   const CorrectionSigns signs = correction_signs(t.machine, t.axis);
-  if (!t.machine.known()) return "correction: not known; " + signs.gap[0] + "\n";
+  if (!t.machine.known()) return wrapped("correction: not known; " + signs.gap[0], width, 2) + "\n";
   std::string text = "machine " + t.machine.text + " (" + travels_of(t.machine) + ")\n";
   for (std::size_t k = 0; k < 5; ++k) {
     const ErrorName& name = error_names(t.axis)[k];
@@ -76,7 +76,7 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
                  terminal_columns()) +
          "\nerrors: actual - nominal, of the " + t.sides.moves() + "\nstraightness " +
          (t.slope_removed ? "about its least-squares line" : "as measured") +
-         ", angles from the first target\n" + stated_text(t.stated) + corrections_text(t) +
+         ", angles from the first target\n" + stated_text(t.stated) + corrections_text(t, terminal_columns()) +
          "\nforward\n" + side_text(t, t.forward, t.u_forward) + "\nreverse\n" +
          side_text(t, t.reverse, t.u_reverse);
 }

@@ -55,8 +55,8 @@ class LockedDriver final : public Driver {
 
 DriverSpec locked(DriverSpec spec) {
   if (!spec.identity) return spec;
-  spec.make = [make = std::move(spec.make), name = spec.name,
-               identity = spec.identity, shared = spec.shared]() -> Result<std::unique_ptr<Driver>> {
+  spec.make = [make = std::move(spec.make), name = spec.name, identity = spec.identity,
+               shared = spec.shared]() -> Result<std::unique_ptr<Driver>> {
     MDOF_TRY(auto driver, make());
     return std::unique_ptr<Driver>(
         std::make_unique<LockedDriver>(std::move(driver), name, identity, shared));

@@ -76,8 +76,9 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
                  terminal_columns()) +
          "\nerrors: actual - nominal, of the " + t.sides.moves() + "\nstraightness " +
          (t.slope_removed ? "about its least-squares line" : "as measured") +
-         ", angles from the first target\n" + stated_text(t.stated) + corrections_text(t, terminal_columns()) +
-         "\nforward\n" + side_text(t, t.forward, t.u_forward) + "\nreverse\n" +
+         ", angles from the first target\n" + stated_text(t.stated) +
+         corrections_text(t, terminal_columns()) + "\nforward\n" +
+         side_text(t, t.forward, t.u_forward) + "\nreverse\n" +
          side_text(t, t.reverse, t.u_reverse);
 }
 

@@ -326,8 +326,7 @@ TEST(HidDevice, NoPermissionNamesTheRule) {
   ASSERT_EQ(::seteuid(user), 0);
   std::remove(path.c_str());
   ASSERT_FALSE(opened);
-  EXPECT_NE(opened.error().message.find("udev rules"), std::string::npos)
-      << opened.error().message;
+  EXPECT_NE(opened.error().message.find("udev rules"), std::string::npos) << opened.error().message;
 }
 
 }  // namespace

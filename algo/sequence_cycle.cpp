@@ -105,7 +105,7 @@ bool goes_along(const std::vector<Visit>& visits) {
     up += visits[i].target > visits[i - 1].target;
     down += visits[i].target < visits[i - 1].target;
   }
-  return few(std::min(up, down), static_cast<std::size_t>(up + down));
+  return few(std::min(up, down), static_cast<std::size_t>(up) + static_cast<std::size_t>(down));
 }
 
 bool is_pilgrim(const std::vector<Visit>& visits, int targets) {

@@ -91,7 +91,7 @@ Status read_uses(TomlTable& table, const Rig& rig, ModbusSettings& settings) {
 std::string identity(const ModbusSettings& settings) {
   if (settings.address.empty()) return identity_of_path(settings.port);
   const auto at = parse_endpoint(settings.address, settings.profile.port);
-  const std::string where = at ? identity_of(*at) : settings.address;
+  std::string where = at ? identity_of(*at) : settings.address;
   if (settings.profile.framing == Framing::rtu) return where;
   return where + " unit " + std::to_string(settings.profile.unit);
 }

@@ -48,7 +48,8 @@ std::string join(const std::vector<std::string>& words) {
 // The one device that gives all of these; "": there is none such, or no other device either.
 std::string source_of(const std::vector<std::string>& ids, const ChannelsByDevice& channels) {
   if (channels.size() < 2) return "";
-  for (const auto& [device, given] : channels) {
+  for (const auto& [device, of_device] : channels) {
+    const auto& given = of_device;  // clang 14 captures no structured binding
     const auto gives = [&](const std::string& id) {
       return std::find(given.begin(), given.end(), id) != given.end();
     };

@@ -33,7 +33,7 @@ std::string lost_of(const RunHeader& h) {
 }
 
 std::string flags_of(const MeasuredPoint& p) {
-  const std::string flags = joined(p.point.flags, " ");
+  std::string flags = joined(p.point.flags, " ");
   if (p.errors.valid) return flags;
   return flags + (flags.empty() ? "" : " ") + "unsolved: " + p.errors.reason;
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "algo/flags.h"
 #include "algo/frame_rows.h"
 #include "algo/robust_mean.h"
 #include "schema/json_writer.h"
@@ -30,12 +31,6 @@ constexpr std::size_t kMinScans = 5;     // of a dwell, and of a probe in it
 
 double median3(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
-
-void add_flag(Point& point, const std::string& flag) {
-  if (std::find(point.flags.begin(), point.flags.end(), flag) == point.flags.end()) {
-    point.flags.push_back(flag);
-  }
 }
 
 }  // namespace

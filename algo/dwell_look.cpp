@@ -11,7 +11,7 @@ namespace {
 constexpr double kJumpTolerances = 10;
 constexpr std::size_t kReach = 6;  // rows that find_jump() wants on either side
 constexpr std::int64_t kGlitch_ns = 1'000'000'000;
-constexpr double kMostCreep_m = 200e-6;  // further is a slow travel
+constexpr double kSlowTravel_m = 200e-6;  // from here on no creeping stop
 constexpr std::size_t kMostNotices = 10'000;
 
 }  // namespace
@@ -30,7 +30,7 @@ void DwellDetector::look_at_window(bool still) {
   const auto creep =
       slow_.take({slots_.front().begin_ns, newest.begin_ns, slots_.front().middle(),
                   newest.middle(), window_range(), still},
-                 summary_.tolerance_m, options_.settle_s + options_.min_length_s, kMostCreep_m);
+                 summary_.tolerance_m, options_.settle_s + options_.min_length_s, kSlowTravel_m);
   if (creep) note(*creep);
   const std::size_t end = newest.first_row + newest.rows;
   for (std::size_t k = 0; k + 1 < slots_.size(); ++k)

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "schema/number_text.h"
+#include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
@@ -71,9 +73,7 @@ Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
 }
 
 std::string in_mm(double m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g mm", m * 1e3);
-  return text;
+  return plain_number(to_mm(m), 6) + " mm";
 }
 
 constexpr double kOnPlane_m = 1e-6;

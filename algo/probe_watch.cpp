@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "algo/dwell_notice.h"
+#include "algo/flags.h"
 #include "algo/probe_step.h"
 #include "schema/units.h"
 
@@ -32,11 +33,6 @@ double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-void add_flag(Point& point, const std::string& flag) {
-  if (std::find(point.flags.begin(), point.flags.end(), flag) == point.flags.end())
-    point.flags.push_back(flag);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "algo/flags.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -30,11 +32,6 @@ double scatter_limit(const std::vector<double>& sorted) {
   // Every step small: all stops are at one target.
   if (!steps.empty() && steps.back() <= kMinStep_m) limit = steps.back();
   return limit;
-}
-
-void add_flag(Point& point, const char* flag) {
-  auto& flags = point.flags;
-  if (std::find(flags.begin(), flags.end(), flag) == flags.end()) flags.emplace_back(flag);
 }
 
 // Between the point before `p` and `p` the axis was further from `p` than a merged stop allows.

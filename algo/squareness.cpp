@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "algo/fixture.h"
 #include "algo/line_fit.h"
 #include "algo/restate.h"
 #include "algo/series.h"
 #include "algo/usable_runs.h"
+#include "schema/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -33,9 +33,7 @@ Result<int> side_of_face(const Rig& rig) {
 }
 
 std::string in_urad(double rad) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.6g urad", to_urad(rad));
-  return text;
+  return plain_number(to_urad(rad), 6) + " urad";
 }
 
 tl::unexpected<Error> contradiction(const Rig& x, const Rig& y, const char* key, double of_x,

@@ -43,11 +43,9 @@ Result<TableRequest> read_request(const Params& params) {
   MDOF_TRY(request.runs, params.integers("runs"));
   request.keep_slope = params.boolean("keep_slope", false);
   request.partial = params.boolean("partial", false);
-  if (!params.has("reference")) return request;
-  const std::string name(params.string("reference"));
-  if (!reference_from(name, request.reference.emplace()))
-    return fail(ErrorCode::usage,
-                "reference \"" + name + "\" is none of \"fixture\", \"carriage\", \"tool\"");
+  if (params.has("reference")) {
+    MDOF_TRY(request.reference, reference_param(params));
+  }
   return request;
 }
 

@@ -175,15 +175,6 @@ Result<std::string> list_runs(Methods& m, const Params& params) {
   return json.take();
 }
 
-Result<Reference> reference_param(const Params& params) {
-  Reference reference = Reference::fixture;
-  if (!params.has("reference")) return reference;
-  const std::string name(params.string("reference"));
-  if (reference_from(name, reference)) return reference;
-  return fail(ErrorCode::usage,
-              "reference \"" + name + "\" is none of \"fixture\", \"carriage\", \"tool\"");
-}
-
 Result<std::string> get_run(Methods& m, const Params& params) {
   MDOF_TRY(const Reference reference, reference_param(params));
   MDOF_TRY(const auto run, run_stated_at(m.reader, params.integer("run"), reference));

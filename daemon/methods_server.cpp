@@ -81,6 +81,15 @@ Result<Axis> axis_param(const Params& params) {
               "axis \"" + std::string(params.string("axis")) + "\" is none of X, Y, Z");
 }
 
+Result<Reference> reference_param(const Params& params) {
+  Reference reference = Reference::fixture;
+  if (!params.has("reference")) return reference;
+  const std::string name(params.string("reference"));
+  if (reference_from(name, reference)) return reference;
+  return fail(ErrorCode::usage,
+              "reference \"" + name + "\" is none of \"fixture\", \"carriage\", \"tool\"");
+}
+
 Result<Station*> station_of(Methods& m, Axis axis) {
   for (auto& station : m.stations) {
     if (station->config().rig.axis == axis) return station.get();

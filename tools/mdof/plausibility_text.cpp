@@ -109,12 +109,13 @@ std::string plausibility_text(const Plausibility& p) {
          (p.runs == 1 ? " run" : " runs") + "\n";
   out += "encoder    " + in_mm(p.encoder_min_m) + " to " + in_mm(p.encoder_max_m) + " mm, " +
          number("%.4g Hz", p.rate_hz) + "\n";
-  out += "samples    " + std::to_string(p.scans) + " scans, " + std::to_string(p.scans_lost) +
-         " lost, " + std::to_string(p.gaps) + " gaps\n";
+  out += "samples    " + std::to_string(p.scans) + " scans, " +
+         (p.scans_lost > 0 ? std::to_string(p.scans_lost) + " lost, " : "") +
+         std::to_string(p.gaps) + (p.gaps == 1 ? " gap\n" : " gaps\n");
   out += targets_text(p) + left_out_text(p);
   if (p.short_stops > 0)
     out += "no point   " + std::to_string(p.short_stops) +
-           " stops at targets, too short or creeping\n";
+           (p.short_stops == 1 ? " stop" : " stops") + " at targets, too short or creeping\n";
   return out + probes_text(p.probes);
 }
 

@@ -15,7 +15,8 @@ DIRECTION = {"z": (0, 0, 1), "y": (0, 1, 0), "-x": (-1, 0, 0)}
 
 
 def product(a, b):
-    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
+    columns = list(zip(*b))
+    return [[i * p + j * q + k * r + l * s for p, q, r, s in columns] for i, j, k, l in a]
 
 
 def moved(x=0.0, y=0.0, z=0.0):
@@ -38,18 +39,17 @@ def inverse(pose):
 
 
 def applied(pose, p):
-    return tuple(sum(pose[i][k] * p[k] for k in range(3)) + pose[i][3] for i in range(3))
+    return tuple(i * p[0] + j * p[1] + k * p[2] + shift for i, j, k, shift in pose[:3])
 
 
 def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def reading(pose_MC, point, direction):
+def reading(in_C, point, direction):
     """How far along the probe's direction, from `point`, its line meets the target's plane. The plane
-    lies in C where the probe finds it with C = M, across its direction."""
+    lies in C where the probe finds it with C = M, across its direction. in_C: from M into C."""
     offset = dot(direction, point)
-    in_C = inverse(pose_MC)
     p = applied(in_C, point)
     u = [sum(in_C[i][k] * direction[k] for k in range(3)) for i in range(3)]
     return (offset - dot(direction, p)) / dot(direction, u)
@@ -57,7 +57,8 @@ def reading(pose_MC, point, direction):
 
 def readings(axis, pose_MC):
     """In the order of the columns, m."""
-    return [reading(pose_MC, point, DIRECTION[way]) for point, way in PROBES[axis].values()]
+    in_C = inverse(pose_MC)
+    return [reading(in_C, point, DIRECTION[way]) for point, way in PROBES[axis].values()]
 
 
 def pose(axis, travel, errors):

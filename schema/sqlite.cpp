@@ -150,7 +150,8 @@ Statement& Statement::bind(double x) {
 Statement& Statement::bind(std::string_view text) {
   // A null pointer would bind NULL; an empty text is not that.
   const char* data = text.data() ? text.data() : "";
-  sqlite3_bind_text64(statement_, next_parameter_++, data, text.size(), SQLITE_STATIC, SQLITE_UTF8);
+  sqlite3_bind_text64(statement_, next_parameter_++, data, text.size(), SQLITE_TRANSIENT,
+                      SQLITE_UTF8);
   return *this;
 }
 

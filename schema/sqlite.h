@@ -37,8 +37,8 @@ const char* to_string(Durability durability);
 struct Session;  // the open database and its cache of statements; stays put when its owner is moved
 
 // Borrowed from its connection's cache; given back, reset, by the destructor.
-// Parameters are bound from the left, one call each; bound text and bytes are not copied and must
-// outlive the statement's last step. A NaN is stored as NULL and read back as NaN.
+// Parameters are bound from the left, one call each; text is copied, bytes are not and must outlive
+// the statement's last step. A NaN is stored as NULL and read back as NaN.
 class Statement {
  public:
   Statement(Statement&& other) noexcept;

@@ -1,0 +1,44 @@
+# Under sanitizers the files of a folder are compiled together, twelve at a time: a build takes a third of the
+# time, as most of it is headers. Names of the anonymous namespaces of a folder must then differ; a file with a
+# name that stands elsewhere too ("redefinition", "ambiguous") gets another name for it, or a line here.
+set(MDOF_COMPILED_ALONE
+    algo/encoder_jump.cpp algo/plausibility_visits.cpp algo/robust_mean.cpp algo/sequence.cpp
+    algo/sequence_cycle.cpp algo/sequence_odd_stops.cpp algo/usable_runs.cpp algo/sensitivity/moments.cpp
+    algo/sensitivity/plan_experiment.cpp drivers/capancdt/controller.cpp drivers/labjack_t7/registers.cpp
+    drivers/labjack_t7/stream.cpp drivers/labjack_u6/device.cpp drivers/mcc_usb1608fs_plus/protocol.cpp
+    drivers/qsb/qsb.cpp drivers/simulator/options.cpp drivers/simulator/raw.cpp drivers/usb/simulated_usb.cpp
+    daemon/methods_run.cpp daemon/replay.cpp daemon/resume.cpp daemon/rpc/topic_hub.cpp
+    daemon/store/study_read.cpp daemon/store/write.cpp tools/mdof/progress.cpp tools/mdof/record.cpp
+    tools/mdof/replay.cpp tools/mdof/status.cpp tools/mdof/plot/bins.cpp tools/mdof/plot/convergence.cpp
+    tools/mdof/plot/frontier.cpp tools/mdof/plot/histogram.cpp tools/mdof/plot/indices.cpp
+    tools/mdof/plot/panel.cpp tools/mdof/study/ranks.cpp tools/mdof_simulate/usbip.cpp
+    tests/algo/probe_watch_test.cpp tests/algo/sensitivity_indices_test.cpp tests/algo/sensitivity_plan_test.cpp
+    tests/algo/sensitivity_presets_test.cpp tests/algo/sensitivity_statistics_test.cpp
+    tests/daemon/config_test.cpp tests/daemon/storekeeper_test.cpp tests/daemon/rpc/server_test.cpp
+    tests/drivers/simulator_options_test.cpp tests/schema/number_columns_test.cpp
+    tests/schema/number_test.cpp tests/algo/notices_test.cpp tests/drivers/modbus/driver_test.cpp
+    tests/daemon/resume_test.cpp tests/daemon/unrecorded_test.cpp
+)
+
+# mdof_compile_together(TARGET): once all its sources are known, in the folder that made it.
+function(mdof_compile_together target)
+  if(NOT MDOF_SANITIZE)
+    return()
+  endif()
+  get_target_property(FILES ${target} SOURCES)
+  set(place 0)
+  foreach(file ${FILES})
+    cmake_path(ABSOLUTE_PATH file OUTPUT_VARIABLE path)
+    cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    cmake_path(GET path PARENT_PATH folder)
+    if(path IN_LIST MDOF_COMPILED_ALONE)
+      set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    else()
+      math(EXPR batch "${place} / 12")
+      math(EXPR place "${place} + 1")
+      string(MAKE_C_IDENTIFIER "${folder}_${batch}" group)
+      set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${group})
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "algo/plausibility.h"
+#include "algo/shifted_targets.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -240,6 +241,17 @@ void tell_many_left_out(const RunToJudge& run, Texts& out) {
                                    : "the list of what was left out, or give targets_mm"));
 }
 
+void tell_shifted_targets(const RunToJudge& run, Texts& out) {
+  const auto shifted = find_shifted_targets(run.sequence);
+  if (!shifted) return;
+  const std::int64_t begin_ns = run.sequence.points.front().point.begin_ns;
+  out.push_back(
+      text("after %.3f s ", static_cast<double>(shifted->time_ns - begin_ns) * 1e-9) +
+      text("all targets lie %+.4f mm further: ", to_mm(shifted->shift_m)) +
+      "the encoder's count jumped, its datum was set anew, or the axis was sent elsewhere; "
+      "positions before and after do not belong together, measure again");
+}
+
 void tell_one_turn(const RunToJudge& run, Texts& out) {
   if (run.sequence.cycle != Cycle::pendulum || run.sequence.runs > 1) return;
   out.push_back(
@@ -252,6 +264,7 @@ void tell_one_turn(const RunToJudge& run, Texts& out) {
 std::vector<std::string> warnings_of_visits(const RunToJudge& run, const Plausibility&) {
   Texts out;
   tell_single_place(run, out);
+  tell_shifted_targets(run, out);
   tell_many_left_out(run, out);
   tell_one_turn(run, out);
   const Texts holes = Holes(run).told();

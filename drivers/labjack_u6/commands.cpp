@@ -112,7 +112,7 @@ std::string config_io_read() {
 }
 
 Result<Timers> read_timers(std::string_view reply) {
-  MDOF_TRY(const std::string body, accepted("ConfigIO", reply, kConfigIo, 12));
+  MDOF_TRY(const std::string body, accepted("ConfigIO", reply, kConfigIo, kConfigIoReply));
   return Timers{byte_at(reply, 8), byte_at(reply, 10)};
 }
 

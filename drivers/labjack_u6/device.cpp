@@ -167,7 +167,7 @@ std::string Device::answer_extended(std::string_view command, std::int64_t now_n
       return constants(byte_at(command, 7));
     case kConfigIo:
       if (command[6] & 1) timers_ = command.substr(7, 3);
-      return extended(kConfigIo, std::string(2, '\0') + timers_ + '\0');
+      return extended(kConfigIo, std::string(2, '\0') + timers_ + std::string(5, '\0'));
     case kFeedback:
       zero_ = senses_(kCounterInput, now_ns);  // the one Feedback that there is starts the counter
       return extended(kFeedback, std::string(4, '\0'));

@@ -1,0 +1,118 @@
+// What LabJack's own open source sends to a U6 and accepts of it. Checksums were computed by its
+// setChecksum16 and setChecksum8 (LabJackPython, src/LabJackPython.py).
+#include <gtest/gtest.h>
+
+#include "drivers/labjack_u6/device.h"
+#include "tests/drivers/vendor_vector.h"
+
+namespace mdof::drivers::labjack_u6 {
+namespace {
+
+using modbus::bytes;
+
+class LabjackU6Vectors : public testing::Test {
+ protected:
+  std::string ask(const std::string& command) {
+    device.out(kCommandOut, command, 0);
+    return device.in(kReplyIn, kCommandBytes, 0).bytes;
+  }
+  Device device{[](std::size_t, std::int64_t) { return 0; }, {}};
+};
+
+TEST_F(LabjackU6Vectors, TheSimulatedOneAnswersWhatTheVendorAccepts) {
+  const VendorVector kVectors[] = {
+      {"ConfigU6, read",
+       "0B F8 0A 08 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00",
+       ".. F8 10 08 .. .. 00 .. .. .. .. .. .. .. .. .. .. .. .. 06 00 .. .. .. .. .. .. .. .. .. "
+       ".. "
+       ".. .. .. .. .. .. 04",
+       "labjack/LabJackPython, src/u6.py, U6.configU6"},
+      {"ConfigIO, read", "09 F8 05 0B 00 00 00 00 00 00 00 00 00 00 00 00",
+       "09 F8 05 0B 00 00 00 00 00 00 00 00 00 00 00 00",
+       "labjack/LabJackPython, src/u6.py, U6.configIO"},
+      {"ConfigIO, two timers", "0C F8 05 0B 03 00 01 02 00 00 00 00 00 00 00 00",
+       "0B F8 05 0B 02 00 00 00 02 00 00 00 00 00 00 00",
+       "labjack/LabJackPython, src/u6.py, U6.configIO"},
+      {"ConfigIO, none", "0A F8 05 0B 01 00 01 00 00 00 00 00 00 00 00 00",
+       "09 F8 05 0B 00 00 00 00 00 00 00 00 00 00 00 00",
+       "labjack/exodriver, examples/U6/u6Stream.c, ConfigIO_example"},
+      {"Feedback, two timers in mode 8", "66 F8 05 00 68 00 00 2B 08 00 00 2D 08 00 00 00",
+       "FA F8 02 00 00 00 00 00 00 00",
+       "labjack/LabJackPython, src/u6.py, U6.getFeedback, TimerConfig"},
+      {"ReadCal, block 0", "27 F8 01 2D 00 00 00 00",
+       ".. F8 11 2D .. .. 00 .. .. .. .. .. .. .. .. .. .. .. .. .. .. .. .. .. .. .. .. .. .. .. "
+       ".. "
+       ".. .. .. .. .. .. .. .. ..",
+       "labjack/LabJackPython, src/u6.py, U6.readMem"},
+      {"StreamStop, none running", "B0 B0", "E5 B1 34 00",
+       "labjack/exodriver, examples/U6/u6Stream.c, StreamStop; 52: LabJackPython, "
+       "src/LabJackPython.py, errorcodes"},
+      {"StreamConfig, five inputs at 1 kHz",
+       "EB F8 09 11 D8 00 05 01 19 00 00 00 A0 0F 00 00 01 00 02 00 03 00 04 00",
+       "0B F8 01 11 00 00 00 00",
+       "labjack/exodriver, examples/U6/u6Stream.c, StreamConfig_example"},
+      {"StreamStart", "A8 A8", "A9 A9 00 00",
+       "labjack/exodriver, examples/U6/u6Stream.c, StreamStart"},
+      {"StreamStop", "B0 B0", "B1 B1 00 00",
+       "labjack/exodriver, examples/U6/u6Stream.c, StreamStop"},
+      {"a wrong checksum", "0C F8 05 0B 03 00 01 02 00 00 00 00 00 00 00 01", "B8 B8",
+       "labjack/LabJackPython, src/LabJackPython.py, Device._checkCommandBytes"},
+  };
+  for (const VendorVector& vector : kVectors)
+    EXPECT_EQ(mismatch(ask(bytes(vector.request)), vector.reply), "") << vector;
+}
+
+// LabJack prints what its ConfigU6 gave: firmware 0.88, serial number 360005087, version info 4.
+TEST_F(LabjackU6Vectors, TheIdentityOfLabjacksExampleIsRead) {
+  const auto id = read_config_u6(
+      bytes("33 F8 10 08 20 02 00 00 00 58 00 0F 06 00 02 DF 3D 75 15 06 00 01 00 00 00 00 00 00 "
+            "00 00 00 00 00 00 00 00 00 04"));  // LabJackPython, src/u6.py, U6.configU6
+  ASSERT_TRUE(id) << id.error().message;
+  EXPECT_EQ(id->serial, 360005087U);
+  EXPECT_EQ(id->firmware_major, 0);
+  EXPECT_EQ(id->firmware_minor, 88);
+  EXPECT_FALSE(id->pro);
+}
+
+// LabJackPython, src/u6.py, U6.configIO: result[8] timers, result[10] pin offset; so in
+// exodriver's u6Stream.c.
+TEST_F(LabjackU6Vectors, TimersAreReadFromBytes8And10) {
+  const auto timers = read_timers(bytes("0C F8 05 0B 03 00 00 00 02 00 01 00 00 00 00 00"));
+  ASSERT_TRUE(timers) << timers.error().message;
+  EXPECT_EQ(timers->count, 2);
+  EXPECT_EQ(timers->pin_offset, 1);
+}
+
+// exodriver, examples/U6/u6Stream.c, StreamData_example: F9, 4 + samples, C0; counter at 10, error
+// at 11, dropped scans at 6 and 7, samples from 12, backlog behind them.
+TEST_F(LabjackU6Vectors, StreamPacketsHaveTheVendorsPlaces) {
+  ASSERT_EQ(mismatch(ask(bytes("EB F8 09 11 D8 00 05 01 19 00 00 00 A0 0F 00 00 01 00 02 00 03 00 "
+                               "04 00")),
+                     "0B F8 01 11 00 00 00 00"),
+            "");
+  ask(stream_start());
+  const std::string packet = device.in(kStreamIn, 64, 10'000'000).bytes;
+  std::string pattern = ".. F9 1D C0 .. .. .. .. .. .. 00 00";
+  for (int i = 0; i < 50; ++i) pattern += " ..";
+  EXPECT_EQ(mismatch(packet, pattern + " .. .."), "");
+  const auto read = decode(bytes("76 F9 05 C0 B5 01 2C 01 00 00 07 3C 34 12 FF 00"), 1);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->counter, 7);
+  EXPECT_EQ(read->error, kRecovered);
+  EXPECT_EQ(read->dropped, 300);
+  EXPECT_EQ(read->samples, std::vector<std::uint16_t>{0x1234});
+  EXPECT_EQ(read->backlog, 255);
+}
+
+// LabJackPython, src/u6.py, CalibrationInfo and binaryToCalibratedAnalogVoltage, gain 0.
+TEST_F(LabjackU6Vectors, NominalConstantsAndTheirSigns) {
+  const AinCalibration nominal = labjack::nominal_calibration(0);
+  EXPECT_NEAR(nominal.positive_slope, 3.1580578e-4, 1e-12);
+  EXPECT_NEAR(nominal.negative_slope, -3.158058e-4, 1e-10);
+  EXPECT_EQ(nominal.centre, 33523.0);
+  EXPECT_NEAR(labjack::volts(nominal, 0), 33523.0 * -3.158058e-4, 1e-6);
+  EXPECT_NEAR(labjack::volts(nominal, 65535), (65535 - 33523.0) * 3.1580578e-4, 1e-6);
+}
+
+}  // namespace
+}  // namespace mdof::drivers::labjack_u6

@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "schema/toml_depth.h"
+
 namespace mdof {
 
 struct TomlTable::Document {
@@ -64,6 +66,10 @@ TomlTable::TomlTable(std::shared_ptr<Document> document, std::shared_ptr<Node> n
     : document_(std::move(document)), node_(std::move(node)) {}
 
 Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& source_name) {
+  if (const auto line = toml_line_deeper_than(text, kMaxTomlDepth))
+    return bad_input(source_name + ":" + std::to_string(*line) + ": nested more than " +
+                     std::to_string(kMaxTomlDepth) +
+                     " deep, by dots of a key or by brackets; write it flatter");
   auto document = std::make_shared<Document>();
   document->source = source_name;
   try {

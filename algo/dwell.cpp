@@ -29,6 +29,18 @@ constexpr std::size_t kPathLength = 64;
 constexpr std::size_t kDropRows = 4096;  // rows no longer needed before the buffer is moved up
 constexpr std::size_t kMinScans = 5;     // of a dwell, and of a probe in it
 
+// Where the rows with a position that begin at `from` end.
+std::size_t end_of_placed(const FrameBlock& frames, std::size_t from) {
+  const auto begin = frames.encoder_m.begin() + static_cast<std::ptrdiff_t>(from);
+  const auto end =
+      std::find_if(begin, frames.encoder_m.end(), [](double m) { return !std::isfinite(m); });
+  return from + static_cast<std::size_t>(end - begin);
+}
+
+bool all_finite(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
 double median3(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
@@ -62,27 +74,35 @@ DwellDetector::DwellDetector(DwellOptions options, std::vector<std::string> prob
 
 void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
   std::size_t from = 0;
+  while (from < frames.size()) {
+    const std::size_t to = end_of_placed(frames, from);
+    if (to > from) push_rows(frames, from, to, out);
+    from = to;
+    for (; from < frames.size() && !std::isfinite(frames.encoder_m[from]); ++from)
+      if (summary_.unplaced++ == 0) summary_.first_unplaced_ns = frames.time_ns[from];
+  }
+}
+
+// Rows from ... to - 1, each with a position.
+void DwellDetector::push_rows(const FrameBlock& frames, std::size_t from, std::size_t to,
+                              std::vector<Point>& out) {
   if (period_ns_ == 0) {
-    from = std::min(frames.size(), kRowsForPeriod - early_.size());
-    append_rows(early_, frames, 0, from);
+    const std::size_t early_to = std::min(to, from + kRowsForPeriod - early_.size());
+    append_rows(early_, frames, from, early_to);
     if (early_.size() < kRowsForPeriod) return;
     learn_period(early_);
     const FrameBlock early = std::move(early_);
     early_ = empty_frames(probe_ids_.size());
-    push(early, out);
+    push_rows(early, 0, early.size(), out);
+    from = early_to;
   }
-  append_rows(buffer_, frames, from, frames.size());
+  append_rows(buffer_, frames, from, to);
   while (row_ < buffer_.size()) {
     if (buffer_.time_ns[row_] - last_ns_ > hole_ns_) pass_hole();
     if (!breaks_.empty() && buffer_.time_ns[row_] > breaks_.front()) pass_break(out);
     const std::int64_t index = (buffer_.time_ns[row_] - origin_ns_) / slot_ns_;
     if (slot_open_ && index != open_.index) close_slot(out);
-    if (!slot_open_) {
-      open_ = Slot{};
-      open_.index = index;
-      open_.first_row = row_;
-      slot_open_ = true;
-    }
+    if (!slot_open_) open_slot(index);
     const auto begin = buffer_.time_ns.begin() + static_cast<std::ptrdiff_t>(row_);
     std::int64_t until_ns = origin_ns_ + (index + 1) * slot_ns_;
     if (!breaks_.empty()) until_ns = std::min(until_ns, breaks_.front() + 1);
@@ -90,6 +110,14 @@ void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
     add_rows(row_ + static_cast<std::size_t>(end - begin));
   }
   if (dwelling_ && truncated_) drop_cut_rows();
+}
+
+void DwellDetector::open_slot(std::int64_t index) {
+  open_ = Slot{};
+  open_.index = index;
+  open_.first_row = row_;
+  open_.unplaced = summary_.unplaced;
+  slot_open_ = true;
 }
 
 void DwellDetector::learn_period(const FrameBlock& frames) {
@@ -199,6 +227,7 @@ void DwellDetector::begin_dwell() {
   dwelling_ = true;
   truncated_ = false;
   still_since_ns_ = slots_.front().begin_ns;
+  unplaced_before_ = slots_.front().unplaced;
   // A knock or a glitch of the encoder in the midst of a stop is no approach.
   const bool same_stop = left_ns_ != 0 && slots_.front().begin_ns - left_ns_ <= 2 * slot_ns_ &&
                          std::abs(slots_.back().middle() - left_m_) < options_.approach_m;
@@ -225,6 +254,7 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
       still_s >= options_.settle_s + options_.min_length_s && end_row >= first_row + kMinScans;
   if (long_enough) {
     Point point = average(first_row, end_row);
+    if (slots_[slots_.size() - 2].unplaced > unplaced_before_) add_flag(point, "missing:encoder");
     gave_point_ = keep_or_tell(std::move(point), first_row, end_row, out);
   } else if (still_s >= options_.min_length_s) {
     note({NoticeKind::short_stop, still_since_ns_, left_m_, 0, still_s});
@@ -284,14 +314,15 @@ Point DwellDetector::average(std::size_t from, std::size_t to) {
 }
 
 // The readings of a probe that can be used, each of its own samples once. Where nothing is marked,
-// every value is one.
+// every value that is a number is one.
 std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size_t from,
                                                     std::size_t to, std::size_t& usable_rows,
                                                     std::size_t& over_range) {
   const auto& column = buffer_.probe_m[probe];
   const auto& quality = buffer_.probe_quality[probe];
   const auto& fresh = buffer_.probe_fresh[probe];
-  if (quality.empty() && fresh.empty()) return {&column[from], to - from};
+  const std::span<const double> all(&column[from], to - from);
+  if (quality.empty() && fresh.empty() && all_finite(all)) return all;
   finite_.clear();
   usable_rows = 0;
   for (std::size_t i = from; i < to; ++i) {
@@ -380,7 +411,7 @@ void DwellDetector::flush(std::vector<Point>& out) {
     learn_period(early_);
     const FrameBlock early = std::move(early_);
     early_ = empty_frames(probe_ids_.size());
-    push(early, out);
+    push_rows(early, 0, early.size(), out);
   }
   end_of_sight(out);
 }
@@ -392,6 +423,7 @@ void DwellDetector::end_of_sight(std::vector<Point>& out) {
   Slot after = slots_.back();
   after.first_row = row_;
   after.begin_ns = last_ns_;
+  after.unplaced = summary_.unplaced;
   slots_.push_back(after);
   slots_.push_back(after);
   end_dwell(out);

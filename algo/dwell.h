@@ -43,7 +43,8 @@ class DwellDetector {
                 std::vector<double> probe_range_m);
 
   // Appends the points that became complete. The encoder's single-sample spikes are voted out by a
-  // median of three.
+  // median of three. A frame without a position (NaN) belongs to no place: it is counted and left
+  // out, and many in a row are a hole in the time line.
   void push(const FrameBlock& frames, std::vector<Point>& out);
   // Frames after this time are not yet pushed. From there to the next frame nobody saw the axis: a
   // dwell ends here, and what approach the next one has is not known.
@@ -62,8 +63,11 @@ class DwellDetector {
   struct Summary {
     std::uint64_t scans = 0;
     double encoder_min_m = 0, encoder_max_m = 0;
-    double period_s = 0;         // median of the first intervals
-    std::uint64_t gaps = 0;      // intervals over three periods
+    double period_s = 0;     // median of the first intervals
+    std::uint64_t gaps = 0;  // intervals over three periods
+    // Frames without a position of the encoder, and the first of them.
+    std::uint64_t unplaced = 0;
+    std::int64_t first_unplaced_ns = 0;
     double longest_still_s = 0;  // to explain why nothing was found
     double tolerance_m = 0;      // in force at the end
     // Stops that gave no point: too short, or creeping. The first kMaxPassedOver of them.
@@ -85,11 +89,15 @@ class DwellDetector {
     std::size_t first_row = 0, rows = 0;  // in buffer_
     std::int64_t begin_ns = 0;
     double min_m = 0, max_m = 0;
-    double bend_m = 0;   // sum of |second differences|: noise, whatever the speed
-    double sharp_m = 0;  // the largest of them
+    double bend_m = 0;           // sum of |second differences|: noise, whatever the speed
+    double sharp_m = 0;          // the largest of them
+    std::uint64_t unplaced = 0;  // frames without a position before it, since the beginning
     double middle() const { return 0.5 * (min_m + max_m); }
   };
 
+  void push_rows(const FrameBlock& frames, std::size_t from, std::size_t to,
+                 std::vector<Point>& out);
+  void open_slot(std::int64_t index);
   void learn_period(const FrameBlock& frames);
   void add_rows(std::size_t to);
   void close_slot(std::vector<Point>& out);
@@ -138,8 +146,9 @@ class DwellDetector {
 
   bool dwelling_ = false, truncated_ = false;
   std::int64_t still_since_ns_ = 0;
-  std::size_t cut_row_ = 0;   // of the dwell under way: what comes after is not averaged
-  std::int64_t left_ns_ = 0;  // when and where the last stop ended; 0: none yet
+  std::uint64_t unplaced_before_ = 0;  // frames without a position before the dwell under way
+  std::size_t cut_row_ = 0;            // of the dwell under way: what comes after is not averaged
+  std::int64_t left_ns_ = 0;           // when and where the last stop ended; 0: none yet
   double left_m_ = 0;
   struct Way {
     double min_m = 0, max_m = 0;

@@ -41,7 +41,7 @@ std::string sentence(const DwellNotice& n, double time_s, double needed_s) {
           n.length_s, at_mm, time_s, needed_s);
     case NoticeKind::hole:
       return text(
-          "nothing was recorded for %.3f s, %.3f s after the first scan, at %.4f mm (%+.4f mm "
+          "no position was recorded for %.3f s, %.3f s after the first scan, at %.4f mm (%+.4f mm "
           "until it went on): a stop in it is lost; measure again if a target is missing",
           n.length_s, time_s, at_mm, to_mm(n.size_m));
     case NoticeKind::jump:

@@ -33,7 +33,8 @@ double* partition(double* begin, double* end, First first) {
 }
 
 // Element n/2 of the n values in order. Quickselect: on noise several times faster than
-// std::nth_element, and at most kSubsample values at a time, so that no order of them hurts.
+// std::nth_element, and at most kSubsample values at a time, so that no order of them hurts. It
+// ends with a NaN among them too, since each turn takes at least the pivot out.
 double median(std::vector<double>& values) {
   double *begin = values.data(), *end = begin + values.size();
   double* const middle = begin + values.size() / 2;
@@ -45,7 +46,7 @@ double median(std::vector<double>& values) {
       end = less;
       continue;
     }
-    begin = partition(less, end, [=](double x) { return x == pivot; });
+    begin = partition(less, end, [=](double x) { return !(pivot < x); });
     if (middle < begin) return pivot;
   }
 }

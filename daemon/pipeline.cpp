@@ -210,6 +210,10 @@ bool Pipeline::moved() const {
 
 Status Pipeline::explain_nothing() const {
   const auto& s = dwell_.summary();
+  if (s.scans == 0 && s.unplaced > 0)
+    return bad_input("none of " + std::to_string(s.unplaced) +
+                     " scans has a position of the encoder; check the encoder, its cable and its "
+                     "channel");
   if (s.scans == 0) return bad_input("no samples of the rig's probes and the encoder came");
   if (!moved()) {
     const double travel_m = s.encoder_max_m - s.encoder_min_m;

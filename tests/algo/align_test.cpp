@@ -101,7 +101,7 @@ TEST(Aligner, AReadingIsNoBetterThanItsPlace) {
   both.device = "daq";
   both.channels = {{"A", Unit::metre}, {kEncoderChannel, Unit::metre}};
   both.time_ns = {1000, 2000, 3000};
-  both.value = {{1, 2, 3}, {0, 0, 0}};
+  both.value = {{1, 2, 3}, {0, 0, kNaN}};
   both.quality = {{}, of_encoder};
   SampleBlock probe, encoder;
   probe.device = "a";

@@ -151,7 +151,10 @@ TEST(Dwell, FlagsGapsSpikesSaturationAndLoss) {
   f.probe_m[0][inside(1, 20)] += 25e-6;
   f.probe_quality[0].assign(f.size(), Quality::good);
   for (std::size_t i = 0; i < 20; ++i) f.probe_quality[0][inside(2, 30 + i)] = Quality::over_range;
-  for (std::size_t i = 0; i < 400; ++i) f.probe_quality[0][inside(3, i)] = Quality::missing;
+  for (std::size_t i = 0; i < 400; ++i) {
+    f.probe_quality[0][inside(3, i)] = Quality::missing;
+    f.probe_m[0][inside(3, i)] = kNaN;
+  }
   f.encoder_m[inside(4, 50)] += 1e-3;
   const auto gap = static_cast<std::ptrdiff_t>(inside(5, 40));
   for (auto* column : {&f.encoder_m, &f.probe_m[0]})

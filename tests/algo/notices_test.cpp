@@ -93,7 +93,7 @@ TEST(Notices, AHoleInTheTimeLineIsTold) {
     ASSERT_EQ(holes.size(), 1u);
     EXPECT_NEAR(holes[0].length_s, 3.0, 0.01);
     EXPECT_NEAR(1e-9 * static_cast<double>(holes[0].time_ns), 5.0, 0.01);
-    EXPECT_NE(found.warnings.at(0).find("nothing was recorded for 3.00"), std::string::npos);
+    EXPECT_NE(found.warnings.at(0).find("no position was recorded for 3.00"), std::string::npos);
   }
 }
 

@@ -132,5 +132,26 @@ TEST(Datum, SingleSuspectReadingsCostNoStop) {
   EXPECT_EQ(warnings(*run).find("cannot be placed"), std::string::npos) << warnings(*run);
 }
 
+// A device whose encoder has nothing to say yet when the run begins.
+TEST(Datum, AFirstScanWithoutPositionFailsNoRun) {
+  const Axis axis(99);
+  const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
+  for (const std::size_t without : {std::size_t{1}, axis.scans()}) {
+    Pipeline pipeline = Pipeline::create(rig, {}).value();
+    SampleBlock block = axis.block(0, axis.scans());
+    std::fill_n(block.value[0].begin(), without, kNaN);
+    std::fill_n(block.quality[0].begin(), without, Quality::missing);
+    ASSERT_TRUE(pipeline.push(block));
+    const auto run = pipeline.finish();
+    if (without == 1) {
+      ASSERT_TRUE(run) << run.error().message;
+      EXPECT_EQ(run->points.size(), 12u);
+    } else {
+      ASSERT_FALSE(run);
+      EXPECT_NE(run.error().message.find("has a position of the encoder"), std::string::npos);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mdof::daemon

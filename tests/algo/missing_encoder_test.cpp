@@ -1,0 +1,139 @@
+// Frames in which the encoder gave no position (NaN): few, many, from the first on, throughout. The
+// truth is that of the log: where each stop is.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/dwell.h"
+#include "algo/robust_mean.h"
+#include "tests/algo/stepping_log.h"
+
+namespace mdof::algo {
+namespace {
+
+struct Found {
+  std::vector<Point> points;
+  std::vector<std::string> warnings;
+  DwellDetector::Summary summary;
+};
+
+Found detect(const SteppingLog& log, const FrameBlock& frames, std::size_t block) {
+  DwellDetector detector({}, log.ids(), std::vector<double>(log.probes, 200e-6));
+  Found found;
+  for (std::size_t i = 0; i < frames.size(); i += block)
+    detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);
+  detector.flush(found.points);
+  detector.mark(found.points);
+  found.warnings = detector.warnings(found.points);
+  found.summary = detector.summary();
+  return found;
+}
+
+void lose(FrameBlock& frames, std::size_t row) {
+  frames.encoder_m[row] = kNaN;
+  for (auto& quality : frames.probe_quality) {
+    quality.resize(frames.size(), Quality::good);
+    quality[row] = Quality::missing;
+  }
+}
+
+SteppingLog one_run() {
+  SteppingLog log;
+  log.runs = 1;
+  return log;
+}
+
+const std::size_t kBlocks[] = {1, 13, 100'000};
+
+// Three of five in one stop: what is left is averaged, and the point says what it lacks.
+TEST(MissingEncoder, MoreThanHalfOfAStopIsNoEndlessLoop) {
+  const SteppingLog log = one_run();
+  const FrameBlock whole = log.frames();
+  const auto clean = detect(log, whole, 1000);
+  FrameBlock frames = whole;
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const bool inside = clean.points[4].begin_ns <= frames.time_ns[i] &&
+                        frames.time_ns[i] <= clean.points[4].end_ns;
+    if (inside && i % 5 < 3) lose(frames, i), ++lost;
+  }
+  ASSERT_GT(lost, 100u);
+  for (const std::size_t block : kBlocks) {
+    const auto found = detect(log, frames, block);
+    ASSERT_EQ(found.points.size(), 26u);
+    EXPECT_NEAR(found.points[4].position_m, 20e-3, 5e-9);
+    EXPECT_NEAR(found.points[4].probe_m[0], 1e-6 * log.readings_um(20)[0], 10e-9);
+    for (std::size_t i = 0; i < found.points.size(); ++i)
+      EXPECT_EQ(has_flag(found.points[i], "missing:encoder"), i == 4) << i;
+    EXPECT_EQ(found.summary.unplaced, lost);
+    ASSERT_EQ(found.warnings.size(), 1u);
+    EXPECT_EQ(found.warnings[0].find(std::to_string(lost) + " scans have no position"), 0u);
+  }
+}
+
+TEST(MissingEncoder, AFirstFrameWithoutItFailsNoRun) {
+  const SteppingLog log = one_run();
+  FrameBlock frames = log.frames();
+  const auto clean = detect(log, frames, 1000);
+  for (const std::size_t first : {0u, 1u, 5u}) lose(frames, first);
+  for (const std::size_t block : kBlocks) {
+    const auto found = detect(log, frames, block);
+    ASSERT_EQ(found.points.size(), clean.points.size());
+    for (std::size_t i = 0; i < clean.points.size(); ++i)
+      EXPECT_NEAR(found.points[i].position_m, clean.points[i].position_m, 1e-9);
+    EXPECT_NEAR(found.summary.encoder_min_m, clean.summary.encoder_min_m, 1e-6);
+    EXPECT_NEAR(found.summary.encoder_max_m, clean.summary.encoder_max_m, 1e-6);
+  }
+}
+
+// A second without position while the axis goes from the third to the fifth stop: a hole.
+TEST(MissingEncoder, ManyInARowAreAHole) {
+  const SteppingLog log = one_run();
+  FrameBlock frames = log.frames();
+  const auto clean = detect(log, frames, 1000);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (clean.points[2].end_ns < frames.time_ns[i] && frames.time_ns[i] < clean.points[4].begin_ns)
+      lose(frames, i);
+  for (const std::size_t block : kBlocks) {
+    const auto found = detect(log, frames, block);
+    ASSERT_EQ(found.points.size(), 25u);
+    ASSERT_EQ(found.warnings.size(), 2u);
+    EXPECT_EQ(found.warnings[0].find("no position was recorded for"), 0u) << found.warnings[0];
+    EXPECT_TRUE(std::isnan(found.points[3].way_min_m)) << "a way that nobody saw";
+  }
+}
+
+TEST(MissingEncoder, ThroughoutThereIsNoPointAndItIsCounted) {
+  const SteppingLog log = one_run();
+  FrameBlock frames = log.frames();
+  for (std::size_t i = 0; i < frames.size(); ++i) lose(frames, i);
+  const auto found = detect(log, frames, 1000);
+  EXPECT_TRUE(found.points.empty());
+  EXPECT_EQ(found.summary.scans, 0u);
+  EXPECT_EQ(found.summary.unplaced, frames.size());
+}
+
+// Values that are no numbers and that nothing marks: lost, as if they were marked.
+TEST(MissingEncoder, AProbeOfUnmarkedNaNIsLost) {
+  const SteppingLog log = one_run();
+  FrameBlock frames = log.frames();
+  frames.probe_m[1].assign(frames.size(), kNaN);
+  const auto found = detect(log, frames, 1000);
+  ASSERT_EQ(found.points.size(), 26u);
+  for (const Point& p : found.points) {
+    EXPECT_TRUE(has_flag(p, "lost:B"));
+    EXPECT_TRUE(std::isfinite(p.probe_m[0]));
+  }
+}
+
+TEST(MissingEncoder, AMeanOfNaNEnds) {
+  std::vector<double> scratch;
+  for (const std::size_t bad : {1u, 50u, 51u, 99u, 100u}) {
+    std::vector<double> readings(100, 1.0);
+    std::fill_n(readings.begin(), bad, kNaN);
+    robust_mean(readings, 0.1, scratch);  // whatever it gives
+  }
+}
+
+}  // namespace
+}  // namespace mdof::algo

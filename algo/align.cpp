@@ -109,6 +109,7 @@ Status Aligner::push(SampleBlock& block, FrameBlock& out) {
     if (out.size() == 0) clear_columns(out);
     MDOF_CHECK(enqueue(block));
     emit(out, false);
+    let_go_of_what_is_too_old();
     return {};
   }
   if (block.time_ns.front() <= encoder_.newest_ns) {
@@ -208,6 +209,22 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
     out.time_ns.push_back(at.time_ns);
     out.encoder_m.push_back(at.value);
   }
+}
+
+// Where encoder positions wait, emit() drops what they have left behind.
+void Aligner::let_go_of_what_is_too_old() {
+  if (!encoder_.readings.empty()) return;
+  const std::int64_t oldest_ns = newest_ns_ - to_ns(2 * options_.lag_bound_s + 1);
+  for (Track& probe : probes_) {
+    auto& readings = probe.readings;
+    while (readings.size() >= 2 && readings[1].time_ns <= oldest_ns) readings.pop_front();
+  }
+}
+
+std::size_t Aligner::waiting() const {
+  std::size_t n = 0;
+  for (const Track& probe : probes_) n += probe.readings.size();
+  return n;
 }
 
 void Aligner::flush(FrameBlock& out) {

@@ -27,7 +27,8 @@ struct AlignOptions {
 // scans are the frames, bit for bit. Otherwise each probe is interpolated linearly between its two
 // samples around the encoder's instant; quality is the worst of the two and the encoder's. Where a
 // probe is slower than the encoder, frames say which instants have a new sample of its own
-// (probe_fresh): the others repeat what is known.
+// (probe_fresh): the others repeat what is known. While the encoder is silent, probe samples are
+// kept for twice the lag bound and a second: what it sends after that is of later instants.
 // Thread-bound.
 class Aligner {
  public:
@@ -43,6 +44,8 @@ class Aligner {
   // The channel that holds up the frames now, if any.
   std::optional<std::string> waiting_for() const;
   std::uint64_t given_up() const { return given_up_; }  // probe values that never came
+  // Samples of the probes that wait for the encoder: bounded by the lag bound, not by its silence.
+  std::size_t waiting() const;
 
  private:
   struct Reading {
@@ -63,6 +66,7 @@ class Aligner {
   Status enqueue(const SampleBlock& block);
   Status enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track);
   void emit(FrameBlock& out, bool at_end);
+  void let_go_of_what_is_too_old();
   Reading value_at(Track& track, std::int64_t time_ns);
   static bool has_fresh(Track& track, std::int64_t time_ns);
   void mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const;

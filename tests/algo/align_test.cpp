@@ -121,5 +121,34 @@ TEST(Aligner, AReadingIsNoBetterThanItsPlace) {
   }
 }
 
+// Ten minutes of two probes at 1 kHz without a word of the encoder, then it is back: what waits is
+// what twice the lag bound holds, and the frames after it are right.
+TEST(Aligner, ASilentEncoderDoesNotFillTheMemory) {
+  Aligner aligner({.lag_bound_s = 3}, {"A", "B"});
+  FrameBlock out;
+  std::size_t most = 0;
+  const auto probes_until = [&](std::int64_t from_ms, std::int64_t to_ms) {
+    for (std::int64_t t = from_ms; t < to_ms; t += 100) {
+      std::vector<std::int64_t> times;
+      for (std::int64_t i = 0; i < 100; ++i) times.push_back(t + i);
+      SampleBlock b = block("p", {"A", "B"}, times, 2.0);
+      ASSERT_TRUE(aligner.push(b, out));
+      most = std::max(most, aligner.waiting());
+    }
+  };
+  probes_until(0, 600'000);
+  EXPECT_EQ(out.size(), 0u);
+  EXPECT_EQ(aligner.waiting_for(), kEncoderChannel);
+  EXPECT_LE(most, 2u * (7000 + 200));  // 7 s of two probes
+  // It sends what it had kept for 2.5 s, and goes on.
+  SampleBlock late = block("e", {"encoder"}, {597'500, 598'000, 599'999}, 1.0);
+  ASSERT_TRUE(aligner.push(late, out));
+  ASSERT_EQ(out.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(out.probe_m[0][i], 2 * out.encoder_m[i]);
+    EXPECT_EQ(out.quality_at(1, i), Quality::good);
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

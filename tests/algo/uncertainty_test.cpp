@@ -38,11 +38,15 @@ double stated_over_true(const std::vector<Point>& points, std::size_t skip = 0) 
 // sample of its own every `every` scans of the encoder, on a device of its own.
 std::vector<Point> measure(int every, double phi, int stops) {
   constexpr double kRate_hz = 1000;
-  SampleBlock encoder{"scale", {{"encoder", Unit::metre}}, {}, {{}}, {}, 0};
-  SampleBlock probe{"amplifier", {{"A", Unit::metre}}, {}, {{}}, {}, 0};
   Noise noise{phi};
+  Aligner aligner({.lag_bound_s = 3, .max_gap_s = 0.1}, {"A"});
+  DwellDetector detector({}, {"A"}, {200e-6});
+  FrameBlock frames;
+  std::vector<Point> points;
   std::int64_t row = 0;
   for (int stop = 0; stop < stops; ++stop) {
+    SampleBlock encoder{"scale", {{"encoder", Unit::metre}}, {}, {{}}, {}, 0};
+    SampleBlock probe{"amplifier", {{"A", Unit::metre}}, {}, {{}}, {}, 0};
     for (int i = 0; i < 600; ++i, ++row) {
       const double part = std::min(1.0, i / 100.0), from = stop % 2 ? 1e-3 : 0, to = 1e-3 - from;
       const auto time_ns = static_cast<std::int64_t>(static_cast<double>(row) / kRate_hz * 1e9);
@@ -52,13 +56,9 @@ std::vector<Point> measure(int every, double phi, int stops) {
       probe.time_ns.push_back(time_ns + (every > 1 ? 300'000 : 0));
       probe.value[0].push_back(noise.next());
     }
+    EXPECT_TRUE(aligner.push(probe, frames));
+    EXPECT_TRUE(aligner.push(encoder, frames));
   }
-  Aligner aligner({.lag_bound_s = 3, .max_gap_s = 0.1}, {"A"});
-  DwellDetector detector({}, {"A"}, {200e-6});
-  FrameBlock frames;
-  std::vector<Point> points;
-  EXPECT_TRUE(aligner.push(probe, frames));
-  EXPECT_TRUE(aligner.push(encoder, frames));
   aligner.flush(frames);
   detector.push(frames, points);
   detector.flush(points);

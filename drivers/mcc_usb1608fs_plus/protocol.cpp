@@ -106,9 +106,8 @@ std::string calibration_memory(const Calibrations& calibrations) {
 }
 
 double volts(std::uint16_t raw, const Calibration& c, double range_v) {
-  constexpr double kZero = 32768, kMost = 65535;
-  const double code = std::round(raw * static_cast<double>(c.slope) + c.offset);
-  return (std::clamp(code, 0.0, kMost) - kZero) * range_v / kZero;
+  constexpr double kZero = 32768;
+  return (raw * static_cast<double>(c.slope) + c.offset - kZero) * range_v / kZero;
 }
 
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

@@ -96,6 +96,8 @@ Result<Calibration> read_calibration(std::string_view pair);
 // The memory with these constants at every range.
 std::string calibration_memory(const Calibrations& calibrations);
 
+// Neither rounded to a code nor clipped at the ends of the range, as in the vendor's own library: a
+// rounded one would add the noise of a second converter.
 double volts(std::uint16_t raw, const Calibration& calibration, double range_v);
 // Of the converter, before calibration: it saturates at its range.
 inline bool at_rail(std::uint16_t raw) {

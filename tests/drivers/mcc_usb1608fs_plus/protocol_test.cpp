@@ -70,13 +70,15 @@ TEST(Usb1608Protocol, ScansAreCutWhereverTransfersEnd) {
   }
 }
 
-TEST(Usb1608Protocol, VoltsAreCalibratedAndClamped) {
+TEST(Usb1608Protocol, VoltsAreCalibratedNeitherRoundedNorClipped) {
   EXPECT_EQ(volts(32768, {}, 10), 0);
   EXPECT_EQ(volts(0, {}, 10), -10);
   EXPECT_NEAR(volts(65535, {}, 5), 5 * 32767.0 / 32768, 1e-12);
-  EXPECT_NEAR(volts(40000, {1.01F, -100}, 10), (40300.0 - 32768) * 10 / 32768, 1e-12);
-  EXPECT_EQ(volts(0, {1, -100}, 10), -10);
-  EXPECT_NEAR(volts(65535, {1, 100}, 10), 10 * 32767.0 / 32768, 1e-12);
+  EXPECT_NEAR(volts(40000, {1.01F, -100}, 10), (40000 * 1.01 - 100 - 32768) * 10 / 32768, 1e-6);
+  // Half a code, 0.15 mV, is kept: slope 1.25 is exact, so are these.
+  EXPECT_EQ(volts(32770, {1.25F, -8192}, 10), 0.5 * 10 / 32768 + 2 * 10.0 / 32768);
+  EXPECT_EQ(volts(0, {1, -100.5F}, 10), -10 - 100.5 * 10 / 32768);
+  EXPECT_EQ(volts(65535, {1, 100.25F}, 10), 10 + 99.25 * 10 / 32768);
   EXPECT_TRUE(at_rail(0));
   EXPECT_TRUE(at_rail(65535));
   EXPECT_FALSE(at_rail(1));

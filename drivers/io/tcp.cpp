@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "drivers/io/byte_stream.h"
+#include "drivers/io/peer.h"
 
 namespace mdof::drivers {
 namespace {
@@ -99,6 +100,16 @@ Result<ByteStream> connect_tcp(const Endpoint& to, milliseconds timeout) {
   }
   return io_error(to.text() + ": " + std::strerror(error) +
                   "; is the device on, on the network, and is this its address?");
+}
+
+std::uint32_t peer_ipv4(const ByteStream& connection) {
+  sockaddr_storage peer{};
+  socklen_t size = sizeof peer;
+  if (::getpeername(connection.fd(), reinterpret_cast<sockaddr*>(&peer), &size) != 0) return 0;
+  if (peer.ss_family != AF_INET) return 0;
+  sockaddr_in v4{};
+  std::memcpy(&v4, &peer, sizeof v4);
+  return ntohl(v4.sin_addr.s_addr);
 }
 
 }  // namespace mdof::drivers

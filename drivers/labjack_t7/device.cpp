@@ -62,6 +62,7 @@ std::vector<SimulatedDevice::Port> Device::ports() const {
 void Device::restart() {
   registers_.clear();
   stream_.reset();
+  last_stamp_ = 0;
   registers_[reg::last_error.address] = 0;
   for (const auto& range : kWritable)
     for (int a = range[0]; a <= range[1]; ++a) registers_[a] = 0;
@@ -122,11 +123,13 @@ std::optional<std::uint32_t> Device::computed(int address, std::int64_t now_ns) 
   const std::size_t ain = static_cast<std::size_t>(address) / 2;
   if (ain < kAins) return bits(static_cast<float>(senses_(ain, now_ns)));
   if (address == reg::dio_ef_read_a.address) return count_at(now_ns);
-  if (address == reg::stream_start_time.address) return start_time_;
+  if (address == reg::stream_start_time.address) return start_stamp(now_ns);
   if (address == reg::stream_enable.address) return stream_ ? 1 : 0;
   if (address == reg::test.address) return kTestValue;
   if (address == reg::product_id.address) return bits(options_.product);
-  if (address == reg::firmware.address) return bits(1.0304F);
+  if (address == reg::firmware.address) return bits(options_.firmware);
+  if (address == reg::hardware_installed.address) return options_.hardware;
+  if (address == reg::wifi_ip.address) return options_.wifi_ip;
   if (address == reg::serial.address) return options_.serial;
   if (address == reg::core_timer.address) return core_at(now_ns);
   const int offset = address - reg::flash_read.address;
@@ -164,7 +167,7 @@ int Device::write(const ModbusRequest& request, std::int64_t now_ns) {
   if (from != reg::stream_enable.address) return 0;
   const bool enable = stored(from) != 0;
   const int code = enable ? start_stream(now_ns) : stream_ ? 0 : 2620;
-  if (!enable) stream_.reset();
+  if (!enable) end_stream(now_ns);
   return code ? refuse(code) : 0;
 }
 
@@ -185,6 +188,17 @@ int Device::check_stream() const {
   return 0;
 }
 
+// Written when the first scan begins: before, it is that of the stream before.
+std::uint32_t Device::start_stamp(std::int64_t now_ns) const {
+  const bool begun = stream_ && now_ns >= stream_->start_ns && !options_.faults.stale_stamp;
+  return begun ? core_at(stream_->start_ns) : last_stamp_;
+}
+
+void Device::end_stream(std::int64_t now_ns) {
+  last_stamp_ = start_stamp(now_ns);
+  stream_.reset();
+}
+
 int Device::start_stream(std::int64_t now_ns) {
   if (stream_) return 2605;
   if (const int code = check_stream()) return code;
@@ -197,7 +211,6 @@ int Device::start_stream(std::int64_t now_ns) {
     stream.list.push_back(
         static_cast<int>(stored(reg::stream_scan_list.address + 2 * static_cast<int>(i))));
   stream.scans_per_packet = std::max<std::size_t>(1, stored(reg::stream_samples.address) / entries);
-  start_time_ = core_at(stream.start_ns);
   stream_ = std::move(stream);
   return 0;
 }

@@ -18,6 +18,7 @@ namespace mdof::drivers::labjack_t7 {
 struct Faults {
   bool swapped_words = false;  // a gateway that swaps the words of 32-bit values
   bool erased_flash = false;   // no calibration constants
+  bool stale_stamp = false;    // STREAM_START_TIME_STAMP stays that of the stream before
   int refused = -1;            // a write to this register is refused ...
   int refused_code = 0;        // ... with this LabJack error in LAST_ERR_DETAIL
   int recovery_at = -1;        // three packets say 2940, then 2941 reports `dropped` scans
@@ -39,7 +40,8 @@ class Device final : public SimulatedDevice {
     double clock_ppm = 0;  // its crystal, fast: > 0
     std::uint32_t core_start = 0;
     std::uint32_t serial = 470012345;
-    float product = 7;
+    float product = 7, firmware = 1.0304F;
+    std::uint32_t hardware = 0, wifi_ip = 0;  // HARDWARE_INSTALLED, WIFI_IP
     Faults faults;
   };
   static constexpr std::size_t kCounterInput = kAins;
@@ -77,6 +79,8 @@ class Device final : public SimulatedDevice {
   void store(int address, Words words);
   int write(const ModbusRequest& request, std::int64_t now_ns);
   int start_stream(std::int64_t now_ns);
+  void end_stream(std::int64_t now_ns);
+  std::uint32_t start_stamp(std::int64_t now_ns) const;
   int check_stream() const;
 
   std::string stream_packets(std::int64_t now_ns);
@@ -92,7 +96,7 @@ class Device final : public SimulatedDevice {
   std::map<int, std::string> requests_;  // of each client, not yet complete
   std::optional<int> reader_;            // client of the stream's port
   std::optional<Stream> stream_;
-  std::uint32_t start_time_ = 0;  // STREAM_START_TIME_STAMP
+  std::uint32_t last_stamp_ = 0;  // STREAM_START_TIME_STAMP of the stream before
 };
 
 }  // namespace mdof::drivers::labjack_t7

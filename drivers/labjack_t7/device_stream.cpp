@@ -27,7 +27,7 @@ std::string Device::stream_packets(std::int64_t now_ns) {
     const bool stop = s.packet == faults.stop_at;
     const std::string packet = encode(packet_of(s));
     if (!skipped) bytes += packet;
-    if (stop) stream_.reset();
+    if (stop) end_stream(now_ns);
   }
   return bytes;
 }

@@ -16,6 +16,7 @@ using std::chrono::steady_clock;
 constexpr milliseconds kConnect{2000};
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr int kClockReads = 5;
+constexpr double kEnable_s = 2;  // to write STREAM_ENABLE, at most
 constexpr const char* kZeroLost =
     "it was without power and its counter counts from 0 again; find the zero, then restart mdofd";
 
@@ -93,6 +94,7 @@ Status LabjackT7::start() {
   if (counts) {
     MDOF_TRY(const bool went_on, start_counter(*registers_));
     zero_lost_ = zero_lost_ || (counted_ && !went_on);
+  start_ticks_.reset();
     counted_ = true;
     if (!went_on) count_.reset();
   }
@@ -107,11 +109,10 @@ Status LabjackT7::start_clock() {
   core_.reset();
   for (int i = 0; i < kClockReads; ++i) {
     MDOF_TRY(const std::uint32_t ticks, registers_->u32(reg::core_timer));
-    clock_.add(core_(ticks), now_ns());
+    enabled_ticks_ = core_(ticks);
+    clock_.add(enabled_ticks_, now_ns());
   }
   MDOF_CHECK(registers_->write(reg::stream_enable, 1));
-  MDOF_TRY(const std::uint32_t start, registers_->u32(reg::stream_start_time));
-  start_ticks_ = core_(start);
   last_packet_ns_ = now_ns();
   return {};
 }
@@ -128,6 +129,18 @@ Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
 Status LabjackT7::next_scans(milliseconds timeout) {
   scans_.clear();
   handed_out_ = 0;
+// The first scan begins a period after STREAM_ENABLE, which took no longer than a reply may.
+Status LabjackT7::take_start() {
+  MDOF_TRY(const std::uint32_t stamp, registers_->u32(reg::stream_start_time));
+  const std::int64_t start = core_(stamp);
+  const double since = static_cast<double>(start - enabled_ticks_);
+  if (!(since >= 0 && since < ticks_per_scan_ + kEnable_s * kCore_Hz))
+    return io_error("STREAM_START_TIME_STAMP is " + std::to_string(stamp) +
+                    ", of another stream: another program has started or stopped one meanwhile");
+  start_ticks_ = start;
+  return {};
+}
+
   if (!broken_) return broken_;
   auto received = receive(timeout);
   if (received) return {};
@@ -166,12 +179,13 @@ Status LabjackT7::take_packets(std::int64_t received_ns) {
 }
 
 std::int64_t LabjackT7::ticks_of(std::uint64_t scan) const {
-  return start_ticks_ + std::llround(static_cast<double>(scan) * ticks_per_scan_);
+  return *start_ticks_ + std::llround(static_cast<double>(scan) * ticks_per_scan_);
 }
 
 // A block ends before lost scans; they stand before the next one.
 void LabjackT7::hand_out(SampleBlock& block) {
   reserve_scans(block, scans_.size() - handed_out_);
+    if (!start_ticks_) MDOF_CHECK(take_start());
   while (handed_out_ < scans_.size()) {
     const Scan& scan = scans_[handed_out_];
     if (scan.lost > 0 && block.scans() > 0) return;

@@ -4,8 +4,9 @@
 // Port 502 (Modbus TCP) configures and says who it is, port 702 streams. The device counts its
 // scans on CORE_TIMER, 40 MHz: scan k was taken at STREAM_START_TIME_STAMP + k / rate. That count
 // is brought to the host's clock by DeviceClock from the arrivals of packets, begun with a few
-// reads of CORE_TIMER. Inside a scan the inputs follow each other by some 10 us; the scan has one
-// time.
+// reads of CORE_TIMER. The stamp is read with the first packet: until the first scan has begun it
+// is that of the stream before. Inside a scan the inputs follow each other by some 10 us; the scan
+// has one time.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +43,7 @@ class LabjackT7 final : public Driver {
   Status start();
   Status start_clock();
   Status next_scans(std::chrono::milliseconds timeout);
+  Status take_start();
   Status receive(std::chrono::milliseconds timeout);
   Status take_packets(std::int64_t received_ns);
   std::int64_t ticks_of(std::uint64_t scan) const;
@@ -63,12 +65,13 @@ class LabjackT7 final : public Driver {
   double rate_hz_, ticks_per_scan_ = 0;
 
   DeviceClock clock_;
-  Unwrap core_{32};                  // CORE_TIMER, since open()
-  std::int64_t start_ticks_ = 0;     // of scan 0
-  std::int64_t last_packet_ns_ = 0;  // host time; at first of the start
-  std::vector<Scan> scans_;          // received
-  Status broken_;                    // the error that ended the stream
-  std::size_t handed_out_ = 0;       // of them
+  Unwrap core_{32};                          // CORE_TIMER, since open()
+  std::int64_t enabled_ticks_ = 0;           // a little before STREAM_ENABLE
+  std::optional<std::int64_t> start_ticks_;  // of scan 0; none before the first packet
+  std::int64_t last_packet_ns_ = 0;          // host time; at first of the start
+  std::vector<Scan> scans_;                  // received
+  Status broken_;                            // the error that ended the stream
+  std::size_t handed_out_ = 0;               // of them
   std::vector<char> buffer_;
 
   Unwrap count_{32, true};

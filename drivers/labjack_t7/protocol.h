@@ -45,8 +45,10 @@ inline constexpr Register stream_clock_source{4014, "STREAM_CLOCK_SOURCE"};
 inline constexpr Register stream_target{4016, "STREAM_AUTO_TARGET"};  // 1: client of port 702
 inline constexpr Register stream_data_type{4018, "STREAM_DATATYPE"};
 inline constexpr Register stream_scans{4020, "STREAM_NUM_SCANS"};  // 0: without end
-// CORE_TIMER of the first scan.
+// CORE_TIMER of the first scan, written when that scan begins, one period after STREAM_ENABLE;
+// until then it is of the stream before. From firmware 1.0214 on.
 inline constexpr Register stream_start_time{4026, "STREAM_START_TIME_STAMP"};
+// From firmware 1.026 on.
 inline constexpr Register stream_no_recovery{4028, "STREAM_AUTORECOVER_DISABLE"};
 inline constexpr Register stream_scan_list{4100, "STREAM_SCANLIST_ADDRESS"};
 inline constexpr Register stream_enable{4990, "STREAM_ENABLE"};
@@ -60,6 +62,8 @@ inline constexpr Register last_error{55000, "LAST_ERR_DETAIL"};  // u16: why it 
 inline constexpr Register test{55100, "TEST"};
 inline constexpr Register product_id{60000, "PRODUCT_ID"};      // f32
 inline constexpr Register firmware{60004, "FIRMWARE_VERSION"};  // f32
+inline constexpr Register hardware_installed{60010, "HARDWARE_INSTALLED"};
+inline constexpr Register wifi_ip{49200, "WIFI_IP"};
 inline constexpr Register serial{60028, "SERIAL_NUMBER"};
 inline constexpr Register core_timer{61520, "CORE_TIMER"};
 inline constexpr Register flash_pointer{61810, "INTERNAL_FLASH_READ_POINTER"};
@@ -69,6 +73,7 @@ inline constexpr Register flash_read{61812, "INTERNAL_FLASH_READ"};
 inline constexpr std::uint32_t kTestValue = 0x00112233;
 inline constexpr std::uint32_t kTestSwapped = 0x22330011;
 inline constexpr std::uint32_t kQuadrature = 10;
+inline constexpr std::uint32_t kHasWifi = 2;  // of HARDWARE_INSTALLED
 inline constexpr std::uint16_t kSingleEnded = 199;
 
 using Words = std::array<std::uint16_t, 2>;

@@ -3,22 +3,21 @@
 #include <array>
 #include <string>
 
+#include "drivers/io/peer.h"
+
 namespace mdof::drivers::labjack_t7 {
 namespace {
 
 constexpr std::chrono::milliseconds kConnect{2000}, kReply{500};
 constexpr int kUnit = 1;
 
-Result<ModbusClient> client_of(const Endpoint& to) {
-  MDOF_TRY(ByteStream connection, connect_tcp(to, kConnect));
-  return ModbusClient::over_tcp(std::move(connection), {kUnit, kReply});
-}
-
 }  // namespace
 
 Result<Registers> Registers::connect(const Endpoint& to) {
-  MDOF_TRY(ModbusClient client, client_of(to));
-  return Registers(to, std::move(client));
+  MDOF_TRY(ByteStream connection, connect_tcp(to, kConnect));
+  const std::uint32_t peer = drivers::peer_ipv4(connection);
+  MDOF_TRY(ModbusClient client, ModbusClient::over_tcp(std::move(connection), {kUnit, kReply}));
+  return Registers(std::move(client), peer);
 }
 
 Status Registers::read(Register from, std::span<std::uint16_t> into) {

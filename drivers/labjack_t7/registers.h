@@ -24,14 +24,17 @@ class Registers {
   Status write(Register at, std::uint32_t value);
   Status write_f32(Register at, float value);
   Status write_u16(Register at, std::uint16_t value);
+  // Of the device, as it is connected; 0: not by IPv4.
+  std::uint32_t peer_ipv4() const { return peer_ipv4_; }
 
  private:
-  Registers(Endpoint to, ModbusClient client) : to_(std::move(to)), client_(std::move(client)) {}
+  Registers(ModbusClient client, std::uint32_t peer_ipv4)
+      : client_(std::move(client)), peer_ipv4_(peer_ipv4) {}
   Status put(Register at, std::span<const std::uint16_t> words);
   tl::unexpected<Error> explained(const char* what, Register at, Error error);
 
-  Endpoint to_;
   ModbusClient client_;
+  std::uint32_t peer_ipv4_;
 };
 
 }  // namespace mdof::drivers::labjack_t7

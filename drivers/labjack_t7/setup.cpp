@@ -12,6 +12,7 @@ namespace {
 constexpr float kProduct = 7;
 constexpr std::uint32_t kBufferBytes = 32768;  // the most a T7 has; at 4 kHz x 7 half a second
 constexpr int kLines = 2;                      // of a quadrature pair: DIO0, DIO1
+constexpr double kStampFirmware = 1.0214, kRecoveryFirmware = 1.026;
 
 Status check_words(std::uint32_t test) {
   if (test == kTestValue) return {};
@@ -28,6 +29,28 @@ Status check_product(float product) {
                   ", not 7: this LabJack is no T7");
 }
 
+// What older ones lack would be missed later, and in other words.
+Status check_firmware(float firmware) {
+  const auto is_older = [&](double than) { return firmware < than - 1e-5; };
+  const char* lacks = is_older(kStampFirmware)      ? "the time stamp of a stream (1.0214)"
+                      : is_older(kRecoveryFirmware) ? "streams that recover (1.026)"
+                                                    : nullptr;
+  if (!lacks) return {};
+  return io_error("its firmware " + plain_number(static_cast<double>(firmware), 5) + " lacks " +
+                  lacks + "; update it with LabJack's Kipling");
+}
+
+// A T7-Pro sends no stream by itself over WiFi.
+Status check_wire(Registers& registers) {
+  MDOF_TRY(const std::uint32_t installed, registers.u32(reg::hardware_installed));
+  if ((installed & kHasWifi) == 0) return {};
+  MDOF_TRY(const std::uint32_t wifi, registers.u32(reg::wifi_ip));
+  if (wifi == 0 || wifi != registers.peer_ipv4()) return {};
+  return io_error(
+      "this is the address of its WiFi, over which a T7-Pro cannot stream; connect it by cable and "
+      "give the address of that (ETHERNET_IP in LabJack's Kipling)");
+}
+
 }  // namespace
 
 Result<Identity> identify(Registers& registers, const Settings& settings) {
@@ -40,6 +63,8 @@ Result<Identity> identify(Registers& registers, const Settings& settings) {
     return io_error("its serial number is " + std::to_string(serial) + ", the configuration says " +
                     std::to_string(settings.serial) + "; correct address or serial");
   MDOF_TRY(const float firmware, registers.f32(reg::firmware));
+  MDOF_CHECK(check_firmware(firmware));
+  MDOF_CHECK(check_wire(registers));
   return Identity{serial, firmware};
 }
 

@@ -14,7 +14,8 @@ struct Identity {
   std::uint32_t serial = 0;
   float firmware = 0;
 };
-// Errors: words swapped on the way, no T7, another serial number than `settings` asks for.
+// Errors: words swapped on the way, no T7, another serial number than `settings` asks for, firmware
+// too old to stream as is needed, connected by WiFi.
 Result<Identity> identify(Registers& registers, const Settings& settings);
 
 // Ends a stream that runs, of whoever's.

@@ -148,9 +148,14 @@ TEST_F(LabjackT7Device, CoreTimerCountsAt40MHzAndStampsTheFirstScan) {
   const std::uint32_t before = core();
   now += kMs;
   EXPECT_EQ(core() - before, 40'000U);
+  // "At the start of the first stream scan", LabJack's ljm_constants.json says: a period later.
   start(1000, 1, {0});
-  const std::string r = ask("00 01 00 00 00 06 01 03 0F BA 00 02");
-  EXPECT_EQ(static_cast<std::uint8_t>(r[12]), (before + 80'000) & 0xFF);
+  const auto stamp = [&] { return ask("00 01 00 00 00 06 01 03 0F BA 00 02").substr(9); };
+  EXPECT_EQ(stamp(), modbus::bytes("00 00 00 00"));
+  now += kMs;
+  const Words words = words_of(before + 80'000);
+  EXPECT_EQ(stamp(), (std::string{static_cast<char>(words[0] >> 8), static_cast<char>(words[0]),
+                                  static_cast<char>(words[1] >> 8), static_cast<char>(words[1])}));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <memory>
+#include <thread>
+#include <tuple>
 
 #include "drivers/labjack_t7/device.h"
 #include "tests/drivers/modbus/hex.h"
@@ -42,7 +44,7 @@ class LabjackT7Driver : public testing::Test {
  protected:
   void serve(const Faults& faults, Device::Options options = {}) {
     options.faults = faults;
-    options.core_start = 0xFFF00000;  // wraps soon
+    options.core_start = core_start;
     device = std::make_unique<Device>(truth, options);
     served = std::make_unique<ServedDevice>(*device);
     settings.name = "daq";
@@ -83,7 +85,13 @@ class LabjackT7Driver : public testing::Test {
     return sum;
   }
 
+  // CORE_TIMER reads this now, give or take some seconds.
+  void core_reads(std::uint32_t ticks) {
+    core_start = ticks - static_cast<std::uint32_t>(static_cast<double>(truth.zero_ns) * 0.04);
+  }
+
   Truth truth;
+  std::uint32_t core_start = 0xFFF00000;
   std::unique_ptr<Device> device;
   std::unique_ptr<ServedDevice> served;
   Settings settings;
@@ -161,6 +169,66 @@ TEST_F(LabjackT7Driver, OtherDevicesAreRefused) {
   served.reset();
   serve({});
   EXPECT_TRUE(has(refusal(), "serial number is 470012345"));
+}
+
+TEST_F(LabjackT7Driver, TheStampOfAStreamIsReadOnceItsFirstScanHasBegun) {
+  core_reads(1'000'000'000);  // a stamp of 0, before the first stream, is far from it
+  serve({});
+  for (int stream = 0; stream < 2; ++stream) {  // for the second it is that of the first
+    ASSERT_EQ(refusal(), "opened");
+    time_ns.clear();
+    for (auto& column : value) column.clear();
+    ASSERT_EQ(read(200), "");
+    EXPECT_EQ(driver().info().clock->steps, 0U);
+    for (std::size_t i = 0; i < time_ns.size(); ++i)
+      ASSERT_NEAR(value[0][i], static_cast<double>(time_ns[i] - truth.zero_ns) * 1e-9, 0.1) << i;
+    std::this_thread::sleep_for(200ms);
+  }
+}
+
+TEST_F(LabjackT7Driver, AStampOfAnotherStreamIsRefused) {
+  core_reads(1'000'000'000);
+  Faults faults;
+  faults.stale_stamp = true;
+  serve(faults);
+  ASSERT_EQ(refusal(), "opened");
+  const std::string message = read(20);
+  EXPECT_TRUE(has(message, "STREAM_START_TIME_STAMP is 0, of another stream")) << message;
+}
+
+// LabJack's ljm_constants.json: STREAM_START_TIME_STAMP from 1.0214, STREAM_AUTORECOVER_DISABLE
+// from 1.026 on.
+TEST_F(LabjackT7Driver, FirmwareThatLacksWhatIsNeededIsRefused) {
+  for (const auto& [firmware, says] : {std::pair{1.0188F, "1.0188 lacks the time stamp"},
+                                       {1.0213F, "(1.0214)"},
+                                       {1.0214F, "1.0214 lacks streams that recover (1.026)"},
+                                       {1.0259F, "(1.026)"},
+                                       {1.026F, "opened"}}) {
+    made.reset();
+    served.reset();
+    Device::Options options;
+    options.firmware = firmware;
+    serve({}, options);
+    const std::string message = refusal();
+    EXPECT_TRUE(has(message, says)) << message;
+  }
+}
+
+TEST_F(LabjackT7Driver, AT7ProIsRefusedOverItsWifi) {
+  for (const auto& [hardware, wifi_ip, says] :
+       {std::tuple{3U, 0x7F000001U, "over which a T7-Pro cannot stream"},
+        {3U, 0xC0A80105U, "opened"},     // connected by cable
+        {3U, 0U, "opened"},              // its WiFi is off
+        {1U, 0x7F000001U, "opened"}}) {  // it has none
+    made.reset();
+    served.reset();
+    Device::Options options;
+    options.hardware = hardware;
+    options.wifi_ip = wifi_ip;
+    serve({}, options);
+    const std::string message = refusal();
+    EXPECT_TRUE(has(message, says)) << message;
+  }
 }
 
 TEST_F(LabjackT7Driver, ErasedConstantsAreRefused) {

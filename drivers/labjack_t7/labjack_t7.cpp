@@ -28,11 +28,21 @@ std::size_t words_per_scan(const Settings& settings) {
   return scan_list(settings.inputs).size();
 }
 
-std::string describe(const Identity& id, const Endpoint& at) {
+// The counter's; none: nothing counts.
+const Input* counter_of(const Settings& settings) {
+  const auto at = std::find_if(settings.inputs.begin(), settings.inputs.end(),
+                               [](const Input& input) { return input.ain < 0; });
+  return at == settings.inputs.end() ? nullptr : &*at;
+}
+
+std::string describe(const Identity& id, const Settings& settings) {
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(), "LabJack T7 %u, firmware %.4f, at ", id.serial,
                 static_cast<double>(id.firmware));
-  return text.data() + at.text();
+  const Input* counter = counter_of(settings);
+  const std::string speed =
+      counter ? labjack::speed_text(counter->most_counts_per_s, counter->um_per_count) : "";
+  return text.data() + settings.command.text() + (speed.empty() ? "" : ", " + speed);
 }
 
 }  // namespace
@@ -45,6 +55,8 @@ LabjackT7::LabjackT7(Settings settings)
       clock_(1e9 / kCore_Hz),
       buffer_(1 << 14) {
   for (const Input& input : settings_.inputs) channels_.push_back(input.channel);
+  if (const Input* counter = counter_of(settings_))
+    guard_ = labjack::CountGuard(counter->most_counts_per_s);
 }
 
 LabjackT7::~LabjackT7() {
@@ -52,8 +64,10 @@ LabjackT7::~LabjackT7() {
 }
 
 DeviceInfo LabjackT7::info() const {
-  return {settings_.name, "labjack_t7", description_,   channels_,
-          rate_hz_,       false,        clock_.state(), zero_lost_ ? kZeroLost : ""};
+  return {settings_.name, "labjack_t7",
+          description_,   channels_,
+          rate_hz_,       false,
+          clock_.state(), zero_lost_ ? kZeroLost : guard_.sure() ? "" : labjack::kCountsLost};
 }
 
 std::string LabjackT7::place() const {
@@ -80,21 +94,20 @@ void LabjackT7::close() {
   handed_out_ = 0;
   broken_ = {};
   clock_.reset();
+  guard_.interrupt();
+  start_ticks_.reset();
   reopened_ = last_time_ns_ != 0;
 }
 
 Status LabjackT7::start() {
   MDOF_TRY(registers_, Registers::connect(settings_.command));
   MDOF_TRY(const Identity identity, identify(*registers_, settings_));
-  description_ = describe(identity, settings_.command);
+  description_ = describe(identity, settings_);
   MDOF_CHECK(stop_stream(*registers_));
   MDOF_TRY(calibration_, set_up_ains(*registers_, settings_.range_v));
-  const bool counts = std::any_of(settings_.inputs.begin(), settings_.inputs.end(),
-                                  [](const Input& input) { return input.ain < 0; });
-  if (counts) {
+  if (counter_of(settings_)) {
     MDOF_TRY(const bool went_on, start_counter(*registers_));
     zero_lost_ = zero_lost_ || (counted_ && !went_on);
-  start_ticks_.reset();
     counted_ = true;
     if (!went_on) count_.reset();
   }
@@ -117,18 +130,6 @@ Status LabjackT7::start_clock() {
   return {};
 }
 
-Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
-  start_block(block, settings_.name, channels_);
-  if (!stream_) return io_error(place() + " is not open; open it before reading");
-  if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
-  hand_out(block);
-  return ReadState::more;
-}
-
-// What came before an error is handed out first.
-Status LabjackT7::next_scans(milliseconds timeout) {
-  scans_.clear();
-  handed_out_ = 0;
 // The first scan begins a period after STREAM_ENABLE, which took no longer than a reply may.
 Status LabjackT7::take_start() {
   MDOF_TRY(const std::uint32_t stamp, registers_->u32(reg::stream_start_time));
@@ -141,6 +142,18 @@ Status LabjackT7::take_start() {
   return {};
 }
 
+Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
+  start_block(block, settings_.name, channels_);
+  if (!stream_) return io_error(place() + " is not open; open it before reading");
+  if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
+  hand_out(block);
+  return ReadState::more;
+}
+
+// What came before an error is handed out first.
+Status LabjackT7::next_scans(milliseconds timeout) {
+  scans_.clear();
+  handed_out_ = 0;
   if (!broken_) return broken_;
   auto received = receive(timeout);
   if (received) return {};
@@ -173,6 +186,7 @@ Status LabjackT7::take_packets(std::int64_t received_ns) {
     if (!complete) return {};
     last_packet_ns_ = received_ns;
     const std::size_t before = scans_.size();
+    if (!start_ticks_) MDOF_CHECK(take_start());
     MDOF_CHECK(line_.take(packet, scans_));
     if (scans_.size() > before) clock_.add(ticks_of(scans_.back().index), received_ns);
   }
@@ -185,7 +199,6 @@ std::int64_t LabjackT7::ticks_of(std::uint64_t scan) const {
 // A block ends before lost scans; they stand before the next one.
 void LabjackT7::hand_out(SampleBlock& block) {
   reserve_scans(block, scans_.size() - handed_out_);
-    if (!start_ticks_) MDOF_CHECK(take_start());
   while (handed_out_ < scans_.size()) {
     const Scan& scan = scans_[handed_out_];
     if (scan.lost > 0 && block.scans() > 0) return;
@@ -206,7 +219,8 @@ void LabjackT7::append(SampleBlock& block, const Scan& scan) {
     if (settings_.inputs[c].ain >= 0) {
       append_ain(block, c, first);
     } else {
-      append_count(block, c, u32_of(scan.words[word++], first));
+      append_count(block, c, u32_of(scan.words[word++], first),
+                   static_cast<double>(scan.index) / rate_hz_);
     }
   }
 }
@@ -216,10 +230,13 @@ void LabjackT7::append_ain(SampleBlock& block, std::size_t channel, std::uint16_
   block.quality[channel].push_back(labjack::at_rail(raw) ? Quality::over_range : Quality::good);
 }
 
-void LabjackT7::append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw) {
-  const auto count = static_cast<double>(count_(raw));
-  block.value[channel].push_back(count * settings_.inputs[channel].um_per_count);
-  block.quality[channel].push_back(zero_lost_ ? Quality::suspect : Quality::good);
+void LabjackT7::append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw,
+                             double time_s) {
+  const std::int64_t count = count_(raw);
+  const bool sure = guard_.take(count, time_s) && !zero_lost_;
+  block.value[channel].push_back(static_cast<double>(count) *
+                                 settings_.inputs[channel].um_per_count);
+  block.quality[channel].push_back(sure ? Quality::good : Quality::suspect);
 }
 
 // Scans that would have come since the last one.

@@ -18,6 +18,7 @@
 #include "drivers/clock/device_clock.h"
 #include "drivers/driver.h"
 #include "drivers/io/byte_stream.h"
+#include "drivers/labjack/count_guard.h"
 #include "drivers/labjack_t7/registers.h"
 #include "drivers/labjack_t7/settings.h"
 #include "drivers/unwrap.h"
@@ -27,8 +28,8 @@ namespace mdof::drivers::labjack_t7 {
 // Thread-bound. Channels: Unit::volt of an AIN, Unit::um of the counter.
 //
 // The counter is left running over a re-open, so its zero stays. If it had stopped (the T7 lost
-// power) its zero is lost: from then on its values are Quality::suspect, for the life of this
-// object.
+// power), or went faster than it can count, its zero is lost: from then on its values are
+// Quality::suspect, for the life of this object.
 class LabjackT7 final : public Driver {
  public:
   explicit LabjackT7(Settings settings);
@@ -42,15 +43,15 @@ class LabjackT7 final : public Driver {
   void close();
   Status start();
   Status start_clock();
-  Status next_scans(std::chrono::milliseconds timeout);
   Status take_start();
+  Status next_scans(std::chrono::milliseconds timeout);
   Status receive(std::chrono::milliseconds timeout);
   Status take_packets(std::int64_t received_ns);
   std::int64_t ticks_of(std::uint64_t scan) const;
   void hand_out(SampleBlock& block);
   void append(SampleBlock& block, const Scan& scan);
   void append_ain(SampleBlock& block, std::size_t channel, std::uint16_t raw) const;
-  void append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw);
+  void append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw, double time_s);
   std::uint64_t lost_while_closed(std::int64_t time_ns) const;
   std::string place() const;
 
@@ -77,6 +78,7 @@ class LabjackT7 final : public Driver {
   Unwrap count_{32, true};
   bool counted_ = false;           // the counter has been used since this object was made
   bool zero_lost_ = false;         // of the counter
+  labjack::CountGuard guard_;      // of the counter
   std::int64_t last_time_ns_ = 0;  // of the last scan handed out
   bool reopened_ = false;          // since then
 };

@@ -13,8 +13,9 @@ namespace mdof::drivers::labjack_t7 {
 
 struct Input {
   Channel channel;
-  int ain = -1;             // -1: the quadrature counter of DIO0 and DIO1
-  double um_per_count = 0;  // of the counter
+  int ain = -1;                  // -1: the quadrature counter of DIO0 and DIO1
+  double um_per_count = 0;       // of the counter
+  double most_counts_per_s = 0;  // of the counter, without losing any; 0: not watched
 };
 
 struct Settings {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "drivers/channels.h"
+#include "drivers/labjack/count_guard.h"
 #include "drivers/labjack_u6/labjack_u6.h"
 
 namespace mdof::drivers {
@@ -13,6 +14,8 @@ using namespace labjack_u6;
 
 constexpr const char* kCounter = "FIO0";
 constexpr double kMostSamples_Hz = 50'000;  // of all inputs
+// Its firmware serves each edge: LabJack's manual of the U3, of the same kind, section 2.9.2.
+constexpr double kMostCounts_per_s = 30'000;
 constexpr int kMostResolution = 8, kMostSettling_us = 2550;
 
 void read_serial(TomlTable& table, Settings& settings) {
@@ -54,12 +57,13 @@ std::vector<std::string> known_inputs() {
   return names;
 }
 
-Result<Input> input_of(const ChannelInput& channel) {
+Result<Input> input_of(const ChannelInput& channel, double most_counts_per_s) {
   Input input;
   if (channel.input == kCounter) {
     MDOF_CHECK(check_um_per_count(channel));
     input.channel = {channel.id, Unit::um};
     input.um_per_count = channel.um_per_count;
+    input.most_counts_per_s = most_counts_per_s > 0 ? most_counts_per_s : kMostCounts_per_s;
     return input;
   }
   const std::vector<std::string> known = known_inputs();
@@ -67,10 +71,10 @@ Result<Input> input_of(const ChannelInput& channel) {
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.id == kEncoderChannel)
     return bad_input(channel.where + ": an encoder is counted, by input \"" + kCounter + "\"");
-  if (channel.um_per_count != 0)
+  if (channel.um_per_count != 0 || most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " gives volts and counts nothing; take um_per_count away (the rig has "
-                     "um_per_V)");
+                     " gives volts and counts nothing; take um_per_count and most_counts_per_s "
+                     "away (the rig has um_per_V)");
   input.channel = {channel.id, Unit::volt};
   input.ain = static_cast<int>(at - known.begin());
   return input;
@@ -78,9 +82,12 @@ Result<Input> input_of(const ChannelInput& channel) {
 
 Result<std::vector<Input>> read_inputs(TomlTable& table, const DriverContext& context) {
   std::vector<Input> inputs;
-  MDOF_TRY(const auto channels, read_channels(table, context.rig));
-  for (const ChannelInput& channel : channels) {
-    MDOF_TRY(const Input input, input_of(channel));
+  std::vector<double> most;
+  MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
+             most.push_back(labjack::read_most_counts_per_s(channel));
+           }));
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    MDOF_TRY(const Input input, input_of(channels[i], most[i]));
     inputs.push_back(input);
   }
   const bool analogue =

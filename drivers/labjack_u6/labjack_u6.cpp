@@ -26,6 +26,19 @@ Result<std::string> ask_serial(usb::Handle& handle) {
   return std::to_string(identity.serial);
 }
 
+// The counter's; none: nothing counts.
+const Input* counter_of(const Settings& settings) {
+  const auto at = std::find_if(settings.inputs.begin(), settings.inputs.end(), counts);
+  return at == settings.inputs.end() ? nullptr : &*at;
+}
+
+std::string speed_of(const Settings& settings) {
+  const Input* counter = counter_of(settings);
+  const std::string speed =
+      counter ? labjack::speed_text(counter->most_counts_per_s, counter->um_per_count) : "";
+  return speed.empty() ? "" : ", " + speed;
+}
+
 std::string describe(const Identity& id, const std::string& where) {
   return std::string("LabJack U6") + (id.pro ? "-Pro " : " ") + std::to_string(id.serial) +
          ", firmware " + std::to_string(id.firmware_major) + "." +
@@ -44,6 +57,8 @@ LabjackU6::LabjackU6(Settings settings)
       line_(list_.size()),
       clock_(1e9 / scan_clock_.rate_hz) {
   for (const Input& input : settings_.inputs) channels_.push_back(input.channel);
+  if (const Input* counter = counter_of(settings_))
+    guard_ = labjack::CountGuard(counter->most_counts_per_s);
 }
 
 LabjackU6::~LabjackU6() {
@@ -51,8 +66,10 @@ LabjackU6::~LabjackU6() {
 }
 
 DeviceInfo LabjackU6::info() const {
-  return {settings_.name,      "labjack_u6", description_,   channels_,
-          scan_clock_.rate_hz, false,        clock_.state(), zero_lost_ ? kZeroLost : ""};
+  return {settings_.name,      "labjack_u6",
+          description_,        channels_,
+          scan_clock_.rate_hz, false,
+          clock_.state(),      zero_lost_ ? kZeroLost : guard_.sure() ? "" : labjack::kCountsLost};
 }
 
 std::string LabjackU6::place() const {
@@ -79,6 +96,7 @@ void LabjackU6::close() {
   handed_out_ = 0;
   broken_ = {};
   clock_.reset();
+  guard_.interrupt();
   reopened_ = last_time_ns_ != 0;
 }
 
@@ -86,7 +104,7 @@ Status LabjackU6::start() {
   MDOF_TRY(handle_,
            usb::Handle::open({"LabJack U6", kVendor, kProduct, settings_.serial, 0, ask_serial}));
   MDOF_TRY(const Identity identity, identify(*handle_));
-  description_ = describe(identity, handle_->where());
+  description_ = describe(identity, handle_->where()) + speed_of(settings_);
   MDOF_CHECK(stop_stream(*handle_));
   MDOF_TRY(calibration_, read_ain_calibration(*handle_, settings_.gain));
   MDOF_CHECK(take_up_counter());
@@ -104,7 +122,7 @@ Status LabjackU6::start() {
 // What another program has left the timers doing cannot be read: only a counter of this object's is
 // known to count.
 Status LabjackU6::take_up_counter() {
-  if (std::none_of(settings_.inputs.begin(), settings_.inputs.end(), counts)) return {};
+  if (!counter_of(settings_)) return {};
   if (counted_) {
     MDOF_TRY(const bool runs, counter_runs(*handle_));
     if (runs) return {};
@@ -196,8 +214,11 @@ void LabjackU6::append(SampleBlock& block, const Scan& scan) {
       continue;
     }
     const auto raw = static_cast<std::uint32_t>(scan.words[word++]) << 16 | first;
-    block.value[c].push_back(static_cast<double>(count_(raw)) * settings_.inputs[c].um_per_count);
-    block.quality[c].push_back(zero_lost_ ? Quality::suspect : Quality::good);
+    const std::int64_t count = count_(raw);
+    const bool sure =
+        guard_.take(count, static_cast<double>(scan.index) / scan_clock_.rate_hz) && !zero_lost_;
+    block.value[c].push_back(static_cast<double>(count) * settings_.inputs[c].um_per_count);
+    block.quality[c].push_back(sure ? Quality::good : Quality::suspect);
   }
 }
 

@@ -13,6 +13,7 @@
 
 #include "drivers/clock/device_clock.h"
 #include "drivers/driver.h"
+#include "drivers/labjack/count_guard.h"
 #include "drivers/labjack_u6/settings.h"
 #include "drivers/unwrap.h"
 
@@ -21,8 +22,9 @@ namespace mdof::drivers::labjack_u6 {
 // Thread-bound. Channels: Unit::volt of an AIN, Unit::um of the counter.
 //
 // The counter is started, from 0, when this object opens the device for the first time and left
-// running over a re-open. If it had stopped (the U6 was unplugged) its zero is lost: from then on
-// its values are Quality::suspect, for the life of this object.
+// running over a re-open. If it had stopped (the U6 was unplugged), or went faster than it can
+// count, its zero is lost: from then on its values are Quality::suspect, for the life of this
+// object.
 class LabjackU6 final : public Driver {
  public:
   explicit LabjackU6(Settings settings);
@@ -65,6 +67,7 @@ class LabjackU6 final : public Driver {
   Unwrap count_{32, true};
   bool counted_ = false;           // the counter was started by this object
   bool zero_lost_ = false;         // of the counter
+  labjack::CountGuard guard_;      // of the counter
   std::int64_t last_time_ns_ = 0;  // of the last scan handed out
   bool reopened_ = false;          // since then
 };

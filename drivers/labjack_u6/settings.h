@@ -13,8 +13,9 @@ namespace mdof::drivers::labjack_u6 {
 
 struct Input {
   Channel channel;
-  int ain = -1;             // -1: the quadrature counter of FIO0 and FIO1
-  double um_per_count = 0;  // of the counter
+  int ain = -1;                  // -1: the quadrature counter of FIO0 and FIO1
+  double um_per_count = 0;       // of the counter
+  double most_counts_per_s = 0;  // of the counter, without losing any; 0: not watched
 };
 
 struct Settings {

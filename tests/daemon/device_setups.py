@@ -60,6 +60,7 @@ def channels(**inputs):
     return "channel = [" + ", ".join(rows) + "]\n"
 
 
+FAST = "most_counts_per_s = 1e9"  # simulated counters lose nothing, and this machine is quick
 AINS = {channel: f"AIN{i}" for i, channel in enumerate("ABCDE")}
 T7_PLAN = """
 [[device]]
@@ -111,10 +112,10 @@ name = "capa-2"
 address = "{capa-2 command}"
 data_port = {capa-2 data port}
 sample_time_us = 960
-""" + channels(C="2") + T7 + channels(encoder=("DIO0", "um_per_count = 0.01"), D="AIN0", E="AIN1"),
+""" + channels(C="2") + T7 + channels(encoder=("DIO0", "um_per_count = 0.01", FAST), D="AIN0", E="AIN1"),
                       straightness_um=0.03, angle_urad=2),
     "labjack_t7": Setup("rig_volts_X.toml", T7_PLAN, T7 + channels(
-        encoder=("DIO0", "um_per_count = 0.01"), **AINS), straightness_um=0.03, angle_urad=2),
+        encoder=("DIO0", "um_per_count = 0.01", FAST), **AINS), straightness_um=0.03, angle_urad=2),
     "csv_stream": Setup("rig_X.toml", """
 [[device]]
 name = "script"
@@ -206,7 +207,7 @@ um_per_count = 0.1
 driver = "labjack_u6"
 name = "u6"
 rate_hz = 100
-""" + channels(encoder=("FIO0", "um_per_count = 0.1"), **AINS), straightness_um=0.03, angle_urad=3,
+""" + channels(encoder=("FIO0", "um_per_count = 0.1", FAST), **AINS), straightness_um=0.03, angle_urad=3,
         dwell_s=1, speed_mm_s=20, usb=True),
     "mcc_usb1608fs_plus": Setup("rig_volts_X.toml", """
 [[device]]

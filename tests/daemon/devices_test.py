@@ -92,6 +92,7 @@ rate_hz = 4000
 id = "encoder"
 input = "DIO0"
 um_per_count = 0.01
+most_counts_per_s = 1e9
 [[axis.device.channel]]
 id = "D"
 input = "AIN0"

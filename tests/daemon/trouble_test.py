@@ -52,7 +52,7 @@ name = "t7"
 address = "127.0.0.1:{ports[0]}"
 stream_port = {ports[1]}
 rate_hz = 1000
-channel = [{{ id = "encoder", input = "DIO0", um_per_count = 0.01 }}, {{ id = "A", input = "AIN0" }},
+channel = [{{ id = "encoder", input = "DIO0", um_per_count = 0.01, most_counts_per_s = 1e9 }}, {{ id = "A", input = "AIN0" }},
   {{ id = "B", input = "AIN1" }}, {{ id = "C", input = "AIN2" }}, {{ id = "D", input = "AIN3" }},
   {{ id = "E", input = "AIN4" }}]
 """

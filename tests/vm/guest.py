@@ -155,7 +155,7 @@ driver = "labjack_u6"
 name = "u6"
 rate_hz = 500
 channel = [{ id = "D", input = "AIN0" }, { id = "E", input = "AIN1" },
-           { id = "encoder", input = "FIO0", um_per_count = 0.5 }]
+           { id = "encoder", input = "FIO0", um_per_count = 0.5, most_counts_per_s = 1e9 }]
 """
 MCC = """
 [[device]]

@@ -87,6 +87,20 @@ TEST(LabjackT7Configure, EveryKeyIsRead) {
   EXPECT_EQ(s->serial, 470012345U);
 }
 
+TEST(LabjackT7Configure, TheCounterHasAGreatestSpeed) {
+  const auto most = [](const std::string& more) {
+    const auto s = settings("address = \"t7\"\n" + std::string(kChannels) + more);
+    EXPECT_TRUE(s) << s.error().message;
+    return s->inputs[2].most_counts_per_s;
+  };
+  EXPECT_EQ(most(""), 70'000);
+  EXPECT_EQ(most("most_counts_per_s = 100000\n"), 100'000);
+  EXPECT_TRUE(has(refusal("address = \"t7\"\n", std::string(kChannels) + "most_counts_per_s = 0\n"),
+                  "most_counts_per_s: must be more than 0"));
+  EXPECT_TRUE(
+      has(with_channel("id = \"A\"\ninput = \"AIN0\"\nmost_counts_per_s = 5\n"), "counts nothing"));
+}
+
 TEST(LabjackT7Configure, ThePacketIsQuickAtEveryRate) {
   EXPECT_EQ(labjack_t7::quick_packet(4000, 7), 112U);  // 16 scans, 4 ms
   EXPECT_EQ(labjack_t7::quick_packet(10, 7), 7U);

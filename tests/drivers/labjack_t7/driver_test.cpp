@@ -345,6 +345,25 @@ TEST_F(LabjackT7Driver, ACountThatWasRestartedIsSuspect) {
   EXPECT_TRUE(has(driver().info().datum_lost, "counts from 0 again"));
 }
 
+// The counter goes 1,000,000 counts a second.
+TEST_F(LabjackT7Driver, ACountFasterThanItCanCountIsSuspectFromThenOn) {
+  serve({});
+  settings.inputs[3].most_counts_per_s = 2e6;
+  ASSERT_EQ(refusal(), "opened");
+  ASSERT_EQ(read(200), "");
+  EXPECT_EQ(quality[3].back(), Quality::good);
+  EXPECT_EQ(driver().info().datum_lost, "");
+  made.reset();
+  settings.inputs[3].most_counts_per_s = 70'000;
+  ASSERT_EQ(refusal(), "opened");
+  EXPECT_TRUE(has(driver().info().description, ", counts to 35 mm/s"))
+      << driver().info().description;
+  ASSERT_EQ(read(400), "");
+  EXPECT_EQ(quality[3].back(), Quality::suspect);
+  EXPECT_EQ(quality[0].back(), Quality::good);
+  EXPECT_TRUE(has(driver().info().datum_lost, "counts may be lost"));
+}
+
 TEST_F(LabjackT7Driver, NobodyThereIsAnErrorWithTheAddress) {
   serve({});
   served.reset();

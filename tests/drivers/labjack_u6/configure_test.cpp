@@ -80,6 +80,12 @@ TEST(LabjackU6Configure, BadInputsAreRefused) {
   EXPECT_TRUE(has(refusal("", channel("C", "AIN0")), "C"));
 }
 
+TEST(LabjackU6Configure, TheCounterHasAGreatestSpeed) {
+  EXPECT_EQ(read("", kChannels)->inputs[1].most_counts_per_s, 30'000);
+  EXPECT_EQ(read("", kChannels + "most_counts_per_s = 5e4\n")->inputs[1].most_counts_per_s, 5e4);
+  EXPECT_TRUE(has(refusal("", kChannels + "most_counts_per_s = 0\n"), "must be more than 0"));
+}
+
 TEST(LabjackU6Settings, PacketsAndTransfersFollowTheRate) {
   EXPECT_EQ(labjack_u6::samples_per_packet(50'000), 25);
   EXPECT_EQ(labjack_u6::samples_per_packet(700), 14);

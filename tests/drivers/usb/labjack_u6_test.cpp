@@ -51,7 +51,7 @@ class UsbLabjackU6 : public testing::Test {
       settings.inputs = {{{"A", Unit::volt}, 0, 0},
                          {{"B", Unit::volt}, 1, 0},
                          {{"C", Unit::volt}, 2, 0},
-                         {{"encoder", Unit::um}, -1, -0.5}};
+                         {{"encoder", Unit::um}, -1, -0.5, most_counts_per_s}};
       made = std::make_unique<LabjackU6>(settings);
     }
     return *made;
@@ -67,7 +67,7 @@ class UsbLabjackU6 : public testing::Test {
   Truth truth;
   std::unique_ptr<Device> device;
   std::string serial;
-  double rate_hz = kRate_Hz;
+  double rate_hz = kRate_Hz, most_counts_per_s = 0;
   int number = 0;
   usb::Bus bus;
   std::unique_ptr<LabjackU6> made;
@@ -94,6 +94,19 @@ TEST_F(UsbLabjackU6, GivesVoltsAndMicrometresAtTheirTimes) {
     ASSERT_EQ(all.quality[i][1], Quality::over_range);
     ASSERT_EQ(all.quality[i][3], Quality::good);
   }
+}
+
+// The counter goes 1,000,000 counts a second.
+TEST_F(UsbLabjackU6, ACountFasterThanItCanCountIsSuspectFromThenOn) {
+  most_counts_per_s = 30'000;
+  plug();
+  ASSERT_EQ(refusal(), "opened");
+  EXPECT_TRUE(has(driver().info().description, ", counts to 15 mm/s"));
+  const Collected all = collect(driver(), 100);
+  ASSERT_EQ(all.error, "");
+  EXPECT_EQ(all.quality.back()[3], Quality::suspect);
+  EXPECT_EQ(all.quality.back()[0], Quality::good);
+  EXPECT_TRUE(has(driver().info().datum_lost, "counts may be lost"));
 }
 
 TEST_F(UsbLabjackU6, ReadReturnsInTimeWithNothing) {

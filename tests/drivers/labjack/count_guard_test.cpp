@@ -1,0 +1,63 @@
+#include "drivers/labjack/count_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mdof::drivers::labjack {
+namespace {
+
+constexpr double kMost = 30'000;
+
+// At this speed from `from_s` on: when the guard stops being sure, else nothing before 2 s.
+double told_s(double counts_per_s, double scans_hz, double from_s = 0.5) {
+  CountGuard guard(kMost);
+  for (int scan = 0; scan < 2 * scans_hz; ++scan) {
+    const double t_s = scan / scans_hz;
+    const double at = counts_per_s * std::max(0.0, t_s - from_s);
+    if (!guard.take(std::llround(at), t_s)) return t_s - from_s;
+  }
+  return INFINITY;
+}
+
+TEST(LabjackCountGuard, IsSureBelowAndTellsWithinTwentyMillisecondsAbove) {
+  for (const double scans_hz : {50.0, 100.0, 1000.0, 4000.0, 7142.0}) {
+    for (const double way : {1.0, -1.0}) {
+      EXPECT_EQ(told_s(way * kMost * 0.99, scans_hz), INFINITY) << scans_hz;
+      EXPECT_LE(told_s(way * kMost * 1.1, scans_hz), 0.0201 + 1 / scans_hz) << scans_hz;
+    }
+  }
+}
+
+// The counter itself gives no more than it can count: the axis moves on, the count lags.
+TEST(LabjackCountGuard, AJumpIsToldAtOnceAndForGood) {
+  CountGuard guard(kMost);
+  EXPECT_TRUE(guard.take(0, 0));
+  EXPECT_FALSE(guard.take(400, 1e-3));
+  EXPECT_FALSE(guard.take(400, 10));
+  guard.interrupt();
+  EXPECT_FALSE(guard.take(400, 0));
+}
+
+TEST(LabjackCountGuard, WhatLiesBetweenTwoStreamsIsNoMotion) {
+  CountGuard guard(kMost);
+  EXPECT_TRUE(guard.take(0, 5));
+  guard.interrupt();
+  EXPECT_TRUE(guard.take(1'000'000, 0));
+  EXPECT_TRUE(guard.take(1'000'010, 1e-3));
+}
+
+TEST(LabjackCountGuard, WithoutALimitNothingIsWatched) {
+  CountGuard guard;
+  EXPECT_TRUE(guard.take(0, 0));
+  EXPECT_TRUE(guard.take(1'000'000'000, 1e-3));
+}
+
+TEST(LabjackCountGuard, SaysTheSpeedThatTheResolutionAllows) {
+  EXPECT_EQ(speed_text(30'000, -0.05), "counts to 1.5 mm/s");
+  EXPECT_EQ(speed_text(70'000, 1), "counts to 70 mm/s");
+  EXPECT_EQ(speed_text(0, 0.05), "");
+}
+
+}  // namespace
+}  // namespace mdof::drivers::labjack

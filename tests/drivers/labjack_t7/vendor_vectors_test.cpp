@@ -1,0 +1,81 @@
+// LabJack's register map for LJM against this driver and its simulated device:
+// labjack/ljm_constants, LabJack/LJM/ljm_constants.json, "registers" (name, address, type,
+// default).
+#include <gtest/gtest.h>
+
+#include "drivers/labjack_t7/device.h"
+#include "tests/drivers/vendor_vector.h"
+
+namespace mdof::drivers::labjack_t7 {
+namespace {
+
+using modbus::bytes;
+
+constexpr const char* kMap = "labjack/ljm_constants, LabJack/LJM/ljm_constants.json, registers";
+
+class LabjackT7Vectors : public testing::Test {
+ protected:
+  std::string ask(const char* hex) { return device.exchange(0, 1, bytes(hex), 0); }
+  Device device{[](std::size_t, std::int64_t) { return 0; }, {}};
+};
+
+TEST_F(LabjackT7Vectors, AddressesAreThoseOfLabjacksMap) {
+  struct Row {
+    Register is;
+    const char* name;
+    int address;
+  };
+  const Row rows[] = {
+      {reg::ain + 2 * 13, "AIN13", 26},
+      {reg::dio_ef_read_a, "DIO0_EF_READ_A", 3000},
+      {reg::capture_16, "STREAM_DATA_CAPTURE_16", 4899},
+      {reg::stream_rate, "STREAM_SCANRATE_HZ", 4002},
+      {reg::stream_addresses, "STREAM_NUM_ADDRESSES", 4004},
+      {reg::stream_samples, "STREAM_SAMPLES_PER_PACKET", 4006},
+      {reg::stream_settling, "STREAM_SETTLING_US", 4008},
+      {reg::stream_resolution, "STREAM_RESOLUTION_INDEX", 4010},
+      {reg::stream_buffer, "STREAM_BUFFER_SIZE_BYTES", 4012},
+      {reg::stream_clock_source, "STREAM_CLOCK_SOURCE", 4014},
+      {reg::stream_target, "STREAM_AUTO_TARGET", 4016},
+      {reg::stream_scans, "STREAM_NUM_SCANS", 4020},
+      {reg::stream_start_time, "STREAM_START_TIME_STAMP", 4026},
+      {reg::stream_no_recovery, "STREAM_AUTORECOVER_DISABLE", 4028},
+      {reg::stream_scan_list, "STREAM_SCANLIST_ADDRESS0", 4100},
+      {reg::stream_enable, "STREAM_ENABLE", 4990},
+      {reg::ain_all_range, "AIN_ALL_RANGE", 43900},
+      {reg::ain_all_negative_ch, "AIN_ALL_NEGATIVE_CH", 43902},
+      {reg::dio_ef_enable, "DIO0_EF_ENABLE", 44000},
+      {reg::dio_ef_index, "DIO0_EF_INDEX", 44100},
+      {reg::wifi_ip, "WIFI_IP", 49200},
+      {reg::last_error, "LAST_ERR_DETAIL", 55000},
+      {reg::test, "TEST", 55100},
+      {reg::product_id, "PRODUCT_ID", 60000},
+      {reg::firmware, "FIRMWARE_VERSION", 60004},
+      {reg::hardware_installed, "HARDWARE_INSTALLED", 60010},
+      {reg::serial, "SERIAL_NUMBER", 60028},
+      {reg::core_timer, "CORE_TIMER", 61520},
+      {reg::flash_pointer, "INTERNAL_FLASH_READ_POINTER", 61810},
+      {reg::flash_read, "INTERNAL_FLASH_READ", 61812},
+  };
+  for (const Row& row : rows) EXPECT_EQ(row.is.address, row.address) << row.name << ": " << kMap;
+}
+
+TEST_F(LabjackT7Vectors, TheSimulatedOneReadsAsTheMapSays) {
+  const VendorVector vectors[] = {
+      {"TEST is 0x00112233", "00 02 00 00 00 06 01 03 D7 3C 00 02",
+       "00 02 00 00 00 07 01 03 04 00 11 22 33", kMap},
+      {"PRODUCT_ID is the float 7", "00 03 00 00 00 06 01 03 EA 60 00 02",
+       "00 03 00 00 00 07 01 03 04 40 E0 00 00", kMap},
+      {"STREAM_START_TIME_STAMP is 0 before the first scan", "00 04 00 00 00 06 01 03 0F BA 00 02",
+       "00 04 00 00 00 07 01 03 04 00 00 00 00", kMap},
+      {"LAST_ERR_DETAIL is one register", "00 05 00 00 00 06 01 03 D6 D8 00 01",
+       "00 05 00 00 00 05 01 03 02 00 00", kMap},
+      {"AIN0 is a float", "00 06 00 00 00 06 01 03 00 00 00 02",
+       "00 06 00 00 00 07 01 03 04 00 00 00 00", kMap},
+  };
+  for (const VendorVector& vector : vectors)
+    EXPECT_EQ(mismatch(ask(vector.request), vector.reply), "") << vector;
+}
+
+}  // namespace
+}  // namespace mdof::drivers::labjack_t7

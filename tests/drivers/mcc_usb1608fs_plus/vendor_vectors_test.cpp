@@ -1,0 +1,58 @@
+// What Measurement Computing's own driver sends and reads: mccdaq/uldaq.
+#include <gtest/gtest.h>
+
+#include "drivers/mcc_usb1608fs_plus/device.h"
+#include "tests/drivers/vendor_vector.h"
+
+namespace mdof::drivers::mcc_usb1608fs_plus {
+namespace {
+
+using modbus::bytes;
+
+class Usb1608Vectors : public testing::Test {
+ protected:
+  usb::Answer tell(std::uint8_t request, const std::string& out) {
+    return device.control({0x40, request, 0, 0, static_cast<std::uint16_t>(out.size())}, out, 0)
+        .answer;
+  }
+  std::string ask(std::uint8_t request, std::uint16_t value, std::uint16_t length) {
+    return device.control({0xC0, request, value, 0, length}, "", 0).bytes;
+  }
+  Device device{[](std::size_t input, std::int64_t) { return input == 2 ? 5.0 : -10.0; }, {}};
+};
+
+// src/usb/Usb1608fsPlus.cpp: setScanRunningBitMask 0x0002, setOverrunBitMask 0x0004; the request is
+// 0x44 (src/usb/UsbDaqDevice.cpp, CMD_STATUS_KEY).
+TEST_F(Usb1608Vectors, TheStatusBitsAreTheVendors) {
+  EXPECT_EQ(mismatch(ask(0x44, 0, 2), "00 00"), "");
+  // src/usb/ai/AiUsb1608fsPlus.h, TAINSCAN_CFG: scan_count, pacer_period (u32), chan_mask, options;
+  // 40 MHz / 1 kHz - 1; getOptionsCode: 0x80, do not stall. CMD_AINSCAN_START is 0x11.
+  EXPECT_EQ(tell(0x11, bytes("00 00 00 00 3F 9C 00 00 07 80")), usb::Answer::done);
+  EXPECT_EQ(mismatch(ask(0x44, 0, 2), "02 00"), "");
+  EXPECT_EQ(tell(0x12, ""), usb::Answer::done);  // CMD_AINSTOP
+  EXPECT_EQ(mismatch(ask(0x44, 0, 2), "00 00"), "");
+}
+
+// CMD_AINSCAN_CONFIG 0x14, a range code for each input (mapRangeCode: 0, 1, 3, 5 for 10, 5, 2, 1
+// V); samples are 16 bits, little-endian, lowest channel first (processScanData16), on endpoint
+// 0x81.
+TEST_F(Usb1608Vectors, SamplesComeAsTheVendorReadsThem) {
+  EXPECT_EQ(tell(0x14, bytes("00 00 00 00 00 00 00 00")), usb::Answer::done);
+  EXPECT_EQ(tell(0x11, bytes("00 00 00 00 3F 9C 00 00 06 81")), usb::Answer::done);
+  const std::string samples = device.in(0x81, 64, 1'500'000).bytes;
+  EXPECT_EQ(mismatch(samples, "00 00 00 C0"), "");
+}
+
+// src/usb/ai/AiUsb1608fsPlus.cpp, getCalCoefIndex: 8 inputs x the range's code + input, a slope and
+// an offset, each a float; the memory is read by request 0x30 (CMD_MEM_CAL_KEY), the address its
+// value.
+TEST_F(Usb1608Vectors, TheConstantsAreWhereTheVendorReadsThem) {
+  EXPECT_EQ(calibration_address(0, 0), 0);
+  EXPECT_EQ(calibration_address(5, 3), 8 * (8 * 5 + 3));
+  EXPECT_EQ(mismatch(ask(0x30, 8 * (8 * 3 + 1), 8), "00 00 80 3F 00 00 00 00"), "");
+  EXPECT_EQ(device.identity().vendor, 0x09DB);
+  EXPECT_EQ(device.identity().product, 0x00EA);
+}
+
+}  // namespace
+}  // namespace mdof::drivers::mcc_usb1608fs_plus

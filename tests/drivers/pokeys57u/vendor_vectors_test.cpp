@@ -1,0 +1,63 @@
+// What PoLabs' own library sends and how it takes replies apart: c-core-labs/pokeyslib.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "drivers/pokeys57u/device.h"
+#include "tests/drivers/vendor_vector.h"
+
+namespace mdof::drivers::pokeys57u {
+namespace {
+
+using modbus::bytes;
+
+// Encoder n is at n, the ultra-fast one at -2; the first analogue input is at its end.
+double senses(std::size_t input, std::int64_t /*t_ns*/) {
+  if (input < kEncoders) return static_cast<double>(input + 1);
+  return input == kUltraFast ? -2 : input == kCounters ? kAnalogueTop_V : 0;
+}
+
+// To a whole frame; bytes are apart by spaces.
+std::string padded(const std::string& hex, const char* with) {
+  std::string all = hex;
+  const auto given = 1 + std::count(hex.begin(), hex.end(), ' ');
+  for (auto i = static_cast<std::size_t>(given); i < kFrameBytes; ++i) all += with;
+  return all;
+}
+
+TEST(PoKeys57uVectors, TheSimulatedOneAnswersWhatTheVendorsLibraryAccepts) {
+  // 0xAA, the request's number at 6, the sum of bytes 0 to 6 at 7: PoKeysLibCore.c, SendRequest.
+  const VendorVector vectors[] = {
+      {"encoders 1 to 13", "BB CD 00 00 00 00 02 8A",
+       "AA .. .. .. .. .. 02 .. 01 00 00 00 02 00 00 00 03 00 00 00 04 00 00 00 05 00 00 00 06 00 "
+       "00 "
+       "00 07 00 00 00 08 00 00 00 09 00 00 00 0A 00 00 00 0B 00 00 00 0C 00 00 00 0D 00 00 00",
+       "c-core-labs/pokeyslib, PoKeysLibEncoders.c, PK_EncoderValuesGet"},
+      {"encoders 14 to 25, and the ultra-fast one last", "BB CD 01 00 00 00 03 8C",
+       "AA .. .. .. .. .. 03 .. 0E 00 00 00 0F 00 00 00 10 00 00 00 11 00 00 00 12 00 00 00 13 00 "
+       "00 "
+       "00 14 00 00 00 15 00 00 00 16 00 00 00 17 00 00 00 18 00 00 00 19 00 00 00 FE FF FF FF",
+       "c-core-labs/pokeyslib, PoKeysLibEncoders.c, PK_EncoderValuesGet"},
+      {"analogue inputs, more significant byte first", "BB 3A 01 00 00 00 04 FA",
+       "AA .. .. .. .. .. 04 .. 0F FF 00 00 00 00 00 00 00 00 00 00 00 00",
+       "c-core-labs/pokeyslib, PoKeysLibIO.c, PK_AnalogIOGet"},
+      {"device data: PK58, serial number 12345", "BB 00 00 00 00 00 01 BC",
+       "AA .. .. .. .. .. 01 .. 50 4B 35 38 39 30 00 00 .. .. 1C",
+       "c-core-labs/pokeyslib, PoKeysLibDeviceData.c, PK_DeviceDataGet"},
+      {"options of the encoders", "BB C4 00 00 00 00 05 84", "AA .. .. .. .. .. 05 .. 00 00",
+       "c-core-labs/pokeyslib, PoKeysLibEncoders.c, PK_EncoderConfigurationGet"},
+  };
+  for (const VendorVector& vector : vectors) {
+    Device device(senses, {});
+    device.out(Device::kOut, bytes(padded(vector.request, " 00")), 0);
+    const std::string reply = device.in(Device::kIn, kFrameBytes, 2'000'000).bytes;
+    EXPECT_EQ(mismatch(reply, padded(vector.reply, "..")), "") << vector;
+    ASSERT_EQ(reply.size(), kFrameBytes);
+    unsigned sum = 0;
+    for (std::size_t i = 0; i < 7; ++i) sum += static_cast<unsigned char>(reply[i]);
+    EXPECT_EQ(static_cast<unsigned char>(reply[7]), sum & 0xFF) << vector;
+  }
+}
+
+}  // namespace
+}  // namespace mdof::drivers::pokeys57u

@@ -62,6 +62,13 @@ Status check_independent(const Run& a, const Run& b) {
                    ": readings that count twice make the uncertainty too small; leave one out");
 }
 
+Status check_one_kind(const Run& a, const Run& b) {
+  if (a.header.simulated == b.header.simulated) return {};
+  const Run &simulated = a.header.simulated ? a : b, &measured = a.header.simulated ? b : a;
+  return bad_input(name_of(simulated) + " is simulated and " + name_of(measured) +
+                   " measured: no figure is made of both");
+}
+
 }  // namespace
 
 Runs all_of(const std::vector<Run>& runs) {
@@ -73,16 +80,21 @@ Runs all_of(const std::vector<Run>& runs) {
 Status check_usable(const Runs& runs, bool take_partial, const std::string& what) {
   for (const Run* run : runs) MDOF_CHECK(check_state(*run, take_partial, what));
   for (std::size_t i = 0; i < runs.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) MDOF_CHECK(check_independent(*runs[j], *runs[i]));
+    for (std::size_t j = 0; j < i; ++j) {
+      MDOF_CHECK(check_one_kind(*runs[j], *runs[i]));
+      MDOF_CHECK(check_independent(*runs[j], *runs[i]));
+    }
   return {};
 }
 
-std::vector<std::string> partial_warnings(const Runs& runs) {
+std::vector<std::string> inherited_warnings(const Runs& runs) {
   std::vector<std::string> warnings;
-  for (const Run* run : runs)
+  for (const Run* run : runs) {
     if (run->header.state == RunState::partial)
-      warnings.push_back("made from " + name_of(*run) +
-                         ", which is partial: its warnings say what is missing");
+      warnings.push_back("made from " + name_of(*run) + ", which is partial");
+    for (const std::string& warning : run->header.warnings)
+      warnings.push_back(name_of(*run) + ": " + warning);
+  }
   return warnings;
 }
 

@@ -12,13 +12,14 @@ namespace mdof::algo {
 using Runs = std::vector<const Run*>;
 Runs all_of(const std::vector<Run>& runs);
 
-// Refuses a run that is not complete (a partial one is taken where `take_partial` asks for it), and
-// readings that would count twice: the same run, the same recording, a run with the one that it
-// goes on from, the same log in two files; their scatter would make the uncertainty too small.
-// `what`: "a table".
+// Refuses a run that is not complete (a partial one is taken where `take_partial` asks for it),
+// simulated runs beside measured ones, and readings that would count twice: the same run, the same
+// recording, a run with the one that it goes on from, the same log in two files; their scatter
+// would make the uncertainty too small. `what`: "a table".
 Status check_usable(const Runs& runs, bool take_partial, const std::string& what);
 
-// For whoever asked for partial runs: which they are, with what they miss.
-std::vector<std::string> partial_warnings(const Runs& runs);
+// What is wrong with these runs is wrong with the figure, too: which are partial, and each warning
+// of each run, with its number.
+std::vector<std::string> inherited_warnings(const Runs& runs);
 
 }  // namespace mdof::algo

@@ -10,12 +10,11 @@
 namespace mdof::daemon {
 
 Result<Rig> rig_of(const RunHeader& run) {
-  const std::string name = "run " + std::to_string(run.id) + " (its rig)";
-  MDOF_TRY(Rig rig, parse_rig(run.provenance.rig_text, name));
+  const std::string of = run.id == 0 ? "the run" : "run " + std::to_string(run.id);
+  MDOF_TRY(Rig rig, parse_rig(run.provenance.rig_text, of + " (its rig)"));
   if (rig.machine.known() || run.provenance.configuration.empty()) return rig;
   MDOF_TRY(auto configuration,
-           TomlTable::parse(run.provenance.configuration,
-                            "run " + std::to_string(run.id) + " (its mdofd.toml)"));
+           TomlTable::parse(run.provenance.configuration, of + " (its mdofd.toml)"));
   rig.machine = read_machine(configuration);
   return rig;
 }
@@ -67,7 +66,7 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
   table.created_utc = utc_now();
   table.sha256 = table_sha256(table);
   MDOF_TRY(table.id, store.add_table(table));
-  return BuiltTable{std::move(table), algo::partial_warnings(algo::all_of(runs))};
+  return BuiltTable{std::move(table), algo::inherited_warnings(algo::all_of(runs))};
 }
 
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
@@ -79,7 +78,7 @@ Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessReq
   MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
   s.created_utc = utc_now();
   MDOF_TRY(s.id, store.add_squareness(s));
-  return FittedSquareness{std::move(s), algo::partial_warnings({&x, &y})};
+  return FittedSquareness{std::move(s), algo::inherited_warnings({&x, &y})};
 }
 
 }  // namespace mdof::daemon

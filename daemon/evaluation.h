@@ -33,7 +33,7 @@ struct TableRequest {
 };
 struct BuiltTable {
   CompensationTable table;
-  std::vector<std::string> warnings;  // which runs are partial, and what they miss
+  std::vector<std::string> warnings;  // of the runs it is made from
 };
 // Built and stored. Errors: those of algo::build_table(); runs of rigs with other machines.
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request);

@@ -52,7 +52,7 @@ TEST(UsableRuns, APartialRunIsTakenOnlyIfAskedFor) {
   EXPECT_TRUE(contains(why, "run 7 is partial")) << why;
   EXPECT_TRUE(contains(why, "--partial") && contains(why, "\"partial\": true")) << why;
   EXPECT_EQ(refusal({partial}, partial_too()), "");
-  const auto warnings = partial_warnings({&partial});
+  const auto warnings = inherited_warnings({&partial});
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(contains(warnings[0], "run 7")) << warnings[0];
 }
@@ -62,7 +62,24 @@ TEST(UsableRuns, AnAbortedOrFailedOneIsNeverTaken) {
     const mdof::Run run = run_of(7, state, "a");
     EXPECT_TRUE(contains(refusal({run}, partial_too()), to_string(state)));
   }
-  EXPECT_TRUE(partial_warnings(all_of({run_of(7, RunState::complete, "a")})).empty());
+  EXPECT_TRUE(inherited_warnings(all_of({run_of(7, RunState::complete, "a")})).empty());
+}
+
+// A saturated end of the travel put a squareness out by 96 urad, and only the run said so.
+TEST(UsableRuns, WhatIsWrongWithARunIsWrongWithItsFigure) {
+  mdof::Run a = run_of(7, RunState::complete, "a"), b = run_of(8, RunState::complete, "b");
+  b.header.warnings = {"target 3 was never visited", "probe A saturated"};
+  EXPECT_EQ(
+      inherited_warnings({&a, &b}),
+      (std::vector<std::string>{"run 8: target 3 was never visited", "run 8: probe A saturated"}));
+}
+
+TEST(UsableRuns, SimulatedAndMeasuredAreNotMixed) {
+  mdof::Run a = run_of(7, RunState::complete, "a"), b = run_of(8, RunState::complete, "b");
+  b.header.simulated = true;
+  EXPECT_TRUE(contains(refusal({a, b}), "run 8 is simulated and run 7 measured"));
+  a.header.simulated = true;
+  EXPECT_EQ(refusal({a, b}), "");
 }
 
 // Counted twice, the same readings would make u smaller by the square root of two.

@@ -14,6 +14,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/run_choice.h"
 #include "tools/mdof/table_csv.h"
+#include "tools/mdof/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -78,7 +79,7 @@ Status build(const CompensationCommand& asked) {
   MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
   MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
   const auto& [table, warnings] = built;
-  for (const auto& warning : warnings) warn(warning);
+  for (const auto& warning : summarised(warnings)) warn(warning);
   MDOF_CHECK(command.json ? write_line(with_warnings(table_document(table, 0), warnings))
                           : print_table(table, 0, false));
   say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id));
@@ -158,8 +159,12 @@ Result<CompensationTable> choose_table(store::Store& store, const CompensationCo
 Status show(const CompensationCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const CompensationTable table, choose_table(store, command));
-  if (command.csv) return write_out(table_csv(table));
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
+  if (generation == 0)
+    warn("table " + std::to_string(table.id) + " of axis " + letter(table.axis) +
+         " is not in force");
+  if (command.csv && table.simulated) warn("simulated data: no machine was measured");
+  if (command.csv) return write_out(table_csv(table));
   return print_table(table, generation, command.json);
 }
 
@@ -207,7 +212,8 @@ void add_compensation(CLI::App& app, Action& chosen) {
   of_build->footer(
       "Examples:\n  mdof compensation build 1 3 5\n  mdof compensation build latest --axis X");
   does(of_build, build);
-  auto* of_show = declare(*group, "show", "Show a table [default: the one in force]", *o);
+  auto* of_show =
+      declare(*group, "show", "Show a table [default: the one in force, else the newest]", *o);
   of_show->add_option("TABLE", o->table, "Number of the table")->type_name("");
   add_axis_option(*of_show, o->axis);
   add_csv_and_json_flags(*of_show, o->csv, o->json);

@@ -98,20 +98,21 @@ Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command,
   return store.run(id.value_or(0));
 }
 
-Result<Run> replay_and_store(const ReplayCommand& command, const daemon::ReplayOrder& order) {
-  MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
-  if (mdofd) return replay_there(*mdofd, command, order);
-  MDOF_TRY(Run run, replay_here(order));
-  MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(run.header.id, store.add_run(run));
-  return run;
-}
-
 Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
   Reference reference{};
   reference_from(command.reference, reference);  // the option takes no other
   MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
   return stated_at(rig, reference);
+}
+
+Result<Run> replay_and_store(const ReplayCommand& command, const daemon::ReplayOrder& order) {
+  MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
+  if (mdofd) return replay_there(*mdofd, command, order);
+  MDOF_TRY(Run run, replay_here(order));
+  MDOF_CHECK(asked_reference(command, run));  // what cannot be shown is not stored
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(run.header.id, store.add_run(run));
+  return run;
 }
 
 Status replay(const ReplayCommand& command) {

@@ -11,6 +11,7 @@
 #include "tools/mdof/run_csv.h"
 #include "tools/mdof/run_tables.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -33,10 +34,19 @@ Result<Run> load(store::Store& store, const ShowCommand& command) {
   return daemon::run_stated_at(store, id, reference);
 }
 
+// Beside a table of bare numbers: what people must know of them.
+void warn_of(const Run& run, bool all) {
+  if (run.header.simulated) warn("simulated data: no machine was measured");
+  for (const auto& warning : summarised(run.header.warnings, all)) warn(warning);
+}
+
 Status show(const ShowCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const Run run, load(store, command));
-  if (command.csv) return write_out(points_csv(run));
+  if (command.csv) {
+    warn_of(run, command.all_warnings);
+    return write_out(points_csv(run));
+  }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   if (command.json) return write_line(with_result_hash(run_json(run), sha256));
   return write_out(show_text(run, sha256, terminal_columns(), command.all_warnings));
@@ -61,7 +71,10 @@ std::string analysis_json(const Run& run) {
 Status analyse(const ShowCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const Run run, load(store, command));
-  if (command.csv) return write_out(figures_csv(run));
+  if (command.csv) {
+    warn_of(run, command.all_warnings);
+    return write_out(figures_csv(run));
+  }
   if (command.json) return write_line(analysis_json(run));
   const std::size_t width = terminal_columns();
   return write_out(head_text(run.header, "", width, command.all_warnings) + "\n" +

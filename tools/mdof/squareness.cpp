@@ -14,6 +14,7 @@
 #include "tools/mdof/run_choice.h"
 #include "tools/mdof/run_tables.h"
 #include "tools/mdof/text_table.h"
+#include "tools/mdof/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -79,7 +80,7 @@ Status squareness(SquarenessCommand command) {
   MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
   MDOF_TRY(const auto fitted, mdofd ? fit_there(*mdofd, command) : fit(command));
   const auto& [s, warnings] = fitted;
-  for (const auto& warning : warnings) warn(warning);
+  for (const auto& warning : summarised(warnings)) warn(warning);
   return command.json ? write_line(with_warnings(squareness_json(s), warnings))
                       : write_out(squareness_text(s));
 }

@@ -174,12 +174,17 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(self.client.call("compensation.at", axis="X", position_mm=3), before)
 
     def test_squareness_has_its_uncertainty(self):
-        x = self.measured(axis="X", targets_mm=TARGETS, repeats=1)
+        simulated = self.measured(axis="X", targets_mm=TARGETS, repeats=1)
         y = self.measured(axis="Y")
+        with self.assertRaisesRegex(RpcError, f"run {simulated} is simulated and run {y} measured"):
+            self.client.call("squareness.fit", run_x=simulated, run_y=y)
+        five_probe = os.path.join(DATA, "five-probe")
+        with open(os.path.join(five_probe, "rig_X.toml")) as rig:
+            x = self.client.call("run.replay", path=os.path.join(five_probe, "log_X.csv.gz"), rig=rig.read())["run"]
         s = self.client.call("squareness.fit", run_x=x, run_y=y)
         self.assertAlmostEqual(s["EC0Y_urad"], -s["slope_EYX_urad"] - s["slope_EXY_urad"], 9)
         self.assertAlmostEqual(s["u_EC0Y_urad"], math.hypot(s["u_slope_EYX_urad"], s["u_slope_EXY_urad"]), 9)
-        self.assertTrue(s["simulated"])
+        self.assertFalse(s["simulated"])
         with self.assertRaises(RpcError):
             self.client.call("squareness.fit", run_x=y, run_y=x)
 

@@ -87,7 +87,7 @@ class LabjackT7Driver : public testing::Test {
 
   // CORE_TIMER reads this now, give or take some seconds.
   void core_reads(std::uint32_t ticks) {
-    core_start = ticks - static_cast<std::uint32_t>(static_cast<double>(truth.zero_ns) * 0.04);
+    core_start = ticks - static_cast<std::uint32_t>(truth.zero_ns / 25);  // 40 MHz, wrapping
   }
 
   Truth truth;

@@ -53,6 +53,7 @@ struct App::Parts {
   Status open_store();
   void start_stations();
   void to_journal(Axis axis, const Trouble& trouble);
+  void heed_signals();
   Status listen();
   void watch();
   void watch_hotplug();
@@ -148,6 +149,10 @@ void App::Parts::watch() {
     });
   }
   watch_hotplug();
+}
+
+// A signal that comes while the parts are still made waits for the loop, which then ends at once.
+void App::Parts::heed_signals() {
   loop.on_signal({SIGTERM, SIGINT}, [this](int) {
     systemd::notify_stopping("stopping");
     loop.stop();
@@ -173,6 +178,7 @@ App::~App() = default;
 
 Result<std::unique_ptr<App>> App::create(Config config) {
   auto parts = std::make_unique<Parts>(std::move(config));
+  parts->heed_signals();
   MDOF_CHECK(parts->open_store());
   parts->start_stations();
   MDOF_CHECK(parts->listen());

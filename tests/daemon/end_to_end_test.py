@@ -2,14 +2,17 @@
 """mdofd from outside: runs, live view, squareness, compensation, and the same bits from a replay.
 
 usage: end_to_end_test.py MDOFD MDOF"""
+import fcntl
 import json
 import math
 import os
 import shutil
+import signal
 import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 
@@ -26,6 +29,12 @@ FACTOR = {"EYX_um": -1, "EZX_um": 1}
 def mdof(*words):
     done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True)
     return done.returncode, done.stdout, done.stderr
+
+
+def catches(process_id, signal_number):
+    with open(f"/proc/{process_id}/status") as status:
+        caught = next(line for line in status if line.startswith("SigCgt:"))
+    return int(caught.split()[1], 16) >> (signal_number - 1) & 1
 
 
 class EndToEnd(unittest.TestCase):
@@ -259,6 +268,18 @@ class EndToEnd(unittest.TestCase):
             client = other.start()  # starts mdofd by connecting
             self.assertEqual(client.call("server.info")["server"], "mdofd")
             other.stop()
+
+    def test_a_stop_that_comes_while_it_starts_is_heeded(self):
+        with tempfile.TemporaryDirectory() as folder:
+            other = Daemon(MDOFD, folder, simulator("X"))
+            with open(other.database + "-lock", "w") as lock:
+                fcntl.lockf(lock, fcntl.LOCK_EX)  # another writer, which it waits for
+                process = subprocess.Popen([MDOFD, "--config", other.config], stderr=subprocess.PIPE, text=True)
+                end = time.monotonic() + 4
+                while not catches(process.pid, signal.SIGTERM) and time.monotonic() < end:
+                    time.sleep(0.01)
+                process.terminate()
+            self.assertEqual((process.communicate(timeout=20)[1].count("serving on"), process.returncode), (1, 0))
 
     def test_a_second_daemon_on_the_database_is_refused(self):
         other = Daemon(MDOFD, os.path.join(self.folder.name, "other"), "")

@@ -12,12 +12,12 @@ set(MDOF_COMPILED_ALONE
     tools/mdof/replay.cpp tools/mdof/status.cpp tools/mdof/plot/bins.cpp tools/mdof/plot/convergence.cpp
     tools/mdof/plot/frontier.cpp tools/mdof/plot/histogram.cpp tools/mdof/plot/indices.cpp
     tools/mdof/plot/panel.cpp tools/mdof/study/ranks.cpp tools/mdof_simulate/usbip.cpp
-    tests/algo/probe_watch_test.cpp tests/algo/sensitivity_indices_test.cpp tests/algo/sensitivity_plan_test.cpp
+    tests/algo/sensitivity_indices_test.cpp tests/algo/sensitivity_plan_test.cpp
     tests/algo/sensitivity_presets_test.cpp tests/algo/sensitivity_statistics_test.cpp
     tests/daemon/config_test.cpp tests/daemon/storekeeper_test.cpp tests/daemon/rpc/server_test.cpp
     tests/drivers/simulator_options_test.cpp tests/schema/number_columns_test.cpp
-    tests/schema/number_test.cpp tests/algo/notices_test.cpp tests/drivers/modbus/driver_test.cpp
-    tests/algo/missing_encoder_test.cpp tests/daemon/resume_test.cpp tests/daemon/unrecorded_test.cpp
+    tests/schema/number_test.cpp tests/drivers/modbus/driver_test.cpp
+    tests/daemon/resume_test.cpp tests/daemon/unrecorded_test.cpp
 )
 
 # mdof_compile_together(TARGET): once all its sources are known, in the folder that made it.

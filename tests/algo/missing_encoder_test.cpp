@@ -4,30 +4,11 @@
 
 #include <cmath>
 
-#include "algo/dwell.h"
 #include "algo/robust_mean.h"
-#include "tests/algo/stepping_log.h"
+#include "tests/algo/detected.h"
 
 namespace mdof::algo {
 namespace {
-
-struct Found {
-  std::vector<Point> points;
-  std::vector<std::string> warnings;
-  DwellDetector::Summary summary;
-};
-
-Found detect(const SteppingLog& log, const FrameBlock& frames, std::size_t block) {
-  DwellDetector detector({}, log.ids(), std::vector<double>(log.probes, 200e-6));
-  Found found;
-  for (std::size_t i = 0; i < frames.size(); i += block)
-    detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);
-  detector.flush(found.points);
-  detector.mark(found.points);
-  found.warnings = detector.warnings(found.points);
-  found.summary = detector.summary();
-  return found;
-}
 
 void lose(FrameBlock& frames, std::size_t row) {
   frames.encoder_m[row] = kNaN;

@@ -1,31 +1,12 @@
 // Nothing that happens to a stop vanishes without word.
 #include <gtest/gtest.h>
 
-#include "algo/dwell.h"
-#include "tests/algo/stepping_log.h"
+#include "tests/algo/detected.h"
 
 namespace mdof::algo {
 namespace {
 
-struct Found {
-  std::vector<Point> points;
-  std::vector<DwellNotice> notices;
-  std::vector<std::string> warnings;
-};
-
-Found detect(const SteppingLog& log, const FrameBlock& frames, std::size_t block = 1000) {
-  DwellDetector detector({}, log.ids(), std::vector<double>(log.probes, 200e-6));
-  Found found;
-  for (std::size_t i = 0; i < frames.size(); i += block)
-    detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);
-  detector.flush(found.points);
-  detector.mark(found.points);
-  found.notices = detector.notices();
-  found.warnings = detector.warnings(found.points);
-  return found;
-}
-
-std::vector<DwellNotice> of_kind(const Found& found, NoticeKind kind) {
+std::vector<DwellNotice> of_kind(const Detected& found, NoticeKind kind) {
   std::vector<DwellNotice> all;
   for (const DwellNotice& n : found.notices)
     if (n.kind == kind) all.push_back(n);

@@ -1,27 +1,10 @@
 // A probe that died or shifted is found, and none on a clean log.
 #include <gtest/gtest.h>
 
-#include "algo/dwell.h"
-#include "tests/algo/stepping_log.h"
+#include "tests/algo/detected.h"
 
 namespace mdof::algo {
 namespace {
-
-struct Found {
-  std::vector<Point> points;
-  std::vector<std::string> warnings;
-};
-
-Found detect(const SteppingLog& log, const FrameBlock& frames, std::size_t block = 1000) {
-  DwellDetector detector({}, log.ids(), std::vector<double>(log.probes, 200e-6));
-  Found found;
-  for (std::size_t i = 0; i < frames.size(); i += block)
-    detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);
-  detector.flush(found.points);
-  detector.mark(found.points);
-  found.warnings = detector.warnings(found.points);
-  return found;
-}
 
 TEST(ProbeWatch, NoFalseAlarmOnCleanLogsOfSixtySeeds) {
   const double noises_um[] = {0, 0.002, 0.01, 0.05, 0.2};

@@ -1,0 +1,33 @@
+// What the dwell detector says of a log, given to it in blocks.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "algo/dwell.h"
+#include "tests/algo/stepping_log.h"
+
+namespace mdof::algo {
+
+struct Detected {
+  std::vector<Point> points;
+  std::vector<DwellNotice> notices;
+  std::vector<std::string> warnings;
+  DwellDetector::Summary summary;
+};
+
+inline Detected detect(const SteppingLog& log, const FrameBlock& frames, std::size_t block = 1000) {
+  DwellDetector detector({}, log.ids(), std::vector<double>(log.probes, 200e-6));
+  Detected found;
+  for (std::size_t i = 0; i < frames.size(); i += block)
+    detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);
+  detector.flush(found.points);
+  detector.mark(found.points);
+  found.notices = detector.notices();
+  found.warnings = detector.warnings(found.points);
+  found.summary = detector.summary();
+  return found;
+}
+
+}  // namespace mdof::algo

@@ -246,7 +246,7 @@ void tell_shifted_targets(const RunToJudge& run, Texts& out) {
   if (!shifted) return;
   const std::int64_t begin_ns = run.sequence.points.front().point.begin_ns;
   out.push_back(
-      text("after %.3f s ", static_cast<double>(shifted->time_ns - begin_ns) * 1e-9) +
+      text("%.3f s after the first stop began ", ns_to_s(shifted->time_ns - begin_ns)) +
       text("all targets lie %+.4f mm further: ", to_mm(shifted->shift_m)) +
       "the encoder's count jumped, its datum was set anew, or the axis was sent elsewhere; "
       "positions before and after do not belong together, measure again");

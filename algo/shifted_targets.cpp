@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace mdof::algo {
@@ -10,19 +11,29 @@ namespace {
 
 constexpr std::size_t kFewest = 3;
 constexpr double kAlike_m = 50e-6;
+constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
 using Places = std::vector<double>;
 
-// Places of the points in [from, to), ascending; empty where one of them is visited outside, too.
-Places places_of_their_own(const Sequence& sequence, std::size_t from, std::size_t to) {
-  std::set<int> inside, outside;
-  for (std::size_t i = 0; i < sequence.points.size(); ++i)
-    (i >= from && i < to ? inside : outside).insert(sequence.points[i].target);
-  Places places;
-  for (const int target : inside) {
-    if (outside.contains(target)) return {};
-    places.push_back(sequence.targets_m[static_cast<std::size_t>(target) - 1]);
-  }
+std::size_t index_of(const MeasuredPoint& point) {
+  return static_cast<std::size_t>(point.target) - 1;
+}
+
+// Which point was the last of each target; kNever: there is none.
+std::vector<std::size_t> last_visits(const Sequence& sequence) {
+  std::vector<std::size_t> last(sequence.targets_m.size(), kNever);
+  for (std::size_t i = 0; i < sequence.points.size(); ++i) last[index_of(sequence.points[i])] = i;
+  return last;
+}
+
+// Targets whose last visit is before point `split`, and those that are visited from it on; where
+// no target is on both sides these are all, ascending.
+std::pair<Places, Places> parted(const Sequence& sequence, const std::vector<std::size_t>& last,
+                                 std::size_t split) {
+  std::pair<Places, Places> places;
+  for (std::size_t t = 0; t < last.size(); ++t)
+    if (last[t] != kNever)
+      (last[t] < split ? places.first : places.second).push_back(sequence.targets_m[t]);
   return places;
 }
 
@@ -45,12 +56,15 @@ std::optional<double> shift_between(const Places& before, const Places& after) {
 }  // namespace
 
 std::optional<ShiftedTargets> find_shifted_targets(const Sequence& sequence) {
-  const std::size_t n = sequence.points.size();
-  for (std::size_t split = kFewest; split + kFewest <= n; ++split) {
-    const Places before = places_of_their_own(sequence, 0, split);
-    if (before.empty()) continue;
-    if (const auto shift = shift_between(before, places_of_their_own(sequence, split, n)))
-      return ShiftedTargets{sequence.points[split - 1].point.end_ns, *shift};
+  const auto last = last_visits(sequence);
+  std::size_t still_visited = 0;  // the last visit to any target seen so far
+  for (std::size_t split = 1; split < sequence.points.size(); ++split) {
+    const MeasuredPoint& newest = sequence.points[split - 1];
+    still_visited = std::max(still_visited, last[index_of(newest)]);
+    if (still_visited >= split) continue;
+    const auto [before, after] = parted(sequence, last, split);
+    if (const auto shift = shift_between(before, after))
+      return ShiftedTargets{newest.point.end_ns, *shift};
   }
   return {};
 }

@@ -26,7 +26,7 @@ struct CompensationCommand {
   std::vector<std::string> words;                 // runs as they were given
   std::vector<std::int64_t> runs;
   std::int64_t table = 0;
-  bool keep_slope = false, partial = false, csv = false, json = false;
+  bool keep_slope = false, partial = false, csv = false, json = false, all_warnings = false;
 };
 
 Status print_table(const CompensationTable& table, std::int64_t generation, bool json) {
@@ -79,7 +79,7 @@ Status build(const CompensationCommand& asked) {
   MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
   MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
   const auto& [table, warnings] = built;
-  for (const auto& warning : summarised(warnings)) warn(warning);
+  for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
   MDOF_CHECK(command.json ? write_line(with_warnings(table_document(table, 0), warnings))
                           : print_table(table, 0, false));
   say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id));
@@ -209,6 +209,7 @@ void add_compensation(CLI::App& app, Action& chosen) {
       ->description("fixture, carriage or tool [default: the rig's tool point, else the fixture]");
   add_socket_option(*of_build, o->socket);
   add_json_flag(*of_build, o->json);
+  add_all_warnings_flag(*of_build, o->all_warnings);
   of_build->footer(
       "Examples:\n  mdof compensation build 1 3 5\n  mdof compensation build latest --axis X");
   does(of_build, build);

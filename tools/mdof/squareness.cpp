@@ -25,7 +25,7 @@ struct SquarenessCommand {
   std::string database, socket, word_x, word_y;
   std::int64_t run_x = 0, run_y = 0;
   std::optional<double> artefact_urad, u_artefact_urad;
-  bool partial = false, json = false;
+  bool partial = false, json = false, all_warnings = false;
 };
 
 Result<daemon::FittedSquareness> fit(const SquarenessCommand& command) {
@@ -80,7 +80,7 @@ Status squareness(SquarenessCommand command) {
   MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
   MDOF_TRY(const auto fitted, mdofd ? fit_there(*mdofd, command) : fit(command));
   const auto& [s, warnings] = fitted;
-  for (const auto& warning : summarised(warnings)) warn(warning);
+  for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
   return command.json ? write_line(with_warnings(squareness_json(s), warnings))
                       : write_out(squareness_text(s));
 }
@@ -100,6 +100,7 @@ void add_squareness(CLI::App& app, Action& chosen) {
   add_database_option(*command, o->database);
   add_socket_option(*command, o->socket);
   add_json_flag(*command, o->json);
+  add_all_warnings_flag(*command, o->all_warnings);
   command->footer("Example:\n  mdof squareness 1 2 --artefact-urad -1.3 --u-artefact-urad 0.4");
   command->callback([o, &chosen] { chosen = [o] { return squareness(*o); }; });
 }

@@ -19,9 +19,8 @@ std::string describe_unplaced(const DwellDetector::Summary& summary, std::int64_
   const double first_s = ns_to_s(summary.first_unplaced_ns - origin_ns);
   return std::to_string(summary.unplaced) +
          " scans have no position of the encoder, the first of them " + plain_number(first_s) +
-         " s after the first scan that has one; they are left out, and the points of stops in "
-         "which "
-         "some are have the flag missing:encoder; check the encoder and its cable";
+         " s after the first scan that has one; they are left out, and the points of stops "
+         "with such scans have the flag missing:encoder; check the encoder and its cable";
 }
 
 }  // namespace

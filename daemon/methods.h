@@ -44,8 +44,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m);  // compensa
 
 // Shared by the groups.
 Result<Axis> axis_param(const rpc::Params& params);
-Result<Reference> reference_param(
-    const rpc::Params& params);  // "reference"; the fixture by default
+Result<Reference> reference_param(const rpc::Params& params);  // not given: the fixture
 Result<Station*> station_of(Methods& m, Axis axis);
 // Runs `work` with the writable store on its thread; answers with its JSON.
 void answer_from_store(Methods& m, rpc::Reply reply,

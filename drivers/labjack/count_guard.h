@@ -55,7 +55,6 @@ double read_most_counts_per_s(TomlTable& channel);
 std::string speed_text(double most_counts_per_s, double um_per_count);
 inline constexpr const char* kCountsLost =
     "its encoder moved faster than most_counts_per_s and counts may be lost; move more slowly, "
-    "find "
-    "the zero, then restart mdofd";
+    "find the zero, then restart mdofd";
 
 }  // namespace mdof::drivers::labjack

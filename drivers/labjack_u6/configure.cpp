@@ -14,7 +14,7 @@ using namespace labjack_u6;
 
 constexpr const char* kCounter = "FIO0";
 constexpr double kMostSamples_Hz = 50'000;  // of all inputs
-// Its firmware serves each edge: LabJack's manual of the U3, of the same kind, section 2.9.2.
+// Its firmware serves each edge: LabJack's manual of the U3, of the same kind.
 constexpr double kMostCounts_per_s = 30'000;
 constexpr int kMostResolution = 8, kMostSettling_us = 2550;
 

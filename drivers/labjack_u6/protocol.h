@@ -77,7 +77,8 @@ Result<CalibrationBlock> read_calibration_reply(std::string_view reply);
 Result<AinCalibration> calibration_of(const std::array<CalibrationBlock, 4>& blocks,
                                       std::size_t gain);
 
-inline constexpr std::size_t kConfigIoReply = 16;
+inline constexpr std::size_t kConfigIoReply = 16;  // bytes
+
 struct Timers {
   int count = 0, pin_offset = 0;  // the first is on FIO(pin_offset)
 };

@@ -22,12 +22,15 @@ double smallest_step(const std::vector<double>& x) {
   return step;
 }
 
-// All points of all runs with targets numbered on the first run's grid.
+// All points of all runs with targets numbered on the first run's grid, and repeats on from those
+// of the run before.
 Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
                                                const std::vector<double>& grid) {
   std::vector<MeasuredPoint> points;
   const double window = kSameTargetShare * smallest_step(grid);
+  int repeats = 0;
   for (const Run& run : runs) {
+    const int before = repeats;
     for (MeasuredPoint p : run.points) {
       if (!p.errors.valid) continue;
       const auto near = std::min_element(grid.begin(), grid.end(), [&](double a, double b) {
@@ -40,6 +43,8 @@ Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
                          " has no target; build one table from runs of the same targets");
       }
       p.target = static_cast<int>(near - grid.begin()) + 1;
+      p.run += before;
+      repeats = std::max(repeats, p.run);
       points.push_back(std::move(p));
     }
   }

@@ -8,7 +8,9 @@
 #include <string>
 
 #include "algo/plausibility.h"
+#include "algo/ranges_text.h"
 #include "algo/shifted_targets.h"
+#include "algo/uneven_visits.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -31,20 +33,6 @@ std::string plural(std::size_t n, const std::string& what) {
 
 const char* approach(int direction) {
   return direction > 0 ? "forward" : "reverse";
-}
-
-// "1 to 5, 7"
-std::string ranges(const std::vector<int>& ascending) {
-  std::string out;
-  for (std::size_t i = 0; i < ascending.size();) {
-    std::size_t last = i;
-    while (last + 1 < ascending.size() && ascending[last + 1] == ascending[last] + 1) ++last;
-    if (!out.empty()) out += ", ";
-    out += std::to_string(ascending[i]);
-    if (last > i) out += (last == i + 1 ? ", " : " to ") + std::to_string(ascending[last]);
-    i = last + 1;
-  }
-  return out;
 }
 
 // A place in the matrix n_ij.
@@ -107,7 +95,7 @@ class Holes {
       if (!visits_.targets.contains(t)) never.push_back(t);
     if (never.size() == 1) out.push_back(name(never[0]) + " was never visited");
     if (never.size() > 1)
-      out.push_back(plural(never.size(), "target") + " were never visited: " + ranges(never));
+      out.push_back(plural(never.size(), "target") + " were never visited: " + ranges_text(never));
   }
   // The end targets of a pendulum cycle are come to from one side.
   bool awaited(const Cell& cell) const {
@@ -163,7 +151,8 @@ class Holes {
       groups.push_back(
           "run " + std::to_string(first.run) + ", " + approach(first.direction) + ": " + many +
           " " +
-          (all ? "any target" : (targets.size() == 1 ? "target " : "targets ") + ranges(targets)));
+          (all ? "any target"
+               : (targets.size() == 1 ? "target " : "targets ") + ranges_text(targets)));
     }
     const std::size_t shown = std::min(groups.size(), kMostNamed);
     out.insert(out.end(), groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(shown));
@@ -191,7 +180,7 @@ void tell_found_late(const RunToJudge& run, Texts& out) {
     if (!first_pass.contains(t)) late.push_back(t);
   if (late.empty() || late.back() == run.sequence.targets || late.size() > first_pass.size())
     return;
-  out.push_back((late.size() == 1 ? "target " : "targets ") + ranges(late) +
+  out.push_back((late.size() == 1 ? "target " : "targets ") + ranges_text(late) +
                 " found only after the first pass: the numbers of the targets above changed then "
                 "(give targets_mm to fix them)");
 }
@@ -259,6 +248,17 @@ void tell_one_turn(const RunToJudge& run, Texts& out) {
       "pendulum cycle; to have both, let the axis run beyond the end targets");
 }
 
+void tell_uneven(const RunToJudge& run, Texts& out) {
+  std::vector<MeasuredPoint> points = run.sequence.points;
+  if (run.sequence.cycle == Cycle::pendulum) {  // whose end targets have one approach by design
+    std::erase_if(points, [&](const MeasuredPoint& p) {
+      return p.target == 1 || p.target == run.sequence.targets;
+    });
+  }
+  const std::string uneven = uneven_visits_text(points);
+  if (!uneven.empty()) out.push_back(uneven);
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of_visits(const RunToJudge& run, const Plausibility&) {
@@ -269,6 +269,7 @@ std::vector<std::string> warnings_of_visits(const RunToJudge& run, const Plausib
   tell_one_turn(run, out);
   const Texts holes = Holes(run).told();
   out.insert(out.end(), holes.begin(), holes.end());
+  tell_uneven(run, out);
   tell_found_late(run, out);
   tell_lost_stops(run, out);
   return out;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "algo/uneven_visits.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -82,6 +84,68 @@ ByTarget one_way(const MovingAxis& moving, const std::vector<MeasuredPoint>& poi
   return means;
 }
 
+// Forward minus reverse over the targets that have both.
+struct Reversal {
+  Errors5 mean{};
+  Errors5 u{};  // of one target's reversal taken to be the mean; of one target alone: all of it
+};
+
+Reversal mean_reversal(const ByTarget& forward, const ByTarget& reverse) {
+  std::vector<Errors5> at_targets;
+  for (const auto& [target, f] : forward) {
+    const auto r = reverse.find(target);
+    if (r == reverse.end()) continue;
+    Errors5& difference = at_targets.emplace_back();
+    for (std::size_t k = 0; k < 5; ++k) difference[k] = f.named[k] - r->second.named[k];
+  }
+  Reversal out;
+  const auto n = static_cast<double>(at_targets.size());
+  if (at_targets.empty()) return out;
+  for (std::size_t k = 0; k < 5; ++k) {
+    double sum = 0, square = 0;
+    for (const Errors5& r : at_targets) sum += r[k];
+    out.mean[k] = sum / n;
+    for (const Errors5& r : at_targets) square += (r[k] - out.mean[k]) * (r[k] - out.mean[k]);
+    out.u[k] = n > 1 ? std::sqrt(square / (n - 1) * (1 + 1 / n)) : std::abs(out.mean[k]);
+  }
+  return out;
+}
+
+TargetMean with_reversal(TargetMean one_sided, const Reversal& reversal, int direction) {
+  for (std::size_t k = 0; k < 5; ++k) {
+    one_sided.named[k] -= 0.5 * direction * reversal.mean[k];
+    one_sided.u[k] = std::hypot(one_sided.u[k], 0.5 * reversal.u[k]);
+  }
+  return one_sided;
+}
+
+ByTarget both_ways(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
+  const ByTarget forward = one_way(moving, points, 1), reverse = one_way(moving, points, -1);
+  const Reversal reversal = mean_reversal(forward, reverse);
+  ByTarget means;
+  for (const auto& [target, f] : forward) {
+    const auto r = reverse.find(target);
+    means[target] = r != reverse.end() ? mean_of(f, r->second) : with_reversal(f, reversal, 1);
+    if (r == reverse.end()) continue;
+    const Errors5 of_runs = scatter_of_runs(moving, points, target);
+    for (std::size_t k = 0; k < 5; ++k)
+      means[target].u[k] = std::max(means[target].u[k], of_runs[k]);
+  }
+  for (const auto& [target, r] : reverse)
+    if (!forward.contains(target)) means[target] = with_reversal(r, reversal, -1);
+  return means;
+}
+
+// Drift between runs is in u also where it was taken from the mean.
+ByTarget both_ways_without_drift(const MovingAxis& moving,
+                                 const std::vector<MeasuredPoint>& points) {
+  ByTarget means = both_ways(moving, without_drift_of_runs(points));
+  for (const auto& [target, drifting] : both_ways(moving, points))
+    for (std::size_t k = 0; k < 5; ++k)
+      means[target].u[k] = std::max(means[target].u[k], drifting.u[k]);
+  return means;
+}
+
 }  // namespace
 
 const char* to_string(Approach approach) {
@@ -92,20 +156,9 @@ const char* to_string(Approach approach) {
 
 std::vector<TargetMean> target_means(const MovingAxis& moving,
                                      const std::vector<MeasuredPoint>& points, Approach approach) {
-  ByTarget means = one_way(moving, points, approach == Approach::reverse ? -1 : 1);
-  if (approach == Approach::both) {
-    for (const auto& [target, reverse] : one_way(moving, points, -1)) {
-      const auto forward = means.find(target);
-      if (forward == means.end()) {
-        means[target] = reverse;
-        continue;
-      }
-      const Errors5 of_runs = scatter_of_runs(moving, points, target);
-      means[target] = mean_of(forward->second, reverse);
-      for (std::size_t k = 0; k < 5; ++k)
-        means[target].u[k] = std::max(means[target].u[k], of_runs[k]);
-    }
-  }
+  const ByTarget means = approach == Approach::both
+                             ? both_ways_without_drift(moving, points)
+                             : one_way(moving, points, approach == Approach::forward ? 1 : -1);
   std::vector<TargetMean> series;
   for (const auto& [target, mean] : means) series.push_back(mean);
   return series;

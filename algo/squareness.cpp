@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "algo/fixture.h"
 #include "algo/line_fit.h"
 #include "algo/restate.h"
 #include "algo/series.h"
+#include "algo/uneven_visits.h"
 #include "algo/usable_runs.h"
 #include "schema/number_text.h"
 #include "schema/units.h"
@@ -61,24 +64,58 @@ double propagated(const std::vector<double>& x, const std::vector<TargetMean>& s
   return std::sqrt(sum);
 }
 
-// s/√n of the slopes of the repeats that have at least three targets; 0 for fewer than two repeats.
-double scatter_of_repeats(const Run& run) {
-  int repeats = 0;
-  for (const auto& p : run.points) repeats = std::max(repeats, p.run);
+// Of each run and target: how far its visits lie off the mean of all runs' visits from that side,
+// m.
+using OffMean = std::map<int, std::map<int, std::vector<double>>>;
+
+OffMean off_the_mean(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
+  const auto value = [&](const MeasuredPoint& p) {
+    return named_from_local(moving, p.errors.local)[0];
+  };
+  struct Mean {
+    double sum = 0, n = 0;
+  };
+  std::map<std::pair<int, int>, Mean> means;  // by target and direction
+  for (const MeasuredPoint& p : points) {
+    Mean& mean = means[{p.target, p.point.direction}];
+    mean.sum += value(p);
+    mean.n += 1;
+  }
+  OffMean off;
+  for (const MeasuredPoint& p : points) {
+    const Mean& mean = means[{p.target, p.point.direction}];
+    if (mean.n > 1) off[p.run][p.target].push_back(value(p) - mean.sum / mean.n);
+  }
+  return off;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+// s/√n of the slopes of the runs that have at least three targets and half of all; 0 for fewer
+// than two such runs. A slope is fitted to what differs from the mean of the runs: the axis' form
+// and backlash do not scatter, and a run that lacks a target must not make it seem so.
+double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
+  std::map<int, double> travel_m;  // by target
+  for (const MeasuredPoint& p : points)
+    travel_m.emplace(p.target, moving.sides.own_travel_m(p.point.position_m));
   std::vector<double> slopes;
-  for (int j = 1; j <= repeats; ++j) {
-    std::vector<MeasuredPoint> of_one;
-    std::copy_if(run.points.begin(), run.points.end(), std::back_inserter(of_one),
-                 [j](const MeasuredPoint& p) { return p.run == j; });
-    const auto series = target_means(run.header.moving(), of_one, Approach::both);
-    const auto x = own_travels(run.header.sides, series);
-    if (series.size() >= 3 && can_fit(x))
-      slopes.push_back(least_squares_line(x, column(series, 0)).slope);
+  for (const auto& [run, targets] : off_the_mean(moving, points)) {
+    std::vector<double> x, y;
+    for (const auto& [target, off] : targets) {
+      x.push_back(travel_m[target]);
+      y.push_back(mean_of(off));
+    }
+    if (x.size() >= 3 && 2 * x.size() >= travel_m.size() && can_fit(x))
+      slopes.push_back(least_squares_line(x, y).slope);
   }
   if (slopes.size() < 2) return 0;
   const auto n = static_cast<double>(slopes.size());
-  double mean = 0, square = 0;
-  for (const double s : slopes) mean += s / n;
+  const double mean = mean_of(slopes);
+  double square = 0;
   for (const double s : slopes) square += (s - mean) * (s - mean);
   return std::sqrt(square / (n - 1) / n);
 }
@@ -101,7 +138,9 @@ Result<HorizontalSlope> horizontal_slope(const Run& measured) {
   }
   HorizontalSlope slope;
   slope.line = least_squares_line(x, column(series, 0));
-  slope.u_slope_rad = std::max(propagated(x, series), scatter_of_repeats(run));
+  slope.u_slope_rad =
+      std::max(propagated(x, series),
+               scatter_of_runs(run.header.moving(), without_drift_of_runs(run.points)));
   return slope;
 }
 

@@ -83,13 +83,17 @@ TEST(Plausibility, CountsWhatWasVisited) {
   EXPECT_NEAR(judged.figures.probes[0].travel_m, 30e-6, 50e-9);
 }
 
+const std::string kLevelled =
+    " lacks visits that others have: means of both approaches, slopes and squareness are made "
+    "without the drift between the runs\n";
+
 TEST(Plausibility, NamesAHole) {
   Machine m;
   m.forward(1), m.beyond(7, 1), m.reverse(1), m.beyond(1, -1);
   for (const int t : {1, 2, 4, 5, 6, 7}) m.visit(t, 2, 1);
   m.beyond(7, 1), m.reverse(2);
   const Judged judged = judge(m);
-  EXPECT_EQ(judged.all(), "target 3 (10.2000 mm): no forward visit in run 2\n");
+  EXPECT_EQ(judged.all(), "target 3 (10.2000 mm): no forward visit in run 2\nrun 2" + kLevelled);
   EXPECT_EQ(judged.figures.n_ij[2].forward, (std::vector<int>{1, 0}));
 }
 
@@ -98,7 +102,9 @@ TEST(Plausibility, NamesAVisitThatGaveNoErrors) {
   m.standard(2);
   const Judged judged = judge(m, {}, [](std::size_t i) { return i != 8; });
   EXPECT_EQ(judged.all(),
-            "target 6 (25.1000 mm): the reverse visit in run 1 gave no errors (probe A is lost)\n");
+            "target 6 (25.1000 mm): the reverse visit in run 1 gave no errors (probe A is lost)\n"
+            "run 1" +
+                kLevelled);
   EXPECT_EQ(judged.figures.n_ij[5].reverse, (std::vector<int>{0, 1}));
 }
 
@@ -113,11 +119,12 @@ TEST(Plausibility, SaysWhatARunThatEndedEarlyLacks) {
             "target 2 (5.0000 mm): no reverse visit in run 2\n"
             "target 3 (10.2000 mm): no reverse visit in run 2\n"
             "target 4 (14.9000 mm): no reverse visit in run 2\n"
-            "target 5 (20.0000 mm): no reverse visit in run 2\n");
+            "target 5 (20.0000 mm): no reverse visit in run 2\nrun 2" +
+                kLevelled);
   Machine shorter;
   shorter.standard(1);
   shorter.forward(2);
-  EXPECT_EQ(judge(shorter).all(), "run 2, reverse: no visit at any target\n");
+  EXPECT_EQ(judge(shorter).all(), "run 2, reverse: no visit at any target\nrun 2" + kLevelled);
 }
 
 TEST(Plausibility, NamesADoubledVisit) {

@@ -1,0 +1,21 @@
+// Runs that lack visits which others have, and targets that were approached from one side only:
+// what a mean of both approaches does about them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/point.h"
+
+namespace mdof::algo {
+
+// The valid points with a known approach, in their order. Where a run lacks a visit (a target from
+// one side) that another run has, each run's mean drift against the others is taken from its
+// errors: the mean of some targets only would hold it, and be tilted by it. The drifts are those of
+// the least-squares fit error = of the visit + of the run; they sum to 0.
+std::vector<MeasuredPoint> without_drift_of_runs(const std::vector<MeasuredPoint>& points);
+
+// What is made up for, and how, for people; "": nothing.
+std::string uneven_visits_text(const std::vector<MeasuredPoint>& points);
+
+}  // namespace mdof::algo

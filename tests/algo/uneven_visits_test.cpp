@@ -1,0 +1,202 @@
+// A log that is cut, or has targets with one approach, changes neither slope nor squareness by its
+// backlash or drift.
+#include "algo/uneven_visits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+#include <string>
+
+#include "algo/compensation.h"
+#include "algo/squareness.h"
+#include "algo/straightness.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kBacklash_m = 1e-6, kDrift_m = 0.3e-6, kSlope = 20e-6, kStep_m = 5e-3;
+
+struct Visit {
+  int run, target, direction;
+};
+using Kept = std::function<bool(const Visit&)>;
+
+// Thirteen targets there and back. EYX: a slope, half the backlash from each side, and a drift from
+// run to run; the form is a bow of 4 um.
+Run cut_run(int runs, const Kept& kept, Axis axis = Axis::x, double drift_m = kDrift_m) {
+  Run run;
+  run.header.axis = axis;
+  run.header.state = RunState::complete;
+  run.header.id = axis == Axis::x ? 1 : 2;
+  for (int j = 1; j <= runs; ++j) {
+    for (int i = 1; i <= 13; ++i) {
+      for (const int direction : {1, -1}) {
+        if (!kept({j, i, direction})) continue;
+        MeasuredPoint p;
+        p.target = i;
+        p.run = j;
+        p.point.direction = direction;
+        p.point.position_m = p.target_m = kStep_m * (i - 7);
+        const double bow = 4e-6 * (i - 7) * (i - 7) / 36.0;
+        p.errors.valid = true;
+        p.errors.local = local_from_named(
+            axis, {kSlope * p.target_m + bow + 0.5 * direction * kBacklash_m + j * j * drift_m, 0,
+                   0, 0, 0});
+        p.errors.covariance[0] = 1e-18;
+        run.points.push_back(p);
+      }
+    }
+  }
+  return run;
+}
+
+const Kept kAll = [](const Visit&) { return true; };
+
+StraightnessFigure mean_figure(const mdof::Run& run) {
+  for (const auto& figure : straightness({Axis::x, {}}, run.points))
+    if (figure.approach == std::string("mean") && figure.error_key == std::string("EYX"))
+      return figure;
+  return {};
+}
+
+TEST(UnevenVisits, OfAWholeRunAreNone) {
+  for (const int runs : {1, 3}) {
+    const mdof::Run run = cut_run(runs, kAll);
+    EXPECT_EQ(without_drift_of_runs(run.points).size(), run.points.size());
+    EXPECT_EQ(uneven_visits_text(run.points), "");
+  }
+  const mdof::Run one_way = cut_run(2, [](const Visit& v) { return v.direction > 0; });
+  EXPECT_EQ(without_drift_of_runs(one_way.points).size(), 26);
+  EXPECT_EQ(uneven_visits_text(one_way.points), "");
+}
+
+TEST(UnevenVisits, AreTold) {
+  const auto told = [](int runs, const Kept& kept) {
+    return uneven_visits_text(cut_run(runs, kept).points);
+  };
+  const std::string drift =
+      " visits that others have: means of both approaches, slopes and squareness are made without "
+      "the drift between the runs";
+  const std::string reversal =
+      " approached from one side only: means of both approaches, slopes and squareness take the "
+      "missing approach from the mean reversal of the other targets";
+  EXPECT_EQ(told(1, [](const Visit& v) { return v.direction > 0 || v.target > 4; }),
+            "targets 1 to 4 were" + reversal);
+  EXPECT_EQ(told(3, [](const Visit& v) { return v.run < 3 || v.target < 8; }),
+            "run 3 lacks" + drift);
+  EXPECT_EQ(told(3,
+                 [](const Visit& v) {
+                   return v.run == 1 ? v.target != 13 || v.direction > 0 : v.target < 8;
+                 }),
+            "runs 2, 3 lack" + drift + "; target 13 was" + reversal);
+  EXPECT_EQ(told(2, [](const Visit& v) { return v.run != v.target; }), "runs 1, 2 lack" + drift);
+}
+
+TEST(UnevenVisits, BacklashOfTargetsFromOneSideDoesNotTiltTheMean) {
+  const StraightnessFigure whole = mean_figure(cut_run(1, kAll));
+  for (const int direction : {1, -1}) {
+    for (const int from : {2, 5, 10, 13}) {
+      const auto cut = mean_figure(
+          cut_run(1, [&](const Visit& v) { return v.direction == direction || v.target >= from; }));
+      EXPECT_NEAR(cut.slope_least_squares_rad, whole.slope_least_squares_rad, 1e-15) << from;
+      EXPECT_NEAR(cut.straightness_least_squares_m, whole.straightness_least_squares_m, 1e-15)
+          << from;
+    }
+  }
+}
+
+TEST(UnevenVisits, ARunThatLacksSomeDoesNotTiltByItsDrift) {
+  const mdof::Run y = cut_run(3, kAll, Axis::y);
+  const Squareness whole = squareness(cut_run(3, kAll), y, {}).value();
+  const std::vector<Kept> lacking = {
+      [](const Visit& v) { return v.run < 3 || v.target == 1; },
+      [](const Visit& v) { return v.run < 3 || (v.target < 8 && v.direction > 0); },
+      [](const Visit& v) { return v.run < 2 || v.target < 12; },
+      [](const Visit& v) { return v.target != (v.run < 3 ? 1 : 13); },  // none is whole
+  };
+  for (std::size_t i = 0; i < lacking.size(); ++i) {
+    const Squareness s = squareness(cut_run(3, lacking[i]), y, {}).value();
+    EXPECT_NEAR(s.slope_EYX_rad, kSlope, 1e-14) << i;
+    EXPECT_NEAR(s.EC0Y_rad, whole.EC0Y_rad, 1e-14) << i;
+    // The drift shifts whole runs: what they are uncertain by stays in it, and the form does not
+    // come in.
+    EXPECT_NEAR(s.u_slope_EYX_rad / whole.u_slope_EYX_rad, 1, 0.5) << i;
+  }
+}
+
+TEST(UnevenVisits, TheDriftsOfTheRunsSumToZero) {
+  const mdof::Run run = cut_run(3, [](const Visit& v) { return v.run != 3 || v.target != 9; });
+  const auto without = without_drift_of_runs(run.points);
+  const double drift_um[] = {0.3 - 1.4, 1.2 - 1.4, 2.7 - 1.4};
+  for (std::size_t i = 0; i < without.size(); ++i)
+    EXPECT_NEAR((run.points[i].errors.local[0] - without[i].errors.local[0]) * 1e6,
+                drift_um[run.points[i].run - 1], 1e-9);
+}
+
+// Runs that share no visit cannot be compared.
+TEST(UnevenVisits, RunsWithoutACommonVisitStay) {
+  const mdof::Run run = cut_run(2, [](const Visit& v) { return (v.run == 1) == (v.target < 7); });
+  const auto same = without_drift_of_runs(run.points);
+  for (std::size_t i = 0; i < same.size(); ++i)
+    EXPECT_NEAR(same[i].errors.local[0], run.points[i].errors.local[0], 1e-18);
+}
+
+// A line through three neighbours follows their noise.
+TEST(UnevenVisits, ARunOfThreeTargetsDoesNotScatterTheSlope) {
+  std::mt19937_64 engine(4);
+  std::normal_distribution<> unit;
+  const mdof::Run y = cut_run(1, kAll, Axis::y);
+  double with = 0, without = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    mdof::Run x = cut_run(
+        4, [](const Visit& v) { return v.run < 4 || v.target < 4; }, Axis::x, 0);
+    for (MeasuredPoint& p : x.points) p.errors.local[0] += 10e-9 * unit(engine);
+    with += squareness(x, y, {}).value().u_slope_EYX_rad;
+    std::erase_if(x.points, [](const MeasuredPoint& p) { return p.run == 4; });
+    without += squareness(x, y, {}).value().u_slope_EYX_rad;
+  }
+  EXPECT_NEAR(with / without, 1, 0.1);
+}
+
+TEST(UnevenVisits, ATableRemovesTheSlopeOfTheWholeAxis) {
+  const auto of = [](const Kept& kept) { return build_table({cut_run(1, kept)}, {}).value(); };
+  const auto whole = of(kAll);
+  const auto cut = of([](const Visit& v) { return v.direction > 0 || v.target > 4; });
+  ASSERT_EQ(cut.position_m, whole.position_m);
+  EXPECT_TRUE(std::isnan(cut.reverse[0][3]));
+  for (std::size_t i = 0; i < 13; ++i) {
+    EXPECT_NEAR(cut.forward[0][i], whole.forward[0][i], 1e-15);
+    if (i > 3) {
+      EXPECT_NEAR(cut.reverse[0][i], whole.reverse[0][i], 1e-15);
+    }
+  }
+}
+
+// Stated over true u of the slope where half of the targets lack an approach, and the reversal
+// differs from target to target.
+TEST(UnevenVisits, TheUncertaintyHoldsWhereTheReversalScatters) {
+  std::mt19937_64 engine(3);
+  std::normal_distribution<> unit;
+  double square = 0, stated = 0;
+  constexpr int kTrials = 2000;
+  const mdof::Run y = cut_run(1, kAll, Axis::y);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    mdof::Run x = cut_run(1, [](const Visit& v) { return v.direction > 0 || v.target > 6; });
+    std::map<int, double> reversal_m;
+    for (MeasuredPoint& p : x.points) {
+      const auto [at, first] = reversal_m.try_emplace(p.target, 0.0);
+      if (first) at->second = 0.2e-6 * unit(engine);
+      p.errors.local[0] += 0.5 * p.point.direction * at->second + 1e-9 * unit(engine);
+    }
+    const Squareness s = squareness(x, y, {}).value();
+    square += (s.slope_EYX_rad - kSlope) * (s.slope_EYX_rad - kSlope);
+    stated += s.u_slope_EYX_rad * s.u_slope_EYX_rad;
+  }
+  EXPECT_NEAR(std::sqrt(stated / square), 1, 0.3);
+}
+
+}  // namespace
+}  // namespace mdof::algo

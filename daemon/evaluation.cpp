@@ -69,6 +69,33 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
   return BuiltTable{std::move(table), algo::inherited_warnings(algo::all_of(runs))};
 }
 
+namespace {
+
+Result<std::vector<std::string>> warnings_of(store::Store& store, const CompensationTable& table) {
+  std::vector<Run> runs(table.runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    MDOF_TRY(runs[i].header, store.run_header(table.runs[i]));
+  }
+  return algo::inherited_warnings(algo::all_of(runs));
+}
+
+}  // namespace
+
+Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request) {
+  MDOF_TRY(const CompensationTable table, store.table(request.table));
+  MDOF_TRY(const auto warnings, warnings_of(store, table));
+  if (warnings.empty() || request.despite_warnings)
+    return store.activate(request.table, request.actor, utc_now());
+  return fail(ErrorCode::conflict,
+              "table " + std::to_string(request.table) + " is made of runs with " +
+                  std::to_string(warnings.size()) +
+                  (warnings.size() == 1 ? " warning" : " warnings") +
+                  ", so that it is not put in force: " + warnings.front() +
+                  (warnings.size() > 1 ? "; and more: see each run, mdof show RUN" : "") +
+                  ". If they do no harm, ask with --despite-warnings, in the call with "
+                  "\"despite_warnings\": true");
+}
+
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
   MDOF_TRY(const Run x, store.run(request.run_x));
   MDOF_TRY(const Run y, store.run(request.run_y));

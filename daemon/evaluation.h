@@ -38,6 +38,15 @@ struct BuiltTable {
 // Built and stored. Errors: those of algo::build_table(); runs of rigs with other machines.
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request);
 
+struct ActivationRequest {
+  std::int64_t table = 0;
+  bool despite_warnings = false;
+  std::string actor;  // who asks
+};
+// Puts the table in force. Refuses one whose runs carry warnings unless that is asked for: a
+// controller sees numbers only.
+Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request);
+
 struct SquarenessRequest {
   std::int64_t run_x = 0, run_y = 0;
   algo::ArtefactGiven given;

@@ -84,11 +84,11 @@ void change_what_is_in_force(Methods& m, Reply reply, std::string reply_members,
 }
 
 void activate(Methods& m, const Params& params, Reply reply) {
-  const std::int64_t id = params.integer("table");
-  change_what_is_in_force(m, std::move(reply), "\"table\":" + std::to_string(id),
-                          [id, actor = actor_of(params)](store::Store& store) {
-                            return store.activate(id, actor, utc_now());
-                          });
+  const ActivationRequest request{params.integer("table"),
+                                  params.boolean("despite_warnings", false), actor_of(params)};
+  change_what_is_in_force(
+      m, std::move(reply), "\"table\":" + std::to_string(request.table),
+      [request](store::Store& store) { return activate_table(store, request); });
 }
 
 void deactivate(Methods& m, const Params& params, Reply reply) {
@@ -220,7 +220,9 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
   table.add({.name = "compensation.activate",
              .summary = "Puts a stored table in force on its axis, at once and for everybody.",
-             .params = {{"table", ParamType::integer, "id of the table", true}},
+             .params = {{"table", ParamType::integer, "id of the table", true},
+                        {"despite_warnings", ParamType::boolean,
+                         "also one whose runs carry warnings", false, "false"}},
              .result = "table, generation, changed: false where it was in force already",
              .example = R"({"table": 1})",
              .writes = true,

@@ -23,6 +23,8 @@ MDOFD, MDOF = sys.argv[1:3]
 TARGETS = [0, 2, 4.1, 6.2]
 # X and Y carry the work, Z the tool: the corrections of EYX and EZX go opposite ways (DESIGN 3).
 MACHINE = '[machine]\nchain = "w-Y-X-b-Z-t"\n'
+# A run that begins in a stop has the warning that this stop was too short.
+MAYBE_BEGUN_IN_A_STOP = {"despite_warnings": True}
 FACTOR = {"EYX_um": -1, "EZX_um": 1}
 
 
@@ -74,6 +76,9 @@ class EndToEnd(unittest.TestCase):
         again = json.loads(out)
         self.assertEqual(again["points"], points)
         self.assertIn("periodic error", str(header["warnings"]))
+        table = self.client.call("compensation.build", runs=[run])["table"]
+        with self.assertRaisesRegex(RpcError, "not put in force: .*despite_warnings"):
+            self.client.call("compensation.activate", table=table)
         for key in ("straightness", "angles", "state", "note", "options", "warnings"):
             self.assertEqual(again[key], header[key])
         self.assertEqual(again["recording"]["sha256"], header["recording"]["sha256"])
@@ -125,7 +130,7 @@ class EndToEnd(unittest.TestCase):
         built = self.client.call("compensation.build", runs=[run])
         self.assertTrue(built["simulated"])
         before = self.client.call("server.info")["generation"]
-        active = self.client.call("compensation.activate", table=built["table"])
+        active = self.client.call("compensation.activate", table=built["table"], **MAYBE_BEGUN_IN_A_STOP)
         self.assertGreater(active["generation"], before)
         grid = self.client.call("compensation.grid", axis="X")
         self.assertEqual([round(p["position_mm"], 3) for p in grid["points"]], TARGETS)
@@ -165,7 +170,8 @@ class EndToEnd(unittest.TestCase):
             run = client.call("run.start", axis="Y")["run"]
             while watcher.next_note()["params"]["value"].get("type") != "ended":
                 pass
-            client.call("compensation.activate", table=client.call("compensation.build", runs=[run])["table"])
+            client.call("compensation.activate", **MAYBE_BEGUN_IN_A_STOP,
+                        table=client.call("compensation.build", runs=[run])["table"])
             at = client.call("compensation.at", axis="Y", position_mm=10, direction=1)
             self.assertIsNone(at["correction"])
             self.assertIn("chain is not known", at["correction_reason"])
@@ -176,7 +182,7 @@ class EndToEnd(unittest.TestCase):
     def test_a_table_survives_a_restart(self):
         run = self.measured(axis="X", targets_mm=TARGETS, repeats=1)
         table = self.client.call("compensation.build", runs=[run])["table"]
-        self.client.call("compensation.activate", table=table)
+        self.client.call("compensation.activate", table=table, **MAYBE_BEGUN_IN_A_STOP)
         before = self.client.call("compensation.at", axis="X", position_mm=3)
         self.daemon.stop()
         type(self).client = self.daemon.start()

@@ -27,6 +27,7 @@ struct CompensationCommand {
   std::vector<std::int64_t> runs;
   std::int64_t table = 0;
   bool keep_slope = false, partial = false, csv = false, json = false, all_warnings = false;
+  bool despite_warnings = false;
 };
 
 Status print_table(const CompensationTable& table, std::int64_t generation, bool json) {
@@ -103,9 +104,11 @@ Status print_activation(const CompensationCommand& command, const std::string& r
 Result<std::string> activated(const CompensationCommand& command) {
   const std::string table = "\"table\":" + std::to_string(command.table);
   MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
-  if (mdofd) return mdofd->call("compensation.activate", "{" + table + "}");
+  const std::string despite = command.despite_warnings ? ",\"despite_warnings\":true" : "";
+  if (mdofd) return mdofd->call("compensation.activate", "{" + table + despite + "}");
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(const auto done, store.activate(command.table, kActor, daemon::utc_now()));
+  MDOF_TRY(const auto done,
+           daemon::activate_table(store, {command.table, command.despite_warnings, kActor}));
   return store::activation_json(table, done);
 }
 
@@ -227,6 +230,8 @@ void add_compensation(CLI::App& app, Action& chosen) {
   does(of_list, list);
   auto* of_activate = declare(*group, "activate", "Put a table in force on its axis", *o);
   of_activate->add_option("TABLE", o->table, "Number of the table")->required()->type_name("");
+  of_activate->add_flag("--despite-warnings", o->despite_warnings,
+                        "Also a table whose runs carry warnings");
   add_socket_option(*of_activate, o->socket);
   add_json_flag(*of_activate, o->json);
   of_activate->footer("Example:\n  mdof compensation activate 1");

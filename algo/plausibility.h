@@ -27,6 +27,9 @@ Plausibility plausibility(const RunToJudge& run);
 // Each one sentence, by name; none: nothing looks wrong. Many of a kind are summarised.
 std::vector<std::string> warnings_of_visits(const RunToJudge& run, const Plausibility& figures);
 std::vector<std::string> warnings_of_units(const Rig& rig, const Plausibility& figures);
+// A probe that reads the same while others change, an encoder that stands still while probes
+// change.
+std::vector<std::string> warnings_of_signals(const RunToJudge& run);
 
 // What a travel (m) says of the encoder's unit; empty: nothing.
 std::string encoder_unit_doubt(double travel_m);

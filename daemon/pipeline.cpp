@@ -285,8 +285,9 @@ void Pipeline::add_plausibility(Run& run) const {
                                dwell.settle_s + dwell.min_length_s};
   run.plausibility = algo::plausibility(whole);
   auto& warnings = run.header.warnings;
-  for (const auto& more : {algo::warnings_of_visits(whole, *run.plausibility),
-                           algo::warnings_of_units(rig_, *run.plausibility)})
+  for (const auto& more :
+       {algo::warnings_of_signals(whole), algo::warnings_of_visits(whole, *run.plausibility),
+        algo::warnings_of_units(rig_, *run.plausibility)})
     warnings.insert(warnings.end(), more.begin(), more.end());
 }
 

@@ -4,8 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "schema/number_text.h"
+#include "schema/units.h"
+
 namespace mdof::algo {
 namespace {
+
+constexpr double kGapIntervals = 2.5;
 
 // Columns of an empty frame block may hold anything: they are swapped whole, and their memory goes
 // back to the driver.
@@ -52,9 +57,20 @@ std::int64_t to_ns(double s) {
 
 }  // namespace
 
-Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids) : options_(options) {
+double AlignOptions::gap_s(const std::string& channel) const {
+  const auto slow = interval_s.find(channel);
+  return slow == interval_s.end() ? max_gap_s : std::max(max_gap_s, kGapIntervals * slow->second);
+}
+
+Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids)
+    : options_(std::move(options)) {
   encoder_.id = kEncoderChannel;
-  for (auto& id : probe_ids) probes_.push_back({std::move(id), {}});
+  for (auto& id : probe_ids) {
+    Track track;
+    track.gap_ns = to_ns(options_.gap_s(id));
+    track.id = std::move(id);
+    probes_.push_back(std::move(track));
+  }
 }
 
 // Whether the block has all channels of the rig; finds them, -1 where it has none.
@@ -151,6 +167,7 @@ Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, T
 // The reading of a track at an instant it has reached; drops what no later instant can need.
 Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
   auto& readings = track.readings;
+  ++track.asked;
   while (readings.size() >= 2 && readings[1].time_ns <= time_ns) readings.pop_front();
   const Reading nothing{time_ns, kNaN, Quality::missing};
   if (readings.empty() || readings.front().time_ns > time_ns) return nothing;
@@ -158,7 +175,11 @@ Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
   if (a.time_ns == time_ns) return a;
   if (readings.size() < 2) return nothing;
   const Reading& b = readings[1];
-  if (b.time_ns - a.time_ns > to_ns(options_.max_gap_s)) return nothing;
+  if (b.time_ns - a.time_ns > track.gap_ns) {
+    ++track.in_gap;
+    track.shortest_gap_ns = std::min(track.shortest_gap_ns, b.time_ns - a.time_ns);
+    return nothing;
+  }
   const double share =
       static_cast<double>(time_ns - a.time_ns) / static_cast<double>(b.time_ns - a.time_ns);
   return {time_ns, a.value + (b.value - a.value) * share, std::max(a.quality, b.quality)};
@@ -225,6 +246,22 @@ std::size_t Aligner::waiting() const {
   std::size_t n = 0;
   for (const Track& probe : probes_) n += probe.readings.size();
   return n;
+}
+
+std::map<std::string, std::string> Aligner::too_slow() const {
+  std::map<std::string, std::string> all;
+  for (const Track& probe : probes_) {
+    if (2 * probe.in_gap <= probe.asked) continue;
+    const double apart_s = ns_to_s(probe.shortest_gap_ns);
+    all[probe.id] = std::to_string(probe.in_gap) + " of " + std::to_string(probe.asked) +
+                    " values of probe \"" + probe.id + "\" are missing because its samples come " +
+                    plain_number(apart_s) +
+                    " s or more apart, and nothing is interpolated into "
+                    "more than max_gap_s = " +
+                    plain_number(ns_to_s(probe.gap_ns)) + " s; set max_gap_s of [measure] to " +
+                    plain_number(kGapIntervals * apart_s) + " or more, or sample faster";
+  }
+  return all;
 }
 
 void Aligner::flush(FrameBlock& out) {

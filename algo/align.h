@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,11 @@ struct AlignOptions {
   double lag_bound_s = 3;
   // Two samples further apart than this have a gap between them: nothing is interpolated into it.
   double max_gap_s = 0.05;
+  // Time between the samples of slow channels, as their devices state it: for these a gap begins at
+  // two and a half of it, one sample that is late or lost is none.
+  std::map<std::string, double> interval_s = {};
+
+  double gap_s(const std::string& channel) const;
 };
 
 // Takes calibrated blocks (Unit::metre). Where one device gives the encoder and all probes, its
@@ -46,6 +52,9 @@ class Aligner {
   std::uint64_t given_up() const { return given_up_; }  // probe values that never came
   // Samples of the probes that wait for the encoder: bounded by the lag bound, not by its silence.
   std::size_t waiting() const;
+  // Of probes most of whose values are missing only because their samples come further apart than
+  // the gap: what to do. By id.
+  std::map<std::string, std::string> too_slow() const;
 
  private:
   struct Reading {
@@ -58,6 +67,9 @@ class Aligner {
     std::deque<Reading> readings;
     std::int64_t newest_ns = INT64_MIN;
     std::int64_t used_ns = INT64_MIN;  // the newest of its samples that is in the frames
+    std::int64_t gap_ns = 0;
+    std::uint64_t asked = 0, in_gap = 0;  // values, and those in a gap
+    std::int64_t shortest_gap_ns = INT64_MAX;
   };
 
   bool whole(const SampleBlock& block);
@@ -67,7 +79,7 @@ class Aligner {
   Status enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track);
   void emit(FrameBlock& out, bool at_end);
   void let_go_of_what_is_too_old();
-  Reading value_at(Track& track, std::int64_t time_ns);
+  static Reading value_at(Track& track, std::int64_t time_ns);
   static bool has_fresh(Track& track, std::int64_t time_ns);
   void mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const;
 

@@ -235,6 +235,7 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
 // dropped here.
 void Acquisition::note_loss(SampleBlock& block) {
   const std::lock_guard lock(status_mutex_);
+  measure_rate(block);
   if (std::exchange(just_opened_, false) && last_ns_ && block.lost == 0) {
     const double away_s = static_cast<double>(block.time_ns.front() - *last_ns_) * 1e-9;
     const double scans = away_s * status_.info.rate_hz;
@@ -244,6 +245,19 @@ void Acquisition::note_loss(SampleBlock& block) {
   status_.lost += block.lost;
   block.lost += std::exchange(dropped_scans_, 0);
   status_.scans += block.scans();
+}
+
+// Of devices that do not state their rate: as fast as they answer. status_mutex_ is held.
+void Acquisition::measure_rate(const SampleBlock& block) {
+  if (just_opened_) {
+    opened_ns_ = block.time_ns.front();
+    scans_since_opened_ = 0;
+  }
+  scans_since_opened_ += block.scans();
+  const std::int64_t passed_ns = block.time_ns.back() - opened_ns_;
+  if (passed_ns > 0)
+    status_.measured_hz =
+        1e9 * static_cast<double>(scans_since_opened_ - 1) / static_cast<double>(passed_ns);
 }
 
 void Acquisition::hand_over(SampleBlock& block, std::uint64_t pass) {

@@ -25,6 +25,7 @@ struct DeviceStatus {
   std::string mended_utc;
   std::vector<Trouble> standing;  // what holds now
   drivers::DeviceInfo info;
+  double measured_hz = 0;      // scans a second since it was opened; 0: not known yet
   std::uint64_t scans = 0;     // since the start
   std::uint64_t lost = 0;      // scans that are known to have been lost
   std::uint64_t dropped = 0;   // blocks the measuring thread had no room for
@@ -65,6 +66,7 @@ class Acquisition {
   bool read_until_trouble(drivers::Driver& driver, std::uint64_t pass);
   void hand_over(SampleBlock& block, std::uint64_t pass);
   void note_loss(SampleBlock& block);
+  void measure_rate(const SampleBlock& block);
   void refresh_info(const drivers::Driver& driver);
   void pause();
   void set_state(const std::string& state);
@@ -85,6 +87,8 @@ class Acquisition {
   std::chrono::milliseconds backoff_{0};
   std::optional<std::int64_t> last_ns_;  // of the last scan that was read
   bool just_opened_ = false;             // no block since
+  std::int64_t opened_ns_ = 0;           // of the first scan since, and how many there were
+  std::uint64_t scans_since_opened_ = 0;
   std::chrono::steady_clock::time_point next_refresh_;
   std::uint64_t dropped_scans_ = 0;  // to be told with the next block
   std::optional<std::chrono::steady_clock::time_point> lost_since_;

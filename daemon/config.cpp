@@ -9,6 +9,7 @@
 #include "daemon/forward_model.h"
 #include "daemon/paths.h"
 #include "daemon/replay.h"
+#include "daemon/slow_channels.h"
 #include "drivers/calibration.h"
 #include "schema/files.h"
 #include "schema/toml_reader.h"
@@ -64,9 +65,10 @@ void read_rpc(TomlTable& root, Config& config) {
   config.tcp_port = static_cast<std::uint16_t>(port);
 }
 
-void read_measure(TomlTable& root, PipelineOptions& m) {
+// Whether it says how long a gap is.
+bool read_measure(TomlTable& root, PipelineOptions& m) {
   auto table = root.table("measure");
-  if (!table) return;
+  if (!table) return false;
   const std::string model = table->string("model", to_string(m.model));
   if (!model_from(model, m.model)) {
     table->reject("model", "must be \"simplified\", \"exact\" or \"rigid\"");
@@ -83,6 +85,7 @@ void read_measure(TomlTable& root, PipelineOptions& m) {
   m.align.lag_bound_s = positive("lag_bound_s", m.align.lag_bound_s);
   m.align.max_gap_s = positive("max_gap_s", m.align.max_gap_s);
   m.stale_s = positive("stale_s", m.stale_s);
+  return table->has("max_gap_s");
 }
 
 // The rig must be one that the model can solve: said now, not at the first run.
@@ -137,6 +140,17 @@ Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem:
   if (!device.recorded) MDOF_CHECK(check_log(device, axis.rig));
   MDOF_CHECK(check_units(table, device, axis.rig));
   return device;
+}
+
+// Where devices are aligned, each must sample often enough to be of any use.
+Status check_rates(const TomlTable& table, const AxisConfig& axis, const Config& config) {
+  if (axis.devices.size() < 2) return {};
+  for (const auto& device : axis.devices) {
+    MDOF_TRY(const auto driver, device.make());
+    if (auto works = check_rate(driver->info(), config.measure.align, config.gap_given); !works)
+      return in_context(table.where("device"), std::move(works.error()));
+  }
+  return {};
 }
 
 // Among the devices of an axis each channel has one source, and a replay stands alone.
@@ -215,6 +229,7 @@ Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& co
   }
   MDOF_CHECK(check_together(table, axis));
   MDOF_CHECK(check_names(table, axis, config));
+  MDOF_CHECK(check_rates(table, axis, config));
   config.axes.push_back(std::move(axis));
   return {};
 }
@@ -240,7 +255,7 @@ Result<Config> load_config(const std::filesystem::path& file) {
   config.text = std::move(text);
   MDOF_CHECK(read_store(root, config));
   read_rpc(root, config);
-  read_measure(root, config.measure);
+  config.gap_given = read_measure(root, config.measure);
   const auto base = std::filesystem::absolute(file).parent_path();
   config.machine = read_machine(root);
   for (auto& axis : root.tables("axis")) {

@@ -32,7 +32,8 @@ struct Config {
   std::string socket;
   std::optional<std::uint16_t> tcp_port;  // loopback; off unless configured
   PipelineOptions measure;
-  Chain machine;  // [machine]; may be not known
+  bool gap_given = false;  // measure.align.max_gap_s; else it follows the devices' rates
+  Chain machine;           // [machine]; may be not known
   std::vector<AxisConfig> axes;
   std::string text;  // the TOML itself: provenance
   // For messages: the file, and where in it the paths are, or would be.

@@ -59,8 +59,13 @@ std::string PipelineOptions::json() const {
   json.key("align")
       .begin_object()
       .field("lag_bound_s", align.lag_bound_s)
-      .field("max_gap_s", align.max_gap_s)
-      .end_object();
+      .field("max_gap_s", align.max_gap_s);
+  if (!align.interval_s.empty()) {
+    json.key("interval_s").begin_object();
+    for (const auto& [channel, interval_s] : align.interval_s) json.field(channel, interval_s);
+    json.end_object();
+  }
+  json.end_object();
   json.key("dwell").raw(dwell.json());
   json.key("targets_mm").begin_array();
   for (const double t : sequence.targets_m) json.value(to_mm(t));
@@ -242,12 +247,17 @@ Status Pipeline::explain_nothing() const {
 Status Pipeline::judge_dead_probes(std::vector<std::string>& warnings) const {
   const bool needed = std::none_of(sequence_.points.begin(), sequence_.points.end(),
                                    [](const MeasuredPoint& p) { return p.errors.valid; });
+  const auto too_slow = aligner_.too_slow();
   for (std::size_t k = 0; k < rig_.probes.size(); ++k) {
     const bool dead = std::all_of(found_.begin(), found_.end(),
                                   [&](const Point& p) { return std::isnan(p.probe_m[k]); });
     if (!dead) continue;
-    const auto& flags = found_.front().flags;
     const std::string& id = rig_.probes[k].id;
+    if (const auto slow = too_slow.find(id); slow != too_slow.end()) {
+      if (needed) return bad_input(slow->second);
+      continue;  // told with the others
+    }
+    const auto& flags = found_.front().flags;
     const bool frozen = std::find(flags.begin(), flags.end(), "frozen:" + id) != flags.end();
     const bool saturated = std::find(flags.begin(), flags.end(), "saturated:" + id) != flags.end();
     const std::string why = frozen ? "probe \"" + id +
@@ -310,6 +320,7 @@ Result<Run> Pipeline::finish() {
   run.header.warnings.insert(run.header.warnings.end(), sequence_.warnings.begin(),
                              sequence_.warnings.end());
   if (unplaced_ > 0) run.header.warnings.push_back(explain_unplaced());
+  for (auto& [probe, why] : aligner_.too_slow()) run.header.warnings.push_back(std::move(why));
   add_plausibility(run);
   run.points = sequence_.points;
   auto more = dwell_.warnings(found_);

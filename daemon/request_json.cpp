@@ -71,6 +71,16 @@ Status read_align(element object, algo::AlignOptions& align) {
   Members members(object);
   members.take("lag_bound_s", align.lag_bound_s, seconds);
   members.take("max_gap_s", align.max_gap_s, seconds);
+  const auto intervals = members.object("interval_s");
+  if (!intervals) return members.status();
+  align.interval_s.clear();
+  simdjson::dom::object channels;
+  if (intervals->get(channels)) return members.status();  // it is one
+  for (const auto member : channels) {
+    double interval_s = 0;
+    if (member.value.get(interval_s) || !(interval_s > 0)) members.reject("interval_s");
+    align.interval_s[std::string(member.key)] = interval_s;
+  }
   return members.status();
 }
 

@@ -8,6 +8,7 @@
 #include "daemon/open_run.h"
 #include "daemon/paths.h"
 #include "daemon/request_json.h"
+#include "daemon/slow_channels.h"
 #include "daemon/version.h"
 
 namespace mdof::daemon {
@@ -90,16 +91,26 @@ Acquisition::Sink Station::sink() {
 // ---- main thread ----
 
 PipelineOptions Station::options_for(const RunRequest& request) const {
-  PipelineOptions options = options_;
+  PipelineOptions options = with_rates(options_);
   options.sequence.targets_m = request.targets_m;
   options.repeats = request.repeats;
   return options;
 }
 
-NewRun Station::describe_run(const RunRequest& request) const {
+// What is known of the devices' rates now: some state theirs only once they are open, or never.
+PipelineOptions Station::with_rates(PipelineOptions options) const {
+  std::vector<drivers::DeviceInfo> infos;
+  for (const auto& device : devices()) {
+    infos.push_back(device.info);
+    if (device.info.rate_hz == 0) infos.back().rate_hz = device.measured_hz;
+  }
+  if (infos.size() > 1) options.align = with_intervals(std::move(options.align), infos);
+  return options;
+}
+
+NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& options) const {
   NewRun run;
   RunHeader& h = run.header;
-  const PipelineOptions options = options_for(request);
   if (request.resumes) h.supersedes = request.resumes->id;
   h.axis = config_.rig.axis;
   h.sides = config_.rig.sides;
@@ -135,35 +146,38 @@ void Station::start_run(const RunRequest& request, const RunDone& done) {
     return done(fail(ErrorCode::conflict, std::string("a run of axis ") + letter(config_.rig.axis) +
                                               " is under way; stop it with run.stop first"));
   }
-  NewRun description = describe_run(request);
-  if (!request.resumes) return begin_run(std::move(description), request, nullptr, done);
+  const auto options = std::make_shared<const PipelineOptions>(options_for(request));
+  NewRun description = describe_run(request, *options);
+  if (!request.resumes) return begin_run(std::move(description), request, options, nullptr, done);
   if (resume_thread_.joinable()) resume_thread_.join();
   resuming_ = true;
   auto shared = std::make_shared<NewRun>(std::move(description));
-  resume_thread_ =
-      std::thread([this, shared, request, done] { resume_run(std::move(*shared), request, done); });
+  resume_thread_ = std::thread([this, shared, request, options, done] {
+    resume_run(std::move(*shared), request, options, done);
+  });
 }
 
 // On the thread "resume-X".
-void Station::resume_run(NewRun description, const RunRequest& request, const RunDone& done) {
+void Station::resume_run(NewRun description, const RunRequest& request, const Options& options,
+                         const RunDone& done) {
   const std::string name = std::string("resume-") + letter(config_.rig.axis);
   pthread_setname_np(pthread_self(), name.c_str());
   const auto ready = [&]() -> Result<std::shared_ptr<Beginning>> {
-    MDOF_TRY(auto pipeline, Pipeline::create(config_.rig, options_for(request)));
+    MDOF_TRY(auto pipeline, Pipeline::create(config_.rig, *options));
     auto beginning = std::make_shared<Beginning>(Beginning{std::move(pipeline), 0});
     MDOF_TRY(beginning->end_ns,
              record_again(*request.resumes, keeper_, description, beginning->pipeline, resuming_));
     return beginning;
   }();
-  if (ready) return begin_run(std::move(description), request, *ready, done);
+  if (ready) return begin_run(std::move(description), request, options, *ready, done);
   shared_->run = 0;
   done(tl::unexpected(ready.error()));
 }
 
-void Station::begin_run(NewRun description, const RunRequest& request,
+void Station::begin_run(NewRun description, const RunRequest& request, const Options& options,
                         std::shared_ptr<Beginning> beginning, const RunDone& done) {
   const bool posted = keeper_.begin_run(
-      std::move(description), [shared = shared_, request, beginning = std::move(beginning),
+      std::move(description), [shared = shared_, request, options, beginning = std::move(beginning),
                                done](const Result<std::int64_t>& id) {
         if (!id) {
           shared->run = 0;
@@ -173,6 +187,7 @@ void Station::begin_run(NewRun description, const RunRequest& request,
         item.kind = Item::Kind::attach;
         item.run = *id;
         item.request = request;
+        item.options = options;
         item.beginning = beginning;
         item.done = done;
         shared->queue.push_always(std::move(item));

@@ -68,7 +68,8 @@ class Station {
     SampleBlock block;
     std::int64_t run = 0;
     RunRequest request;
-    std::shared_ptr<Beginning> beginning;  // of a run that goes on from another
+    std::shared_ptr<const PipelineOptions> options;  // of the run to attach
+    std::shared_ptr<Beginning> beginning;            // of a run that goes on from another
     bool abort = false;
     std::string reason;
     drivers::SourceInfo source;
@@ -88,11 +89,15 @@ class Station {
   static constexpr std::size_t kQueuedBlocks = 1024;
 
   Acquisition::Sink sink();
-  NewRun describe_run(const RunRequest& request) const;
+  NewRun describe_run(const RunRequest& request, const PipelineOptions& options) const;
   PipelineOptions options_for(const RunRequest& request) const;
-  void begin_run(NewRun description, const RunRequest& request,
+  PipelineOptions with_rates(PipelineOptions options) const;
+  // `options`: once for description and measuring, so that a replay measures the same.
+  using Options = std::shared_ptr<const PipelineOptions>;
+  void begin_run(NewRun description, const RunRequest& request, const Options& options,
                  std::shared_ptr<Beginning> beginning, const RunDone& done);
-  void resume_run(NewRun description, const RunRequest& request, const RunDone& done);
+  void resume_run(NewRun description, const RunRequest& request, const Options& options,
+                  const RunDone& done);
 
   void measure();
   void handle(Item& item);

@@ -186,7 +186,7 @@ bool Station::of_this_pass(const Item& item) const {
 void Station::attach(Item& item) {
   std::optional<Continuation> continues;
   auto pipeline = item.beginning ? std::move(item.beginning->pipeline)
-                                 : Pipeline::create(config_.rig, options_for(item.request));
+                                 : Pipeline::create(config_.rig, *item.options);
   if (!pipeline) {  // the configuration was checked with the same rig: only given targets differ
     shared_->run = 0;
     return item.done(tl::unexpected(pipeline.error()));
@@ -203,7 +203,7 @@ void Station::attach(Item& item) {
 void Station::take_samples(SampleBlock& block) {
   if (!open_) {
     if (!view_) {
-      auto view = Pipeline::create(config_.rig, without_points(options_));
+      auto view = Pipeline::create(config_.rig, without_points(with_rates(options_)));
       if (!view) return;  // checked with the configuration
       view_.emplace(std::move(*view));
     }

@@ -150,5 +150,50 @@ TEST(Aligner, ASilentEncoderDoesNotFillTheMemory) {
   }
 }
 
+// A probe at 10 Hz beside an encoder at 1 kHz, 30 s; the probe reads 2 t. One of its samples is
+// lost at 12 s: a gap of two intervals is none, three lost in a row at 20 s are one.
+struct Slow {
+  FrameBlock out;
+  std::map<std::string, std::string> told;
+  std::size_t missing = 0;
+  double worst = 0;
+
+  explicit Slow(AlignOptions options) {
+    Aligner aligner(std::move(options), {"A"});
+    for (std::int64_t t = 0; t <= 30'000; t += 100) {
+      std::vector<std::int64_t> times;
+      for (std::int64_t i = 0; i < 100; ++i) times.push_back(t + i + 1);
+      SampleBlock e = block("e", {"encoder"}, times, 1.0), p = block("p", {"A"}, {t}, 2.0);
+      const bool lost = t == 12'000 || (t >= 20'000 && t < 20'300);
+      EXPECT_TRUE(aligner.push(e, out));
+      if (!lost) {
+        EXPECT_TRUE(aligner.push(p, out));
+      }
+    }
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      missing += out.quality_at(0, i) == Quality::missing;
+      if (!std::isnan(out.probe_m[0][i]))
+        worst = std::max(worst, std::abs(out.probe_m[0][i] - 2 * out.encoder_m[i]));
+    }
+    told = aligner.too_slow();
+  }
+};
+
+TEST(Aligner, ASlowProbeIsInterpolatedByItsOwnInterval) {
+  const Slow known({.interval_s = {{"A", 0.1}}});
+  EXPECT_GE(known.out.size(), 29'900u);
+  EXPECT_NEAR(static_cast<double>(known.missing), 399, 2);  // 19.9 to 20.3 s
+  EXPECT_LT(known.worst, 1e-6);
+  EXPECT_TRUE(known.told.empty());
+}
+
+TEST(Aligner, ASlowProbeThatNobodyKnewOfIsTold) {
+  const Slow unknown({});
+  EXPECT_GT(unknown.missing, 29'000u);
+  ASSERT_EQ(unknown.told.count("A"), 1u);
+  EXPECT_NE(unknown.told.at("A").find("come 0.1 s or more apart"), std::string::npos);
+  EXPECT_NE(unknown.told.at("A").find("set max_gap_s of [measure] to 0.25"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mdof::algo

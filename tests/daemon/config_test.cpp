@@ -102,5 +102,31 @@ TEST_F(ConfigFile, ARigThatCannotSeeIsRefusedAtStartUp) {
   EXPECT_NE(says.find("ECX"), std::string::npos) << says;
 }
 
+// Probes of a slow AD7746 beside a counter: accepted by themselves, refused with a gap that is
+// shorter than their interval.
+TEST_F(ConfigFile, AGapShorterThanAProbesIntervalIsRefusedAtStartUp) {
+  std::string axis = "[[axis]]\nrig = \"rig_X.toml\"\n";
+  const auto iio = [&](const std::string& name, const std::string& first, const char* second) {
+    axis += "[[axis.device]]\ndriver = \"linux_iio\"\nname = \"" + name + "\"\ndevice = \"" + name +
+            "\"\nrate_hz = 10\nchannel = [{ id = \"" + first +
+            "\", input = \"capacitance0\", area_mm2 = 5 }";
+    if (*second)
+      axis += std::string(", { id = \"") + second + "\", input = \"capacitance1\", area_mm2 = 5 }";
+    axis += "]\n";
+  };
+  iio("ad1", "A", "B");
+  iio("ad2", "C", "D");
+  iio("ad3", "E", "");
+  axis +=
+      "[[axis.device]]\ndriver = \"linux_counter\"\nname = \"counter\"\nrate_hz = 1000\n"
+      "channel = [{ id = \"encoder\", input = \"count0\", um_per_count = 0.05 }]\n";
+  EXPECT_EQ(refusal(axis), "accepted");
+  EXPECT_NE(refusal("[measure]\nmax_gap_s = 0.05\n" + axis).find("max_gap_s = 0.05"),
+            std::string::npos);
+  EXPECT_EQ(refusal("[measure]\nmax_gap_s = 0.3\n" + axis), "accepted");
+  EXPECT_NE(refusal("[measure]\nlag_bound_s = 0.1\n" + axis).find("lag_bound_s"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace mdof::daemon

@@ -14,6 +14,7 @@ PipelineOptions asked_options() {
   options.model = Model::exact;
   options.sequence.targets_m = {from_mm(0), from_mm(2), from_mm(4.1), from_mm(6.2)};
   options.repeats = 3;
+  options.align.interval_s = {{"A", 0.1}, {"E", 0.25}};
   return options;
 }
 
@@ -26,13 +27,14 @@ TEST(RequestJson, ComesBackAsItWas) {
   EXPECT_EQ(back->options.json(), asked.options.json());
   EXPECT_EQ(back->options.model, Model::exact);
   EXPECT_EQ(back->options.repeats, 3);
+  EXPECT_EQ(back->options.align.interval_s, asked.options.align.interval_s);
 }
 
 // Whoever adds an option to PipelineOptions::json() must read it back as well: else a replay of a
 // recording is measured otherwise than its run.
 TEST(RequestJson, EveryNumberOfTheOptionsIsReadBack) {
   const std::string text = asked_options().json();
-  const std::regex number(R"(("[a-z_]+":)([0-9][0-9.e+-]*))");
+  const std::regex number(R"(("[A-Za-z_]+":)([0-9][0-9.e+-]*))");
   int numbers = 0;
   for (auto at = std::sregex_iterator(text.begin(), text.end(), number);
        at != std::sregex_iterator(); ++at, ++numbers) {
@@ -71,6 +73,7 @@ TEST(RequestJson, WhatCannotBeReadIsNamed) {
       {R"({"options":{"model":"magic"}})", "model"},
       {R"({"options":{"targets_mm":["x"]}})", "targets_mm"},
       {R"({"options":{"align":{"max_gap_s":"long"}}})", "max_gap_s"},
+      {R"({"options":{"align":{"interval_s":{"A":0}}}})", "interval_s"},
       {R"({"options":{"dwell":7}})", "dwell"},
   };
   for (const auto& [text, says] : cases) {

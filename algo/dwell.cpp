@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "algo/flags.h"
 #include "algo/frame_rows.h"
-#include "algo/robust_mean.h"
 #include "schema/json_writer.h"
 #include "schema/units.h"
 
@@ -20,26 +20,11 @@ constexpr double kAutoNoiseFactor = 6;
 constexpr double kCreepFactor = 5.0;  // a stop that wanders by more tolerances than this is none
 constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
-constexpr double kCoarseSteps = 3.5;  // no spike: a reading that flickers between its steps
-constexpr int kGapPeriods = 3;
 constexpr std::int64_t kHolePeriods = 5;          // longer than a slot
 constexpr std::int64_t kUnseen_ns = 500'000'000;  // in which an axis may have turned
 constexpr double kMostCreep_m = 50e-6;            // of a stop that is kept
 constexpr std::size_t kPathLength = 64;
 constexpr std::size_t kDropRows = 4096;  // rows no longer needed before the buffer is moved up
-constexpr std::size_t kMinScans = 5;     // of a dwell, and of a probe in it
-
-// Where the rows with a position that begin at `from` end.
-std::size_t end_of_placed(const FrameBlock& frames, std::size_t from) {
-  const auto begin = frames.encoder_m.begin() + static_cast<std::ptrdiff_t>(from);
-  const auto end =
-      std::find_if(begin, frames.encoder_m.end(), [](double m) { return !std::isfinite(m); });
-  return from + static_cast<std::size_t>(end - begin);
-}
-
-bool all_finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-}
 
 double median3(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -55,8 +40,10 @@ std::string DwellOptions::json() const {
       .field("settle_s", settle_s)
       .field("min_length_s", min_length_s)
       .field("approach_um", to_um(approach_m))
-      .field("max_scans", static_cast<std::uint64_t>(max_scans))
-      .end_object();
+      .field("max_scans", static_cast<std::uint64_t>(max_scans));
+  if (max_speed_m_s != DwellOptions().max_speed_m_s)
+    json.field("max_speed_mm_s", to_mm(max_speed_m_s));
+  json.end_object();
   return json.take();
 }
 
@@ -66,6 +53,7 @@ DwellDetector::DwellDetector(DwellOptions options, std::vector<std::string> prob
       probe_ids_(std::move(probe_ids)),
       probe_range_m_(std::move(probe_range_m)),
       resolution_(probe_ids_.size()),
+      places_(options_.max_speed_m_s),
       early_(empty_frames(probe_ids_.size())),
       buffer_(empty_frames(probe_ids_.size())),
       watch_(probe_ids_.size()) {
@@ -74,28 +62,53 @@ DwellDetector::DwellDetector(DwellOptions options, std::vector<std::string> prob
 
 void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
   std::size_t from = 0;
+  if (period_ns_ == 0) {
+    from = gather_early(frames);
+    if (early_.size() < kRowsForPeriod) return;
+    start(out);
+  }
+  push_from(frames, from, out);
+}
+
+// The first rows that have a position; gives where the others begin.
+std::size_t DwellDetector::gather_early(const FrameBlock& frames) {
+  std::size_t from = 0;
+  while (from < frames.size() && early_.size() < kRowsForPeriod) {
+    const std::size_t placed = places_.end_of_placed(frames, from);
+    const std::size_t to = std::min(placed, from + kRowsForPeriod - early_.size());
+    append_rows(early_, frames, from, to);
+    from = early_.size() < kRowsForPeriod ? places_.end_of_unplaced(frames, to) : to;
+  }
+  summary_.unplaced = places_.left_out();
+  return from;
+}
+
+// The first row alone may be wrong, most of them are not.
+void DwellDetector::start(std::vector<Point>& out) {
+  const FrameBlock early = std::exchange(early_, empty_frames(probe_ids_.size()));
+  std::vector<double> positions = early.encoder_m;
+  const auto middle = positions.begin() + static_cast<std::ptrdiff_t>(positions.size() / 2);
+  std::nth_element(positions.begin(), middle, positions.end());
+  learn_period(early);
+  places_.begin_at(early.time_ns.front() - static_cast<std::int64_t>(kRowsForPeriod) * period_ns_,
+                   *middle);
+  const bool first = places_.is_placed(early.time_ns.front(), early.encoder_m.front());
+  begin_way(first ? early.encoder_m.front() : *middle);
+  push_from(early, 0, out);
+}
+
+void DwellDetector::push_from(const FrameBlock& frames, std::size_t from, std::vector<Point>& out) {
   while (from < frames.size()) {
-    const std::size_t to = end_of_placed(frames, from);
+    const std::size_t to = places_.end_of_placed(frames, from);
     if (to > from) push_rows(frames, from, to, out);
-    from = to;
-    for (; from < frames.size() && !std::isfinite(frames.encoder_m[from]); ++from)
-      if (summary_.unplaced++ == 0) summary_.first_unplaced_ns = frames.time_ns[from];
+    from = places_.end_of_unplaced(frames, to);
+    summary_.unplaced = places_.left_out();
   }
 }
 
-// Rows from ... to - 1, each with a position.
+// Rows from ... to - 1, each with a place.
 void DwellDetector::push_rows(const FrameBlock& frames, std::size_t from, std::size_t to,
                               std::vector<Point>& out) {
-  if (period_ns_ == 0) {
-    const std::size_t early_to = std::min(to, from + kRowsForPeriod - early_.size());
-    append_rows(early_, frames, from, early_to);
-    if (early_.size() < kRowsForPeriod) return;
-    learn_period(early_);
-    const FrameBlock early = std::move(early_);
-    early_ = empty_frames(probe_ids_.size());
-    push_rows(early, 0, early.size(), out);
-    from = early_to;
-  }
   append_rows(buffer_, frames, from, to);
   while (row_ < buffer_.size()) {
     if (buffer_.time_ns[row_] - last_ns_ > hole_ns_) pass_hole();
@@ -134,10 +147,13 @@ void DwellDetector::learn_period(const FrameBlock& frames) {
   hole_ns_ =
       std::max(static_cast<std::int64_t>(options_.window_s * 1e9), kHolePeriods * period_ns_);
   origin_ns_ = last_ns_ = frames.time_ns.front();
-  encoder_before_ = {frames.encoder_m.front(), frames.encoder_m.front()};
   summary_.period_s = ns_to_s(period_ns_);
-  summary_.encoder_min_m = summary_.encoder_max_m = frames.encoder_m.front();
-  way_ = {frames.encoder_m.front(), frames.encoder_m.front()};
+}
+
+void DwellDetector::begin_way(double position_m) {
+  encoder_before_ = {position_m, position_m};
+  summary_.encoder_min_m = summary_.encoder_max_m = position_m;
+  way_ = {position_m, position_m};
 }
 
 // Rows row_ ... to - 1 belong to the open slot.
@@ -290,77 +306,6 @@ bool DwellDetector::keep_or_tell(Point point, std::size_t first_row, std::size_t
   return true;
 }
 
-Point DwellDetector::average(std::size_t from, std::size_t to) {
-  Point point;
-  point.begin_ns = buffer_.time_ns[from];
-  point.end_ns = buffer_.time_ns[to - 1];
-  point.samples = to - from;
-  const std::span<const double> encoder(&buffer_.encoder_m[from], to - from);
-  const RobustMean position = robust_mean(encoder, summary_.tolerance_m, scratch_);
-  point.position_m = position.mean;
-  point.direction = direction_;
-  if (position.rejected > 0) add_flag(point, "spike:encoder");
-  for (std::size_t k = 0; k < probe_ids_.size(); ++k) average_probe(k, from, to, point);
-  for (std::size_t i = from + 1; i < to; ++i) {
-    if (buffer_.time_ns[i] - buffer_.time_ns[i - 1] > kGapPeriods * period_ns_) {
-      add_flag(point, "gap");
-    }
-  }
-  if (truncated_) add_flag(point, "truncated");
-  const double jumped_m =
-      point.end_ns < last_jump_.time_ns ? jumped_m_ - last_jump_.size_m : jumped_m_;
-  if (std::abs(jumped_m) > summary_.tolerance_m) add_flag(point, "jump");
-  return point;
-}
-
-// The readings of a probe that can be used, each of its own samples once. Where nothing is marked,
-// every value that is a number is one.
-std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size_t from,
-                                                    std::size_t to, std::size_t& usable_rows,
-                                                    std::size_t& over_range) {
-  const auto& column = buffer_.probe_m[probe];
-  const auto& quality = buffer_.probe_quality[probe];
-  const auto& fresh = buffer_.probe_fresh[probe];
-  const std::span<const double> all(&column[from], to - from);
-  if (quality.empty() && fresh.empty() && all_finite(all)) return all;
-  finite_.clear();
-  usable_rows = 0;
-  for (std::size_t i = from; i < to; ++i) {
-    const Quality q = quality.empty() ? Quality::good : quality[i];
-    over_range += q == Quality::over_range;
-    if (!usable(q) || !std::isfinite(column[i])) continue;
-    ++usable_rows;
-    if (fresh.empty() || fresh[i]) finite_.push_back(column[i]);
-  }
-  return finite_;
-}
-
-void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size_t to,
-                                  Point& point) {
-  std::size_t over_range = 0, usable_rows = to - from;
-  const std::span<const double> readings = own_readings(probe, from, to, usable_rows, over_range);
-  const std::string& id = probe_ids_[probe];
-  if (over_range > 0) add_flag(point, "saturated:" + id);
-  const bool lost = usable_rows < kMinScans || 2 * usable_rows < to - from;
-  if (!lost && readings.size() < kMinScans) add_flag(point, "slow:" + id);
-  if (lost) add_flag(point, "lost:" + id);
-  if (lost || readings.size() < kMinScans) {
-    point.probe_m.push_back(kNaN);
-    point.probe_u_m.push_back(kNaN);
-    point.probe_sd_m.push_back(kNaN);
-    return;
-  }
-  if (usable_rows + over_range < to - from) add_flag(point, "missing:" + id);
-  const double step = resolution_[probe].step();
-  const double coarse = std::max(1e-3 * probe_range_m_[probe], kCoarseSteps * step);
-  const RobustMean mean = robust_mean(readings, coarse, scratch_);
-  if (mean.rejected > 0) add_flag(point, "spike:" + id);
-  watch_.take_stop(probe, mean, step);
-  point.probe_m.push_back(mean.mean);
-  point.probe_u_m.push_back(with_resolution(mean.u, mean.sd, step));
-  point.probe_sd_m.push_back(mean.sd);
-}
-
 void DwellDetector::drop_rows_before(std::size_t row) {
   if (row >= kDropRows) drop_rows(row);
 }
@@ -407,12 +352,7 @@ void DwellDetector::pass_break(std::vector<Point>& out) {
 }
 
 void DwellDetector::flush(std::vector<Point>& out) {
-  if (period_ns_ == 0 && early_.size() >= 2) {
-    learn_period(early_);
-    const FrameBlock early = std::move(early_);
-    early_ = empty_frames(probe_ids_.size());
-    push_rows(early, 0, early.size(), out);
-  }
+  if (period_ns_ == 0 && early_.size() >= 2) start(out);
   end_of_sight(out);
 }
 

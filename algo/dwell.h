@@ -12,6 +12,7 @@
 #include "algo/dwell_notice.h"
 #include "algo/encoder_jump.h"
 #include "algo/noise_floor.h"
+#include "algo/place_watch.h"
 #include "algo/probe_watch.h"
 #include "algo/resolution.h"
 #include "algo/slow_stretch.h"
@@ -26,9 +27,10 @@ struct DwellOptions {
   // times the encoder's own noise (its sd) where that is more.
   double tolerance_m = 0;
   double window_s = 0.05;
-  double settle_s = 0.1;      // left out at the start of each stop
-  double min_length_s = 0.1;  // to be averaged; a shorter stop (a reversal) is no dwell
-  double approach_m = 50e-6;  // travel from which a direction of approach counts
+  double settle_s = 0.1;       // left out at the start of each stop
+  double min_length_s = 0.1;   // to be averaged; a shorter stop (a reversal) is no dwell
+  double approach_m = 50e-6;   // travel from which a direction of approach counts
+  double max_speed_m_s = 100;  // of the axis: a position that it cannot reach is left out
   std::size_t max_scans = std::size_t{1} << 19;  // averaged of one dwell; bounds memory
 
   std::string json() const;  // for the provenance of a result
@@ -43,8 +45,8 @@ class DwellDetector {
                 std::vector<double> probe_range_m);
 
   // Appends the points that became complete. The encoder's single-sample spikes are voted out by a
-  // median of three. A frame without a position (NaN) belongs to no place: it is counted and left
-  // out, and many in a row are a hole in the time line.
+  // median of three. A frame without a place (place_watch.h) is counted and left out; many in a row
+  // are a hole in the time line.
   void push(const FrameBlock& frames, std::vector<Point>& out);
   // Frames after this time are not yet pushed. From there to the next frame nobody saw the axis: a
   // dwell ends here, and what approach the next one has is not known.
@@ -63,11 +65,9 @@ class DwellDetector {
   struct Summary {
     std::uint64_t scans = 0;
     double encoder_min_m = 0, encoder_max_m = 0;
-    double period_s = 0;     // median of the first intervals
-    std::uint64_t gaps = 0;  // intervals over three periods
-    // Frames without a position of the encoder, and the first of them.
-    std::uint64_t unplaced = 0;
-    std::int64_t first_unplaced_ns = 0;
+    double period_s = 0;         // median of the first intervals
+    std::uint64_t gaps = 0;      // intervals over three periods
+    std::uint64_t unplaced = 0;  // frames without a place (place_watch.h), not in `scans`
     double longest_still_s = 0;  // to explain why nothing was found
     double tolerance_m = 0;      // in force at the end
     // Stops that gave no point: too short, or creeping. The first kMaxPassedOver of them.
@@ -83,6 +83,9 @@ class DwellDetector {
   bool still() const { return dwelling_; }
 
  private:
+  static constexpr std::size_t kMinScans = 5;  // of a dwell, and of a probe in it
+  static constexpr int kGapPeriods = 3;
+
   // A quarter of the window: the grain of detection.
   struct Slot {
     std::int64_t index = 0;
@@ -91,14 +94,18 @@ class DwellDetector {
     double min_m = 0, max_m = 0;
     double bend_m = 0;           // sum of |second differences|: noise, whatever the speed
     double sharp_m = 0;          // the largest of them
-    std::uint64_t unplaced = 0;  // frames without a position before it, since the beginning
+    std::uint64_t unplaced = 0;  // frames without a place before it, since the beginning
     double middle() const { return 0.5 * (min_m + max_m); }
   };
 
   void push_rows(const FrameBlock& frames, std::size_t from, std::size_t to,
                  std::vector<Point>& out);
+  std::size_t gather_early(const FrameBlock& frames);
+  void start(std::vector<Point>& out);
+  void push_from(const FrameBlock& frames, std::size_t from, std::vector<Point>& out);
   void open_slot(std::int64_t index);
   void learn_period(const FrameBlock& frames);
+  void begin_way(double position_m);
   void add_rows(std::size_t to);
   void close_slot(std::vector<Point>& out);
   double window_range() const;
@@ -132,6 +139,7 @@ class DwellDetector {
   std::vector<Resolution> resolution_;
   Summary summary_;
 
+  PlaceWatch places_;
   FrameBlock early_;  // until the period is known
   std::int64_t period_ns_ = 0, slot_ns_ = 0, hole_ns_ = 0, origin_ns_ = 0, last_ns_ = 0;
   std::array<double, 2> encoder_before_{};  // for the median of three
@@ -146,7 +154,7 @@ class DwellDetector {
 
   bool dwelling_ = false, truncated_ = false;
   std::int64_t still_since_ns_ = 0;
-  std::uint64_t unplaced_before_ = 0;  // frames without a position before the dwell under way
+  std::uint64_t unplaced_before_ = 0;  // frames without a place before the dwell under way
   std::size_t cut_row_ = 0;            // of the dwell under way: what comes after is not averaged
   std::int64_t left_ns_ = 0;           // when and where the last stop ended; 0: none yet
   double left_m_ = 0;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "algo/dwell.h"
-#include "schema/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -14,14 +13,6 @@ constexpr std::size_t kReach = 6;  // rows that find_jump() wants on either side
 constexpr std::int64_t kGlitch_ns = 1'000'000'000;
 constexpr double kSlowTravel_m = 200e-6;  // from here on no creeping stop
 constexpr std::size_t kMostNotices = 10'000;
-
-std::string describe_unplaced(const DwellDetector::Summary& summary, std::int64_t origin_ns) {
-  const double first_s = ns_to_s(summary.first_unplaced_ns - origin_ns);
-  return std::to_string(summary.unplaced) +
-         " scans have no position of the encoder, the first of them " + plain_number(first_s) +
-         " s after the first scan that has one; they are left out, and the points of stops "
-         "with such scans have the flag missing:encoder; check the encoder and its cable";
-}
 
 }  // namespace
 
@@ -103,7 +94,7 @@ void DwellDetector::mark(std::vector<Point>& points) const {
 
 std::vector<std::string> DwellDetector::warnings(const std::vector<Point>& points) const {
   auto all = describe(notices_, points, origin_ns_, options_.settle_s + options_.min_length_s);
-  if (summary_.unplaced > 0) all.push_back(describe_unplaced(summary_, origin_ns_));
+  for (auto& warning : places_.warnings(origin_ns_)) all.push_back(std::move(warning));
   const auto probes = describe(watch_, probe_ids_, origin_ns_);
   all.insert(all.end(), probes.begin(), probes.end());
   return all;

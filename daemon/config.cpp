@@ -82,6 +82,8 @@ bool read_measure(TomlTable& root, PipelineOptions& m) {
   m.dwell.settle_s = positive("settle_s", m.dwell.settle_s);
   m.dwell.min_length_s = positive("min_length_s", m.dwell.min_length_s);
   m.dwell.approach_m = from_um(positive("approach_um", to_um(m.dwell.approach_m)));
+  m.dwell.max_speed_m_s = from_mm(positive("max_speed_mm_s", to_mm(m.dwell.max_speed_m_s)));
+  if (!(m.dwell.max_speed_m_s > 0)) table->reject("max_speed_mm_s", "must be more than 0");
   m.align.lag_bound_s = positive("lag_bound_s", m.align.lag_bound_s);
   m.align.max_gap_s = positive("max_gap_s", m.align.max_gap_s);
   m.stale_s = positive("stale_s", m.stale_s);

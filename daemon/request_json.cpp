@@ -91,6 +91,7 @@ Status read_dwell(element object, algo::DwellOptions& dwell) {
   members.take("settle_s", dwell.settle_s, seconds);
   members.take("min_length_s", dwell.min_length_s, seconds);
   members.take("approach_um", dwell.approach_m, from_um);
+  members.take("max_speed_mm_s", dwell.max_speed_m_s, from_mm);
   std::uint64_t max_scans = dwell.max_scans;
   members.take("max_scans", max_scans);
   dwell.max_scans = max_scans;

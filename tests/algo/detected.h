@@ -17,8 +17,9 @@ struct Detected {
   DwellDetector::Summary summary;
 };
 
-inline Detected detect(const SteppingLog& log, const FrameBlock& frames, std::size_t block = 1000) {
-  DwellDetector detector({}, log.ids(), std::vector<double>(log.probes, 200e-6));
+inline Detected detect(const SteppingLog& log, const FrameBlock& frames, std::size_t block = 1000,
+                       const DwellOptions& options = {}) {
+  DwellDetector detector(options, log.ids(), std::vector<double>(log.probes, 200e-6));
   Detected found;
   for (std::size_t i = 0; i < frames.size(); i += block)
     detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);

@@ -84,6 +84,66 @@ TEST(MissingEncoder, ManyInARowAreAHole) {
   }
 }
 
+constexpr double kOverflow_m = 4'294'967'296 * 0.05e-6;  // 2^32 counts of 50 nm
+
+TEST(UnreachablePlace, ACountThatOverflowsForAMomentCostsItsScansOnly) {
+  const SteppingLog log = one_run();
+  FrameBlock frames = log.frames();
+  const auto clean = detect(log, frames, 1000);
+  const std::size_t at = row_at(frames, 1e-9 * static_cast<double>(clean.points[6].begin_ns)) + 20;
+  for (const std::size_t row : {std::size_t{0}, at, at + 1, at + 2, at + 3, at + 4})
+    frames.encoder_m[row] += kOverflow_m;
+  for (const std::size_t block : kBlocks) {
+    const auto found = detect(log, frames, block);
+    ASSERT_EQ(found.points.size(), 26u);
+    EXPECT_EQ(found.summary.unplaced, 6u);
+    EXPECT_LT(found.summary.encoder_max_m, 0.1);
+    for (std::size_t i = 0; i < 26; ++i) {
+      EXPECT_NEAR(found.points[i].position_m, clean.points[i].position_m, 2e-9) << i;
+      EXPECT_EQ(has_flag(found.points[i], "missing:encoder"), i == 6) << i;
+    }
+    ASSERT_EQ(found.warnings.size(), 1u) << found.warnings[0];
+    EXPECT_EQ(found.warnings[0].find("6 scans have a position that the axis cannot"), 0u);
+  }
+}
+
+// The count is wrong from the seventh stop on: nothing after it has a place, and it says so. Also a
+// jump of 1 mm, of an axis whose greatest speed is known.
+TEST(UnreachablePlace, WhatGoesOnFromAJumpIsLeftOut) {
+  const SteppingLog log = one_run();
+  const FrameBlock whole = log.frames();
+  const auto clean = detect(log, whole, 1000);
+  const std::size_t at = row_at(whole, 1e-9 * static_cast<double>(clean.points[6].end_ns)) - 20;
+  const struct {
+    double jump_m;
+    DwellOptions options;
+    const char* says;
+  } cases[] = {{kOverflow_m, {}, "jumped by 214748.4 mm at 30"},
+               {-kOverflow_m, {}, "jumped by -214748.4 mm at 30"},
+               {1e-3, {.max_speed_m_s = 0.1}, " mm at 30 mm, "},
+               {-1e-3, {.max_speed_m_s = 0.1}, "max_speed_mm_s = 100"}};
+  for (const auto& c : cases) {
+    FrameBlock frames = whole;
+    for (std::size_t i = at; i < frames.size(); ++i) frames.encoder_m[i] += c.jump_m;
+    for (const std::size_t block : kBlocks) {
+      const auto found = detect(log, frames, block, c.options);
+      ASSERT_EQ(found.points.size(), 7u) << c.says;
+      EXPECT_TRUE(has_flag(found.points[6], "missing:encoder"));
+      for (std::size_t i = 0; i < 7; ++i)
+        EXPECT_NEAR(found.points[i].position_m, clean.points[i].position_m, 5e-9);
+      ASSERT_EQ(found.warnings.size(), 1u);
+      EXPECT_NE(found.warnings[0].find(c.says), std::string::npos) << found.warnings[0];
+    }
+  }
+}
+
+TEST(UnreachablePlace, AnAxisAtItsGreatestSpeedLosesNothing) {
+  const SteppingLog log = one_run();  // its moves reach 1.875 · 5 mm / 0.25 s = 37.5 mm/s
+  const FrameBlock frames = log.frames();
+  EXPECT_EQ(detect(log, frames, 1000, {.max_speed_m_s = 0.0375}).summary.unplaced, 0u);
+  EXPECT_GT(detect(log, frames, 1000, {.max_speed_m_s = 0.005}).summary.unplaced, 0u);
+}
+
 TEST(MissingEncoder, ThroughoutThereIsNoPointAndItIsCounted) {
   const SteppingLog log = one_run();
   FrameBlock frames = log.frames();

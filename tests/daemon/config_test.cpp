@@ -57,6 +57,7 @@ TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
       {"[measure]\nmodle = \"exact\"\n", "did you mean \"model\""},
       {"[measure]\nmodel = \"exakt\"\n", "mdofd.toml:4: measure.model: must be"},
       {"[measure]\nsettle_s = -1\n", "must not be negative"},
+      {"[measure]\nmax_speed_mm_s = 0\n", "must be more than 0"},
       {"[rpc]\ntcp_port = 70000\n", "from 1 to 65535"},
       {"[rpc\n", "mdofd.toml:3: not valid TOML"},
       {kAxis + "rate_hz = \"fast\"\n", "rate_hz"},

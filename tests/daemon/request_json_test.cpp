@@ -14,6 +14,7 @@ PipelineOptions asked_options() {
   options.model = Model::exact;
   options.sequence.targets_m = {from_mm(0), from_mm(2), from_mm(4.1), from_mm(6.2)};
   options.repeats = 3;
+  options.dwell.max_speed_m_s = 0.25;
   options.align.interval_s = {{"A", 0.1}, {"E", 0.25}};
   return options;
 }

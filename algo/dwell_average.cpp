@@ -1,0 +1,91 @@
+// What is averaged of a dwell: position and probes.
+#include <algorithm>
+#include <cmath>
+
+#include "algo/dwell.h"
+#include "algo/flags.h"
+#include "algo/robust_mean.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kCoarseSteps = 3.5;  // no spike: a reading that flickers between its steps
+
+bool all_finite(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+Point DwellDetector::average(std::size_t from, std::size_t to) {
+  Point point;
+  point.begin_ns = buffer_.time_ns[from];
+  point.end_ns = buffer_.time_ns[to - 1];
+  point.samples = to - from;
+  const std::span<const double> encoder(&buffer_.encoder_m[from], to - from);
+  const RobustMean position = robust_mean(encoder, summary_.tolerance_m, scratch_);
+  point.position_m = position.mean;
+  point.direction = direction_;
+  if (position.rejected > 0) add_flag(point, "spike:encoder");
+  for (std::size_t k = 0; k < probe_ids_.size(); ++k) average_probe(k, from, to, point);
+  for (std::size_t i = from + 1; i < to; ++i) {
+    if (buffer_.time_ns[i] - buffer_.time_ns[i - 1] > kGapPeriods * period_ns_) {
+      add_flag(point, "gap");
+    }
+  }
+  if (truncated_) add_flag(point, "truncated");
+  const double jumped_m =
+      point.end_ns < last_jump_.time_ns ? jumped_m_ - last_jump_.size_m : jumped_m_;
+  if (std::abs(jumped_m) > summary_.tolerance_m) add_flag(point, "jump");
+  return point;
+}
+
+// The readings of a probe that can be used, each of its own samples once. Where nothing is marked,
+// every value that is a number is one.
+std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size_t from,
+                                                    std::size_t to, std::size_t& usable_rows,
+                                                    std::size_t& over_range) {
+  const auto& column = buffer_.probe_m[probe];
+  const auto& quality = buffer_.probe_quality[probe];
+  const auto& fresh = buffer_.probe_fresh[probe];
+  const std::span<const double> all(&column[from], to - from);
+  if (quality.empty() && fresh.empty() && all_finite(all)) return all;
+  finite_.clear();
+  usable_rows = 0;
+  for (std::size_t i = from; i < to; ++i) {
+    const Quality q = quality.empty() ? Quality::good : quality[i];
+    over_range += q == Quality::over_range;
+    if (!usable(q) || !std::isfinite(column[i])) continue;
+    ++usable_rows;
+    if (fresh.empty() || fresh[i]) finite_.push_back(column[i]);
+  }
+  return finite_;
+}
+
+void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size_t to,
+                                  Point& point) {
+  std::size_t over_range = 0, usable_rows = to - from;
+  const std::span<const double> readings = own_readings(probe, from, to, usable_rows, over_range);
+  const std::string& id = probe_ids_[probe];
+  if (over_range > 0) add_flag(point, "saturated:" + id);
+  const bool lost = usable_rows < kMinScans || 2 * usable_rows < to - from;
+  if (!lost && readings.size() < kMinScans) add_flag(point, "slow:" + id);
+  if (lost) add_flag(point, "lost:" + id);
+  if (lost || readings.size() < kMinScans) {
+    point.probe_m.push_back(kNaN);
+    point.probe_u_m.push_back(kNaN);
+    point.probe_sd_m.push_back(kNaN);
+    return;
+  }
+  if (usable_rows + over_range < to - from) add_flag(point, "missing:" + id);
+  const double step = resolution_[probe].step();
+  const double coarse = std::max(1e-3 * probe_range_m_[probe], kCoarseSteps * step);
+  const RobustMean mean = robust_mean(readings, coarse, scratch_);
+  if (mean.rejected > 0) add_flag(point, "spike:" + id);
+  watch_.take_stop(probe, mean, step);
+  point.probe_m.push_back(mean.mean);
+  point.probe_u_m.push_back(with_resolution(mean.u, mean.sd, step));
+  point.probe_sd_m.push_back(mean.sd);
+}
+
+}  // namespace mdof::algo

@@ -143,6 +143,7 @@ std::vector<FrozenProbe> ProbeWatch::frozen() const {
 std::vector<SteppedProbe> ProbeWatch::steps() const {
   std::vector<SteppedProbe> all;
   for (const Probe& p : probes_) {
+    if (p.steps.empty()) continue;
     const double least_m = std::max(kNoise * median_of(p.sd_m), kSteps * p.resolution_m);
     std::vector<SteppedProbe> large;
     for (const SteppedProbe& s : p.steps)

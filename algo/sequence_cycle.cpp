@@ -14,42 +14,6 @@ constexpr double kLeastAtOnce = 1.5;      // visits without leaving a target, of
 
 using Runs = std::vector<int>;
 
-// Passes, by the turning points of the way over the targets; see the header for what counts as one.
-class Passes {
- public:
-  explicit Passes(int targets) : turn_(std::max(1, targets / 2)) {}
-
-  int next(const Visit& visit) {
-    follow(visit.target);
-    if (heading_ == 0) ++(visit.direction > 0 ? forward_before_ : reverse_before_);
-    const bool goes_on = heading_ == visit.direction;
-    return (visit.direction > 0 ? forward_ : reverse_) + (goes_on ? 0 : 1);
-  }
-
- private:
-  void follow(int target) {
-    if (low_ == 0) low_ = high_ = target;
-    low_ = std::min(low_, target);
-    high_ = std::max(high_, target);
-    if (heading_ <= 0 && target - low_ >= turn_) turn(1, target);
-    if (heading_ >= 0 && high_ - target >= turn_) turn(-1, target);
-  }
-  void turn(int heading, int target) {
-    // The first pass may have been short; a single stop before it turned is none.
-    if (heading_ == 0 && heading < 0 && forward_before_ > 1) forward_ = 1;
-    if (heading_ == 0 && heading > 0 && reverse_before_ > 1) reverse_ = 1;
-    heading_ = heading;
-    low_ = high_ = target;
-    ++(heading > 0 ? forward_ : reverse_);
-  }
-
-  int turn_;
-  int low_ = 0, high_ = 0;  // since the last turn
-  int heading_ = 0;
-  int forward_ = 0, reverse_ = 0;                // passes begun
-  int forward_before_ = 0, reverse_before_ = 0;  // visits before the first turn
-};
-
 Runs runs_by_passes(const std::vector<Visit>& visits, int targets) {
   Passes passes(targets);
   Runs runs;
@@ -169,6 +133,30 @@ const char* to_string(Cycle cycle) {
       break;
   }
   return "none";
+}
+
+int Passes::next(const Visit& visit) {
+  follow(visit.target);
+  if (heading_ == 0) ++(visit.direction > 0 ? forward_before_ : reverse_before_);
+  const bool goes_on = heading_ == visit.direction;
+  return (visit.direction > 0 ? forward_ : reverse_) + (goes_on ? 0 : 1);
+}
+
+void Passes::follow(int target) {
+  if (low_ == 0) low_ = high_ = target;
+  low_ = std::min(low_, target);
+  high_ = std::max(high_, target);
+  if (heading_ <= 0 && target - low_ >= turn_) turn(1, target);
+  if (heading_ >= 0 && high_ - target >= turn_) turn(-1, target);
+}
+
+void Passes::turn(int heading, int target) {
+  // The first pass may have been short; a single stop before it turned is none.
+  if (heading_ == 0 && heading < 0 && forward_before_ > 1) forward_ = 1;
+  if (heading_ == 0 && heading > 0 && reverse_before_ > 1) reverse_ = 1;
+  heading_ = heading;
+  low_ = high_ = target;
+  ++(heading > 0 ? forward_ : reverse_);
 }
 
 CycleFound recognise_cycle(const std::vector<Visit>& visits, int targets) {

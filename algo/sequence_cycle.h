@@ -27,6 +27,24 @@ struct CycleFound {
   std::vector<int> run;    // 1, 2, ... of each visit
 };
 
+// Passes, by the turning points of the way over the targets: see recognise_cycle() for what counts
+// as one. Visit by visit.
+class Passes {
+ public:
+  explicit Passes(int targets) : turn_(targets > 3 ? targets / 2 : 1) {}
+  int next(const Visit& visit);  // its run
+
+ private:
+  void follow(int target);
+  void turn(int heading, int target);
+
+  int turn_;
+  int low_ = 0, high_ = 0;  // since the last turn
+  int heading_ = 0;
+  int forward_ = 0, reverse_ = 0;                // passes begun
+  int forward_before_ = 0, reverse_before_ = 0;  // visits before the first turn
+};
+
 // In the standard and the pendulum cycle a run is a pass: a missed stop shifts nothing, and a
 // target that is repeated within a pass has two visits of one run. A new pass begins where the
 // axis has gone back by half of the targets; going back by less is a repetition. In the other

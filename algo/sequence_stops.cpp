@@ -73,19 +73,21 @@ std::size_t nearest_target(const std::vector<double>& targets_m, double position
   return *above - position_m < position_m - targets_m[i - 1] ? i : i - 1;
 }
 
+bool correct_overshot(Point& p) {
+  const double above_m = p.way_max_m - p.position_m, below_m = p.position_m - p.way_min_m;
+  // The last motion came from one side, the way as a whole from the other.
+  const double overshot_m = p.direction < 0 ? above_m : below_m;
+  const double came_m = p.direction < 0 ? below_m : above_m;
+  const bool overshot = overshot_m > kLeastOvershoot_m && overshot_m <= kMostOvershoot_m;
+  if (p.direction == 0 || !overshot || !(came_m > 2 * overshot_m)) return false;
+  p.direction = -p.direction;
+  add_flag(p, kOvershot);
+  return true;
+}
+
 int correct_overshot(std::vector<Point>& points) {
   int count = 0;
-  for (Point& p : points) {
-    const double above_m = p.way_max_m - p.position_m, below_m = p.position_m - p.way_min_m;
-    // The last motion came from one side, the way as a whole from the other.
-    const double overshot_m = p.direction < 0 ? above_m : below_m;
-    const double came_m = p.direction < 0 ? below_m : above_m;
-    const bool overshot = overshot_m > kLeastOvershoot_m && overshot_m <= kMostOvershoot_m;
-    if (p.direction == 0 || !overshot || !(came_m > 2 * overshot_m)) continue;
-    p.direction = -p.direction;
-    add_flag(p, kOvershot);
-    ++count;
-  }
+  for (Point& p : points) count += correct_overshot(p);
   return count;
 }
 
@@ -100,23 +102,24 @@ void assume_approaches(std::vector<MeasuredPoint>& points) {
   }
 }
 
+bool merge_into(MeasuredPoint& stop, MeasuredPoint& part) {
+  if (stop.target != part.target || stop.point.direction != part.point.direction ||
+      went_away(part.point))
+    return false;
+  if (part.point.samples > stop.point.samples) {
+    // The way to the stop is that to its first part.
+    part.point.way_min_m = stop.point.way_min_m;
+    part.point.way_max_m = stop.point.way_max_m;
+    stop = std::move(part);
+  }
+  add_flag(stop.point, kInterrupted);
+  return true;
+}
+
 void merge_interrupted(std::vector<MeasuredPoint>& points) {
   std::vector<MeasuredPoint> merged;
-  for (auto& p : points) {
-    const bool again = !merged.empty() && merged.back().target == p.target &&
-                       merged.back().point.direction == p.point.direction && !went_away(p.point);
-    if (!again) {
-      merged.push_back(std::move(p));
-      continue;
-    }
-    if (p.point.samples > merged.back().point.samples) {
-      // The way to the stop is that to its first part.
-      p.point.way_min_m = merged.back().point.way_min_m;
-      p.point.way_max_m = merged.back().point.way_max_m;
-      merged.back() = std::move(p);
-    }
-    add_flag(merged.back().point, kInterrupted);
-  }
+  for (auto& p : points)
+    if (merged.empty() || !merge_into(merged.back(), p)) merged.push_back(std::move(p));
   points = std::move(merged);
 }
 

@@ -29,6 +29,9 @@ std::size_t nearest_target(const std::vector<double>& targets_m, double position
 // is that of the way from the stop before. Gives how many there are.
 int correct_overshot(std::vector<Point>& points);
 
+// Whether it was one, of a single stop.
+bool correct_overshot(Point& stop);
+
 // Where the axis was before nobody saw it, it is taken to have stayed; elsewhere to be on its way
 // to the next stop.
 void assume_approaches(std::vector<MeasuredPoint>& points);
@@ -36,6 +39,9 @@ void assume_approaches(std::vector<MeasuredPoint>& points);
 // Two stops in a row at one target and from one side, between which the axis did not go away, are
 // one: the longer is kept.
 void merge_interrupted(std::vector<MeasuredPoint>& points);
+
+// `part` goes on with `stop`, as above: then it is taken into it.
+bool merge_into(MeasuredPoint& stop, MeasuredPoint& part);
 
 // Takes out of `points` what stands at no target, as the other stops tell: a parked axis, a pause,
 // the place where it turns round. Targets without points go out of `targets_m`, and the others are

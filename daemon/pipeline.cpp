@@ -16,6 +16,8 @@
 namespace mdof::daemon {
 namespace {
 
+constexpr std::size_t kAlwaysWhole = 256;  // stops; fewer are recognised anew with each
+
 std::vector<std::string> probe_ids(const Rig& rig) {
   std::vector<std::string> ids;
   for (const auto& probe : rig.probes) ids.push_back(probe.id);
@@ -173,8 +175,33 @@ void Pipeline::note_temperature(const SampleBlock& raw) {
 }
 
 const std::vector<MeasuredPoint>& Pipeline::points() {
-  if (taken_ != found_.size()) take_points();
+  if (taken_ == found_.size()) return sequence_.points;
+  if (tail_ && found_.size() < whole_at_) {
+    take_new_points();
+  } else {
+    take_points();
+    whole_at_ = found_.size() + found_.size() / 4;
+    if (found_.size() >= kAlwaysWhole) tail_.emplace(sequence_, options_.sequence);
+  }
   return sequence_.points;
+}
+
+// A long run grows by one point at a time: only that one is put in its place and solved. What they
+// all tell together is looked at each time that there are a quarter more, and at the end.
+void Pipeline::take_new_points() {
+  const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
+  std::vector<Point> fresh(found_.begin() + static_cast<std::ptrdiff_t>(taken_), found_.end());
+  dwell_.mark(fresh);
+  for (Point& stop : fresh) {
+    found_[taken_++] = stop;
+    if (unplaced(stop)) {
+      ++unplaced_;
+      continue;
+    }
+    for (std::size_t i = tail_->append(std::move(stop), sequence_); i < sequence_.points.size();
+         ++i)
+      solve_point(sequence_.points[i], residuals);
+  }
 }
 
 // The sequence is simply recognised and solved anew, but only when somebody asks: a replay of a

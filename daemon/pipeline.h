@@ -12,6 +12,7 @@
 #include "algo/chi_square.h"
 #include "algo/dwell.h"
 #include "algo/sequence.h"
+#include "algo/sequence_tail.h"
 #include "algo/solver.h"
 #include "drivers/calibration.h"
 #include "schema/result.h"
@@ -72,6 +73,7 @@ class Pipeline {
   bool unplaced(const Point& stop) const;
   std::string explain_unplaced() const;
   void take_points();
+  void take_new_points();
   void solve_point(MeasuredPoint& p, const algo::Residuals& residuals) const;
   bool moved() const;
   Status explain_nothing() const;
@@ -89,6 +91,8 @@ class Pipeline {
   std::vector<Point> found_;
   std::size_t taken_ = 0;  // of found_: those that sequence_ was made of
   algo::Sequence sequence_;
+  std::optional<algo::SequenceTail> tail_;  // goes on from it
+  std::size_t whole_at_ = 0;                // of found_: then the whole is recognised again
   std::uint64_t lost_ = 0;
   std::optional<std::int64_t> begin_ns_, encoder_ns_;  // of the encoder's first and last scan
   // Stretches in which the encoder was suspect throughout: where it was without power its datum is

@@ -1,0 +1,125 @@
+// A sequence that grows stop by stop is that of the whole; what the stops are is written down by
+// the test as it makes them.
+#include "algo/sequence_tail.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/algo/stepping_log.h"
+
+namespace mdof::algo {
+namespace {
+
+struct Truth {
+  int target, run, direction;
+};
+
+// Over the targets and back, beyond both ends, `runs` times; each stop with the way that led to it.
+struct Walk {
+  std::vector<Point> stops;
+  std::vector<Truth> truth;
+  double at_m = -1e-3;
+  std::int64_t t_ns = 0;
+
+  void stop(double to_m, int target, int run) {
+    Point p;
+    p.begin_ns = t_ns += 1'000'000'000;
+    p.end_ns = p.begin_ns + 300'000'000;
+    p.position_m = to_m;
+    p.direction = to_m > at_m ? 1 : -1;
+    p.way_min_m = std::min(at_m, to_m);
+    p.way_max_m = std::max(at_m, to_m);
+    p.samples = 300;
+    at_m = to_m;
+    truth.push_back({target, run, p.direction});
+    stops.push_back(p);
+  }
+  void standard(int targets, double pitch_m, int runs) {
+    for (int run = 1; run <= runs; ++run) {
+      for (int i = 0; i < targets; ++i) stop(i * pitch_m, i + 1, run);
+      at_m = targets * pitch_m;
+      for (int i = targets - 1; i >= 0; --i) stop(i * pitch_m, i + 1, run);
+      at_m = -pitch_m;
+    }
+  }
+};
+
+Sequence grown(const std::vector<Point>& stops, std::size_t whole, const SequenceOptions& options) {
+  const auto middle = stops.begin() + static_cast<std::ptrdiff_t>(whole);
+  Sequence sequence = recognise_sequence({stops.begin(), middle}, options);
+  SequenceTail tail(sequence, options);
+  for (auto stop = middle; stop != stops.end(); ++stop) {
+    const std::size_t first = tail.append(*stop, sequence);
+    EXPECT_LE(first, sequence.points.size());
+    EXPECT_GE(first + 2, sequence.points.size());
+  }
+  return sequence;
+}
+
+void expect_alike(const Sequence& grown, const Sequence& whole) {
+  ASSERT_EQ(grown.points.size(), whole.points.size());
+  EXPECT_EQ(grown.targets_m, whole.targets_m);
+  EXPECT_EQ(grown.runs, whole.runs);
+  for (std::size_t i = 0; i < whole.points.size(); ++i) {
+    const MeasuredPoint &a = grown.points[i], &b = whole.points[i];
+    ASSERT_EQ(a.target, b.target) << i;
+    ASSERT_EQ(a.target_m, b.target_m) << i;
+    ASSERT_EQ(a.run, b.run) << i;
+    ASSERT_EQ(a.point.direction, b.point.direction) << i;
+    ASSERT_EQ(a.point.flags, b.point.flags) << i;
+    ASSERT_EQ(a.point.samples, b.point.samples) << i;
+  }
+}
+
+TEST(SequenceTail, PutsEachStopWhereTheTestPutIt) {
+  Walk walk;
+  walk.standard(21, 5e-3, 24);
+  for (const std::size_t whole : {100u, 256u, 301u}) {
+    const Sequence sequence = grown(walk.stops, whole, {});
+    ASSERT_EQ(sequence.points.size(), walk.truth.size());
+    for (std::size_t i = 0; i < walk.truth.size(); ++i) {
+      EXPECT_EQ(sequence.points[i].target, walk.truth[i].target) << i;
+      EXPECT_EQ(sequence.points[i].run, walk.truth[i].run) << i;
+      EXPECT_EQ(sequence.points[i].point.direction, walk.truth[i].direction) << i;
+    }
+    expect_alike(sequence, recognise_sequence(walk.stops, {}));
+  }
+}
+
+// A stop off all targets, an interrupted one, an overshot one, one whose approach nobody saw.
+TEST(SequenceTail, OddStopsAreAsInTheWhole) {
+  SequenceOptions given;
+  for (int i = 0; i < 11; ++i) given.targets_m.push_back(i * 5e-3);
+  Walk walk;
+  walk.standard(11, 5e-3, 12);
+  auto& stops = walk.stops;
+  stops[150].position_m += 1e-3;  // no target
+  Point part = stops[170];
+  part.begin_ns += 400'000'000, part.end_ns += 400'000'000, part.samples = 500;
+  part.way_min_m = part.way_max_m = part.position_m;
+  stops.insert(stops.begin() + 171, part);  // the same stop, interrupted, its longer part
+  stops[180].way_max_m = stops[180].position_m + 100e-6;
+  stops[180].way_min_m = stops[180].position_m - 5e-3;
+  stops[180].direction = -1;  // came back from 0.1 mm beyond
+  for (const std::size_t unseen : {200u, 215u}) {  // on the way there, and back
+    stops[unseen].direction = 0;
+    stops[unseen].way_min_m = stops[unseen].way_max_m = kNaN;
+  }
+  for (const std::size_t whole : {130u, 150u, 171u, 181u, 200u, 201u, 215u, 216u})
+    expect_alike(grown(stops, whole, given), recognise_sequence(stops, given));
+}
+
+// Neither targets nor repeats: places that nobody has seen before go on at the end.
+TEST(SequenceTail, NewTargetsGoOnAtTheEnd) {
+  Walk walk;
+  for (int i = 0; i < 600; ++i) walk.stop(i * 1e-3, i + 1, 1);
+  const Sequence sequence = grown(walk.stops, 256, {});
+  ASSERT_EQ(sequence.points.size(), 600u);
+  EXPECT_EQ(sequence.targets, 600);
+  for (std::size_t i = 0; i < 600; ++i) {
+    EXPECT_EQ(sequence.points[i].target, static_cast<int>(i) + 1);
+    EXPECT_EQ(sequence.points[i].run, 1);
+  }
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,97 @@
+// A run of 10,000 points: what a point costs does not grow with those before it, and the result is
+// that of a pipeline that was asked only at the end.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ctime>
+
+#include "daemon/pipeline.h"
+#include "schema/rig.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr int kTargets = 20, kPoints = 10'000, kStop = 40, kMove = 8;  // scans, at 100 Hz
+
+// An axis over 20 targets and back, turning 1 mm beyond both ends: the scans of one stop after the
+// other, with the way to it.
+class Axis {
+ public:
+  SampleBlock next_stop() {
+    block_ = {};
+    block_.device = "daq";
+    block_.channels = {{kEncoderChannel, Unit::mm}};
+    for (const char* id : {"A", "B", "C", "D", "E"}) block_.channels.push_back({id, Unit::um});
+    block_.value.resize(6);
+    const int in_pass = stop_ % kTargets;
+    const bool forward = stop_ / kTargets % 2 == 0;
+    if (in_pass == 0) move_to(forward ? -1 : kTargets);
+    move_to(forward ? in_pass : kTargets - 1 - in_pass);
+    for (int i = 0; i < kStop; ++i) scan();
+    ++stop_;
+    return std::move(block_);
+  }
+
+ private:
+  void move_to(double to_mm) {
+    const double from_mm = at_mm_;
+    for (int i = 1; i <= kMove; ++i) {
+      at_mm_ = from_mm + (to_mm - from_mm) * i / kMove;
+      scan();
+    }
+  }
+  void scan() {
+    block_.time_ns.push_back(++scans_ * 10'000'000);
+    block_.value[0].push_back(at_mm_);
+    for (std::size_t c = 1; c < 6; ++c)
+      block_.value[c].push_back(static_cast<double>(c) + 0.1 * at_mm_ +
+                                0.01 * static_cast<double>(scans_ * static_cast<int>(c) * 7 % 13));
+  }
+
+  SampleBlock block_;
+  double at_mm_ = -1;
+  int stop_ = 0;
+  std::int64_t scans_ = 0;
+};
+
+double cpu_s() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+TEST(LongRun, APointCostsTheSameAtItsEndAsAtItsStart) {
+  const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
+  Pipeline asked = Pipeline::create(rig, {}).value(), silent = Pipeline::create(rig, {}).value();
+  double early_s = 0, late_s = 0;
+  std::size_t points = 0;
+  Axis axis;
+  for (int stop = 0; points < kPoints; ++stop) {
+    ASSERT_LT(stop, kPoints + 10) << "stops are missing";
+    SampleBlock block = axis.next_stop(), same = block;
+    ASSERT_TRUE(silent.push(same));
+    ASSERT_TRUE(asked.push(block));
+    const double before_s = cpu_s();
+    points = asked.points().size();
+    const double took_s = cpu_s() - before_s;
+    early_s += points >= 1'000 && points < 2'000 ? took_s : 0;
+    late_s += points >= 5'000 ? took_s : 0;
+  }
+  // A cost that grows with the points before would be five times as much for each of five times as
+  // many.
+  RecordProperty("early_us_a_point", std::to_string(1e3 * early_s));
+  RecordProperty("late_us_a_point", std::to_string(1e6 * late_s / 5'000));
+  EXPECT_LT(late_s / 5, 2.5 * early_s);
+  const auto a = asked.finish(), b = silent.finish();
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->points.size(), b->points.size());
+  for (std::size_t i = 0; i < a->points.size(); ++i) {
+    ASSERT_EQ(a->points[i].target, b->points[i].target) << i;
+    ASSERT_EQ(a->points[i].run, b->points[i].run) << i;
+    ASSERT_EQ(a->points[i].errors.local, b->points[i].errors.local) << i;
+    ASSERT_EQ(a->points[i].point.flags, b->points[i].point.flags) << i;
+  }
+}
+
+}  // namespace
+}  // namespace mdof::daemon

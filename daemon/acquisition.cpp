@@ -43,6 +43,14 @@ milliseconds jittered(milliseconds pause, const std::string& device, std::uint64
   return pause * 3 / 4 + pause * (hash % 256) / 1024;
 }
 
+void mark_suspect(SampleBlock& block) {
+  block.quality.resize(block.channels.size());
+  for (auto& quality : block.quality) {
+    quality.resize(block.scans(), Quality::good);
+    for (Quality& q : quality) q = std::max(q, Quality::suspect);
+  }
+}
+
 }  // namespace
 
 Acquisition::Acquisition(drivers::DriverSpec spec, Sink sink)
@@ -107,7 +115,8 @@ void Acquisition::acquire(std::uint64_t pass) {
   backoff_ = kFirstBackoff;
   last_ns_.reset();
   lost_since_.reset();
-  datum_lost_ = false;
+  datum_lost_ = clock_in_doubt_ = false;
+  clock_steps_ = 0;
   {
     const std::lock_guard lock(status_mutex_);
     status_.standing.clear();
@@ -167,6 +176,33 @@ void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
                                    info.datum_lost + " and measure anew");
 }
 
+// While it is in doubt when samples were taken, no place belongs to them: they are suspect, in the
+// recording, too.
+void Acquisition::watch_clock(const drivers::Driver& driver, SampleBlock& block) {
+  if (!spec_.live) return;
+  const auto clock = driver.info().clock;
+  if (!clock) return;
+  if (clock->doubtful) mark_suspect(block);
+  if (clock->doubtful != clock_in_doubt_ || clock->steps != clock_steps_) tell_clock(*clock);
+}
+
+void Acquisition::tell_clock(const drivers::ClockState& clock) {
+  const bool stepped = std::exchange(clock_steps_, clock.steps) != clock.steps;
+  const bool was = std::exchange(clock_in_doubt_, clock.doubtful);
+  if (stepped)
+    tell(Trouble::Kind::clock,
+         "its clock jumped, or its link had been slow for long: when its samples were taken is not "
+         "known until the clock has settled (4 s); they are suspect, and stops in it are left out "
+         "or lack its probes. Look at its power and network, and measure points near it again");
+  else if (clock.doubtful && !was)
+    tell(Trouble::Kind::clock,
+         "its packets come " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
+             " s late, or its clock stood still: its samples are suspect until they are in time "
+             "again; look at its network and at the load of this machine");
+  else if (was && !clock.doubtful)
+    tell(Trouble::Kind::back, "the times of its samples are sure again");
+}
+
 bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
   while (acquiring_) {
     turn_ = steady_clock::now();
@@ -180,6 +216,7 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
       backoff_ = kFirstBackoff;  // it works; to be opened alone is no proof of that
       if (steady_clock::now() > next_refresh_) refresh_info(driver);
       note_loss(block);
+      watch_clock(driver, block);
       const bool came_back = mend(block);
       watch_rate(block.scans(), came_back ? 0 : block.lost);
       hand_over(block, pass);

@@ -74,6 +74,8 @@ class Acquisition {
   bool mend(const SampleBlock& block);
   void watch_rate(std::uint64_t scans, std::uint64_t lost);
   void watch_datum(const drivers::DeviceInfo& info);
+  void watch_clock(const drivers::Driver& driver, SampleBlock& block);
+  void tell_clock(const drivers::ClockState& clock);
   void tell(Trouble::Kind kind, const std::string& text);
 
   const drivers::DriverSpec spec_;
@@ -93,6 +95,8 @@ class Acquisition {
   std::uint64_t dropped_scans_ = 0;  // to be told with the next block
   std::optional<std::chrono::steady_clock::time_point> lost_since_;
   bool datum_lost_ = false;
+  bool clock_in_doubt_ = false;
+  std::uint64_t clock_steps_ = 0;
   std::chrono::steady_clock::time_point window_end_;  // of watch_rate()
   std::uint64_t scans_in_window_ = 0, lost_in_window_ = 0;
 

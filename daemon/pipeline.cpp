@@ -148,8 +148,8 @@ std::string Pipeline::explain_unplaced() const {
   return std::to_string(unplaced_) + (unplaced_ == 1 ? " stop" : " stops") + " from " +
          plain_number(ns_to_s(first->begin_ns - *begin_ns_)) +
          " s on cannot be placed and are left out: the encoder (device \"" + encoder_device_ +
-         "\") was suspect there, as after it was without power and has lost its datum; find its "
-         "zero, restart mdofd and measure them anew";
+         "\") was suspect there, as while its clock is in doubt, or after it was without power and "
+         "has lost its datum; in that case find its zero and restart mdofd; measure them anew";
 }
 
 void Pipeline::note_break(const SampleBlock& raw) {

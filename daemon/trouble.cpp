@@ -89,6 +89,8 @@ const char* to_string(Kind kind) {
       return "suspect";
     case Kind::slow:
       return "slow";
+    case Kind::clock:
+      return "clock";
     case Kind::unsolved:
       break;
   }

@@ -21,6 +21,7 @@ struct Trouble {
     back,      // and is well again
     suspect,   // its values are not to be trusted: an encoder has lost its datum
     slow,      // it gives fewer scans than it should
+    clock,     // when its samples were taken is in doubt
     unsolved,  // a stop has no errors, for want of readings
   } kind = Kind::lost;
   std::string device;  // "": no single one

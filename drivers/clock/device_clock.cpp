@@ -3,19 +3,22 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace mdof::drivers {
 namespace {
 
 constexpr double kStretch_ns = 0.25e9;
-constexpr std::size_t kStretches = 256;      // 64 s
-constexpr std::size_t kStretchesToFit = 16;  // 4 s: before, the nominal rate
-constexpr std::size_t kShareToRefit = 32;    // as small a share of new ones hardly moves the line
-constexpr double kMostDrift = 1e-3;          // 1000 ppm: no clock is that wrong
-constexpr double kSlew = 2e-3;               // of the time, on top of the drift
-constexpr double kFirstSlew = 0.2;           // as long as quicker packets still tell the offset
-constexpr double kStep_ns = 0.1e9;           // a jump, not a delay
+constexpr std::size_t kStretches = 256;       // 64 s
+constexpr std::size_t kStretchesToFit = 16;   // 4 s: before, the nominal rate
+constexpr std::size_t kStretchesToBegin = 4;  // 1 s: what was late when it was opened is soon over
+constexpr std::size_t kShareToRefit = 32;     // as small a share of new ones hardly moves the line
+constexpr double kMostDrift = 1e-3;           // 1000 ppm: no clock is that wrong
+constexpr double kSlew = 2e-3;                // of the time, on top of the drift
+constexpr double kFirstSlew = 0.2;            // as long as quicker packets still tell the offset
+constexpr double kStep_ns = 0.1e9;            // no jitter: later than this a packet is in doubt
+constexpr std::int64_t kLongestLateness_ns = 60'000'000'000;  // from here on a step
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -46,18 +49,34 @@ void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
     first_ticks_ = ticks;
     first_ns_ = received_ns;
   }
+  // Its count has begun anew.
+  if (std::exchange(last_ticks_, ticks).value_or(ticks) > ticks) return step(ticks, received_ns);
   const double nominal = nominal_ns(ticks);
   const double offset = static_cast<double>(received_ns - *first_ns_) - nominal;
   // Sooner than it can have been sent, by far: the device's time has jumped ahead.
   if (offset < intercept_ns_ + slope_ * nominal - kStep_ns) return step(ticks, received_ns);
+  if (!best_.empty() && is_late(offset, nominal, received_ns)) {
+    if (received_ns - *late_since_ns_ > kLongestLateness_ns) step(ticks, received_ns);
+    return;
+  }
+  take(ticks, received_ns, offset, nominal);
+}
+
+// Late packets tell nothing of the line.
+bool DeviceClock::is_late(double offset_ns, double nominal_ns, std::int64_t received_ns) {
+  late_ns_ = offset_ns - (intercept_ns_ + slope_ * nominal_ns);
+  if (late_ns_ <= kStep_ns) {
+    late_since_ns_.reset();
+    return false;
+  }
+  if (!late_since_ns_) late_since_ns_ = received_ns;
+  return true;
+}
+
+void DeviceClock::take(std::int64_t ticks, std::int64_t received_ns, double offset,
+                       double nominal) {
   const auto stretch = static_cast<std::int64_t>(std::floor(nominal / kStretch_ns));
   if (best_.empty() || best_.back().stretch != stretch) {
-    // A whole stretch later than the line: the device's time has stood still, and goes on late.
-    if (!best_.empty()) {
-      const Best& last = best_.back();
-      const double line = intercept_ns_ + slope_ * nominal_ns(last.ticks);
-      if (last.offset_ns > line + kStep_ns) return step(ticks, received_ns);
-    }
     if (++unfitted_ * kShareToRefit > best_.size()) fit();
     best_.push_back({stretch, ticks, received_ns, offset, offset});
     if (best_.size() > kStretches) best_.pop_front();
@@ -71,8 +90,11 @@ void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
 }
 
 void DeviceClock::step(std::int64_t ticks, std::int64_t received_ns) {
+  const std::size_t doubted =
+      std::max(doubted_stretches_, fitted_ ? kStretchesToFit : kStretchesToBegin);
   reset();
   ++steps_;
+  doubted_stretches_ = doubted;
   add(ticks, received_ns);
 }
 
@@ -90,6 +112,10 @@ void DeviceClock::fit() {
   for (const Best& b : best_) rest.push_back(b.offset_ns - slope_ * nominal_ns(b.ticks));
   intercept_ns_ = median(rest);
   fitted_ = true;
+}
+
+bool DeviceClock::in_doubt() const {
+  return late_since_ns_ || best_.size() <= doubted_stretches_;
 }
 
 std::int64_t DeviceClock::host_ns(std::int64_t ticks) {
@@ -117,6 +143,8 @@ ClockState DeviceClock::state() const {
   state.drift_ppm = -slope_ * 1e6;
   state.settled = fitted_;
   state.steps = steps_;
+  state.doubtful = in_doubt();
+  state.late_ns = late_since_ns_ ? std::llround(late_ns_) : 0;
   if (best_.empty()) return state;
   std::vector<double> spreads;
   for (const Best& b : best_) spreads.push_back(b.latest_ns - b.offset_ns);

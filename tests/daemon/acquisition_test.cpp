@@ -14,7 +14,7 @@ using std::chrono::steady_clock;
 
 // What the fake device does at each call of open() and read(), in turn; then it stays silent.
 struct Script {
-  enum class Act { open, slow_open, open_anew, refuse, block, silence, fail, end };
+  enum class Act { open, slow_open, open_anew, refuse, block, late_block, silence, fail, end };
   std::deque<Act> acts;
   std::int64_t time_ns = 0;  // of the next scan
 };
@@ -23,7 +23,7 @@ class Scripted final : public drivers::Driver {
  public:
   explicit Scripted(Script script) : script_(std::move(script)) {}
   drivers::DeviceInfo info() const override {
-    return {"fake", "fake", "", {{"A", Unit::um}}, 1000, false, {}, datum_lost_};
+    return {"fake", "fake", "", {{"A", Unit::um}}, 1000, false, clock_, datum_lost_};
   }
   Status open() override {
     const auto act = next();
@@ -38,7 +38,12 @@ class Scripted final : public drivers::Driver {
         return io_error("10.0.0.9: gone");
       case Script::Act::end:
         return drivers::ReadState::end;
+      case Script::Act::late_block:
+        clock_ = drivers::ClockState{.settled = true, .doubtful = true, .late_ns = 300'000'000};
+        fill(block);
+        break;
       case Script::Act::block:
+        if (clock_) clock_->doubtful = false;
         fill(block);
         break;
       default:
@@ -69,6 +74,7 @@ class Scripted final : public drivers::Driver {
   }
   Script script_;
   std::string datum_lost_;
+  std::optional<drivers::ClockState> clock_;
 };
 
 // Collects what comes; takes only so many blocks where told so.
@@ -290,6 +296,24 @@ TEST(Acquisition, StopsWhileItWaits) {
   acquisition.stop();
   EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(5));
   EXPECT_EQ(acquisition.status().scans, 0u);
+}
+
+// Packets that are late for a while: suspect, so that no place is given to them, and told.
+TEST(Acquisition, WhileItsClockIsInDoubtSamplesAreSuspect) {
+  Collector collector;
+  Acquisition acquisition(spec_of({open, block, late_block, late_block, block}), collector.sink());
+  acquisition.start();
+  ASSERT_TRUE(collector.wait_for(4));
+  acquisition.stop();
+  const auto blocks = collector.blocks();
+  for (std::size_t b = 0; b < 4; ++b)
+    for (std::size_t i = 0; i < blocks[b].scans(); ++i)
+      EXPECT_EQ(blocks[b].quality_at(0, i), b == 1 || b == 2 ? Quality::suspect : Quality::good);
+  const auto troubles = collector.troubles();
+  ASSERT_EQ(troubles.size(), 2u);
+  EXPECT_NE(troubles[0].find("clock: its packets come 0.3 s late"), std::string::npos);
+  EXPECT_NE(troubles[1].find("back: the times of its samples are sure again"), std::string::npos);
+  EXPECT_TRUE(acquisition.status().standing.empty());
 }
 
 }  // namespace

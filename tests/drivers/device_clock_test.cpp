@@ -100,16 +100,69 @@ TEST(DeviceClock, AJumpOfTheDeviceIsAStepAndTimeStillGrows) {
     const Device device{50, 1e6};
     follow(clock, device, 5'000);
     const std::int64_t before = clock.host_ns(5'000 * kPacket);
-    std::int64_t last = before;
-    for (std::int64_t p = 5'001; p < 7'000; ++p) {
+    std::int64_t last = before, sure = 0;
+    for (std::int64_t p = 5'001; p < 8'000; ++p) {
       clock.add(p * kPacket + jump, device.received_ns(p));
       const std::int64_t ns = clock.host_ns(p * kPacket + jump);
       ASSERT_GT(ns, last);
       last = ns;
+      sure += !clock.state().doubtful;
     }
     EXPECT_EQ(clock.state().steps, 1u) << jump;
-    EXPECT_NEAR(static_cast<double>(last), device.true_ns(6'999 * kPacket), 3e6) << jump;
+    EXPECT_NEAR(static_cast<double>(last), device.true_ns(7'999 * kPacket), 3e6) << jump;
+    EXPECT_NEAR(static_cast<double>(sure), 1'000, 130) << "of 3,000 packets, after 4 s = 2,000";
   }
+}
+
+// A link that is slower for a while, nothing lost: while it lasts the clock is in doubt, the times
+// stay right, and nothing has stepped.
+TEST(DeviceClock, ASlowLinkIsNoStep) {
+  const struct {
+    std::int64_t late_ns, packets;  // 2 ms each
+  } cases[] = {{300'000'000, 1'500}, {1'200'000'000, 5'000}, {500'000'000, 20'000}};
+  for (const auto& c : cases) {
+    for (const std::int64_t from : {500, 4'000, 15'000}) {  // before it has settled, and after
+      DeviceClock clock(kTick_ns);
+      const Device device{50, 1e6};
+      double worst_us = 0;
+      std::int64_t doubtful = 0;
+      for (std::int64_t p = 0; p < from + c.packets + 5'000; ++p) {
+        const bool late = from <= p && p < from + c.packets;
+        const std::int64_t tick = p * kPacket + kPacket - 1;
+        clock.add(tick, device.received_ns(p) + (late ? c.late_ns : 0));
+        const double off = static_cast<double>(clock.host_ns(tick)) - device.true_ns(tick);
+        worst_us = std::max(worst_us, std::abs(off) / 1e3);
+        EXPECT_EQ(clock.state().doubtful, late) << p;
+        doubtful += clock.state().doubtful;
+      }
+      EXPECT_LT(worst_us, 4'500) << c.late_ns;  // 50 ppm over 40 s without a new line
+      EXPECT_EQ(clock.state().steps, 0u);
+      EXPECT_EQ(doubtful, c.packets);
+    }
+  }
+}
+
+// The device's time stood still for 0.3 s: all is in doubt from the first packet on, until the new
+// line is known, a minute and four seconds later.
+TEST(DeviceClock, TimeThatStoodStillIsDoubtfulUntilItHasSettled) {
+  DeviceClock clock(kTick_ns);
+  const Device device{0, 1e6};
+  const std::int64_t from = 4'000, end = from + 35'000;
+  double worst_sure_us = 0;
+  bool sure_again = false;
+  for (std::int64_t p = 0; p < end; ++p) {
+    const std::int64_t tick = p * kPacket + kPacket - 1, still_ns = p >= from ? 300'000'000 : 0;
+    clock.add(tick, device.received_ns(p) + still_ns);
+    const std::int64_t ns = clock.host_ns(tick);
+    if (clock.state().doubtful) continue;
+    EXPECT_TRUE(p < from || p > from + 31'800) << p;
+    sure_again = sure_again || p >= from;
+    const double true_ns = device.true_ns(tick) + static_cast<double>(still_ns);
+    worst_sure_us = std::max(worst_sure_us, std::abs(static_cast<double>(ns) - true_ns) / 1e3);
+  }
+  EXPECT_EQ(clock.state().steps, 1u);
+  EXPECT_TRUE(sure_again);
+  EXPECT_LT(worst_sure_us, 1'200);
 }
 
 TEST(DeviceClock, TheSameCallsGiveTheSameBits) {

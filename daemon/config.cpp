@@ -130,13 +130,14 @@ Status check_units(const TomlTable& table, const drivers::DriverSpec& device, co
 }
 
 Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem::path& base,
-                                        const AxisConfig& axis) {
+                                        const AxisConfig& axis, double settle_s) {
   const std::string driver = table.string("driver");
   const std::string number = axis.devices.empty() ? "" : std::to_string(axis.devices.size() + 1);
   drivers::DriverContext context;
   context.name = table.string("name", driver + "-" + letter(axis.rig.axis) + number);
   context.rig = axis.rig;
   context.base_path = base.string();
+  context.settle_s = settle_s;
   MDOF_TRY(context.forward, forward_model(axis.rig));
   MDOF_TRY(auto device, drivers::configure_driver(driver, table, context));
   if (!device.recorded) MDOF_CHECK(check_log(device, axis.rig));
@@ -221,7 +222,7 @@ Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& co
   AxisConfig axis;
   MDOF_TRY(axis.rig, read_rig(table, base, config.measure.model));
   for (auto& device : device_tables(table)) {
-    MDOF_TRY(auto spec, read_device(device, base, axis));
+    MDOF_TRY(auto spec, read_device(device, base, axis, config.measure.dwell.settle_s));
     axis.devices.push_back(std::move(spec));
   }
   take_machine(table, config.machine, axis.rig);

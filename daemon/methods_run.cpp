@@ -105,9 +105,19 @@ std::vector<std::string> standing_trouble(const Station& station) {
   return warnings;
 }
 
+// What devices do to their readings by themselves.
+std::vector<std::string> settings_of_devices(const Station& station) {
+  std::vector<std::string> warnings;
+  for (const auto& device : station.devices())
+    for (const auto& warning : device.info.warnings)
+      warnings.push_back("device \"" + device.info.name + "\": " + warning);
+  return warnings;
+}
+
 void begin_run(Station& station, RunRequest request, Reply reply) {
   for (auto& warning : standing_trouble(station)) request.warnings.push_back(std::move(warning));
   for (auto& warning : unsettled_clocks(station)) request.warnings.push_back(std::move(warning));
+  for (auto& warning : settings_of_devices(station)) request.warnings.push_back(std::move(warning));
   auto done = answer_with_run(std::move(reply), station.config().rig.axis, request);
   station.start_run(request, done);
 }

@@ -27,6 +27,8 @@ struct DeviceInfo {
   // it was first opened: why, and what to do. Its places are suspect from then on, for the life of
   // the driver. "": its datum holds, or it is absolute.
   std::string datum_lost = {};
+  // Of its settings, that a result should carry: what it does to the readings by itself.
+  std::vector<std::string> warnings = {};
 };
 
 enum class ReadState {

@@ -19,6 +19,7 @@ struct DriverContext {
   Rig rig;
   ForwardModel forward;   // for the simulator
   std::string base_path;  // folder of the configuration, to which file names are relative
+  double settle_s = 0;    // that a stop is given before it counts; 0: not known
 };
 
 // What a source that is a file knows of itself once it has been read to its end.

@@ -65,6 +65,22 @@ Result<int> channel_number(const ChannelInput& channel) {
                    std::to_string(capancdt::kMostChannels) + "\"");
 }
 
+bool rig_corrects(const Rig& rig, const std::string& id) {
+  const auto probe = rig.probe_index(id);
+  if (!probe) return false;
+  const Calibration& calibration = rig.probes[*probe].calibration;
+  return !calibration.linearity.empty() || !calibration.polynomial_um.empty();
+}
+
+// As far as the configuration says it; the controller is asked for the rest.
+void check_averaging(TomlTable& table, const Options& options) {
+  if (!options.averaging || *options.averaging == Averaging::none) return;
+  if (!options.averaged_values || !options.sample_time_us) return;
+  const Status checked =
+      capancdt::check_filter(*options.sample_time_us, *options.averaged_values, options.settle_s);
+  if (!checked) table.reject("averaged_values", checked.error().message);
+}
+
 Status read_channel_table(TomlTable& table, const DriverContext& context, Options& options) {
   std::vector<double> range_um;
   MDOF_TRY(
@@ -77,7 +93,8 @@ Status read_channel_table(TomlTable& table, const DriverContext& context, Option
       }));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     MDOF_TRY(const int number, channel_number(inputs[i]));
-    options.channels.push_back({std::move(inputs[i]), number, range_um[i]});
+    const bool corrects = rig_corrects(context.rig, inputs[i].id);
+    options.channels.push_back({std::move(inputs[i]), number, range_um[i], corrects});
   }
   return {};
 }
@@ -92,6 +109,8 @@ Result<Options> read_options(TomlTable& table, const DriverContext& context) {
   options.sample_time_us = read_integer(table, "sample_time_us", 1, kMostSampleTime_us);
   options.averaging = read_averaging(table);
   options.averaged_values = read_integer(table, "averaged_values", 2, 8);
+  options.settle_s = context.settle_s;
+  check_averaging(table, options);
   options.guard_counts = read_integer(table, "guard_counts", 0, capancdt::kFullScale / 4)
                              .value_or(options.guard_counts);
   MDOF_CHECK(read_channel_table(table, context, options));

@@ -72,8 +72,44 @@ Status read_averaging(CommandPort& port, const Options& options, Setup& setup) {
   if (kind == static_cast<int>(Averaging::none)) return {};
   MDOF_TRY(const auto values, setting(port, "$AVN?"));
   MDOF_CHECK(check("averaged_values", options.averaged_values, values));
-  if (kind == static_cast<int>(Averaging::arithmetic))
-    setup.averaged = std::clamp(values.value_or(options.averaged_values.value_or(1)), 1, 1024);
+  setup.window = std::clamp(values.value_or(options.averaged_values.value_or(1)), 1, 1024);
+  if (kind == static_cast<int>(Averaging::arithmetic)) setup.averaged = setup.window;
+  return {};
+}
+
+// $LIN of each input, as the controller numbers them; empty: it does not say.
+Result<std::vector<int>> linearisations(CommandPort& port) {
+  MDOF_TRY(const auto text, port.ask_if_known("$LIN?"));
+  return parse_channel_list(text.value_or("")).value_or(std::vector<int>{});
+}
+
+// What changes values without a word: it goes with every result.
+Status read_corrections(CommandPort& port, const Options& options, Setup& setup) {
+  MDOF_TRY(const auto modes, linearisations(port));
+  if (modes.empty())
+    setup.warnings.emplace_back("the controller does not say whether it linearises ($LIN?)");
+  for (std::size_t i = 0; i < setup.inputs.size(); ++i) {
+    const auto& channel = options.channels[i];
+    const auto at = static_cast<std::size_t>(channel.number - 1);
+    if (at >= modes.size() || modes[at] == 0) continue;
+    setup.inputs[i].linearisation = modes[at];
+    const std::string what = "the controller linearises \"" + channel.input.id + "\" (LIN " +
+                             std::to_string(modes[at]) + ")";
+    setup.warnings.push_back(
+        channel.rig_corrects
+            ? what +
+                  " and the rig does too, so that it is corrected twice: switch that of the "
+                  "controller off ($LIN" +
+                  channel.input.input +
+                  ":0), or take linearity or "
+                  "polynomial_um of the probe away"
+            : what + "; its certificate must be of that state");
+  }
+  MDOF_TRY(const auto low_pass, port.ask_if_known("$ALP?"));
+  setup.low_pass = parse_integer(low_pass.value_or("")).value_or(0);
+  if (setup.low_pass != 0)
+    setup.warnings.push_back("its analogue low-pass is on (ALP " + std::to_string(setup.low_pass) +
+                             "), which delays the readings");
   return {};
 }
 
@@ -89,6 +125,7 @@ Status read_settings(CommandPort& port, const Options& options, Setup& setup) {
   if (*time_us < 1 || *time_us > kMostSample_us)
     return io_error("says its sample time is " + std::to_string(*time_us) + " us");
   setup.sample_time_us = *time_us;
+  MDOF_CHECK(check_filter(setup.sample_time_us, setup.window, options.settle_s));
   // The controller takes the nearest time it can; the one that it has is what counts.
   return options.configure ? Status{} : check("sample_time_us", options.sample_time_us, time_us);
 }
@@ -151,6 +188,7 @@ Result<Setup> dialogue(CommandPort& port, const Options& options) {
   MDOF_CHECK(read_inputs(port, options, setup));
   if (options.configure) MDOF_CHECK(change_settings(port, options));
   MDOF_CHECK(read_settings(port, options, setup));
+  MDOF_CHECK(read_corrections(port, options, setup));
   MDOF_CHECK(read_data_port(port, options, setup));
   return setup;
 }
@@ -161,6 +199,14 @@ const char* to_string(Averaging averaging) {
   constexpr std::array<const char*, 5> kNames = {"none", "moving", "arithmetic", "median",
                                                  "dynamic"};
   return kNames.at(static_cast<std::size_t>(averaging));
+}
+
+Status check_filter(double sample_time_us, int averaged_values, double settle_s) {
+  const double filter_s = sample_time_us * 1e-6 * averaged_values;
+  if (settle_s <= 0 || averaged_values < 2 || filter_s <= settle_s) return {};
+  return wrong("averages over " + plain_number(filter_s) + " s, longer than settle_s = " +
+                   plain_number(settle_s) + " s: a stop would begin with readings of the way to it",
+               "lower averaged_values or sample_time_us, or raise [measure] settle_s to that");
 }
 
 Result<Setup> set_up_controller(const Options& options) {

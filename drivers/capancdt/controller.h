@@ -16,11 +16,15 @@ struct Setup {
   int data_port = 0;
   double sample_time_us = 0;  // the actual one
   int averaged = 1;           // samples in a frame that is sent
+  int window = 1;             // samples that a value is made of
   struct Input {
     double range_um = 0;
-    bool maths = false;  // its values may lie outside the range
+    bool maths = false;     // its values may lie outside the range
+    int linearisation = 0;  // $LIN
   };
-  std::vector<Input> inputs;  // as Options::channels
+  std::vector<Input> inputs;          // as Options::channels
+  int low_pass = 0;                   // $ALP, analogue
+  std::vector<std::string> warnings;  // of what it does to the values by itself
 
   double frame_ns() const { return sample_time_us * 1e3 * averaged; }
 };

@@ -28,6 +28,12 @@ bool every(int n, int packet) {
   return n > 0 && packet % n == n - 1;
 }
 
+std::string joined(const std::vector<int>& numbers) {
+  std::string list;
+  for (const int each : numbers) list += (list.empty() ? "" : ",") + std::to_string(each);
+  return list;
+}
+
 std::optional<int> number(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -123,15 +129,16 @@ std::string SimulatedCapancdt::query(std::string_view command) const {
   if (command == "$TRG?") return std::to_string(o.trigger);
   if (command == "$AVT?") return std::to_string(o.averaging);
   if (command == "$AVN?") return std::to_string(o.averaged_values);
+  if (command == "$ALP?" && o.knows_corrections) return std::to_string(o.low_pass);
+  if (command == "$LIN?" && o.knows_corrections) return joined(o.linearisation);
   if (command == "$GDP") return std::to_string(o.data_port);
   if (command == "$COI")
     return "ANO" + std::to_string(o.article) + ",NAM" + o.name + ",SNO" + o.serial + ",OPT0,VER" +
            o.version;
   if (command != "$CHS") return "";
-  std::string list;
-  for (const auto& input : o.inputs)
-    list += std::string(list.empty() ? "" : ",") + (!input.present ? "0" : input.maths ? "2" : "1");
-  return list;
+  std::vector<int> kinds;
+  for (const auto& input : o.inputs) kinds.push_back(!input.present ? 0 : input.maths ? 2 : 1);
+  return joined(kinds);
 }
 
 // What the reply has besides the command; none: no such command, or no such value.

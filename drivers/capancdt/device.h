@@ -54,6 +54,9 @@ struct DeviceOptions {
   int frames_per_packet = 1;
   std::uint32_t first_counter = 0;
   int sample_time_us = 960, trigger = 0, averaging = 0, averaged_values = 2;
+  std::vector<int> linearisation = std::vector<int>(4);  // of each input
+  int low_pass = 0;
+  bool knows_corrections = true;  // $LIN?, $ALP?
   Faults faults;
 };
 

@@ -18,6 +18,8 @@ inline constexpr int kDataPort = 10001;  // as delivered
 // $AVT of the manual.
 enum class Averaging { none = 0, moving = 1, arithmetic = 2, median = 3, dynamic = 4 };
 const char* to_string(Averaging averaging);  // as in the configuration
+// Of a reading: it holds nothing older. Error: longer than `settle_s`, if that is known.
+Status check_filter(double sample_time_us, int averaged_values, double settle_s);
 
 struct Options {
   std::string name;  // of the device
@@ -31,10 +33,12 @@ struct Options {
   std::int32_t guard_counts = 16;      // so near an end of 0 ... 0xFFFFFF is over range
   struct Channel {
     ChannelInput input;
-    int number = 0;       // 1 ... 32
-    double range_um = 0;  // 0: the controller says
+    int number = 0;             // 1 ... 32
+    double range_um = 0;        // 0: the controller says
+    bool rig_corrects = false;  // the rig has a linearity or polynomial for it
   };
   std::vector<Channel> channels;
+  double settle_s = 0;  // no filter may last longer; 0: not known
   // Not in the configuration; tests are in more of a hurry.
   std::chrono::milliseconds patience{1000};  // with a reply
   // The first packet may have been held up, and the clock of the device can only slowly be moved

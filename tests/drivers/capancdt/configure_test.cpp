@@ -21,10 +21,12 @@ DriverContext context() {
 
 const std::string kChannel = "[[channel]]\nid = \"A\"\ninput = \"1\"\n";
 
-Result<DriverSpec> configure(const std::string& text) {
+Result<DriverSpec> configure(const std::string& text, double settle_s = 0.1) {
   auto table = TomlTable::parse(text, "mdofd.toml");
   if (!table) return tl::unexpected(table.error());
-  return configure_driver("capancdt", *table, context());
+  DriverContext with = context();
+  with.settle_s = settle_s;
+  return configure_driver("capancdt", *table, with);
 }
 void expect_error(const std::string& text, const std::string& message) {
   const auto spec = configure(text);
@@ -46,6 +48,15 @@ TEST(CapancdtConfigure, TheLeast) {
   const DeviceInfo info = (*driver)->info();
   EXPECT_EQ(info.description, "capaNCDT at 10.0.0.7:23");
   EXPECT_EQ(info.channels, (std::vector<Channel>{{"A", Unit::um}}));
+}
+
+TEST(CapancdtConfigure, AveragingLongerThanAStopSettles) {
+  const std::string text =
+      "address = \"box\"\nsample_time_us = 32768\naveraging = \"moving\"\naveraged_values = 4\n" +
+      kChannel;
+  expect_error(text, "mdofd.toml:4: averaged_values: averages over 0.1311 s, longer than");
+  EXPECT_TRUE(configure(text, 0.2));
+  EXPECT_TRUE(configure(text, 0));
 }
 
 TEST(CapancdtConfigure, Everything) {

@@ -42,6 +42,56 @@ TEST(CapancdtSetup, RangeFromTheControllerOrTheConfiguration) {
   EXPECT_NEAR(collect(given, 5).all.value.at(0).at(0), 100, 1e-4);
 }
 
+TEST(CapancdtSetup, SaysWhatTheControllerDoesToTheValues) {
+  DeviceOptions device;
+  Rack plain(device);
+  Capancdt without(plain.options);
+  ASSERT_EQ(error_of(without.open()), "");
+  EXPECT_TRUE(without.info().warnings.empty());
+
+  device.linearisation = {5, 3, 2, 0};  // inputs 1 and 3 are read
+  device.low_pass = 1;
+  Rack rack(device);
+  rack.options.channels[0].rig_corrects = true;
+  Capancdt driver(rack.options);
+  ASSERT_EQ(error_of(driver.open()), "");
+  const auto warnings = driver.info().warnings;
+  ASSERT_EQ(warnings.size(), 3u);
+  expect_has(warnings[0], "linearises \"A\" (LIN 5) and the rig does too");
+  expect_has(warnings[0], "$LIN1:0");
+  expect_has(warnings[1], "linearises \"B\" (LIN 2); its certificate");
+  expect_has(warnings[2], "low-pass is on (ALP 1)");
+
+  device.knows_corrections = false;
+  Rack older(device);
+  Capancdt untold(older.options);
+  ASSERT_EQ(error_of(untold.open()), "");
+  ASSERT_EQ(untold.info().warnings.size(), 1u);
+  expect_has(untold.info().warnings[0], "does not say whether it linearises");
+}
+
+// 8 values of 131 ms are 1.05 s, longer than a stop is given to settle.
+TEST(CapancdtSetup, AveragingLongerThanAStopSettlesIsRefused) {
+  DeviceOptions device;
+  device.sample_time_us = 131072;
+  device.averaged_values = 8;
+  for (const int kind : {1, 2, 3, 4}) {
+    device.averaging = kind;
+    Rack rack(device);
+    rack.options.sample_time_us.reset();
+    rack.options.settle_s = 1;
+    expect_has(error_of(Capancdt(rack.options).open()),
+               "averages over 1.049 s, longer than settle_s = 1 s");
+    rack.options.settle_s = 1.05;
+    EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
+  }
+  device.averaging = 0;
+  Rack rack(device);
+  rack.options.sample_time_us.reset();
+  rack.options.settle_s = 0.01;
+  EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
+}
+
 TEST(CapancdtSetup, SettingsThatMayNotBeChanged) {
   DeviceOptions device;
   device.sample_time_us = 1024;

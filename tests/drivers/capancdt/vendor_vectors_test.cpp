@@ -38,6 +38,8 @@ TEST(CapancdtVectors, TheSimulatedOneAnswersAsEpicsReadsIt) {
       {"$AVN8", R"(\$AVN8OK)"},
       {"$CHS", R"(\$CHS\d,\d,\d,\dOK)"},
       {"$CHI1", R"(\$CHI1:ANO\d+,NAM[^,\s]+,SNO\d+,OFS\d+,RNG\d+,UNT[^OK]+OK)"},
+      {"$LIN?", R"(\$LIN\?\d,\d,\d,\dOK)"},
+      {"$ALP?", R"(\$ALP\?\dOK)"},
       {"$GDP", R"(\$GDP\d+OK)"},
   };
   for (const Line& line : lines) {

@@ -7,6 +7,7 @@
 
 #include "algo/flags.h"
 #include "algo/frame_rows.h"
+#include "algo/median.h"
 #include "schema/json_writer.h"
 #include "schema/units.h"
 
@@ -86,14 +87,12 @@ std::size_t DwellDetector::gather_early(const FrameBlock& frames) {
 // The first row alone may be wrong, most of them are not.
 void DwellDetector::start(std::vector<Point>& out) {
   const FrameBlock early = std::exchange(early_, empty_frames(probe_ids_.size()));
-  std::vector<double> positions = early.encoder_m;
-  const auto middle = positions.begin() + static_cast<std::ptrdiff_t>(positions.size() / 2);
-  std::nth_element(positions.begin(), middle, positions.end());
+  const double middle_m = median_of(early.encoder_m);
   learn_period(early);
   places_.begin_at(early.time_ns.front() - static_cast<std::int64_t>(kRowsForPeriod) * period_ns_,
-                   *middle);
+                   middle_m);
   const bool first = places_.is_placed(early.time_ns.front(), early.encoder_m.front());
-  begin_way(first ? early.encoder_m.front() : *middle);
+  begin_way(first ? early.encoder_m.front() : middle_m);
   push_from(early, 0, out);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algo/median.h"
 #include "algo/sequence_stops.h"
 #include "schema/sample.h"
 
@@ -11,13 +12,6 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kSamePlace_m = 50e-6;
-
-double median(std::vector<double>& x) {
-  if (x.empty()) return kNaN;
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
-  std::nth_element(x.begin(), middle, x.end());
-  return *middle;
-}
 
 ProbeFigures figures_of(const std::string& id, std::size_t probe,
                         const std::vector<MeasuredPoint>& points) {
@@ -34,7 +28,7 @@ ProbeFigures figures_of(const std::string& id, std::size_t probe,
     if (probe < p.point.probe_sd_m.size()) sd.push_back(p.point.probe_sd_m[probe]);
   }
   const bool known = figures.points > 0;
-  figures.sd_m = median(sd);
+  figures.sd_m = median_of(sd);
   figures.min_m = known ? low : kNaN;
   figures.max_m = known ? high : kNaN;
   figures.travel_m = known ? high - low : kNaN;

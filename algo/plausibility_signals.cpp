@@ -6,26 +6,20 @@
 #include <set>
 #include <string>
 
+#include "algo/median.h"
 #include "algo/plausibility.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kFewestStops = 6, kFewestTargets = 3;
+constexpr std::size_t kFewestSame = 6, kFewestPlaces = 3;
 constexpr double kWithinNoise = 8;  // of u of a stop's mean
 constexpr double kWithinSd = 2;     // of single readings
 constexpr double kOthersMove = 50;  // times what the dead one may
 constexpr double kRestless = 30;    // times the usual sd in stops
 
 using Points = std::vector<MeasuredPoint>;
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return kNaN;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The means of a probe in stops that follow each other, and what they may scatter by its noise.
 struct Stretch {
@@ -70,8 +64,8 @@ bool is_deaf(const Points& points, std::size_t first, std::size_t probe, std::si
   const Stretch same = stretch_of(points, first, points.size(), probe);
   const Stretch before = stretch_of(points, 0, first, probe);
   const double moves_m = kOthersMove * same.noise_m;
-  if (same.stops < std::max(kFewestStops, points.size() / 4) ||
-      same.targets.size() < kFewestTargets || (first > 0 && before.range_m() < moves_m))
+  if (same.stops < std::max(kFewestSame, points.size() / 4) ||
+      same.targets.size() < kFewestPlaces || (first > 0 && before.range_m() < moves_m))
     return false;
   std::vector<double> others_m;
   for (std::size_t k = 0; k < probes; ++k)
@@ -116,8 +110,7 @@ void tell_frozen_encoder(const RunToJudge& run, std::vector<std::string>& out) {
     std::size_t restless = 0;
     for (std::size_t k = 0; k < p.point.probe_sd_m.size() && k < probes; ++k)
       restless += p.point.probe_sd_m[k] > kRestless * usual_m[k];
-    if (points.size() < kFewestStops || restless < kFewestTargets || 2 * restless < probes)
-      continue;
+    if (points.size() < kFewestSame || restless < kFewestPlaces || 2 * restless < probes) continue;
     std::array<char, 320> text{};
     std::snprintf(text.data(), text.size(),
                   "in the stop at %.4f mm, of %.3f s, %zu of %zu probes change as while the axis "

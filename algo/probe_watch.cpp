@@ -7,6 +7,7 @@
 
 #include "algo/dwell_notice.h"
 #include "algo/flags.h"
+#include "algo/median.h"
 #include "algo/probe_step.h"
 #include "schema/units.h"
 
@@ -26,13 +27,6 @@ bool all_usable(const FrameBlock& frames, std::size_t probe, std::size_t first, 
   return quality.empty() ||
          std::all_of(quality.begin() + static_cast<std::ptrdiff_t>(first),
                      quality.begin() + static_cast<std::ptrdiff_t>(last), usable);
-}
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -144,7 +138,8 @@ std::vector<SteppedProbe> ProbeWatch::steps() const {
   std::vector<SteppedProbe> all;
   for (const Probe& p : probes_) {
     if (p.steps.empty()) continue;
-    const double least_m = std::max(kNoise * median_of(p.sd_m), kSteps * p.resolution_m);
+    const double noise_m = p.sd_m.empty() ? 0 : median_of(p.sd_m);
+    const double least_m = std::max(kNoise * noise_m, kSteps * p.resolution_m);
     std::vector<SteppedProbe> large;
     for (const SteppedProbe& s : p.steps)
       if (std::abs(s.size_m) > std::max(least_m, kNoNoise_m)) large.push_back(s);

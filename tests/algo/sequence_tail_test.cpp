@@ -99,7 +99,7 @@ TEST(SequenceTail, OddStopsAreAsInTheWhole) {
   stops.insert(stops.begin() + 171, part);  // the same stop, interrupted, its longer part
   stops[180].way_max_m = stops[180].position_m + 100e-6;
   stops[180].way_min_m = stops[180].position_m - 5e-3;
-  stops[180].direction = -1;  // came back from 0.1 mm beyond
+  stops[180].direction = -1;                       // came back from 0.1 mm beyond
   for (const std::size_t unseen : {200u, 215u}) {  // on the way there, and back
     stops[unseen].direction = 0;
     stops[unseen].way_min_m = stops[unseen].way_max_m = kNaN;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "algo/flags.h"
 #include "algo/rigid.h"
 #include "schema/sample.h"
 #include "schema/units.h"
@@ -21,8 +22,7 @@ constexpr double kLinearity = 1e-4;  // of the range
 constexpr double kLever_m = 0.02;    // that makes an angle a length
 
 bool flagged(const MeasuredPoint& p) {
-  const auto& flags = p.point.flags;
-  return std::find(flags.begin(), flags.end(), kFlag) != flags.end();
+  return has_flag(p.point, kFlag);
 }
 
 double square_distance(const Errors5& a, const Errors5& b) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "algo/flags.h"
 #include "algo/sequence_stops.h"
 
 namespace mdof::algo {
@@ -45,10 +46,8 @@ std::vector<Place> places_of(const std::vector<MeasuredPoint>& points,
     place.last = place.last || i + 1 == points.size();
   }
   if (points.empty()) return places;
-  const auto& flags = points.front().point.flags;
   Place& start = places[static_cast<std::size_t>(points.front().target) - 1];
-  start.parked =
-      start.visits() == 1 && std::find(flags.begin(), flags.end(), kApproachAssumed) != flags.end();
+  start.parked = start.visits() == 1 && has_flag(points.front().point, kApproachAssumed);
   return places;
 }
 

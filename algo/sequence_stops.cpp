@@ -39,10 +39,6 @@ bool went_away(const Point& p) {
   return p.way_max_m - p.position_m > kMaxScatter_m || p.position_m - p.way_min_m > kMaxScatter_m;
 }
 
-bool approach_assumed(const Point& p) {
-  return std::find(p.flags.begin(), p.flags.end(), kApproachAssumed) != p.flags.end();
-}
-
 }  // namespace
 
 std::vector<double> targets_of_stops(const std::vector<Point>& points) {
@@ -127,7 +123,7 @@ std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& poin
   if (points.size() < 2) return {};
   const MeasuredPoint &parked = points[0], &next = points[1];
   const bool again = next.target == parked.target && next.point.direction == parked.point.direction;
-  if (!approach_assumed(parked.point) || !again || !went_away(next.point)) return {};
+  if (!has_flag(parked.point, kApproachAssumed) || !again || !went_away(next.point)) return {};
   std::vector<StopLeftOut> left_out = {
       {parked.point.position_m, parked.point.begin_ns,
        "the axis was parked there when the log began, and then came to the same target"}};

@@ -11,10 +11,6 @@ namespace {
 
 constexpr double kNewTarget_m = 50e-6;  // further from each target: one of its own
 
-bool approach_assumed(const Point& p) {
-  return std::find(p.flags.begin(), p.flags.end(), kApproachAssumed) != p.flags.end();
-}
-
 }  // namespace
 
 SequenceTail::SequenceTail(const Sequence& sequence, SequenceOptions options)
@@ -26,7 +22,7 @@ SequenceTail::SequenceTail(const Sequence& sequence, SequenceOptions options)
   const std::size_t n = sequence.points.size();
   if (n == 0) return;
   const bool stayed = n > 1 && sequence.points[n - 2].target == sequence.points[n - 1].target;
-  awaits_ = approach_assumed(sequence.points.back().point) && !stayed;
+  awaits_ = has_flag(sequence.points.back().point, kApproachAssumed) && !stayed;
 }
 
 int SequenceTail::number(const MeasuredPoint& p) {

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "algo/flags.h"
 #include "algo/plausibility.h"
 #include "algo/restate.h"
 #include "algo/straightness.h"
@@ -284,9 +285,8 @@ Status Pipeline::judge_dead_probes(std::vector<std::string>& warnings) const {
       if (needed) return bad_input(slow->second);
       continue;  // told with the others
     }
-    const auto& flags = found_.front().flags;
-    const bool frozen = std::find(flags.begin(), flags.end(), "frozen:" + id) != flags.end();
-    const bool saturated = std::find(flags.begin(), flags.end(), "saturated:" + id) != flags.end();
+    const bool frozen = algo::has_flag(found_.front(), "frozen:" + id);
+    const bool saturated = algo::has_flag(found_.front(), "saturated:" + id);
     const std::string why = frozen ? "probe \"" + id +
                                          "\" reads the same in every scan while the others "
                                          "change; check its cable, amplifier and channel"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "algo/flags.h"
 #include "daemon/completeness.h"
 #include "daemon/live_json.h"
 #include "daemon/open_run.h"
@@ -40,8 +41,7 @@ bool same_points(const std::vector<MeasuredPoint>& stored,
 
 // The motion that follows will tell the approach of this point; it is not yet to be stored.
 bool approach_assumed(const MeasuredPoint& p) {
-  const auto& flags = p.point.flags;
-  return std::find(flags.begin(), flags.end(), algo::kApproachAssumed) != flags.end();
+  return algo::has_flag(p.point, algo::kApproachAssumed);
 }
 
 // How many of the points asked for there are: solved, each target as often as asked, both ways.

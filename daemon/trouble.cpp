@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "algo/flags.h"
 #include "schema/json_writer.h"
 #include "schema/units.h"
 
@@ -27,10 +28,6 @@ std::string at_first(std::size_t times, const std::string& utc) {
 
 std::string whose(const std::string& device) {
   return device.empty() ? "" : "device \"" + device + "\": ";
-}
-
-bool has_flag(const Point& point, const std::string& flag) {
-  return std::find(point.flags.begin(), point.flags.end(), flag) != point.flags.end();
 }
 
 std::string number_mm(double x_m) {
@@ -67,7 +64,7 @@ std::optional<Trouble> unsolved(const MeasuredPoint& point, const Rig& rig,
   for (std::size_t k = 0; k < rig.probes.size() && k < point.point.probe_m.size(); ++k) {
     if (!std::isnan(point.point.probe_m[k])) continue;
     const std::string& id = rig.probes[k].id;
-    (has_flag(point.point, "saturated:" + id) ? saturated : silent).push_back(id);
+    (algo::has_flag(point.point, "saturated:" + id) ? saturated : silent).push_back(id);
     all.push_back(id);
   }
   std::string text = "the stop at " + number_mm(point.point.position_m) + " is not solved: ";

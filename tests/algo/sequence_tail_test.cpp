@@ -9,14 +9,14 @@
 namespace mdof::algo {
 namespace {
 
-struct Truth {
+struct Placed {
   int target, run, direction;
 };
 
 // Over the targets and back, beyond both ends, `runs` times; each stop with the way that led to it.
 struct Walk {
   std::vector<Point> stops;
-  std::vector<Truth> truth;
+  std::vector<Placed> truth;
   double at_m = -1e-3;
   std::int64_t t_ns = 0;
 

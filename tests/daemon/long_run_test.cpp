@@ -11,11 +11,11 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr int kTargets = 20, kPoints = 10'000, kStop = 40, kMove = 8;  // scans, at 100 Hz
+constexpr int kTargets = 20, kPoints = 10'000, kStopScans = 40, kMoveScans = 8;  // scans, at 100 Hz
 
 // An axis over 20 targets and back, turning 1 mm beyond both ends: the scans of one stop after the
 // other, with the way to it.
-class Axis {
+class LongAxis {
  public:
   SampleBlock next_stop() {
     block_ = {};
@@ -27,7 +27,7 @@ class Axis {
     const bool forward = stop_ / kTargets % 2 == 0;
     if (in_pass == 0) move_to(forward ? -1 : kTargets);
     move_to(forward ? in_pass : kTargets - 1 - in_pass);
-    for (int i = 0; i < kStop; ++i) scan();
+    for (int i = 0; i < kStopScans; ++i) scan();
     ++stop_;
     return std::move(block_);
   }
@@ -35,8 +35,8 @@ class Axis {
  private:
   void move_to(double to_mm) {
     const double from_mm = at_mm_;
-    for (int i = 1; i <= kMove; ++i) {
-      at_mm_ = from_mm + (to_mm - from_mm) * i / kMove;
+    for (int i = 1; i <= kMoveScans; ++i) {
+      at_mm_ = from_mm + (to_mm - from_mm) * i / kMoveScans;
       scan();
     }
   }
@@ -65,7 +65,7 @@ TEST(LongRun, APointCostsTheSameAtItsEndAsAtItsStart) {
   Pipeline asked = Pipeline::create(rig, {}).value(), silent = Pipeline::create(rig, {}).value();
   double early_s = 0, late_s = 0;
   std::size_t points = 0;
-  Axis axis;
+  LongAxis axis;
   for (int stop = 0; points < kPoints; ++stop) {
     ASSERT_LT(stop, kPoints + 10) << "stops are missing";
     SampleBlock block = axis.next_stop(), same = block;

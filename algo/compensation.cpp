@@ -6,6 +6,7 @@
 #include "algo/line_fit.h"
 #include "algo/restate.h"
 #include "algo/series.h"
+#include "algo/uneven_visits.h"
 #include "algo/usable_runs.h"
 #include "schema/number_text.h"
 #include "schema/sample.h"
@@ -188,6 +189,14 @@ Result<CompensationTable> build_table(const std::vector<Run>& measured,
   fill_side(moving, points, Approach::forward, grid, reference, table.forward, table.u_forward);
   fill_side(moving, points, Approach::reverse, grid, reference, table.reverse, table.u_reverse);
   return table;
+}
+
+Result<std::string> uneven_visits_of(const std::vector<Run>& runs) {
+  if (runs.empty()) return std::string();
+  const RunHeader& header = runs.front().header;
+  const auto first = target_means({header.axis, header.sides}, runs.front().points, Approach::both);
+  MDOF_TRY(const auto points, on_one_grid(runs, positions(first)));
+  return uneven_visits_text(points);
 }
 
 TableValue table_at(const CompensationTable& table, double position_m, TableSide side) {

@@ -21,6 +21,8 @@ struct TableOptions {
   Chain machine;
 };
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
+// What their table makes up for, as uneven_visits_text(); "": nothing. Errors: other targets.
+Result<std::string> uneven_visits_of(const std::vector<Run>& runs);
 
 // The errors at a position: linear between grid points, the end value held outside and said so.
 struct TableValue {

@@ -10,6 +10,12 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kNoise_m = 50e-6;  // of the encoder, and spikes that the dwells vote out
+constexpr std::int64_t kGlitch_ns = 50'000'000;
+constexpr double kBack = 0.1;  // so much nearer to where the axis was than to where it cannot be
+
+std::string scans_have(std::uint64_t n) {
+  return std::to_string(n) + (n == 1 ? " scan has" : " scans have");
+}
 
 }  // namespace
 
@@ -29,8 +35,10 @@ bool PlaceWatch::is_placed(std::int64_t time_ns, double position_m) const {
   if (!std::isfinite(position_m)) return false;
   if (!begun_) return true;
   if (out_of_reach_m(last_, time_ns, position_m) > 0) return false;
-  // Given time the axis could have got anywhere: what goes on from a stray position is stray.
-  return !astray_ || out_of_reach_m(stray_, time_ns, position_m) > 0;
+  // Given time the axis could have got anywhere: what goes on from a stray position is stray,
+  // unless it is back where the axis was.
+  return !astray_ || out_of_reach_m(stray_, time_ns, position_m) > 0 ||
+         std::abs(position_m - last_.position_m) < kBack * std::abs(position_m - stray_.position_m);
 }
 
 std::size_t PlaceWatch::end_of_placed(const FrameBlock& frames, std::size_t from) {
@@ -52,6 +60,7 @@ void PlaceWatch::leave_out(std::int64_t time_ns, double position_m) {
     first_jump_m_ = position_m - last_.position_m;
     jumped_from_m_ = last_.position_m;
   }
+  if (!astray_) astray_since_ns_ = time_ns;
   astray_ = true;
   stray_ = {time_ns, position_m};
 }
@@ -72,16 +81,15 @@ std::vector<std::string> PlaceWatch::warnings(std::int64_t start_ns) const {
       "; they are left out, and the points of stops in which some are have the flag "
       "missing:encoder; check the scale and its cable";
   if (missing_ > 0)
-    all.push_back(std::to_string(missing_) +
-                  " scans have no position of the encoder, the first of them " +
+    all.push_back(scans_have(missing_) + " no position of the encoder, the first of them " +
                   after_s(first_missing_ns_) + flagged);
   if (too_fast_ > 0)
-    all.push_back(
-        std::to_string(too_fast_) +
-        " scans have a position that the axis cannot have reached: the encoder jumped by " +
-        plain_number(to_mm(first_jump_m_), 7) + " mm at " + plain_number(to_mm(jumped_from_m_), 5) +
-        " mm, " + after_s(first_too_fast_ns_) + ", faster than max_speed_mm_s = " +
-        plain_number(to_mm(max_speed_m_s_)) + flagged + ", find its zero and measure again");
+    all.push_back(scans_have(too_fast_) +
+                  " a position that the axis cannot have reached: the encoder jumped by " +
+                  plain_number(to_mm(first_jump_m_), 7) + " mm at " +
+                  plain_number(to_mm(jumped_from_m_), 5) + " mm, " + after_s(first_too_fast_ns_) +
+                  ", faster than max_speed_mm_s = " + plain_number(to_mm(max_speed_m_s_)) +
+                  flagged + ", find its zero and measure again");
   return all;
 }
 

@@ -13,7 +13,7 @@ namespace mdof::algo {
 // A frame without a position (NaN) has no place. Neither has one whose position the axis cannot
 // have reached from the last place at its greatest speed, as after a count that overflowed (2^32
 // counts); those that go on from there have none either, until the position jumps back to where the
-// axis can be.
+// axis can be, or is back within 50 ms, as after a disturbance.
 // Streaming; the same however the frames are cut.
 class PlaceWatch {
  public:
@@ -42,7 +42,7 @@ class PlaceWatch {
   bool begun_ = false, astray_ = false;
   Place last_, stray_;  // the last that was placed; the last that was not, while astray_
   std::uint64_t missing_ = 0, too_fast_ = 0;
-  std::int64_t first_missing_ns_ = 0, first_too_fast_ns_ = 0;
+  std::int64_t first_missing_ns_ = 0, first_too_fast_ns_ = 0, astray_since_ns_ = 0;
   double first_jump_m_ = 0, jumped_from_m_ = 0;
 };
 

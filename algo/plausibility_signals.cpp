@@ -15,13 +15,20 @@ namespace {
 
 constexpr std::size_t kFewestSame = 6, kFewestPlaces = 3;
 constexpr double kWithinNoise = 8;  // of u of a stop's mean
-constexpr double kWithinSd = 2;     // of single readings
 constexpr double kOthersMove = 50;  // times what the dead one may
 constexpr double kRestless = 30;    // times the usual sd in stops
 
-using Points = std::vector<MeasuredPoint>;
+using Stops = std::vector<const MeasuredPoint*>;
 
-// The means of a probe in stops that follow each other, and what they may scatter by its noise.
+// The stops in which the probe has a value.
+Stops with_value(const std::vector<MeasuredPoint>& points, std::size_t probe) {
+  Stops stops;
+  for (const MeasuredPoint& p : points)
+    if (std::isfinite(p.point.probe_m[probe])) stops.push_back(&p);
+  return stops;
+}
+
+// The means of a probe in stops, and what they may scatter by its noise.
 struct Stretch {
   double low_m = 0, high_m = 0, noise_m = 0;
   std::size_t stops = 0;
@@ -33,72 +40,72 @@ struct Stretch {
     if (!std::isfinite(value_m)) return;
     low_m = stops == 0 ? value_m : std::min(low_m, value_m);
     high_m = stops == 0 ? value_m : std::max(high_m, value_m);
-    double noise = kWithinNoise * p.point.probe_u_m[probe];
-    if (probe < p.point.probe_sd_m.size())
-      noise = std::max(noise, kWithinSd * p.point.probe_sd_m[probe]);
-    noise_m = std::max(noise_m, noise);
+    noise_m = std::max(noise_m, kWithinNoise * p.point.probe_u_m[probe]);
     targets.insert(p.target);
     ++stops;
   }
 };
 
-Stretch stretch_of(const Points& points, std::size_t first, std::size_t last, std::size_t probe) {
+// The first of `stops` from which the probe reads the same to the end, within its noise.
+std::size_t same_from(const Stops& stops, std::size_t probe) {
   Stretch stretch;
-  for (std::size_t i = first; i < last; ++i) stretch.take(points[i], probe);
-  return stretch;
-}
-
-// The first stop from which the probe reads the same to the end, within its noise.
-std::size_t same_from(const Points& points, std::size_t probe) {
-  Stretch stretch;
-  std::size_t first = points.size();
+  std::size_t first = stops.size();
   while (first > 0) {
-    stretch.take(points[first - 1], probe);
+    stretch.take(*stops[first - 1], probe);
     if (stretch.range_m() > stretch.noise_m) break;
     --first;
   }
   return first;
 }
 
-bool is_deaf(const Points& points, std::size_t first, std::size_t probe, std::size_t probes) {
-  const Stretch same = stretch_of(points, first, points.size(), probe);
-  const Stretch before = stretch_of(points, 0, first, probe);
-  const double moves_m = kOthersMove * same.noise_m;
-  if (same.stops < std::max(kFewestSame, points.size() / 4) ||
-      same.targets.size() < kFewestPlaces || (first > 0 && before.range_m() < moves_m))
-    return false;
+// The median over the other probes of how far they change from that stop on.
+double others_change_m(const RunToJudge& run, const MeasuredPoint& from, std::size_t probe) {
   std::vector<double> others_m;
-  for (std::size_t k = 0; k < probes; ++k)
-    if (k != probe) others_m.push_back(stretch_of(points, first, points.size(), k).range_m());
-  return median_of(others_m) > moves_m;
+  for (std::size_t k = 0; k < run.rig.probes.size(); ++k) {
+    if (k == probe) continue;
+    Stretch stretch;
+    for (const MeasuredPoint& p : run.sequence.points)
+      if (p.point.begin_ns >= from.point.begin_ns) stretch.take(p, k);
+    others_m.push_back(stretch.range_m());
+  }
+  return median_of(others_m);
+}
+
+bool is_deaf(const RunToJudge& run, const Stops& stops, std::size_t first, std::size_t probe) {
+  Stretch before, same;
+  for (std::size_t i = 0; i < stops.size(); ++i) (i < first ? before : same).take(*stops[i], probe);
+  const double moves_m = kOthersMove * same.noise_m;
+  return same.stops >= std::max(kFewestSame, stops.size() / 4) &&
+         same.targets.size() >= kFewestPlaces && (first == 0 || before.range_m() >= moves_m) &&
+         others_change_m(run, *stops[first], probe) > moves_m;
 }
 
 void tell_deaf_probes(const RunToJudge& run, std::vector<std::string>& out) {
-  const Points& points = run.sequence.points;
-  const std::size_t probes = run.rig.probes.size();
-  for (std::size_t k = 0; k < probes; ++k) {
-    const std::size_t first = same_from(points, k);
-    if (first == points.size() || !is_deaf(points, first, k, probes)) continue;
+  for (std::size_t k = 0; k < run.rig.probes.size(); ++k) {
+    const Stops stops = with_value(run.sequence.points, k);
+    const std::size_t first = same_from(stops, k);
+    if (first == stops.size() || !is_deaf(run, stops, first, k)) continue;
     std::array<char, 48> since{};
     if (first > 0)
-      std::snprintf(since.data(), since.size(), " from %.3f s after the first on",
-                    ns_to_s(points[first].point.begin_ns - points.front().point.begin_ns));
+      std::snprintf(
+          since.data(), since.size(), " from %.3f s after the first on",
+          ns_to_s(stops[first]->point.begin_ns - run.sequence.points.front().point.begin_ns));
     std::array<char, 320> text{};
     std::snprintf(text.data(), text.size(),
-                  "probe \"%s\" reads the same at all %zu stops%s (%.6g um, within its noise) "
-                  "while the others change: it seems to measure nothing, and errors from it are "
-                  "wrong; check its cable, gap and amplifier",
-                  run.rig.probes[k].id.c_str(), points.size() - first, since.data(),
-                  to_um(points[first].point.probe_m[k]));
+                  "probe \"%s\" reads the same at %zu stops%s (%.6g um, within its noise) while "
+                  "the others change: the axis does not move it, or it measures nothing and errors "
+                  "from it are wrong; check its cable, gap and amplifier",
+                  run.rig.probes[k].id.c_str(), stops.size() - first, since.data(),
+                  to_um(stops[first]->point.probe_m[k]));
     out.emplace_back(text.data());
   }
 }
 
 // A stop in which most probes change as they only do while the axis moves.
 void tell_frozen_encoder(const RunToJudge& run, std::vector<std::string>& out) {
-  const Points& points = run.sequence.points;
+  const auto& points = run.sequence.points;
   const std::size_t probes = run.rig.probes.size();
-  std::vector<double> usual_m(probes);
+  std::vector<double> usual_m(probes);  // 0: it shows the same step of its resolution throughout
   for (std::size_t k = 0; k < probes; ++k) {
     std::vector<double> sd_m;
     for (const MeasuredPoint& p : points)
@@ -109,7 +116,7 @@ void tell_frozen_encoder(const RunToJudge& run, std::vector<std::string>& out) {
   for (const MeasuredPoint& p : points) {
     std::size_t restless = 0;
     for (std::size_t k = 0; k < p.point.probe_sd_m.size() && k < probes; ++k)
-      restless += p.point.probe_sd_m[k] > kRestless * usual_m[k];
+      restless += usual_m[k] > 0 && p.point.probe_sd_m[k] > kRestless * usual_m[k];
     if (points.size() < kFewestSame || restless < kFewestPlaces || 2 * restless < probes) continue;
     std::array<char, 320> text{};
     std::snprintf(text.data(), text.size(),

@@ -136,14 +136,11 @@ ByTarget both_ways(const MovingAxis& moving, const std::vector<MeasuredPoint>& p
   return means;
 }
 
-// Drift between runs is in u also where it was taken from the mean.
-ByTarget both_ways_without_drift(const MovingAxis& moving,
-                                 const std::vector<MeasuredPoint>& points) {
-  ByTarget means = both_ways(moving, without_drift_of_runs(points));
-  for (const auto& [target, drifting] : both_ways(moving, points))
-    for (std::size_t k = 0; k < 5; ++k)
-      means[target].u[k] = std::max(means[target].u[k], drifting.u[k]);
-  return means;
+ByTarget means_of(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                  Approach approach) {
+  return approach == Approach::both
+             ? both_ways(moving, points)
+             : one_way(moving, points, approach == Approach::forward ? 1 : -1);
 }
 
 }  // namespace
@@ -156,9 +153,12 @@ const char* to_string(Approach approach) {
 
 std::vector<TargetMean> target_means(const MovingAxis& moving,
                                      const std::vector<MeasuredPoint>& points, Approach approach) {
-  const ByTarget means = approach == Approach::both
-                             ? both_ways_without_drift(moving, points)
-                             : one_way(moving, points, approach == Approach::forward ? 1 : -1);
+  const WithoutDrift without = without_drift_of_runs(points);
+  const Errors5 u_level = named_from_local(moving, without.u_level);
+  ByTarget means = means_of(moving, without.points, approach);
+  for (const auto& [target, drifting] : means_of(moving, points, approach))
+    for (std::size_t k = 0; k < 5; ++k)
+      means[target].u[k] = std::max({means[target].u[k], drifting.u[k], std::abs(u_level[k])});
   std::vector<TargetMean> series;
   for (const auto& [target, mean] : means) series.push_back(mean);
   return series;

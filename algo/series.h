@@ -20,10 +20,10 @@ struct TargetMean {
 };
 
 // Means of the valid points of `points` at each target that has any, ascending in position.
-// Approach::both is the mean of the two directions' means, without_drift_of_runs() (u holds it); a
-// target with one of them only is taken to have the mean reversal (forward - reverse) of the
-// others, with u by their scatter, for its own approach would put it half a reversal off. Where no
-// target has both, the one approach there is.
+// Of without_drift_of_runs(); the drift stays in u.
+// Approach::both is the mean of the two directions' means; a target with one of them only is taken
+// to have the mean reversal (forward - reverse) of the others, with u by their scatter, for its own
+// approach would put it half a reversal off. Where no target has both, the one approach there is.
 // u: the larger of the scatter between runs, s/√n (n > 1), and the mean's propagated noise: where
 // runs repeat, what is slow between them is in it, and runs that are close by chance keep the
 // noise. Of both directions' mean it is at least the scatter of the runs' means, both ways taken

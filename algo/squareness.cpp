@@ -140,7 +140,7 @@ Result<HorizontalSlope> horizontal_slope(const Run& measured) {
   slope.line = least_squares_line(x, column(series, 0));
   slope.u_slope_rad =
       std::max(propagated(x, series),
-               scatter_of_runs(run.header.moving(), without_drift_of_runs(run.points)));
+               scatter_of_runs(run.header.moving(), without_drift_of_runs(run.points).points));
   return slope;
 }
 

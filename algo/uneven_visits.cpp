@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -38,14 +39,23 @@ std::vector<int> runs_that_lack_visits(const std::vector<MeasuredPoint>& points)
   return lacking;
 }
 
-std::vector<int> one_sided_targets(const std::vector<MeasuredPoint>& points) {
-  std::map<int, std::set<int>> sides;
-  for (const MeasuredPoint& p : points) sides[p.target].insert(p.point.direction);
-  std::vector<int> one_sided;
-  for (const auto& [target, directions] : sides)
-    if (directions.size() == 1) one_sided.push_back(target);
-  if (one_sided.size() == sides.size()) one_sided.clear();  // nothing is known of the reversal
-  return one_sided;
+struct Approached {
+  std::vector<int> targets_from_one;  // ascending
+  bool any_from_both = false;
+  std::set<int> directions;
+};
+
+Approached approached(const std::vector<MeasuredPoint>& points) {
+  std::map<int, std::set<int>> of_target;
+  Approached sides;
+  for (const MeasuredPoint& p : points) {
+    of_target[p.target].insert(p.point.direction);
+    sides.directions.insert(p.point.direction);
+  }
+  for (const auto& [target, directions] : of_target)
+    if (directions.size() == 1) sides.targets_from_one.push_back(target);
+  sides.any_from_both = sides.targets_from_one.size() < of_target.size();
+  return sides;
 }
 
 // The normal equations of the fit, with the visits eliminated: one row and column a run. Runs that
@@ -98,28 +108,40 @@ std::string name_of(const char* what, const std::vector<int>& numbers) {
 
 }  // namespace
 
-std::vector<MeasuredPoint> without_drift_of_runs(const std::vector<MeasuredPoint>& points) {
-  std::vector<MeasuredPoint> out = that_count(points);
-  if (runs_that_lack_visits(out).empty()) return out;
-  const auto drifts = RunFit(out).drifts();
-  for (MeasuredPoint& p : out)
+WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points) {
+  WithoutDrift out{that_count(points), {}};
+  if (runs_that_lack_visits(out.points).empty()) return out;
+  const auto drifts = RunFit(out.points).drifts();
+  for (MeasuredPoint& p : out.points)
     for (std::size_t k = 0; k < 5; ++k) p.errors.local[k] -= drifts.at(p.run)[k];
+  const auto n = static_cast<double>(drifts.size());
+  for (std::size_t k = 0; k < 5; ++k) {
+    double square = 0;  // the drifts sum to 0
+    for (const auto& [run, drift] : drifts) square += drift[k] * drift[k];
+    if (n > 1) out.u_level[k] = std::sqrt(square / (n - 1) / n);
+  }
   return out;
 }
 
 std::string uneven_visits_text(const std::vector<MeasuredPoint>& points) {
   const auto counted = that_count(points);
-  const auto lacking = runs_that_lack_visits(counted), one_sided = one_sided_targets(counted);
+  const auto lacking = runs_that_lack_visits(counted);
+  const Approached from = approached(counted);
+  const auto& one_sided = from.targets_from_one;
   std::string text;
   if (!lacking.empty())
     text = name_of("run", lacking) + " lack" + (lacking.size() == 1 ? "s" : "") +
-           " visits that others have: means of both approaches, slopes and squareness are made "
-           "without the drift between the runs";
-  if (one_sided.empty()) return text;
-  return text + (text.empty() ? "" : "; ") + name_of("target", one_sided) +
-         (one_sided.size() == 1 ? " was" : " were") +
-         " approached from one side only: means of both approaches, slopes and squareness take the "
-         "missing approach from the mean reversal of the other targets";
+           " visits that others have: means, slopes and squareness are made without the drift "
+           "between the runs";
+  if (one_sided.empty() || from.directions.size() == 1) return text;
+  if (!text.empty()) text += "; ";
+  if (!from.any_from_both)
+    return text +
+           "no target was approached from both sides, and not all from the same one: half a "
+           "reversal error is in slopes and squareness, and not in their u; measure again";
+  return text + name_of("target", one_sided) + (one_sided.size() == 1 ? " was" : " were") +
+         " approached from one side only: means of both approaches, slopes and squareness take "
+         "the missing approach from the mean reversal of the other targets";
 }
 
 }  // namespace mdof::algo

@@ -9,11 +9,17 @@
 
 namespace mdof::algo {
 
+struct WithoutDrift {
+  std::vector<MeasuredPoint> points;
+  Errors5 u_level{};  // local; m, rad
+};
 // The valid points with a known approach, in their order. Where a run lacks a visit (a target from
 // one side) that another run has, each run's mean drift against the others is taken from its
 // errors: the mean of some targets only would hold it, and be tilted by it. The drifts are those of
-// the least-squares fit error = of the visit + of the run; they sum to 0.
-std::vector<MeasuredPoint> without_drift_of_runs(const std::vector<MeasuredPoint>& points);
+// the least-squares fit error = of the visit + of the run; they sum to 0. Their scatter, s/√n, is
+// the uncertainty of the level that all targets then have, however few runs visited them; 0 where
+// nothing was taken.
+WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points);
 
 // What is made up for, and how, for people; "": nothing.
 std::string uneven_visits_text(const std::vector<MeasuredPoint>& points);

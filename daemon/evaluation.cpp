@@ -43,6 +43,19 @@ Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t
   return stated_anew(std::move(page), reference);
 }
 
+namespace {
+
+// Of a table of these runs: theirs, and what one run alone does not show.
+Result<std::vector<std::string>> table_warnings(const std::vector<Run>& runs) {
+  auto warnings = algo::inherited_warnings(algo::all_of(runs));
+  if (runs.size() < 2) return warnings;
+  MDOF_TRY(std::string uneven, algo::uneven_visits_of(runs));
+  if (!uneven.empty()) warnings.push_back("with the runs counted through: " + std::move(uneven));
+  return warnings;
+}
+
+}  // namespace
+
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request) {
   std::vector<Run> runs;
   algo::TableOptions options;
@@ -66,25 +79,20 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
   table.created_utc = utc_now();
   table.sha256 = table_sha256(table);
   MDOF_TRY(table.id, store.add_table(table));
-  return BuiltTable{std::move(table), algo::inherited_warnings(algo::all_of(runs))};
+  MDOF_TRY(auto warnings, table_warnings(runs));
+  return BuiltTable{std::move(table), std::move(warnings)};
 }
-
-namespace {
-
-Result<std::vector<std::string>> warnings_of(store::Store& store, const CompensationTable& table) {
-  std::vector<Run> runs(table.runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    MDOF_TRY(runs[i].header, store.run_header(table.runs[i]));
-  }
-  return algo::inherited_warnings(algo::all_of(runs));
-}
-
-}  // namespace
 
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request) {
   MDOF_TRY(const CompensationTable table, store.table(request.table));
-  MDOF_TRY(const auto warnings, warnings_of(store, table));
-  if (warnings.empty() || request.despite_warnings)
+  std::vector<Run> runs(table.runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    MDOF_TRY(runs[i], store.run(table.runs[i]));
+  }
+  MDOF_TRY(const auto warnings, table_warnings(runs));
+  const auto now = store.active(table.axis);
+  const bool in_force = now && now->table.id == request.table;
+  if (warnings.empty() || in_force || request.despite_warnings)
     return store.activate(request.table, request.actor, utc_now());
   return fail(ErrorCode::conflict,
               "table " + std::to_string(request.table) + " is made of runs with " +

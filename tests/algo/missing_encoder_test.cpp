@@ -137,6 +137,27 @@ TEST(UnreachablePlace, WhatGoesOnFromAJumpIsLeftOut) {
   }
 }
 
+// A disturbance: positions far off that come back by what the axis could reach, or after a hole.
+TEST(UnreachablePlace, ADisturbanceLosesNothingAfterIt) {
+  const SteppingLog log = one_run();
+  const FrameBlock whole = log.frames();
+  const auto clean = detect(log, whole, 1000);
+  const std::size_t at = row_at(whole, 1e-9 * static_cast<double>(clean.points[6].begin_ns)) + 30;
+  const std::vector<std::vector<double>> off_m = {
+      {0.3}, {0.3, kNaN, kNaN, kNaN}, {0.3, 0.12, 0.04}, {-0.3, kNaN}, {0.3, 0.3, kNaN, -0.1}};
+  for (const auto& off : off_m) {
+    FrameBlock frames = whole;
+    for (std::size_t i = 0; i < off.size(); ++i) frames.encoder_m[at + i] += off[i];
+    for (const std::size_t block : kBlocks) {
+      const auto found = detect(log, frames, block);
+      ASSERT_EQ(found.points.size(), clean.points.size());
+      EXPECT_EQ(found.summary.unplaced, off.size());
+      for (std::size_t i = 0; i < found.points.size(); ++i)
+        EXPECT_NEAR(found.points[i].position_m, clean.points[i].position_m, 5e-9);
+    }
+  }
+}
+
 TEST(UnreachablePlace, AnAxisAtItsGreatestSpeedLosesNothing) {
   const SteppingLog log = one_run();  // its moves reach 1.875 · 5 mm / 0.25 s = 37.5 mm/s
   const FrameBlock frames = log.frames();

@@ -84,8 +84,8 @@ TEST(Plausibility, CountsWhatWasVisited) {
 }
 
 const std::string kLevelled =
-    " lacks visits that others have: means of both approaches, slopes and squareness are made "
-    "without the drift between the runs\n";
+    " lacks visits that others have: means, slopes and squareness are made without the drift "
+    "between the runs\n";
 
 TEST(Plausibility, NamesAHole) {
   Machine m;

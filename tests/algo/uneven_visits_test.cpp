@@ -11,6 +11,7 @@
 #include <string>
 
 #include "algo/compensation.h"
+#include "algo/series.h"
 #include "algo/squareness.h"
 #include "algo/straightness.h"
 
@@ -65,11 +66,11 @@ StraightnessFigure mean_figure(const mdof::Run& run) {
 TEST(UnevenVisits, OfAWholeRunAreNone) {
   for (const int runs : {1, 3}) {
     const mdof::Run run = cut_run(runs, kAll);
-    EXPECT_EQ(without_drift_of_runs(run.points).size(), run.points.size());
+    EXPECT_EQ(without_drift_of_runs(run.points).points.size(), run.points.size());
     EXPECT_EQ(uneven_visits_text(run.points), "");
   }
   const mdof::Run one_way = cut_run(2, [](const Visit& v) { return v.direction > 0; });
-  EXPECT_EQ(without_drift_of_runs(one_way.points).size(), 26);
+  EXPECT_EQ(without_drift_of_runs(one_way.points).points.size(), 26);
   EXPECT_EQ(uneven_visits_text(one_way.points), "");
 }
 
@@ -78,8 +79,9 @@ TEST(UnevenVisits, AreTold) {
     return uneven_visits_text(cut_run(runs, kept).points);
   };
   const std::string drift =
-      " visits that others have: means of both approaches, slopes and squareness are made without "
-      "the drift between the runs";
+      " visits that others have: means, slopes and squareness are made without the drift between "
+      "the "
+      "runs";
   const std::string reversal =
       " approached from one side only: means of both approaches, slopes and squareness take the "
       "missing approach from the mean reversal of the other targets";
@@ -129,17 +131,47 @@ TEST(UnevenVisits, ARunThatLacksSomeDoesNotTiltByItsDrift) {
 
 TEST(UnevenVisits, TheDriftsOfTheRunsSumToZero) {
   const mdof::Run run = cut_run(3, [](const Visit& v) { return v.run != 3 || v.target != 9; });
-  const auto without = without_drift_of_runs(run.points);
+  const auto without = without_drift_of_runs(run.points).points;
   const double drift_um[] = {0.3 - 1.4, 1.2 - 1.4, 2.7 - 1.4};
   for (std::size_t i = 0; i < without.size(); ++i)
     EXPECT_NEAR((run.points[i].errors.local[0] - without[i].errors.local[0]) * 1e6,
                 drift_um[run.points[i].run - 1], 1e-9);
 }
 
+// What one run visited has the uncertainty of its level, too.
+TEST(UnevenVisits, TheDriftIsInTheUncertaintyOfEveryTarget) {
+  const mdof::Run run = cut_run(2, [](const Visit& v) { return v.run < 2 || v.target < 10; });
+  for (const auto approach : {Approach::forward, Approach::reverse, Approach::both})
+    for (const TargetMean& mean : target_means({Axis::x, {}}, run.points, approach))
+      EXPECT_NEAR(mean.u[0], 1.5 * kDrift_m, 1e-12) << to_string(approach);  // of 1 and 4, s/√2
+}
+
+TEST(UnevenVisits, ATableOfRunsWithOtherTargetsHasNoStep) {
+  mdof::Run longer = cut_run(1, kAll, Axis::x, 0);
+  mdof::Run shorter = cut_run(
+      1, [](const Visit& v) { return v.target < 10; }, Axis::x, 10e-6);
+  shorter.header.id = 2;
+  const auto whole = build_table({longer}, {}).value();
+  const auto table = build_table({longer, shorter}, {}).value();
+  for (std::size_t i = 0; i < 13; ++i) {
+    EXPECT_NEAR(table.forward[0][i] - table.forward[0][0],
+                whole.forward[0][i] - whole.forward[0][0], 1e-15);
+    EXPECT_NEAR(table.u_forward[0][i], 5e-6, 1e-8);
+  }
+  EXPECT_EQ(uneven_visits_of({longer, longer}).value(), "");
+  EXPECT_TRUE(uneven_visits_of({longer, shorter}).value().starts_with("run 2 lacks visits"));
+}
+
+TEST(UnevenVisits, NoTargetFromBothSidesIsTold) {
+  const mdof::Run run =
+      cut_run(1, [](const Visit& v) { return (v.direction > 0) == (v.target < 6); });
+  EXPECT_TRUE(uneven_visits_text(run.points).starts_with("no target was approached from both"));
+}
+
 // Runs that share no visit cannot be compared.
 TEST(UnevenVisits, RunsWithoutACommonVisitStay) {
   const mdof::Run run = cut_run(2, [](const Visit& v) { return (v.run == 1) == (v.target < 7); });
-  const auto same = without_drift_of_runs(run.points);
+  const auto same = without_drift_of_runs(run.points).points;
   for (std::size_t i = 0; i < same.size(); ++i)
     EXPECT_NEAR(same[i].errors.local[0], run.points[i].errors.local[0], 1e-18);
 }

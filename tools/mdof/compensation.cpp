@@ -83,7 +83,8 @@ Status build(const CompensationCommand& asked) {
   for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
   MDOF_CHECK(command.json ? write_line(with_warnings(table_document(table, 0), warnings))
                           : print_table(table, 0, false));
-  say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id));
+  say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id) +
+      (warnings.empty() ? "" : " --despite-warnings"));
   return {};
 }
 

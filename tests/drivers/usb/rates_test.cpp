@@ -211,7 +211,7 @@ TEST_F(Usb1608Rates, AHostThatSleepsIsSeen) {
 // That a loss can be seen: one scan in 240,000 that is missing without a word.
 TEST_F(Usb1608Rates, AMissingScanIsSeen) {
   mcc_usb1608fs_plus::Faults faults;
-  faults.drop_at = 100'000;
+  faults.drop_at = 10'000;  // soon: under TSan, on a busy machine, they come slower than the clock
   const Count count = run(5, 80'000, faults);
   EXPECT_EQ(count.error, "");
   EXPECT_EQ(count.wrong, 1U);

@@ -89,7 +89,7 @@ std::vector<std::string> PlaceWatch::warnings(std::int64_t start_ns) const {
                   plain_number(to_mm(first_jump_m_), 7) + " mm at " +
                   plain_number(to_mm(jumped_from_m_), 5) + " mm, " + after_s(first_too_fast_ns_) +
                   ", faster than max_speed_mm_s = " + plain_number(to_mm(max_speed_m_s_)) +
-                  flagged + ", find its zero and measure again");
+                  flagged + (astray_ ? ", find its zero and measure again" : ""));
   return all;
 }
 

@@ -14,9 +14,10 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kFewestSame = 6, kFewestPlaces = 3;
-constexpr double kWithinNoise = 8;  // of u of a stop's mean
-constexpr double kOthersMove = 50;  // times what the dead one may
-constexpr double kRestless = 30;    // times the usual sd in stops
+constexpr double kWithinNoise = 8;          // of u of a stop's mean
+constexpr double kOthersMove = 50;          // times what the dead one may
+constexpr double kRestless = 30;            // times the usual sd in stops
+constexpr std::size_t kFewestRestless = 3;  // probes
 
 using Stops = std::vector<const MeasuredPoint*>;
 
@@ -104,6 +105,7 @@ void tell_deaf_probes(const RunToJudge& run, std::vector<std::string>& out) {
 // A stop in which most probes change as they only do while the axis moves.
 void tell_frozen_encoder(const RunToJudge& run, std::vector<std::string>& out) {
   const auto& points = run.sequence.points;
+  if (points.size() < kFewestSame) return;
   const std::size_t probes = run.rig.probes.size();
   std::vector<double> usual_m(probes);  // 0: it shows the same step of its resolution throughout
   for (std::size_t k = 0; k < probes; ++k) {
@@ -117,7 +119,7 @@ void tell_frozen_encoder(const RunToJudge& run, std::vector<std::string>& out) {
     std::size_t restless = 0;
     for (std::size_t k = 0; k < p.point.probe_sd_m.size() && k < probes; ++k)
       restless += usual_m[k] > 0 && p.point.probe_sd_m[k] > kRestless * usual_m[k];
-    if (points.size() < kFewestSame || restless < kFewestPlaces || 2 * restless < probes) continue;
+    if (restless < kFewestRestless || 2 * restless < probes) continue;
     std::array<char, 320> text{};
     std::snprintf(text.data(), text.size(),
                   "in the stop at %.4f mm, of %.3f s, %zu of %zu probes change as while the axis "

@@ -148,11 +148,8 @@ class Holes {
            ++i)
         targets.push_back(cells[i].target);
       const bool all = targets.size() == visits_.targets.size();
-      groups.push_back(
-          "run " + std::to_string(first.run) + ", " + approach(first.direction) + ": " + many +
-          " " +
-          (all ? "any target"
-               : (targets.size() == 1 ? "target " : "targets ") + ranges_text(targets)));
+      groups.push_back("run " + std::to_string(first.run) + ", " + approach(first.direction) +
+                       ": " + many + " " + (all ? "any target" : numbered("target", targets)));
     }
     const std::size_t shown = std::min(groups.size(), kMostNamed);
     out.insert(out.end(), groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(shown));
@@ -180,7 +177,7 @@ void tell_found_late(const RunToJudge& run, Texts& out) {
     if (!first_pass.contains(t)) late.push_back(t);
   if (late.empty() || late.back() == run.sequence.targets || late.size() > first_pass.size())
     return;
-  out.push_back((late.size() == 1 ? "target " : "targets ") + ranges_text(late) +
+  out.push_back(numbered("target", late) +
                 " found only after the first pass: the numbers of the targets above changed then "
                 "(give targets_mm to fix them)");
 }

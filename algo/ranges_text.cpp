@@ -17,4 +17,8 @@ std::string ranges_text(const std::vector<int>& ascending) {
   return out;
 }
 
+std::string numbered(const char* what, const std::vector<int>& ascending) {
+  return what + std::string(ascending.size() == 1 ? " " : "s ") + ranges_text(ascending);
+}
+
 }  // namespace mdof::algo

@@ -102,10 +102,6 @@ class RunFit {
   std::map<Cell, Visits> visits_;
 };
 
-std::string name_of(const char* what, const std::vector<int>& numbers) {
-  return what + std::string(numbers.size() == 1 ? " " : "s ") + ranges_text(numbers);
-}
-
 }  // namespace
 
 WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points) {
@@ -130,7 +126,7 @@ std::string uneven_visits_text(const std::vector<MeasuredPoint>& points) {
   const auto& one_sided = from.targets_from_one;
   std::string text;
   if (!lacking.empty())
-    text = name_of("run", lacking) + " lack" + (lacking.size() == 1 ? "s" : "") +
+    text = numbered("run", lacking) + " lack" + (lacking.size() == 1 ? "s" : "") +
            " visits that others have: means, slopes and squareness are made without the drift "
            "between the runs";
   if (one_sided.empty() || from.directions.size() == 1) return text;
@@ -139,7 +135,7 @@ std::string uneven_visits_text(const std::vector<MeasuredPoint>& points) {
     return text +
            "no target was approached from both sides, and not all from the same one: half a "
            "reversal error is in slopes and squareness, and not in their u; measure again";
-  return text + name_of("target", one_sided) + (one_sided.size() == 1 ? " was" : " were") +
+  return text + numbered("target", one_sided) + (one_sided.size() == 1 ? " was" : " were") +
          " approached from one side only: means of both approaches, slopes and squareness take "
          "the missing approach from the mean reversal of the other targets";
 }

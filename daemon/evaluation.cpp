@@ -50,7 +50,8 @@ Result<std::vector<std::string>> table_warnings(const std::vector<Run>& runs) {
   auto warnings = algo::inherited_warnings(algo::all_of(runs));
   if (runs.size() < 2) return warnings;
   MDOF_TRY(std::string uneven, algo::uneven_visits_of(runs));
-  if (!uneven.empty()) warnings.push_back("with the runs counted through: " + std::move(uneven));
+  if (!uneven.empty())
+    warnings.push_back("over all its runs, counted on from one to the next: " + std::move(uneven));
   return warnings;
 }
 

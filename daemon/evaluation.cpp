@@ -1,5 +1,7 @@
 #include "daemon/evaluation.h"
 
+#include <set>
+
 #include "algo/compensation.h"
 #include "algo/restate.h"
 #include "algo/usable_runs.h"
@@ -55,9 +57,34 @@ Result<std::vector<std::string>> table_warnings(const std::vector<Run>& runs) {
   return warnings;
 }
 
+constexpr std::size_t kMostRuns = 64;
+constexpr std::int64_t kMostPoints = 200'000;  // all in memory at once: some 150 MB
+
+// Before any point is read: what would be refused in the end, or could not be held.
+Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& runs) {
+  if (runs.size() > kMostRuns)
+    return fail(ErrorCode::usage, "a table is built from at most " + std::to_string(kMostRuns) +
+                                      " runs, not " + std::to_string(runs.size()));
+  const std::set<std::int64_t> different(runs.begin(), runs.end());
+  if (different.size() < runs.size())
+    return bad_input(
+        "a run is given twice: readings that count twice make the uncertainty too small; give each "
+        "run once");
+  std::int64_t points = 0;
+  for (const std::int64_t run : runs) {
+    MDOF_TRY(const std::int64_t of_run, store.count_points(run));
+    points += of_run;
+  }
+  if (points <= kMostPoints) return {};
+  return bad_input("these runs have " + std::to_string(points) +
+                   " points together, and a table is built from at most " +
+                   std::to_string(kMostPoints) + "; leave some out");
+}
+
 }  // namespace
 
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request) {
+  MDOF_CHECK(check_table_runs(store, request.runs));
   std::vector<Run> runs;
   algo::TableOptions options;
   options.remove_slope = !request.keep_slope;

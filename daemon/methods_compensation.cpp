@@ -4,6 +4,7 @@
 #include "algo/compensation.h"
 #include "daemon/evaluation.h"
 #include "daemon/methods.h"
+#include "daemon/page.h"
 #include "daemon/paths.h"
 #include "schema/correction.h"
 #include "schema/json_writer.h"
@@ -21,7 +22,7 @@ constexpr const char* kSense =
     "error = actual - nominal of the body that moves; correction is added to the command of the "
     "axis "
     "of its second letter (EYX: Y)";
-constexpr std::int64_t kMaxGridPage = 60;  // of about 700 bytes: under the limit of a reply line
+constexpr std::int64_t kMaxGridPage = 100;
 
 std::string actor_of(const Params& params) {
   const auto who = params.caller().credentials();
@@ -118,12 +119,7 @@ std::string status(const Methods& m) {
 
 Result<std::string> grid(const Methods& m, const Params& params) {
   MDOF_TRY(const auto* active, active_table(m, params));
-  const std::int64_t offset = params.integer("offset", 0);
-  const std::int64_t count = params.integer("count", kMaxGridPage);
-  if (offset < 0 || count < 1 || count > kMaxGridPage) {
-    return fail(ErrorCode::usage,
-                "offset must be 0 or more and count from 1 to " + std::to_string(kMaxGridPage));
-  }
+  const auto [offset, count] = page_of(params, kMaxGridPage);
   if (params.has("generation") && params.integer("generation") != active->generation) {
     return fail(ErrorCode::conflict, "generation changed to " + std::to_string(active->generation) +
                                          "; read the grid again from offset 0");
@@ -134,7 +130,9 @@ Result<std::string> grid(const Methods& m, const Params& params) {
   json.field("generation", active->generation).field("offset", offset).key("points").begin_array();
   const auto total = static_cast<std::int64_t>(active->table.position_m.size());
   for (std::int64_t i = offset; i < std::min(total, offset + count); ++i) {
-    write_table_row(json, active->table, static_cast<std::size_t>(i));
+    JsonWriter row;
+    write_table_row(row, active->table, static_cast<std::size_t>(i));
+    if (!add_to_page(json, i == offset, row.take())) break;
   }
   json.end_array().end_object();
   return json.take();
@@ -243,8 +241,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .summary = "The grid of the table in force, a page at a time: errors, forward and "
                   "reverse apart.",
        .params = {axis,
-                  {"offset", ParamType::integer, "points to leave out", false, "0"},
-                  {"count", ParamType::integer, "points at the most", false, "60"},
+                  offset_param(),
+                  count_param(kMaxGridPage),
                   {"generation", ParamType::integer,
                    "of the pages before: error -32001 if it has changed", false}},
        .result = "table members, generation, points: errors (actual - nominal) in um and urad",

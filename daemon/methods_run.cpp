@@ -1,6 +1,7 @@
 // run.start, run.resume, run.stop, run.list, run.get, run.points, squareness.fit.
 #include "daemon/evaluation.h"
 #include "daemon/methods.h"
+#include "daemon/page.h"
 #include "daemon/paths.h"
 #include "daemon/resume.h"
 #include "schema/json_writer.h"
@@ -16,9 +17,11 @@ using rpc::Params;
 using rpc::ParamType;
 using rpc::Reply;
 
-constexpr std::int64_t kMaxPointsPage = 60;  // of about 700 bytes: under the limit of a reply line
-constexpr std::size_t kMaxVisits = 1500;     // numbers of n_ij in one reply
-constexpr std::int64_t kMaxRunsPage = 40;
+constexpr std::int64_t kMaxPointsPage = 100;
+constexpr std::size_t kMaxVisits = 1500;  // numbers of n_ij in one reply
+constexpr std::int64_t kMaxRunsPage = 100;
+constexpr std::int64_t kMaxRunPoints = 100'000;  // all of them make the figures; some 0.3 s
+constexpr std::size_t kMaxTargets = 1500;        // the reply names them all, and a line holds them
 
 std::string run_reply(std::int64_t id, Axis axis, const RunRequest& request) {
   JsonWriter json;
@@ -61,12 +64,12 @@ Result<std::vector<double>> read_targets(const Params& params) {
 Result<RunRequest> read_request(const Params& params) {
   RunRequest request;
   request.note = params.string("note");
-  const std::int64_t repeats = params.integer("repeats", 0);
-  if (repeats < 0 || repeats > 10000) {
-    return fail(ErrorCode::usage, "repeats must be from 0 to 10000");
-  }
-  request.repeats = static_cast<int>(repeats);
+  request.repeats = static_cast<int>(params.integer("repeats", 0));
   MDOF_TRY(const auto targets_mm, read_targets(params));
+  if (targets_mm.size() > kMaxTargets)
+    return fail(ErrorCode::usage, "interval_mm makes " + std::to_string(targets_mm.size()) +
+                                      " targets; a run may have at most " +
+                                      std::to_string(kMaxTargets));
   for (const double target_mm : targets_mm) {
     if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
       return fail(ErrorCode::usage, "targets_mm must ascend");
@@ -154,20 +157,8 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
              "run " + std::to_string(id) + " is not under way; server.info tells which are"));
 }
 
-struct Page {
-  std::int64_t offset, count;
-};
-Result<Page> page_of(const Params& params, std::int64_t most) {
-  const Page page{params.integer("offset", 0), params.integer("count", most)};
-  if (page.offset < 0 || page.count < 1 || page.count > most) {
-    return fail(ErrorCode::usage,
-                "offset must be 0 or more and count from 1 to " + std::to_string(most));
-  }
-  return page;
-}
-
 Result<std::string> list_runs(Methods& m, const Params& params) {
-  MDOF_TRY(const Page page, page_of(params, kMaxRunsPage));
+  const Page page = page_of(params, kMaxRunsPage);
   std::optional<Axis> axis;
   if (params.has("axis")) {
     MDOF_TRY(axis, axis_param(params));
@@ -176,34 +167,42 @@ Result<std::string> list_runs(Methods& m, const Params& params) {
   MDOF_TRY(const auto total, m.reader.count_runs(axis));
   JsonWriter json;
   json.begin_object().field("total", total).field("offset", page.offset).key("runs").begin_array();
-  for (const auto& header : headers) {
-    json.begin_object();
-    write_header_members(json, header);
-    json.end_object();
-  }
+  for (const auto& header : headers)
+    if (!add_to_page(json, &header == &headers.front(), header_item(header))) break;
   json.end_array().end_object();
   return json.take();
 }
 
-Result<std::string> get_run(Methods& m, const Params& params) {
-  MDOF_TRY(const Reference reference, reference_param(params));
-  MDOF_TRY(const auto run, run_stated_at(m.reader, params.integer("run"), reference));
+std::string run_json(const Run& run, const RunHeader& header, std::size_t most_visits) {
   JsonWriter json;
   json.begin_object();
-  write_header_members(json, run.header);
+  write_header_members(json, header);
   json.field("points_total", static_cast<std::uint64_t>(run.points.size())).key("straightness");
   write_straightness(json, run.straightness);
   json.key("angles");
   write_angles(json, run.angles);
   json.key("plausibility");
-  run.plausibility ? write_plausibility(json, *run.plausibility, kMaxVisits)
+  run.plausibility ? write_plausibility(json, *run.plausibility, most_visits)
                    : static_cast<void>(json.null());
   json.end_object();
   return json.take();
 }
 
+Result<std::string> get_run(Methods& m, const Params& params) {
+  MDOF_TRY(const Reference reference, reference_param(params));
+  const std::int64_t id = params.integer("run");
+  MDOF_TRY(const std::int64_t points, m.reader.count_points(id));
+  if (points > kMaxRunPoints)
+    return bad_input("run " + std::to_string(id) + " has " + std::to_string(points) +
+                     " points, too many for one call; mdof show " + std::to_string(id) +
+                     " reads them");
+  MDOF_TRY(const auto run, run_stated_at(m.reader, id, reference));
+  std::string whole = run_json(run, run.header, kMaxVisits);
+  return whole.size() <= kPageBytes ? whole : run_json(run, shortened(run.header), 0);
+}
+
 Result<std::string> run_points(Methods& m, const Params& params) {
-  MDOF_TRY(const Page page, page_of(params, kMaxPointsPage));
+  const Page page = page_of(params, kMaxPointsPage);
   const std::int64_t id = params.integer("run");
   MDOF_TRY(const Reference reference, reference_param(params));
   MDOF_TRY(const auto total, m.reader.count_points(id));
@@ -216,7 +215,11 @@ Result<std::string> run_points(Methods& m, const Params& params) {
       .field("offset", page.offset);
   write_reference(json, run.header.stated);
   json.key("points").begin_array();
-  for (const auto& p : run.points) write_point(json, run.header.moving(), p);
+  for (const auto& p : run.points) {
+    JsonWriter item;
+    write_point(item, run.header.moving(), p);
+    if (!add_to_page(json, &p == &run.points.front(), item.take())) break;
+  }
   json.end_array().end_object();
   return json.take();
 }
@@ -239,8 +242,7 @@ void squareness(Methods& m, const Params& params, Reply reply) {
 void add_run_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param axis{"axis", ParamType::string, "X, Y or Z", true};
   const rpc::Param run{"run", ParamType::integer, "id of the run", true};
-  const rpc::Param offset{"offset", ParamType::integer, "rows to leave out", false, "0"};
-  const rpc::Param count{"count", ParamType::integer, "rows at the most", false};
+  const rpc::Param offset = offset_param();
   const rpc::Param reference{"reference", ParamType::string,
                              "where errors are stated: fixture, carriage or tool", false,
                              "\"fixture\""};
@@ -248,23 +250,32 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "run.start",
        .summary = "Starts a run of an axis: its samples are recorded, its dwells become points.",
        .params = {axis,
-                  {"targets_mm", ParamType::array,
+                  {"targets_mm",
+                   ParamType::array,
                    "nominal positions, ascending; without "
                    "them targets are recognised",
-                   false, "[]"},
+                   false,
+                   "[]",
+                   {.items = kMaxTargets}},
                   {"from_mm", ParamType::number, "instead: the first target", false},
                   {"to_mm", ParamType::number, "the last one is not beyond this", false},
                   {"interval_mm", ParamType::number, "between two targets", false},
                   {"jitter_mm", ParamType::number, "each is moved by up to this", false, "0"},
                   {"seed", ParamType::integer, "of the jitter", false, "1"},
-                  {"scale_period_um", ParamType::number,
+                  {"scale_period_um",
+                   ParamType::number,
                    "signal period of the encoder's scale: a warning where the intervals hide its "
                    "error",
-                   false, "0"},
-                  {"repeats", ParamType::integer,
+                   false,
+                   "0",
+                   {.least = 0}},
+                  {"repeats",
+                   ParamType::integer,
                    "with targets_mm: the run is complete after "
                    "so many, both ways: the axis must overrun both ends; 0: until run.stop",
-                   false, "0"},
+                   false,
+                   "0",
+                   {.least = 0, .most = 10'000}},
                   {"note", ParamType::string, "for people", false, "\"\""}},
        .result = "run, axis, targets_mm, warnings: the run is on the disk and measuring",
        .example = R"({"axis": "X", "note": "after scraping"})",
@@ -288,7 +299,9 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .handler = [&m](const Params& p, Reply r) { stop_run(m, p, std::move(r)); }});
   table.add({.name = "run.list",
              .summary = "Runs, newest first, a page at a time.",
-             .params = {offset, count, {"axis", ParamType::string, "of this axis only", false}},
+             .params = {offset,
+                        count_param(kMaxRunsPage),
+                        {"axis", ParamType::string, "of this axis only", false}},
              .result = "total, runs: header and provenance of each",
              .example = R"({"offset": 0, "count": 10})",
              .handler = [&m](const Params& p) { return list_runs(m, p); }});
@@ -303,7 +316,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .handler = [&m](const Params& p) { return get_run(m, p); }});
   table.add({.name = "run.points",
              .summary = "The points of a run in the order measured, a page at a time.",
-             .params = {run, offset, count, reference},
+             .params = {run, offset, count_param(kMaxPointsPage), reference},
              .result = "total, points: position_mm, five errors in um and urad, u, flags",
              .example = R"({"run": 1, "offset": 0, "count": 20})",
              .handler = [&m](const Params& p) { return run_points(m, p); }});
@@ -317,8 +330,12 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                    "of the square: the material encloses 90 deg + this at the corner of its two "
                    "faces; from the rigs if not given",
                    false},
-                  {"u_artefact_urad", ParamType::number,
-                   "its standard uncertainty; from the rigs if not given", false},
+                  {"u_artefact_urad",
+                   ParamType::number,
+                   "its standard uncertainty; from the rigs if not given",
+                   false,
+                   {},
+                   {.least = 0}},
                   {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
        .result = "EC0Y_urad, u_EC0Y_urad, form_urad (how crooked the axes are) and both slopes, at "
                  "the fixture; warnings",

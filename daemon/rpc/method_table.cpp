@@ -11,11 +11,24 @@ namespace {
 constexpr std::size_t kEnvelopeBytes =
     512;  // of the JSON-RPC reply around the document, id included
 
+// As JSON Schema names them; the bytes of a text are no fewer than its characters.
+void write_bounds(JsonWriter& json, const Param& param) {
+  const Bounds none;
+  const bool numeric = param.type == ParamType::number || param.type == ParamType::integer;
+  if (numeric && param.bounds.least != none.least) json.field("minimum", param.bounds.least);
+  if (numeric && param.bounds.most != none.most) json.field("maximum", param.bounds.most);
+  if (param.type == ParamType::array)
+    json.field("maxItems", static_cast<std::uint64_t>(param.bounds.items));
+  if (param.type == ParamType::string)
+    json.field("maxLength", static_cast<std::uint64_t>(param.bounds.bytes));
+}
+
 std::string describe(const Param& param) {
   JsonWriter json;
   json.begin_object().field("name", param.name).field("description", param.description);
   json.field("required", param.required).key("schema").begin_object();
   json.field("type", to_string(param.type));
+  write_bounds(json, param);
   if (!param.default_text.empty()) json.key("default").raw(param.default_text);
   json.end_object().end_object();
   return json.take();

@@ -17,12 +17,21 @@ namespace mdof::rpc {
 enum class ParamType { string, number, integer, boolean, array, object };
 const char* to_string(ParamType type);  // as in JSON Schema
 
+// What a value may be at the most, so that no request can ask for more work or memory than a call
+// may take. Those of numbers hold for the numbers of an array, too.
+struct Bounds {
+  double least = -9007199254740992.0, most = 9007199254740992.0;  // 2^53
+  std::size_t items = 64;                                         // of an array
+  std::size_t bytes = 1024;                                       // of a string
+};
+
 struct Param {
   std::string name;  // ends in its unit where it has one
   ParamType type = ParamType::string;
   std::string description;
   bool required = false;
   std::string default_text = {};  // what absence means, as JSON: "0", "\"exact\""
+  Bounds bounds = {};
 };
 
 // Gives the result as JSON text (one value, UTF-8; a line feed in it is turned into a space).

@@ -80,6 +80,39 @@ tl::unexpected<Error> unknown_name(const Method& method, std::string_view name) 
                              : "; did you mean " + in_quotes(near) + "?"));
 }
 
+std::string plain(double x) {
+  return std::trunc(x) == x ? std::to_string(static_cast<std::int64_t>(x)) : std::to_string(x);
+}
+
+Status check_number(const Param& param, const element& value) {
+  double x = 0;
+  if (!value.is_number() || value.get(x) != simdjson::SUCCESS) return {};
+  if (x >= param.bounds.least && x <= param.bounds.most) return {};
+  return usage("parameter " + in_quotes(param.name) + " must be from " + plain(param.bounds.least) +
+               " to " + plain(param.bounds.most));
+}
+
+Status check_array(const Param& param, const simdjson::dom::array& items) {
+  std::size_t count = 0;  // array.size() stops counting at 2^24
+  for (const element item : items) {
+    if (++count > param.bounds.items)
+      return usage("parameter " + in_quotes(param.name) + " may have at most " +
+                   std::to_string(param.bounds.items) + " elements");
+    MDOF_CHECK(check_number(param, item));
+  }
+  return {};
+}
+
+Status check_bounds(const Param& param, const element& value) {
+  simdjson::dom::array items;
+  std::string_view text;
+  if (value.get(items) == simdjson::SUCCESS) return check_array(param, items);
+  if (value.get(text) == simdjson::SUCCESS && text.size() > param.bounds.bytes)
+    return usage("parameter " + in_quotes(param.name) + " may have at most " +
+                 std::to_string(param.bounds.bytes) + " bytes");
+  return check_number(param, value);
+}
+
 Status set(const Method& method, std::size_t i, const element& value, ParamValues& out) {
   const Param& param = method.params[i];
   if (value.is_null() && !param.required) return {};
@@ -89,6 +122,7 @@ Status set(const Method& method, std::size_t i, const element& value, ParamValue
                  (param.type == ParamType::integer && value.is_number()
                       ? " that is no integer of 64 bits"
                       : ""));
+  MDOF_CHECK(check_bounds(param, value));
   out.values[i] = value;
   return {};
 }

@@ -140,7 +140,11 @@ void add_replay(CLI::App& app, Action& chosen) {
   add_socket_option(*command, o->socket);
   add_model_option(*command, o->model);
   add_reference_option(*command, o->reference)->capture_default_str();
-  command->add_option("--note", o->note, "Kept with the run")->type_name("TEXT");
+  command->add_option("--note", o->note, "Kept with the run; at most 1024 bytes")
+      ->type_name("TEXT")
+      ->check([](const std::string& note) {
+        return std::string(note.size() <= 1024 ? "" : "a note has at most 1024 bytes");
+      });
   command->add_flag("--no-store", o->keep_out, "Only show the result");
   command
       ->add_option("--targets-mm", o->targets_mm,

@@ -31,9 +31,20 @@ Status make_parent(const fs::path& file) {
   return {};
 }
 
+// SQLite keeps its journal beside the name that it was given: by another name it would not find it.
+Status check_one_name(const fs::path& file) {
+  std::error_code ec;
+  const auto names = fs::hard_link_count(file, ec);
+  if (ec || names < 2) return {};
+  return bad_input(file.string() + ": this database has " + std::to_string(names) +
+                   " names (hard links), and its journal is beside one of them alone: remove the "
+                   "other names, or copy the file where a copy is wanted");
+}
+
 Result<Connection> open_reader(const fs::path& file, int busy_timeout_ms) {
   MDOF_TRY(Connection connection, Connection::open(file, OpenMode::read_only, busy_timeout_ms));
   MDOF_CHECK(check_kind(connection, known_version()));
+  MDOF_CHECK(check_one_name(file));
   return connection;
 }
 
@@ -73,10 +84,10 @@ Result<Store> Store::open(const fs::path& file, Access access, StoreOptions opti
     MDOF_CHECK(check_schema_is_current(connection));
     return Store(WriterLock(), std::move(connection), access);
   }
-  // Looked at before anything is written, so that a file named by mistake stays as it is.
-  if (!absent_or_empty(file)) MDOF_CHECK(open_reader(file, options.busy_timeout_ms));
   MDOF_CHECK(make_parent(file));
   MDOF_TRY(WriterLock lock, WriterLock::acquire(file, options.busy_timeout_ms));
+  // Looked at before anything is written, so that a file named by mistake stays as it is.
+  if (!absent_or_empty(file)) MDOF_CHECK(open_reader(file, options.busy_timeout_ms));
   MDOF_TRY(Connection connection, open_writer(file, options));
   Store store(std::move(lock), std::move(connection), access);
   MDOF_CHECK(store.end_interrupted_runs());

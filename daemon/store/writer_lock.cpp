@@ -1,28 +1,81 @@
 #include "daemon/store/writer_lock.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace mdof::store {
 namespace {
 
-std::string lock_name(const std::filesystem::path& database) {
-  return database.string() + "-lock";
-}
+namespace fs = std::filesystem;
+
+// A byte of the database that is far beyond its end and those that SQLite locks (1 GiB).
+constexpr off_t kLockedByte = off_t{1} << 62;
 
 // Locks of the open file, not of the process: two stores in one process exclude each other too.
-struct flock whole_file(short type) {
+struct flock one_byte(short type) {
   struct flock lock {};
   lock.l_type = type;
   lock.l_whence = SEEK_SET;
+  lock.l_start = kLockedByte;
+  lock.l_len = 1;
   return lock;
+}
+
+// Descriptors of databases that are not used now. They are never closed: to close any descriptor of
+// a file drops the locks that SQLite has on it in this process.
+class Idle {
+ public:
+  int take(const struct stat& file, int access) {
+    const std::lock_guard guard(mutex_);
+    auto& of_file = idle_[{file.st_dev, file.st_ino, access}];
+    if (of_file.empty()) return -1;
+    const int fd = of_file.back();
+    of_file.pop_back();
+    return fd;
+  }
+  void put(int fd) {
+    struct stat file {};
+    if (::fstat(fd, &file) != 0) return;
+    const std::lock_guard guard(mutex_);
+    idle_[{file.st_dev, file.st_ino, ::fcntl(fd, F_GETFL) & O_ACCMODE}].push_back(fd);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::tuple<dev_t, ino_t, int>, std::vector<int>> idle_;
+};
+
+Idle& idle() {
+  static Idle descriptors;
+  return descriptors;
+}
+
+// Of the file that has this name now; made where absent.
+int descriptor_of(const fs::path& database, int flags) {
+  struct stat file {};
+  if (::stat(database.c_str(), &file) == 0) {
+    const int fd = idle().take(file, flags & O_ACCMODE);
+    if (fd >= 0) return fd;
+  }
+  return ::open(database.c_str(), flags | O_CLOEXEC, 0644);
+}
+
+tl::unexpected<Error> not_opened(const fs::path& database) {
+  return io_error(database.string() + ": cannot be opened for writing: " + std::strerror(errno) +
+                  ". To store anything the database and its folder must be writable: check owner "
+                  "and mode and that the file system is not mounted read-only, or name another");
 }
 
 }  // namespace
@@ -35,22 +88,21 @@ WriterLock& WriterLock::operator=(WriterLock&& other) noexcept {
 }
 
 WriterLock::~WriterLock() {
-  if (fd_ >= 0) ::close(fd_);
+  if (fd_ < 0) return;
+  struct flock release = one_byte(F_UNLCK);
+  (void)::fcntl(fd_, F_OFD_SETLK, &release);
+  idle().put(fd_);
 }
 
-Result<WriterLock> WriterLock::acquire(const std::filesystem::path& database, int timeout_ms) {
-  const std::string name = lock_name(database);
-  WriterLock lock(::open(name.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644));
-  if (lock.fd_ < 0)
-    return io_error(name + ": cannot be created: " + std::strerror(errno) +
-                    ". To store anything the database's folder must be writable: check its owner "
-                    "and mode and that its file system is not mounted read-only, or name another");
+Result<WriterLock> WriterLock::acquire(const fs::path& database, int timeout_ms) {
+  WriterLock lock(descriptor_of(database, O_CREAT | O_RDWR));
+  if (lock.fd_ < 0) return not_opened(database);
   constexpr int kStepMs = 10;
   for (int waited_ms = 0;; waited_ms += kStepMs) {
-    struct flock request = whole_file(F_WRLCK);
+    struct flock request = one_byte(F_WRLCK);
     if (::fcntl(lock.fd_, F_OFD_SETLK, &request) == 0) return lock;
     if (errno != EAGAIN && errno != EACCES)
-      return io_error(name + ": cannot be locked: " + std::strerror(errno) +
+      return io_error(database.string() + ": cannot be locked: " + std::strerror(errno) +
                       ". Keep the database on a local file system");
     if (waited_ms >= timeout_ms) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
@@ -60,10 +112,10 @@ Result<WriterLock> WriterLock::acquire(const std::filesystem::path& database, in
                                        "only one may; wait for it, or name another database");
 }
 
-bool WriterLock::held(const std::filesystem::path& database) {
-  const WriterLock file(::open(lock_name(database).c_str(), O_RDONLY | O_CLOEXEC));
+bool WriterLock::held(const fs::path& database) {
+  const WriterLock file(descriptor_of(database, O_RDONLY));
   if (file.fd_ < 0) return false;
-  struct flock question = whole_file(F_RDLCK);
+  struct flock question = one_byte(F_RDLCK);
   return ::fcntl(file.fd_, F_OFD_GETLK, &question) == 0 && question.l_type != F_UNLCK;
 }
 

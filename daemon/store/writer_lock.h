@@ -1,6 +1,6 @@
 // One writer a database: SQLite before 3.51.3 can damage a WAL database when two connections write
-// or checkpoint at the same moment, so a second one is never opened. The lock is on a file of its
-// own, "FILE-lock", since closing any descriptor of the database itself would drop SQLite's locks.
+// or checkpoint at the same moment, so a second one is never opened. The lock is on the database
+// itself, whatever name or link it was opened by.
 #pragma once
 
 #include <filesystem>

@@ -13,11 +13,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_open(const fs::path& process, const fs::path& file) {
+// Whether this descriptor of a process has the writer's lock, as the kernel tells it.
+bool locks(const fs::path& fdinfo) {
+  std::ifstream lines(fdinfo);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("OFDLCK") != std::string::npos && line.find("WRITE") != std::string::npos)
+      return true;
+  return false;
+}
+
+bool holds(const fs::path& process, const fs::path& database) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator(process / "fd", ec)) {
     std::error_code ignored;
-    if (fs::read_symlink(entry.path(), ignored) == file) return true;
+    if (fs::equivalent(entry.path(), database, ignored) &&
+        locks(process / "fdinfo" / entry.path().filename()))
+      return true;
   }
   return false;
 }
@@ -25,12 +36,11 @@ bool has_open(const fs::path& process, const fs::path& file) {
 // "mdofd (process 1234)"; of another user's processes nothing is seen.
 std::string holder_of(const fs::path& database) {
   std::error_code ec;
-  const fs::path lock = fs::canonical(database.string() + "-lock", ec);
   for (const auto& entry : fs::directory_iterator("/proc", ec)) {
     const std::string id = entry.path().filename();
     const bool number =
         std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-    if (!number || !has_open(entry.path(), lock)) continue;
+    if (!number || !holds(entry.path(), database)) continue;
     std::string name;
     std::getline(std::ifstream(entry.path() / "comm"), name);
     return name + " (process " + id + ")";

@@ -87,6 +87,54 @@ TEST_F(StoreTest, ASecondWriterIsRefused) {
   EXPECT_TRUE(writer());
 }
 
+// A second program by another name would write beside the first and mark its run as aborted.
+TEST_F(StoreTest, ASecondWriterIsRefusedByAnyName) {
+  const auto first = writer();
+  ASSERT_TRUE(first);
+  const fs::path database = file_;
+  for (const char* name : {"symbolic.db", "hard.db", "far/symbolic.db"}) {
+    file_ = folder_ / name;
+    fs::create_directories(file_.parent_path());
+    std::string(name) == "hard.db" ? fs::create_hard_link(database, file_)
+                                   : fs::create_symlink(database, file_);
+    EXPECT_TRUE(WriterLock::held(file_)) << name;
+    const auto second = writer();
+    ASSERT_FALSE(second) << name;
+    EXPECT_EQ(second.error().code, ErrorCode::conflict) << name;
+  }
+}
+
+// Two names have two journals, and who opens one of them does not know of the other.
+TEST_F(StoreTest, AHardLinkIsRefusedUntilTheOtherNameIsGone) {
+  { ASSERT_TRUE(writer()); }
+  const fs::path other = folder_ / "other.db";
+  fs::create_hard_link(file_, other);
+  for (const auto& store : {writer(), reader()}) {
+    ASSERT_FALSE(store);
+    EXPECT_TRUE(contains(store.error().message, "2 names (hard links)")) << store.error().message;
+  }
+  fs::remove(other);
+  EXPECT_TRUE(writer());
+  EXPECT_TRUE(reader());
+}
+
+// What asks for the lock must not, by closing the file, drop the locks of SQLite in this process.
+TEST_F(StoreTest, AskingForTheLockLeavesTheLocksOfAReaderAlone) {
+  { ASSERT_TRUE(writer()); }
+  auto held = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
+  ASSERT_TRUE(held->execute("PRAGMA journal_mode = DELETE; BEGIN IMMEDIATE"));
+  EXPECT_FALSE(WriterLock::held(file_));
+  { ASSERT_TRUE(WriterLock::acquire(file_, 0)); }
+  const pid_t child = fork();
+  if (child == 0) {
+    auto other = sqlite::Connection::open(file_, sqlite::OpenMode::read_write, 0);
+    _exit(other && other->execute("BEGIN IMMEDIATE") ? 1 : 0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0) << "another process could begin to write";
+}
+
 TEST_F(StoreTest, AReaderCannotWrite) {
   { ASSERT_TRUE(writer()); }
   const auto added = reader()->add_run(make_run(1));

@@ -67,13 +67,28 @@ tl::unexpected<Error> error_of(const Session& session, std::string_view doing) {
   return io_error(text + " (SQLite error " + std::to_string(extended) + ")");
 }
 
+// A transaction that a killed program left half written is to be rolled back before anybody reads.
+bool journal_waits(const fs::path& file) {
+  std::error_code ec, none;
+  const fs::path real = fs::canonical(file, ec);  // it lies beside the file that a link leads to
+  const auto bytes = fs::file_size((ec ? file : real).string() + "-journal", none);
+  return !none && bytes > 0;
+}
+
+// Opened for writing and read once: SQLite then rolls back what is not whole. What hinders it is
+// told by whoever reads after that.
+void recover(const fs::path& file, int busy_timeout_ms) {
+  auto connection = Connection::open(file, OpenMode::read_write, busy_timeout_ms);
+  if (connection) (void)connection->integer("SELECT count(*) FROM sqlite_master");
+}
+
 // A reader needs the -shm file beside a database in WAL mode, and makes it. Where the folder does
 // not let it, and nothing waits in a -wal file, the database cannot change under us.
 bool needs_immutable(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   std::error_code ec;
   const auto wal_bytes = fs::file_size(file.string() + "-wal", ec);
-  return (ec || wal_bytes == 0) && access(folder.c_str(), W_OK) != 0;
+  return (ec || wal_bytes == 0) && !journal_waits(file) && access(folder.c_str(), W_OK) != 0;
 }
 
 std::string immutable_uri(const fs::path& file) {
@@ -218,6 +233,7 @@ Connection& Connection::operator=(Connection&&) noexcept = default;
 Connection::~Connection() = default;
 
 Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int busy_timeout_ms) {
+  if (mode == OpenMode::read_only && journal_waits(file)) recover(file, busy_timeout_ms);
   auto session = std::make_unique<Session>();
   session->file = file;
   const bool immutable = mode == OpenMode::read_only && needs_immutable(file);

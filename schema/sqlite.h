@@ -21,7 +21,7 @@ struct sqlite3_stmt;
 namespace mdof::sqlite {
 
 enum class OpenMode {
-  read_only,   // writes nothing, not even beside the file where the folder refuses it
+  read_only,   // writes nothing, but that a half-written transaction of a killed program is undone
   read_write,  // the file must exist
   create,      // read_write, made where absent
 };

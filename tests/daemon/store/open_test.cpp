@@ -135,6 +135,47 @@ TEST_F(StoreTest, AskingForTheLockLeavesTheLocksOfAReaderAlone) {
   EXPECT_EQ(status, 0) << "another process could begin to write";
 }
 
+// A program that is killed in the midst of a transaction that has begun to change the file itself.
+void leave_half_written(const fs::path& file) {
+  const pid_t child = fork();
+  if (child == 0) {
+    auto db = sqlite::Connection::open(file, sqlite::OpenMode::read_write);
+    const bool done = db && db->execute(
+                                "PRAGMA journal_mode = DELETE; PRAGMA cache_size = 1; "
+                                "PRAGMA cache_spill = 1; BEGIN IMMEDIATE; "
+                                "CREATE TABLE half (x); PRAGMA user_version = 4711; "
+                                "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 "
+                                "FROM n WHERE i < 500) INSERT INTO half SELECT "
+                                "zeroblob(2000) FROM n");
+    _exit(done ? 0 : 1);  // without a word to SQLite
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  ASSERT_EQ(status, 0);
+  ASSERT_GT(fs::file_size(file.string() + "-journal"), 0u);
+}
+
+TEST_F(StoreTest, WhatAKilledProgramLeftHalfWrittenIsRolledBackFirst) {
+  { ASSERT_TRUE(writer()->add_run(make_run())); }
+  for (const bool by_reader : {true, false}) {
+    leave_half_written(file_);
+    auto store = by_reader ? reader() : writer();
+    ASSERT_TRUE(store) << store.error().message;
+    EXPECT_EQ(store->count_runs().value(), 1);
+    EXPECT_TRUE(store->verify()->empty());
+  }
+  ASSERT_TRUE(writer());
+}
+
+TEST_F(StoreTest, AFileThatWasBeingMadeWhenItsProgramWasKilledIsMadeAnew) {
+  ASSERT_TRUE(sqlite::Connection::open(file_, sqlite::OpenMode::create));
+  std::ofstream(file_).flush();
+  leave_half_written(file_);
+  auto store = writer();
+  ASSERT_TRUE(store) << store.error().message;
+  EXPECT_TRUE(store->verify()->empty());
+}
+
 TEST_F(StoreTest, AReaderCannotWrite) {
   { ASSERT_TRUE(writer()); }
   const auto added = reader()->add_run(make_run(1));

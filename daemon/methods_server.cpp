@@ -111,6 +111,11 @@ Result<ActiveTables> load_active(store::Store& store) {
   ActiveTables tables;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     auto active = store.active(axis);
+    if (!active && active.error().code == ErrorCode::bad_input) {
+      std::fprintf(stderr, "axis %c has no table in force: %s\n", letter(axis),
+                   active.error().message.c_str());
+      continue;
+    }
     if (active && active->table.of_schema_2) {
       std::fprintf(stderr,
                    "compensation table %lld of axis %c was built before tables said at which point "

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "daemon/store/ledger.h"
+
 namespace mdof::store {
 
 namespace fs = std::filesystem;
@@ -43,6 +45,7 @@ Status apply(Connection& connection, const sql::Migration& migration) {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection));
   if (const Status done = connection.execute(migration.text); !done)
     return in_context(std::string("migration ") + migration.name, done.error());
+  if (migration.version == kLedgerSchema) MDOF_CHECK(link_old_facts(connection));
   MDOF_CHECK(connection.execute("PRAGMA application_id = " + std::to_string(kApplication)));
   MDOF_CHECK(connection.execute("PRAGMA user_version = " + std::to_string(migration.version)));
   return transaction.commit();

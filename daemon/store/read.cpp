@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "daemon/store/bytes.h"
+#include "daemon/store/ledger.h"
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
 
@@ -108,6 +109,29 @@ Result<RunHeader> Store::header_of(Statement& row) {
   return header;
 }
 
+// What its end says that its result rows are; empty: it has not ended.
+Result<std::string> Store::stored_sha256(std::int64_t run) {
+  MDOF_TRY(Statement row, connection_.prepare("SELECT result_sha256 FROM run_end WHERE run = ?"));
+  MDOF_TRY(const bool found, row.bind(run).step());
+  return found ? std::string(row.text(0)) : std::string();
+}
+
+Status Store::check_run(std::int64_t run) {
+  MDOF_CHECK(check_link(connection_, Fact::run, run));
+  MDOF_TRY(const std::string ended, stored_sha256(run));
+  return ended.empty() ? Status() : check_link(connection_, Fact::run_end, run);
+}
+
+// In a list a run whose facts are not those that were stored says so; nobody is to build on it.
+Status Store::mark_damage(RunHeader& header) {
+  const Status whole = check_run(header.id);
+  if (whole) return {};
+  if (whole.error().code != ErrorCode::bad_input) return whole;
+  header.state = RunState::failed;
+  header.warnings.insert(header.warnings.begin(), whole.error().message);
+  return {};
+}
+
 Result<std::vector<RunHeader>> Store::headers(std::string_view where, std::int64_t a,
                                               std::int64_t b, std::optional<Axis> axis) {
   MDOF_TRY(Statement rows, connection_.prepare(std::string(kHeader) + std::string(where)));
@@ -119,12 +143,14 @@ Result<std::vector<RunHeader>> Store::headers(std::string_view where, std::int64
     MDOF_TRY(const bool row, rows.step());
     if (!row) return list;
     MDOF_TRY(RunHeader header, header_of(rows));
+    MDOF_CHECK(mark_damage(header));
     list.push_back(std::move(header));
   }
 }
 
 Result<RunHeader> Store::run_header(std::int64_t run) {
   MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_CHECK(check_run(run));
   MDOF_TRY(auto list, headers("WHERE run.id BETWEEN ?1 AND ?2", run, run, std::nullopt));
   if (list.empty())
     return bad_input(file().string() + ": run " + std::to_string(run) +
@@ -227,7 +253,10 @@ Result<Run> Store::run(std::int64_t run) {
   MDOF_TRY(whole.straightness, straightness(run));
   MDOF_TRY(whole.angles, angles(run));
   MDOF_TRY(whole.plausibility, plausibility(run));
-  return whole;
+  MDOF_TRY(const std::string stored, stored_sha256(run));
+  if (stored.empty() || stored == store::result_sha256(whole)) return whole;
+  return bad_input(file().string() + ": run " + std::to_string(run) +
+                   ": its result rows are not those that were stored; replay its recording");
 }
 
 Result<std::string> Store::result_sha256(std::int64_t run) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <optional>
 #include <string>
@@ -124,8 +125,9 @@ class Store {
   Result<std::optional<StudyCheckpoint>> study_checkpoint(std::int64_t study);
 
   // ---- integrity ----
-  // Checks the file, its references, the hash of every text, of every run's result rows and of
-  // every study's figures and checkpoint. One sentence a finding; none: sound.
+  // Checks the file, its references, the chain of hashes (ledger.h), the hash of every text, of
+  // every run's result rows and of every study's figures and checkpoint. One sentence a finding;
+  // none: sound.
   Result<std::vector<std::string>> verify();
 
   const std::filesystem::path& file() const { return connection_.file(); }
@@ -148,6 +150,8 @@ class Store {
   Status insert_temperature(std::int64_t run, const std::optional<Temperature>& read);
   Result<std::optional<Temperature>> temperature(std::int64_t run);
   Status insert_end(std::int64_t run, const RunEnd& end, const std::string& sha256);
+  Result<std::int64_t> insert_whole(const Run& run, std::future<std::string>& sha256);
+  Status insert_all_of_end(std::int64_t run, const RunEnd& end);
   Status check_open(std::int64_t run) const;
   // read.cpp
   Result<std::vector<RunHeader>> headers(std::string_view where, std::int64_t a, std::int64_t b,
@@ -157,18 +161,23 @@ class Store {
   Result<std::vector<StraightnessFigure>> straightness(std::int64_t run);
   Result<std::vector<AngleFigure>> angles(std::int64_t run);
   Result<std::vector<std::string>> texts(std::string_view json_array);
+  Result<std::string> stored_sha256(std::int64_t run);
+  Status check_run(std::int64_t run);
+  Status mark_damage(RunHeader& header);
   Status check_exists(std::string_view sql, const char* what, std::int64_t id);
   // plausibility_read.cpp
   Result<std::optional<Plausibility>> plausibility(std::int64_t run);
   // tables.cpp
   Result<CompensationTable> table_of(sqlite::Statement& row);
   Result<std::vector<std::int64_t>> sources(std::int64_t table);
+  Result<std::int64_t> next_generation();
   // study_write.cpp
   Status replace_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
   Status insert_outcome(std::int64_t study, const StudyOutcome& outcome);
   // study_read.cpp
   Status verify_studies(std::vector<std::string>& findings);
   // verify.cpp
+  Status verify_ledger(std::vector<std::string>& findings);
   Status verify_file(std::vector<std::string>& findings);
   Status verify_documents(std::vector<std::string>& findings);
   Status verify_runs(std::vector<std::string>& findings);

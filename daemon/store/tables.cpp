@@ -1,9 +1,12 @@
 // Store: squareness and compensation tables.
+#include <algorithm>
 #include <array>
+#include <ctime>
 #include <limits>
 #include <utility>
 
 #include "daemon/store/bytes.h"
+#include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 
 namespace mdof::store {
@@ -94,6 +97,7 @@ Squareness squareness_of(const Statement& row) {
 Result<std::int64_t> Store::add_squareness(const Squareness& s) {
   for (const std::int64_t run : {s.run_x, s.run_y})
     MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO squareness (run_x, run_y, EC0Y_rad, u_EC0Y_rad, "
                                "slope_EYX_rad, u_slope_EYX_rad, slope_EXY_rad, u_slope_EXY_rad, "
@@ -106,7 +110,10 @@ Result<std::int64_t> Store::add_squareness(const Squareness& s) {
   insert.bind(std::int64_t{s.simulated}).bind(std::string_view(s.created_utc));
   insert.bind(s.form_rad).bind(s.artefact.u_rad).bind(std::int64_t{s.artefact.corner});
   MDOF_CHECK(insert.run());
-  return connection_.last_insert_rowid();
+  const std::int64_t id = connection_.last_insert_rowid();
+  MDOF_CHECK(add_link(connection_, Fact::squareness, id));
+  MDOF_CHECK(transaction.commit());
+  return id;
 }
 
 Result<std::vector<Squareness>> Store::list_squareness(std::int64_t offset, std::int64_t count) {
@@ -118,6 +125,7 @@ Result<std::vector<Squareness>> Store::list_squareness(std::int64_t offset, std:
     MDOF_TRY(const bool row, rows.step());
     if (!row) return list;
     list.push_back(squareness_of(rows));
+    MDOF_CHECK(check_link(connection_, Fact::squareness, list.back().id));
   }
 }
 
@@ -143,6 +151,7 @@ Result<std::int64_t> Store::add_table(const CompensationTable& table) {
   MDOF_TRY(Statement source, connection_.prepare("INSERT INTO compensation_source VALUES (?,?,?)"));
   for (std::size_t row = 0; row < table.runs.size(); ++row)
     MDOF_CHECK(source.bind(id).bind(static_cast<std::int64_t>(row)).bind(table.runs[row]).run());
+  MDOF_CHECK(add_link(connection_, Fact::table, id));
   MDOF_CHECK(transaction.commit());
   return id;
 }
@@ -172,6 +181,7 @@ Result<CompensationTable> Store::table_of(Statement& row) {
   if (errors.size() != 20 * table.position_m.size())
     return bad_input(file().string() + ": compensation table " + std::to_string(table.id) +
                      " is damaged; restore the database from a backup");
+  MDOF_CHECK(check_link(connection_, Fact::table, table.id));
   set_series(table, errors);
   MDOF_CHECK(read_statement(row, table));
   MDOF_TRY(table.runs, sources(table.id));
@@ -208,44 +218,61 @@ std::string activation_json(const std::string& members, const Activation& activa
          ",\"changed\":" + (activation.changed ? "true" : "false") + "}";
 }
 
+// A number that no earlier change had, also where the database was deleted and made anew: a client
+// that knows the number may rely on what it read then.
+Result<std::int64_t> Store::next_generation() {
+  MDOF_TRY(const std::int64_t last, generation());
+  return std::max(last + 1, static_cast<std::int64_t>(std::time(nullptr)));
+}
+
 Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
                                    const std::string& utc) {
   MDOF_TRY(const CompensationTable wanted, this->table(table));
   const auto now = active(wanted.axis);
   if (now && now->table.id == table) return Activation{now->generation, false};
   if (!now && now.error().code != ErrorCode::not_found) return tl::unexpected(now.error());
-  MDOF_TRY(const std::int64_t generation, this->generation());
+  MDOF_TRY(const std::int64_t generation, next_generation());
   const char axis = letter(wanted.axis);
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert, connection_.prepare("INSERT INTO activation VALUES (?, ?, ?, ?, ?)"));
-  MDOF_CHECK(insert.bind(generation + 1)
+  MDOF_CHECK(insert.bind(generation)
                  .bind(std::string_view(&axis, 1))
                  .bind(table)
                  .bind(std::string_view(actor))
                  .bind(std::string_view(utc))
                  .run());
-  return Activation{generation + 1, true};
+  MDOF_CHECK(add_link(connection_, Fact::activation, generation));
+  MDOF_CHECK(transaction.commit());
+  return Activation{generation, true};
 }
 
 Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const std::string& utc) {
-  MDOF_TRY(const std::int64_t generation, this->generation());
+  MDOF_TRY(const std::int64_t last, generation());
   const auto now = active(axis);
-  if (!now && now.error().code == ErrorCode::not_found) return Activation{generation, false};
+  if (!now && now.error().code == ErrorCode::not_found) return Activation{last, false};
+  MDOF_TRY(const std::int64_t generation, next_generation());
   const char letter_of_axis = letter(axis);
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert, connection_.prepare("INSERT INTO deactivation VALUES (?, ?, ?, ?)"));
-  MDOF_CHECK(insert.bind(generation + 1)
+  MDOF_CHECK(insert.bind(generation)
                  .bind(std::string_view(&letter_of_axis, 1))
                  .bind(std::string_view(actor))
                  .bind(std::string_view(utc))
                  .run());
-  return Activation{generation + 1, true};
+  MDOF_CHECK(add_link(connection_, Fact::deactivation, generation));
+  MDOF_CHECK(transaction.commit());
+  return Activation{generation, true};
 }
 
+// Which of all activations counts depends on every one of them, so that all are checked; an index
+// that is damaged could hide one.
 Result<ActiveTable> Store::active(Axis axis) {
+  MDOF_CHECK(check_activations(connection_));
   MDOF_TRY(Statement row,
-           connection_.prepare("SELECT generation, compensation_table, actor, activated_utc FROM "
-                               "activation WHERE axis = ?1 AND generation > (SELECT "
-                               "coalesce(max(generation), 0) FROM deactivation WHERE axis = ?1) "
-                               "ORDER BY generation DESC LIMIT 1"));
+           connection_.prepare(
+               "SELECT generation, compensation_table, actor, activated_utc FROM activation NOT "
+               "INDEXED WHERE axis = ?1 AND generation > (SELECT coalesce(max(generation), 0) FROM "
+               "deactivation NOT INDEXED WHERE axis = ?1) ORDER BY generation DESC LIMIT 1"));
   const char letter_of_axis = letter(axis);
   MDOF_TRY(const bool found, row.bind(std::string_view(&letter_of_axis, 1)).step());
   if (!found)

@@ -1,4 +1,5 @@
 // Store: is everything as it was stored?
+#include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 #include "schema/sha256.h"
 
@@ -8,14 +9,18 @@ using sqlite::Statement;
 
 Result<std::vector<std::string>> Store::verify() {
   std::vector<std::string> findings;
-  for (const auto check : {&Store::verify_file, &Store::verify_documents, &Store::verify_runs,
-                           &Store::verify_studies}) {
+  for (const auto check : {&Store::verify_file, &Store::verify_ledger, &Store::verify_documents,
+                           &Store::verify_runs, &Store::verify_studies}) {
     const Status done = (this->*check)(findings);
     if (done) continue;
     if (done.error().code != ErrorCode::bad_input) return tl::unexpected(done.error());
     findings.push_back(done.error().message);  // damage that keeps the check from reading on
   }
   return findings;
+}
+
+Status Store::verify_ledger(std::vector<std::string>& findings) {
+  return store::verify_ledger(connection_, findings);
 }
 
 Status Store::verify_file(std::vector<std::string>& findings) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "daemon/store/bytes.h"
+#include "daemon/store/ledger.h"
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
 #include "schema/json_writer.h"
@@ -63,13 +64,18 @@ Result<std::int64_t> Store::add_run(const Run& run) {
   const auto policy = run.points.size() < kLong ? std::launch::deferred : std::launch::async;
   auto sha256 = std::async(policy, [&run] { return store::result_sha256(run); });
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
+  MDOF_TRY(const std::int64_t id, insert_whole(run, sha256));
+  MDOF_CHECK(transaction.commit());
+  return id;
+}
+
+Result<std::int64_t> Store::insert_whole(const Run& run, std::future<std::string>& sha256) {
   MDOF_TRY(const std::int64_t id, insert_run(run.header));
   MDOF_CHECK(insert_points(id, 0, run.points));
   const RunEnd end = end_of(run);
   MDOF_CHECK(insert_figures(id, end));
   MDOF_CHECK(insert_plausibility(id, end));
   MDOF_CHECK(insert_end(id, end, sha256.get()));
-  MDOF_CHECK(transaction.commit());
   return id;
 }
 
@@ -95,13 +101,17 @@ Status Store::end_run(std::int64_t run, const RunEnd& end) {
   assert(end.state != RunState::open);
   MDOF_CHECK(check_open(run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
-  MDOF_CHECK(insert_figures(run, end));
-  MDOF_CHECK(insert_plausibility(run, end));
-  MDOF_TRY(const std::string sha256, result_sha256(run));
-  MDOF_CHECK(insert_end(run, end, sha256));
+  MDOF_CHECK(insert_all_of_end(run, end));
   MDOF_CHECK(transaction.commit());
   open_runs_.erase(run);
   return {};
+}
+
+Status Store::insert_all_of_end(std::int64_t run, const RunEnd& end) {
+  MDOF_CHECK(insert_figures(run, end));
+  MDOF_CHECK(insert_plausibility(run, end));
+  MDOF_TRY(const std::string sha256, result_sha256(run));
+  return insert_end(run, end, sha256);
 }
 
 Status Store::check_open(std::int64_t run) const {
@@ -127,6 +137,7 @@ Status Store::end_interrupted_runs() {
              connection_.prepare("INSERT INTO run_end (run, state, warnings, result_sha256) "
                                  "VALUES (?, 'aborted', '[\"interrupted\"]', ?)"));
     MDOF_CHECK(insert.bind(run).bind(std::string_view(sha256)).run());
+    MDOF_CHECK(add_link(connection_, Fact::run_end, run));
   }
   return transaction.commit();
 }
@@ -153,7 +164,9 @@ Result<std::int64_t> Store::insert_run(const RunHeader& header) {
   insert.bind(std::string_view(header.sides.moves())).bind(std::string_view(header.sides.travel()));
   insert.bind(std::string_view(to_string(header.stated.reference)));
   MDOF_CHECK(insert.run());
-  return connection_.last_insert_rowid();
+  const std::int64_t id = connection_.last_insert_rowid();
+  MDOF_CHECK(add_link(connection_, Fact::run, id));
+  return id;
 }
 
 Result<std::int64_t> Store::document_id(const std::string& text) {
@@ -254,7 +267,8 @@ Status Store::insert_end(std::int64_t run, const RunEnd& end, const std::string&
   insert.bind(integer(end.scans)).bind(integer(end.scans_lost));
   insert.bind(std::string_view(warnings)).bind(recording).bind(std::string_view(sha256));
   MDOF_CHECK(insert.run());
-  return insert_temperature(run, end.temperature);
+  MDOF_CHECK(insert_temperature(run, end.temperature));
+  return add_link(connection_, Fact::run_end, run);
 }
 
 }  // namespace mdof::store

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <thread>
 
 #include "daemon/store/result_hash.h"
 #include "schema/plausibility_json.h"
@@ -116,7 +117,7 @@ TEST_F(StoreTest, KeepsThePlausibilityOfARun) {
   EXPECT_EQ(result_sha256(run), result_sha256(make_run()));  // no part of the result
   EXPECT_FALSE(store->run(store->add_run(make_run()).value()).value().plausibility);
   tamper("DROP TRIGGER run_plausibility_no_update; UPDATE run_plausibility SET json = '{'");
-  EXPECT_TRUE(contains(store->run(id).error().message, "plausibility of run 1"));
+  EXPECT_TRUE(contains(store->run(id).error().message, "end of run 1: is not what was stored"));
 }
 
 TEST_F(StoreTest, AnUnknownScalarStaysUnknown) {
@@ -299,7 +300,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
       EXPECT_TRUE(contains(done.error().message, "append only")) << done.error().message;
     }
   }
-  EXPECT_EQ(tables, 16);
+  EXPECT_EQ(tables, 17);
 }
 
 TEST_F(StoreTest, KeepsSquareness) {
@@ -355,19 +356,37 @@ TEST_F(StoreTest, WhatIsInForceOrNotIsNotMadeSoAgain) {
   for (const Axis axis : {Axis::x, Axis::x, Axis::y})
     ASSERT_TRUE(store->add_table(make_table({1}, axis)));
   EXPECT_FALSE(store->deactivate(Axis::x, "anna", "t0")->changed);
-  ASSERT_TRUE(store->activate(1, "anna", "t1")->changed);
+  const auto first = store->activate(1, "anna", "t1");
+  ASSERT_TRUE(first->changed);
   ASSERT_TRUE(store->activate(3, "anna", "t2")->changed);
   const auto again = store->activate(1, "ben", "t3");
   EXPECT_FALSE(again->changed);
-  EXPECT_EQ(again->generation, 1);
+  EXPECT_EQ(again->generation, first->generation);
   EXPECT_EQ(store->active(Axis::x)->actor, "anna");
-  EXPECT_EQ(store->deactivate(Axis::x, "ben", "t4")->generation, 3);
+  const auto out = store->deactivate(Axis::x, "ben", "t4");
+  EXPECT_GT(out->generation, first->generation + 1);
   EXPECT_EQ(store->active(Axis::x).error().code, ErrorCode::not_found);
   EXPECT_EQ(store->active(Axis::y)->table.id, 3);
-  EXPECT_EQ(store->generation().value(), 3);
+  EXPECT_EQ(store->generation().value(), out->generation);
   EXPECT_FALSE(store->deactivate(Axis::x, "ben", "t5")->changed);
-  EXPECT_EQ(store->activate(1, "ben", "t6")->generation, 4);  // in force again
-  EXPECT_EQ(store->active(Axis::x)->generation, 4);
+  const auto back = store->activate(1, "ben", "t6");  // in force again
+  EXPECT_GT(back->generation, out->generation);
+  EXPECT_EQ(store->active(Axis::x)->generation, back->generation);
+}
+
+// A client keeps what it read under a number: no number comes again, not even in a new database.
+TEST_F(StoreTest, GenerationsGoOnWhereTheDatabaseWasMadeAnew) {
+  std::int64_t last = 0;
+  for (int database = 0; database < 2; ++database) {
+    auto store = writer();
+    ASSERT_TRUE(store->add_run(make_run(1)));
+    ASSERT_TRUE(store->add_table(make_table({1})));
+    const auto first = store->activate(1, "anna", "t1");
+    EXPECT_GT(first->generation, last);
+    last = first->generation;
+    fs::remove(file_);
+    if (database == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  }
 }
 
 TEST_F(StoreTest, GenerationsRiseOverAllAxes) {
@@ -376,16 +395,19 @@ TEST_F(StoreTest, GenerationsRiseOverAllAxes) {
   for (const Axis axis : {Axis::x, Axis::x, Axis::y})
     ASSERT_TRUE(store->add_table(make_table({1}, axis)));
   EXPECT_EQ(store->generation().value(), 0);
-  EXPECT_EQ(store->activate(2, "anna", "t1")->generation, 1);
-  EXPECT_EQ(store->activate(3, "anna", "t2")->generation, 2);
-  EXPECT_EQ(store->activate(1, "ben", "t3")->generation, 3);
+  const std::int64_t first = store->activate(2, "anna", "t1")->generation;
+  EXPECT_GT(first, 0);
+  const std::int64_t second = store->activate(3, "anna", "t2")->generation;
+  EXPECT_GT(second, first);
+  const std::int64_t third = store->activate(1, "ben", "t3")->generation;
+  EXPECT_GT(third, second);
   const ActiveTable x = store->active(Axis::x).value();
   EXPECT_EQ(x.table.id, 1);
-  EXPECT_EQ(x.generation, 3);
+  EXPECT_EQ(x.generation, third);
   EXPECT_EQ(x.actor, "ben");
   EXPECT_EQ(x.activated_utc, "t3");
-  EXPECT_EQ(store->active(Axis::y)->generation, 2);
-  EXPECT_EQ(store->generation().value(), 3);
+  EXPECT_EQ(store->active(Axis::y)->generation, second);
+  EXPECT_EQ(store->generation().value(), third);
   EXPECT_EQ(store->list_tables(0, 9).value().size(), 3u);
   EXPECT_EQ(store->list_tables(0, 9, Axis::y).value().at(0).id, 3);
 }
@@ -413,18 +435,22 @@ TEST_F(StoreTest, VerifyFindsChangedResultsAndTexts) {
     for (int i = 0; i < 3; ++i) ASSERT_TRUE(store->add_run(make_run()));
     EXPECT_TRUE(store->verify()->empty());
   }
+  const auto findings = [&] {
+    std::string all;
+    for (const std::string& finding : reader()->verify().value()) all += finding + "\n";
+    return all;
+  };
   tamper(
       "DROP TRIGGER point_no_update; UPDATE point SET ey_rad = ey_rad * 1.0000001 WHERE run = 2 "
-      "AND row = 3; DROP TRIGGER document_no_update; UPDATE document SET text = 'x' WHERE id = 1;"
-      "PRAGMA foreign_keys = OFF; DROP TRIGGER recording_no_delete; DELETE FROM recording");
-  const auto findings = reader()->verify();
-  ASSERT_TRUE(findings) << findings.error().message;
-  std::string all;
-  for (const std::string& finding : *findings) all += finding + "\n";
-  EXPECT_TRUE(contains(all, "run 2:")) << all;
-  EXPECT_FALSE(contains(all, "run 1:")) << all;
-  EXPECT_TRUE(contains(all, "document 1 ")) << all;
-  EXPECT_TRUE(contains(all, "refers to a row of recording")) << all;
+      "AND row = 3");
+  EXPECT_TRUE(contains(findings(), "run 2:")) << findings();
+  EXPECT_FALSE(contains(findings(), "run 1:")) << findings();
+  tamper("DROP TRIGGER document_no_update; UPDATE document SET text = 'x' WHERE id = 1;");
+  EXPECT_TRUE(contains(findings(), "document 1 ")) << findings();
+  EXPECT_TRUE(contains(findings(), "run 1: is not what was stored")) << findings();
+  tamper("PRAGMA foreign_keys = OFF; DROP TRIGGER recording_no_delete; DELETE FROM recording");
+  EXPECT_TRUE(contains(findings(), "refers to a row of recording")) << findings();
+  EXPECT_TRUE(contains(findings(), "run 1: is gone")) << findings();
 }
 
 }  // namespace

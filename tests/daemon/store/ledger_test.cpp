@@ -1,0 +1,165 @@
+// No bit of what a table in force rests on may change unseen: each is flipped in the file, and what
+// is then served must be what was stored or a refusal, and verify() must find it.
+#include <fstream>
+#include <regex>
+
+#include "daemon/store/store.h"
+#include "tests/daemon/store/fixtures.h"
+
+namespace mdof::store {
+namespace {
+
+constexpr const char* kActor = "uid 1000 pid 4711";
+
+std::string contents(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class LedgerTest : public StoreTest {
+ protected:
+  // Two tables for X, of which the second is in force, and one for Y, taken out of force.
+  void store_all() {
+    auto store = writer();
+    ASSERT_TRUE(store) << store.error().message;
+    for (const Axis axis : {Axis::x, Axis::x, Axis::y}) {
+      const auto run = store->add_run(make_run(4, axis)).value();
+      const auto table = store->add_table(make_table({run}, axis)).value();
+      ASSERT_TRUE(store->activate(table, kActor, "2026-11-21T05:00:0" + std::to_string(table)));
+    }
+    ASSERT_TRUE(store->deactivate(Axis::y, kActor, "2026-11-21T05:00:05"));
+    mdof::Squareness squareness;
+    squareness.run_x = 1;
+    squareness.run_y = 3;
+    squareness.EC0Y_rad = 12e-6;
+    ASSERT_TRUE(store->add_squareness(squareness));
+  }
+
+  // What a client is served: refusals are empty.
+  static std::string served(Result<Store>& store) {
+    std::string all;
+    for (const Axis axis : {Axis::x, Axis::y}) {
+      const auto active = store ? store->active(axis) : tl::unexpected(store.error());
+      const bool none = !active && active.error().code == ErrorCode::not_found;
+      all += none ? "none|" : active ? text_of(*active) : "";
+    }
+    return all;
+  }
+
+  static std::string text_of(const ActiveTable& active) {
+    return std::to_string(active.table.id) + letter(active.table.axis) +
+           std::to_string(active.generation) + active.actor + active.activated_utc + "|";
+  }
+
+  static bool found_by_verify(Result<Store>& store) {
+    if (!store) return true;
+    const auto findings = store->verify();
+    return !findings || !findings->empty();
+  }
+
+  // One plain file, as it lies on the disk.
+  void close_journal() {
+    auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
+    ASSERT_TRUE(db->execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE"));
+  }
+
+  void write_bytes(const std::string& bytes) {
+    std::ofstream(file_, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+};
+
+TEST_F(LedgerTest, EveryBitOfTheActivationsIsUnderAHash) {
+  store_all();
+  close_journal();
+  const std::string whole = contents(file_);
+  std::string before;
+  {
+    auto store = reader();
+    before = served(store);
+    ASSERT_TRUE(before.starts_with("2X") && before.ends_with("none|")) << before;
+    ASSERT_FALSE(found_by_verify(store));
+  }
+  // The rows as SQLite keeps them: length, generation, five (four) types, axis, table (none for 1).
+  const std::regex row(std::string("([^]{12}[XYZ][\\x02-\\x7f]|[^]{12}X|[^]{11}Y)") + kActor +
+                       "2026-11-21T05:00:0[0-9]");
+  std::fstream file(file_, std::ios::binary | std::ios::in | std::ios::out);
+  const auto put = [&](std::size_t at, char byte) {
+    file.seekp(static_cast<std::streamoff>(at)).put(byte).flush();
+  };
+  int bits = 0;
+  for (std::sregex_iterator found(whole.begin(), whole.end(), row), end; found != end; ++found) {
+    const auto begin = static_cast<std::size_t>(found->position());
+    for (std::size_t bit = 0; bit < 8 * static_cast<std::size_t>(found->length()); ++bit, ++bits) {
+      const std::size_t at = begin + bit / 8;
+      put(at, static_cast<char>(whole[at] ^ (1 << (bit % 8))));
+      auto store = reader();
+      const std::string now = served(store);
+      EXPECT_TRUE(now == before || now.empty()) << "bit " << bit << " of " << begin << ": " << now;
+      EXPECT_TRUE(found_by_verify(store)) << "bit " << bit << " of " << begin;
+      put(at, whole[at]);
+    }
+  }
+  EXPECT_GE(bits, 904);
+}
+
+// By a careless hand: the triggers are dropped first.
+TEST_F(LedgerTest, EveryFactIsCheckedWhenItIsServedAndByVerify) {
+  store_all();
+  close_journal();
+  const std::string whole = contents(file_);
+  struct Case {
+    const char* table;
+    const char* change;
+    std::function<bool(Store&)> served;
+  };
+  const auto run = [](Store& s) { return s.run_header(1).has_value(); };
+  const auto table = [](Store& s) { return s.table(2).has_value(); };
+  const auto active = [](Store& s) { return s.active(Axis::x).has_value(); };
+  const auto square = [](Store& s) { return s.list_squareness(0, 9).has_value(); };
+  const std::vector<Case> cases = {
+      {"run", "UPDATE run SET axis = 'Y' WHERE id = 1", run},
+      {"run", "UPDATE run SET simulated = 0 WHERE id = 1", run},
+      {"run", "UPDATE run SET moves = 'fixture' WHERE id = 1", run},
+      {"run_end", "UPDATE run_end SET state = 'partial' WHERE run = 1", run},
+      {"run_end", "UPDATE run_end SET warnings = '[]' WHERE run = 1", run},
+      {"recording", "UPDATE recording SET path = '/elsewhere'", run},
+      {"recording", "UPDATE recording SET sha256 = upper(sha256)", run},
+      {"document", "UPDATE document SET text = replace(text, 'rig', 'rag')", run},
+      {"point", "UPDATE point SET dy_m = 0 WHERE run = 1 AND row = 2",
+       [](Store& s) { return s.run(1).has_value(); }},
+      {"compensation_table", "UPDATE compensation_table SET slope_removed = 1 - slope_removed",
+       table},
+      {"compensation_source", "UPDATE compensation_source SET run = 3", table},
+      {"activation", "UPDATE activation SET compensation_table = 1 WHERE compensation_table = 2",
+       active},
+      {"activation", "DELETE FROM activation WHERE compensation_table = 2", active},
+      {"activation", "INSERT INTO activation VALUES (4000000000, 'X', 1, 'me', 'now')", active},
+      {"deactivation", "UPDATE deactivation SET axis = 'X'", active},
+      {"ledger", "UPDATE ledger SET sha256 = '0' WHERE fact = 'activation'", active},
+      {"ledger", "DELETE FROM ledger WHERE fact = 'activation'", active},
+      {"squareness", "UPDATE squareness SET EC0Y_rad = -EC0Y_rad", square},
+  };
+  for (const Case& c : cases) {
+    write_bytes(whole);
+    ASSERT_TRUE(c.served(*reader())) << c.change;
+    tamper(std::string("DROP TRIGGER IF EXISTS ") + c.table +
+           "_no_update; DROP TRIGGER IF EXISTS " + c.table + "_no_delete; " + c.change);
+    auto store = reader();
+    EXPECT_FALSE(c.served(*store)) << c.change;
+    EXPECT_TRUE(found_by_verify(store)) << c.change;
+  }
+}
+
+TEST_F(LedgerTest, ADamagedRunIsListedAsFailedAndSaysWhy) {
+  store_all();
+  tamper("DROP TRIGGER run_no_update; UPDATE run SET note = 'another' WHERE id = 2");
+  const auto list = reader()->list_runs(0, 10).value();
+  ASSERT_EQ(list.size(), 3u);
+  EXPECT_EQ(list[1].state, RunState::failed);
+  EXPECT_TRUE(contains(list[1].warnings.front(), "run 2: is not what was stored"));
+  EXPECT_EQ(list[0].state, RunState::complete);
+}
+
+}  // namespace
+}  // namespace mdof::store

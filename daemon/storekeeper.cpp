@@ -26,6 +26,18 @@ store::RunEnd end_of(const Run& run) {
   return end;
 }
 
+// The end of a run that turned out otherwise: of use to nobody; `where` is what it turned out to
+// be.
+store::RunEnd provisional_of(store::RunEnd whole, const char* where) {
+  whole.state = RunState::failed;
+  whole.straightness.clear();
+  whole.angles.clear();
+  whole.plausibility.reset();
+  whole.warnings.push_back(std::string("once all was known the points turned out otherwise; ") +
+                           where);
+  return whole;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Storekeeper>> Storekeeper::start(const Options& options, Events events) {
@@ -68,15 +80,29 @@ void Storekeeper::work() {
 // One transaction a recording and interval: durable at the price of one disk flush.
 void Storekeeper::commit_recordings() {
   for (auto& [run, recording] : recordings_) {
-    if (!recording.waiting) continue;
-    const auto seq = recording.writer.commit();
-    if (!seq) {
-      events_.failed(run, seq.error());
-      continue;
-    }
-    recording.waiting = false;
-    events_.recorded(run, *seq);
+    const Status kept = commit(run, recording);
+    if (!kept) events_.failed(run, kept.error());
   }
+}
+
+Status Storekeeper::commit(std::int64_t run, Recording& recording) {
+  if (!recording.waiting) return {};
+  MDOF_TRY(const std::int64_t seq, recording.writer.commit());
+  recording.waiting = false;
+  events_.recorded(run, seq);
+  return {};
+}
+
+// The samples are on the disk before what is made of them.
+Status Storekeeper::keep_points(std::int64_t run, const std::vector<MeasuredPoint>& points) {
+  if (incomplete_.contains(run)) return io_error("an earlier point was not kept");
+  const auto recording = recordings_.find(run);
+  Status kept = recording == recordings_.end() ? Status() : commit(run, recording->second);
+  if (kept) kept = store_.append_points(run, points);
+  if (kept) return {};
+  incomplete_.insert(run);
+  events_.failed(run, kept.error());
+  return kept;
 }
 
 // Runs whose end the disk refused: tried again until it takes it.
@@ -126,16 +152,8 @@ bool Storekeeper::record(std::int64_t run, std::vector<SampleBlock> blocks, bool
 void Storekeeper::append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                                 std::function<void(Status)> done) {
   auto shared = std::make_shared<std::vector<MeasuredPoint>>(std::move(points));
-  queue_.push_always([this, run, shared, done = std::move(done)] {
-    if (incomplete_.contains(run)) return done(io_error("an earlier point was not kept"));
-    commit_recordings();  // the samples are on the disk before what is made of them
-    const Status kept = store_.append_points(run, *shared);
-    if (!kept) {
-      incomplete_.insert(run);
-      events_.failed(run, kept.error());
-    }
-    done(kept);
-  });
+  queue_.push_always(
+      [this, run, shared, done = std::move(done)] { done(keep_points(run, *shared)); });
 }
 
 Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, bool differs) {
@@ -155,21 +173,11 @@ Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, bool differ
     MDOF_CHECK(end_or_wait(run, whole));
     return run;
   }
-  store::RunEnd provisional = whole;
-  provisional.state = RunState::failed;  // of use to nobody: the next run has it all
-  provisional.straightness.clear();
-  provisional.angles.clear();
-  provisional.plausibility.reset();
-  provisional.warnings.emplace_back(
-      "once all was known the points turned out otherwise; the run that supersedes this one has "
-      "them");
-  MDOF_CHECK(end_or_wait(run, provisional));
-  MDOF_TRY(RunHeader header, store_.run_header(run));
-  header.supersedes = run;
-  header.state = whole.state;
-  header.warnings = whole.warnings;
-  result.header = std::move(header);
-  return store_.add_run(result);
+  auto superseded = store_.end_and_supersede(
+      run, provisional_of(whole, "the run that supersedes this one has them"), std::move(result));
+  if (!superseded)
+    unended_.push_back({run, provisional_of(whole, "the disk refused them: replay its recording")});
+  return superseded;
 }
 
 // A refused end is not given up: it is tried again until the disk takes it.

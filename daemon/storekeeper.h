@@ -84,6 +84,9 @@ class Storekeeper {
     bool waiting = false;  // holds blocks that are not committed yet
   };
 
+  Status commit(std::int64_t run, Recording& recording);
+  Status keep_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
+
   struct Unended {
     std::int64_t run;
     store::RunEnd end;

@@ -78,6 +78,9 @@ class Store {
   Result<std::int64_t> begin_run(const RunHeader& header);
   Status append_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
   Status end_run(std::int64_t run, const RunEnd& end);
+  // Ends it and stores what it turned out to be as a run that supersedes it, in one transaction.
+  // Of the result's header only state and warnings count. Gives the new run's id.
+  Result<std::int64_t> end_and_supersede(std::int64_t run, const RunEnd& end, Run result);
 
   Result<RunHeader> run_header(std::int64_t run);
   // Newest first; `axis` narrows it to the runs of one axis.

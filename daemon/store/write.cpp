@@ -114,6 +114,23 @@ Status Store::insert_all_of_end(std::int64_t run, const RunEnd& end) {
   return insert_end(run, end, sha256);
 }
 
+Result<std::int64_t> Store::end_and_supersede(std::int64_t run, const RunEnd& end, Run result) {
+  MDOF_CHECK(check_open(run));
+  auto sha256 = std::async(std::launch::deferred, [&] { return store::result_sha256(result); });
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
+  MDOF_CHECK(insert_all_of_end(run, end));
+  RunHeader& header = result.header;
+  RunHeader asked = header;
+  MDOF_TRY(header, run_header(run));
+  header.supersedes = run;
+  header.state = asked.state;
+  header.warnings = std::move(asked.warnings);
+  MDOF_TRY(const std::int64_t id, insert_whole(result, sha256));
+  MDOF_CHECK(transaction.commit());
+  open_runs_.erase(run);
+  return id;
+}
+
 Status Store::check_open(std::int64_t run) const {
   if (open_runs_.contains(run)) return {};
   return fail(ErrorCode::conflict, "run " + std::to_string(run) +

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <future>
+#include <thread>
 
 namespace mdof::daemon {
 namespace {
@@ -25,8 +27,9 @@ class StorekeeperTest : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() / ("mdof_keeper_" + std::to_string(getpid()));
-    auto started = Storekeeper::start({folder_ / "mdof.db"}, {[](std::int64_t, std::int64_t) {},
-                                                              [](std::int64_t, const Error&) {}});
+    auto started = Storekeeper::start({folder_ / "mdof.db"},
+                                      {[](std::int64_t, std::int64_t) {},
+                                       [this](std::int64_t run, const Error&) { failed_ = run; }});
     ASSERT_TRUE(started) << started.error().message;
     keeper_ = std::move(*started);
   }
@@ -35,9 +38,10 @@ class StorekeeperTest : public ::testing::Test {
     std::filesystem::remove_all(folder_);
   }
 
-  std::int64_t begin() {
+  std::int64_t begin(const std::filesystem::path& recording = {}) {
     std::promise<std::int64_t> id;
     NewRun run;
+    run.recording = recording;
     run.header.started_utc = "2026-11-21T00:00:00.000Z";
     run.header.provenance.recording_kind = "replay";
     run.header.provenance.model = "rigid";
@@ -47,13 +51,35 @@ class StorekeeperTest : public ::testing::Test {
     return id.get_future().get();
   }
   std::int64_t end(std::int64_t run, const std::vector<MeasuredPoint>& points, bool differs) {
-    std::promise<std::int64_t> id;
+    return try_to_end(run, points, differs).value();
+  }
+  Result<std::int64_t> try_to_end(std::int64_t run, const std::vector<MeasuredPoint>& points,
+                                  bool differs) {
+    std::promise<Result<std::int64_t>> id;
     mdof::Run result;
     result.header.state = RunState::complete;
     result.header.scans = 7;
     result.points = points;
-    keeper_->end_run(run, result, differs, [&](const auto& ended) { id.set_value(ended.value()); });
+    keeper_->end_run(run, result, differs, [&](const auto& ended) { id.set_value(ended); });
     return id.get_future().get();
+  }
+  Status append(std::int64_t run, const std::vector<MeasuredPoint>& points) {
+    std::promise<Status> kept;
+    keeper_->append_points(run, points, [&](const Status& status) { kept.set_value(status); });
+    return kept.get_future().get();
+  }
+  // SQL from outside: the file refuses from then on what it says.
+  static void spoil(const std::filesystem::path& file, const std::string& sql) {
+    auto db = sqlite::Connection::open(file, sqlite::OpenMode::read_write);
+    ASSERT_TRUE(db && db->execute(sql));
+  }
+  static SampleBlock scans(std::int64_t first_ns) {
+    SampleBlock block{"d", {{"A", Unit::um}}, {}, {{}}, {}, 0};
+    for (int i = 0; i < 10; ++i) {
+      block.time_ns.push_back(first_ns + i);
+      block.value[0].push_back(i);
+    }
+    return block;
   }
   mdof::Run stored(std::int64_t id) {
     auto store = store::Store::open(folder_ / "mdof.db", store::Access::read_only);
@@ -62,6 +88,7 @@ class StorekeeperTest : public ::testing::Test {
 
   std::filesystem::path folder_;
   std::unique_ptr<Storekeeper> keeper_;
+  std::atomic<std::int64_t> failed_{0};
 };
 
 TEST_F(StorekeeperTest, ARunThatTurnsOutAsStoredKeepsItsId) {
@@ -87,6 +114,37 @@ TEST_F(StorekeeperTest, ARunThatTurnsOutOtherwiseIsSupersededByACompleteOne) {
   EXPECT_EQ(run.header.supersedes, id);
   EXPECT_EQ(run.header.note, "of a test");
   EXPECT_EQ(run.points[1].target, 2);
+}
+
+// The end of the one and the beginning of the other are one fact: a power cut has both or neither.
+TEST_F(StorekeeperTest, WhatSupersedesARunIsStoredInOneTransactionWithItsEnd) {
+  const std::int64_t id = begin();
+  ASSERT_TRUE(append(id, {point(1, 1), point(1, 1)}));
+  spoil(folder_ / "mdof.db",
+        "CREATE TRIGGER full BEFORE INSERT ON run BEGIN SELECT raise(ABORT, 'full'); END");
+  const auto ended = try_to_end(id, {point(1, 1), point(2, 1)}, true);
+  ASSERT_FALSE(ended);
+  keeper_.reset();  // what waits is written out
+  const mdof::Run run = stored(id);
+  EXPECT_EQ(run.header.state, RunState::failed);
+  ASSERT_EQ(run.header.warnings.size(), 1u);
+  EXPECT_EQ(run.header.warnings[0].find("supersedes"), std::string::npos) << "of a run that is not";
+  EXPECT_NE(run.header.warnings[0].find("replay its recording"), std::string::npos);
+}
+
+// Samples that the disk does not take must not have points that it has.
+TEST_F(StorekeeperTest, APointWhoseSamplesAreNotKeptIsNotAcknowledged) {
+  const auto recording = folder_ / "run.mdofrec";
+  const std::int64_t id = begin(recording);
+  ASSERT_TRUE(keeper_->record(id, {scans(1)}, true));
+  ASSERT_TRUE(append(id, {point(1, 1)}));
+  spoil(recording,
+        "CREATE TRIGGER full BEFORE INSERT ON chunk BEGIN SELECT raise(ABORT, 'full'); "
+        "END");
+  ASSERT_TRUE(keeper_->record(id, {scans(100)}, true));
+  EXPECT_FALSE(append(id, {point(2, 1)}));
+  EXPECT_EQ(failed_, id);
+  EXPECT_EQ(stored(id).points.size(), 1u);
 }
 
 }  // namespace

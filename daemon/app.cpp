@@ -25,6 +25,13 @@ std::string recorded_json(std::int64_t run, std::int64_t seq) {
   return json.take();
 }
 
+std::string storage_json(const std::string& reason) {
+  JsonWriter json;
+  json.begin_object().field("type", "storage").field("state", reason.empty() ? "ok" : "lost");
+  json.field("text", reason).field("utc", utc_now()).end_object();
+  return json.take();
+}
+
 }  // namespace
 
 // Destroyed from the bottom up: stations stop, the server closes, the keeper writes what waits.
@@ -70,6 +77,12 @@ Status App::Parts::open_store() {
       for (auto& station : stations) {
         if (station->run() == run) station->storage_failed(run, error);
       }
+    });
+  };
+  events.database_changed = [this](const std::string& reason) {
+    loop.post([this, reason] {
+      std::fprintf(stderr, "%s\n", reason.empty() ? "the database is there again" : reason.c_str());
+      (void)server.publish(kRunTopic, storage_json(reason));
     });
   };
   MDOF_TRY(keeper, Storekeeper::start({config.database, config.durability, config.commit_interval},

@@ -68,6 +68,7 @@ void build(Methods& m, const Params& params, Reply reply) {
 // is `reply_members` with the generation.
 void change_what_is_in_force(Methods& m, Reply reply, std::string reply_members,
                              std::function<Result<store::Activation>(store::Store&)> change) {
+  if (const std::string lost = m.keeper.fault(); !lost.empty()) return reply(io_error(lost));
   auto shared = std::make_shared<Reply>(std::move(reply));
   const bool posted = m.keeper.post([&m, shared, members = std::move(reply_members),
                                      change = std::move(change)](store::Store& store) {

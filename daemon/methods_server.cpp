@@ -28,6 +28,9 @@ std::string server_info(const Methods& m) {
       .field("database", ec ? m.database : database.string())
       .field("generation", m.generation)
       .field("store_jobs_dropped", m.keeper.dropped_blocks());
+  const std::string lost = m.keeper.fault();
+  json.field("storage", lost.empty() ? "ok" : "lost").key("storage_reason");
+  lost.empty() ? json.null() : json.value(lost);
   json.key("axes").begin_array();
   for (const auto& station : m.stations) {
     json.begin_object()
@@ -100,6 +103,7 @@ Result<Station*> station_of(Methods& m, Axis axis) {
 
 void answer_from_store(Methods& m, rpc::Reply reply,
                        std::function<Result<std::string>(store::Store&)> work) {
+  if (const std::string lost = m.keeper.fault(); !lost.empty()) return reply(io_error(lost));
   // std::function wants copies: the one right to answer is shared with the job alone.
   auto shared = std::make_shared<rpc::Reply>(std::move(reply));
   const bool posted = m.keeper.post(

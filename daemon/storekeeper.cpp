@@ -9,7 +9,8 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestPop{500};  // the watchdog wants to see the thread
+constexpr std::chrono::milliseconds kLongestPop{500};    // the watchdog wants to see the thread
+constexpr std::chrono::milliseconds kBetweenLooks{200};  // at whether the files are still there
 constexpr std::size_t kQueueLength = 4096;  // jobs: blocks of samples, points, calls of clients
 
 store::RunEnd end_of(const Run& run) {
@@ -52,6 +53,7 @@ Storekeeper::Storekeeper(store::Store database, const Options& options, Events e
     : store_(std::move(database)),
       options_(options),
       events_(std::move(events)),
+      database_(options.database),
       queue_(kQueueLength),
       last_turn_(std::chrono::steady_clock::now()),
       thread_([this] { work(); }) {}
@@ -70,6 +72,7 @@ void Storekeeper::work() {
     last_turn_.store(now);
     if (now < next_commit) continue;
     commit_recordings();
+    watch_files();
     if (!unended_.empty()) end_what_can_be();
     next_commit = now + options_.commit_interval;
   }
@@ -83,6 +86,40 @@ void Storekeeper::commit_recordings() {
     const Status kept = commit(run, recording);
     if (!kept) events_.failed(run, kept.error());
   }
+}
+
+void Storekeeper::watch_files() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - files_watched_ < kBetweenLooks) return;
+  files_watched_ = now;
+  watch_database();
+  for (auto& [run, recording] : recordings_) {
+    const std::string lost = recording.file.fault();
+    if (!lost.empty())
+      events_.failed(run, Error{ErrorCode::io, lost + " while the run was being recorded"});
+  }
+}
+
+void Storekeeper::watch_database() {
+  std::string reason = database_.fault();
+  if (!reason.empty())
+    reason +=
+        " under mdofd, so nothing can be stored: put it back, or restart mdofd to go on with "
+        "what is there now";
+  {
+    const std::lock_guard guard(fault_mutex_);
+    if (reason == fault_) return;
+    fault_ = reason;
+  }
+  if (events_.database_changed) events_.database_changed(reason);
+  if (reason.empty()) return;
+  for (const auto& [run, recording] : recordings_)
+    events_.failed(run, Error{ErrorCode::io, reason});
+}
+
+std::string Storekeeper::fault() const {
+  const std::lock_guard guard(fault_mutex_);
+  return fault_;
 }
 
 Status Storekeeper::commit(std::int64_t run, Recording& recording) {
@@ -122,11 +159,12 @@ Result<store::RecordingWriter> Storekeeper::create_recording(const NewRun& run) 
 }
 
 Result<std::int64_t> Storekeeper::begin(NewRun& run) {
+  if (const std::string reason = fault(); !reason.empty()) return io_error(reason);
   if (run.recording.empty()) return store_.begin_run(run.header);
   auto writer = run.begun ? std::move(*run.begun) : create_recording(run);
   if (!writer) return tl::unexpected(writer.error());
   MDOF_TRY(const std::int64_t id, store_.begin_run(run.header));
-  recordings_.emplace(id, Recording{std::move(*writer)});
+  recordings_.emplace(id, Recording{std::move(*writer), store::FileWatch(run.recording)});
   return id;
 }
 

@@ -9,11 +9,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
+#include <string>
 #include <thread>
 
 #include "daemon/bounded_queue.h"
+#include "daemon/store/file_watch.h"
 #include "daemon/store/recording_writer.h"
 #include "daemon/store/store.h"
 #include "schema/result.h"
@@ -43,6 +46,8 @@ class Storekeeper {
     std::function<void(std::int64_t run, std::int64_t seq)> recorded;
     // The disk refused (full, gone): the run can no longer be kept.
     std::function<void(std::int64_t run, const Error& error)> failed;
+    // The database is not what it was any more (the reason), or is again (empty).
+    std::function<void(const std::string& reason)> database_changed = nullptr;
   };
 
   // Opens the database (errors as Store::open) and starts the thread.
@@ -66,6 +71,9 @@ class Storekeeper {
   void end_run(std::int64_t run, Run result, bool differs,
                std::function<void(Result<std::int64_t>)> done);
 
+  // Why nothing can be stored: the database was deleted, replaced or cut short under us. Empty:
+  // it can.
+  std::string fault() const;
   std::uint64_t dropped_blocks() const { return queue_.dropped(); }
   // When the thread last came round; for the watchdog.
   std::chrono::steady_clock::time_point last_turn() const { return last_turn_.load(); }
@@ -74,6 +82,8 @@ class Storekeeper {
   Storekeeper(store::Store database, const Options& options, Events events);
   void work();
   void commit_recordings();
+  void watch_files();
+  void watch_database();
   void end_what_can_be();
   Result<std::int64_t> begin(NewRun& run);
   Result<std::int64_t> end(std::int64_t run, Run& result, bool differs);
@@ -81,6 +91,7 @@ class Storekeeper {
 
   struct Recording {
     store::RecordingWriter writer;
+    store::FileWatch file;
     bool waiting = false;  // holds blocks that are not committed yet
   };
 
@@ -96,6 +107,10 @@ class Storekeeper {
   const Options options_;
   Events events_;
   std::map<std::int64_t, Recording> recordings_;
+  store::FileWatch database_;
+  std::chrono::steady_clock::time_point files_watched_{};
+  mutable std::mutex fault_mutex_;
+  std::string fault_;
   std::vector<Unended> unended_;
   std::set<std::int64_t> incomplete_;  // runs of which a point could not be kept
   BoundedQueue<std::function<void()>> queue_;

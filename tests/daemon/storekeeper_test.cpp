@@ -147,5 +147,35 @@ TEST_F(StorekeeperTest, APointWhoseSamplesAreNotKeptIsNotAcknowledged) {
   EXPECT_EQ(stored(id).points.size(), 1u);
 }
 
+TEST_F(StorekeeperTest, ADatabaseThatWasDeletedOrReplacedIsNoticed) {
+  const auto database = folder_ / "mdof.db", aside = folder_ / "aside.db";
+  const auto fault_after = [&](bool expected) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    while (keeper_->fault().empty() == expected && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return keeper_->fault();
+  };
+  EXPECT_EQ(fault_after(false), "");
+  std::filesystem::rename(database, aside);
+  EXPECT_NE(fault_after(true).find("mdof.db was deleted"), std::string::npos);
+  std::filesystem::copy_file(aside, database);
+  std::promise<Result<std::int64_t>> begun;
+  keeper_->begin_run(NewRun{}, [&](const auto& id) { begun.set_value(id); });
+  EXPECT_FALSE(begun.get_future().get());
+  std::filesystem::rename(aside, database);  // the very file
+  EXPECT_EQ(fault_after(false), "");
+  std::filesystem::resize_file(database, 100);
+  EXPECT_NE(fault_after(true).find("was cut short"), std::string::npos);
+}
+
+TEST_F(StorekeeperTest, ARecordingThatIsDeletedFailsItsRun) {
+  const auto recording = folder_ / "run.mdofrec";
+  const std::int64_t id = begin(recording);
+  std::filesystem::remove(recording);
+  for (int i = 0; i < 100 && failed_ != id; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(failed_, id);
+}
+
 }  // namespace
 }  // namespace mdof::daemon

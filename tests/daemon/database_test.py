@@ -1,0 +1,176 @@
+#!/usr/bin/python3
+"""What happens to the database while mdofd has it: links to it, other databases, its end; and lists of what it holds.
+
+usage: database_test.py MDOFD MDOF"""
+import os
+import shutil
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from mdofd import RIG, Client, Daemon, RpcError, simulator  # noqa: E402
+
+MDOFD, MDOF = sys.argv[1:3]
+CONFLICT = 3
+
+
+def mdof(*words):
+    done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def write_log(path):
+    """Half a second at each of 0 ... 3 mm."""
+    with open(path, "w") as log:
+        log.write("time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n")
+        for i in range(2400):
+            target, at = divmod(i, 600)
+            encoder = target + (0 if at < 500 else (at - 500) / 100)
+            log.write(f"{i * 1e-3:.6f},{encoder:.6f},0.1,0.2,0.3,0.4,{0.5 + target / 10}\n")
+
+
+class Database(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.daemon = Daemon(MDOFD, os.path.join(self.folder.name, "d"), simulator("X"))
+        self.client = self.daemon.start()
+        self.log = os.path.join(self.folder.name, "log.csv")
+        write_log(self.log)
+
+    def tearDown(self):
+        if self.daemon.process.poll() is None:
+            self.daemon.stop()
+        self.folder.cleanup()
+
+    def replayed(self, **params):
+        with open(RIG["X"]) as rig:
+            return self.client.call("run.replay", path=self.log, rig=rig.read(), **params)["run"]
+
+    def table_in_force(self):
+        table = self.client.call("compensation.build", runs=[self.replayed()])["table"]
+        self.client.call("compensation.activate", table=table)
+        return table
+
+    def test_a_command_acts_on_the_database_that_it_names_by_any_link_or_not_at_all(self):
+        table = self.table_in_force()
+        other = Daemon(MDOFD, os.path.join(self.folder.name, "other"), simulator("X"))
+        client = other.start()
+        try:
+            links = {"symbolic": os.symlink, "hard": os.link}
+            for kind, make in links.items():
+                link = os.path.join(self.folder.name, kind + ".db")
+                make(self.daemon.database, link)
+                before = client.call("compensation.status")
+                code, _, err = mdof("compensation", "activate", table, "--db", link, "--socket", other.socket)
+                self.assertEqual(code, CONFLICT, err)
+                self.assertIn("mdofd (process", err)
+                self.assertEqual(client.call("compensation.status"), before)
+                code, _, err = mdof("replay", self.log, "--rig", RIG["X"], "--db", link, "--socket", other.socket)
+                self.assertEqual(code, CONFLICT, err)
+            code, out, err = mdof("compensation", "activate", table, "--db",
+                                  os.path.join(self.folder.name, "symbolic.db"), "--socket", self.daemon.socket)
+            self.assertEqual(code, 0, err)
+            self.assertIn("already in force", out)
+        finally:
+            other.stop()
+
+    def lost(self):
+        end = time.monotonic() + 1
+        while time.monotonic() < end:
+            info = self.client.call("server.info")
+            if info["storage"] == "lost":
+                return info["storage_reason"]
+            time.sleep(0.02)
+        self.fail("not noticed within a second")
+
+    def refused(self, reason, method, **params):
+        with self.assertRaises(RpcError) as refusal:
+            self.client.call(method, **params)
+        self.assertIn(reason, str(refusal.exception))
+
+    def test_a_database_that_is_deleted_or_replaced_is_noticed_and_nothing_is_stored(self):
+        table = self.table_in_force()
+        before = self.client.call("compensation.status")
+        watcher = Client(self.daemon.socket)
+        watcher.call("live.subscribe", interval_ms=60_000)
+        aside = self.daemon.database + ".aside"
+        for spoil, reason in ((lambda: os.rename(self.daemon.database, aside), "was deleted"),
+                              (lambda: shutil.copy(aside, self.daemon.database), "was replaced")):
+            spoil()
+            self.wait_for_event(watcher, reason)
+            self.assertIn(reason, self.lost())
+            self.refused(reason, "run.start", axis="X")
+            self.refused(reason, "compensation.activate", table=table)
+            self.refused(reason, "compensation.deactivate", axis="X")
+            self.refused(reason, "compensation.build", runs=[1])
+            self.assertEqual(self.client.call("compensation.status"), before)  # machines go on
+        code, out, _ = mdof("status", "--socket", self.daemon.socket)
+        self.assertIn("storage lost", out)
+        os.rename(aside, self.daemon.database)  # the very file
+        self.wait_for_event(watcher, "")
+        self.client.call("compensation.deactivate", axis="X")
+
+    def wait_for_event(self, watcher, reason):
+        while True:
+            event = watcher.next_note()["params"]["value"]
+            if event.get("type") == "storage" and reason in event["text"]:
+                return
+
+    def test_a_run_under_way_fails_with_that_reason(self):
+        watcher = Client(self.daemon.socket)
+        watcher.call("live.subscribe", interval_ms=60_000)
+        run = self.client.call("run.start", axis="X")["run"]
+        folder = os.path.join(os.path.dirname(self.daemon.database), "recordings")
+        os.remove(os.path.join(folder, [name for name in os.listdir(folder) if name.endswith(".mdofrec")][0]))
+        while (event := watcher.next_note()["params"]["value"]).get("type") != "ended":
+            pass
+        self.assertEqual((event["run"], event["state"]), (run, "failed"))
+        self.assertTrue(any("was deleted while the run was being recorded" in w
+                            for w in self.client.call("run.get", run=run)["warnings"]))
+
+    def listed(self, **params):
+        runs, offset, pages = [], 0, 0
+        while True:
+            page = self.client.call("run.list", offset=offset, **params)
+            runs += page["runs"]
+            offset += len(page["runs"])
+            pages += 1
+            if offset >= page["total"]:
+                return runs, pages
+            self.assertGreater(len(page["runs"]), 0)
+
+    def test_lists_are_weighed(self):
+        targets = [round(0.1 * i + 0.01234567890123, 14) for i in range(32)]
+        for _ in range(40):
+            self.replayed(targets_mm=targets, note="n" * 1000)
+        runs, pages = self.listed()
+        self.assertEqual([run["run"] for run in runs], list(range(40, 0, -1)))
+        self.assertGreater(pages, 1)
+        self.assertEqual(len(self.listed(count=7)[0]), 40)
+        self.assertEqual(runs[0]["note"], "n" * 1000)
+
+    def test_a_run_that_no_line_holds_is_listed_shortened(self):
+        self.replayed()
+        self.daemon.stop()
+        with sqlite3.connect(self.daemon.database) as database:  # as an older mdof stored it
+            database.execute("DROP TRIGGER run_no_update")
+            database.execute("UPDATE run SET note = ?", ("n" * 100_000,))
+        self.client = self.daemon.start()
+        runs, _ = self.listed()
+        self.assertTrue(runs[0]["shortened"])
+        self.assertTrue(runs[0]["note"].endswith("... (cut)"))
+
+    def test_a_note_is_at_most_a_kilobyte(self):
+        self.refused("1024", "run.replay", path=self.log, note="n" * 1025)
+        code, _, err = mdof("replay", self.log, "--rig", RIG["X"], "--note", "n" * 1025, "--db",
+                            os.path.join(self.folder.name, "own.db"))
+        self.assertEqual(code, 2, err)
+        self.assertIn("1024", err)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

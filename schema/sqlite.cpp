@@ -225,6 +225,25 @@ bool Statement::is_null(int column) const {
   return sqlite3_column_type(statement_, column) == SQLITE_NULL;
 }
 
+char Statement::storage_class(int column) const {
+  switch (sqlite3_column_type(statement_, column)) {
+    case SQLITE_INTEGER:
+      return 'i';
+    case SQLITE_FLOAT:
+      return 'd';
+    case SQLITE_TEXT:
+      return 't';
+    case SQLITE_BLOB:
+      return 'b';
+    default:
+      return 'n';
+  }
+}
+
+int Statement::columns() const {
+  return sqlite3_column_count(statement_);
+}
+
 // ---- Connection ----
 
 Connection::Connection(std::unique_ptr<Session> session) : session_(std::move(session)) {}

@@ -60,6 +60,9 @@ class Statement {
   std::string_view text(int column) const;   // valid until the next step
   std::string_view bytes(int column) const;  // valid until the next step
   bool is_null(int column) const;
+  // How the value is stored: 'n' NULL, 'i' integer, 'd' double, 't' text, 'b' bytes.
+  char storage_class(int column) const;
+  int columns() const;
 
  private:
   friend class Connection;

@@ -19,37 +19,36 @@ struct FactKind {
   const char* name;  // in the ledger, and of its table
   const char* key;
   const char* called;  // in messages
-  const char* types;   // of the values: i, d, t
   const char* values;
 };
 
 constexpr std::array<FactKind, 6> kKinds = {{
-    {Fact::run, "run", "id", "run", "ttittitttttttttt",
+    {Fact::run, "run", "id", "run",
      "SELECT run.axis, run.started_utc, run.simulated, run.note, run.model, run.supersedes, "
      "recording.kind, recording.path, recording.sha256, rig.text, options.text, "
      "configuration.text, run.software_version, run.moves, run.travel, run.reference "
      "FROM run JOIN recording ON recording.id = run.recording JOIN document AS rig ON rig.id = "
      "run.rig JOIN document AS options ON options.id = run.options JOIN document AS configuration "
      "ON configuration.id = run.configuration WHERE run.id = ?"},
-    {Fact::run_end, "run_end", "run", "end of run", "tiitttttdddt",
+    {Fact::run_end, "run_end", "run", "end of run",
      "SELECT e.state, e.scans, e.scans_lost, e.warnings, e.result_sha256, recording.kind, "
      "recording.path, recording.sha256, t.mean_C, t.min_C, t.max_C, p.json "
      "FROM run_end AS e LEFT JOIN recording ON recording.id = e.recording "
      "LEFT JOIN run_temperature AS t ON t.run = e.run LEFT JOIN run_plausibility AS p "
      "ON p.run = e.run WHERE e.run = ?"},
-    {Fact::squareness, "squareness", "id", "squareness", "iidddddddddiitt",
+    {Fact::squareness, "squareness", "id", "squareness",
      "SELECT run_x, run_y, EC0Y_rad, u_EC0Y_rad, slope_EYX_rad, u_slope_EYX_rad, slope_EXY_rad, "
      "u_slope_EXY_rad, artefact_angle_error_rad, form_rad, u_artefact_rad, artefact_corner, "
      "simulated, created_utc, reference FROM squareness WHERE id = ?"},
-    {Fact::table, "compensation_table", "id", "compensation table", "tiittttttttttt",
+    {Fact::table, "compensation_table", "id", "compensation table",
      "SELECT axis, simulated, slope_removed, created_utc, sha256, position_m, errors_m_rad, moves, "
      "travel, reference, point_m, chain, chain_travel, (SELECT group_concat(run) FROM (SELECT run "
      "FROM compensation_source AS s WHERE s.compensation_table = ?1 ORDER BY s.row)) "
      "FROM compensation_table WHERE id = ?1"},
-    {Fact::activation, "activation", "generation", "activation of generation", "titt",
+    {Fact::activation, "activation", "generation", "activation of generation",
      "SELECT axis, compensation_table, actor, activated_utc FROM activation NOT INDEXED "
      "WHERE generation = ?"},
-    {Fact::deactivation, "deactivation", "generation", "deactivation of generation", "ttt",
+    {Fact::deactivation, "deactivation", "generation", "deactivation of generation",
      "SELECT axis, actor, deactivated_utc FROM deactivation NOT INDEXED WHERE generation = ?"},
 }};
 
@@ -63,17 +62,18 @@ const FactKind* kind_named(std::string_view name) {
   return nullptr;
 }
 
-void append_value(const Statement& row, int column, char type, std::string& to) {
-  if (row.is_null(column)) {
-    to += 'n';
-  } else if (type == 'i') {
-    to += 'i' + std::to_string(row.integer(column)) + '\n';
-  } else if (type == 'd') {
+// The storage class is part of it: an axis that became bytes is found by no query for a text.
+void append_value(const Statement& row, int column, std::string& to) {
+  const char storage = row.storage_class(column);
+  to += storage;
+  if (storage == 'i') {
+    to += std::to_string(row.integer(column)) + '\n';
+  } else if (storage == 'd') {
     const double x = row.real(column);
-    to.append("d").append(reinterpret_cast<const char*>(&x), sizeof x);
-  } else {
+    to.append(reinterpret_cast<const char*>(&x), sizeof x);
+  } else if (storage != 'n') {
     const std::string_view bytes = row.bytes(column);
-    to.append("t").append(std::to_string(bytes.size())).append("\n").append(bytes);
+    to.append(std::to_string(bytes.size())).append("\n").append(bytes);
   }
 }
 
@@ -85,9 +85,7 @@ Result<std::optional<std::string>> link_of(Connection& connection, std::string_v
   if (!found) return std::optional<std::string>();
   std::string text(previous);
   text.append("\n").append(kind.name).append("\n").append(std::to_string(row)).append("\n");
-  const std::string_view types = kind.types;
-  for (std::size_t i = 0; i < types.size(); ++i)
-    append_value(values, static_cast<int>(i), types[i], text);
+  for (int i = 0; i < values.columns(); ++i) append_value(values, i, text);
   return std::optional(sha256_hex(text));
 }
 

@@ -7,7 +7,8 @@
 // `values` are those of the fact's row and of the rows that it refers to (recording, rig and other
 // texts, temperature, plausibility, runs of a table), in the order of the query in ledger.cpp, each
 // as
-//   n: NULL; i decimal '\n': an integer; d 8 bytes: a double; t length '\n' bytes: text or bytes
+//   n: NULL; i decimal '\n': an integer; d 8 bytes: a double; t length '\n' bytes: text; b the
+//   same: bytes
 #pragma once
 
 #include <cstdint>

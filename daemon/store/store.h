@@ -173,7 +173,7 @@ class Store {
   // tables.cpp
   Result<CompensationTable> table_of(sqlite::Statement& row);
   Result<std::vector<std::int64_t>> sources(std::int64_t table);
-  Result<std::int64_t> next_generation();
+  Result<std::int64_t> next_generation(const std::string& utc);
   // study_write.cpp
   Status replace_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
   Status insert_outcome(std::int64_t study, const StudyOutcome& outcome);

@@ -218,11 +218,22 @@ std::string activation_json(const std::string& members, const Activation& activa
          ",\"changed\":" + (activation.changed ? "true" : "false") + "}";
 }
 
+namespace {
+
+// Of "2026-11-22T15:30:00..."; 0 for what is no such time.
+std::int64_t seconds_since_1970(const std::string& utc) {
+  std::tm time{};
+  if (::strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%S", &time) == nullptr) return 0;
+  return ::timegm(&time);
+}
+
+}  // namespace
+
 // A number that no earlier change had, also where the database was deleted and made anew: a client
 // that knows the number may rely on what it read then.
-Result<std::int64_t> Store::next_generation() {
+Result<std::int64_t> Store::next_generation(const std::string& utc) {
   MDOF_TRY(const std::int64_t last, generation());
-  return std::max(last + 1, static_cast<std::int64_t>(std::time(nullptr)));
+  return std::max(last + 1, seconds_since_1970(utc));
 }
 
 Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
@@ -231,7 +242,7 @@ Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
   const auto now = active(wanted.axis);
   if (now && now->table.id == table) return Activation{now->generation, false};
   if (!now && now.error().code != ErrorCode::not_found) return tl::unexpected(now.error());
-  MDOF_TRY(const std::int64_t generation, next_generation());
+  MDOF_TRY(const std::int64_t generation, next_generation(utc));
   const char axis = letter(wanted.axis);
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert, connection_.prepare("INSERT INTO activation VALUES (?, ?, ?, ?, ?)"));
@@ -250,7 +261,7 @@ Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const 
   MDOF_TRY(const std::int64_t last, generation());
   const auto now = active(axis);
   if (!now && now.error().code == ErrorCode::not_found) return Activation{last, false};
-  MDOF_TRY(const std::int64_t generation, next_generation());
+  MDOF_TRY(const std::int64_t generation, next_generation(utc));
   const char letter_of_axis = letter(axis);
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert, connection_.prepare("INSERT INTO deactivation VALUES (?, ?, ?, ?)"));

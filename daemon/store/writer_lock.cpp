@@ -34,12 +34,13 @@ struct flock one_byte(short type) {
 }
 
 // Descriptors of databases that are not used now. They are never closed: to close any descriptor of
-// a file drops the locks that SQLite has on it in this process.
+// a file drops the locks that SQLite has on it in this process. A child process has its own: those
+// that it inherits share their lock with its parent.
 class Idle {
  public:
   int take(const struct stat& file, int access) {
     const std::lock_guard guard(mutex_);
-    auto& of_file = idle_[{file.st_dev, file.st_ino, access}];
+    auto& of_file = idle_[{::getpid(), file.st_dev, file.st_ino, access}];
     if (of_file.empty()) return -1;
     const int fd = of_file.back();
     of_file.pop_back();
@@ -49,12 +50,12 @@ class Idle {
     struct stat file {};
     if (::fstat(fd, &file) != 0) return;
     const std::lock_guard guard(mutex_);
-    idle_[{file.st_dev, file.st_ino, ::fcntl(fd, F_GETFL) & O_ACCMODE}].push_back(fd);
+    idle_[{::getpid(), file.st_dev, file.st_ino, ::fcntl(fd, F_GETFL) & O_ACCMODE}].push_back(fd);
   }
 
  private:
   std::mutex mutex_;
-  std::map<std::tuple<dev_t, ino_t, int>, std::vector<int>> idle_;
+  std::map<std::tuple<pid_t, dev_t, ino_t, int>, std::vector<int>> idle_;
 };
 
 Idle& idle() {

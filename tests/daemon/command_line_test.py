@@ -103,7 +103,7 @@ class Replay(CommandLine):
                             (self.folder.name, "is no file")):
             with self.subTest(path=path), self.assertRaisesRegex(RpcError, words):
                 self.client.call("run.replay", path=path)
-        with self.assertRaisesRegex(RpcError, "settle_s must be"):
+        with self.assertRaisesRegex(RpcError, "settle_s.* must be from 0"):
             self.client.call("run.replay", path=LOG["X"], rig=open(RIG["X"]).read(), settle_s=-1)
 
     def test_a_daemon_that_stops_gives_the_log_up(self):

@@ -52,7 +52,7 @@ class Database(unittest.TestCase):
 
     def table_in_force(self):
         table = self.client.call("compensation.build", runs=[self.replayed()])["table"]
-        self.client.call("compensation.activate", table=table)
+        self.client.call("compensation.activate", despite_warnings=True, table=table)
         return table
 
     def test_a_command_acts_on_the_database_that_it_names_by_any_link_or_not_at_all(self):
@@ -65,13 +65,13 @@ class Database(unittest.TestCase):
                 link = os.path.join(self.folder.name, kind + ".db")
                 make(self.daemon.database, link)
                 before = client.call("compensation.status")
-                code, _, err = mdof("compensation", "activate", table, "--db", link, "--socket", other.socket)
+                code, _, err = mdof("compensation", "activate", table, "--despite-warnings", "--db", link, "--socket", other.socket)
                 self.assertEqual(code, CONFLICT, err)
                 self.assertIn("mdofd (process", err)
                 self.assertEqual(client.call("compensation.status"), before)
                 code, _, err = mdof("replay", self.log, "--rig", RIG["X"], "--db", link, "--socket", other.socket)
                 self.assertEqual(code, CONFLICT, err)
-            code, out, err = mdof("compensation", "activate", table, "--db",
+            code, out, err = mdof("compensation", "activate", table, "--despite-warnings", "--db",
                                   os.path.join(self.folder.name, "symbolic.db"), "--socket", self.daemon.socket)
             self.assertEqual(code, 0, err)
             self.assertIn("already in force", out)
@@ -104,7 +104,7 @@ class Database(unittest.TestCase):
             self.wait_for_event(watcher, reason)
             self.assertIn(reason, self.lost())
             self.refused(reason, "run.start", axis="X")
-            self.refused(reason, "compensation.activate", table=table)
+            self.refused(reason, "compensation.activate", despite_warnings=True, table=table)
             self.refused(reason, "compensation.deactivate", axis="X")
             self.refused(reason, "compensation.build", runs=[1])
             self.assertEqual(self.client.call("compensation.status"), before)  # machines go on

@@ -278,8 +278,8 @@ class EndToEnd(unittest.TestCase):
     def test_a_stop_that_comes_while_it_starts_is_heeded(self):
         with tempfile.TemporaryDirectory() as folder:
             other = Daemon(MDOFD, folder, simulator("X"))
-            with open(other.database + "-lock", "w") as lock:
-                fcntl.lockf(lock, fcntl.LOCK_EX)  # another writer, which it waits for
+            with open(other.database, "w") as database:
+                fcntl.lockf(database, fcntl.LOCK_EX, 1, 1 << 62)  # another writer, which it waits for
                 process = subprocess.Popen([MDOFD, "--config", other.config], stderr=subprocess.PIPE, text=True)
                 end = time.monotonic() + 4
                 while not catches(process.pid, signal.SIGTERM) and time.monotonic() < end:

@@ -64,7 +64,7 @@ def check(database, run, acknowledged, client, mdof):
     seen = subprocess.run([mdof, "verify", "--recording", recording, "--json"],
                           capture_output=True, text=True)
     assert seen.returncode == 0 and json.loads(seen.stdout)["sound"], seen.stderr
-    chunks = count(recording, "SELECT max(seq) FROM chunk")
+    chunks = count(recording, "SELECT coalesce(max(seq), 0) FROM chunk")
     assert chunks >= acknowledged.chunk, f"{acknowledged.chunk - chunks} acknowledged chunks are lost"
     return len(stored), chunks
 

@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+"""Power cuts at random moments of a simulated run at 4 kHz: nothing acknowledged is lost.
+
+usage: power_cut_test.py MDOFD MDOF [--cuts N] [--durability full|normal] [--seed S]
+
+The database and the recordings are on an ext4 of their own, in a file on a loop device (root only). A
+cut is the kernel's own: the file system is shut down without writing its journal (EXT4_IOC_SHUTDOWN,
+EXT4_GOING_FLAGS_NOLOGFLUSH; linux/fs/ext4/ioctl.c), so that whatever was not flushed to the device is
+gone. Then the daemon is killed, the file system mounted again, and kill_test's checks follow: each
+acknowledged point and chunk is there, database and recording are sound, the daemon serves again.
+
+With --durability normal acknowledged rows must be lost: were none, these cuts would prove nothing. The
+command then exits with 1 if nothing was lost."""
+import argparse
+import atexit
+import fcntl
+import os
+import random
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from kill_test import Acknowledged, check  # noqa: E402
+from mdofd import Daemon, simulator  # noqa: E402
+
+EXT4_IOC_SHUTDOWN = 0x8004587D  # _IOR('X', 125, __u32)
+NO_LOG_FLUSH = struct.pack("=I", 2)
+SKIPPED = 77
+
+
+class Disk:
+    """An ext4 in a file, whose power can be cut."""
+
+    def __init__(self, folder):
+        self.image, self.path = os.path.join(folder, "disk.img"), os.path.join(folder, "disk")
+        os.mkdir(self.path)
+        with open(self.image, "wb") as f:
+            f.truncate(512 << 20)
+        subprocess.run(["mkfs.ext4", "-q", self.image], check=True)
+
+    def mount(self):
+        return subprocess.run(["mount", "-o", "loop", self.image, self.path],
+                              capture_output=True, text=True)
+
+    def cut(self):
+        root = os.open(self.path, os.O_RDONLY)
+        fcntl.ioctl(root, EXT4_IOC_SHUTDOWN, NO_LOG_FLUSH)
+        os.close(root)
+
+    def unmount(self):
+        for _ in range(100):
+            if subprocess.run(["umount", self.path], capture_output=True).returncode == 0:
+                return
+            time.sleep(0.05)
+        raise RuntimeError(f"{self.path} cannot be unmounted")
+
+
+def one_life(client, daemon, disk, chance):
+    """Measures until the power fails. The run, and what the daemon had promised by then."""
+    client.call("live.subscribe", interval_ms=1000)
+    run = client.call("run.start", axis="X")["run"]
+    acknowledged = Acknowledged()
+    listener = threading.Thread(target=acknowledged.listen, args=(client,))
+    listener.start()
+    time.sleep(chance.uniform(0.05, 2.5))
+    disk.cut()
+    daemon.kill()
+    listener.join()
+    daemon.log.close()  # it is on the disk
+    disk.unmount()
+    mounted = disk.mount()
+    assert mounted.returncode == 0, mounted.stderr
+    return run, acknowledged
+
+
+def campaign(options, disk):
+    chance = random.Random(options.seed)
+    config = simulator("X", rate_hz=4000, dwell_s=0.3, targets_mm=(0, 0.5, 1.1, 1.6))
+    daemon = Daemon(options.mdofd, disk.path, config, options.durability)
+    atexit.register(lambda: daemon.process and daemon.process.kill())
+    os.sync()  # the configuration is to outlive the first cut
+    points = chunks = 0
+    losses = []
+    client = daemon.start()
+    for cut in range(options.cuts):
+        run, acknowledged = one_life(client, daemon, disk, chance)
+        points, chunks = points + len(acknowledged.points), chunks + acknowledged.chunk
+        client = daemon.start()
+        try:
+            check(daemon.database, run, acknowledged, client, options.mdof)
+        except Exception as loss:  # any answer but the right one
+            losses.append(f"cut {cut}: {type(loss).__name__}: {loss}")
+    daemon.stop()
+    daemon.log.close()
+    return points, chunks, losses
+
+
+def skip(reason):
+    print(f"skipped: no file system can be mounted here: {reason}")
+    sys.exit(SKIPPED)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("mdofd")
+    parser.add_argument("mdof")
+    parser.add_argument("--cuts", type=int, default=200)
+    parser.add_argument("--durability", default="full")
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    if not shutil.which("mkfs.ext4"):
+        skip("there is no mkfs.ext4 (package e2fsprogs)")
+    with tempfile.TemporaryDirectory() as folder:
+        disk = Disk(folder)
+        mounted = disk.mount()
+        if mounted.returncode != 0:
+            skip(mounted.stderr.strip())
+        try:
+            points, chunks, losses = campaign(options, disk)
+        finally:
+            disk.unmount()
+    assert chunks > 0, "nothing was acknowledged, so nothing was shown"
+    print(f"{options.cuts} power cuts, durability {options.durability}: {points} points and {chunks} "
+          f"chunks acknowledged, lost in {len(losses)} cuts")
+    print("\n".join(losses[:10]))
+    sys.exit(bool(losses) != (options.durability == "normal"))
+
+
+if __name__ == "__main__":
+    main()

@@ -124,7 +124,7 @@ Status Store::check_run(std::int64_t run) {
 
 // In a list a run whose facts are not those that were stored says so; nobody is to build on it.
 Status Store::mark_damage(RunHeader& header) {
-  const Status whole = check_run(header.id);
+  Status whole = check_run(header.id);
   if (whole) return {};
   if (whole.error().code != ErrorCode::bad_input) return whole;
   header.state = RunState::failed;

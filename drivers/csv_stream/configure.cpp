@@ -5,6 +5,7 @@
 
 #include "drivers/csv_stream/csv_stream.h"
 #include "drivers/io/device_lock.h"
+#include "drivers/serial_settings.h"
 
 namespace mdof::drivers {
 namespace {
@@ -27,11 +28,22 @@ void read_source(TomlTable& table, const std::string& base_path, CsvStreamOption
   } else if (source.starts_with("tcp://")) {
     const auto server = parse_endpoint(source.substr(6), 0);
     server ? void(options.server = *server) : table.reject("source", server.error().message);
+  } else if (source.starts_with("serial:/")) {
+    options.port = source.substr(7);
+    read_serial_settings(table, options.line);
   } else {
     table.reject("source",
-                 "must be \"tcp://HOST:PORT\" or \"fifo:PATH\"; a program is started by command = "
+                 "must be \"tcp://HOST:PORT\", \"fifo:PATH\" or \"serial:/dev/...\"; a program is "
+                 "started by command = "
                  "[\"python3\", \"my_probe.py\"]");
   }
+}
+
+void read_header(TomlTable& table, CsvStreamOptions& options) {
+  options.header = table.string("header", "");
+  if (options.header.empty()) return;
+  const auto header = parse_csv_header(options.header + "\n", CsvKind::stream, "header");
+  if (!header) table.reject("header", header.error().message);
 }
 
 CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
@@ -47,6 +59,7 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
   } else {
     read_source(table, context.base_path, options);
   }
+  read_header(table, options);
   // Longer, and the watchdog would take the thread for dead.
   options.start = read_seconds(table, "start_s", options.start, 5);
   options.silence = read_seconds(table, "silence_s", options.silence, 3600);
@@ -60,6 +73,7 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
 std::string identity(const CsvStreamOptions& options) {
   if (options.server) return identity_of(*options.server);
   if (!options.fifo.empty()) return identity_of_path(options.fifo);
+  if (!options.port.empty()) return identity_of_path(options.port);
   std::string text = "program in " + identity_of_path(options.folder) + ":";
   for (const std::string& word : options.command) text += " " + word;
   return text;

@@ -22,6 +22,7 @@ constexpr std::size_t kMostScans = 4096;              // of a block
 std::string describe_source(const CsvStreamOptions& options) {
   if (options.server) return "tcp://" + options.server->text();
   if (!options.fifo.empty()) return "fifo:" + options.fifo;
+  if (!options.port.empty()) return "serial:" + options.port;
   std::string text = "command";
   for (const auto& word : options.command) text += " " + word;
   return text;
@@ -62,7 +63,7 @@ Status CsvStream::open() {
   pace_from_.reset();
   last_received_ns_ = 0;
   MDOF_CHECK(connect());
-  protocol_.emplace(source_, options_.bad_lines);
+  MDOF_CHECK(begin_rows());
   MDOF_CHECK(wait_for_header());
   last_row_ns_ = monotonic_ns();
   return check_columns();
@@ -77,10 +78,20 @@ Status CsvStream::connect() {
   } else if (!options_.fifo.empty()) {
     MDOF_TRY(stream_, open_fifo(options_.fifo));
     waits_for_writer_ = true;
+  } else if (!options_.port.empty()) {
+    MDOF_TRY(stream_, open_serial(options_.port, options_.line));
   } else {
     MDOF_TRY(child_, ChildProcess::start(options_.command, options_.folder));
   }
   return {};
+}
+
+Status CsvStream::begin_rows() {
+  protocol_.emplace(source_, options_.bad_lines);
+  in_first_line_ = !options_.port.empty() && !options_.header.empty();
+  if (options_.header.empty()) return {};
+  std::vector<CsvStreamRow> none;
+  return protocol_->give(options_.header + "\n", none);
 }
 
 Status CsvStream::wait_for_header() {
@@ -88,16 +99,27 @@ Status CsvStream::wait_for_header() {
   while (!protocol_->header()) {
     const auto left = std::chrono::ceil<milliseconds>(until - std::chrono::steady_clock::now());
     if (left.count() <= 0)
-      return io_error(source_ + ": no header line within " +
-                      seconds(nanoseconds(options_.start).count()) +
-                      (waits_for_writer_ ? "; nobody has written to it yet, start the script"
-                                         : "; does the script flush its output, and send a header "
-                                           "line first on each connection? (start_s)"));
+      return no_header({ErrorCode::io, source_ + ": no header line within " +
+                                           seconds(nanoseconds(options_.start).count())});
     if (waits_for_writer_ && !wait_for_bytes(*stream_, left)) continue;
     waits_for_writer_ = false;
-    if (status_ = fetch(left); !status_ && !protocol_->header()) return status_;
+    if (status_ = fetch(left); !status_ && !protocol_->header()) return no_header(status_.error());
   }
   return {};
+}
+
+tl::unexpected<Error> CsvStream::no_header(Error why) const {
+  if (waits_for_writer_)
+    why.message += "; nobody has written to it yet, start the script";
+  else if (!options_.port.empty())
+    why.message +=
+        "; is baud right? A device that sends no header line when the line is opened needs header "
+        "= \"encoder_mm,A_um,...\"";
+  else if (why.code == ErrorCode::io)
+    why.message +=
+        "; does the script flush its output, and send a header line first on each connection? "
+        "(start_s)";
+  return tl::unexpected(std::move(why));
 }
 
 Status CsvStream::check_columns() const {
@@ -109,8 +131,9 @@ Status CsvStream::check_columns() const {
     found += (found.empty() ? "" : ", ") + channel.id;
   }
   for (const auto& id : ids) wanted += (wanted.empty() ? "" : ", ") + id;
-  return bad_input(source_ + ": no column of the header is of the rig: there are " + found +
-                   ", wanted are some of " + wanted + " (as in A_um, A_V, encoder_mm)");
+  return no_header({ErrorCode::bad_input,
+                    source_ + ": no column of the header is of the rig: there are " + found +
+                        ", wanted are some of " + wanted + " (as in A_um, A_V, encoder_mm)"});
 }
 
 Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {
@@ -143,8 +166,15 @@ Status CsvStream::fetch(milliseconds timeout) {
   if (!n) return ended(n.error());
   if (*n == 0) return {};
   const std::int64_t received_ns = monotonic_ns();
+  std::string_view received(bytes.data(), *n);
+  if (in_first_line_) {
+    const std::size_t end = received.find('\n');
+    if (end == std::string_view::npos) return {};
+    received.remove_prefix(end + 1);
+    in_first_line_ = false;
+  }
   std::vector<CsvStreamRow> rows;
-  Status status = protocol_->give({bytes.data(), *n}, rows);
+  Status status = protocol_->give(received, rows);
   if (rows.empty()) return status;
   last_row_ns_ = received_ns;
   if (protocol_->header()->time_column >= 0) MDOF_CHECK(check_pace(rows, received_ns));
@@ -162,7 +192,8 @@ tl::unexpected<Error> CsvStream::ended(const Error& why) {
     }
     return io_error(source_ + ": the program that wrote to it has closed it; start it again");
   }
-  return io_error("tcp://" + why.message + "; does the script still run?");
+  return io_error((options_.server ? "tcp://" : "serial:") + why.message +
+                  (options_.server ? "; does the script still run?" : ""));
 }
 
 void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {

@@ -1,4 +1,4 @@
-// Live rows of a probe log from a script: a command's standard output, a FIFO, or a TCP server.
+// Live rows of a probe log: a command's standard output, a FIFO, a TCP server, a serial line.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,10 @@ namespace mdof::drivers {
 struct CsvStreamOptions {
   std::vector<std::string> command;  // or
   std::string fifo;                  // or
-  std::optional<Endpoint> server;
+  std::optional<Endpoint> server;    // or
+  std::string port;                  // of a serial line
+  SerialSettings line{.baud = 115'200};
+  std::string header;                     // of a source that sends none
   std::string folder;                     // in which the command runs
   std::chrono::milliseconds start{5000};  // the header must have come
   std::chrono::milliseconds silence{2000};
@@ -54,7 +57,9 @@ class CsvStream final : public Driver {
     std::int64_t device_ns, host_ns;
   };
   Status connect();
+  Status begin_rows();
   Status wait_for_header();
+  tl::unexpected<Error> no_header(Error why) const;
   Status check_columns() const;
   ByteStream& stream() { return child_ ? child_->output() : *stream_; }
   Status fetch(std::chrono::milliseconds timeout);
@@ -70,9 +75,10 @@ class CsvStream final : public Driver {
   std::optional<ByteStream> stream_;
   bool waits_for_writer_ = false;  // a FIFO that nobody has written to yet
   std::optional<CsvStreamProtocol> protocol_;
-  DeviceClock clock_{1.0};  // ticks of time_s are nanoseconds
-  std::deque<Row> rows_;    // received, not yet given out
-  Status status_;           // what to say once rows_ is empty
+  DeviceClock clock_{1.0};      // ticks of time_s are nanoseconds
+  std::deque<Row> rows_;        // received, not yet given out
+  Status status_;               // what to say once rows_ is empty
+  bool in_first_line_ = false;  // of a serial line, which may have begun in the middle of it
   std::optional<Moment> pace_from_;
   std::int64_t last_row_ns_ = 0, last_received_ns_ = 0, last_time_ns_ = 0;
 };

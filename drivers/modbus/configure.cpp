@@ -3,6 +3,7 @@
 #include "drivers/channels.h"
 #include "drivers/io/device_lock.h"
 #include "drivers/modbus/modbus_driver.h"
+#include "drivers/serial_settings.h"
 
 namespace mdof::drivers {
 namespace {
@@ -10,20 +11,6 @@ namespace {
 using modbus::Framing;
 using modbus::Profile;
 using modbus::Value;
-
-void read_line(TomlTable& table, Profile& profile) {
-  SerialSettings& serial = profile.serial;
-  serial.baud = static_cast<int>(table.integer("baud", serial.baud));
-  if (serial.baud < 1) table.reject("baud", "must be a rate such as 19200");
-  const std::string parity = table.string("parity", std::string(1, serial.parity));
-  if (parity == "none" || parity == "even" || parity == "odd" || parity == "N" || parity == "E" ||
-      parity == "O")
-    serial.parity = static_cast<char>(parity[0] & ~0x20);
-  else
-    table.reject("parity", "must be none, even or odd");
-  serial.stop_bits = static_cast<int>(table.integer("stop_bits", serial.stop_bits));
-  if (serial.stop_bits != 1 && serial.stop_bits != 2) table.reject("stop_bits", "must be 1 or 2");
-}
 
 void read_ms(TomlTable& table, const char* key, double& ms) {
   ms = table.number(key, ms);
@@ -105,7 +92,7 @@ Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& conte
   if (!profile) return in_context(table.where("profile"), profile.error());
   ModbusSettings settings;
   settings.profile = std::move(*profile);
-  read_line(table, settings.profile);
+  read_serial_settings(table, settings.profile.serial);
   settings.profile.unit = static_cast<int>(table.integer("unit", settings.profile.unit));
   if (settings.profile.unit < 1 || (settings.profile.unit > 247 && settings.profile.unit != 255))
     table.reject("unit", "must be from 1 to 247, or 255");

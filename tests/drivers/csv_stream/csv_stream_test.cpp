@@ -13,6 +13,7 @@
 #include "drivers/csv_stream/device.h"
 #include "tests/drivers/collect.h"
 #include "tests/drivers/served_device.h"
+#include "tests/drivers/served_line.h"
 
 namespace mdof::drivers {
 namespace {
@@ -299,12 +300,68 @@ std::string refusal(const std::string& toml) {
   return spec->make().has_value() && spec->live ? "accepted" : "not made";
 }
 
+// A gauge that sends rows and nothing else, "\r\n" at their ends, from the middle of one on.
+class BareRows final : public SimulatedDevice {
+ public:
+  std::vector<Port> ports() const override { return {{"serial", 0}}; }
+  void opened(std::size_t, int, std::int64_t) override {}
+  void closed(std::size_t, int) override {}
+  std::string exchange(std::size_t, int, std::string_view, std::int64_t) override {
+    const std::string rows = "1.25,-3.5\r\n1.25,-3.5\r\n";
+    return rows.substr(7 * ++turns_ % 11, 7);
+  }
+  bool hangs_up(std::size_t, int) override { return false; }
+
+ private:
+  std::size_t turns_ = 0;
+};
+
+CsvStreamOptions over_serial(const std::string& port, const std::string& header) {
+  CsvStreamOptions options = options_for_test();
+  options.port = port;
+  options.header = header;
+  options.start = milliseconds(300);
+  return options;
+}
+
+TEST(CsvStream, ASerialLineThatSendsNoHeader) {
+  BareRows device;
+  const ServedLine line(device);
+  CsvStream stream("gauge", over_serial(line.path(), "encoder_mm,A_um"));
+  const auto status = stream.open();
+  ASSERT_TRUE(status) << status.error().message;
+  EXPECT_EQ(stream.info().description, "CSV rows of serial:" + line.path());
+  const Collected all = collect(stream, 100);
+  ASSERT_EQ(all.error, "");
+  ASSERT_GE(all.scans.size(), 100u);
+  EXPECT_EQ(all.lost, 0u) << "the half line before the first whole one is no loss";
+  for (const auto& scan : all.scans) ASSERT_EQ(scan, (std::vector<double>{1.25, -3.5}));
+  expect_growing(all.time_ns);
+}
+
+TEST(CsvStream, ASerialLineWithoutAHeaderSaysWhatToWrite) {
+  BareRows device;
+  const ServedLine line(device);
+  CsvStream stream("gauge", over_serial(line.path(), ""));
+  const auto status = stream.open();
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("header = "), std::string::npos) << status.error().message;
+}
+
 TEST(CsvStreamConfiguration, KeysAndTheirErrors) {
   EXPECT_EQ(refusal("source = \"tcp://127.0.0.1:9000\"\nsilence_s = 10\nstart_s = 5"), "accepted");
   EXPECT_EQ(refusal("source = \"fifo:/run/probe\"\nbad_lines = 0"), "accepted");
   EXPECT_EQ(refusal("command = [\"python3\", \"p.py\"]"), "accepted");
+  EXPECT_EQ(refusal("source = \"serial:/dev/ttyUSB0\"\nbaud = 9600\nparity = \"even\"\nstop_bits = "
+                    "2\nheader = \"A_um,encoder_mm\""),
+            "accepted");
   const std::pair<const char*, const char*> wrong[] = {
       {"", "source: is missing"},
+      {"source = \"serial:/dev/ttyS0\"\nbaud = 0", "baud: must be a rate"},
+      {"source = \"serial:/dev/ttyS0\"\nparity = \"mark\"", "parity: must be none"},
+      {"source = \"serial:/dev/ttyS0\"\nheader = \"1,2\"", "header"},
+      {"source = \"serial:ttyS0\"", "source: must be"},
+      {"source = \"tcp://127.0.0.1:9000\"\nbaud = 9600", "baud"},
       {"source = \"udp://x\"", "mdofd.toml:1: source: must be \"tcp://HOST:PORT\""},
       {"source = \"tcp://host\"", "is no address"},
       {"command = []", "must name a program"},

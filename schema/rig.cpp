@@ -173,6 +173,8 @@ void check_machine(TomlTable& table, const Rig& rig) {
                                "it is not given): correct the one that is wrong");
 }
 
+constexpr std::size_t kMostProbes = 1000;  // each is compared with each
+
 void reject_doubles(TomlTable& table, const std::vector<Probe>& probes) {
   for (std::size_t i = 0; i < probes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -233,7 +235,11 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
   for (auto& probe : table.tables("probe")) rig.probes.push_back(read_probe(probe));
   for (auto& plane : table.tables("plane")) rig.planes.push_back(read_plane(plane));
   if (rig.probes.empty()) table.reject("probe", "the rig has no probes; add [[probe]] tables");
-  reject_doubles(table, rig.probes);
+  if (rig.probes.size() > kMostProbes)
+    table.reject("probe", "the rig has " + std::to_string(rig.probes.size()) + " probes, at most " +
+                              std::to_string(kMostProbes) + " can be");
+  else
+    reject_doubles(table, rig.probes);
   MDOF_CHECK(table.finish());
   MDOF_CHECK(check_rig(rig));
   return rig;

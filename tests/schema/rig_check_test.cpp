@@ -55,6 +55,15 @@ void expect_right(const std::string& text) {
   for (const auto& warning : doubtful_values(*rig)) ADD_FAILURE() << warning;
 }
 
+// Two alike among more than a rig can have: the number is what is told, before any are compared.
+TEST(RigCheck, AThousandProbesAreTheMost) {
+  std::string text = kRig;
+  for (int i = 0; i < 999; ++i)
+    text +=
+        "\n[[probe]]\nid = \"A\"\nposition_mm = [10, 0, 0]\nmeasures = \"+Z\"\nrange_um = 200\n";
+  expect_refused(text, {"the rig has 1001 probes, at most 1000"});
+}
+
 TEST(RigCheck, LeavesRightRigsAlone) {
   expect_right(kRig);
   expect_right(with("[10, 0, 0]", "[1.5, 0, 0]", with("[0, 10, 0]", "[0, 1.5, 0]")));  // tiny

@@ -32,12 +32,23 @@ std::string storage_json(const std::string& reason) {
   return json.take();
 }
 
+rpc::ServerOptions server_options(const RpcAccess& access) {
+  rpc::ServerOptions options;
+  options.max_connections = access.connections;
+  options.max_connections_of_user = access.connections_of_user;
+  options.idle_timeout = access.idle;
+  options.kept_for_group = access.cnc_group;
+  return options;
+}
+
 }  // namespace
 
 // Destroyed from the bottom up: stations stop, the server closes, the keeper writes what waits.
 struct App::Parts {
   explicit Parts(Config c)
-      : config(std::move(c)), table("mdofd", kVersion), server(loop, table, {}) {}
+      : config(std::move(c)),
+        table("mdofd", kVersion),
+        server(loop, table, server_options(config.access)) {}
 
   Config config;
   std::optional<Hotplug> hotplug;

@@ -1,5 +1,6 @@
 #include "daemon/config.h"
 
+#include <grp.h>
 #include <sys/un.h>
 
 #include <algorithm>
@@ -46,6 +47,38 @@ Status read_store(TomlTable& root, Config& config) {
   return {};
 }
 
+// An existing group of this machine.
+std::optional<gid_t> group_of(TomlTable& table, const char* key) {
+  if (!table.has(key)) return std::nullopt;
+  const std::string name = table.string(key);
+  const struct group* entry = ::getgrnam(name.c_str());
+  if (entry != nullptr) return entry->gr_gid;
+  table.reject(key, "there is no group \"" + name + "\" on this machine; make it (sudo groupadd " +
+                        name + ") or name another");
+  return std::nullopt;
+}
+
+std::int64_t read_within(TomlTable& table, const char* key, std::int64_t fallback,
+                         std::int64_t least, std::int64_t most) {
+  const std::int64_t x = table.integer(key, fallback);
+  if (x >= least && x <= most) return x;
+  table.reject(key, "must be from " + std::to_string(least) + " to " + std::to_string(most));
+  return fallback;
+}
+
+void read_access(TomlTable& table, RpcAccess& access) {
+  constexpr std::int64_t kMostConnections = 1024, kDay_s = 86400;
+  const auto count = [&](const char* key, std::size_t fallback, std::int64_t least) {
+    return static_cast<std::size_t>(
+        read_within(table, key, static_cast<std::int64_t>(fallback), least, kMostConnections));
+  };
+  access.connections = count("connections", access.connections, 2);
+  access.connections_of_user = count("connections_of_user", access.connections_of_user, 1);
+  access.idle =
+      std::chrono::seconds(read_within(table, "idle_timeout_s", access.idle.count(), 0, kDay_s));
+  access.cnc_group = group_of(table, "cnc_group");
+}
+
 void read_rpc(TomlTable& root, Config& config) {
   config.socket = default_socket();
   config.socket_key = config.source + ": rpc.socket (by default)";
@@ -59,6 +92,7 @@ void read_rpc(TomlTable& root, Config& config) {
                                 " bytes, and a socket's "
                                 "path at most " +
                                 std::to_string(kLongest) + "; choose a shorter one");
+  read_access(*table, config.access);
   if (!table->has("tcp_port")) return;
   const auto port = table->integer("tcp_port");
   if (port < 1 || port > 65535) table->reject("tcp_port", "must be from 1 to 65535");

@@ -1,6 +1,8 @@
 // mdofd.toml: one validated struct before anything is opened.
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -25,12 +27,20 @@ struct AxisConfig {
   bool simulated() const;  // any of them is
 };
 
+// [rpc], as far as it says who may come.
+struct RpcAccess {
+  std::size_t connections = 64, connections_of_user = 32;
+  std::chrono::seconds idle{600};  // without a subscription; 0: for ever
+  std::optional<gid_t> cnc_group;  // one place is kept for its members
+};
+
 struct Config {
   std::filesystem::path database, recordings;
   store::Durability durability = store::Durability::full;
   std::chrono::milliseconds commit_interval{50};
   std::string socket;
   std::optional<std::uint16_t> tcp_port;  // loopback; off unless configured
+  RpcAccess access;
   PipelineOptions measure;
   bool gap_given = false;  // measure.align.max_gap_s; else it follows the devices' rates
   Chain machine;           // [machine]; may be not known

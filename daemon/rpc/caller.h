@@ -26,6 +26,7 @@ class Caller {
   // Who to name in the audit of a writing method; nothing for a TCP client.
   virtual std::optional<Credentials> credentials() const = 0;
   virtual bool may_write() const = 0;
+  virtual bool in_group(gid_t group) const = 0;  // not where there are no credentials
 
   // Until unsubscribe or the end of the connection; again on the same topic: the new interval
   // holds. Errors: not_found (topic), usage (interval below the topic's minimum, too many).

@@ -9,21 +9,11 @@
 
 #include "daemon/rpc/codes.h"
 #include "daemon/rpc/message.h"
+#include "daemon/rpc/peer.h"
 #include "daemon/rpc/server_core.h"
 
 namespace mdof::rpc {
 namespace {
-
-std::optional<Credentials> credentials_of(int socket) {
-  int domain = 0;
-  socklen_t size = sizeof domain;
-  if (::getsockopt(socket, SOL_SOCKET, SO_DOMAIN, &domain, &size) != 0 || domain != AF_UNIX)
-    return std::nullopt;
-  ucred peer{};
-  size = sizeof peer;
-  if (::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return std::nullopt;
-  return Credentials{peer.uid, peer.gid, peer.pid};
-}
 
 bool hung_up(int socket) {
   pollfd entry{socket, 0, 0};
@@ -32,8 +22,9 @@ bool hung_up(int socket) {
 
 }  // namespace
 
-Connection::Connection(ServerCore& server, int socket)
+Connection::Connection(ServerCore& server, int socket, bool kept_place)
     : server_(server),
+      kept_place_(kept_place),
       socket_(*server.loop->context, socket),
       credentials_(credentials_of(socket)),
       input_(server.options.max_line_bytes, Dispatcher::kPadding),
@@ -41,6 +32,11 @@ Connection::Connection(ServerCore& server, int socket)
 
 void Connection::start() {
   wait_readable();
+}
+
+bool Connection::in_group(gid_t group) const {
+  auto& socket = const_cast<asio::posix::stream_descriptor&>(socket_);  // asks for its number only
+  return is_member(socket.native_handle(), group);
 }
 
 bool Connection::may_write() const {
@@ -64,6 +60,7 @@ bool Connection::has_room() const {
 
 void Connection::finish(std::string_view line) {
   --open_exchanges_;
+  active_ = Clock::now();
   if (state_ != State::open) return;
   output_.text() += line;
   wake();
@@ -103,6 +100,7 @@ void Connection::take_line(const LineBuffer::Line& line, std::size_t& left) {
     --left;
     return;
   }
+  active_ = Clock::now();
   const Handled handled =
       server_.dispatcher.handle(line.text, *this, weak_from_this(), output_.text());
   open_exchanges_ += handled.open ? 1 : 0;
@@ -177,7 +175,6 @@ void Connection::received(const std::error_code& error, std::size_t bytes) {
   if (state_ == State::closed) return;
   if (error && error != asio::error::eof) return close();
   input_.received(bytes);
-  active_ = Clock::now();
   if (error) input_ended();
   pump();
 }
@@ -195,11 +192,25 @@ void Connection::input_ended() {
 // socket closed with unread bytes would take the answer with it.
 void Connection::refuse(std::string_view why) {
   append_error(output_.text(), "null", kInvalidRequest, "Invalid Request", why);
+  server_.log(name() + " refused: " + std::string(why));
+  drain();
+}
+
+// The place is another's from then on; a client that comes back to it is told why.
+void Connection::end_idle() {
+  const std::string why = "nothing was asked for " +
+                          std::to_string(server_.options.idle_timeout.count() / 1000) +
+                          " s and nothing is subscribed to: connect again";
+  append_error(output_.text(), "null", kBusy, why);
+  drain();
+  pump();
+}
+
+void Connection::drain() {
   output_.text() += '\n';
   state_ = State::draining;
   draining_since_ = Clock::now();
   server_.topics.forget(*this);
-  server_.log(name() + " refused: " + std::string(why));
 }
 
 void Connection::drop(const std::string& why) {
@@ -230,8 +241,7 @@ void Connection::check_times(Clock::time_point now) {
                 std::to_string(options.stall_timeout.count()) + " ms");
   if (input_ended_ && hung_up(socket_.native_handle())) return close();
   const bool idle = subscriptions.empty() && open_exchanges_ == 0 && output_.unsent() == 0;
-  if (options.idle_timeout.count() > 0 && idle && now - active_ > options.idle_timeout)
-    drop("idle for " + std::to_string(options.idle_timeout.count()) + " ms");
+  if (options.idle_timeout.count() > 0 && idle && now - active_ > options.idle_timeout) end_idle();
 }
 
 std::string Connection::name() const {

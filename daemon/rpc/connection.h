@@ -29,8 +29,8 @@ class Connection final : public Caller,
  public:
   using Clock = std::chrono::steady_clock;
 
-  // Takes the connected, non-blocking socket.
-  Connection(ServerCore& server, int socket);
+  // Takes the connected, non-blocking socket. `kept_place`: it has that of the machine's control.
+  Connection(ServerCore& server, int socket, bool kept_place);
 
   void start();
   void pump();
@@ -39,6 +39,8 @@ class Connection final : public Caller,
 
   std::optional<Credentials> credentials() const override { return credentials_; }
   bool may_write() const override;
+  bool in_group(gid_t group) const override;
+  bool has_kept_place() const { return kept_place_; }
   Status subscribe(std::string_view topic, std::chrono::milliseconds interval) override;
   Status unsubscribe(std::string_view topic) override;
   void finish(std::string_view line) override;
@@ -58,11 +60,14 @@ class Connection final : public Caller,
   void received(const std::error_code& error, std::size_t bytes);
   void input_ended();
   void refuse(std::string_view why);
+  void end_idle();
+  void drain();
   void drop(const std::string& why);
   bool finished();
   std::string name() const;
 
   ServerCore& server_;
+  const bool kept_place_;
   asio::posix::stream_descriptor socket_;
   std::optional<Credentials> credentials_;
   LineBuffer input_;
@@ -73,7 +78,7 @@ class Connection final : public Caller,
   bool input_ended_ = false, shut_down_ = false;
   std::optional<Clock::time_point> line_since_;     // a line has begun and not ended
   std::optional<Clock::time_point> stalled_since_;  // unsent output, and the client takes none
-  Clock::time_point active_;                        // bytes came
+  Clock::time_point active_;                        // a request came, or was answered
   Clock::time_point draining_since_;
 };
 

@@ -36,7 +36,9 @@ struct ServerCore : std::enable_shared_from_this<ServerCore> {
   std::vector<std::shared_ptr<Connection>> connections;
 
  private:
-  void turn_away(int socket);
+  enum class Place { none, ordinary, kept };
+  Place place_for(int socket, std::string& why_not) const;
+  void turn_away(int socket, const std::string& why);
   void sweep();
   void wake_subscribers();
 
@@ -44,7 +46,7 @@ struct ServerCore : std::enable_shared_from_this<ServerCore> {
   bool sweeping_ = false;
   asio::steady_timer due_timer_;
   std::optional<Clock::time_point> due_;
-  bool full_ = false;  // and that was logged
+  std::string told_;  // the log, why a client was turned away
 };
 
 }  // namespace mdof::rpc

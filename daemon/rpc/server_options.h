@@ -1,9 +1,12 @@
 // Every limit of the server, with its default.
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace mdof::rpc {
@@ -30,6 +33,10 @@ struct ServerOptions {
 
   // Of the server.
   std::size_t max_connections = 64;
+  std::size_t max_connections_of_user = 32;  // of one uid; all TCP clients count as one
+  // Of max_connections one is kept for this group, that of the machine's control: whoever else has
+  // all the others.
+  std::optional<gid_t> kept_for_group;
   bool tcp_may_write = false;  // methods that write, over loopback TCP
 
   std::function<void(const std::string&)> log;  // one line; empty: to stderr

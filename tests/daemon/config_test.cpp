@@ -49,6 +49,14 @@ TEST_F(ConfigFile, AGoodOneIsRead) {
   EXPECT_TRUE(config->axes[0].simulated());
 }
 
+TEST_F(ConfigFile, WhoMayComeIsRead) {
+  const auto config = load("[rpc]\nidle_timeout_s = 7\ncnc_group = \"root\"\n" + kAxis);
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->access.idle.count(), 7);
+  EXPECT_EQ(config->access.cnc_group, gid_t{0});
+  EXPECT_EQ(config->access.connections_of_user, 32u);
+}
+
 TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
   const struct {
     std::string text, says;
@@ -59,6 +67,10 @@ TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
       {"[measure]\nsettle_s = -1\n", "must not be negative"},
       {"[measure]\nmax_speed_mm_s = 0\n", "must be more than 0"},
       {"[rpc]\ntcp_port = 70000\n", "from 1 to 65535"},
+      {"[rpc]\nconnections = 1\n", "from 2 to 1024"},
+      {"[rpc]\nconnections_of_user = 0\n", "from 1 to 1024"},
+      {"[rpc]\nidle_timeout_s = -1\n", "from 0 to 86400"},
+      {"[rpc]\ncnc_group = \"no such\"\n", "there is no group \"no such\""},
       {"[rpc\n", "mdofd.toml:3: not valid TOML"},
       {kAxis + "rate_hz = \"fast\"\n", "rate_hz"},
       {kAxis + "rate_hzz = 5\n", "did you mean \"rate_hz\""},

@@ -61,6 +61,7 @@ class Hostile : public ::testing::Test {
     o.request_timeout = 400ms;
     o.stall_timeout = 600ms;
     o.drain_timeout = 400ms;
+    o.max_connections_of_user = 64;
     return o;
   }
   Hostile() { server_.start(); }
@@ -230,7 +231,11 @@ TEST(HostileIdle, TheIdleLimitClosesWhenItIsSet) {
   server.start();
   RawClient client(server.path);
   EXPECT_EQ(client.ask(kGood), kGoodReply);
+  const auto why = client.line();
+  EXPECT_EQ(at(why, "/error/code"), "-32000");
+  EXPECT_NE(why.find("nothing is subscribed to: connect again"), std::string::npos) << why;
   EXPECT_EQ(client.line(), "<closed>");
+  EXPECT_TRUE(server.connections_become(0));
 }
 
 TEST_F(Hostile, OneConnectionTooManyIsToldSo) {

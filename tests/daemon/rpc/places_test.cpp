@@ -1,0 +1,122 @@
+// Who gets one of the connections: nobody has them all, and the machine's control always has one.
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/daemon/rpc/rpc_fixture.h"
+
+namespace mdof::rpc::test {
+namespace {
+
+const std::string kAsk = R"({"jsonrpc":"2.0","method":"get_data","id":1})";
+const std::string kAnswer = R"({"jsonrpc":"2.0","result":["hello",5],"id":1})";
+constexpr uid_t kNobody = 65534;
+
+std::vector<std::unique_ptr<RawClient>> clients_of(const TestServer& server, int count) {
+  std::vector<std::unique_ptr<RawClient>> clients;
+  for (int i = 0; i < count; ++i) {
+    clients.push_back(std::make_unique<RawClient>(server.path));
+    EXPECT_EQ(clients.back()->ask(kAsk), kAnswer);
+  }
+  return clients;
+}
+
+// What a client is told that does not get in; empty: it is in.
+std::string refusal(const TestServer& server) {
+  RawClient client(server.path);
+  const std::string line = client.ask(kAsk);
+  return line == kAnswer ? "" : at(line, "/error/message");
+}
+
+ServerOptions limits(std::size_t of_user) {
+  ServerOptions options;
+  options.max_connections = 6;
+  options.max_connections_of_user = of_user;
+  return options;
+}
+
+TEST(Places, OneUserHasNotThemAllAndIsToldSo) {
+  TestServer server(limits(3));
+  server.start();
+  auto clients = clients_of(server, 3);
+  const std::string why = refusal(server);
+  EXPECT_NE(why.find("uid " + std::to_string(::getuid()) + " has 3 connections"), std::string::npos)
+      << why;
+  EXPECT_NE(why.find("connections_of_user"), std::string::npos) << why;
+  clients.pop_back();
+  ASSERT_TRUE(server.connections_become(2));
+  EXPECT_EQ(refusal(server), "");
+}
+
+// Another user's process, which tells by its exit code whether it got in.
+int exit_code_of_nobody(const TestServer& server) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::setgid(kNobody) != 0 || ::setuid(kNobody) != 0) ::_exit(2);
+    ::_exit(refusal(server).empty() ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WEXITSTATUS(status);
+}
+
+TEST(Places, OthersGetInBesideAUserWhoHasAllOfHis) {
+  if (::getuid() != 0) GTEST_SKIP() << "only root can become another user";
+  TestServer server(limits(3));
+  ::chmod(server.path.c_str(), 0666);
+  server.start();
+  const auto clients = clients_of(server, 3);
+  EXPECT_EQ(exit_code_of_nobody(server), 0);
+}
+
+TEST(Places, OneIsKeptForTheGroupOfTheControl) {
+  ServerOptions options = limits(64);
+  options.kept_for_group = ::getgid();
+  TestServer server(options);
+  server.start();
+  const auto all = clients_of(server, 6);
+  EXPECT_NE(refusal(server).find("all 6 connections are in use"), std::string::npos);
+}
+
+TEST(Places, AUserWhoHasAllOfHisStillGetsTheOneKeptForHisGroup) {
+  ServerOptions options = limits(2);
+  options.kept_for_group = ::getgid();
+  TestServer server(options);
+  server.start();
+  const auto mine = clients_of(server, 3);
+  EXPECT_NE(refusal(server).find("has 2 connections"), std::string::npos);
+}
+
+TEST(Places, WhoIsNotOfTheGroupDoesNotGetIt) {
+  ServerOptions options = limits(64);
+  options.kept_for_group = 4'000'000;  // nobody's
+  TestServer server(options);
+  server.start();
+  const auto others = clients_of(server, 5);
+  EXPECT_NE(refusal(server).find("kept for the group cnc_group"), std::string::npos);
+}
+
+TEST(Places, ASlowAnswerIsNoIdleTime) {
+  ServerOptions options;
+  options.idle_timeout = 200ms;
+  TestServer server(options);
+  std::thread later;
+  server.table.add({.name = "slow",
+                    .summary = "Answers late.",
+                    .result = "1",
+                    .handler = [&](const Params&, Reply reply) {
+                      auto shared = std::make_shared<Reply>(std::move(reply));
+                      later = std::thread([shared] {
+                        std::this_thread::sleep_for(600ms);
+                        (*shared)("1");
+                      });
+                    }});
+  server.start();
+  RawClient client(server.path);
+  EXPECT_EQ(at(client.ask(R"({"jsonrpc":"2.0","method":"slow","id":1})"), "/result"), "1");
+  EXPECT_EQ(client.ask(kAsk), kAnswer);  // asked at once: it is still there
+  later.join();
+}
+
+}  // namespace
+}  // namespace mdof::rpc::test

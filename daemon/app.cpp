@@ -145,6 +145,7 @@ Status App::Parts::listen() {
   add_run_methods(table, *methods);
   add_replay_methods(table, *methods);
   add_compensation_methods(table, *methods);
+  add_history_methods(table, *methods);
   MDOF_TRY(const auto handed_over, systemd::take_listen_sockets());
   for (const int fd : handed_over) MDOF_CHECK(server.listen_fd(fd));
   if (handed_over.empty()) {

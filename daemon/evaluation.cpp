@@ -5,6 +5,7 @@
 #include "algo/compensation.h"
 #include "algo/restate.h"
 #include "algo/usable_runs.h"
+#include "daemon/doer.h"
 #include "daemon/paths.h"
 #include "schema/run_json.h"
 #include "schema/toml_reader.h"
@@ -106,7 +107,7 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
   MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
   table.created_utc = utc_now();
   table.sha256 = table_sha256(table);
-  MDOF_TRY(table.id, store.add_table(table));
+  MDOF_TRY(table.id, store.add_table(table, request.deed));
   MDOF_TRY(auto warnings, table_warnings(runs));
   return BuiltTable{std::move(table), std::move(warnings)};
 }
@@ -121,7 +122,8 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
   const auto now = store.active(table.axis);
   const bool in_force = now && now->table.id == request.table;
   if (warnings.empty() || in_force || request.despite_warnings)
-    return store.activate(request.table, request.actor, utc_now());
+    return store.activate(request.table, doer_text(request.deed.by), request.deed.utc,
+                          request.deed);
   return fail(ErrorCode::conflict,
               "table " + std::to_string(request.table) + " is made of runs with " +
                   std::to_string(warnings.size()) +
@@ -140,7 +142,7 @@ Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessReq
   MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
   MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
   s.created_utc = utc_now();
-  MDOF_TRY(s.id, store.add_squareness(s));
+  MDOF_TRY(s.id, store.add_squareness(s, request.deed));
   return FittedSquareness{std::move(s), algo::inherited_warnings({&x, &y})};
 }
 

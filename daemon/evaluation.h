@@ -28,8 +28,9 @@ Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t
 struct TableRequest {
   std::vector<std::int64_t> runs;
   bool keep_slope = false;
-  bool partial = false;                // take partial runs as well
-  std::optional<Reference> reference;  // none: at the rig's tool point, else at the fixture
+  bool partial = false;                     // take partial runs as well
+  std::optional<Reference> reference;       // none: at the rig's tool point, else at the fixture
+  std::optional<Deed> deed = std::nullopt;  // who asks
 };
 struct BuiltTable {
   CompensationTable table;
@@ -41,7 +42,7 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
 struct ActivationRequest {
   std::int64_t table = 0;
   bool despite_warnings = false;
-  std::string actor;  // who asks
+  Deed deed;  // who asks
 };
 // Puts the table in force. Refuses one whose runs carry warnings unless that is asked for: a
 // controller sees numbers only.
@@ -51,6 +52,7 @@ struct SquarenessRequest {
   std::int64_t run_x = 0, run_y = 0;
   algo::ArtefactGiven given;
   bool partial = false;
+  std::optional<Deed> deed = std::nullopt;  // who asks
 };
 struct FittedSquareness {
   Squareness squareness;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/doer.h"
 #include "daemon/replayer.h"
 #include "daemon/rpc/event_loop.h"
 #include "daemon/rpc/method_table.h"
@@ -41,8 +42,10 @@ void add_server_methods(rpc::MethodTable& table, Methods& m);  // server.info de
 void add_run_methods(rpc::MethodTable& table, Methods& m);     // run.* squareness.fit
 void add_replay_methods(rpc::MethodTable& table, Methods& m);  // run.replay
 void add_compensation_methods(rpc::MethodTable& table, Methods& m);  // compensation.*
+void add_history_methods(rpc::MethodTable& table, Methods& m);       // history.list
 
 // Shared by the groups.
+Deed deed_of(const rpc::Params& params, std::string name);  // by the caller, now
 Result<Axis> axis_param(const rpc::Params& params);
 Result<Reference> reference_param(const rpc::Params& params);  // not given: the fixture
 Result<Station*> station_of(Methods& m, Axis axis);

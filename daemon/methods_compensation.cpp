@@ -24,12 +24,6 @@ constexpr const char* kSense =
     "of its second letter (EYX: Y)";
 constexpr std::int64_t kMaxGridPage = 100;
 
-std::string actor_of(const Params& params) {
-  const auto who = params.caller().credentials();
-  if (!who) return "tcp";
-  return "uid " + std::to_string(who->uid) + " pid " + std::to_string(who->pid);
-}
-
 Result<const store::ActiveTable*> active_table(const Methods& m, const Params& params) {
   MDOF_TRY(const Axis axis, axis_param(params));
   const auto& table = m.active[static_cast<std::size_t>(axis)];
@@ -51,8 +45,9 @@ Result<TableRequest> read_request(const Params& params) {
 }
 
 void build(Methods& m, const Params& params, Reply reply) {
-  const auto request = read_request(params);
+  auto request = read_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
+  request->deed = deed_of(params, "compensation.build");
   answer_from_store(m, std::move(reply),
                     [request = *request](store::Store& store) -> Result<std::string> {
                       MDOF_TRY(const BuiltTable built, build_table(store, request));
@@ -87,7 +82,8 @@ void change_what_is_in_force(Methods& m, Reply reply, std::string reply_members,
 
 void activate(Methods& m, const Params& params, Reply reply) {
   const ActivationRequest request{params.integer("table"),
-                                  params.boolean("despite_warnings", false), actor_of(params)};
+                                  params.boolean("despite_warnings", false),
+                                  deed_of(params, "compensation.activate")};
   change_what_is_in_force(
       m, std::move(reply), "\"table\":" + std::to_string(request.table),
       [request](store::Store& store) { return activate_table(store, request); });
@@ -96,10 +92,11 @@ void activate(Methods& m, const Params& params, Reply reply) {
 void deactivate(Methods& m, const Params& params, Reply reply) {
   const auto axis = axis_param(params);
   if (!axis) return reply(tl::unexpected(axis.error()));
-  change_what_is_in_force(m, std::move(reply), std::string("\"axis\":\"") + letter(*axis) + "\"",
-                          [axis = *axis, actor = actor_of(params)](store::Store& store) {
-                            return store.deactivate(axis, actor, utc_now());
-                          });
+  change_what_is_in_force(
+      m, std::move(reply), std::string("\"axis\":\"") + letter(*axis) + "\"",
+      [axis = *axis, deed = deed_of(params, "compensation.deactivate")](store::Store& store) {
+        return store.deactivate(axis, doer_text(deed.by), deed.utc, deed);
+      });
 }
 
 std::string status(const Methods& m) {

@@ -67,12 +67,13 @@ void replay_log(Methods& m, const Params& params, Reply reply) {
   if (!order) return reply(tl::unexpected(order.error()));
   if (!m.replayer) return reply(io_error("this daemon replays no logs"));
   auto shared = std::make_shared<Reply>(std::move(reply));
-  m.replayer->start(std::move(*order), [shared](const Result<std::int64_t>& id) {
-    if (!id) return (*shared)(tl::unexpected(id.error()));
-    JsonWriter json;
-    json.begin_object().field("run", *id).end_object();
-    (*shared)(json.take());
-  });
+  m.replayer->start(std::move(*order), deed_of(params, "run.replay"),
+                    [shared](const Result<std::int64_t>& id) {
+                      if (!id) return (*shared)(tl::unexpected(id.error()));
+                      JsonWriter json;
+                      json.begin_object().field("run", *id).end_object();
+                      (*shared)(json.take());
+                    });
 }
 
 }  // namespace

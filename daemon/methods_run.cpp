@@ -130,8 +130,9 @@ void start_run(Methods& m, const Params& params, Reply reply) {
   if (!axis) return reply(tl::unexpected(axis.error()));
   const auto station = station_of(m, *axis);
   if (!station) return reply(tl::unexpected(station.error()));
-  const auto request = read_request(params);
+  auto request = read_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
+  request->deed = deed_of(params, "run.start");
   begin_run(**station, *request, std::move(reply));
 }
 
@@ -141,8 +142,9 @@ void resume_run(Methods& m, const Params& params, Reply reply) {
   if (!header) return reply(tl::unexpected(header.error()));
   const auto station = station_of(m, header->axis);
   if (!station) return reply(tl::unexpected(station.error()));
-  const auto request = request_to_resume(m.reader, run, (*station)->config());
+  auto request = request_to_resume(m.reader, run, (*station)->config());
   if (!request) return reply(tl::unexpected(request.error()));
+  request->deed = deed_of(params, "run.resume");
   begin_run(**station, *request, std::move(reply));
 }
 
@@ -150,7 +152,8 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
   const std::int64_t id = params.integer("run");
   for (auto& station : m.stations) {
     if (station->run() != id) continue;
-    return station->stop_run(params.boolean("abort"),
+    const bool abort = params.boolean("abort");
+    return station->stop_run(abort, deed_of(params, abort ? "run.abort" : "run.stop"),
                              answer_with_run(std::move(reply), station->config().rig.axis));
   }
   reply(fail(ErrorCode::not_found,
@@ -173,7 +176,8 @@ Result<std::string> list_runs(Methods& m, const Params& params) {
   return json.take();
 }
 
-std::string run_json(const Run& run, const RunHeader& header, std::size_t most_visits) {
+std::string run_json(const Run& run, const RunHeader& header, const std::vector<Deed>& deeds,
+                     std::size_t most_visits) {
   JsonWriter json;
   json.begin_object();
   write_header_members(json, header);
@@ -184,6 +188,8 @@ std::string run_json(const Run& run, const RunHeader& header, std::size_t most_v
   json.key("plausibility");
   run.plausibility ? write_plausibility(json, *run.plausibility, most_visits)
                    : static_cast<void>(json.null());
+  json.key("history");
+  write_deeds(json, deeds);
   json.end_object();
   return json.take();
 }
@@ -197,8 +203,9 @@ Result<std::string> get_run(Methods& m, const Params& params) {
                      " points, too many for one call; mdof show " + std::to_string(id) +
                      " reads them");
   MDOF_TRY(const auto run, run_stated_at(m.reader, id, reference));
-  std::string whole = run_json(run, run.header, kMaxVisits);
-  return whole.size() <= kPageBytes ? whole : run_json(run, shortened(run.header), 0);
+  MDOF_TRY(const auto deeds, m.reader.deeds_of_run(id));
+  std::string whole = run_json(run, run.header, deeds, kMaxVisits);
+  return whole.size() <= kPageBytes ? whole : run_json(run, shortened(run.header), deeds, 0);
 }
 
 Result<std::string> run_points(Methods& m, const Params& params) {
@@ -231,6 +238,7 @@ void squareness(Methods& m, const Params& params, Reply reply) {
     request.given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
   if (params.has("u_artefact_urad"))
     request.given.u_rad = from_urad(params.number("u_artefact_urad"));
+  request.deed = deed_of(params, "squareness.fit");
   answer_from_store(m, std::move(reply), [request](store::Store& store) -> Result<std::string> {
     MDOF_TRY(const FittedSquareness fitted, fit_squareness(store, request));
     return with_warnings(squareness_json(fitted.squareness), fitted.warnings);
@@ -307,7 +315,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .handler = [&m](const Params& p) { return list_runs(m, p); }});
   table.add({.name = "run.get",
              .summary = "A run without its points: header, provenance, straightness, angles, "
-                        "plausibility.",
+                        "plausibility, who started and stopped it.",
              .params = {run, reference},
              .result =
                  "the run; straightness in um, slopes and angles in urad; n_ij is null where it "

@@ -78,6 +78,12 @@ Result<std::string> subscribe(const Params& params) {
 
 }  // namespace
 
+Deed deed_of(const Params& params, std::string name) {
+  const auto who = params.caller().credentials();
+  if (!who) return deed_now(std::move(name), {-1, -1, -1, "tcp"});
+  return deed_now(std::move(name), doer_of(who->uid, who->gid, who->pid));
+}
+
 Result<Axis> axis_param(const Params& params) {
   if (const auto axis = axis_from(params.string("axis"))) return *axis;
   return fail(ErrorCode::usage,

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "schema/deed.h"
+
 namespace mdof::daemon {
 
 // A run that ended before it was complete.
@@ -21,6 +23,7 @@ struct RunRequest {
   int repeats = 0;                    // 0: until stopped; else complete after so many, both ways
   std::vector<std::string> warnings;  // to be kept with the run
   std::optional<CutOffRun> resumes;   // goes on from there
+  std::optional<Deed> deed = std::nullopt;  // who asks for it
 };
 
 }  // namespace mdof::daemon

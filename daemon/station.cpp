@@ -110,6 +110,7 @@ PipelineOptions Station::with_rates(PipelineOptions options) const {
 
 NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& options) const {
   NewRun run;
+  run.deed = request.deed;
   RunHeader& h = run.header;
   if (request.resumes) h.supersedes = request.resumes->id;
   h.axis = config_.rig.axis;
@@ -197,7 +198,7 @@ void Station::begin_run(NewRun description, const RunRequest& request, const Opt
   done(io_error("the store is behind; try again"));
 }
 
-void Station::stop_run(bool abort, RunDone done) {
+void Station::stop_run(bool abort, const Deed& deed, RunDone done) {
   if (shared_->run <= 0) {
     return done(fail(ErrorCode::not_found,
                      std::string("no run of axis ") + letter(config_.rig.axis) + " is under way"));
@@ -205,6 +206,7 @@ void Station::stop_run(bool abort, RunDone done) {
   Item item;
   item.kind = Item::Kind::stop;
   item.abort = abort;
+  item.deed = deed;
   item.done = std::move(done);
   shared_->queue.push_always(std::move(item));
 }

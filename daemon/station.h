@@ -45,7 +45,7 @@ class Station {
 
   void start_run(const RunRequest& request, const RunDone& done);
   // `done`: the id of the run to read (see Storekeeper::end_run), once it is on the disk.
-  void stop_run(bool abort, RunDone done);
+  void stop_run(bool abort, const Deed& deed, RunDone done);
   // The run under way: 0 none, -1 about to begin.
   std::int64_t run() const { return shared_->run.load(); }
   // The store gave up on this run.
@@ -71,6 +71,7 @@ class Station {
     std::shared_ptr<const PipelineOptions> options;  // of the run to attach
     std::shared_ptr<Beginning> beginning;            // of a run that goes on from another
     bool abort = false;
+    std::optional<Deed> deed;  // who stops
     std::string reason;
     drivers::SourceInfo source;
     std::uint64_t pass = 0;  // of a source that is read once a run
@@ -109,7 +110,7 @@ class Station {
   void keep_new_points(const std::vector<MeasuredPoint>& points);
   void attach(Item& item);
   void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
-              RunDone done);
+              RunDone done, const std::optional<Deed>& deed = std::nullopt);
   const Pipeline* pipeline() const;
   void note_newest();
   void show_live();

@@ -164,7 +164,7 @@ void Station::handle(Item& item) {
     case Item::Kind::stop:
       if (!open_) return item.done(fail(ErrorCode::not_found, "the run has just ended"));
       return finish(item.abort ? RunState::aborted : RunState::complete,
-                    item.abort ? "aborted" : "", item.source, item.done);
+                    item.abort ? "aborted" : "", item.source, item.done, item.deed);
     case Item::Kind::ended:
       if (!open_ || !of_this_pass(item)) return;
       return finish(item.reason.empty() ? RunState::complete : RunState::failed, item.reason,
@@ -281,7 +281,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
 }
 
 void Station::finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
-                     RunDone done) {
+                     RunDone done, const std::optional<Deed>& deed) {
   if (!config_.live())
     acquisitions_.front()->cease();  // what is still on its way belongs to this pass
   auto result = open_->pipeline.finish();
@@ -321,7 +321,7 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
   const std::int64_t id = open->id;
   const Axis axis = config_.rig.axis;
   const RunState became = run.header.state;
-  keeper_.end_run(id, std::move(run), differs,
+  keeper_.end_run(id, std::move(run), {differs, deed},
                   [shared = shared_, id, axis, became,
                    done = std::move(done)](const Result<std::int64_t>& stored) {
                     shared->run = 0;

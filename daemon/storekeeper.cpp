@@ -160,10 +160,10 @@ Result<store::RecordingWriter> Storekeeper::create_recording(const NewRun& run) 
 
 Result<std::int64_t> Storekeeper::begin(NewRun& run) {
   if (const std::string reason = fault(); !reason.empty()) return io_error(reason);
-  if (run.recording.empty()) return store_.begin_run(run.header);
+  if (run.recording.empty()) return store_.begin_run(run.header, run.deed);
   auto writer = run.begun ? std::move(*run.begun) : create_recording(run);
   if (!writer) return tl::unexpected(writer.error());
-  MDOF_TRY(const std::int64_t id, store_.begin_run(run.header));
+  MDOF_TRY(const std::int64_t id, store_.begin_run(run.header, run.deed));
   recordings_.emplace(id, Recording{std::move(*writer), store::FileWatch(run.recording)});
   return id;
 }
@@ -194,7 +194,7 @@ void Storekeeper::append_points(std::int64_t run, std::vector<MeasuredPoint> poi
       [this, run, shared, done = std::move(done)] { done(keep_points(run, *shared)); });
 }
 
-Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, bool differs) {
+Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, RunEnding how) {
   if (const auto recording = recordings_.find(run); recording != recordings_.end()) {
     auto sealed = recording->second.writer.finish(utc_now());
     recordings_.erase(recording);
@@ -205,9 +205,10 @@ Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, bool differ
       result.header.provenance.recording_sha256 = *sealed;
     }
   }
-  if (incomplete_.erase(run) > 0) differs = !result.points.empty();
-  const store::RunEnd whole = end_of(result);
-  if (!differs) {
+  if (incomplete_.erase(run) > 0) how.differs = !result.points.empty();
+  store::RunEnd whole = end_of(result);
+  whole.deed = how.deed;
+  if (!how.differs) {
     MDOF_CHECK(end_or_wait(run, whole));
     return run;
   }
@@ -225,11 +226,12 @@ Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
   return ended;
 }
 
-void Storekeeper::end_run(std::int64_t run, Run result, bool differs,
+void Storekeeper::end_run(std::int64_t run, Run result, RunEnding how,
                           std::function<void(Result<std::int64_t>)> done) {
   auto shared = std::make_shared<Run>(std::move(result));
-  queue_.push_always(
-      [this, run, shared, differs, done = std::move(done)] { done(end(run, *shared, differs)); });
+  queue_.push_always([this, run, shared, how = std::move(how), done = std::move(done)] {
+    done(end(run, *shared, how));
+  });
 }
 
 }  // namespace mdof::daemon

@@ -31,6 +31,13 @@ struct NewRun {
   std::filesystem::path recording;  // empty: not recorded (a replay)
   RecordingHeader recording_header;
   std::optional<store::RecordingWriter> begun;  // a recording that has a beginning already
+  std::optional<Deed> deed = std::nullopt;      // who asked for it
+};
+
+// How a run ends, beside what it came to.
+struct RunEnding {
+  bool differs = false;  // from the points already stored
+  std::optional<Deed> deed = std::nullopt;
 };
 
 class Storekeeper {
@@ -66,9 +73,10 @@ class Storekeeper {
   bool record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait);
   void append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                      std::function<void(Status)> done);
-  // Seals the recording and ends the run. If `result` differs from the points already stored, they
-  // stay, and the whole result is stored as a new run that supersedes them; gives the id to read.
-  void end_run(std::int64_t run, Run result, bool differs,
+  // Seals the recording and ends the run. If the result differs from the points already stored,
+  // they stay, and the whole result is stored as a new run that supersedes them; gives the id to
+  // read.
+  void end_run(std::int64_t run, Run result, RunEnding how,
                std::function<void(Result<std::int64_t>)> done);
 
   // Why nothing can be stored: the database was deleted, replaced or cut short under us. Empty:
@@ -86,7 +94,7 @@ class Storekeeper {
   void watch_database();
   void end_what_can_be();
   Result<std::int64_t> begin(NewRun& run);
-  Result<std::int64_t> end(std::int64_t run, Run& result, bool differs);
+  Result<std::int64_t> end(std::int64_t run, Run& result, RunEnding how);
   Status end_or_wait(std::int64_t run, const store::RunEnd& end);
 
   struct Recording {

@@ -22,11 +22,11 @@ namespace mdof::store {
 
 inline constexpr int kLedgerSchema = 8;  // the migration that made it
 
-enum class Fact { run, run_end, squareness, table, activation, deactivation };
+enum class Fact { run, run_end, squareness, table, activation, deactivation, deed };
 
 // Within the transaction that stored the fact.
 Status add_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
-// Links all facts of a database from before it had a ledger.
+// Links all facts of a database from before it had a ledger; of deeds there were none then.
 Status link_old_facts(sqlite::Connection& connection);
 
 // Error (bad_input): the fact is not what was stored, or has no link.

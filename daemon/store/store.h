@@ -14,6 +14,7 @@
 #include "daemon/store/study_record.h"
 #include "daemon/store/writer_lock.h"
 #include "schema/compensation_table.h"
+#include "schema/deed.h"
 #include "schema/result.h"
 #include "schema/run.h"
 #include "schema/sqlite.h"
@@ -43,6 +44,7 @@ struct RunEnd {
   std::vector<AngleFigure> angles;
   std::optional<Plausibility> plausibility = std::nullopt;
   std::optional<Temperature> temperature = std::nullopt;
+  std::optional<Deed> deed = std::nullopt;  // of who asked for it
 };
 
 // A table in force.
@@ -63,6 +65,7 @@ struct Activation {
 std::string activation_json(const std::string& members, const Activation& activation);
 
 // Thread-bound. A message names the file; not_found names the run or table that is not there.
+// What somebody asked for takes a deed: who did it, stored in the same transaction.
 // Doubles come back with the bits that they went in with; a NaN comes back as a NaN.
 class Store {
  public:
@@ -72,10 +75,11 @@ class Store {
   // ---- runs ----
   // A whole run in one transaction: all of it is stored or nothing. The header's id is not used;
   // its state must not be open. Gives the run's id.
-  Result<std::int64_t> add_run(const Run& run);
+  Result<std::int64_t> add_run(const Run& run, const std::optional<Deed>& deed = std::nullopt);
   // A run that is being measured: begun, filled and ended, each call durable on return. Only this
   // store can fill it; if it ends before the run does, the run is `aborted` and says "interrupted".
-  Result<std::int64_t> begin_run(const RunHeader& header);
+  Result<std::int64_t> begin_run(const RunHeader& header,
+                                 const std::optional<Deed>& deed = std::nullopt);
   Status append_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
   Status end_run(std::int64_t run, const RunEnd& end);
   // Ends it and stores what it turned out to be as a run that supersedes it, in one transaction.
@@ -97,21 +101,31 @@ class Store {
   Result<std::string> result_sha256(std::int64_t run);
 
   // ---- squareness ----
-  Result<std::int64_t> add_squareness(const Squareness& squareness);
+  Result<std::int64_t> add_squareness(const Squareness& squareness,
+                                      const std::optional<Deed>& deed = std::nullopt);
   Result<std::vector<Squareness>> list_squareness(std::int64_t offset, std::int64_t count);
 
   // ---- compensation tables ----
-  Result<std::int64_t> add_table(const CompensationTable& table);
+  Result<std::int64_t> add_table(const CompensationTable& table,
+                                 const std::optional<Deed>& deed = std::nullopt);
   Result<CompensationTable> table(std::int64_t id);
   Result<std::vector<CompensationTable>> list_tables(std::int64_t offset, std::int64_t count,
                                                      std::optional<Axis> axis = std::nullopt);
   // Puts a table in force on its axis; gives the new generation. Generations rise strictly over all
   // axes, so that one number tells a client whether anything has changed.
-  Result<Activation> activate(std::int64_t table, const std::string& actor, const std::string& utc);
+  Result<Activation> activate(std::int64_t table, const std::string& actor, const std::string& utc,
+                              const std::optional<Deed>& deed = std::nullopt);
   // No table is in force on the axis from then on.
-  Result<Activation> deactivate(Axis axis, const std::string& actor, const std::string& utc);
+  Result<Activation> deactivate(Axis axis, const std::string& actor, const std::string& utc,
+                                const std::optional<Deed>& deed = std::nullopt);
   Result<ActiveTable> active(Axis axis);  // not_found where none is in force
   Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
+
+  // ---- who did it ----
+  // With a run, or with one that it supersedes; in order.
+  Result<std::vector<Deed>> deeds_of_run(std::int64_t run);
+  Result<std::vector<Deed>> list_deeds(std::int64_t offset, std::int64_t count);  // newest first
+  Result<std::int64_t> count_deeds();
 
   // ---- sensitivity studies ----
   // A study is begun, its checkpoint replaced as it goes on, and ended: complete, or interrupted
@@ -174,6 +188,9 @@ class Store {
   Result<CompensationTable> table_of(sqlite::Statement& row);
   Result<std::vector<std::int64_t>> sources(std::int64_t table);
   Result<std::int64_t> next_generation(const std::string& utc);
+  // deeds.cpp
+  Status insert_deed(std::string_view subject, std::int64_t row, const std::optional<Deed>& deed);
+  Result<std::vector<Deed>> read_deeds(sqlite::Statement& rows);
   // study_write.cpp
   Status replace_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
   Status insert_outcome(std::int64_t study, const StudyOutcome& outcome);

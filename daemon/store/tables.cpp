@@ -94,7 +94,7 @@ Squareness squareness_of(const Statement& row) {
 
 }  // namespace
 
-Result<std::int64_t> Store::add_squareness(const Squareness& s) {
+Result<std::int64_t> Store::add_squareness(const Squareness& s, const std::optional<Deed>& deed) {
   for (const std::int64_t run : {s.run_x, s.run_y})
     MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
@@ -112,6 +112,7 @@ Result<std::int64_t> Store::add_squareness(const Squareness& s) {
   MDOF_CHECK(insert.run());
   const std::int64_t id = connection_.last_insert_rowid();
   MDOF_CHECK(add_link(connection_, Fact::squareness, id));
+  MDOF_CHECK(insert_deed("squareness", id, deed));
   MDOF_CHECK(transaction.commit());
   return id;
 }
@@ -129,7 +130,8 @@ Result<std::vector<Squareness>> Store::list_squareness(std::int64_t offset, std:
   }
 }
 
-Result<std::int64_t> Store::add_table(const CompensationTable& table) {
+Result<std::int64_t> Store::add_table(const CompensationTable& table,
+                                      const std::optional<Deed>& deed) {
   MDOF_CHECK(check_shape(table));
   for (const std::int64_t run : table.runs)
     MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
@@ -152,6 +154,7 @@ Result<std::int64_t> Store::add_table(const CompensationTable& table) {
   for (std::size_t row = 0; row < table.runs.size(); ++row)
     MDOF_CHECK(source.bind(id).bind(static_cast<std::int64_t>(row)).bind(table.runs[row]).run());
   MDOF_CHECK(add_link(connection_, Fact::table, id));
+  MDOF_CHECK(insert_deed("compensation_table", id, deed));
   MDOF_CHECK(transaction.commit());
   return id;
 }
@@ -237,7 +240,7 @@ Result<std::int64_t> Store::next_generation(const std::string& utc) {
 }
 
 Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
-                                   const std::string& utc) {
+                                   const std::string& utc, const std::optional<Deed>& deed) {
   MDOF_TRY(const CompensationTable wanted, this->table(table));
   const auto now = active(wanted.axis);
   if (now && now->table.id == table) return Activation{now->generation, false};
@@ -253,11 +256,13 @@ Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
                  .bind(std::string_view(utc))
                  .run());
   MDOF_CHECK(add_link(connection_, Fact::activation, generation));
+  MDOF_CHECK(insert_deed("activation", generation, deed));
   MDOF_CHECK(transaction.commit());
   return Activation{generation, true};
 }
 
-Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const std::string& utc) {
+Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const std::string& utc,
+                                     const std::optional<Deed>& deed) {
   MDOF_TRY(const std::int64_t last, generation());
   const auto now = active(axis);
   if (!now && now.error().code == ErrorCode::not_found) return Activation{last, false};
@@ -271,6 +276,7 @@ Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const 
                  .bind(std::string_view(utc))
                  .run());
   MDOF_CHECK(add_link(connection_, Fact::deactivation, generation));
+  MDOF_CHECK(insert_deed("deactivation", generation, deed));
   MDOF_CHECK(transaction.commit());
   return Activation{generation, true};
 }

@@ -51,13 +51,13 @@ void bind_errors(Statement& insert, const AxisErrors& errors) {
 
 RunEnd end_of(const Run& run) {
   const RunHeader& header = run.header;
-  return {header.state,     header.scans, header.scans_lost, header.warnings,   {},
-          run.straightness, run.angles,   run.plausibility,  header.temperature};
+  return {header.state,     header.scans, header.scans_lost, header.warnings,    {},
+          run.straightness, run.angles,   run.plausibility,  header.temperature, std::nullopt};
 }
 
 }  // namespace
 
-Result<std::int64_t> Store::add_run(const Run& run) {
+Result<std::int64_t> Store::add_run(const Run& run, const std::optional<Deed>& deed) {
   assert(run.header.state != RunState::open);
   // Of a long run on another core while its rows are written; a short one is not worth a thread.
   constexpr std::size_t kLong = 500;
@@ -65,6 +65,7 @@ Result<std::int64_t> Store::add_run(const Run& run) {
   auto sha256 = std::async(policy, [&run] { return store::result_sha256(run); });
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(const std::int64_t id, insert_whole(run, sha256));
+  MDOF_CHECK(insert_deed("run", id, deed));
   MDOF_CHECK(transaction.commit());
   return id;
 }
@@ -79,9 +80,10 @@ Result<std::int64_t> Store::insert_whole(const Run& run, std::future<std::string
   return id;
 }
 
-Result<std::int64_t> Store::begin_run(const RunHeader& header) {
+Result<std::int64_t> Store::begin_run(const RunHeader& header, const std::optional<Deed>& deed) {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(const std::int64_t id, insert_run(header));
+  MDOF_CHECK(insert_deed("run", id, deed));
   MDOF_CHECK(transaction.commit());
   open_runs_[id] = 0;
   return id;
@@ -111,7 +113,8 @@ Status Store::insert_all_of_end(std::int64_t run, const RunEnd& end) {
   MDOF_CHECK(insert_figures(run, end));
   MDOF_CHECK(insert_plausibility(run, end));
   MDOF_TRY(const std::string sha256, result_sha256(run));
-  return insert_end(run, end, sha256);
+  MDOF_CHECK(insert_end(run, end, sha256));
+  return insert_deed("run", run, end.deed);
 }
 
 Result<std::int64_t> Store::end_and_supersede(std::int64_t run, const RunEnd& end, Run result) {

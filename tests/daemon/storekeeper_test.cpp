@@ -60,7 +60,7 @@ class StorekeeperTest : public ::testing::Test {
     result.header.state = RunState::complete;
     result.header.scans = 7;
     result.points = points;
-    keeper_->end_run(run, result, differs, [&](const auto& ended) { id.set_value(ended); });
+    keeper_->end_run(run, result, {differs}, [&](const auto& ended) { id.set_value(ended); });
     return id.get_future().get();
   }
   Status append(std::int64_t run, const std::vector<MeasuredPoint>& points) {

@@ -17,6 +17,7 @@ using Action = std::function<Status()>;
 void add_solve(CLI::App& app, Action& chosen);
 void add_replay(CLI::App& app, Action& chosen);
 void add_runs(CLI::App& app, Action& chosen);
+void add_history(CLI::App& app, Action& chosen);
 void add_show(CLI::App& app, Action& chosen);
 void add_analyse(CLI::App& app, Action& chosen);
 void add_squareness(CLI::App& app, Action& chosen);

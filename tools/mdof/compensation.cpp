@@ -2,8 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
+#include "daemon/doer.h"
 #include "daemon/evaluation.h"
-#include "daemon/paths.h"
 #include "schema/run_json.h"
 #include "tools/mdof/command.h"
 #include "tools/mdof/compensation_text.h"
@@ -37,9 +37,15 @@ Status print_table(const CompensationTable& table, std::int64_t generation, bool
 
 // ---- build ----
 
+// What this program does itself.
+Deed here(const char* name) {
+  return daemon::deed_now(name, daemon::this_process());
+}
+
 Result<daemon::BuiltTable> build_and_store(const CompensationCommand& command) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  daemon::TableRequest request{command.runs, command.keep_slope, command.partial, {}};
+  daemon::TableRequest request{
+      command.runs, command.keep_slope, command.partial, {}, here("compensation.build")};
   if (!command.reference.empty())
     reference_from(command.reference, request.reference.emplace());  // the option takes no other
   return daemon::build_table(store, request);
@@ -90,8 +96,6 @@ Status build(const CompensationCommand& asked) {
 
 // ---- activate and deactivate ----
 
-constexpr const char* kActor = "mdof";
-
 // What came of it as text; the same JSON from mdofd and from here.
 Status print_activation(const CompensationCommand& command, const std::string& reply,
                         const std::string& done, const std::string& already) {
@@ -108,8 +112,8 @@ Result<std::string> activated(const CompensationCommand& command) {
   const std::string despite = command.despite_warnings ? ",\"despite_warnings\":true" : "";
   if (mdofd) return mdofd->call("compensation.activate", "{" + table + despite + "}");
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(const auto done,
-           daemon::activate_table(store, {command.table, command.despite_warnings, kActor}));
+  MDOF_TRY(const auto done, daemon::activate_table(store, {command.table, command.despite_warnings,
+                                                           here("compensation.activate")}));
   return store::activation_json(table, done);
 }
 
@@ -124,7 +128,9 @@ Result<std::string> deactivated(const CompensationCommand& command) {
   MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
   if (mdofd) return mdofd->call("compensation.deactivate", "{" + axis + "}");
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(const auto done, store.deactivate(*axis_from(command.axis), kActor, daemon::utc_now()));
+  const Deed deed = here("compensation.deactivate");
+  MDOF_TRY(const auto done,
+           store.deactivate(*axis_from(command.axis), daemon::doer_text(deed.by), deed.utc, deed));
   return store::activation_json(axis, done);
 }
 

@@ -36,6 +36,7 @@ void declare(CLI::App& app, Action& chosen) {
   add_replay(app, chosen);
   add_runs(app, chosen);
   add_show(app, chosen);
+  add_history(app, chosen);
   add_analyse(app, chosen);
   add_squareness(app, chosen);
   add_compensation(app, chosen);

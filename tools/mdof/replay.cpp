@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "algo/restate.h"
+#include "daemon/doer.h"
 #include "daemon/evaluation.h"
 #include "daemon/replay_order.h"
 #include "schema/files.h"
@@ -111,7 +112,8 @@ Result<Run> replay_and_store(const ReplayCommand& command, const daemon::ReplayO
   MDOF_TRY(Run run, replay_here(order));
   MDOF_CHECK(asked_reference(command, run));  // what cannot be shown is not stored
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(run.header.id, store.add_run(run));
+  MDOF_TRY(run.header.id,
+           store.add_run(run, daemon::deed_now("run.replay", daemon::this_process())));
   return run;
 }
 

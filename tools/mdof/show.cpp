@@ -1,10 +1,12 @@
 // mdof show RUN, mdof analyse RUN: a stored run, whole or its figures.
 #include <CLI/CLI.hpp>
 
+#include "daemon/doer.h"
 #include "daemon/evaluation.h"
 #include "schema/run_json.h"
 #include "tools/mdof/command.h"
 #include "tools/mdof/database.h"
+#include "tools/mdof/history_text.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/run_choice.h"
@@ -21,10 +23,13 @@ struct ShowCommand {
   bool csv = false, json = false, all_warnings = false;
 };
 
-// run_json() with one member more.
-std::string with_result_hash(std::string json, const std::string& sha256) {
+// run_json() with two members more.
+std::string with_hash_and_history(std::string json, const std::string& sha256,
+                                  const std::vector<Deed>& deeds) {
   json.pop_back();
-  return json + ",\"result_sha256\":\"" + sha256 + "\"}";
+  JsonWriter history;
+  daemon::write_deeds(history, deeds);
+  return json + ",\"result_sha256\":\"" + sha256 + "\",\"history\":" + history.take() + "}";
 }
 
 Result<Run> load(store::Store& store, const ShowCommand& command) {
@@ -48,8 +53,11 @@ Status show(const ShowCommand& command) {
     return write_out(points_csv(run));
   }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
-  if (command.json) return write_line(with_result_hash(run_json(run), sha256));
-  return write_out(show_text(run, sha256, terminal_columns(), command.all_warnings));
+  MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
+  if (command.json) return write_line(with_hash_and_history(run_json(run), sha256, deeds));
+  const std::size_t width = terminal_columns();
+  return write_out(show_text(run, sha256, width, command.all_warnings) +
+                   history_text(deeds, width));
 }
 
 std::string analysis_json(const Run& run) {

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
+#include "daemon/doer.h"
 #include "daemon/evaluation.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -30,7 +31,11 @@ struct SquarenessCommand {
 
 Result<daemon::FittedSquareness> fit(const SquarenessCommand& command) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  daemon::SquarenessRequest request{command.run_x, command.run_y, {}, command.partial};
+  daemon::SquarenessRequest request{command.run_x,
+                                    command.run_y,
+                                    {},
+                                    command.partial,
+                                    daemon::deed_now("squareness.fit", daemon::this_process())};
   if (command.artefact_urad) request.given.angle_error_rad = from_urad(*command.artefact_urad);
   if (command.u_artefact_urad) request.given.u_rad = from_urad(*command.u_artefact_urad);
   return daemon::fit_squareness(store, request);

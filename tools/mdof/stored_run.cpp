@@ -2,6 +2,7 @@
 
 #include "daemon/evaluation.h"
 #include "daemon/store/store.h"
+#include "tools/mdof/history_text.h"
 #include "tools/mdof/json_read.h"
 #include "tools/mdof/run_tables.h"
 #include "tools/mdof/terminal.h"
@@ -16,7 +17,9 @@ Result<std::string> read_text(rpc::Client& daemon, std::int64_t id) {
   MDOF_TRY(store::Store store, store::Store::open(database, store::Access::read_only));
   MDOF_TRY(const Run run, daemon::run_stated_at(store, id, Reference::fixture));
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
-  return show_text(run, sha256, terminal_columns());
+  MDOF_TRY(const auto deeds, store.deeds_of_run(id));
+  const std::size_t width = terminal_columns();
+  return show_text(run, sha256, width) + history_text(deeds, width);
 }
 
 }  // namespace

@@ -281,7 +281,8 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
     whole.header.temperature = Temperature{20, 19, 21};
     ASSERT_TRUE(store->add_run(whole));
     ASSERT_TRUE(store->add_squareness({0, 1, 1, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}));
-    ASSERT_TRUE(store->activate(store->add_table(make_table({1})).value(), "me", "now"));
+    ASSERT_TRUE(store->activate(store->add_table(make_table({1})).value(), "me", "now",
+                                Deed{"compensation.activate", {}, "now"}));
     ASSERT_TRUE(store->deactivate(Axis::x, "me", "now"));
     ASSERT_TRUE(store->end_study(store->begin_study({}).value(), {}, std::nullopt));
   }
@@ -300,7 +301,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
       EXPECT_TRUE(contains(done.error().message, "append only")) << done.error().message;
     }
   }
-  EXPECT_EQ(tables, 17);
+  EXPECT_EQ(tables, 18);
 }
 
 TEST_F(StoreTest, KeepsSquareness) {

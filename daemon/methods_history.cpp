@@ -1,0 +1,38 @@
+// history.list.
+#include "daemon/methods.h"
+#include "daemon/page.h"
+
+namespace mdof::daemon {
+namespace {
+
+using rpc::Params;
+
+constexpr std::int64_t kMaxDeedsPage = 200;
+
+Result<std::string> list_history(Methods& m, const Params& params) {
+  const Page page = page_of(params, kMaxDeedsPage);
+  MDOF_TRY(const auto deeds, m.reader.list_deeds(page.offset, page.count));
+  MDOF_TRY(const auto total, m.reader.count_deeds());
+  JsonWriter json;
+  json.begin_object().field("total", total).field("offset", page.offset).key("history");
+  json.begin_array();
+  for (const Deed& deed : deeds)
+    if (!add_to_page(json, &deed == &deeds.front(), deed_json(deed))) break;
+  json.end_array().end_object();
+  return json.take();
+}
+
+}  // namespace
+
+void add_history_methods(rpc::MethodTable& table, Methods& m) {
+  table.add({.name = "history.list",
+             .summary = "Who did what with runs, squareness and tables: newest first, a page at a "
+                        "time.",
+             .params = {offset_param(), count_param(kMaxDeedsPage)},
+             .result = "total, history: deed (run.start, compensation.activate, ...), of and id "
+                       "(what it was done to), utc, uid, gid, pid, user",
+             .example = R"({"offset": 0, "count": 20})",
+             .handler = [&m](const Params& p) { return list_history(m, p); }});
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,86 @@
+#!/usr/bin/python3
+"""Who did it: by uid, gid and pid of the process that asked, from the socket and from the command line.
+
+usage: history_test.py MDOFD MDOF"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from mdofd import RIG, Daemon, simulator  # noqa: E402
+
+MDOFD, MDOF = sys.argv[1:3]
+ME = {"uid": os.getuid(), "gid": os.getgid(), "pid": os.getpid()}
+
+
+def mdof(*words):
+    process = subprocess.Popen([MDOF, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    out, err = process.communicate()
+    assert process.returncode == 0, err
+    return process.pid, out
+
+
+def write_log(path):
+    with open(path, "w") as log:
+        log.write("time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n")
+        for i in range(2400):
+            target, at = divmod(i, 600)
+            encoder = target + (0 if at < 500 else (at - 500) / 100)
+            log.write(f"{i * 1e-3:.6f},{encoder:.6f},0.1,0.2,0.3,0.4,{0.5 + target / 10}\n")
+
+
+class History(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.log = os.path.join(self.folder.name, "log.csv")
+        write_log(self.log)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def serve(self, config=""):
+        daemon = Daemon(MDOFD, os.path.join(self.folder.name, "d"), config + simulator("X"))
+        self.addCleanup(lambda: daemon.process.poll() is None and daemon.stop())
+        return daemon, daemon.start()
+
+    def table(self, client):
+        with open(RIG["X"]) as rig:
+            run = client.call("run.replay", path=self.log, rig=rig.read())["run"]
+        return client.call("compensation.build", runs=[run])["table"]
+
+    def test_a_client_is_named_with_all_that_it_changes(self):
+        daemon, client = self.serve()
+        run = client.call("run.start", axis="X")["run"]
+        read = client.call("run.stop", run=run, abort=True)["run"]
+        history = client.call("run.get", run=read)["history"]
+        self.assertEqual([(d["deed"], d["id"]) for d in history], [("run.start", run), ("run.abort", run)])
+        for deed in history:
+            self.assertEqual({key: deed[key] for key in ME}, ME)
+        table = self.table(client)
+        client.call("compensation.activate", table=table, despite_warnings=True)
+        self.assertIn(f"gid {ME['gid']} pid {ME['pid']}", client.call("compensation.status")["axes"]["X"]["activated_by"])
+        client.call("compensation.deactivate", axis="X")
+        deeds = client.call("history.list", count=4)["history"]
+        self.assertEqual([d["deed"] for d in deeds], ["compensation.deactivate", "compensation.activate", "compensation.build", "run.replay"])
+        self.assertTrue(all(d["pid"] == ME["pid"] for d in deeds))
+        _, shown = mdof("show", read, "--db", daemon.database)
+        self.assertRegex(shown, rf"run {run}: run.abort by uid {ME['uid']} .*pid {ME['pid']}")
+
+    def test_the_command_line_is_named_where_it_writes_itself(self):
+        database = os.path.join(self.folder.name, "own.db")
+        replayed, _ = mdof("replay", self.log, "--rig", RIG["X"], "--db", database)
+        built, _ = mdof("compensation", "build", 1, "--db", database)
+        activated, _ = mdof("compensation", "activate", 1, "--despite-warnings", "--db", database)
+        _, out = mdof("history", "--json", "--db", database)
+        history = json.loads(out)["history"]
+        self.assertEqual([(d["deed"], d["pid"]) for d in history],
+                         [("compensation.activate", activated), ("compensation.build", built), ("run.replay", replayed)])
+        self.assertTrue(all(d["uid"] == ME["uid"] for d in history))
+        self.assertIn("compensation.build", mdof("history", "--db", database)[1])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

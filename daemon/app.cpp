@@ -38,6 +38,7 @@ rpc::ServerOptions server_options(const RpcAccess& access) {
   options.max_connections_of_user = access.connections_of_user;
   options.idle_timeout = access.idle;
   options.kept_for_group = access.cnc_group;
+  if (access.approve_group) options.approvers = {*access.approve_group, access.approvers};
   return options;
 }
 

@@ -77,6 +77,8 @@ void read_access(TomlTable& table, RpcAccess& access) {
   access.idle =
       std::chrono::seconds(read_within(table, "idle_timeout_s", access.idle.count(), 0, kDay_s));
   access.cnc_group = group_of(table, "cnc_group");
+  access.approve_group = group_of(table, "approve_group");
+  access.approvers = table.string("approve_group", "");
 }
 
 void read_rpc(TomlTable& root, Config& config) {

@@ -222,6 +222,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
              .result = "table, generation, changed: false where it was in force already",
              .example = R"({"table": 1})",
              .writes = true,
+             .approves = true,
              .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
   table.add({.name = "compensation.deactivate",
              .summary = "Takes the table in force on an axis out of force: none is from then on.",
@@ -229,6 +230,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
              .result = "axis, generation, changed: false where none was in force",
              .example = R"({"axis": "X"})",
              .writes = true,
+             .approves = true,
              .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
   table.add({.name = "compensation.status",
              .summary = "The tables in force by axis, with the generation that tells of a change.",

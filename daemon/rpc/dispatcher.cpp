@@ -63,6 +63,15 @@ std::string reason(simdjson::error_code error, const ServerOptions& options) {
   }
 }
 
+std::string not_an_approver(const std::string& method, const std::string& group,
+                            const Caller& caller) {
+  const auto who = caller.credentials();
+  return method + " is for members of the group " + group +
+         " alone (approve_group in [rpc] of mdofd.toml), and " +
+         (who ? "uid " + std::to_string(who->uid) : std::string("a TCP client")) +
+         " is none: ask one of them, or become one and connect again";
+}
+
 }  // namespace
 
 Handled Dispatcher::Parser::handle(const Line& line) {
@@ -91,6 +100,9 @@ tl::expected<const Method*, Dispatcher::Parser::Refusal> Dispatcher::Parser::pre
   if (method->writes && !caller.may_write())
     return tl::unexpected(
         Refusal{kForbidden, method->name + " changes something: call it over the Unix socket", ""});
+  if (method->approves && options.approvers && !caller.in_group(options.approvers->id))
+    return tl::unexpected(
+        Refusal{kForbidden, not_an_approver(method->name, options.approvers->name, caller), ""});
   if (const Status status = check_params(*method, request.params, values); !status)
     return tl::unexpected(Refusal{kInvalidParams, status.error().message, ""});
   return method;

@@ -37,6 +37,12 @@ struct ServerOptions {
   // Of max_connections one is kept for this group, that of the machine's control: whoever else has
   // all the others.
   std::optional<gid_t> kept_for_group;
+  // Who alone may call the methods that approve; none: whoever may write.
+  struct Group {
+    gid_t id = 0;
+    std::string name;
+  };
+  std::optional<Group> approvers;
   bool tcp_may_write = false;  // methods that write, over loopback TCP
 
   std::function<void(const std::string&)> log;  // one line; empty: to stderr

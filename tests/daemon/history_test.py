@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Who did it: by uid, gid and pid of the process that asked, from the socket and from the command line.
+"""Who did it: by uid, gid and pid of the process that asked, from the socket and from the command line; and who may.
 
 usage: history_test.py MDOFD MDOF"""
+import grp
 import json
 import os
 import subprocess
@@ -10,9 +11,10 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mdofd import RIG, Daemon, simulator  # noqa: E402
+from mdofd import RIG, Daemon, RpcError, simulator  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
+FORBIDDEN = -32003
 ME = {"uid": os.getuid(), "gid": os.getgid(), "pid": os.getpid()}
 
 
@@ -80,6 +82,28 @@ class History(unittest.TestCase):
                          [("compensation.activate", activated), ("compensation.build", built), ("run.replay", replayed)])
         self.assertTrue(all(d["uid"] == ME["uid"] for d in history))
         self.assertIn("compensation.build", mdof("history", "--db", database)[1])
+
+    def test_a_table_is_put_in_force_by_the_group_of_approvers_alone(self):
+        mine = set(os.getgroups()) | {os.getgid()}
+        other = next((g.gr_name for g in grp.getgrall() if g.gr_gid not in mine), None)
+        if other is None:
+            self.skipTest("this user is in all groups of the machine")
+        daemon, client = self.serve(f'approve_group = "{other}"\n')
+        table = self.table(client)  # anybody builds
+        for method, params in (("compensation.activate", {"table": table}), ("compensation.deactivate", {"axis": "X"})):
+            with self.assertRaises(RpcError) as refusal:
+                client.call(method, **params)
+            self.assertEqual(refusal.exception.code, FORBIDDEN)
+            self.assertIn(f"members of the group {other} alone (approve_group", str(refusal.exception))
+        self.assertEqual(client.call("compensation.status")["axes"], {})
+        daemon.stop()
+        own = grp.getgrgid(os.getgid()).gr_name
+        with open(daemon.config) as f:
+            config = f.read()
+        with open(daemon.config, "w") as f:
+            f.write(config.replace(f'"{other}"', f'"{own}"'))
+        client = daemon.start()
+        client.call("compensation.activate", table=table, despite_warnings=True)
 
 
 if __name__ == "__main__":

@@ -114,6 +114,10 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
 
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request) {
   MDOF_TRY(const CompensationTable table, store.table(request.table));
+  if (table_sha256(table) != table.sha256)
+    return bad_input(store.file().string() + ": compensation table " + std::to_string(table.id) +
+                     " is not what was built (its hash differs), so that it is not put in force; "
+                     "build it again from its runs");
   std::vector<Run> runs(table.runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     MDOF_TRY(runs[i], store.run(table.runs[i]));

@@ -44,8 +44,8 @@ struct ActivationRequest {
   bool despite_warnings = false;
   Deed deed;  // who asks
 };
-// Puts the table in force. Refuses one whose runs carry warnings unless that is asked for: a
-// controller sees numbers only.
+// Puts the table in force. Refuses one that is not what its hash says. Refuses one whose runs carry
+// warnings unless that is asked for: a controller sees numbers only.
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request);
 
 struct SquarenessRequest {

@@ -1,0 +1,59 @@
+// A table is put in force only if it is what was built.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "daemon/doer.h"
+#include "daemon/evaluation.h"
+#include "schema/run_json.h"
+
+namespace mdof::daemon {
+namespace {
+
+class ActivationTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("mdof_active_" + std::to_string(getpid()));
+    mdof::Run run;
+    run.header.state = RunState::complete;
+    run.header.started_utc = "2026-11-22T00:00:00.000Z";
+    store_.emplace(store::Store::open(folder_ / "mdof.db", store::Access::read_write).value());
+    table_.runs = {store_->add_run(run).value()};
+    table_.position_m = {0.0, 0.01};
+    for (auto* group : {&table_.forward, &table_.reverse, &table_.u_forward, &table_.u_reverse})
+      for (auto& series : *group) series = {1e-6, 2e-6};
+    table_.sha256 = table_sha256(table_);
+  }
+  void TearDown() override {
+    store_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  Result<store::Activation> activated() {
+    const auto id = store_->add_table(table_).value();
+    return activate_table(*store_, {id, true, deed_now("compensation.activate", this_process())});
+  }
+
+  std::filesystem::path folder_;
+  std::optional<store::Store> store_;
+  CompensationTable table_;
+};
+
+TEST_F(ActivationTest, OfATableThatIsWhatWasBuilt) {
+  const auto done = activated();
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_TRUE(done->changed);
+}
+
+TEST_F(ActivationTest, OfAnotherIsRefusedByItsName) {
+  table_.forward[0][1] *= 2;  // and its hash is as before
+  const auto done = activated();
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("compensation table 1 is not what was built"),
+            std::string::npos)
+      << done.error().message;
+  EXPECT_EQ(store_->generation().value(), 0);
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -39,12 +39,32 @@ store::RunEnd provisional_of(store::RunEnd whole, const char* where) {
   return whole;
 }
 
+// A foreign program holds the file: that passes.
+template <class T>
+bool is_busy(const Result<T>& done) {
+  return !done && done.error().message.find("SQLITE_BUSY") != std::string::npos;
+}
+
+Result<store::Store> open_database(const Storekeeper::Options& options) {
+  const store::StoreOptions how{options.durability, static_cast<int>(options.busy_timeout.count())};
+  return store::Store::open(options.database, store::Access::read_write, how);
+}
+
+// A mdofd that is just ending still holds it for a while.
+Result<store::Store> open_patiently(const Storekeeper::Options& options) {
+  constexpr std::chrono::seconds kPatience{5};
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  for (;;) {
+    auto opened = open_database(options);
+    const bool held = !opened && opened.error().code == ErrorCode::conflict;
+    if (!held || std::chrono::steady_clock::now() > end) return opened;
+  }
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Storekeeper>> Storekeeper::start(const Options& options, Events events) {
-  store::StoreOptions how;
-  how.durability = options.durability;
-  MDOF_TRY(auto database, store::Store::open(options.database, store::Access::read_write, how));
+  MDOF_TRY(auto database, open_patiently(options));
   return std::unique_ptr<Storekeeper>(
       new Storekeeper(std::move(database), options, std::move(events)));
 }
@@ -73,10 +93,13 @@ void Storekeeper::work() {
     if (now < next_commit) continue;
     commit_recordings();
     watch_files();
+    store_what_waits();
     if (!unended_.empty()) end_what_can_be();
     next_commit = now + options_.commit_interval;
   }
   commit_recordings();
+  store_what_waits();
+  give_up_what_waits();
   end_what_can_be();
 }
 
@@ -84,7 +107,7 @@ void Storekeeper::work() {
 void Storekeeper::commit_recordings() {
   for (auto& [run, recording] : recordings_) {
     const Status kept = commit(run, recording);
-    if (!kept) events_.failed(run, kept.error());
+    if (!kept && !is_busy(kept)) events_.failed(run, kept.error());
   }
 }
 
@@ -136,7 +159,7 @@ Status Storekeeper::keep_points(std::int64_t run, const std::vector<MeasuredPoin
   const auto recording = recordings_.find(run);
   Status kept = recording == recordings_.end() ? Status() : commit(run, recording->second);
   if (kept) kept = store_.append_points(run, points);
-  if (kept) return {};
+  if (kept || is_busy(kept)) return kept;
   incomplete_.insert(run);
   events_.failed(run, kept.error());
   return kept;
@@ -189,32 +212,79 @@ bool Storekeeper::record(std::int64_t run, std::vector<SampleBlock> blocks, bool
 
 void Storekeeper::append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                                 std::function<void(Status)> done) {
-  auto shared = std::make_shared<std::vector<MeasuredPoint>>(std::move(points));
-  queue_.push_always(
-      [this, run, shared, done = std::move(done)] { done(keep_points(run, *shared)); });
+  auto shared = std::make_shared<Points>(Points{run, std::move(points), std::move(done)});
+  queue_.push_always([this, shared] { take(std::move(*shared)); });
 }
 
-Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, RunEnding how) {
-  if (const auto recording = recordings_.find(run); recording != recordings_.end()) {
+// In the order in which they came.
+void Storekeeper::take(Points points) {
+  const Status kept = waiting_points_.empty() ? keep_points(points.run, points.points)
+                                              : Status(tl::unexpected(Error()));
+  if (!waiting_points_.empty() || is_busy(kept))
+    waiting_points_.push_back(std::move(points));
+  else
+    points.done(kept);
+}
+
+void Storekeeper::take(Ending ending) {
+  seal(ending);
+  auto ended = waiting_points_.empty() ? end(ending) : Result<std::int64_t>(0);
+  if (!waiting_points_.empty() || is_busy(ended))
+    waiting_ends_.push_back(std::move(ending));
+  else
+    ending.done(std::move(ended));
+}
+
+void Storekeeper::store_what_waits() {
+  for (; !waiting_points_.empty(); waiting_points_.pop_front()) {
+    const Points& next = waiting_points_.front();
+    const Status kept = keep_points(next.run, next.points);
+    if (is_busy(kept)) return;
+    next.done(kept);
+  }
+  for (; !waiting_ends_.empty(); waiting_ends_.pop_front()) {
+    auto ended = end(waiting_ends_.front());
+    if (is_busy(ended)) return;
+    waiting_ends_.front().done(std::move(ended));
+  }
+}
+
+// mdofd ends: the runs stay without an end, as after a power cut, and their recordings have all.
+void Storekeeper::give_up_what_waits() {
+  const auto error = io_error(
+      "mdofd ended while a foreign program held the database: the recording has the run, go on "
+      "with it (mdof record --resume RUN) or replay it");
+  for (const Points& points : waiting_points_) points.done(error);
+  for (const Ending& ending : waiting_ends_) ending.done(error);
+}
+
+// Once: what the recording says of the run.
+void Storekeeper::seal(Ending& ending) {
+  RunHeader& header = ending.result.header;
+  if (const auto recording = recordings_.find(ending.run); recording != recordings_.end()) {
     auto sealed = recording->second.writer.finish(utc_now());
     recordings_.erase(recording);
     if (!sealed) {
-      result.header.state = RunState::failed;
-      result.header.warnings.push_back(sealed.error().message);
+      header.state = RunState::failed;
+      header.warnings.push_back(sealed.error().message);
     } else {
-      result.header.provenance.recording_sha256 = *sealed;
+      header.provenance.recording_sha256 = *sealed;
     }
   }
-  if (incomplete_.erase(run) > 0) how.differs = !result.points.empty();
-  store::RunEnd whole = end_of(result);
-  whole.deed = how.deed;
-  if (!how.differs) {
+}
+
+Result<std::int64_t> Storekeeper::end(Ending& ending) {
+  const std::int64_t run = ending.run;
+  if (incomplete_.erase(run) > 0) ending.how.differs = !ending.result.points.empty();
+  store::RunEnd whole = end_of(ending.result);
+  whole.deed = ending.how.deed;
+  if (!ending.how.differs) {
     MDOF_CHECK(end_or_wait(run, whole));
     return run;
   }
   auto superseded = store_.end_and_supersede(
-      run, provisional_of(whole, "the run that supersedes this one has them"), std::move(result));
-  if (!superseded)
+      run, provisional_of(whole, "the run that supersedes this one has them"), ending.result);
+  if (!superseded && !is_busy(superseded))
     unended_.push_back({run, provisional_of(whole, "the disk refused them: replay its recording")});
   return superseded;
 }
@@ -222,16 +292,15 @@ Result<std::int64_t> Storekeeper::end(std::int64_t run, Run& result, RunEnding h
 // A refused end is not given up: it is tried again until the disk takes it.
 Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
   Status ended = store_.end_run(run, end);
-  if (!ended) unended_.push_back({run, end});
+  if (!ended && !is_busy(ended)) unended_.push_back({run, end});
   return ended;
 }
 
 void Storekeeper::end_run(std::int64_t run, Run result, RunEnding how,
                           std::function<void(Result<std::int64_t>)> done) {
-  auto shared = std::make_shared<Run>(std::move(result));
-  queue_.push_always([this, run, shared, how = std::move(how), done = std::move(done)] {
-    done(end(run, *shared, how));
-  });
+  auto shared =
+      std::make_shared<Ending>(Ending{run, std::move(result), std::move(how), std::move(done)});
+  queue_.push_always([this, shared] { take(std::move(*shared)); });
 }
 
 }  // namespace mdof::daemon

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -46,6 +47,8 @@ class Storekeeper {
     std::filesystem::path database;
     store::Durability durability = store::Durability::full;
     std::chrono::milliseconds commit_interval{50};
+    // For a foreign program that holds the database, each time; what can wait is then tried again.
+    std::chrono::milliseconds busy_timeout{1000};
   };
   // All called on the store thread.
   struct Events {
@@ -71,6 +74,8 @@ class Storekeeper {
   bool begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done);
   // `wait`: for a source that can wait; otherwise a full queue drops the blocks, counted as one.
   bool record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait);
+  // Where a foreign program holds the database, points and ends wait for it to let go: the
+  // recording has them meanwhile, and `done` comes when they are stored.
   void append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                      std::function<void(Status)> done);
   // Seals the recording and ends the run. If the result differs from the points already stored,
@@ -94,7 +99,14 @@ class Storekeeper {
   void watch_database();
   void end_what_can_be();
   Result<std::int64_t> begin(NewRun& run);
-  Result<std::int64_t> end(std::int64_t run, Run& result, RunEnding how);
+  struct Points;
+  struct Ending;
+  void take(Points points);
+  void take(Ending ending);
+  void seal(Ending& ending);
+  Result<std::int64_t> end(Ending& ending);
+  void store_what_waits();
+  void give_up_what_waits();
   Status end_or_wait(std::int64_t run, const store::RunEnd& end);
 
   struct Recording {
@@ -106,6 +118,17 @@ class Storekeeper {
   Status commit(std::int64_t run, Recording& recording);
   Status keep_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
 
+  struct Points {
+    std::int64_t run;
+    std::vector<MeasuredPoint> points;
+    std::function<void(Status)> done;
+  };
+  struct Ending {
+    std::int64_t run;
+    Run result;
+    RunEnding how;
+    std::function<void(Result<std::int64_t>)> done;
+  };
   struct Unended {
     std::int64_t run;
     store::RunEnd end;
@@ -120,6 +143,8 @@ class Storekeeper {
   mutable std::mutex fault_mutex_;
   std::string fault_;
   std::vector<Unended> unended_;
+  std::deque<Points> waiting_points_;  // for a foreign program to let go of the database
+  std::deque<Ending> waiting_ends_;    // the same
   std::set<std::int64_t> incomplete_;  // runs of which a point could not be kept
   BoundedQueue<std::function<void()>> queue_;
   std::atomic<std::chrono::steady_clock::time_point> last_turn_;

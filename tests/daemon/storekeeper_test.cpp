@@ -168,6 +168,68 @@ TEST_F(StorekeeperTest, ADatabaseThatWasDeletedOrReplacedIsNoticed) {
   EXPECT_NE(fault_after(true).find("was cut short"), std::string::npos);
 }
 
+// Another program's transaction that does not end.
+class ForeignLock {
+ public:
+  explicit ForeignLock(const std::filesystem::path& file)
+      : connection_(sqlite::Connection::open(file, sqlite::OpenMode::read_write).value()) {
+    EXPECT_TRUE(connection_.execute("BEGIN IMMEDIATE"));
+  }
+  void end() { EXPECT_TRUE(connection_.execute("COMMIT")); }
+
+ private:
+  sqlite::Connection connection_;
+};
+
+class HeldDatabase : public StorekeeperTest {
+ protected:
+  void SetUp() override {
+    StorekeeperTest::SetUp();
+    keeper_.reset();
+    Storekeeper::Options options{folder_ / "mdof.db"};
+    options.busy_timeout = std::chrono::milliseconds(20);
+    keeper_ =
+        Storekeeper::start(options, {[](std::int64_t, std::int64_t) {},
+                                     [this](std::int64_t run, const Error&) { failed_ = run; }})
+            .value();
+  }
+};
+
+TEST_F(HeldDatabase, IsWaitedForAndThenHasEveryPointAndTheEnd) {
+  const std::int64_t id = begin(folder_ / "run.mdofrec");
+  ForeignLock foreign(folder_ / "mdof.db");
+  std::promise<Status> kept;
+  std::promise<Result<std::int64_t>> ended;
+  ASSERT_TRUE(keeper_->record(id, {scans(1)}, true));
+  keeper_->append_points(id, {point(1, 1)}, [&](const Status& status) { kept.set_value(status); });
+  mdof::Run result;
+  result.header.state = RunState::complete;
+  result.points = {point(1, 1)};
+  keeper_->end_run(id, result, {}, [&](const auto& read) { ended.set_value(read); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(failed_, 0);
+  foreign.end();
+  EXPECT_TRUE(kept.get_future().get());
+  EXPECT_EQ(ended.get_future().get().value(), id);
+  const mdof::Run run = stored(id);
+  EXPECT_EQ(run.header.state, RunState::complete);
+  EXPECT_EQ(run.points.size(), 1u);
+  EXPECT_TRUE(run.header.warnings.empty());
+}
+
+TEST_F(HeldDatabase, AnEndOfTheDaemonMeanwhileIsTold) {
+  const std::int64_t id = begin();
+  ForeignLock foreign(folder_ / "mdof.db");
+  std::promise<Result<std::int64_t>> ended;
+  mdof::Run result;
+  result.header.state = RunState::complete;
+  keeper_->end_run(id, result, {}, [&](const auto& read) { ended.set_value(read); });
+  keeper_.reset();
+  const auto read = ended.get_future().get();
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("--resume"), std::string::npos) << read.error().message;
+}
+
 TEST_F(StorekeeperTest, ARecordingThatIsDeletedFailsItsRun) {
   const auto recording = folder_ / "run.mdofrec";
   const std::int64_t id = begin(recording);

@@ -48,14 +48,6 @@ Result<std::int64_t> copy(drivers::RecordingLog& log, store::RecordingWriter& wr
   return io_error("mdofd is stopping");
 }
 
-// What was begun and is of no use.
-void remove_recording(const std::filesystem::path& file) {
-  for (const char* ending : {"", "-wal", "-shm"}) {
-    std::error_code ignored;
-    std::filesystem::remove(file.string() + ending, ignored);
-  }
-}
-
 }  // namespace
 
 Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
@@ -87,7 +79,7 @@ Result<std::int64_t> record_again(const CutOffRun& cut_off, const Storekeeper& k
   auto end_ns = copy(log, *run.begun, pipeline, wanted);
   if (!end_ns) {
     run.begun.reset();
-    remove_recording(run.recording);
+    store::RecordingWriter::remove(run.recording);
   }
   return end_ns;
 }

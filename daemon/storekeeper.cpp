@@ -186,14 +186,29 @@ Result<std::int64_t> Storekeeper::begin(NewRun& run) {
   if (run.recording.empty()) return store_.begin_run(run.header, run.deed);
   auto writer = run.begun ? std::move(*run.begun) : create_recording(run);
   if (!writer) return tl::unexpected(writer.error());
-  MDOF_TRY(const std::int64_t id, store_.begin_run(run.header, run.deed));
-  recordings_.emplace(id, Recording{std::move(*writer), store::FileWatch(run.recording)});
+  auto id = store_.begin_run(run.header, run.deed);
+  if (id) recordings_.emplace(*id, Recording{std::move(*writer), store::FileWatch(run.recording)});
+  return id;
+}
+
+// Of a run that did not begin nothing is left.
+Result<std::int64_t> Storekeeper::begin_or_clear(NewRun& run) {
+  const bool made =
+      !run.recording.empty() && (run.begun || !std::filesystem::exists(run.recording));
+  auto id = begin(run);
+  run.begun.reset();
+  if (!id && made) store::RecordingWriter::remove(run.recording);
   return id;
 }
 
 bool Storekeeper::begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done) {
   auto shared = std::make_shared<NewRun>(std::move(run));
-  return queue_.try_push([this, shared, done = std::move(done)] { done(begin(*shared)); });
+  const bool posted =
+      queue_.try_push([this, shared, done = std::move(done)] { done(begin_or_clear(*shared)); });
+  if (posted || !shared->begun) return posted;
+  shared->begun.reset();
+  store::RecordingWriter::remove(shared->recording);
+  return false;
 }
 
 bool Storekeeper::record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait) {

@@ -99,6 +99,7 @@ class Storekeeper {
   void watch_database();
   void end_what_can_be();
   Result<std::int64_t> begin(NewRun& run);
+  Result<std::int64_t> begin_or_clear(NewRun& run);
   struct Points;
   struct Ending;
   void take(Points points);

@@ -56,6 +56,13 @@ Status set_up(Connection& connection, const RecordingHeader& header,
   return transaction.commit();
 }
 
+Result<Connection> begin_file(const fs::path& file, const RecordingHeader& header,
+                              sqlite::Durability durability) {
+  MDOF_TRY(Connection connection, Connection::open(file, sqlite::OpenMode::read_write));
+  MDOF_CHECK(set_up(connection, header, durability));
+  return connection;
+}
+
 // A chunk is a second or two of a fast device, and stays well under kMaxChunkBytes.
 std::size_t max_scans(std::size_t channels) {
   constexpr std::size_t kScans = 8192;
@@ -92,9 +99,17 @@ RecordingWriter::RecordingWriter(Connection connection, std::string hash)
 Result<RecordingWriter> RecordingWriter::create(const fs::path& file, const RecordingHeader& header,
                                                 sqlite::Durability durability) {
   MDOF_CHECK(create_file(file));
-  MDOF_TRY(Connection connection, Connection::open(file, sqlite::OpenMode::read_write));
-  MDOF_CHECK(set_up(connection, header, durability));
-  return RecordingWriter(std::move(connection), sha256_of(header));
+  auto connection = begin_file(file, header, durability);
+  if (connection) return RecordingWriter(std::move(*connection), sha256_of(header));
+  remove(file);
+  return tl::unexpected(std::move(connection.error()));
+}
+
+void RecordingWriter::remove(const fs::path& file) {
+  for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
+    std::error_code ignored;
+    fs::remove(file.string() + ending, ignored);
+  }
 }
 
 Status RecordingWriter::append(const SampleBlock& block) {

@@ -20,10 +20,14 @@ namespace mdof::store {
 // and the next commit() tries again.
 class RecordingWriter {
  public:
-  // Makes the file, and its folder where needed; an existing file is refused (conflict).
+  // Makes the file, and its folder where needed; an existing file is refused (conflict). Of one
+  // that cannot be written nothing is left.
   static Result<RecordingWriter> create(const std::filesystem::path& file,
                                         const RecordingHeader& header,
                                         sqlite::Durability durability = sqlite::Durability::full);
+
+  // A recording that was begun and is of no use, whose writer has gone.
+  static void remove(const std::filesystem::path& file);
 
   // Takes the block into memory. bad_input: time does not increase from block to block of a device.
   // io: commit() has failed for so long that kMaxWaitingBytes wait; the block is then counted as

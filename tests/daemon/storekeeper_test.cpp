@@ -230,6 +230,18 @@ TEST_F(HeldDatabase, AnEndOfTheDaemonMeanwhileIsTold) {
   EXPECT_NE(read.error().message.find("--resume"), std::string::npos) << read.error().message;
 }
 
+TEST_F(HeldDatabase, ARunThatDoesNotBeginLeavesNoRecording) {
+  const ForeignLock foreign(folder_ / "mdof.db");
+  NewRun run;
+  run.recording = folder_ / "orphan.mdofrec";
+  run.begun.emplace(keeper_->create_recording(run).value());  // as one that goes on has
+  std::promise<Result<std::int64_t>> begun;
+  ASSERT_TRUE(keeper_->begin_run(std::move(run), [&](const auto& id) { begun.set_value(id); }));
+  EXPECT_FALSE(begun.get_future().get());
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_FALSE(entry.path().string().find("orphan") != std::string::npos) << entry.path();
+}
+
 TEST_F(StorekeeperTest, ARecordingThatIsDeletedFailsItsRun) {
   const auto recording = folder_ / "run.mdofrec";
   const std::int64_t id = begin(recording);

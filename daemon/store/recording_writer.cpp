@@ -19,10 +19,24 @@ using sqlite::Transaction;
 
 namespace {
 
+void sync_folder(const fs::path& folder) {
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+// On the disk for good: a power cut would else take a folder that is new, and all that is in it.
+void make_folder(const fs::path& folder) {
+  std::error_code ec;
+  if (folder.empty() || fs::exists(folder, ec)) return;
+  make_folder(folder.parent_path());
+  if (fs::create_directory(folder, ec)) sync_folder(fs::absolute(folder, ec).parent_path());
+}
+
 // Claims the name, so that no recording is ever written over.
 Status create_file(const fs::path& file) {
-  std::error_code ec;
-  if (file.has_parent_path()) fs::create_directories(file.parent_path(), ec);
+  make_folder(file.parent_path());
   const int fd = ::open(file.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644);
   if (fd >= 0) {
     ::close(fd);

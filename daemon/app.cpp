@@ -25,10 +25,10 @@ std::string recorded_json(std::int64_t run, std::int64_t seq) {
   return json.take();
 }
 
-std::string storage_json(const std::string& reason) {
+std::string storage_json(const StorageState& now) {
   JsonWriter json;
-  json.begin_object().field("type", "storage").field("state", reason.empty() ? "ok" : "lost");
-  json.field("text", reason).field("utc", utc_now()).end_object();
+  json.begin_object().field("type", "storage").field("state", now.state);
+  json.field("text", now.reason).field("utc", utc_now()).end_object();
   return json.take();
 }
 
@@ -70,6 +70,7 @@ struct App::Parts {
     keeper.reset();
   }
   Status open_store();
+  void read_anew();
   void start_stations();
   void to_journal(Axis axis, const Trouble& trouble);
   void heed_signals();
@@ -91,10 +92,12 @@ Status App::Parts::open_store() {
       }
     });
   };
-  events.database_changed = [this](const std::string& reason) {
-    loop.post([this, reason] {
-      std::fprintf(stderr, "%s\n", reason.empty() ? "the database is there again" : reason.c_str());
-      (void)server.publish(kRunTopic, storage_json(reason));
+  events.storage_changed = [this](const StorageState& now) {
+    loop.post([this, now] {
+      std::fprintf(stderr, "storage %s%s%s\n", now.state.c_str(), now.reason.empty() ? "" : ": ",
+                   now.reason.c_str());
+      if (now.state == "ok") read_anew();
+      (void)server.publish(kRunTopic, storage_json(now));
     });
   };
   MDOF_TRY(keeper, Storekeeper::start({config.database, config.durability, config.commit_interval},
@@ -102,7 +105,15 @@ Status App::Parts::open_store() {
   MDOF_TRY(auto opened, store::Store::open(config.database, store::Access::read_only));
   reader = std::make_unique<store::Store>(std::move(opened));
   MDOF_TRY(active, load_active(*reader));
+  if (const StorageState now = keeper->storage(); now.state != "ok")
+    std::fprintf(stderr, "storage %s: %s\n", now.state.c_str(), now.reason.c_str());
   return {};
+}
+
+// A database that could not be written was perhaps opened as one that does not change.
+void App::Parts::read_anew() {
+  auto opened = store::Store::open(config.database, store::Access::read_only);
+  if (opened) *reader = std::move(*opened);
 }
 
 void App::Parts::start_stations() {

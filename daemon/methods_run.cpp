@@ -160,13 +160,21 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
              "run " + std::to_string(id) + " is not under way; server.info tells which are"));
 }
 
+// A run that stands as open though nobody measures it says why.
+void explain(const Methods& m, RunHeader& header) {
+  if (header.state != RunState::open) return;
+  std::string why = m.keeper.why_open(header.id);
+  if (!why.empty()) header.warnings.push_back(std::move(why));
+}
+
 Result<std::string> list_runs(Methods& m, const Params& params) {
   const Page page = page_of(params, kMaxRunsPage);
   std::optional<Axis> axis;
   if (params.has("axis")) {
     MDOF_TRY(axis, axis_param(params));
   }
-  MDOF_TRY(const auto headers, m.reader.list_runs(page.offset, page.count, axis));
+  MDOF_TRY(auto headers, m.reader.list_runs(page.offset, page.count, axis));
+  for (RunHeader& header : headers) explain(m, header);
   MDOF_TRY(const auto total, m.reader.count_runs(axis));
   JsonWriter json;
   json.begin_object().field("total", total).field("offset", page.offset).key("runs").begin_array();
@@ -202,7 +210,8 @@ Result<std::string> get_run(Methods& m, const Params& params) {
     return bad_input("run " + std::to_string(id) + " has " + std::to_string(points) +
                      " points, too many for one call; mdof show " + std::to_string(id) +
                      " reads them");
-  MDOF_TRY(const auto run, run_stated_at(m.reader, id, reference));
+  MDOF_TRY(auto run, run_stated_at(m.reader, id, reference));
+  explain(m, run.header);
   MDOF_TRY(const auto deeds, m.reader.deeds_of_run(id));
   std::string whole = run_json(run, run.header, deeds, kMaxVisits);
   return whole.size() <= kPageBytes ? whole : run_json(run, shortened(run.header), deeds, 0);

@@ -28,9 +28,9 @@ std::string server_info(const Methods& m) {
       .field("database", ec ? m.database : database.string())
       .field("generation", m.generation)
       .field("store_jobs_dropped", m.keeper.dropped_blocks());
-  const std::string lost = m.keeper.fault();
-  json.field("storage", lost.empty() ? "ok" : "lost").key("storage_reason");
-  lost.empty() ? json.null() : json.value(lost);
+  const StorageState storage = m.keeper.storage();
+  json.field("storage", storage.state).key("storage_reason");
+  storage.reason.empty() ? json.null() : json.value(storage.reason);
   json.key("axes").begin_array();
   for (const auto& station : m.stations) {
     json.begin_object()

@@ -41,6 +41,15 @@ struct RunEnding {
   std::optional<Deed> deed = std::nullopt;
 };
 
+// How it is with storing: "ok"; "lost": the database was deleted, replaced or cut short under us;
+// "full": the disk takes nothing (it is full, or may not be written); "held": a foreign program
+// holds the database, and points wait.
+struct StorageState {
+  std::string state = "ok";
+  std::string reason;  // and the remedy
+  bool operator==(const StorageState&) const = default;
+};
+
 class Storekeeper {
  public:
   struct Options {
@@ -56,11 +65,12 @@ class Storekeeper {
     std::function<void(std::int64_t run, std::int64_t seq)> recorded;
     // The disk refused (full, gone): the run can no longer be kept.
     std::function<void(std::int64_t run, const Error& error)> failed;
-    // The database is not what it was any more (the reason), or is again (empty).
-    std::function<void(const std::string& reason)> database_changed = nullptr;
+    // The database is not what it was any more, or is again; see storage().
+    std::function<void(const StorageState& now)> storage_changed = nullptr;
   };
 
-  // Opens the database (errors as Store::open) and starts the thread.
+  // Opens the database and starts the thread. One that can be read but not written now is taken as
+  // well, since tables are to be served: it is opened again and again. Else errors as Store::open.
   static Result<std::unique_ptr<Storekeeper>> start(const Options& options, Events events);
   // Ends the queue, writes out what waits, joins.
   ~Storekeeper();
@@ -84,15 +94,22 @@ class Storekeeper {
   void end_run(std::int64_t run, Run result, RunEnding how,
                std::function<void(Result<std::int64_t>)> done);
 
-  // Why nothing can be stored: the database was deleted, replaced or cut short under us. Empty:
+  StorageState storage() const;
+  // Why nothing can be stored: the database is lost, or could not be opened for writing yet. Empty:
   // it can.
   std::string fault() const;
+  // Why a run whose measuring has ended stands as open; empty: it does not.
+  std::string why_open(std::int64_t run) const;
   std::uint64_t dropped_blocks() const { return queue_.dropped(); }
   // When the thread last came round; for the watchdog.
   std::chrono::steady_clock::time_point last_turn() const { return last_turn_.load(); }
 
  private:
-  Storekeeper(store::Store database, const Options& options, Events events);
+  Storekeeper(const Options& options, Events events);
+  void open_again();
+  void note_full(const Error& error);
+  void note_space();
+  void set(std::string& which, const std::string& reason);
   void work();
   void commit_recordings();
   void watch_files();
@@ -102,10 +119,15 @@ class Storekeeper {
   Result<std::int64_t> begin_or_clear(NewRun& run);
   struct Points;
   struct Ending;
+  struct Unended;
   void take(Points points);
   void take(Ending ending);
   void seal(Ending& ending);
   Result<std::int64_t> end(Ending& ending);
+  void wait_for_database(Points points);
+  void wait_for_database(Ending ending);
+  void explain(std::int64_t run, const std::string& why);
+  void refused_end(Unended unended, const Error& error);
   void store_what_waits();
   void give_up_what_waits();
   Status end_or_wait(std::int64_t run, const store::RunEnd& end);
@@ -135,21 +157,24 @@ class Storekeeper {
     store::RunEnd end;
   };
 
-  store::Store store_;
+  std::optional<store::Store> store_;  // none: it cannot be written yet
   const Options options_;
   Events events_;
   std::map<std::int64_t, Recording> recordings_;
   store::FileWatch database_;
   std::chrono::steady_clock::time_point files_watched_{};
-  mutable std::mutex fault_mutex_;
-  std::string fault_;
+  std::chrono::steady_clock::time_point tried_{};
+  mutable std::mutex fault_mutex_;  // guards the next five
+  std::string lost_, full_, held_;
+  bool opened_ = false;
+  std::map<std::int64_t, std::string> open_because_;
   std::vector<Unended> unended_;
   std::deque<Points> waiting_points_;  // for a foreign program to let go of the database
   std::deque<Ending> waiting_ends_;    // the same
   std::set<std::int64_t> incomplete_;  // runs of which a point could not be kept
   BoundedQueue<std::function<void()>> queue_;
   std::atomic<std::chrono::steady_clock::time_point> last_turn_;
-  std::thread thread_;  // last: starts when all else is there
+  std::thread thread_;
 };
 
 }  // namespace mdof::daemon

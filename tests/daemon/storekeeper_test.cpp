@@ -208,6 +208,9 @@ TEST_F(HeldDatabase, IsWaitedForAndThenHasEveryPointAndTheEnd) {
   keeper_->end_run(id, result, {}, [&](const auto& read) { ended.set_value(read); });
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_EQ(failed_, 0);
+  EXPECT_EQ(keeper_->storage().state, "held");
+  EXPECT_NE(keeper_->storage().reason.find("end that program"), std::string::npos);
+  EXPECT_NE(keeper_->why_open(id).find("not stored yet"), std::string::npos);
   foreign.end();
   EXPECT_TRUE(kept.get_future().get());
   EXPECT_EQ(ended.get_future().get().value(), id);
@@ -215,6 +218,10 @@ TEST_F(HeldDatabase, IsWaitedForAndThenHasEveryPointAndTheEnd) {
   EXPECT_EQ(run.header.state, RunState::complete);
   EXPECT_EQ(run.points.size(), 1u);
   EXPECT_TRUE(run.header.warnings.empty());
+  EXPECT_EQ(keeper_->why_open(id), "");
+  for (int i = 0; i < 100 && keeper_->storage().state != "ok"; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(keeper_->storage().state, "ok");
 }
 
 TEST_F(HeldDatabase, AnEndOfTheDaemonMeanwhileIsTold) {

@@ -31,8 +31,8 @@ std::string server_text(const element& info, std::size_t columns) {
   std::string lines = text(info, "server") + " " + text(info, "version") + ", up for " +
                       fixed(number(info, "uptime_s"), 0) + " s\n" +
                       wrapped("database " + text(info, "database"), columns, 2) + "\n";
-  if (text(info, "storage") == "lost")
-    lines += wrapped("storage lost: " + text(info, "storage_reason"), columns, 2) + "\n";
+  if (const std::string storage = text(info, "storage"); storage != "ok")
+    lines += wrapped("storage " + storage + ": " + text(info, "storage_reason"), columns, 2) + "\n";
   array axes;
   if (info["axes"].get_array().get(axes)) return lines;
   TextTable table({"axis", "run", "rig", "devices", "simulated"});

@@ -1,0 +1,24 @@
+// What a refusal of the database means for those who want to store. Private to storekeeper*.cpp.
+#pragma once
+
+#include <string>
+
+#include "schema/result.h"
+
+namespace mdof::daemon {
+
+// A foreign program holds the file: that passes.
+template <class T>
+bool is_busy(const Result<T>& done) {
+  return !done && done.error().message.find("SQLITE_BUSY") != std::string::npos;
+}
+
+// The disk takes nothing: it is full, read-only, or it errs.
+inline bool is_full(const Error& error) {
+  for (const char* sign : {"SQLITE_FULL", "SQLITE_READONLY", "SQLITE_IOERR", "SQLITE_CANTOPEN",
+                           "No space left", "Read-only file system"})
+    if (error.message.find(sign) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace mdof::daemon

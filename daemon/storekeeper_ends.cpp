@@ -1,0 +1,160 @@
+// Storekeeper: points and ends of runs, at once or when the database can take them.
+#include "daemon/paths.h"
+#include "daemon/storage_errors.h"
+#include "daemon/storekeeper.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr const char* kHeld =
+    ": another program holds it in a transaction that does not end; what is measured waits and is "
+    "in the recording: end that program";
+
+store::RunEnd end_of(const Run& run) {
+  store::RunEnd end;
+  end.state = run.header.state;
+  end.scans = run.header.scans;
+  end.scans_lost = run.header.scans_lost;
+  end.warnings = run.header.warnings;
+  end.recording_sha256 = run.header.provenance.recording_sha256;
+  end.straightness = run.straightness;
+  end.angles = run.angles;
+  end.plausibility = run.plausibility;
+  end.temperature = run.header.temperature;
+  return end;
+}
+
+// The end of a run that turned out otherwise: of use to nobody; `where` is what it turned out to
+// be.
+store::RunEnd provisional_of(store::RunEnd whole, const char* where) {
+  whole.state = RunState::failed;
+  whole.straightness.clear();
+  whole.angles.clear();
+  whole.plausibility.reset();
+  whole.warnings.push_back(std::string("once all was known the points turned out otherwise; ") +
+                           where);
+  return whole;
+}
+
+}  // namespace
+
+// Runs whose end the disk refused: tried again until it takes it.
+void Storekeeper::end_what_can_be() {
+  std::erase_if(unended_, [&](Unended& waiting) {
+    waiting.end.state = RunState::failed;
+    if (!store_->end_run(waiting.run, waiting.end)) return false;
+    explain(waiting.run, "");
+    return true;
+  });
+}
+
+// In the order in which they came.
+void Storekeeper::take(Points points) {
+  const Status kept = waiting_points_.empty() ? keep_points(points.run, points.points)
+                                              : Status(tl::unexpected(Error()));
+  if (!waiting_points_.empty() || is_busy(kept))
+    wait_for_database(std::move(points));
+  else
+    points.done(kept);
+}
+
+void Storekeeper::take(Ending ending) {
+  seal(ending);
+  auto ended = waiting_points_.empty() ? end(ending) : Result<std::int64_t>(0);
+  if (!waiting_points_.empty() || is_busy(ended))
+    wait_for_database(std::move(ending));
+  else
+    ending.done(std::move(ended));
+}
+
+void Storekeeper::wait_for_database(Points points) {
+  set(held_, options_.database.string() + kHeld);
+  waiting_points_.push_back(std::move(points));
+}
+
+void Storekeeper::wait_for_database(Ending ending) {
+  set(held_, options_.database.string() + kHeld);
+  explain(ending.run, "its end is not stored yet: " + options_.database.string() + kHeld);
+  waiting_ends_.push_back(std::move(ending));
+}
+
+// `why` it stands as open; empty: it does not any more.
+void Storekeeper::explain(std::int64_t run, const std::string& why) {
+  const std::lock_guard guard(fault_mutex_);
+  if (why.empty())
+    open_because_.erase(run);
+  else
+    open_because_[run] = why;
+}
+
+void Storekeeper::refused_end(Unended unended, const Error& error) {
+  note_full(error);
+  explain(unended.run, "its end is not stored yet: " + error.message);
+  unended_.push_back(std::move(unended));
+}
+
+void Storekeeper::store_what_waits() {
+  for (; !waiting_points_.empty(); waiting_points_.pop_front()) {
+    const Points& next = waiting_points_.front();
+    const Status kept = keep_points(next.run, next.points);
+    if (is_busy(kept)) return;
+    next.done(kept);
+  }
+  for (; !waiting_ends_.empty(); waiting_ends_.pop_front()) {
+    auto ended = end(waiting_ends_.front());
+    if (is_busy(ended)) return;
+    explain(waiting_ends_.front().run, ended ? "" : ended.error().message);
+    waiting_ends_.front().done(std::move(ended));
+  }
+  set(held_, "");
+}
+
+// mdofd ends: the runs stay without an end, as after a power cut, and their recordings have all.
+void Storekeeper::give_up_what_waits() {
+  const auto error = io_error(
+      "mdofd ended while a foreign program held the database: the recording has the run, go on "
+      "with it (mdof record --resume RUN) or replay it");
+  for (const Points& points : waiting_points_) points.done(error);
+  for (const Ending& ending : waiting_ends_) ending.done(error);
+}
+
+// Once: what the recording says of the run.
+void Storekeeper::seal(Ending& ending) {
+  RunHeader& header = ending.result.header;
+  if (const auto recording = recordings_.find(ending.run); recording != recordings_.end()) {
+    auto sealed = recording->second.writer.finish(utc_now());
+    recordings_.erase(recording);
+    if (!sealed) {
+      header.state = RunState::failed;
+      header.warnings.push_back(sealed.error().message);
+    } else {
+      header.provenance.recording_sha256 = *sealed;
+    }
+  }
+}
+
+Result<std::int64_t> Storekeeper::end(Ending& ending) {
+  const std::int64_t run = ending.run;
+  if (incomplete_.erase(run) > 0) ending.how.differs = !ending.result.points.empty();
+  store::RunEnd whole = end_of(ending.result);
+  whole.deed = ending.how.deed;
+  if (!ending.how.differs) {
+    MDOF_CHECK(end_or_wait(run, whole));
+    return run;
+  }
+  auto superseded = store_->end_and_supersede(
+      run, provisional_of(whole, "the run that supersedes this one has them"), ending.result);
+  if (!superseded && !is_busy(superseded))
+    refused_end({run, provisional_of(whole, "the disk refused them: replay its recording")},
+                superseded.error());
+  return superseded;
+}
+
+// A refused end is not given up: it is tried again until the disk takes it.
+Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
+  Status ended = store_->end_run(run, end);
+  if (!ended && !is_busy(ended)) refused_end({run, end}, ended.error());
+  return ended;
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+"""A disk that is full: mdofd starts, serves the table in force, says so, and goes on once there is room.
+
+usage: storage_test.py MDOFD MDOF"""
+import os
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from mdofd import RIG, Client, Daemon, RpcError, simulator  # noqa: E402
+
+MDOFD, MDOF = sys.argv[1:3]
+
+
+def write_log(path):
+    with open(path, "w") as log:
+        log.write("time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n")
+        for i in range(2400):
+            target, at = divmod(i, 600)
+            encoder = target + (0 if at < 500 else (at - 500) / 100)
+            log.write(f"{i * 1e-3:.6f},{encoder:.6f},0.1,0.2,0.3,0.4,{0.5 + target / 10}\n")
+
+
+class SmallDisk(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.disk = os.path.join(self.folder.name, "disk")
+        os.mkdir(self.disk)
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=6m", "tmpfs", self.disk], capture_output=True, text=True)
+        if mounted.returncode != 0:
+            self.skipTest("a small disk cannot be mounted here: " + mounted.stderr.strip())
+        self.addCleanup(lambda: subprocess.run(["umount", "-l", self.disk], check=False))
+        self.daemon = Daemon(MDOFD, os.path.join(self.folder.name, "d"), simulator("X"))
+        with open(self.daemon.config) as f:
+            config = f.read()
+        self.daemon.database = os.path.join(self.disk, "mdof.db")
+        with open(self.daemon.config, "w") as f:
+            f.write(config.replace(os.path.join(self.daemon.folder, "mdof.db"), self.daemon.database))
+        self.addCleanup(lambda: self.daemon.process.poll() is None and self.daemon.stop())
+
+    def recordings(self):
+        return sorted(os.listdir(os.path.join(self.disk, "recordings")))
+
+    def fill(self):
+        with open(os.path.join(self.disk, "filler"), "wb", buffering=0) as f:
+            try:
+                while True:
+                    f.write(b"x" * 4096)
+            except OSError:
+                pass
+
+    def wait_for_storage(self, client, state):
+        end = time.monotonic() + 5
+        while time.monotonic() < end:
+            info = client.call("server.info")
+            if info["storage"] == state:
+                return info["storage_reason"]
+            time.sleep(0.05)
+        self.fail(f"storage is {info['storage']} ({info['storage_reason']}) and not {state}")
+
+    def cut_off(self, client):
+        """A table in force, and a run that a kill cuts off."""
+        log = os.path.join(self.folder.name, "log.csv")
+        write_log(log)
+        with open(RIG["X"]) as rig:
+            run = client.call("run.replay", path=log, rig=rig.read())["run"]
+        table = client.call("compensation.build", runs=[run])["table"]
+        client.call("compensation.activate", table=table, despite_warnings=True)
+        status = client.call("compensation.status")
+        run = client.call("run.start", axis="X")["run"]
+        time.sleep(0.3)
+        self.daemon.kill()
+        return status, run
+
+    def test_a_cut_off_run_on_a_full_disk_keeps_nobody_from_the_table(self):
+        status, run = self.cut_off(self.daemon.start())
+        self.fill()
+        client = self.daemon.start()
+        self.assertEqual(client.call("compensation.status"), status)
+        reason = self.wait_for_storage(client, "full")
+        self.assertIn("full", reason)
+        self.assertIn("tries again", reason)
+        text = subprocess.run([MDOF, "status", "--socket", self.daemon.socket], capture_output=True, text=True).stdout
+        self.assertIn("storage full", text)
+        header = client.call("run.list")["runs"][0]
+        self.assertEqual((header["run"], header["state"]), (run, "aborted"))
+        self.assertIn("interrupted", header["warnings"])
+        before = self.recordings()
+        for method, params in (("run.start", {"axis": "X"}), ("compensation.deactivate", {"axis": "X"})):
+            with self.assertRaises(RpcError) as refusal:
+                client.call(method, **params)
+            self.assertIn("full", str(refusal.exception))
+        self.assertEqual(self.recordings(), before)
+        watcher = Client(self.daemon.socket)
+        watcher.call("live.subscribe", interval_ms=60_000)
+        os.remove(os.path.join(self.disk, "filler"))
+        self.wait_for_storage(client, "ok")
+        while (event := watcher.next_note()["params"]["value"]).get("type") != "storage":
+            pass
+        self.assertEqual(event["state"], "ok")
+        new = client.call("run.start", axis="X")["run"]
+        client.call("run.stop", run=new, abort=True)
+        client.call("compensation.deactivate", axis="X")
+
+    def test_a_run_that_a_full_disk_refuses_leaves_no_empty_recording(self):
+        client = self.daemon.start()
+        client.call("run.stop", run=client.call("run.start", axis="X")["run"], abort=True)
+        before = self.recordings()
+        self.fill()
+        with self.assertRaises(RpcError) as refusal:
+            client.call("run.start", axis="X")
+        self.assertIn("full", str(refusal.exception).lower())
+        self.assertEqual(self.recordings(), before)
+        self.wait_for_storage(client, "full")
+        os.remove(os.path.join(self.disk, "filler"))
+        self.wait_for_storage(client, "ok")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

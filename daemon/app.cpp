@@ -190,7 +190,11 @@ void App::Parts::watch() {
 
 // A signal that comes while the parts are still made waits for the loop, which then ends at once.
 void App::Parts::heed_signals() {
-  loop.on_signal({SIGTERM, SIGINT}, [this](int) {
+  std::vector<int> signals{SIGTERM, SIGINT};
+  struct sigaction hang_up {};
+  ::sigaction(SIGHUP, nullptr, &hang_up);
+  if (hang_up.sa_handler != SIG_IGN) signals.push_back(SIGHUP);  // ignored: as under nohup
+  loop.on_signal(signals, [this](int) {
     systemd::notify_stopping("stopping");
     loop.stop();
   });

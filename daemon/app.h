@@ -13,7 +13,7 @@ class App {
   // Opens the database, the socket and the devices. Errors as theirs.
   static Result<std::unique_ptr<App>> create(Config config);
   ~App();
-  // Serves until SIGTERM or SIGINT. Runs under way end as aborted.
+  // Serves until SIGTERM, SIGINT or SIGHUP. Runs under way end as aborted.
   void run();
 
  private:

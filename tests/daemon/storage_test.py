@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""A disk that is full: mdofd starts, serves the table in force, says so, and goes on once there is room.
+"""A disk that is full: mdofd starts, serves the table in force, says so, and goes on once there is room. And a
+signal that comes when a terminal is closed ends a run in good order.
 
 usage: storage_test.py MDOFD MDOF"""
 import os
+import signal
 import sqlite3
 import subprocess
 import sys
@@ -119,6 +121,39 @@ class SmallDisk(unittest.TestCase):
         self.wait_for_storage(client, "full")
         os.remove(os.path.join(self.disk, "filler"))
         self.wait_for_storage(client, "ok")
+
+
+class HangUp(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.daemon = Daemon(MDOFD, os.path.join(self.folder.name, "d"), simulator("X"))
+
+    def test_it_seals_the_run_and_ends(self):
+        client = self.daemon.start()
+        run = client.call("run.start", axis="X")["run"]
+        time.sleep(0.2)
+        self.daemon.process.send_signal(signal.SIGHUP)
+        self.assertEqual(self.daemon.process.wait(20), 0)
+        client = self.daemon.start()
+        header = client.call("run.get", run=run)
+        self.daemon.stop()
+        self.assertEqual(header["state"], "aborted")
+        self.assertIn("the daemon was stopped", header["warnings"])
+        with sqlite3.connect(header["recording"]["path"]) as recording:
+            self.assertEqual(recording.execute("SELECT count(*) FROM seal").fetchone(), (1,))
+
+    def test_it_is_ignored_where_nohup_says_so(self):
+        self.daemon.arguments = []
+        before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        try:
+            client = self.daemon.start()
+        finally:
+            signal.signal(signal.SIGHUP, before)
+        self.daemon.process.send_signal(signal.SIGHUP)
+        time.sleep(0.3)
+        client.call("server.info")
+        self.daemon.stop()
 
 
 if __name__ == "__main__":

@@ -65,6 +65,7 @@ struct App::Parts {
   rpc::Server server;
 
   ~Parts() {
+    for (auto& station : stations) station->begin_stopping();
     replayer.reset();
     stations.clear();
     keeper.reset();

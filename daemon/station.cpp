@@ -45,8 +45,14 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
   for (auto& acquisition : acquisitions_) acquisition->start();
 }
 
-Station::~Station() {
+void Station::begin_stopping() {
   resuming_ = false;
+  if (!config_.live()) return;
+  for (auto& acquisition : acquisitions_) acquisition->cease();
+}
+
+Station::~Station() {
+  begin_stopping();
   if (resume_thread_.joinable()) resume_thread_.join();
   if (config_.live())
     for (auto& acquisition : acquisitions_) acquisition->stop();

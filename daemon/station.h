@@ -42,6 +42,8 @@ class Station {
   Station(AxisConfig config, PipelineOptions options, std::string configuration,
           std::filesystem::path recordings, Storekeeper& keeper, StationEvents events);
   ~Station();  // an open run ends as aborted
+  // Asks the devices to stop and waits for none, so that those of all stations stop together.
+  void begin_stopping();
 
   void start_run(const RunRequest& request, const RunDone& done);
   // `done`: the id of the run to read (see Storekeeper::end_run), once it is on the disk.

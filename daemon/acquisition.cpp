@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "daemon/paths.h"
+#include "drivers/progress.h"
 
 namespace mdof::daemon {
 namespace {
@@ -121,6 +122,9 @@ void Acquisition::acquire(std::uint64_t pass) {
     const std::lock_guard lock(status_mutex_);
     status_.standing.clear();
   }
+  drivers::long_step_watcher() = [this](steady_clock::time_point until) {
+    turn_ = std::max(turn_.load(), until);
+  };
   auto driver = spec_.make();
   if (!driver) fail(driver.error().message);
   while (acquiring_) {

@@ -10,6 +10,7 @@
 
 #include "drivers/modbus/protocol.h"
 #include "drivers/modbus/sentinels.h"
+#include "drivers/progress.h"
 
 namespace mdof::drivers {
 namespace {
@@ -119,6 +120,7 @@ Result<Answer> ModbusClient::Impl::ask_in_order(const std::string& pdu, int addr
 // Sends with our own stream, which takes part writes; lets the library receive, as its own read
 // functions check neither unit nor length of a TCP reply; then checks everything.
 Result<Answer> ModbusClient::Impl::exchange(const std::string& pdu) {
+  expect_long_step(2 * options.response_timeout);  // to send, and to receive
   const modbus::Frame asked{++transaction, static_cast<std::uint8_t>(options.unit), pdu};
   if (auto sent = stream.write(modbus::wrap(framing, asked), options.response_timeout); !sent) {
     distrust();

@@ -14,6 +14,8 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kConnect{2000}, kSilence{2000};
 constexpr int kFailures = 20;
+// Between two attempts, where an adapter that has gone fails at once.
+constexpr milliseconds kBetweenAttempts{10};
 constexpr int kProof_timeouts = 10;  // to prove an RTU line at opening
 
 nanoseconds from_ms(double ms) {
@@ -93,7 +95,9 @@ Status ModbusDriver::ask_at_opening(const modbus::Register& from, std::span<std:
   const auto until = steady_clock::now() + kProof_timeouts * timeout_;
   Status done;
   do {
+    const auto next = steady_clock::now() + kBetweenAttempts;
     done = ask(from, into);
+    if (!done && rtu) std::this_thread::sleep_until(next);
   } while (!done && rtu && steady_clock::now() < until);
   return done ? done : in_context(who(), done.error());
 }
@@ -138,7 +142,8 @@ Status ModbusDriver::poll(SampleBlock& block) {
   const auto start = steady_clock::now();
   for (std::size_t i = 0; i < readings_.blocks().size(); ++i) {
     if (auto asked = ask(readings_.blocks()[i].from, readings_.registers(i)); !asked) {
-      if (client_->trusted()) next_ = start + period_;
+      next_ =
+          client_->trusted() ? start + period_ : std::max<Time>(next_, start + kBetweenAttempts);
       return asked;
     }
   }

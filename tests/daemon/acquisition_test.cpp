@@ -1,5 +1,6 @@
 // A device that fails, comes back, and loses samples: what of that is told.
 #include "daemon/acquisition.h"
+#include "drivers/progress.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,19 @@ using std::chrono::steady_clock;
 
 // What the fake device does at each call of open() and read(), in turn; then it stays silent.
 struct Script {
-  enum class Act { open, slow_open, open_anew, refuse, block, late_block, silence, fail, end };
+  enum class Act {
+    open,
+    slow_open,
+    open_anew,
+    refuse,
+    block,
+    late_block,
+    silence,
+    fail,
+    end,
+    slow_read,
+    hang
+  };
   std::deque<Act> acts;
   std::int64_t time_ns = 0;  // of the next scan
 };
@@ -41,6 +54,12 @@ class Scripted final : public drivers::Driver {
       case Script::Act::late_block:
         clock_ = drivers::ClockState{.settled = true, .doubtful = true, .late_ns = 300'000'000};
         fill(block);
+        break;
+      case Script::Act::slow_read:
+        drivers::expect_long_step(milliseconds(1500));
+        [[fallthrough]];
+      case Script::Act::hang:
+        std::this_thread::sleep_for(milliseconds(700));
         break;
       case Script::Act::block:
         if (clock_) clock_->doubtful = false;
@@ -172,6 +191,24 @@ TEST(Acquisition, ReopensAFailedDeviceAndTellsWhatWasLost) {
   EXPECT_TRUE(acquisition.healthy(std::chrono::seconds(5)));
   acquisition.stop();
   EXPECT_EQ(acquisition.status().state, "closed");
+}
+
+// Whether healthy() says so all through a read that takes 0.7 s.
+bool healthy_all_through(Script::Act act) {
+  Collector collector;
+  Acquisition acquisition(spec_of({open, block, act, block}), collector.sink());
+  acquisition.start();
+  bool healthy = true;
+  while (collector.blocks().size() < 2) {
+    healthy = healthy && acquisition.healthy(milliseconds(500));
+    std::this_thread::sleep_for(milliseconds(5));
+  }
+  return healthy;
+}
+
+TEST(Acquisition, ALongStepThatWasAnnouncedIsNoHangUp) {
+  EXPECT_TRUE(healthy_all_through(slow_read));
+  EXPECT_FALSE(healthy_all_through(hang));
 }
 
 TEST(Acquisition, TellsOnceThatADeviceIsLostAndThatItIsBack) {

@@ -283,9 +283,11 @@ TEST(ModbusDriver, ReadComesBackInTimeBetweenPolls) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, milliseconds(2000));
 }
 
-// A serial line: the driver on the slave side of a pseudo-terminal, the device on the other.
-TEST(ModbusDriver, ASmaxIsReadOverASerialLine) {
-  ByteStream master(::posix_openpt(O_RDWR | O_NOCTTY), "pty");
+// A serial line: the driver on the slave side of a pseudo-terminal, the device on the other. Then
+// the adapter is unplugged: asking it fails at once, again and again, and must not take a core.
+TEST(ModbusDriver, ASmaxIsReadOverASerialLineUntilItIsUnplugged) {
+  auto plugged = std::make_unique<ByteStream>(::posix_openpt(O_RDWR | O_NOCTTY), "pty");
+  ByteStream& master = *plugged;
   ASSERT_EQ(::grantpt(master.fd()), 0);
   ASSERT_EQ(::unlockpt(master.fd()), 0);
   std::array<char, 128> path{};
@@ -308,6 +310,12 @@ TEST(ModbusDriver, ASmaxIsReadOverASerialLine) {
   EXPECT_EQ(opened ? one_scan(*driver).value[0][0] : 0, 7'700.0);
   stop = true;
   serving.join();
+  plugged.reset();
+  SampleBlock block;
+  const auto until = std::chrono::steady_clock::now() + milliseconds(600);
+  const std::clock_t begin = std::clock();
+  while (std::chrono::steady_clock::now() < until) (void)driver->read(block, milliseconds(100));
+  EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 0.15);
 }
 
 std::string refusal(const std::string& toml) {

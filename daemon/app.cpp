@@ -73,6 +73,7 @@ struct App::Parts {
   Status open_store();
   void read_anew();
   void start_stations();
+  void tell(const char* topic, const std::string& json);
   void to_journal(Axis axis, const Trouble& trouble);
   void heed_signals();
   Status listen();
@@ -83,7 +84,7 @@ struct App::Parts {
 Status App::Parts::open_store() {
   Storekeeper::Events events;
   events.recorded = [this](std::int64_t run, std::int64_t seq) {
-    loop.post([this, run, seq] { (void)server.publish(kRunTopic, recorded_json(run, seq)); });
+    loop.post([this, run, seq] { tell(kRunTopic, recorded_json(run, seq)); });
   };
   events.failed = [this](std::int64_t run, const Error& error) {
     loop.post([this, run, error] {
@@ -98,7 +99,7 @@ Status App::Parts::open_store() {
       std::fprintf(stderr, "storage %s%s%s\n", now.state.c_str(), now.reason.empty() ? "" : ": ",
                    now.reason.c_str());
       if (now.state == "ok") read_anew();
-      (void)server.publish(kRunTopic, storage_json(now));
+      tell(kRunTopic, storage_json(now));
     });
   };
   MDOF_TRY(keeper, Storekeeper::start({config.database, config.durability, config.commit_interval},
@@ -120,14 +121,14 @@ void App::Parts::read_anew() {
 void App::Parts::start_stations() {
   StationEvents events;
   events.live = [this](std::string json) {
-    loop.post([this, json = std::move(json)] { (void)server.publish(kLiveTopic, json); });
+    loop.post([this, json = std::move(json)] { tell(kLiveTopic, json); });
   };
   events.run_event = [this](std::string json) {
-    loop.post([this, json = std::move(json)] { (void)server.publish(kRunTopic, json); });
+    loop.post([this, json = std::move(json)] { tell(kRunTopic, json); });
   };
   events.trouble = [this](Axis axis, std::int64_t run, const Trouble& trouble) {
     loop.post([this, axis, run, trouble] {
-      (void)server.publish(kRunTopic, trouble_json(axis, run, trouble));
+      tell(kRunTopic, trouble_json(axis, run, trouble));
       to_journal(axis, trouble);
     });
   };
@@ -135,6 +136,15 @@ void App::Parts::start_stations() {
     stations.push_back(std::make_unique<Station>(axis, config.measure, config.text,
                                                  config.recordings, *keeper, events));
   }
+}
+
+// What cannot be sent is not lost in silence: clients see it counted, and the journal has it.
+void App::Parts::tell(const char* topic, const std::string& json) {
+  const Status told = server.publish(topic, json);
+  if (told) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (const auto text = journal.admit(std::string("publish ") + topic, told.error().message, now))
+    std::fprintf(stderr, "%s\n", text->c_str());
 }
 
 void App::Parts::to_journal(Axis axis, const Trouble& trouble) {

@@ -9,6 +9,7 @@
 #include "daemon/live_json.h"
 #include "daemon/open_run.h"
 #include "daemon/paths.h"
+#include "daemon/run_events.h"
 #include "daemon/station.h"
 #include "daemon/store/result_hash.h"
 #include "schema/json_writer.h"
@@ -116,21 +117,6 @@ std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request
   const auto next = awaited_target(request, points);
   next ? json.value(to_mm(request.targets_m[*next])) : json.null();
   json.end_object();
-  return json.take();
-}
-
-std::string points_json(std::int64_t run, const MovingAxis& moving,
-                        const std::vector<MeasuredPoint>& points, std::size_t first_row) {
-  JsonWriter json;
-  json.begin_object()
-      .field("type", "points")
-      .field("run", run)
-      .field("axis", std::string(1, letter(moving.axis)))
-      .field("offset", static_cast<std::uint64_t>(first_row))
-      .field("reference", to_string(Reference::fixture));
-  json.key("points").begin_array();
-  for (const auto& p : points) write_point(json, moving, p);
-  json.end_array().end_object();
   return json.take();
 }
 
@@ -268,14 +254,14 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   open_->stored.insert(open_->stored.end(), fresh.begin(), fresh.end());
   tell_unsolved(fresh);
   const std::int64_t run = open_->id;
-  std::string json = points_json(run, config_.rig.moving(), fresh, first);
+  auto messages = points_messages(run, config_.rig.moving(), fresh, first);
   std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
   // Told to clients only once it is on the disk.
   keeper_.append_points(run, std::move(fresh),
-                        [shared = shared_, json = std::move(json),
+                        [shared = shared_, messages = std::move(messages),
                          progress = std::move(progress)](const Status& kept) {
                           if (!kept) return;
-                          shared->events.run_event(json);
+                          for (const auto& json : messages) shared->events.run_event(json);
                           shared->events.run_event(progress);
                         });
 }

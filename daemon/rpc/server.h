@@ -42,7 +42,8 @@ class Server {
   // have asked for different ones. Nothing: nobody has subscribed.
   std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
   // `json` is one JSON value. Cheap: the value is shared by those who wait for it, and sent in a
-  // later turn of the loop. Errors: no such topic, too large for a reply line.
+  // later turn of the loop. Errors: no such topic, too large for a reply line
+  // (subscribers are then told in "missed").
   Status publish(std::string_view topic, std::string json);
 
   std::size_t connection_count() const;

@@ -28,6 +28,7 @@ class Subscription {
 
   // A value takes the place of the one that waits; an event queues, and the oldest goes when full.
   void offer(Value value, Time now);
+  void miss() { ++missed_; }  // one that cannot be sent
   // When the next message may be sent; nothing: none waits. A value that will have grown old by
   // then is held for another interval, for a newer one to take its place.
   std::optional<Time> due() const;

@@ -50,10 +50,12 @@ Result<TopicHub::Row*> TopicHub::row(std::string_view topic) {
 Status TopicHub::publish(std::string_view topic, std::string json) {
   MDOF_TRY(Row* const found, row(topic));
   const std::size_t line = json.size() + topic.size() + kEnvelopeBytes;
-  if (line > options_.max_reply_bytes)
+  if (line > options_.max_reply_bytes) {
+    for (const auto& [who, entry] : found->subscribers) entry->miss();
     return fail(ErrorCode::usage, "topic " + in_quotes(topic) + ": a value of " +
                                       std::to_string(json.size()) +
                                       " bytes does not fit into a reply line");
+  }
   if (found->subscribers.empty()) return {};
   const auto value = std::make_shared<const std::string>(std::move(json));
   const auto now = std::chrono::steady_clock::now();

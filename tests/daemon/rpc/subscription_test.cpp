@@ -107,6 +107,16 @@ class Subscriptions : public ::testing::Test {
   TestServer server_;
 };
 
+TEST_F(Subscriptions, WhatNoLineHoldsIsCounted) {
+  RawClient client(server_.path);
+  ASSERT_EQ(at(client.ask(subscribe("run.event", 0)), "/result"), "true");
+  const auto refused = server_.on_loop(
+      [&] { return server_.server->publish("run.event", std::string(60'000, '1')); });
+  EXPECT_FALSE(refused);
+  publish("run.event", "2");
+  EXPECT_EQ(client.line(), message("run.event", 1, "2"));
+}
+
 TEST_F(Subscriptions, ValuesComeNoFasterThanAsked) {
   RawClient client(server_.path);
   ASSERT_EQ(at(client.ask(subscribe("live.frame", 100)), "/result"), "true");

@@ -1,0 +1,36 @@
+#include "daemon/run_events.h"
+
+#include <gtest/gtest.h>
+#include <simdjson.h>
+
+namespace mdof::daemon {
+namespace {
+
+// As of a long run that goes on: no reply line holds them all, and none may be lost by that.
+TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
+  std::vector<MeasuredPoint> points(500);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].target = static_cast<int>(i) + 1;
+    points[i].errors.valid = true;
+    for (double& x : points[i].errors.local) x = 1.23456789012345e-6;
+    for (double& x : points[i].errors.covariance) x = 1.23456789012345e-14;
+  }
+  const auto messages = points_messages(7, {Axis::x, {}}, points, 40);
+  EXPECT_GT(messages.size(), 1u);
+  std::uint64_t next = 40;
+  simdjson::dom::parser parser;
+  for (const auto& message : messages) {
+    EXPECT_LT(message.size(), 48u * 1024 - 128);
+    const auto json = parser.parse(message);
+    EXPECT_EQ(std::uint64_t(json["offset"]), next);
+    for (const auto point : json["points"]) EXPECT_EQ(std::uint64_t(point["target"]), ++next - 40);
+  }
+  EXPECT_EQ(next, 540u);
+}
+
+TEST(RunEvents, NoPointsAreNoMessage) {
+  EXPECT_TRUE(points_messages(7, {Axis::x, {}}, {}, 0).empty());
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -2,9 +2,11 @@
 
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <optional>
 
 #include "daemon/check_start.h"
+#include "daemon/clock_watch.h"
 #include "daemon/hotplug.h"
 #include "daemon/methods.h"
 #include "daemon/paths.h"
@@ -29,6 +31,20 @@ std::string storage_json(const StorageState& now) {
   JsonWriter json;
   json.begin_object().field("type", "storage").field("state", now.state);
   json.field("text", now.reason).field("utc", utc_now()).end_object();
+  return json.take();
+}
+
+std::int64_t now_ns(clockid_t clock) {
+  timespec now{};
+  ::clock_gettime(clock, &now);
+  return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
+}
+
+std::string clock_json(double step_s) {
+  JsonWriter json;
+  json.begin_object().field("type", "clock").field("step_s", step_s);
+  json.field("text", "the time of day was set; what is measured goes on unharmed");
+  json.field("utc", utc_now()).end_object();
   return json.take();
 }
 
@@ -78,7 +94,10 @@ struct App::Parts {
   void heed_signals();
   Status listen();
   void watch();
+  void watch_clock();
   void watch_hotplug();
+
+  ClockWatch clock;
 };
 
 Status App::Parts::open_store() {
@@ -196,7 +215,17 @@ void App::Parts::watch() {
       if (all) systemd::feed_watchdog();
     });
   }
+  loop.call_every(std::chrono::seconds(1), [this] { watch_clock(); });
   watch_hotplug();
+}
+
+void App::Parts::watch_clock() {
+  const auto step_ns = clock.look(now_ns(CLOCK_REALTIME), now_ns(CLOCK_BOOTTIME));
+  if (!step_ns) return;
+  const double step_s = static_cast<double>(*step_ns) * 1e-9;
+  std::fprintf(stderr, "the time of day was set by %.3f s; what is measured goes on unharmed\n",
+               step_s);
+  tell(kRunTopic, clock_json(step_s));
 }
 
 // A signal that comes while the parts are still made waits for the loop, which then ends at once.

@@ -6,6 +6,8 @@
 namespace mdof::drivers {
 namespace {
 
+constexpr double kMostOffset_mm = 1e6;  // a kilometre of slide
+
 Status check_id(const ChannelInput& channel, const std::vector<ChannelInput>& before,
                 const Rig& rig) {
   std::vector<std::string> known = {kEncoderChannel};
@@ -26,6 +28,15 @@ Status check_id(const ChannelInput& channel, const std::vector<ChannelInput>& be
   return {};
 }
 
+void read_offset(TomlTable& table, ChannelInput& channel) {
+  if (!table.has("offset_mm")) return;
+  channel.offset_mm = table.number("offset_mm", 0);
+  if (channel.id != kEncoderChannel)
+    table.reject("offset_mm", "is of the encoder; what a probe is off by is offset_um in the rig");
+  if (!(std::abs(*channel.offset_mm) <= kMostOffset_mm))
+    table.reject("offset_mm", "must be a position of the axis in mm");
+}
+
 }  // namespace
 
 Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig,
@@ -38,6 +49,7 @@ Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& ri
     channel.input = table.string("input");
     channel.um_per_count = table.number("um_per_count", 0);
     if (!std::isfinite(channel.um_per_count)) table.reject("um_per_count", "must be finite");
+    read_offset(table, channel);
     if (more) more(table);
     MDOF_CHECK(check_id(channel, channels, rig));
     channels.push_back(std::move(channel));
@@ -53,6 +65,12 @@ std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels) {
   std::vector<std::string> ids;
   for (const auto& channel : channels) ids.push_back(channel.id);
   return ids;
+}
+
+EncoderOrigin encoder_origin(const std::vector<ChannelInput>& channels, bool counts) {
+  for (const auto& channel : channels)
+    if (channel.id == kEncoderChannel) return {counts, channel.offset_mm};
+  return {};
 }
 
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,

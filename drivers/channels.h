@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "drivers/driver.h"
 #include "schema/result.h"
 #include "schema/rig.h"
 #include "schema/sample.h"
@@ -13,10 +15,11 @@
 namespace mdof::drivers {
 
 struct ChannelInput {
-  std::string id;           // a probe of the rig, or "encoder"
-  std::string input;        // as the device calls it: "AIN0", "1", "encoder2"
-  double um_per_count = 0;  // of an encoder that counts: signed; 0: not given
-  std::string where;        // "mdofd.toml:12: axis.device.channel.input", for messages
+  std::string id;                   // a probe of the rig, or "encoder"
+  std::string input;                // as the device calls it: "AIN0", "1", "encoder2"
+  double um_per_count = 0;          // of an encoder that counts: signed; 0: not given
+  std::optional<double> offset_mm;  // of the encoder: what is added to its position
+  std::string where;                // "mdofd.toml:12: axis.device.channel.input", for messages
 };
 
 // Reads `channel` of a device's table. Errors: none, an id that is no probe of the rig (with the
@@ -28,6 +31,10 @@ Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& ri
 
 // Of DriverSpec.
 std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels);
+
+// Of the encoder among them; `counts`: this family's encoders count from where they were switched
+// on.
+EncoderOrigin encoder_origin(const std::vector<ChannelInput>& channels, bool counts);
 
 // The error that an input is unknown to the device, with those that it has.
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,

@@ -31,6 +31,12 @@ struct DeviceInfo {
   std::vector<std::string> warnings = {};
 };
 
+// What positions an encoder of a device shows.
+struct EncoderOrigin {
+  bool counts = false;              // from where it was switched on, wherever that was
+  std::optional<double> offset_mm;  // to be added, by the configuration
+};
+
 enum class ReadState {
   more,  // block holds scans, or is empty because nothing came within the time-out
   end,   // the source has ended (a file); nothing more will come
@@ -46,6 +52,9 @@ class Driver {
   // Replaces `block` (its capacity is reused). Waits at most `timeout`. An error means the device
   // is gone or its stream is not to be trusted; the caller closes, backs off and opens again.
   virtual Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) = 0;
+  // Somebody has said where the axis stands: its encoder's count is to be trusted as it is now,
+  // whatever DeviceInfo::datum_lost says.
+  virtual void trust_count() {}
 };
 
 }  // namespace mdof::drivers

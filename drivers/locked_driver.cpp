@@ -25,6 +25,8 @@ class LockedDriver final : public Driver {
   DeviceInfo info() const override { return driver_->info(); }
   const Driver& device() const { return *driver_; }
 
+  void trust_count() override { driver_->trust_count(); }
+
   Status open() override {
     if (!lock_) {
       auto taken = DeviceLock::take(identity_(), shared_);

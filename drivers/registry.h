@@ -35,6 +35,7 @@ struct DriverSpec {
   bool recorded = true;  // its samples go into a recording; false: they come from one
   bool simulated = false;
   std::vector<std::string> channels;  // ids it gives; empty: all of the rig
+  EncoderOrigin encoder;              // where it gives one
   std::string source_path;            // of a replay
   // The device itself, whatever it is called in the configuration (io/device_lock.h): while a
   // driver that make() made has it open, nobody else opens it. Empty: its bus sees to that.

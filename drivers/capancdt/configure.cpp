@@ -125,7 +125,10 @@ Result<DriverSpec> configure_capancdt(TomlTable& table, const DriverContext& con
   DriverSpec spec;
   spec.driver = "capancdt";
   spec.name = context.name;
-  for (const auto& channel : options.channels) spec.channels.push_back(channel.input.id);
+  for (const auto& channel : options.channels) {
+    spec.channels.push_back(channel.input.id);
+    if (channel.input.id == kEncoderChannel) spec.encoder.offset_mm = channel.input.offset_mm;
+  }
   spec.identity = [at = options.command] { return identity_of(at); };
   spec.make = [options]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<capancdt::Capancdt>(options);

@@ -30,6 +30,11 @@ class CountGuard {
     return sure_;
   }
   bool sure() const { return sure_; }
+  // Whatever was lost has been found again.
+  void restart() {
+    begun_ = false;
+    sure_ = true;
+  }
   // The next count is the first of another stream: what was between is not known.
   void interrupt() { begun_ = false; }
 
@@ -55,6 +60,6 @@ double read_most_counts_per_s(TomlTable& channel);
 std::string speed_text(double most_counts_per_s, double um_per_count);
 inline constexpr const char* kCountsLost =
     "its encoder moved faster than most_counts_per_s and counts may be lost; move more slowly, "
-    "find the zero, then restart mdofd";
+    "go to a known place and tell it by mdof encoder set";
 
 }  // namespace mdof::drivers::labjack

@@ -106,6 +106,7 @@ Result<Settings> read_labjack_t7(TomlTable& table, const DriverContext& context)
     MDOF_TRY(const Input input, input_of(channels[i], most[i]));
     settings.inputs.push_back(input);
   }
+  settings.encoder = encoder_origin(channels, true);
   read_endpoints(table, settings);
   read_converter(table, settings);
   read_rate(table, settings);
@@ -119,6 +120,7 @@ Result<DriverSpec> configure_labjack_t7(TomlTable& table, const DriverContext& c
   spec.driver = "labjack_t7";
   spec.name = context.name;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
+  spec.encoder = settings.encoder;
   spec.identity = [at = settings.command] { return identity_of(at); };
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<LabjackT7>(settings);

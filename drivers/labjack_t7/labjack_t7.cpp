@@ -18,7 +18,8 @@ constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr int kClockReads = 5;
 constexpr double kEnable_s = 2;  // to write STREAM_ENABLE, at most
 constexpr const char* kZeroLost =
-    "it was without power and its counter counts from 0 again; find the zero, then restart mdofd";
+    "it was without power and its counter counts from 0 again; go to a known place and tell it by "
+    "mdof encoder set";
 
 std::int64_t now_ns() {
   return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count();
@@ -68,6 +69,11 @@ DeviceInfo LabjackT7::info() const {
           description_,   channels_,
           rate_hz_,       false,
           clock_.state(), zero_lost_ ? kZeroLost : guard_.sure() ? "" : labjack::kCountsLost};
+}
+
+void LabjackT7::trust_count() {
+  zero_lost_ = false;
+  guard_.restart();
 }
 
 std::string LabjackT7::place() const {

@@ -29,7 +29,7 @@ namespace mdof::drivers::labjack_t7 {
 //
 // The counter is left running over a re-open, so its zero stays. If it had stopped (the T7 lost
 // power), or went faster than it can count, its zero is lost: from then on its values are
-// Quality::suspect, for the life of this object.
+// Quality::suspect, until it is trusted again.
 class LabjackT7 final : public Driver {
  public:
   explicit LabjackT7(Settings settings);
@@ -38,6 +38,7 @@ class LabjackT7 final : public Driver {
   DeviceInfo info() const override;
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+  void trust_count() override;
 
  private:
   void close();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/driver.h"
 #include "drivers/io/byte_stream.h"
 #include "drivers/labjack_t7/protocol.h"
 #include "schema/sample.h"
@@ -28,6 +29,7 @@ struct Settings {
   std::size_t samples_per_packet = 0;  // whole scans
   std::uint32_t serial = 0;            // 0: any
   std::vector<Input> inputs;
+  EncoderOrigin encoder;
 };
 
 // The scan list for these inputs, in their order; a counter takes two entries.

@@ -80,12 +80,13 @@ Result<Input> input_of(const ChannelInput& channel, double most_counts_per_s) {
   return input;
 }
 
-Result<std::vector<Input>> read_inputs(TomlTable& table, const DriverContext& context) {
-  std::vector<Input> inputs;
+Status read_inputs(TomlTable& table, const DriverContext& context, Settings& settings) {
+  auto& inputs = settings.inputs;
   std::vector<double> most;
   MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
              most.push_back(labjack::read_most_counts_per_s(channel));
            }));
+  settings.encoder = encoder_origin(channels, true);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     MDOF_TRY(const Input input, input_of(channels[i], most[i]));
     inputs.push_back(input);
@@ -96,7 +97,7 @@ Result<std::vector<Input>> read_inputs(TomlTable& table, const DriverContext& co
     return bad_input(
         channels.front().where +
         ": a U6 streams its counter only beside an analogue input; add one of a probe");
-  return inputs;
+  return {};
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ Result<std::vector<Input>> read_inputs(TomlTable& table, const DriverContext& co
 Result<Settings> read_labjack_u6(TomlTable& table, const DriverContext& context) {
   Settings settings;
   settings.name = context.name;
-  MDOF_TRY(settings.inputs, read_inputs(table, context));
+  MDOF_CHECK(read_inputs(table, context, settings));
   read_serial(table, settings);
   read_converter(table, settings);
   read_rate(table, settings);
@@ -118,6 +119,7 @@ Result<DriverSpec> configure_labjack_u6(TomlTable& table, const DriverContext& c
   spec.driver = "labjack_u6";
   spec.name = context.name;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
+  spec.encoder = settings.encoder;
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<LabjackU6>(settings);
   };

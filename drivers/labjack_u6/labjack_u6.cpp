@@ -15,7 +15,8 @@ using std::chrono::steady_clock;
 
 constexpr double kSilence_s = 2;
 constexpr const char* kZeroLost =
-    "it was without power and its timer counts from 0 again; find the zero, then restart mdofd";
+    "it was without power and its timer counts from 0 again; go to a known place and tell it by "
+    "mdof encoder set";
 
 bool counts(const Input& input) {
   return input.ain < 0;
@@ -70,6 +71,11 @@ DeviceInfo LabjackU6::info() const {
           description_,        channels_,
           scan_clock_.rate_hz, false,
           clock_.state(),      zero_lost_ ? kZeroLost : guard_.sure() ? "" : labjack::kCountsLost};
+}
+
+void LabjackU6::trust_count() {
+  zero_lost_ = false;
+  guard_.restart();
 }
 
 std::string LabjackU6::place() const {

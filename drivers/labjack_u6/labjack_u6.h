@@ -23,8 +23,8 @@ namespace mdof::drivers::labjack_u6 {
 //
 // The counter is started, from 0, when this object opens the device for the first time and left
 // running over a re-open. If it had stopped (the U6 was unplugged), or went faster than it can
-// count, its zero is lost: from then on its values are Quality::suspect, for the life of this
-// object.
+// count, its zero is lost: from then on its values are Quality::suspect, until it is
+// trusted again.
 class LabjackU6 final : public Driver {
  public:
   explicit LabjackU6(Settings settings);
@@ -33,6 +33,7 @@ class LabjackU6 final : public Driver {
   DeviceInfo info() const override;
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+  void trust_count() override;
 
  private:
   void close();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/driver.h"
 #include "drivers/labjack_u6/protocol.h"
 #include "drivers/usb/in_stream.h"
 #include "schema/sample.h"
@@ -26,6 +27,7 @@ struct Settings {
   int resolution_index = 0;  // 0: the device's default
   int settling_10us = 0;     // 0: the device chooses
   std::vector<Input> inputs;
+  EncoderOrigin encoder;
 };
 
 // The scan list for these inputs, in their order; a counter takes two entries.

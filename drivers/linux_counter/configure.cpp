@@ -23,6 +23,7 @@ Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext
   spec.driver = "linux_counter";
   spec.name = context.name;
   spec.channels = ids_of(options.channels);
+  spec.encoder = encoder_origin(options.channels, true);
   spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
     return make_linux_counter(name, options);
   };

@@ -77,8 +77,8 @@ Result<SysfsDevice> open_counter(const LinuxCounterOptions& options) {
                     options.chip + "\"; counters are numbered as they are found: correct device");
   SysfsDevice device;
   device.datum_lost =
-      "it was away, and whether it went on counting is not known; find the zero, then restart "
-      "mdofd";
+      "it was away, and whether it went on counting is not known; go to a known place and tell it "
+      "by mdof encoder set";
   device.description = "counter " + chip.value_or("without a name") + " at " + folder;
   for (const auto& channel : options.channels) {
     MDOF_TRY(SysfsInput input, open_count(options, folder, channel));

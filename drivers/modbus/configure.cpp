@@ -68,6 +68,7 @@ Status read_uses(TomlTable& table, const Rig& rig, ModbusSettings& settings) {
     else if (input.um_per_count != 0)
       return bad_input(input.where + ": um_per_count is for counts, but \"" + input.input +
                        "\" comes in " + suffix(value->unit));
+    if (input.id == kEncoderChannel) settings.encoder = {value->incremental, input.offset_mm};
     settings.channels.push_back({input.id, counts ? Unit::um : value->unit});
     settings.uses.push_back({*value, input.um_per_count});
   }
@@ -106,6 +107,7 @@ Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& conte
   spec.driver = "modbus";
   spec.name = context.name;
   for (const auto& channel : settings.channels) spec.channels.push_back(channel.id);
+  spec.encoder = settings.encoder;
   spec.identity = [settings] { return identity(settings); };
   spec.shared = !settings.address.empty() && settings.profile.framing != Framing::rtu;
   spec.make = [name = context.name, settings]() -> Result<std::unique_ptr<Driver>> {

@@ -16,6 +16,9 @@ constexpr milliseconds kConnect{2000}, kSilence{2000};
 constexpr int kFailures = 20;
 // Between two attempts, where an adapter that has gone fails at once.
 constexpr milliseconds kBetweenAttempts{10};
+constexpr const char* kDatumLost =
+    "it was away, and whether it went on counting is not known; go to a known place and tell it by "
+    "mdof encoder set";
 constexpr int kProof_timeouts = 10;  // to prove an RTU line at opening
 
 nanoseconds from_ms(double ms) {
@@ -49,9 +52,14 @@ ModbusDriver::ModbusDriver(std::string name, ModbusSettings settings)
       timeout_(std::llround(std::ceil(settings_.profile.response_timeout_ms))) {}
 
 DeviceInfo ModbusDriver::info() const {
-  return {
-      name_, "modbus", describe(settings_), settings_.channels, 1000 / settings_.profile.poll_ms,
-      false, {}};
+  return {name_,
+          "modbus",
+          describe(settings_),
+          settings_.channels,
+          1000 / settings_.profile.poll_ms,
+          false,
+          {},
+          datum_lost_ ? kDatumLost : ""};
 }
 
 Status ModbusDriver::open() {
@@ -67,6 +75,8 @@ Status ModbusDriver::open() {
   for (std::size_t i = 0; i < readings_.blocks().size(); ++i)
     MDOF_CHECK(ask_at_opening(readings_.blocks()[i].from, readings_.registers(i)));
   next_ = last_ = steady_clock::now();
+  datum_lost_ = datum_lost_ || (opened_before_ && settings_.encoder.counts);
+  opened_before_ = true;
   return {};
 }
 
@@ -161,7 +171,9 @@ void ModbusDriver::append(SampleBlock& block, Time time) {
   const auto& readings = readings_.read();
   for (std::size_t i = 0; i < readings.size(); ++i) {
     block.value[i].push_back(readings[i].value);
-    block.quality[i].push_back(readings[i].quality);
+    const bool unplaced = datum_lost_ && settings_.channels[i].id == kEncoderChannel;
+    block.quality[i].push_back(
+        std::max(readings[i].quality, unplaced ? Quality::suspect : Quality::good));
   }
 }
 

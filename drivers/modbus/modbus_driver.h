@@ -19,6 +19,7 @@ struct ModbusSettings {
   std::string port;         // a serial line
   std::vector<Channel> channels;
   std::vector<modbus::Readings::Use> uses;  // of the profile's values, one a channel
+  EncoderOrigin encoder;
 };
 
 // Thread-bound. The time of a scan is the middle between the first request and the last reply.
@@ -34,6 +35,7 @@ class ModbusDriver final : public Driver {
   DeviceInfo info() const override;
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+  void trust_count() override { datum_lost_ = false; }
 
  private:
   using Time = std::chrono::steady_clock::time_point;
@@ -54,6 +56,8 @@ class ModbusDriver final : public Driver {
   std::optional<ModbusClient> client_;
   Time next_, last_;  // poll; scan
   bool failing_ = false;
+  // Of encoders that count: whether the device had power while it was away is not known.
+  bool opened_before_ = false, datum_lost_ = false;
 };
 
 }  // namespace mdof::drivers

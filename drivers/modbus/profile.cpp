@@ -81,6 +81,7 @@ Value read_value(TomlTable& table) {
   value.unit = choice(table, "unit", kUnits);
   value.um_per_count = table.number("um_per_count", 0);
   value.ring_bits = whole(table, "ring_bits", 0, 0, 32);
+  value.incremental = table.boolean("incremental", false);
   if (table.has("over_range")) value.over_range = table.numbers("over_range");
   if (auto check = table.table("check")) value.check = read_check(*check);
   if (value.ring_bits > 0 && value.type == Type::f32)

@@ -42,6 +42,7 @@ struct Value {
   double scale = 1, offset = 0;    // value = raw * scale + offset
   Unit unit = Unit::other;         // of the value; `other` is a count, to become µm
   double um_per_count = 0;         // where the channel does not say; 0: it must
+  bool incremental = false;        // counts from where it was switched on
   int ring_bits = 0;               // the counter wraps at 2^bits; 0: it does not
   std::vector<double> over_range;  // raw numbers at the ends of the range
   std::optional<Check> check;      // when the value is used

@@ -95,6 +95,7 @@ Result<DriverSpec> configure_pokeys57u(TomlTable& table, const DriverContext& co
   spec.driver = "pokeys57u";
   spec.name = context.name;
   spec.channels = ids_of(channels);
+  spec.encoder = encoder_origin(channels, true);
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<PoKeys57u>(settings);
   };

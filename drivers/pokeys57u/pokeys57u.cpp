@@ -57,6 +57,11 @@ DeviceInfo PoKeys57u::info() const {
           1000 / settings_.poll_ms, false,       {},   doubt_};
 }
 
+void PoKeys57u::trust_count() {
+  for (Counter& counter : counters_) counter.sure = true;
+  doubt_.clear();
+}
+
 Status PoKeys57u::open() {
   device_.reset();
   failing_ = false;
@@ -176,7 +181,8 @@ Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
       before->ms + static_cast<std::uint32_t>(std::llround(passed_ms)) - now.ms);
   if (behind < kTickSlack_ms + passed_ms * kTickDrift) return reply->span;
   doubt_ =
-      "it was without power and its encoders count from 0 again; find the zero, then restart mdofd";
+      "it was without power and its encoders count from 0 again; go to a known place and tell it "
+      "by mdof encoder set";
   for (Counter& counter : counters_) {
     counter = {};
     counter.sure = false;
@@ -293,8 +299,9 @@ double PoKeys57u::value_of(std::size_t i, Time time, Quality& quality) {
   const auto step = static_cast<double>(count - counter.last.value_or(count));
   if (counter.sure && std::abs(step) > most + kStepSlack_counts) {
     counter.sure = false;
-    doubt_ = input.name + " jumped by " + std::to_string(std::llround(step)) +
-             " counts, faster than it can count; find the zero, then restart mdofd";
+    doubt_ =
+        input.name + " jumped by " + std::to_string(std::llround(step)) +
+        " counts, faster than it can count; go to a known place and tell it by mdof encoder set";
   }
   counter.last = count;
   counter.at = time;

@@ -50,6 +50,7 @@ class PoKeys57u final : public Driver {
   Status open() override;
   // Takes up to three response time-outs a request longer than `timeout` where no reply comes.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+  void trust_count() override;
 
   // Reports that were no reply to what was asked: late, damaged, another program's.
   std::uint64_t rejected() const { return rejected_; }

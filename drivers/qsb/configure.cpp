@@ -48,6 +48,7 @@ Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context)
   spec.driver = "qsb";
   spec.name = context.name;
   spec.channels = {options.channel.id};
+  spec.encoder = encoder_origin(channels, true);
   spec.identity = [at = options.address, port = options.port] {
     return at ? identity_of(*at) : identity_of_path(port);
   };

@@ -17,7 +17,8 @@ constexpr milliseconds kConnect{2000}, kAnswer{300}, kBanner{1000};
 constexpr milliseconds kQuiet{50}, kDrain{500};
 constexpr std::size_t kLongestLine = 256;
 constexpr const char* kDatumLost =
-    "it was reset or without power and counts from 0 again; find the zero, then restart mdofd";
+    "it was reset or without power and counts from 0 again; go to a known place and tell it by "
+    "mdof encoder set";
 constexpr double kAhead_ns = 2e9;  // that a stamp may be before what the host's clock allows
 
 }  // namespace

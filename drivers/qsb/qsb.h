@@ -31,8 +31,8 @@ struct QsbOptions {
 };
 
 // Thread-bound. A device that answers is not reset: its count goes on over open(). If it was reset
-// meanwhile its datum is lost: from then on its values are Quality::suspect, for the life of this
-// object.
+// meanwhile its datum is lost: from then on its values are Quality::suspect, until it is
+// trusted again.
 class Qsb final : public Driver {
  public:
   static constexpr int kMalformedAllowed = 10;  // in a row
@@ -44,6 +44,7 @@ class Qsb final : public Driver {
   // A step of the stamps is lost lines. Errors: a reset in mid-stream, stamps that cannot be true,
   // more than 10 malformed lines in a row, silence.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
+  void trust_count() override { datum_lost_ = false; }
 
   std::uint64_t malformed_lines() const { return malformed_; }  // since the start
   double tick_ns() const { return tick_.ns(); }

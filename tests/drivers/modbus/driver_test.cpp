@@ -196,6 +196,23 @@ TEST(ModbusDriver, APoKeysCountsAcrossTheEndsOf32BitsLeastSignificantWordFirst) 
   EXPECT_EQ(one_scan(*driver).value[0][0], -1'073'742'000.0);
 }
 
+// Whether it had power meanwhile is not known; an absolute scale needs no such doubt.
+TEST(ModbusDriver, ACountingEncoderThatWasAwayIsSuspectUntilItIsTrusted) {
+  ModbusDevice device(profile_of("pokeys57e"), [](auto, auto) { return 5.0; });
+  ServedDevice served(device);
+  auto driver = driver_of(toml_of("pokeys57e", served.address(),
+                                  channel("encoder", "encoder1", "um_per_count = 0.5\n")));
+  ASSERT_TRUE(driver->open());
+  EXPECT_EQ(one_scan(*driver).quality_at(0, 0), Quality::good);
+  EXPECT_EQ(driver->info().datum_lost, "");
+  ASSERT_TRUE(driver->open());
+  EXPECT_EQ(one_scan(*driver).quality_at(0, 0), Quality::suspect);
+  EXPECT_NE(driver->info().datum_lost.find("mdof encoder set"), std::string::npos);
+  driver->trust_count();
+  EXPECT_EQ(one_scan(*driver).quality_at(0, 0), Quality::good);
+  EXPECT_EQ(driver->info().datum_lost, "");
+}
+
 struct Smax {
   explicit Smax(ModbusFaults faults = {}, const std::string& more = "")
       : device(

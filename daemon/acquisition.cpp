@@ -161,6 +161,13 @@ bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
   return read_until_trouble(driver, pass);
 }
 
+void Acquisition::trust_count() {
+  const std::lock_guard lock(status_mutex_);
+  std::erase_if(status_.standing,
+                [](const Trouble& t) { return t.kind == Trouble::Kind::suspect; });
+  trust_ = true;
+}
+
 // What the device says of itself grows with time: its clock.
 void Acquisition::refresh_info(const drivers::Driver& driver) {
   next_refresh_ = steady_clock::now() + kRefresh;
@@ -210,6 +217,10 @@ void Acquisition::tell_clock(const drivers::ClockState& clock) {
 bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
   while (acquiring_) {
     turn_ = steady_clock::now();
+    if (trust_.exchange(false)) {
+      driver.trust_count();
+      datum_lost_ = false;
+    }
     SampleBlock block;
     const auto state = driver.read(block, kReadTimeout);
     if (!state) {

@@ -32,7 +32,8 @@ struct DeviceStatus {
   std::uint64_t reopened = 0;  // times
 };
 
-// Calls from the station's threads, one at a time, but for status(), healthy(), cease() and wake().
+// Calls from the station's threads, one at a time, but for status(), healthy(), cease(), wake()
+// and trust_count().
 class Acquisition {
  public:
   // Both on the acquiring thread. `pass` counts the readings of a source that is read once a run.
@@ -52,7 +53,9 @@ class Acquisition {
   void start();
   void stop();                          // joins: at most a read's time-out and an open later
   void cease() { acquiring_ = false; }  // without waiting for it
-  void wake() { woken_ = true; }        // a device was plugged in: the pause under way ends
+  // Somebody has said where the axis stands: the datum is no longer lost.
+  void trust_count();
+  void wake() { woken_ = true; }  // a device was plugged in: the pause under way ends
 
   std::uint64_t pass() const { return pass_; }
   const drivers::DriverSpec& spec() const { return spec_; }
@@ -80,7 +83,7 @@ class Acquisition {
 
   const drivers::DriverSpec spec_;
   const Sink sink_;
-  std::atomic<bool> acquiring_{false}, woken_{false};
+  std::atomic<bool> acquiring_{false}, woken_{false}, trust_{false};
   std::atomic<std::chrono::steady_clock::time_point> turn_;
   mutable std::mutex status_mutex_;
   DeviceStatus status_;  // guarded by status_mutex_

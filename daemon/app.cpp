@@ -185,6 +185,7 @@ Status App::Parts::listen() {
   MDOF_TRY(methods->generation, reader->generation());
   add_server_methods(table, *methods);
   add_run_methods(table, *methods);
+  add_encoder_methods(table, *methods);
   add_replay_methods(table, *methods);
   add_compensation_methods(table, *methods);
   add_history_methods(table, *methods);

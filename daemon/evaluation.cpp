@@ -84,6 +84,14 @@ Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& ru
 
 }  // namespace
 
+std::vector<std::string> table_notes(const std::vector<Run>& runs) {
+  std::vector<std::string> notes;
+  for (const Run& run : runs)
+    for (const auto& note : run.header.notes)
+      notes.push_back("run " + std::to_string(run.header.id) + ": " + note);
+  return notes;
+}
+
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request) {
   MDOF_CHECK(check_table_runs(store, request.runs));
   std::vector<Run> runs;
@@ -109,7 +117,7 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
   table.sha256 = table_sha256(table);
   MDOF_TRY(table.id, store.add_table(table, request.deed));
   MDOF_TRY(auto warnings, table_warnings(runs));
-  return BuiltTable{std::move(table), std::move(warnings)};
+  return BuiltTable{std::move(table), std::move(warnings), table_notes(runs)};
 }
 
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request) {

@@ -35,9 +35,13 @@ struct TableRequest {
 struct BuiltTable {
   CompensationTable table;
   std::vector<std::string> warnings;  // of the runs it is made from
+  std::vector<std::string> notes;     // likewise
 };
 // Built and stored. Errors: those of algo::build_table(); runs of rigs with other machines.
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request);
+
+// What a table inherits of its runs beside warnings.
+std::vector<std::string> table_notes(const std::vector<Run>& runs);
 
 struct ActivationRequest {
   std::int64_t table = 0;

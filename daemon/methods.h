@@ -38,9 +38,10 @@ struct Methods {
   Replayer* replayer = nullptr;  // none: run.replay is refused
 };
 
-void add_server_methods(rpc::MethodTable& table, Methods& m);  // server.info device.list live.*
-void add_run_methods(rpc::MethodTable& table, Methods& m);     // run.* squareness.fit
-void add_replay_methods(rpc::MethodTable& table, Methods& m);  // run.replay
+void add_server_methods(rpc::MethodTable& table, Methods& m);   // server.info device.list live.*
+void add_run_methods(rpc::MethodTable& table, Methods& m);      // run.* squareness.fit
+void add_encoder_methods(rpc::MethodTable& table, Methods& m);  // encoder.set
+void add_replay_methods(rpc::MethodTable& table, Methods& m);   // run.replay
 void add_compensation_methods(rpc::MethodTable& table, Methods& m);  // compensation.*
 void add_history_methods(rpc::MethodTable& table, Methods& m);       // history.list
 

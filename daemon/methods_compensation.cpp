@@ -48,15 +48,15 @@ void build(Methods& m, const Params& params, Reply reply) {
   auto request = read_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
   request->deed = deed_of(params, "compensation.build");
-  answer_from_store(m, std::move(reply),
-                    [request = *request](store::Store& store) -> Result<std::string> {
-                      MDOF_TRY(const BuiltTable built, build_table(store, request));
-                      JsonWriter json;
-                      json.begin_object();
-                      write_table_members(json, built.table);
-                      json.end_object();
-                      return with_warnings(json.take(), built.warnings);
-                    });
+  answer_from_store(
+      m, std::move(reply), [request = *request](store::Store& store) -> Result<std::string> {
+        MDOF_TRY(const BuiltTable built, build_table(store, request));
+        JsonWriter json;
+        json.begin_object();
+        write_table_members(json, built.table);
+        json.end_object();
+        return with_texts(with_warnings(json.take(), built.warnings), "notes", built.notes);
+      });
 }
 
 // On the disk first, then in force for everybody at once on the main thread, then the answer, which
@@ -209,8 +209,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                    "where straightness is stated: fixture, carriage or tool [the rig's tool point, "
                    "else the fixture]",
                    false}},
-       .result =
-           "table, axis, range, reference, sense and sign of the correction, sha256, warnings",
+       .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
+                 "warnings, notes",
        .example = R"({"runs": [1]})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});

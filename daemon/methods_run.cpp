@@ -30,6 +30,8 @@ std::string run_reply(std::int64_t id, Axis axis, const RunRequest& request) {
   for (const double target_m : request.targets_m) json.value(to_mm(target_m));
   json.end_array().key("warnings").begin_array();
   for (const auto& warning : request.warnings) json.value(warning);
+  json.end_array().key("notes").begin_array();
+  for (const auto& note : request.notes) json.value(note);
   json.end_array().end_object();
   return json.take();
 }
@@ -121,6 +123,9 @@ void begin_run(Station& station, RunRequest request, Reply reply) {
   for (auto& warning : standing_trouble(station)) request.warnings.push_back(std::move(warning));
   for (auto& warning : unsettled_clocks(station)) request.warnings.push_back(std::move(warning));
   for (auto& warning : settings_of_devices(station)) request.warnings.push_back(std::move(warning));
+  const EncoderDatum datum = station.datum();
+  if (auto note = datum_note(datum.kind, datum.device); !note.empty())
+    request.notes.push_back(std::move(note));
   auto done = answer_with_run(std::move(reply), station.config().rig.axis, request);
   station.start_run(request, done);
 }
@@ -294,7 +299,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                    "0",
                    {.least = 0, .most = 10'000}},
                   {"note", ParamType::string, "for people", false, "\"\""}},
-       .result = "run, axis, targets_mm, warnings: the run is on the disk and measuring",
+       .result = "run, axis, targets_mm, warnings, notes: the run is on the disk and measuring",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});

@@ -44,6 +44,19 @@ void keep_last(const FrameBlock& frames, FrameBlock& newest) {
   }
 }
 
+// Of what knows its positions by itself there is nothing to say.
+void write_datum(JsonWriter& json, const EncoderDatum& datum) {
+  if (datum == EncoderDatum()) return;
+  json.key("encoder_datum")
+      .begin_object()
+      .field("kind", to_string(datum.kind))
+      .field("offset_mm",
+             std::round(to_mm(datum.offset_m) * 1e9) / 1e9)  // the same once read again
+      .field("device", datum.device);
+  if (!datum.utc.empty()) json.field("utc", datum.utc).field("by", datum.by);
+  json.end_object();
+}
+
 // Why a probe is missing, before what follows from it.
 std::string by_cause(const Point& point) {
   constexpr std::string_view kFrozen = "frozen:";
@@ -74,8 +87,9 @@ std::string PipelineOptions::json() const {
   for (const double t : sequence.targets_m) json.value(to_mm(t));
   json.end_array()
       .field("target_window_mm", to_mm(sequence.target_window_m))
-      .field("repeats", repeats)
-      .end_object();
+      .field("repeats", repeats);
+  write_datum(json, datum);
+  json.end_object();
   return json.take();
 }
 
@@ -150,7 +164,8 @@ std::string Pipeline::explain_unplaced() const {
          plain_number(ns_to_s(first->begin_ns - *begin_ns_)) +
          " s on cannot be placed and are left out: the encoder (device \"" + encoder_device_ +
          "\") was suspect there, as while its clock is in doubt, or after it was without power and "
-         "has lost its datum; in that case find its zero and restart mdofd; measure them anew";
+         "has lost its datum; in that case go to a known place and tell it by mdof encoder set; "
+         "measure them anew";
 }
 
 void Pipeline::note_break(const SampleBlock& raw) {
@@ -344,6 +359,8 @@ Result<Run> Pipeline::finish() {
   run.header.scans_lost = lost_;
   run.header.temperature = temperature_;
   if (temperature_) run.header.temperature->mean_C /= static_cast<double>(temperatures_);
+  if (auto note = datum_note(options_.datum.kind, options_.datum.device); !note.empty())
+    run.header.notes.push_back(std::move(note));
   run.header.warnings.insert(run.header.warnings.end(), sequence_.warnings.begin(),
                              sequence_.warnings.end());
   if (unplaced_ > 0) run.header.warnings.push_back(explain_unplaced());

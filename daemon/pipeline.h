@@ -15,6 +15,7 @@
 #include "algo/sequence_tail.h"
 #include "algo/solver.h"
 #include "drivers/calibration.h"
+#include "schema/encoder_datum.h"
 #include "schema/result.h"
 #include "schema/rig.h"
 #include "schema/run.h"
@@ -30,6 +31,7 @@ struct PipelineOptions {
   double stale_s = 0.5;     // an instant older than this is not shown as good
   bool keep_points = true;  // false: for a view without a run
   int repeats = 0;          // a run was asked for so many, both ways; 0: until stopped
+  EncoderDatum datum;       // of the positions that are pushed: they have it in them
 
   std::string json() const;  // for the provenance
 };

@@ -114,6 +114,19 @@ Status read_targets(Members& members, PipelineOptions& options) {
   return members.status();
 }
 
+Status read_datum(element object, EncoderDatum& datum) {
+  Members members(object);
+  datum = {};
+  std::string kind = to_string(datum.kind);
+  members.take("kind", kind);
+  if (!datum_kind_from(kind, datum.kind)) members.reject("kind");
+  members.take("offset_mm", datum.offset_m, from_mm);
+  members.take("device", datum.device);
+  members.take("utc", datum.utc);
+  members.take("by", datum.by);
+  return members.status();
+}
+
 Result<PipelineOptions> read_options(element object, PipelineOptions options) {
   Members members(object);
   std::string model = to_string(options.model);
@@ -122,6 +135,8 @@ Result<PipelineOptions> read_options(element object, PipelineOptions options) {
   if (const auto align = members.object("align")) MDOF_CHECK(read_align(*align, options.align));
   if (const auto dwell = members.object("dwell")) MDOF_CHECK(read_dwell(*dwell, options.dwell));
   MDOF_CHECK(read_targets(members, options));
+  if (const auto datum = members.object("encoder_datum"))
+    MDOF_CHECK(read_datum(*datum, options.datum));
   return options;
 }
 

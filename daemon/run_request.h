@@ -22,6 +22,7 @@ struct RunRequest {
   std::vector<double> targets_m;      // empty: recognised
   int repeats = 0;                    // 0: until stopped; else complete after so many, both ways
   std::vector<std::string> warnings;  // to be kept with the run
+  std::vector<std::string> notes;     // for whoever asks; they follow from its options
   std::optional<CutOffRun> resumes;   // goes on from there
   std::optional<Deed> deed = std::nullopt;  // who asks for it
 };

@@ -18,6 +18,7 @@
 #include "daemon/acquisition.h"
 #include "daemon/bounded_queue.h"
 #include "daemon/config.h"
+#include "daemon/encoder_zero.h"
 #include "daemon/pipeline.h"
 #include "daemon/run_request.h"
 #include "daemon/storekeeper.h"
@@ -48,6 +49,11 @@ class Station {
   void start_run(const RunRequest& request, const RunDone& done);
   // `done`: the id of the run to read (see Storekeeper::end_run), once it is on the disk.
   void stop_run(bool abort, const Deed& deed, RunDone done);
+  // The axis stands at `position_m` now, says `by`. Errors (conflict): a run is under way, the axis
+  // moves, nothing comes from its encoder; it is that of a log.
+  using DatumDone = std::function<void(Result<EncoderDatum>)>;
+  void set_encoder(double position_m, const std::string& by, DatumDone done);
+  EncoderDatum datum() const { return zero_.datum(); }
   // The run under way: 0 none, -1 about to begin.
   std::int64_t run() const { return shared_->run.load(); }
   // The store gave up on this run.
@@ -66,7 +72,15 @@ class Station {
  private:
   struct Beginning;
   struct Item {
-    enum class Kind { samples, ended, attach, stop, storage_failed, trouble } kind = Kind::samples;
+    enum class Kind {
+      samples,
+      ended,
+      attach,
+      stop,
+      storage_failed,
+      trouble,
+      datum
+    } kind = Kind::samples;
     SampleBlock block;
     std::int64_t run = 0;
     RunRequest request;
@@ -79,6 +93,9 @@ class Station {
     std::uint64_t pass = 0;  // of a source that is read once a run
     RunDone done;
     std::shared_ptr<const Trouble> trouble;
+    double position_m = 0;  // of Kind::datum
+    std::string by;
+    DatumDone datum_done;
   };
   using Queue = BoundedQueue<Item>;
   struct OpenRun;
@@ -111,6 +128,7 @@ class Station {
   void tell_unsolved(const std::vector<MeasuredPoint>& points);
   void keep_new_points(const std::vector<MeasuredPoint>& points);
   void attach(Item& item);
+  void take_datum(const Item& item);
   void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
               RunDone done, const std::optional<Deed>& deed = std::nullopt);
   const Pipeline* pipeline() const;
@@ -129,6 +147,7 @@ class Station {
   std::atomic<std::chrono::milliseconds> live_every_{kNever};
   std::atomic<std::chrono::steady_clock::time_point> measure_turn_;
 
+  EncoderZero zero_;               // changed by the measure thread only
   std::unique_ptr<OpenRun> open_;  // measure thread only
   std::optional<Pipeline> view_;   // measure thread only: between runs
   std::chrono::steady_clock::time_point last_live_{};

@@ -159,8 +159,11 @@ void Station::handle(Item& item) {
       if (!open_ || open_->id != item.run) return;
       return finish(RunState::failed, item.reason, item.source, {});
     case Item::Kind::trouble:
+      if (item.trouble->kind == Trouble::Kind::suspect) zero_.lose(item.trouble->device);
       if (open_) open_->troubles.add(*item.trouble);
       return;
+    case Item::Kind::datum:
+      return take_datum(item);
   }
 }
 
@@ -186,7 +189,21 @@ void Station::attach(Item& item) {
   if (!config_.live()) acquisitions_.front()->start();
 }
 
+// No run is under way: set_encoder() has seen to it. The live view begins afresh, as the axis does
+// not jump.
+void Station::take_datum(const Item& item) {
+  const auto set = zero_.set(item.position_m, utc_now(), item.by);
+  if (set) {
+    view_.reset();
+    for (auto& acquisition : acquisitions_)
+      if (acquisition->spec().name == set->device) acquisition->trust_count();
+  }
+  shared_->run = 0;
+  item.datum_done(set);
+}
+
 void Station::take_samples(SampleBlock& block) {
+  if (config_.live()) zero_.apply(block);
   if (!open_) {
     if (!view_) {
       auto view = Pipeline::create(config_.rig, without_points(with_rates(options_)));

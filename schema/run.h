@@ -69,6 +69,7 @@ struct RunHeader {
   Provenance provenance;
   std::uint64_t scans = 0, scans_lost = 0;
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;          // what a reader should know, though nothing is doubtful
   std::optional<Temperature> temperature;  // none: nobody read it
 
   MovingAxis moving() const { return {axis, sides}; }

@@ -175,6 +175,7 @@ void write_header_members(JsonWriter& json, const RunHeader& h) {
   json.key("options");
   h.provenance.options_json.empty() ? json.null() : json.raw(h.provenance.options_json);
   write_strings(json, "warnings", h.warnings);
+  write_strings(json, "notes", h.notes);
 }
 
 void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures) {
@@ -246,12 +247,17 @@ std::string squareness_json(const Squareness& s) {
 }
 
 std::string with_warnings(std::string json, const std::vector<std::string>& warnings) {
+  return with_texts(std::move(json), "warnings", warnings);
+}
+
+std::string with_texts(std::string json, const std::string& name,
+                       const std::vector<std::string>& texts) {
   JsonWriter list;
   list.begin_array();
-  for (const auto& warning : warnings) list.value(warning);
+  for (const auto& text : texts) list.value(text);
   list.end_array();
   json.pop_back();
-  return json + ",\"warnings\":" + list.text() + "}";
+  return json + ",\"" + name + "\":" + list.text() + "}";
 }
 
 void write_table_row(JsonWriter& json, const CompensationTable& t, std::size_t row) {

@@ -27,7 +27,9 @@ void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 
 std::string squareness_json(const Squareness& squareness);
 
-// A JSON object with one member more, "warnings".
+// A JSON object with one member more, a list of texts: `name`, or "warnings".
+std::string with_texts(std::string json, const std::string& name,
+                       const std::vector<std::string>& texts);
 std::string with_warnings(std::string json, const std::vector<std::string>& warnings);
 
 // One grid point: {"position_mm", "forward": {...}, "reverse": {...}}: errors, with "u" inside.

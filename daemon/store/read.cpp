@@ -5,6 +5,7 @@
 #include "daemon/store/ledger.h"
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
+#include "schema/encoder_datum.h"
 
 namespace mdof::store {
 
@@ -16,7 +17,9 @@ constexpr std::string_view kHeader =
     "SELECT run.id, run.axis, run.simulated, run.started_utc, run.note, run.supersedes, "
     "recording.kind, recording.path, recording.sha256, rig.text, run.model, run.software_version, "
     "options.text, configuration.text, run_end.state, run_end.scans, run_end.scans_lost, "
-    "run_end.warnings, run.moves, run.travel, run.reference "
+    "run_end.warnings, run.moves, run.travel, run.reference, "
+    "iif(json_valid(options.text), json_extract(options.text, '$.encoder_datum.kind'), NULL), "
+    "iif(json_valid(options.text), json_extract(options.text, '$.encoder_datum.device'), NULL) "
     "FROM run LEFT JOIN run_end ON run_end.run = run.id "
     "JOIN recording ON recording.id = coalesce(run_end.recording, run.recording) "
     "JOIN document AS rig ON rig.id = run.rig "
@@ -96,6 +99,9 @@ Result<RunHeader> Store::header_of(Statement& row) {
   header.provenance = provenance_of(row);
   header.sides = {row.text(18) == "fixture", row.text(19) == "-"};
   header.stated = row.text(20) == "carriage" ? kAtCarriage : kAtFixture;
+  EncoderDatum::Kind datum{};
+  if (datum_kind_from(std::string(row.text(21)), datum) && datum == EncoderDatum::Kind::none)
+    header.notes.push_back(datum_note(datum, std::string(row.text(22))));
   if (!row.is_null(14)) {
     header.state = state_from(row.text(14));
     header.scans = natural(row.integer(15));

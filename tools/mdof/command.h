@@ -29,6 +29,7 @@ void add_verify(CLI::App& app, Action& chosen);
 void add_record(CLI::App& app, Action& chosen);
 void add_stop(CLI::App& app, Action& chosen);
 void add_export(CLI::App& app, Action& chosen);
+void add_encoder(CLI::App& app, Action& chosen);
 void add_device(CLI::App& app, Action& chosen);
 void add_doctor(CLI::App& app, Action& chosen);
 void add_status(CLI::App& app, Action& chosen);

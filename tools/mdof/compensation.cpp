@@ -67,6 +67,7 @@ Result<daemon::BuiltTable> build_there(rpc::Client& mdofd, const CompensationCom
   const auto json = parser.parse(simdjson::padded_string(reply));
   daemon::BuiltTable built;
   built.warnings = texts(json, "warnings");
+  built.notes = texts(json, "notes");
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(built.table, store.table(integer(json, "table").value_or(0)));
   return built;
@@ -85,9 +86,11 @@ Status build(const CompensationCommand& asked) {
   MDOF_CHECK(choose_runs(command));
   MDOF_TRY(auto mdofd, mdofd_that_holds(command.database, command.socket));
   MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
-  const auto& [table, warnings] = built;
+  const auto& [table, warnings, notes] = built;
   for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
-  MDOF_CHECK(command.json ? write_line(with_warnings(table_document(table, 0), warnings))
+  for (const auto& note : notes) say("note: " + note);
+  MDOF_CHECK(command.json ? write_line(with_texts(with_warnings(table_document(table, 0), warnings),
+                                                  "notes", notes))
                           : print_table(table, 0, false));
   say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id) +
       (warnings.empty() ? "" : " --despite-warnings"));

@@ -47,6 +47,7 @@ void declare(CLI::App& app, Action& chosen) {
   add_export(app, chosen);
   add_record(app, chosen);
   add_stop(app, chosen);
+  add_encoder(app, chosen);
   add_device(app, chosen);
   add_doctor(app, chosen);
   add_status(app, chosen);

@@ -68,6 +68,16 @@ void warn_wrapped(std::string_view words) {
   say(wrapped("warning: " + std::string(words), terminal_columns(), 2));
 }
 
+void show_notes(const auto& reply) {
+  simdjson::dom::array notes;
+  if (reply.at_key("notes").get_array().get(notes)) return;
+  for (const element note : notes) {
+    std::string_view words;
+    if (!note.get_string().get(words))
+      say(wrapped("note: " + std::string(words), terminal_columns(), 2));
+  }
+}
+
 void show_warnings(const auto& reply) {
   simdjson::dom::array warnings;
   if (reply.at_key("warnings").get_array().get(warnings)) return;
@@ -164,6 +174,7 @@ Status record(RecordCommand command) {
   const std::int64_t run = integer(started, "run").value_or(0);
   command.axis = text(started, "axis");
   show_warnings(started);
+  show_notes(started);
   say("run " + std::to_string(run) + " of axis " + command.axis +
       " is measuring; Ctrl-C ends and evaluates it");
   const Interrupt interrupt;

@@ -102,6 +102,7 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   out += labelled("software", from.software_version, width);
   for (const auto& warning : summarised(h.warnings, all_warnings))
     out += labelled("warning", warning, width);
+  for (const auto& note : h.notes) out += labelled("note", note, width);
   if (!result_sha256.empty()) out += labelled("sha256", result_sha256, width);
   return out;
 }

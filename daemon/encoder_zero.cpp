@@ -1,0 +1,116 @@
+#include "daemon/encoder_zero.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/clock/monotonic.h"
+#include "schema/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr double kRest_m = 5e-6;  // an axis that holds its place may tremble so far
+constexpr std::int64_t kRest_ns = 200'000'000, kStale_ns = 1'000'000'000;
+
+// Of the raw values of this unit.
+double metres_per(Unit unit) {
+  switch (unit) {
+    case Unit::um:
+      return 1e-6;
+    case Unit::mm:
+      return 1e-3;
+    case Unit::metre:
+      return 1;
+    default:
+      return 0;  // no length; the calibration says so
+  }
+}
+
+}  // namespace
+
+EncoderZero::EncoderZero(const std::vector<drivers::DriverSpec>& devices) {
+  for (const auto& device : devices) {
+    const auto& ids = device.channels;
+    const bool all = ids.empty();
+    if (!all && std::find(ids.begin(), ids.end(), kEncoderChannel) == ids.end()) continue;
+    if (!all) device_ = device.name;
+    if (device.encoder.counts) {
+      datum_.kind = EncoderDatum::Kind::none;
+      datum_.device = device.name;
+    }
+    if (!device.encoder.offset_mm) continue;
+    datum_ = {EncoderDatum::Kind::configured, from_mm(*device.encoder.offset_mm), device.name, "",
+              ""};
+  }
+}
+
+EncoderDatum EncoderZero::datum() const {
+  const std::lock_guard lock(mutex_);
+  return datum_;
+}
+
+std::string EncoderZero::device() const {
+  const std::lock_guard lock(mutex_);
+  return device_;
+}
+
+void EncoderZero::apply(SampleBlock& block) {
+  const auto at = std::find_if(block.channels.begin(), block.channels.end(),
+                               [](const Channel& c) { return c.id == kEncoderChannel; });
+  if (at == block.channels.end() || block.scans() == 0) return;
+  const double m_per_unit = metres_per(at->unit);
+  if (m_per_unit == 0) return;
+  double offset_m = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    offset_m = datum_.offset_m;
+    if (device_ != block.device) device_ = block.device;
+  }
+  auto& values = block.value[static_cast<std::size_t>(at - block.channels.begin())];
+  if (offset_m != 0) {
+    const double offset = offset_m / m_per_unit;
+    for (double& value : values) value += offset;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) watch(values[i] * m_per_unit, block.time_ns[i]);
+}
+
+void EncoderZero::watch(double shown_m, std::int64_t time_ns) {
+  if (std::isnan(shown_m)) return;
+  if (count_ == 0 || !(std::abs(shown_m - rest_m_) <= kRest_m)) {
+    rest_m_ = shown_m;
+    sum_m_ = 0;
+    count_ = 0;
+    since_ns_ = time_ns;
+  }
+  sum_m_ += shown_m - rest_m_;
+  ++count_;
+  last_ns_ = time_ns;
+}
+
+Result<EncoderDatum> EncoderZero::set(double position_m, const std::string& utc,
+                                      const std::string& by) {
+  if (drivers::monotonic_ns() - last_ns_ > kStale_ns)
+    return fail(ErrorCode::conflict,
+                "nothing has come from the encoder for a second, so what it shows at this place is "
+                "not known; see mdof device list");
+  if (count_ == 0 || last_ns_ - since_ns_ < kRest_ns)
+    return fail(ErrorCode::conflict,
+                "the axis moves (or has not been still for 0.2 s): stop it at a known place, then "
+                "say where it is");
+  const double shown_m = rest_m_ + sum_m_ / static_cast<double>(count_);
+  const std::lock_guard lock(mutex_);
+  datum_ = {EncoderDatum::Kind::set, datum_.offset_m + (position_m - shown_m), device_, utc, by};
+  count_ = 0;
+  return datum_;
+}
+
+void EncoderZero::lose(const std::string& device) {
+  const std::lock_guard lock(mutex_);
+  if (device != device_ || datum_.kind == EncoderDatum::Kind::absolute) return;
+  datum_.kind = EncoderDatum::Kind::none;
+  datum_.device = device;
+  datum_.utc = datum_.by = "";
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,44 @@
+#include "schema/encoder_datum.h"
+
+namespace mdof {
+namespace {
+
+using Kind = EncoderDatum::Kind;
+
+constexpr Kind kKinds[] = {Kind::absolute, Kind::none, Kind::configured, Kind::set};
+
+}  // namespace
+
+const char* to_string(Kind kind) {
+  switch (kind) {
+    case Kind::absolute:
+      return "absolute";
+    case Kind::none:
+      return "none";
+    case Kind::configured:
+      return "configured";
+    case Kind::set:
+      return "set";
+  }
+  return "";
+}
+
+bool datum_kind_from(const std::string& name, Kind& kind) {
+  for (const Kind each : kKinds) {
+    if (name != to_string(each)) continue;
+    kind = each;
+    return true;
+  }
+  return false;
+}
+
+std::string datum_note(Kind kind, const std::string& device) {
+  if (kind != Kind::none) return "";
+  return "the encoder (device \"" + device +
+         "\") has no datum: it counts from where it was switched on, so positions are not those of "
+         "the machine; errors against each other are right, but a table is in place only where the "
+         "count began at the machine's zero. Bring the axis to a known place and say where it is: "
+         "mdof encoder set AXIS POSITION_MM";
+}
+
+}  // namespace mdof

@@ -1,0 +1,220 @@
+#!/usr/bin/python3
+"""An encoder that counts starts at 0 wherever the axis stands: runs and tables say so, until somebody says where it
+stands (encoder.set, mdof encoder set) or the configuration does (offset_mm); and again when its device lost power.
+
+usage: encoder_datum_test.py MDOFD MDOF MDOF_SIMULATE"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from device_setups import SETUPS, Simulators  # noqa: E402
+from mdofd import Client, Daemon, RpcError, simulator  # noqa: E402
+
+MDOFD, MDOF, SIMULATE = sys.argv[1:4]
+TARGETS = [0, 2, 4.1]
+
+
+class EncoderDatum(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.setup_ = SETUPS["labjack_t7"]
+        self.setup_.targets, self.setup_.dwell_s = TARGETS, 0.5
+        shutil.copy(self.setup_.rig, self.folder.name)
+        self.simulators = Simulators(SIMULATE, self.setup_, self.folder.name)
+
+    def begin(self, change=lambda text: text):
+        self.daemon = Daemon(MDOFD, self.folder.name, change(self.setup_.config_text(self.simulators.addresses)))
+        self.client = self.daemon.start()
+        self.wait(lambda: self.device()["scans"] > 300)
+
+    def tearDown(self):
+        self.daemon.stop()
+        self.simulators.kill()
+        self.folder.cleanup()
+
+    def device(self):
+        return self.client.call("device.list")["devices"][0]
+
+    def wait(self, condition, timeout_s=30):
+        end = time.monotonic() + timeout_s
+        while not condition():
+            self.assertLess(time.monotonic(), end, self.device())
+            time.sleep(0.02)
+
+    def mdof(self, *words):
+        done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True, timeout=60)
+        return done.returncode, done.stdout, " ".join(done.stderr.split())
+
+    def measured(self, shift_mm=0):
+        targets = [round(t + shift_mm, 4) for t in TARGETS]
+        started = self.client.call("run.start", axis="X", targets_mm=targets, repeats=1)
+        self.wait(lambda: not any(axis["run"] for axis in self.client.call("server.info")["axes"]))
+        run = self.client.call("run.list", count=1)["runs"][0]["run"]
+        return started, self.client.call("run.get", run=run), self.client.points(run)
+
+    def shown_still(self):
+        """What the axis shows while it stands, freshly."""
+        watcher = Client(self.daemon.socket)
+        watcher.call("live.subscribe", interval_ms=20, events=False)
+        since = None
+        while True:
+            value = watcher.next_note()["params"]["value"]
+            since = (since or time.monotonic()) if value["still"] else None
+            if since and time.monotonic() - since > 0.25:
+                watcher.socket.close()
+                return value["encoder_mm"]
+
+    def set_at_rest(self, shift_mm):
+        """Says that the axis stands shift_mm from what it shows; how often that was refused."""
+        refused = 0
+        while True:
+            shown = self.shown_still()
+            try:
+                reply = self.client.call("encoder.set", axis="X", position_mm=shown + shift_mm)
+                return reply, refused
+            except RpcError as error:
+                self.assertIn("moves", str(error))
+                refused += 1
+
+    def test_a_run_without_datum_says_so_and_one_with_it_does_not(self):
+        self.begin()
+        started, header, _ = self.measured()
+        for notes in (started["notes"], header["notes"]):
+            self.assertEqual(len(notes), 1)
+            self.assertIn('device "t7") has no datum', notes[0])
+            self.assertIn("mdof encoder set", notes[0])
+        self.assertNotIn("datum", " ".join(header["warnings"]))
+        code, out, err = self.mdof("show", header["run"], "--db", self.daemon.database)
+        self.assertEqual(code, 0, err)
+        self.assertIn("has no datum", " ".join(out.split()))
+        # A note, no warning: it gates no activation.
+        code, out, err = self.mdof("compensation", "build", header["run"], "--db", self.daemon.database,
+                                   "--socket", self.daemon.socket, "--json")
+        self.assertEqual(code, 0, err)
+        self.assertIn("has no datum", err)
+        table = json.loads(out)
+        self.assertIn(f"run {header['run']}: the encoder", table["notes"][0])
+        self.assertNotIn("datum", " ".join(table["warnings"]))
+        self.check_replay(header)
+
+        reply, _ = self.set_at_rest(112.5)
+        self.assertAlmostEqual(reply["offset_mm"], 112.5, delta=0.005)
+        started, header, points = self.measured(112.5)
+        self.assertEqual(started["notes"] + header["notes"], [])
+        self.assertEqual(header["state"], "complete", header["warnings"])
+        datum = header["options"]["encoder_datum"]
+        self.assertEqual((datum["kind"], datum["device"]), ("set", "t7"))
+        self.assertIn(f"uid {os.getuid()}", datum["by"])
+        for p in points:
+            nearest = min(TARGETS, key=lambda t: abs(t + 112.5 - p["position_mm"]))
+            self.assertLess(abs(nearest + 112.5 - p["position_mm"]), 0.01, p)
+        self.check_replay(header)
+        # Twice is not twice the offset.
+        reply, _ = self.set_at_rest(-112.5)
+        self.assertAlmostEqual(reply["offset_mm"], 0, delta=0.01)
+
+    def check_replay(self, header):
+        code, out, err = self.mdof("replay", header["recording"]["path"], "--no-store", "--json")
+        self.assertEqual(code, 0, err)
+        again = json.loads(out)
+        self.assertEqual(again["points"], self.client.points(header["run"]))
+        for key in ("options", "notes", "straightness"):
+            self.assertEqual(again[key], header[key], key)
+
+    def test_not_in_a_run_nor_in_motion_nor_of_a_log(self):
+        self.begin()
+        run = self.client.call("run.start", axis="X")["run"]
+        with self.assertRaisesRegex(RpcError, "a run of axis X is under way"):
+            self.client.call("encoder.set", axis="X", position_mm=1)
+        time.sleep(0.3)
+        self.client.call("run.stop", run=run, abort=True)
+        refused = 0  # over a whole pass: the axis moves for some of it
+        end = time.monotonic() + 4
+        while time.monotonic() < end:
+            try:
+                self.client.call("encoder.set", axis="X", position_mm=1)
+            except RpcError as error:
+                self.assertIn("stop it at a known place", str(error))
+                refused += 1
+            time.sleep(0.005)
+        self.assertGreater(refused, 10)
+        for position in (float("1e7"), "12"):
+            with self.assertRaises(RpcError):
+                self.client.call("encoder.set", axis="X", position_mm=position)
+        with self.assertRaisesRegex(RpcError, "no rig is configured for axis Y"):
+            self.client.call("encoder.set", axis="Y", position_mm=1)
+
+    def test_the_datum_goes_with_the_power_and_comes_back_by_the_command_line(self):
+        self.begin()
+        self.set_at_rest(30)
+        ports = [int(a.rsplit(":", 1)[1]) for a in self.simulators.addresses.values()]
+        self.simulators.kill()
+        self.setup_.plan = self.setup_.plan.replace('kind = "labjack_t7"', f'kind = "labjack_t7"\nports = {ports}', 1)
+        self.simulators = Simulators(SIMULATE, self.setup_, self.folder.name)
+        self.wait(lambda: any("datum is lost" in t for t in self.device()["trouble"]))
+        started = self.client.call("run.start", axis="X")
+        self.assertIn("datum is lost", " ".join(started["warnings"]))
+        self.assertIn("has no datum", " ".join(started["notes"]))
+        self.client.call("run.stop", run=started["run"], abort=True)
+        while True:
+            shown = self.shown_still()
+            code, out, err = self.mdof("encoder", "set", "X", shown + 7, "--socket", self.daemon.socket)
+            if code == 0:
+                break
+            self.assertIn("moves", err)
+        self.assertRegex(out, r'axis X stands at [\d.]+ mm now; device "t7" counts from [\d.]+ mm')
+        self.assertEqual(self.device()["trouble"], [])
+        offset = float(re.search(r"from ([\d.]+) mm", out).group(1))
+        self.assertAlmostEqual(offset, 37, delta=0.01)
+        time.sleep(0.3)
+        started, header, points = self.measured(37)
+        self.assertEqual(header["state"], "complete", header["warnings"])
+        self.assertEqual(header["notes"] + started["notes"] + started["warnings"], [])
+        self.assertNotIn("cannot be placed", " ".join(header["warnings"]))
+        self.assertEqual(len(points), 2 * len(TARGETS))
+
+    def test_the_configuration_may_say_it(self):
+        self.begin(lambda text: text.replace('input = "DIO0"', 'input = "DIO0", offset_mm = -250.25'))
+        started, header, points = self.measured(-250.25)
+        self.assertEqual(started["notes"] + header["notes"], [])
+        self.assertEqual(header["options"]["encoder_datum"]["kind"], "configured")
+        self.assertEqual(header["options"]["encoder_datum"]["offset_mm"], -250.25)
+        self.assertEqual(len(points), 2 * len(TARGETS))
+        self.check_replay(header)
+
+    def test_a_probe_has_no_such_offset(self):
+        self.begin()
+        for channel, why in (('input = "AIN0"', "is of the encoder"), ('input = "DIO0"', "position of the axis")):
+            config = self.setup_.config_text(self.simulators.addresses)
+            value = "1e9" if channel.endswith('DIO0"') else "1"
+            bad = os.path.join(self.folder.name, "bad.toml")
+            with open(bad, "w") as f:
+                f.write(config.replace(channel, channel + f", offset_mm = {value}"))
+            done = subprocess.run([MDOFD, "--config", bad, "--check-config"], capture_output=True, text=True)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertRegex(done.stderr, r"bad.toml:\d+: .*offset_mm")
+            self.assertIn(why, done.stderr)
+
+
+class Simulated(unittest.TestCase):
+    def test_what_knows_its_positions_needs_no_datum(self):
+        with tempfile.TemporaryDirectory() as folder:
+            daemon = Daemon(MDOFD, folder, simulator("X"))
+            client = daemon.start()
+            started = client.call("run.start", axis="X")
+            time.sleep(2)
+            header = client.call("run.get", run=client.call("run.stop", run=started["run"])["run"])
+            daemon.stop()
+            self.assertEqual(started["notes"] + header["notes"], [])
+            self.assertNotIn("encoder_datum", header["options"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)

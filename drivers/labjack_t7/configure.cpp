@@ -70,9 +70,41 @@ std::vector<std::string> known_inputs() {
   return names;
 }
 
-Result<Input> input_of(const ChannelInput& channel, double most_counts_per_s) {
+// Besides those of every family's channels.
+struct ChannelMore {
+  double most_counts_per_s = 0, range_v = 0;  // 0: not given
+  std::string negative;
+};
+
+ChannelMore read_channel(TomlTable& channel) {
+  ChannelMore keys;
+  keys.most_counts_per_s = labjack::read_most_counts_per_s(channel);
+  keys.negative = channel.string("negative", "");
+  if (!channel.has("range_v")) return keys;
+  keys.range_v = channel.number("range_v", 0);
+  if (!range_index(keys.range_v)) channel.reject("range_v", "must be 10, 1, 0.1 or 0.01");
+  return keys;
+}
+
+// LabJack's pairs: an even input against the one after it.
+Result<int> negative_of(const ChannelInput& channel, int ain, const std::string& negative) {
+  const std::string partner = "AIN" + std::to_string(ain + 1);
+  if (ain % 2 == 0 && negative == partner) return ain + 1;
+  return bad_input(channel.where + ": negative = \"" + negative +
+                   "\": a T7 measures an even AIN against the one after it" +
+                   (ain % 2 == 0
+                        ? ": " + channel.input + " against " + partner
+                        : ", and " + channel.input + " is none: use AIN" + std::to_string(ain - 1) +
+                              " with negative = \"" + channel.input + "\""));
+}
+
+Result<Input> input_of(const ChannelInput& channel, const ChannelMore& keys) {
   Input input;
+  const double most_counts_per_s = keys.most_counts_per_s;
   if (channel.input == kCounter) {
+    if (!keys.negative.empty() || keys.range_v > 0)
+      return bad_input(channel.where + ": " + kCounter +
+                       " counts; negative and range_v are of an AIN");
     MDOF_CHECK(check_um_per_count(channel));
     input.channel = {channel.id, Unit::um};
     input.um_per_count = channel.um_per_count;
@@ -90,7 +122,22 @@ Result<Input> input_of(const ChannelInput& channel, double most_counts_per_s) {
                      "away (the rig has um_per_V)");
   input.channel = {channel.id, Unit::volt};
   input.ain = static_cast<int>(at - known.begin());
+  input.range_v = keys.range_v;
+  if (keys.negative.empty()) return input;
+  MDOF_TRY(input.negative, negative_of(channel, input.ain, keys.negative));
   return input;
+}
+
+// What one input is measured against is no input of its own.
+Status check_pairs(const std::vector<ChannelInput>& channels, const std::vector<Input>& inputs) {
+  for (const Input& one : inputs) {
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      if (one.negative >= 0 && inputs[i].ain == one.negative)
+        return bad_input(channels[i].where + ": " + channels[i].input +
+                         " is the negative input of \"" + one.channel.id +
+                         "\" and gives no probe of its own; use another");
+  }
+  return {};
 }
 
 }  // namespace
@@ -98,14 +145,15 @@ Result<Input> input_of(const ChannelInput& channel, double most_counts_per_s) {
 Result<Settings> read_labjack_t7(TomlTable& table, const DriverContext& context) {
   Settings settings;
   settings.name = context.name;
-  std::vector<double> most;
+  std::vector<ChannelMore> more;
   MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
-             most.push_back(labjack::read_most_counts_per_s(channel));
+             more.push_back(read_channel(channel));
            }));
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    MDOF_TRY(const Input input, input_of(channels[i], most[i]));
+    MDOF_TRY(const Input input, input_of(channels[i], more[i]));
     settings.inputs.push_back(input);
   }
+  MDOF_CHECK(check_pairs(channels, settings.inputs));
   settings.encoder = encoder_origin(channels, true);
   read_endpoints(table, settings);
   read_converter(table, settings);

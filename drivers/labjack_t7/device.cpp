@@ -12,8 +12,8 @@ constexpr int kIllegalFunction = 1, kIllegalAddress = 2, kIllegalValue = 3, kFai
 constexpr double kMostSamples_Hz = 100'000;
 
 // First and last address of what can be written and read back.
-constexpr int kWritable[][2] = {{4002, 4015},   {4016, 4023},   {4028, 4029},
-                                {4100, 4355},   {4990, 4991},   {43900, 43905},
+constexpr int kWritable[][2] = {{4002, 4015},   {4016, 4023},   {4028, 4029},   {4100, 4355},
+                                {4990, 4991},   {40000, 40027}, {41000, 41013}, {43900, 43905},
                                 {44000, 44045}, {44100, 44145}, {61810, 61811}};
 bool writable(int address) {
   return std::any_of(std::begin(kWritable), std::end(kWritable),
@@ -22,8 +22,9 @@ bool writable(int address) {
 
 // All 32-bit registers start at an even address; of these 16-bit ones some lie among them.
 bool is_16_bit(int address) {
-  return address == reg::ain_all_negative_ch.address || address == 43903 ||
-         address == reg::last_error.address;
+  const int negative = address - reg::ain_negative_ch.address;
+  return (negative >= 0 && negative < kAins) || address == reg::ain_all_negative_ch.address ||
+         address == 43903 || address == reg::last_error.address;
 }
 
 std::uint32_t bits(float value) {
@@ -66,6 +67,8 @@ void Device::restart() {
   registers_[reg::last_error.address] = 0;
   for (const auto& range : kWritable)
     for (int a = range[0]; a <= range[1]; ++a) registers_[a] = 0;
+  for (int n = 0; n < static_cast<int>(kAins); ++n)
+    registers_[reg::ain_negative_ch.address + n] = kSingleEnded;
 }
 
 void Device::opened(std::size_t port, int client, std::int64_t /*now_ns*/) {
@@ -164,11 +167,22 @@ int Device::write(const ModbusRequest& request, std::int64_t now_ns) {
     return refuse(options_.faults.refused_code);
   for (int a = from; a < to; ++a)
     registers_[a] = request.values[static_cast<std::size_t>(a - from)];
+  spread(from);
   if (from != reg::stream_enable.address) return 0;
   const bool enable = stored(from) != 0;
   const int code = enable ? start_stream(now_ns) : stream_ ? 0 : 2620;
   if (!enable) end_stream(now_ns);
   return code ? refuse(code) : 0;
+}
+
+// What is written for all inputs is so for each.
+void Device::spread(int address) {
+  for (int n = 0; n < static_cast<int>(kAins); ++n) {
+    if (address == reg::ain_all_range.address)
+      store(reg::ain_range.address + 2 * n, words_of(stored(address)));
+    if (address == reg::ain_all_negative_ch.address)
+      registers_[reg::ain_negative_ch.address + n] = registers_.at(address);
+  }
 }
 
 int Device::check_stream() const {

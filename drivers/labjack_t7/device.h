@@ -77,6 +77,7 @@ class Device final : public SimulatedDevice {
   std::uint32_t stored(int address) const;
   float stored_f32(int address) const;
   void store(int address, Words words);
+  void spread(int address);
   int write(const ModbusRequest& request, std::int64_t now_ns);
   int start_stream(std::int64_t now_ns);
   void end_stream(std::int64_t now_ns);

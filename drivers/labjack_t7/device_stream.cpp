@@ -70,9 +70,11 @@ void Device::append_scan(StreamPacket& packet, const Stream& s, std::uint64_t sc
 }
 
 std::uint16_t Device::ain_code(std::size_t ain, std::int64_t t_ns) const {
-  const auto set = static_cast<double>(stored_f32(reg::ain_all_range.address));
+  const auto n = static_cast<int>(ain);
+  const auto set = static_cast<double>(stored_f32(reg::ain_range.address + 2 * n));
   const AinCalibration c = calibration(range_index(set).value_or(0));
-  const double v = senses_(ain, t_ns);
+  const std::uint16_t against = registers_.at(reg::ain_negative_ch.address + n);
+  const double v = senses_(ain, t_ns) - (against < kAins ? senses_(against, t_ns) : 0);
   const double slope = v < 0 ? -c.negative_slope : c.positive_slope;
   const double code = std::round(c.centre + v / slope);
   return static_cast<std::uint16_t>(std::clamp(code, 0.0, 65535.0));

@@ -110,7 +110,7 @@ Status LabjackT7::start() {
   MDOF_TRY(const Identity identity, identify(*registers_, settings_));
   description_ = describe(identity, settings_);
   MDOF_CHECK(stop_stream(*registers_));
-  MDOF_TRY(calibration_, set_up_ains(*registers_, settings_.range_v));
+  MDOF_TRY(calibrations_, set_up_ains(*registers_, settings_));
   if (counter_of(settings_)) {
     MDOF_TRY(const bool went_on, start_counter(*registers_));
     zero_lost_ = zero_lost_ || (counted_ && !went_on);
@@ -232,7 +232,7 @@ void LabjackT7::append(SampleBlock& block, const Scan& scan) {
 }
 
 void LabjackT7::append_ain(SampleBlock& block, std::size_t channel, std::uint16_t raw) const {
-  block.value[channel].push_back(labjack::volts(calibration_, raw));
+  block.value[channel].push_back(labjack::volts(calibrations_[channel], raw));
   block.quality[channel].push_back(labjack::at_rail(raw) ? Quality::over_range : Quality::good);
 }
 

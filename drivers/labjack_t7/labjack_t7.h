@@ -63,7 +63,7 @@ class LabjackT7 final : public Driver {
   std::optional<ByteStream> stream_;
   PacketReader reader_;
   PacketLine line_;
-  AinCalibration calibration_;
+  std::vector<AinCalibration> calibrations_;  // one an input
   double rate_hz_, ticks_per_scan_ = 0;
 
   DeviceClock clock_;

@@ -53,6 +53,9 @@ inline constexpr Register stream_no_recovery{4028, "STREAM_AUTORECOVER_DISABLE"}
 inline constexpr Register stream_scan_list{4100, "STREAM_SCANLIST_ADDRESS"};
 inline constexpr Register stream_enable{4990, "STREAM_ENABLE"};
 
+// Of one input: at + 2n, and, 16 bits wide, at + n.
+inline constexpr Register ain_range{40000, "AIN_RANGE"};                      // f32, volts
+inline constexpr Register ain_negative_ch{41000, "AIN_NEGATIVE_CH"};          // u16
 inline constexpr Register ain_all_range{43900, "AIN_ALL_RANGE"};              // f32, volts
 inline constexpr Register ain_all_negative_ch{43902, "AIN_ALL_NEGATIVE_CH"};  // u16
 inline constexpr Register dio_ef_enable{44000, "DIO_EF_ENABLE"};

@@ -74,15 +74,21 @@ Status stop_stream(Registers& registers) {
   return running ? registers.write(reg::stream_enable, 0) : Status{};
 }
 
-Result<AinCalibration> set_up_ains(Registers& registers, double range_v) {
-  MDOF_CHECK(registers.write_u16(reg::ain_all_negative_ch, kSingleEnded));
-  MDOF_CHECK(registers.write_f32(reg::ain_all_range, static_cast<float>(range_v)));
-  std::array<std::uint16_t, 4 * kFlashNumbers> words{};  // of two reads
+namespace {
+
+using FlashWords = std::array<std::uint16_t, 4 * kFlashNumbers>;
+
+Result<FlashWords> read_constants(Registers& registers) {
+  FlashWords words{};  // of two reads
   for (int block = 0; block < 2; ++block) {
     constexpr std::size_t kRead = 2 * kFlashNumbers;
     MDOF_CHECK(registers.write(reg::flash_pointer, flash_address(block)));
     MDOF_CHECK(registers.read(reg::flash_read, std::span(words).subspan(block * kRead, kRead)));
   }
+  return words;
+}
+
+Result<AinCalibration> constants_of(const FlashWords& words, double range_v) {
   const std::size_t range = range_index(range_v).value();
   const auto number = [&](std::size_t i) {
     const std::size_t at = 2 * (4 * range + i);
@@ -91,6 +97,33 @@ Result<AinCalibration> set_up_ains(Registers& registers, double range_v) {
   const AinCalibration calibration{number(0), number(1), number(2)};
   MDOF_CHECK(labjack::check(calibration, range));
   return calibration;
+}
+
+Status set_up_ain(Registers& registers, const Input& input) {
+  if (input.range_v > 0)
+    MDOF_CHECK(
+        registers.write_f32(reg::ain_range + 2 * input.ain, static_cast<float>(input.range_v)));
+  if (input.negative < 0) return {};
+  return registers.write_u16(reg::ain_negative_ch + input.ain,
+                             static_cast<std::uint16_t>(input.negative));
+}
+
+}  // namespace
+
+// First all alike, whatever another program has left, then what differs.
+Result<std::vector<AinCalibration>> set_up_ains(Registers& registers, const Settings& settings) {
+  MDOF_CHECK(registers.write_u16(reg::ain_all_negative_ch, kSingleEnded));
+  MDOF_CHECK(registers.write_f32(reg::ain_all_range, static_cast<float>(settings.range_v)));
+  MDOF_TRY(const FlashWords words, read_constants(registers));
+  std::vector<AinCalibration> calibrations;
+  for (const Input& input : settings.inputs) {
+    AinCalibration& calibration = calibrations.emplace_back();
+    if (input.ain < 0) continue;
+    MDOF_CHECK(set_up_ain(registers, input));
+    MDOF_TRY(calibration,
+             constants_of(words, input.range_v > 0 ? input.range_v : settings.range_v));
+  }
+  return calibrations;
 }
 
 Result<bool> start_counter(Registers& registers) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "drivers/labjack_t7/registers.h"
 #include "drivers/labjack_t7/settings.h"
@@ -21,8 +22,8 @@ Result<Identity> identify(Registers& registers, const Settings& settings);
 // Ends a stream that runs, of whoever's.
 Status stop_stream(Registers& registers);
 
-// Single-ended, range as set; gives the constants of that range.
-Result<AinCalibration> set_up_ains(Registers& registers, double range_v);
+// Range and negative channel of each input; gives the constants of each, in their order.
+Result<std::vector<AinCalibration>> set_up_ains(Registers& registers, const Settings& settings);
 
 // Lets the counter of DIO0 and DIO1 run. True: it was running and its count goes on; false: it was
 // started, from 0.

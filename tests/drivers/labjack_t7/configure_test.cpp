@@ -134,6 +134,28 @@ TEST(LabjackT7Configure, BadChannelsAreRefused) {
   EXPECT_TRUE(has(refusal("address = \"t7\"\n", ""), "channel"));
 }
 
+TEST(LabjackT7Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
+  const std::string a = "address = \"t7\"\n";
+  const auto pair = [](const std::string& input, const std::string& negative) {
+    return "[[channel]]\nid = \"C\"\ninput = \"" + input + "\"\nnegative = \"" + negative + "\"\n";
+  };
+  const auto s = settings(a + kChannels + pair("AIN2", "AIN3") + "range_v = 1\n");
+  ASSERT_TRUE(s) << s.error().message;
+  EXPECT_EQ(s->inputs[3].ain, 2);
+  EXPECT_EQ(s->inputs[3].negative, 3);
+  EXPECT_EQ(s->inputs[3].range_v, 1);
+  EXPECT_EQ(s->inputs[0].negative, -1);
+  EXPECT_EQ(s->inputs[0].range_v, 0);
+  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "AIN5")), "AIN2 against AIN3"));
+  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN3", "AIN2")), "use AIN2 with negative"));
+  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "GND")), "AIN2 against AIN3"));
+  EXPECT_TRUE(
+      has(refusal(a, kChannels + pair("AIN12", "AIN13")), "AIN13 is the negative input of \"C\""));
+  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "AIN3") + "range_v = 2\n"),
+                  "range_v: must be 10, 1, 0.1 or 0.01"));
+  EXPECT_TRUE(has(refusal(a, std::string(kChannels) + "range_v = 1\n"), "are of an AIN"));
+}
+
 TEST(LabjackT7Configure, TheRegistryKnowsIt) {
   auto table = TomlTable::parse("address = \"t7\"\n" + std::string(kChannels), "mdofd.toml");
   ASSERT_TRUE(table);

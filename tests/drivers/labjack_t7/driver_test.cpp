@@ -27,6 +27,8 @@ struct Truth {
   double operator()(std::size_t input, std::int64_t t_ns) const {
     if (input == 0) return static_cast<double>(t_ns - zero_ns) * 1e-9;
     if (input == 1) return 20;
+    if (input == 4) return 0.9;
+    if (input == 5) return 0.25;
     return input == Device::kCounterInput ? std::floor(static_cast<double>(t_ns - zero_ns) / 1000)
                                           : -1.5;
   }
@@ -317,6 +319,26 @@ TEST_F(LabjackT7Driver, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
   }
 }
 
+// 0.9 V against 0.25 V, in a range that has a tenth of the other's step; the others stay as they
+// are, whatever another program has left.
+TEST_F(LabjackT7Driver, ADifferentialInputInARangeOfItsOwn) {
+  serve({});
+  settings.inputs[2] = {{"C", Unit::volt}, 4, 0, 0, 5, 1};
+  settings.samples_per_packet = quick_packet(kRate_Hz, 5);
+  for (int turn = 0; turn < 2; ++turn) {
+    ASSERT_EQ(refusal(), "opened");
+    const std::size_t before = time_ns.size();
+    ASSERT_EQ(read(before + 100), "");
+    for (std::size_t i = before; i < time_ns.size(); ++i) {
+      ASSERT_NEAR(value[2][i], turn == 0 ? 0.65 : 0.9, turn == 0 ? 2e-5 : 2e-4) << i;
+      ASSERT_EQ(quality[2][i], Quality::good);
+      ASSERT_NEAR(value[0][i], static_cast<double>(time_ns[i] - truth.zero_ns) * 1e-9, 0.1);
+    }
+    settings.inputs[2] = {{"C", Unit::volt}, 4, 0};
+    made.reset();
+  }
+}
+
 TEST_F(LabjackT7Driver, TheCountGoesOnOverABrokenConnection) {
   serve({});
   ASSERT_EQ(refusal(), "opened");
@@ -343,6 +365,10 @@ TEST_F(LabjackT7Driver, ACountThatWasRestartedIsSuspect) {
   EXPECT_EQ(quality[3].back(), Quality::suspect);
   EXPECT_EQ(quality[0].back(), Quality::good);
   EXPECT_TRUE(has(driver().info().datum_lost, "counts from 0 again"));
+  driver().trust_count();  // somebody has found the zero
+  ASSERT_EQ(read(time_ns.size() + 200), "");
+  EXPECT_EQ(quality[3].back(), Quality::good);
+  EXPECT_EQ(driver().info().datum_lost, "");
 }
 
 // The counter goes 1,000,000 counts a second.

@@ -42,6 +42,10 @@ TEST_F(LabjackT7Vectors, AddressesAreThoseOfLabjacksMap) {
       {reg::stream_no_recovery, "STREAM_AUTORECOVER_DISABLE", 4028},
       {reg::stream_scan_list, "STREAM_SCANLIST_ADDRESS0", 4100},
       {reg::stream_enable, "STREAM_ENABLE", 4990},
+      {reg::ain_range, "AIN0_RANGE", 40000},
+      {reg::ain_range + 2 * 13, "AIN13_RANGE", 40026},  // AIN#(0:249)_RANGE, FLOAT32
+      {reg::ain_negative_ch, "AIN0_NEGATIVE_CH", 41000},
+      {reg::ain_negative_ch + 12, "AIN12_NEGATIVE_CH", 41012},  // AIN#(0:249)_NEGATIVE_CH, UINT16
       {reg::ain_all_range, "AIN_ALL_RANGE", 43900},
       {reg::ain_all_negative_ch, "AIN_ALL_NEGATIVE_CH", 43902},
       {reg::dio_ef_enable, "DIO0_EF_ENABLE", 44000},
@@ -72,6 +76,27 @@ TEST_F(LabjackT7Vectors, TheSimulatedOneReadsAsTheMapSays) {
        "00 05 00 00 00 05 01 03 02 00 00", kMap},
       {"AIN0 is a float", "00 06 00 00 00 06 01 03 00 00 00 02",
        "00 06 00 00 00 07 01 03 04 00 00 00 00", kMap},
+  };
+  for (const VendorVector& vector : vectors)
+    EXPECT_EQ(mismatch(ask(vector.request), vector.reply), "") << vector;
+}
+
+// "For base differential channels, positive must be an even channel from 0-12 and negative must be
+// positive+1"; AIN_ALL_NEGATIVE_CH and AIN_ALL_RANGE write those of every input.
+TEST_F(LabjackT7Vectors, EachInputHasItsRangeAndNegativeChannel) {
+  const VendorVector vectors[] = {
+      {"AIN_ALL_NEGATIVE_CH = 199", "00 07 00 00 00 09 01 10 AB 7E 00 01 02 00 C7",
+       "00 07 00 00 00 06 01 10 AB 7E 00 01", kMap},
+      {"AIN_ALL_RANGE = 10.0", "00 08 00 00 00 0B 01 10 AB 7C 00 02 04 41 20 00 00",
+       "00 08 00 00 00 06 01 10 AB 7C 00 02", kMap},
+      {"AIN2_NEGATIVE_CH = 3", "00 09 00 00 00 09 01 10 A0 2A 00 01 02 00 03",
+       "00 09 00 00 00 06 01 10 A0 2A 00 01", kMap},
+      {"AIN2_RANGE = 1.0", "00 0A 00 00 00 0B 01 10 9C 44 00 02 04 3F 80 00 00",
+       "00 0A 00 00 00 06 01 10 9C 44 00 02", kMap},
+      {"AIN1_NEGATIVE_CH to AIN3_NEGATIVE_CH", "00 0B 00 00 00 06 01 03 A0 29 00 03",
+       "00 0B 00 00 00 09 01 03 06 00 C7 00 03 00 C7", kMap},
+      {"AIN1_RANGE, AIN2_RANGE", "00 0C 00 00 00 06 01 03 9C 42 00 04",
+       "00 0C 00 00 00 0B 01 03 08 41 20 00 00 3F 80 00 00", kMap},
   };
   for (const VendorVector& vector : vectors)
     EXPECT_EQ(mismatch(ask(vector.request), vector.reply), "") << vector;

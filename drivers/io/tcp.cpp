@@ -7,10 +7,12 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
 #include "drivers/io/byte_stream.h"
+#include "drivers/io/connect_remedy.h"
 #include "drivers/io/peer.h"
 
 namespace mdof::drivers {
@@ -98,8 +100,19 @@ Result<ByteStream> connect_tcp(const Endpoint& to, milliseconds timeout) {
     if (error == EINPROGRESS) error = finish_connect(fd, until);
     if (error == 0) return stream;
   }
-  return io_error(to.text() + ": " + std::strerror(error) +
-                  "; is the device on, on the network, and is this its address?");
+  const bool service = std::getenv("INVOCATION_ID") != nullptr;  // systemd's
+  return io_error(to.text() + ": " + std::strerror(error) + connect_remedy(to, error, service));
+}
+
+std::string connect_remedy(const Endpoint& to, int error, bool service) {
+  const std::string access =
+      "the service mdofd may reach this machine only until it is told otherwise: sudo mdof setup "
+      "network " +
+      to.host;
+  if (error == EPERM || error == EACCES)
+    return "; a firewall, or systemd's IPAddressDeny, forbids it: " + access;
+  return "; is the device on, on the network, and is this its address?" +
+         (service && error == ETIMEDOUT ? " And " + access : "");
 }
 
 std::uint32_t peer_ipv4(const ByteStream& connection) {

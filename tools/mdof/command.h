@@ -31,6 +31,7 @@ void add_stop(CLI::App& app, Action& chosen);
 void add_export(CLI::App& app, Action& chosen);
 void add_encoder(CLI::App& app, Action& chosen);
 void add_device(CLI::App& app, Action& chosen);
+void add_setup(CLI::App& app, Action& chosen);
 void add_doctor(CLI::App& app, Action& chosen);
 void add_status(CLI::App& app, Action& chosen);
 void add_live(CLI::App& app, Action& chosen);

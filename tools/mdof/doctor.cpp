@@ -10,6 +10,7 @@
 #include "tools/mdof/doctor_checks.h"
 #include "tools/mdof/interrupt.h"
 #include "tools/mdof/json_read.h"
+#include "tools/mdof/network_access.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/own_daemon.h"
@@ -28,7 +29,7 @@ struct DoctorCommand {
 };
 
 bool on_usb(const drivers::DriverSpec& device) {
-  for (const char* driver : {"labjack_u6", "mcc_1608fs_plus", "pokeys", "qsb"})
+  for (const char* driver : {"labjack_u6", "mcc_usb1608fs_plus", "pokeys57u", "qsb"})
     if (device.driver == driver) return true;
   return false;
 }
@@ -124,6 +125,7 @@ std::vector<Diagnosis> examine(const DoctorCommand& command) {
   }
   all.push_back({Level::good, "configuration: " + command.config, ""});
   all.push_back(check_storage(*config));
+  add(check_network(machine, *config));
   add(check_devices(*config, own_socket(*config, command.socket)));
   return all;
 }

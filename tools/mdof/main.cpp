@@ -50,6 +50,7 @@ void declare(CLI::App& app, Action& chosen) {
   add_encoder(app, chosen);
   add_device(app, chosen);
   add_doctor(app, chosen);
+  add_setup(app, chosen);
   add_status(app, chosen);
   add_live(app, chosen);
   add_selftest(app, chosen);

@@ -1,0 +1,52 @@
+// mdof setup network: lets the packaged service reach a device on a network.
+#include <CLI/CLI.hpp>
+
+#include "schema/json_writer.h"
+#include "tools/mdof/command.h"
+#include "tools/mdof/network_access.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+
+namespace mdof::tools {
+namespace {
+
+struct SetupCommand {
+  std::string address, units = "/etc/systemd/system";
+  bool json = false;
+};
+
+constexpr const char* kNext = "sudo systemctl daemon-reload && sudo systemctl restart mdofd";
+
+Status network(const SetupCommand& command) {
+  MDOF_TRY(const std::string address, network_address(command.address));
+  MDOF_TRY(const auto file, allow_address(command.units, address));
+  if (!command.json)
+    return write_line("wrote " + file.string() + ": mdofd may reach " + address +
+                      ". It holds after: " + kNext);
+  JsonWriter json;
+  json.begin_object()
+      .field("file", file.string())
+      .field("address", address)
+      .field("next", kNext)
+      .end_object();
+  return write_line(json.take());
+}
+
+}  // namespace
+
+void add_setup(CLI::App& app, Action& chosen) {
+  const auto o = std::make_shared<SetupCommand>();
+  auto* command = app.add_subcommand("setup", "Set up the service on this machine");
+  command->require_subcommand(1);
+  auto* of_network = command->add_subcommand("network", "Let mdofd reach a device on a network");
+  of_network->add_option("ADDRESS", o->address, "Of the device, or its network: 192.168.0.0/24")
+      ->required();
+  of_network->add_option("--units", o->units, "Folder of systemd's units")
+      ->capture_default_str()
+      ->type_name("FOLDER");
+  add_json_flag(*of_network, o->json);
+  of_network->footer("Example:\n  sudo mdof setup network 192.168.0.7");
+  of_network->callback([o, &chosen] { chosen = [o] { return network(*o); }; });
+}
+
+}  // namespace mdof::tools

@@ -105,10 +105,12 @@ namespace {
 
 Status reject_encoder(const SampleBlock& block, const Channel& encoder) {
   const std::string unit = suffix(encoder.unit);
-  return bad_input((block.device.empty() ? "" : "device \"" + block.device + "\": ") +
-                   "channel \"encoder\" is " + (unit.empty() ? "without a unit" : "in " + unit) +
-                   ", and the axis position must be a length: give it um_per_count, or name its "
-                   "column encoder_mm or encoder_um");
+  return bad_input(
+      (block.device.empty() ? "" : "device \"" + block.device + "\": ") +
+      "channel \"encoder\" is " + (unit.empty() ? "without a unit" : "in " + unit) +
+      ", and the axis position must be a length: take an input that counts, with "
+      "um_per_count, or that gives um or mm; a script makes it one and names its column "
+      "encoder_mm or encoder_um");
 }
 
 }  // namespace

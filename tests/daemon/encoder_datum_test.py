@@ -203,6 +203,31 @@ class EncoderDatum(unittest.TestCase):
             self.assertIn(why, done.stderr)
 
 
+class Units(unittest.TestCase):
+    """Volts are no position, whichever device gives them: said of the configuration, by its line and with what to do."""
+
+    def test_an_encoder_in_volts_is_refused_before_anything_is_opened(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copy(SETUPS["labjack_t7"].rig, folder)
+            for device, why in (
+                    ('driver = "modbus"\nprofile = "adam-6017"\naddress = "127.0.0.1"\n'
+                     'channel = [{ id = "encoder", input = "AI0" }]', "is in V, .* take an input that counts"),
+                    ('driver = "pokeys57u"\nchannel = [{ id = "encoder", input = "analogue1" }]',
+                     "is in V, .* take an input that counts"),
+                    ('driver = "modbus"\nprofile = "adam-6017"\naddress = "127.0.0.1"\n'
+                     'channel = [{ id = "encoder", input = "AI0", um_per_count = 3 }]', "um_per_count is for counts"),
+                    ('driver = "labjack_t7"\naddress = "127.0.0.1"\nchannel = [{ id = "encoder", input = "AIN0" }]',
+                     "an encoder is counted")):
+                config = os.path.join(folder, "mdofd.toml")
+                with open(config, "w") as f:
+                    f.write(f'[store]\ndatabase = "{folder}/mdof.db"\n[rpc]\nsocket = "{folder}/s"\n[[axis]]\n'
+                            f'rig = "rig_volts_X.toml"\n[[axis.device]]\n{device}\n[[axis.device]]\n'
+                            'driver = "csv_stream"\ncommand = ["true"]\n')
+                done = subprocess.run([MDOFD, "--config", config, "--check-config"], capture_output=True, text=True)
+                self.assertNotEqual(done.returncode, 0, device)
+                self.assertRegex(done.stderr, r"mdofd.toml:\d+: axis\[1\].device\[1\].channel.*" + why)
+
+
 class Simulated(unittest.TestCase):
     def test_what_knows_its_positions_needs_no_datum(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -15,11 +15,11 @@
 namespace mdof::drivers {
 
 struct ChannelInput {
-  std::string id;                   // a probe of the rig, or "encoder"
-  std::string input;                // as the device calls it: "AIN0", "1", "encoder2"
-  double um_per_count = 0;          // of an encoder that counts: signed; 0: not given
-  std::optional<double> offset_mm;  // of the encoder: what is added to its position
-  std::string where;                // "mdofd.toml:12: axis.device.channel.input", for messages
+  std::string id;           // a probe of the rig, or "encoder"
+  std::string input;        // as the device calls it: "AIN0", "1", "encoder2"
+  double um_per_count = 0;  // of an encoder that counts: signed; 0: not given
+  std::string where;        // "mdofd.toml:12: axis.device.channel.input", for messages
+  std::optional<double> offset_mm = std::nullopt;  // of the encoder: added to its position
 };
 
 // Reads `channel` of a device's table. Errors: none, an id that is no probe of the rig (with the

@@ -1,0 +1,115 @@
+// Planted by tests/mutate into its copy of the sources: all changes stand in one build, and the
+// environment says which one is in force (MDOF_CHANGE). With MDOF_REACHED the program notes at its end
+// which changes it came by, so that each is tried on those tests alone.
+#pragma once
+
+// What a change leaves unused or compares oddly is no error of the change.
+#pragma GCC diagnostic ignored "-Wunused-variable"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-value"
+#pragma GCC diagnostic ignored "-Wparentheses"
+#pragma GCC diagnostic ignored "-Wsign-compare"
+#pragma GCC diagnostic ignored "-Wbool-compare"
+#pragma GCC diagnostic ignored "-Wtype-limits"
+#pragma GCC diagnostic ignored "-Wnarrowing"
+#pragma GCC diagnostic ignored "-Wempty-body"
+#pragma GCC diagnostic ignored "-Wshadow"
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <type_traits>
+
+namespace mutate {
+
+struct Reached {
+  std::array<bool, 8192> change{};
+  const char* file = std::getenv("MDOF_REACHED");
+  ~Reached() {
+    if (!file) return;
+    std::ofstream out(file);
+    for (std::size_t n = 0; n < change.size(); ++n)
+      if (change[n]) out << n << '\n';
+  }
+};
+
+inline bool on(std::size_t n) {
+  static Reached reached;
+  static const char* const text = std::getenv("MDOF_CHANGE");
+  static const std::size_t in_force = text ? std::strtoul(text, nullptr, 10) : 0;
+  reached.change[n] = true;
+  return n == in_force;
+}
+
+// a OP b is planted as a OP mutate::..(n) OP b, which binds as before.
+template <class T, class Kind>
+struct Held {
+  const T& a;
+  std::size_t n;
+};
+
+#define MUTATE_OPERATOR(NAME, OP, OTHER)                                            \
+  struct NAME {                                                                     \
+    std::size_t n;                                                                  \
+  };                                                                                \
+  template <class T>                                                                \
+  Held<T, NAME> operator OP(const T& a, NAME kind) {                                \
+    return {a, kind.n};                                                             \
+  }                                                                                 \
+  template <class T, class U>                                                       \
+  auto operator OP(Held<T, NAME> held, const U& b)->std::decay_t<decltype(held.a OP b)> { \
+    using Value = std::decay_t<decltype(held.a OP b)>;                              \
+    if (on(held.n)) return static_cast<Value>(held.a OTHER b);                      \
+    return held.a OP b;                                                             \
+  }
+
+MUTATE_OPERATOR(plus_minus, +, -)
+MUTATE_OPERATOR(minus_plus, -, +)
+MUTATE_OPERATOR(times_over, *, /)
+MUTATE_OPERATOR(over_times, /, *)
+MUTATE_OPERATOR(modulo_over, %, /)
+MUTATE_OPERATOR(less_upto, <, <=)
+MUTATE_OPERATOR(less_not, <, >=)
+MUTATE_OPERATOR(more_from, >, >=)
+MUTATE_OPERATOR(more_not, >, <=)
+MUTATE_OPERATOR(upto_less, <=, <)
+MUTATE_OPERATOR(upto_not, <=, >)
+MUTATE_OPERATOR(from_more, >=, >)
+MUTATE_OPERATOR(from_not, >=, <)
+MUTATE_OPERATOR(same_other, ==, !=)
+MUTATE_OPERATOR(other_same, !=, ==)
+#undef MUTATE_OPERATOR
+
+inline int sign(std::size_t n) { return on(n) ? 1 : -1; }
+inline int flip(std::size_t n) { return on(n) ? -1 : 1; }
+
+template <class T>
+T inverse(std::size_t n, T b) {
+  static_assert(std::is_floating_point_v<T>);
+  return on(n) ? 1 / b : b;
+}
+
+template <class T>
+T shift(std::size_t n, T index, int by) {
+  static_assert(std::is_arithmetic_v<T>);
+  return on(n) ? static_cast<T>(index + static_cast<T>(by)) : index;
+}
+
+template <class T>
+std::decay_t<T> pick(std::size_t n, T then, T now) {
+  return on(n) ? then : now;
+}
+
+template <class T>
+T larger(std::size_t n, T a, T b) {
+  return on(n) == (b < a) ? b : a;
+}
+
+template <class T>
+T smaller(std::size_t n, T a, T b) {
+  return on(n) == (b < a) ? a : b;
+}
+
+}  // namespace mutate

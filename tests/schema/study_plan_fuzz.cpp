@@ -1,0 +1,13 @@
+// Plans of studies as TOML: read or refused with a reason. The rig of a plan is a file beside it.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "schema/study_plan.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto plan = mdof::parse_study_plan(text, MDOF_TEST_DATA "/sensitivity/fuzz.toml");
+  if (!plan && plan.error().message.empty()) std::abort();
+  return 0;
+}

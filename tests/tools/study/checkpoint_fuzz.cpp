@@ -1,0 +1,63 @@
+// Checkpoints of studies: the input is a checkpoint, or, after a first byte of 1, says which bytes
+// of a good one are changed (three bytes each: place, place, value). What is accepted can be gone
+// on with.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "tools/mdof/study/checkpoint.h"
+
+namespace {
+
+using namespace mdof;
+
+class TwoOutputs : public algo::Experiment {
+ public:
+  const std::vector<std::string>& outputs() const override { return outputs_; }
+  const algo::BinnedQuantity& binned() const override { return binned_; }
+  void run(std::uint64_t first, std::uint64_t step, std::size_t n,
+           std::span<double* const> out) const override {
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto trial = static_cast<double>(first + step * j);
+      out[0][j] = std::fmod(trial * 0.618, 1.0);
+      out[1][j] = -trial;
+    }
+  }
+
+ private:
+  std::vector<std::string> outputs_ = {"EYX_um", "EAX_urad"};
+  algo::BinnedQuantity binned_{"travel_mm", 0, 1, 2};
+};
+
+std::string good_one(const TwoOutputs& experiment) {
+  auto work = tools::empty_work(experiment, algo::pilot_scale(experiment));
+  work.trials = algo::block_trials(experiment, 2048);
+  work.statistics.add_block(experiment, 0, work.trials);
+  tools::add_convergence(work, 0.95);
+  return tools::checkpoint_bytes(work);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const TwoOutputs experiment;
+  static const std::string good = good_one(experiment);
+  std::string bytes(reinterpret_cast<const char*>(data), size);
+  if (size > 0 && data[0] == 1) {
+    bytes = good;
+    for (std::size_t i = 1; i + 2 < size; i += 3) {
+      char& at = bytes[(data[i] * 256u + data[i + 1]) % bytes.size()];
+      at = static_cast<char>(at ^ data[i + 2]);
+    }
+  }
+  auto work = tools::parse_checkpoint(bytes, experiment);
+  if (!work) {
+    if (work.error().message.empty()) std::abort();
+    return 0;
+  }
+  (void)tools::checkpoint_bytes(*work);
+  tools::add_convergence(*work, 0.95);
+  (void)work->statistics.bins();
+  return 0;
+}

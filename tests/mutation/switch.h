@@ -1,6 +1,6 @@
 // Planted by tests/mutate into its copy of the sources: all changes stand in one build, and the
-// environment says which one is in force (MDOF_CHANGE). With MDOF_REACHED the program notes at its end
-// which changes it came by, so that each is tried on those tests alone.
+// environment says which one is in force (MDOF_CHANGE). With MDOF_REACHED the program notes at its
+// end which changes it came by, so that each is tried on those tests alone.
 #pragma once
 
 // What a change leaves unused or compares oddly is no error of the change.
@@ -50,19 +50,19 @@ struct Held {
   std::size_t n;
 };
 
-#define MUTATE_OPERATOR(NAME, OP, OTHER)                                            \
-  struct NAME {                                                                     \
-    std::size_t n;                                                                  \
-  };                                                                                \
-  template <class T>                                                                \
-  Held<T, NAME> operator OP(const T& a, NAME kind) {                                \
-    return {a, kind.n};                                                             \
-  }                                                                                 \
-  template <class T, class U>                                                       \
+#define MUTATE_OPERATOR(NAME, OP, OTHER)                                                  \
+  struct NAME {                                                                           \
+    std::size_t n;                                                                        \
+  };                                                                                      \
+  template <class T>                                                                      \
+  Held<T, NAME> operator OP(const T& a, NAME kind) {                                      \
+    return {a, kind.n};                                                                   \
+  }                                                                                       \
+  template <class T, class U>                                                             \
   auto operator OP(Held<T, NAME> held, const U& b)->std::decay_t<decltype(held.a OP b)> { \
-    using Value = std::decay_t<decltype(held.a OP b)>;                              \
-    if (on(held.n)) return static_cast<Value>(held.a OTHER b);                      \
-    return held.a OP b;                                                             \
+    using Value = std::decay_t<decltype(held.a OP b)>;                                    \
+    if (on(held.n)) return static_cast<Value>(held.a OTHER b);                            \
+    return held.a OP b;                                                                   \
   }
 
 MUTATE_OPERATOR(plus_minus, +, -)
@@ -82,8 +82,12 @@ MUTATE_OPERATOR(same_other, ==, !=)
 MUTATE_OPERATOR(other_same, !=, ==)
 #undef MUTATE_OPERATOR
 
-inline int sign(std::size_t n) { return on(n) ? 1 : -1; }
-inline int flip(std::size_t n) { return on(n) ? -1 : 1; }
+inline int sign(std::size_t n) {
+  return on(n) ? 1 : -1;
+}
+inline int flip(std::size_t n) {
+  return on(n) ? -1 : 1;
+}
 
 template <class T>
 T inverse(std::size_t n, T b) {

@@ -1,5 +1,6 @@
 #include "schema/toml_depth.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace mdof {
@@ -65,7 +66,7 @@ class DepthScan {
       if (text_[at_] == '\n') ++line_;
       if (escapes && text_[at_] == '\\') skip_escaped();
     }
-    at_ += quotes.size();
+    at_ = std::min(at_ + quotes.size(), text_.size());  // a text without an end leaves nothing more
   }
 
   void skip_escaped() {

@@ -54,6 +54,15 @@ TEST(TomlDepth, IsOfKeysAndBracketsAlone) {
     EXPECT_EQ(refusal(flat), "") << flat.substr(0, 40);
 }
 
+// Found by fuzzing: a text of several lines without its closing quotes ended the program.
+TEST(TomlDepth, ATextWithoutEndIsRefused) {
+  for (const char* open : {"t = \"\"\"", "t = '''", "t = '''x", "t = \"\"\"x\\", "t = '''x''",
+                           "t = \"x\\", "t = \"", "t = '", "'''", "\"\"\"\"", "t = [\"\"\"a\n"}) {
+    EXPECT_EQ(toml_line_deeper_than(open, 32), std::nullopt) << open;
+    EXPECT_NE(refusal(open).find("rig.toml:"), std::string::npos) << open;
+  }
+}
+
 // A text cannot hide what follows it.
 TEST(TomlDepth, IsSeenAfterTexts) {
   const std::string deep = "\n" + repeated("a.", 40) + "a = 1";

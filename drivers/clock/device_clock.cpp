@@ -85,8 +85,7 @@ void DeviceClock::take(std::int64_t ticks, std::int64_t received_ns, double offs
     b.latest_ns = std::max(b.latest_ns, offset);
     if (offset < b.offset_ns) b = {stretch, ticks, received_ns, offset, b.latest_ns};
   }
-  if (!fitted_)
-    intercept_ns_ = std::min(best_.size() == 1 ? best_[0].offset_ns : intercept_ns_, offset);
+  if (!fitted_) intercept_ns_ = std::min(intercept_ns_, offset);  // of the first packet: 0
 }
 
 void DeviceClock::step(std::int64_t ticks, std::int64_t received_ns) {

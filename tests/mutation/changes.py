@@ -257,6 +257,8 @@ class Finder:
             if not assigns and words[-1].text != ')' and t[i].text not in ('++', '--') and words[-1].text not in ('++', '--'):
                 return
         what = self.text[t[i].start:t[end].end]
+        if '.reserve(' in what:
+            return
         self.add(i, end, f'{shorten(what)} dropped', ';',
                  [(t[i].start, t[i].start, '{{ if (!::mutate::on({n})) {{ '), (t[end].end, t[end].end, ' }} }}')])
 

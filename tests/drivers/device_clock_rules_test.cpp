@@ -1,0 +1,162 @@
+// What a device's clock promises, each by figures worked by hand: when it has settled, what is
+// late, how fast the times that are given out may run. Found missing by tests/mutate.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "drivers/clock/device_clock.h"
+#include "drivers/unwrap.h"
+
+namespace mdof::drivers {
+namespace {
+
+constexpr double kTick_ns = 1'000'000;  // a packet of one sample each millisecond
+
+// When a tick was, for a device that is fast by so much.
+std::int64_t at_ns(std::int64_t tick, double ppm) {
+  return 7'000'000'000 + std::llround(static_cast<double>(tick) * kTick_ns / (1 + ppm * 1e-6));
+}
+
+TEST(DeviceClockRules, ANewOneKnowsNothing) {
+  const ClockState state = DeviceClock(kTick_ns).state();
+  EXPECT_EQ(state.drift_ppm, 0);
+  EXPECT_EQ(state.jitter_ns, 0);
+  EXPECT_FALSE(state.settled);
+  EXPECT_EQ(state.steps, 0u);
+}
+
+// Sixteen quarters of a second.
+TEST(DeviceClockRules, SettlesAfterFourSeconds) {
+  DeviceClock clock(kTick_ns);
+  for (std::int64_t tick = 0; tick < 6'000; ++tick) {
+    clock.add(tick, at_ns(tick, 0));
+    EXPECT_EQ(clock.state().settled, tick >= 4'000) << tick;
+    EXPECT_FALSE(clock.state().doubtful) << tick;
+  }
+}
+
+TEST(DeviceClockRules, AfterAStepItIsDoubtfulForFourSeconds) {
+  DeviceClock clock(kTick_ns);
+  for (std::int64_t tick = 0; tick < 5'000; ++tick) clock.add(tick, at_ns(tick, 0));
+  for (std::uint64_t steps = 1; steps < 4; ++steps) {
+    for (std::int64_t tick = 0; tick < 5'000; ++tick) {
+      clock.add(tick, at_ns(tick + 5'000 * static_cast<std::int64_t>(steps), 0));
+      EXPECT_EQ(clock.state().doubtful, tick < 4'000) << tick;
+      EXPECT_EQ(clock.state().steps, steps);
+    }
+  }
+}
+
+// A tenth of a second is the bound, whatever the drift has summed up to: 500 ppm over five minutes
+// are 150 ms, more than the bound.
+TEST(DeviceClockRules, LateIsAgainstTheLine) {
+  for (const double ppm : {500.0, -500.0}) {
+    DeviceClock clock(kTick_ns);
+    for (std::int64_t tick = 0; tick < 300'000; tick += 100) {
+      clock.add(tick, at_ns(tick, ppm));
+      ASSERT_FALSE(clock.state().doubtful) << ppm << " " << tick;
+      ASSERT_EQ(clock.state().late_ns, 0);
+      ASSERT_EQ(clock.state().steps, 0u);
+    }
+    clock.add(300'000, at_ns(300'000, ppm) + 90'000'000);
+    EXPECT_FALSE(clock.state().doubtful) << ppm;
+    clock.add(300'020, at_ns(300'020, ppm) + 150'000'000);
+    EXPECT_TRUE(clock.state().doubtful) << ppm;
+    EXPECT_NEAR(static_cast<double>(clock.state().late_ns), 150e6, 1e5) << ppm;
+    clock.add(300'040, at_ns(300'040, ppm));
+    EXPECT_FALSE(clock.state().doubtful) << ppm;
+    EXPECT_EQ(clock.state().late_ns, 0);
+    clock.add(300'060, at_ns(300'060, ppm) - 90'000'000);  // sooner than was thought possible
+    EXPECT_EQ(clock.state().steps, 0u) << ppm;
+    clock.add(300'080, at_ns(300'080, ppm) - 150'000'000);  // than can be: its time jumped ahead
+    EXPECT_EQ(clock.state().steps, 1u) << ppm;
+  }
+}
+
+TEST(DeviceClockRules, NoClockIsTakenToBeMoreThanAThousandPpmWrong) {
+  for (const double ppm : {3'000.0, -3'000.0}) {
+    DeviceClock clock(kTick_ns);
+    for (std::int64_t tick = 0; tick < 6'000; ++tick) clock.add(tick, at_ns(tick, ppm));
+    EXPECT_NEAR(clock.state().drift_ppm, ppm > 0 ? 1'000 : -1'000, 1e-6);
+  }
+}
+
+// A drift that changes, as a device warms up: after 64 s and a little nothing of the old one is
+// left.
+TEST(DeviceClockRules, ForgetsWhatIsOlderThanAMinute) {
+  DeviceClock clock(kTick_ns);
+  for (std::int64_t tick = 0; tick < 200'000; tick += 5) clock.add(tick, at_ns(tick, 50));
+  EXPECT_NEAR(clock.state().drift_ppm, 50, 0.01);
+  const std::int64_t later_ns = at_ns(200'000, 50) - at_ns(200'000, 80);
+  for (std::int64_t tick = 200'000; tick < 270'000; tick += 5)
+    clock.add(tick, at_ns(tick, 80) + later_ns);
+  EXPECT_NEAR(clock.state().drift_ppm, 80, 0.01);
+}
+
+// Three of five stretches have packets that come 2 ms apart in their delay, the others none.
+TEST(DeviceClockRules, JitterIsTheMedianOfTheStretches) {
+  DeviceClock clock(kTick_ns);
+  for (std::int64_t tick = 0; tick < 10'000; ++tick) {
+    const bool spread = tick / 250 % 5 < 3 && tick % 2;
+    clock.add(tick, at_ns(tick, 0) + (spread ? 2'000'000 : 0));
+  }
+  EXPECT_EQ(clock.state().jitter_ns, 2'000'000);
+}
+
+// The first time that is asked for is on the line at once, however late the first packet was.
+TEST(DeviceClockRules, BeginsOnTheLine) {
+  DeviceClock clock(kTick_ns);
+  clock.add(0, at_ns(0, 0) + 50'000'000);
+  clock.add(10, at_ns(10, 0));
+  EXPECT_EQ(clock.host_ns(10), at_ns(10, 0));
+}
+
+// Times follow a line that moves without a step: by a fifth of the time as long as it has not
+// settled, then by 2 per mil of it, both on top of the drift.
+TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
+  for (const double ppm : {800.0, -800.0}) {
+    DeviceClock clock(kTick_ns);
+    double least = 2, most = 0, settled_off = 0;
+    std::int64_t last_ns = 0;
+    for (std::int64_t tick = 0; tick < 12'000; ++tick) {
+      const std::int64_t busy_ns = tick < 50 ? 30'000'000 : 0;
+      clock.add(tick, at_ns(tick, ppm) + busy_ns);
+      const std::int64_t ns = clock.host_ns(tick);
+      const double rate = static_cast<double>(ns - last_ns) / kTick_ns;
+      last_ns = ns;
+      if (tick == 0) continue;
+      if (clock.state().settled) {
+        settled_off = std::max(settled_off, std::abs(rate - 1 / (1 + ppm * 1e-6)));
+      } else {
+        least = std::min(least, rate);
+        most = std::max(most, rate);
+      }
+    }
+    EXPECT_NEAR(least, 0.8, 1e-5) << ppm;  // 30 ms are made good in 150 ms
+    EXPECT_LE(most, 1 + 1e-5) << ppm;
+    EXPECT_LE(settled_off, 2e-3 + 1e-5) << ppm;
+    // The first line of one that is slow was 3 ms off, without a drift.
+    EXPECT_GE(settled_off, ppm < 0 ? 2e-3 - 1e-5 : 0);
+    EXPECT_LT(std::abs(static_cast<double>(last_ns - at_ns(11'999, ppm))), 1'000) << ppm;
+  }
+}
+
+TEST(Unwrap, TheFirstReadingStandsForItself) {
+  EXPECT_EQ(Unwrap(16)(0xFFFF), 65'535);
+  EXPECT_EQ(Unwrap(16, true)(0xFFFF), -1);
+  EXPECT_EQ(Unwrap(16, true)(0x8000), -32'768);
+  EXPECT_EQ(Unwrap(16, true)(5), 5);
+  EXPECT_EQ(Unwrap(16, true)(0x7FFF), 32'767);
+}
+
+TEST(Unwrap, GoesOnOverTheEndsBothWays) {
+  Unwrap count(8);
+  const std::uint64_t raw[] = {250, 5, 120, 240, 10, 0x1FF};
+  const std::int64_t whole[] = {250, 261, 376, 496, 522, 511};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(count(raw[i]), whole[i]) << i;
+  count.reset();
+  EXPECT_EQ(count(3), 3);
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -1,0 +1,70 @@
+// Two experiments of a few trials whose standard deviations are worked by hand.
+#include "algo/sensitivity/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+// Outputs that are given trial by trial; NaN: not solved.
+class Given : public Experiment {
+ public:
+  Given(std::string key, std::vector<double> values)
+      : outputs_{std::move(key)}, values_(std::move(values)) {}
+  const std::vector<std::string>& outputs() const override { return outputs_; }
+  const BinnedQuantity& binned() const override { return binned_; }
+  void run(std::uint64_t first, std::uint64_t step, std::size_t n,
+           std::span<double* const> out) const override {
+    for (std::size_t j = 0; j < n; ++j) out[0][j] = values_[first + step * j];
+  }
+
+ private:
+  std::vector<std::string> outputs_;
+  std::vector<double> values_;
+  BinnedQuantity binned_;
+};
+
+std::vector<ComparedOutput> compared(const Given& ours, const Given& other) {
+  ComparisonSums sums(ours, other, 2), later(ours, other, 2);
+  sums.add_block(ours, other, 0);
+  later.add_block(ours, other, 1);
+  sums.merge(later);
+  return sums.result();
+}
+
+// 1, 2, 3, 4: variance 5/3. 2, 0, 2, 8: mean 3, squares 1 + 9 + 1 + 25 = 36, variance 12.
+TEST(ComparisonByHand, OfFourTrials) {
+  const auto result = compared({"EYX_um", {1, 2, 3, 4}}, {"EYX_um", {2, 0, 2, 8}});
+  ASSERT_EQ(result.size(), 1u);
+  EXPECT_EQ(result[0].key, "EYX_um");
+  EXPECT_NEAR(result[0].sd_this, std::sqrt(5.0 / 3), 1e-12);
+  EXPECT_NEAR(result[0].sd_other, std::sqrt(12.0), 1e-12);
+  EXPECT_NEAR(result[0].ratio, std::sqrt(12 * 3 / 5.0), 1e-12);
+  // Squares of the first block: 2.25 + 0.25 and 1 + 9; of the second as many and 1 + 25. In
+  // variances: 10/12 - 2.5 × 3/5 = -2/3 and 26/12 - 3/2 = 2/3; ratio/2 √(2 × 2 × 4/9)/4 = ratio/6.
+  EXPECT_NEAR(result[0].ratio_se, result[0].ratio / 6, 1e-12);
+}
+
+TEST(ComparisonByHand, ATrialThatOneCannotSolveCountsForNeither) {
+  const double nan = std::nan("");
+  const auto result = compared({"EYX_um", {1, 2, nan, 4}}, {"EYX_um", {2, nan, 7, 8}});
+  ASSERT_EQ(result.size(), 1u);  // 1 and 4, 2 and 8
+  EXPECT_NEAR(result[0].sd_this, std::sqrt(4.5), 1e-12);
+  EXPECT_NEAR(result[0].sd_other, std::sqrt(18.0), 1e-12);
+}
+
+TEST(ComparisonByHand, WhatOnlyOneHasIsNotCompared) {
+  EXPECT_TRUE(compared({"EYX_um", {1, 2, 3, 4}}, {"EZX_um", {1, 2, 3, 4}}).empty());
+}
+
+TEST(ComparisonByHand, WhatDoesNotVaryHasNoRatio) {
+  const auto result = compared({"EYX_um", {3, 3, 3, 3}}, {"EYX_um", {1, 2, 3, 4}});
+  EXPECT_EQ(result[0].sd_this, 0);
+  EXPECT_TRUE(std::isnan(result[0].ratio));
+  EXPECT_TRUE(std::isnan(result[0].ratio_se));
+}
+
+}  // namespace
+}  // namespace mdof::algo

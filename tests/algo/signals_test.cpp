@@ -1,0 +1,238 @@
+// What is said of signals that stand still, at and beside each bound, of stops made by hand; and
+// steps of an encoder that were put there. Found missing by tests/mutate.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "algo/encoder_jump.h"
+#include "algo/plausibility.h"
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kU_m = 1e-9;    // of a stop's mean: 8 nm are within its noise
+constexpr double kSd_m = 10e-9;  // of single readings
+
+Rig rig_of(std::size_t probes) {
+  Rig rig;
+  for (std::size_t k = 0; k < probes; ++k) {
+    Probe probe;
+    probe.id = std::string(1, static_cast<char>('A' + k));
+    rig.probes.push_back(probe);
+  }
+  return rig;
+}
+
+// Stops a second apart, 0.5 s long, at places 1, 2, 3, ...; each probe goes up by 1 µm a stop.
+Sequence stops_of(std::size_t probes, int n) {
+  Sequence sequence;
+  for (int i = 0; i < n; ++i) {
+    MeasuredPoint p;
+    p.target = i + 1;
+    p.point.position_m = 1e-3 * i;
+    p.point.begin_ns = 1'000'000'000LL * i;
+    p.point.end_ns = p.point.begin_ns + 500'000'000;
+    p.point.probe_m.assign(probes, 1e-6 * i);
+    p.point.probe_sd_m.assign(probes, kSd_m);
+    p.point.probe_u_m.assign(probes, kU_m);
+    sequence.points.push_back(p);
+  }
+  return sequence;
+}
+
+std::vector<std::string> said(const Sequence& sequence, std::size_t probes = 5) {
+  const Rig rig = rig_of(probes);
+  const DwellDetector::Summary none;
+  return warnings_of_signals({rig, sequence, none});
+}
+
+// Probe C at 3 µm from stop `first` on.
+Sequence with_dead_probe(int n, std::size_t first, double wobble_m = 0) {
+  Sequence sequence = stops_of(5, n);
+  for (std::size_t i = first; i < sequence.points.size(); ++i)
+    sequence.points[i].point.probe_m[2] = 3e-6 + (i % 2 ? wobble_m : 0);
+  return sequence;
+}
+
+TEST(Signals, NothingIsSaidOfARunThatIsRight) {
+  EXPECT_TRUE(said(stops_of(5, 20)).empty());
+  EXPECT_TRUE(said(Sequence{}).empty());
+}
+
+TEST(Signals, AProbeThatNeverMovesIsNamed) {
+  const auto texts = said(with_dead_probe(12, 0));
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_EQ(
+      texts[0],
+      "probe \"C\" reads the same at 12 stops (3 um, within its noise) while the others change: "
+      "the axis does not move it, or it measures nothing and errors from it are wrong; check "
+      "its cable, gap and amplifier");
+}
+
+TEST(Signals, AProbeThatDiesIsNamedWithItsTime) {
+  const auto texts = said(with_dead_probe(12, 5));  // it was at 0 to 4 um before
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_NE(texts[0].find("\"C\" reads the same at 7 stops from 5.000 s after the first on (3 um"),
+            std::string::npos)
+      << texts[0];
+}
+
+TEST(Signals, ADeadProbeIsToldFromSixStopsAtThreePlacesOn) {
+  EXPECT_EQ(said(with_dead_probe(12, 6)).size(), 1u);
+  EXPECT_EQ(said(with_dead_probe(12, 7)).size(), 0u);   // five stops
+  EXPECT_EQ(said(with_dead_probe(28, 21)).size(), 1u);  // a quarter of them
+  EXPECT_EQ(said(with_dead_probe(32, 25)).size(), 0u);  // less
+  for (const int places : {2, 3}) {
+    Sequence few = with_dead_probe(12, 0);
+    for (std::size_t i = 0; i < few.points.size(); ++i)
+      few.points[i].target = static_cast<int>(i) % places + 1;
+    EXPECT_EQ(said(few).size(), places == 3 ? 1u : 0u) << places;
+  }
+}
+
+TEST(Signals, TheSameIsWithinEightTimesTheUncertainty) {
+  EXPECT_EQ(said(with_dead_probe(12, 0, 7.9e-9)).size(), 1u);
+  EXPECT_EQ(said(with_dead_probe(12, 0, 8.1e-9)).size(), 0u);
+}
+
+// The others, and the probe itself before it died, must have moved by fifty times as much: 400 nm.
+TEST(Signals, TheOthersMustMove) {
+  for (const double step_m : {38e-9, 35e-9}) {  // over eleven steps 418 nm and 385 nm
+    Sequence slow = with_dead_probe(12, 0);
+    for (std::size_t i = 0; i < slow.points.size(); ++i)
+      for (const std::size_t k : {0u, 1u, 3u, 4u})
+        slow.points[i].point.probe_m[k] = -step_m * static_cast<double>(i);
+    EXPECT_EQ(said(slow).size(), step_m > 37e-9 ? 1u : 0u) << step_m;
+    Sequence before = with_dead_probe(12, 4);
+    for (std::size_t i = 0; i < 4; ++i)
+      before.points[i].point.probe_m[2] = 2e-6 - 10 * step_m * (i == 2) - 10 * step_m * (i == 3);
+    before.points[3].point.probe_m[2] -= 0.7 * step_m;
+    EXPECT_EQ(said(before).size(), step_m > 37e-9 ? 1u : 0u) << step_m;
+  }
+}
+
+TEST(Signals, AStopWithoutAValueCountsForNothing) {
+  Sequence holes = with_dead_probe(14, 0);
+  for (const std::size_t i : {0u, 3u, 13u}) holes.points[i].point.probe_m[2] = kNaN;
+  holes.points[5].point.probe_m[0] = kNaN;
+  const auto texts = said(holes);
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_NE(texts[0].find("at 11 stops ("), std::string::npos) << texts[0];
+}
+
+// `restless` of the probes change in stop 4 by so many times their usual sd.
+Sequence with_restless_stop(std::size_t probes, int stops, std::size_t restless, double times) {
+  Sequence sequence = stops_of(probes, stops);
+  for (std::size_t k = 0; k < restless; ++k) sequence.points[4].point.probe_sd_m[k] = times * kSd_m;
+  return sequence;
+}
+
+TEST(Signals, AStopInWhichMostProbesChangeIsNamed) {
+  const auto texts = said(with_restless_stop(5, 12, 4, 40));
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_EQ(
+      texts[0],
+      "in the stop at 4.0000 mm, of 0.500 s, 4 of 5 probes change as while the axis moves: the "
+      "encoder stood still, or something pushed the fixture; check the encoder and its cable, "
+      "and measure again");
+}
+
+TEST(Signals, RestlessAreThreeProbesAndHalfOfThemAtThirtyTimesTheirSd) {
+  EXPECT_EQ(said(with_restless_stop(5, 12, 3, 31)).size(), 1u);
+  EXPECT_EQ(said(with_restless_stop(5, 12, 3, 29)).size(), 0u);
+  EXPECT_EQ(said(with_restless_stop(5, 12, 2, 40)).size(), 0u);
+  EXPECT_EQ(said(with_restless_stop(6, 12, 3, 40), 6).size(), 1u);
+  EXPECT_EQ(said(with_restless_stop(7, 12, 3, 40), 7).size(), 0u);
+  EXPECT_EQ(said(with_restless_stop(5, 6, 3, 40)).size(), 1u);
+  EXPECT_EQ(said(with_restless_stop(5, 5, 3, 40)).size(), 0u);  // too few to know what is usual
+  Sequence stepped = with_restless_stop(5, 12, 3, 40);
+  for (std::size_t i = 0; i < 12; ++i)
+    if (i != 4) stepped.points[i].point.probe_sd_m[0] = 0;  // shows no noise: its sd tells nothing
+  EXPECT_EQ(said(stepped).size(), 0u);
+  Sequence unknown = with_restless_stop(5, 12, 4, 40);
+  for (const std::size_t i : {1u, 2u, 7u}) unknown.points[i].point.probe_sd_m.assign(5, kNaN);
+  unknown.points[9].point.probe_sd_m.clear();
+  EXPECT_EQ(said(unknown).size(), 1u);
+}
+
+// An axis at `speed` m per scan of 1 ms, that goes on by `step` more at row 30.
+struct Rows {
+  std::vector<std::int64_t> time_ns;
+  std::vector<double> encoder_m;
+};
+Rows rows_of(double speed_m, double step_m) {
+  Rows rows;
+  for (int i = 0; i < 60; ++i) {
+    rows.time_ns.push_back(1'000'000LL * i);
+    rows.encoder_m.push_back(speed_m * i + (i >= 30 ? step_m : 0));
+  }
+  return rows;
+}
+
+std::optional<EncoderJump> jump_in(const Rows& rows, std::size_t first = 0, std::size_t last = 60,
+                                   double least_m = 5e-6) {
+  return find_jump(rows.time_ns, rows.encoder_m, first, last, 1'000'000, least_m);
+}
+
+TEST(EncoderJumpRule, AStepIsFoundWithItsPlaceTimeAndSize) {
+  for (const double speed_m : {0.0, 20e-6, -20e-6}) {
+    for (const double step_m : {100e-6, -100e-6, 6e-6}) {
+      if (speed_m * step_m < 0) continue;  // against the motion the votes make it smaller
+      const auto jump = jump_in(rows_of(speed_m, step_m));
+      ASSERT_TRUE(jump) << speed_m << " " << step_m;
+      EXPECT_EQ(jump->time_ns, 30'000'000);
+      EXPECT_NEAR(jump->position_m, speed_m * 29, 1e-12);
+      EXPECT_NEAR(jump->size_m, step_m, 1e-12);
+    }
+  }
+}
+
+TEST(EncoderJumpRule, NoneWhereThereIsNone) {
+  EXPECT_FALSE(jump_in(rows_of(20e-6, 0)));
+  EXPECT_FALSE(jump_in(rows_of(0, 4.9e-6)));  // less than is asked for
+  EXPECT_FALSE(jump_in(rows_of(0, 100e-6), 31));
+  EXPECT_FALSE(jump_in(rows_of(0, 100e-6), 0, 30));
+  EXPECT_TRUE(jump_in(rows_of(0, 100e-6), 30, 31));
+  // 10 m/s² over two scans of 1 ms are 2.5 µm to and fro.
+  EXPECT_FALSE(jump_in(rows_of(0, 2.4e-6), 0, 60, 1e-9));
+  EXPECT_TRUE(jump_in(rows_of(0, 2.6e-6), 0, 60, 1e-9));
+}
+
+// While the axis moves, votes are off by up to four thirds of a scan's way: what is asked for must
+// be more.
+TEST(EncoderJumpRule, ASpikeOfOneScanIsNone) {
+  for (const int at : {20, 29, 30, 31, 33}) {
+    Rows rows = rows_of(10e-6, 0);
+    rows.encoder_m[static_cast<std::size_t>(at)] += 500e-6;
+    EXPECT_FALSE(jump_in(rows, 0, 60, 15e-6)) << at;
+    rows.encoder_m[static_cast<std::size_t>(at)] -= 1000e-6;
+    EXPECT_FALSE(jump_in(rows, 0, 60, 15e-6)) << at;
+  }
+}
+
+// Two steps: the greater one. Beside a hole in time: none, as the axis may have moved in it.
+TEST(EncoderJumpRule, TheGreatestAndNotInAHole) {
+  Rows two = rows_of(0, 60e-6);
+  for (std::size_t i = 45; i < 60; ++i) two.encoder_m[i] -= 100e-6;
+  EXPECT_EQ(jump_in(two)->time_ns, 45'000'000);
+  for (std::size_t i = 45; i < 60; ++i) two.encoder_m[i] += 60e-6;
+  EXPECT_EQ(jump_in(two)->time_ns, 30'000'000);
+  for (const std::int64_t hole_ns : {2'900'000, 3'100'000}) {
+    Rows hole = rows_of(0, 100e-6);
+    for (std::size_t i = 30; i < 60; ++i) hole.time_ns[i] += hole_ns;
+    EXPECT_EQ(jump_in(hole).has_value(), hole_ns < 3'000'000);
+  }
+}
+
+// The axis starts to move, however suddenly: another speed after than before.
+TEST(EncoderJumpRule, AStartIsNone) {
+  Rows rows = rows_of(0, 0);
+  for (std::size_t i = 30; i < 60; ++i) rows.encoder_m[i] = 50e-6 * static_cast<double>(i - 29);
+  EXPECT_FALSE(jump_in(rows));
+}
+
+}  // namespace
+}  // namespace mdof::algo

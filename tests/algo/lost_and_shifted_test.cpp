@@ -1,0 +1,103 @@
+// Stops that gave no point, and targets that are all visited again further on, of stops made by
+// hand. Found missing by tests/mutate.
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "algo/plausibility.h"
+#include "algo/shifted_targets.h"
+
+namespace mdof::algo {
+namespace {
+
+using PassedOver = DwellDetector::Summary::PassedOver;
+
+// Visits in order, a second apart: at each the number of a target.
+Sequence visited(const std::vector<double>& targets_m, const std::vector<int>& order) {
+  Sequence sequence;
+  sequence.targets_m = targets_m;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    MeasuredPoint p;
+    p.target = order[i];
+    p.point.position_m = targets_m[static_cast<std::size_t>(order[i]) - 1];
+    p.point.begin_ns = 1'000'000'000LL * static_cast<std::int64_t>(i);
+    p.point.end_ns = p.point.begin_ns + 400'000'000;
+    sequence.points.push_back(p);
+  }
+  return sequence;
+}
+
+std::size_t lost(const Sequence& sequence, double position_m, std::int64_t begin_ns) {
+  const Rig rig;
+  DwellDetector::Summary dwells;
+  dwells.passed_over.push_back({position_m, 0.05, begin_ns, true});
+  return lost_stops({rig, sequence, dwells}).size();
+}
+
+TEST(LostStops, AreThoseOfATargetWithoutAPointBeside) {
+  const Sequence s = visited({0, 10e-3, 20e-3, 30e-3}, {1, 2, 4});
+  EXPECT_EQ(lost(s, 20e-3, 1'500'000'000), 1u);  // between 2 and 4: target 3 gave no point
+  EXPECT_EQ(lost(s, 10e-3, 1'500'000'000), 0u);  // target 2 again, just after its point
+  EXPECT_EQ(lost(s, 30e-3, 1'500'000'000), 0u);  // target 4, just before its point
+  EXPECT_EQ(lost(s, 0, 1'500'000'000), 1u);      // target 1, but its point is not beside
+  EXPECT_EQ(lost(s, 25e-3, 1'500'000'000), 0u);  // of no target
+  EXPECT_EQ(lost(s, 0, -1), 0u);                 // before all, at the first one's target
+  EXPECT_EQ(lost(s, 30e-3, -1), 1u);
+  EXPECT_EQ(lost(s, 30e-3, 9'000'000'000), 0u);  // after all, at the last one's
+  EXPECT_EQ(lost(s, 10e-3, 9'000'000'000), 1u);
+  EXPECT_EQ(lost(visited({}, {}), 0, 0), 0u);
+}
+
+TEST(ShiftedTargets, AreToldWithTheirMomentAndDistance) {
+  const double d = 2e-3;
+  const auto shifted = find_shifted_targets(
+      visited({0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d}, {1, 3, 5, 3, 6, 4, 2}));
+  ASSERT_TRUE(shifted);
+  EXPECT_EQ(shifted->time_ns, 3'400'000'000);
+  EXPECT_NEAR(shifted->shift_m, d, 1e-12);
+  const auto back =
+      find_shifted_targets(visited({0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d}, {2, 4, 6, 5, 3, 1}));
+  ASSERT_TRUE(back);
+  EXPECT_NEAR(back->shift_m, -d, 1e-12);
+}
+
+// One more target on either side: the distance holds for what both have.
+TEST(ShiftedTargets, MayHaveOneMoreOnOneSide) {
+  const double d = 2e-3;
+  EXPECT_NEAR(find_shifted_targets(
+                  visited({0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d, 45e-3}, {1, 3, 5, 7, 6, 4, 2}))
+                  ->shift_m,
+              d, 1e-12);
+  EXPECT_NEAR(
+      find_shifted_targets(
+          visited({d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d, 45e-3, 45e-3 + d}, {2, 4, 6, 7, 5, 3, 1}))
+          ->shift_m,
+      d, 1e-12);
+}
+
+TEST(ShiftedTargets, NoneWhereTheyDiffer) {
+  const double d = 2e-3;
+  for (const double off_m : {49e-6, 51e-6}) {  // one of them by more than 50 um
+    for (const std::size_t which : {3u, 5u}) {
+      std::vector<double> targets = {0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d};
+      targets[which] += off_m;
+      EXPECT_EQ(find_shifted_targets(visited(targets, {1, 3, 5, 6, 4, 2})).has_value(),
+                off_m < 50e-6);
+    }
+  }
+  // Two before and two after are too few; a target that both have parts nothing.
+  EXPECT_FALSE(find_shifted_targets(visited({0, d, 10e-3, 10e-3 + d}, {1, 3, 4, 2})));
+  EXPECT_FALSE(find_shifted_targets(
+      visited({0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d}, {1, 3, 5, 6, 4, 2, 1, 3, 5})));
+  EXPECT_FALSE(find_shifted_targets(visited({0, 10e-3, 20e-3}, {1, 2, 3, 3, 2, 1})));
+  // By half of the range or more it is another part of the axis.
+  for (const double far_m : {9.9e-3, 10.1e-3})
+    EXPECT_EQ(find_shifted_targets(
+                  visited({0, 3e-3, far_m, 3e-3 + far_m, 20e-3, 20e-3 + far_m}, {1, 2, 5, 6, 4, 3}))
+                  .has_value(),
+              far_m < 10e-3);
+}
+
+}  // namespace
+}  // namespace mdof::algo

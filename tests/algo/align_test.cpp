@@ -31,6 +31,10 @@ TEST(Aligner, OneDeviceGoesThroughBitForBitInTheRigsOrder) {
   EXPECT_EQ(out.probe_m[0], (std::vector<double>{0, 0.1, 0.2}));
 }
 
+TEST(Aligner, WaitsForNothingBeforeAnythingCame) {
+  EXPECT_EQ(Aligner({}, {"A"}).waiting_for(), std::nullopt);
+}
+
 TEST(Aligner, InterpolatesOtherDevicesToTheEncodersInstants) {
   Aligner aligner({}, {"A"});
   FrameBlock out;

@@ -248,6 +248,8 @@ TEST(Simulations, NameTheOptionThatMakesNoSense) {
   EXPECT_NE(message([](O& o) { o.sigma_x_um = NAN; }).find("sigma_x_um"), std::string::npos);
   EXPECT_NE(message([](O& o) { o.angle_range_urad = 1e6; }).find("angle"), std::string::npos);
   EXPECT_EQ(message([](O& o) { o.travel_bins = 1; }), "");
+  EXPECT_EQ(message([](O& o) { o.travel_bins = 200; }), "");
+  EXPECT_NE(message([](O& o) { o.travel_bins = 201; }).find("1 to 200"), std::string::npos);
 }
 
 }  // namespace

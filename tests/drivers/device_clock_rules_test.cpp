@@ -47,6 +47,16 @@ TEST(DeviceClockRules, AfterAStepItIsDoubtfulForFourSeconds) {
   }
 }
 
+// What was stepped over before it had settled was not known well: a second is enough.
+TEST(DeviceClockRules, AfterAStepAtTheBeginningItIsDoubtfulForASecond) {
+  DeviceClock clock(kTick_ns);
+  for (std::int64_t tick = 0; tick < 500; ++tick) clock.add(tick, at_ns(tick, 0));
+  for (std::int64_t tick = 0; tick < 2'000; ++tick) {
+    clock.add(tick, at_ns(tick + 500, 0));
+    EXPECT_EQ(clock.state().doubtful, tick < 1'000) << tick;
+  }
+}
+
 // A tenth of a second is the bound, whatever the drift has summed up to: 500 ppm over five minutes
 // are 150 ms, more than the bound.
 TEST(DeviceClockRules, LateIsAgainstTheLine) {

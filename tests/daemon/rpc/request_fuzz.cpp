@@ -18,6 +18,7 @@ class Anybody : public Caller {
  public:
   std::optional<Credentials> credentials() const override { return Credentials{}; }
   bool may_write() const override { return false; }
+  bool in_group(gid_t) const override { return false; }
   Status subscribe(std::string_view, std::chrono::milliseconds) override { return {}; }
   Status unsubscribe(std::string_view) override { return {}; }
 };

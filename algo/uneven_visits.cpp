@@ -58,48 +58,138 @@ Approached approached(const std::vector<MeasuredPoint>& points) {
   return sides;
 }
 
-// The normal equations of the fit, with the visits eliminated: one row and column a run. Runs that
-// share no visit have no difference; the solution of least norm leaves them as they are.
+// Least squares of error = effect of one kind + effect of another, by the normal equations with the
+// second kind eliminated: one row and column for each effect of the first.
+class EffectFit {
+ public:
+  struct Entry {
+    Eigen::Index effect;  // of the first kind
+    const Errors5* errors;
+  };
+  using Entries = std::vector<Entry>;  // those that share an effect of the second kind
+
+  explicit EffectFit(std::size_t effects)
+      : normal_(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(effects),
+                                      static_cast<Eigen::Index>(effects))),
+        right_(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(effects), 5)) {}
+
+  void add(const Entries& shared) {
+    const double share = 1 / static_cast<double>(shared.size());
+    Errors5 mean{};
+    for (const Entry& e : shared)
+      for (std::size_t k = 0; k < 5; ++k) mean[k] += share * (*e.errors)[k];
+    for (const Entry& e : shared) {
+      normal_(e.effect, e.effect) += 1;
+      for (const Entry& other : shared) normal_(e.effect, other.effect) -= share;
+      for (std::size_t k = 0; k < 5; ++k)
+        right_(e.effect, static_cast<Eigen::Index>(k)) += (*e.errors)[k] - mean[k];
+    }
+  }
+
+  // Of the first kind, [effect][error]. Effects that no entries link have no difference; the
+  // solution of least norm leaves them as they are.
+  Eigen::MatrixXd solve() const { return normal_.completeOrthogonalDecomposition().solve(right_); }
+
+ private:
+  Eigen::MatrixXd normal_, right_;
+};
+
+using Drifts = std::map<int, Errors5>;  // of each run
+
+template <class Key>
+std::map<Key, Eigen::Index> numbered_effects(const std::map<Key, EffectFit::Entries>& by_key) {
+  std::map<Key, Eigen::Index> index;
+  for (const auto& [key, entries] : by_key)
+    index.emplace_hint(index.end(), key, static_cast<Eigen::Index>(index.size()));
+  return index;
+}
+
+// What runs and visits are linked by each other: the lowest visit of each group of them.
+class Links {
+ public:
+  explicit Links(Eigen::Index effects) {
+    for (Eigen::Index i = 0; i < effects; ++i) lowest_.push_back(i);
+  }
+  void link(Eigen::Index a, Eigen::Index b) {
+    a = lowest(a);
+    b = lowest(b);
+    lowest_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  Eigen::Index lowest(Eigen::Index i) const {
+    while (lowest_[static_cast<std::size_t>(i)] != i) i = lowest_[static_cast<std::size_t>(i)];
+    return i;
+  }
+
+ private:
+  std::vector<Eigen::Index> lowest_;
+};
+
 class RunFit {
  public:
   explicit RunFit(const std::vector<MeasuredPoint>& points) {
-    for (const MeasuredPoint& p : points) rows_.try_emplace(p.run, 0);
-    Eigen::Index row = 0;
-    for (auto& [run, index] : rows_) index = row++;
-    for (const MeasuredPoint& p : points) visits_[cell_of(p)].push_back(&p);
+    for (const MeasuredPoint& p : points) {
+      of_run_[p.run];
+      of_cell_[cell_of(p)];
+    }
+    runs_ = numbered_effects(of_run_);
+    cells_ = numbered_effects(of_cell_);
+    for (const MeasuredPoint& p : points) {
+      of_run_[p.run].push_back({cells_.at(cell_of(p)), &p.errors.local});
+      of_cell_[cell_of(p)].push_back({runs_.at(p.run), &p.errors.local});
+    }
   }
 
-  std::map<int, Errors5> drifts() const {
-    const auto n = static_cast<Eigen::Index>(rows_.size());
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n), right = Eigen::MatrixXd::Zero(n, 5);
-    for (const auto& [cell, visits] : visits_) add(visits, normal, right);
-    const Eigen::MatrixXd solved = normal.completeOrthogonalDecomposition().solve(right);
-    std::map<int, Errors5> drifts;
-    for (const auto& [run, row] : rows_)
+  // Whichever are fewer are solved for, as that takes the cube of their number.
+  Drifts drifts() const { return runs_.size() <= cells_.size() ? solved() : of_visits_solved(); }
+
+ private:
+  Drifts solved() const {
+    EffectFit fit(runs_.size());
+    for (const auto& [cell, entries] : of_cell_) fit.add(entries);
+    const Eigen::MatrixXd solved = fit.solve();
+    Drifts drifts;
+    for (const auto& [run, row] : runs_)
       for (Eigen::Index k = 0; k < 5; ++k)
         drifts[run][static_cast<std::size_t>(k)] = solved(row, k);
     return drifts;
   }
 
- private:
-  using Visits = std::vector<const MeasuredPoint*>;
-
-  void add(const Visits& visits, Eigen::MatrixXd& normal, Eigen::MatrixXd& right) const {
-    const double share = 1 / static_cast<double>(visits.size());
-    for (const MeasuredPoint* p : visits) {
-      const Eigen::Index row = rows_.at(p->run);
-      normal(row, row) += 1;
-      for (const MeasuredPoint* other : visits) normal(row, rows_.at(other->run)) -= share;
-      for (std::size_t k = 0; k < 5; ++k) {
-        double mean = 0;
-        for (const MeasuredPoint* other : visits) mean += share * other->errors.local[k];
-        right(row, static_cast<Eigen::Index>(k)) += p->errors.local[k] - mean;
-      }
-    }
+  // A run's drift is the mean of what its visits leave of its errors.
+  Drifts of_visits_solved() const {
+    EffectFit fit(cells_.size());
+    for (const auto& [run, entries] : of_run_) fit.add(entries);
+    const Eigen::MatrixXd visits = fit.solve();
+    Drifts drifts;
+    for (const auto& [run, entries] : of_run_)
+      for (const EffectFit::Entry& e : entries)
+        for (std::size_t k = 0; k < 5; ++k)
+          drifts[run][k] += ((*e.errors)[k] - visits(e.effect, static_cast<Eigen::Index>(k))) /
+                            static_cast<double>(entries.size());
+    return summed_to_zero(std::move(drifts));
   }
 
-  std::map<int, Eigen::Index> rows_;  // by run
-  std::map<Cell, Visits> visits_;
+  // Those of each group of runs that visits link.
+  Drifts summed_to_zero(Drifts drifts) const {
+    Links links(static_cast<Eigen::Index>(cells_.size()));
+    for (const auto& [run, entries] : of_run_)
+      for (const EffectFit::Entry& e : entries) links.link(entries[0].effect, e.effect);
+    std::map<Eigen::Index, Drifts> groups;
+    for (const auto& [run, drift] : drifts)
+      groups[links.lowest(of_run_.at(run)[0].effect)][run] = drift;
+    for (const auto& [lowest, group] : groups) {
+      Errors5 mean{};
+      for (const auto& [run, drift] : group)
+        for (std::size_t k = 0; k < 5; ++k) mean[k] += drift[k] / static_cast<double>(group.size());
+      for (const auto& [run, drift] : group)
+        for (std::size_t k = 0; k < 5; ++k) drifts[run][k] -= mean[k];
+    }
+    return drifts;
+  }
+
+  std::map<int, EffectFit::Entries> of_run_;    // their effects are of cells_
+  std::map<Cell, EffectFit::Entries> of_cell_;  // of runs_
+  std::map<int, Eigen::Index> runs_;
+  std::map<Cell, Eigen::Index> cells_;
 };
 
 }  // namespace

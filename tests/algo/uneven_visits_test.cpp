@@ -168,6 +168,61 @@ TEST(UnevenVisits, NoTargetFromBothSidesIsTold) {
   EXPECT_TRUE(uneven_visits_text(run.points).starts_with("no target was approached from both"));
 }
 
+// The least squares by going to and fro between the mean of each run and of each visit, without
+// equations. `group` of a run: its visits are none of another group's.
+std::map<int, double> drifts_to_and_fro(const std::vector<MeasuredPoint>& points,
+                                        const std::function<int(int)>& group) {
+  std::map<int, double> of_run;
+  std::map<std::pair<int, int>, double> of_visit;
+  const auto visit = [](const MeasuredPoint& p) { return std::pair(p.target, p.point.direction); };
+  for (int turn = 0; turn < 3000; ++turn) {
+    std::map<int, std::pair<double, int>> runs;
+    std::map<std::pair<int, int>, std::pair<double, int>> visits;
+    for (const auto& p : points) {
+      auto& [sum, n] = runs[p.run];
+      sum += p.errors.local[0] - of_visit[visit(p)];
+      ++n;
+    }
+    for (const auto& [run, sum] : runs) of_run[run] = sum.first / sum.second;
+    for (const auto& p : points) {
+      auto& [sum, n] = visits[visit(p)];
+      sum += p.errors.local[0] - of_run[p.run];
+      ++n;
+    }
+    for (const auto& [v, sum] : visits) of_visit[v] = sum.first / sum.second;
+  }
+  std::map<int, std::pair<double, int>> groups;
+  for (const auto& [run, drift] : of_run) {
+    groups[group(run)].first += drift;
+    ++groups[group(run)].second;
+  }
+  for (auto& [run, drift] : of_run) drift -= groups[group(run)].first / groups[group(run)].second;
+  return of_run;
+}
+
+// Few runs of many targets, and many runs of few: each is solved its own way. Two groups of runs
+// share no visit.
+TEST(UnevenVisits, TheDriftsAreThoseOfLeastSquares) {
+  const auto group = [](int run) { return run % 2; };
+  std::mt19937_64 engine(11);
+  std::normal_distribution<> unit;
+  std::bernoulli_distribution is_there(0.7);
+  const auto kept = [&](const Visit& v) {
+    return (v.target <= 6) == (group(v.run) == 0) && is_there(engine);
+  };
+  for (const int runs : {6, 60}) {
+    auto points = cut_run(runs, kept, Axis::x, 0).points;
+    for (auto& p : points) p.errors.local[0] += 1e-6 * unit(engine);
+    const auto truth = drifts_to_and_fro(points, group);
+    const auto without = without_drift_of_runs(points).points;
+    ASSERT_EQ(without.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      EXPECT_NEAR(points[i].errors.local[0] - without[i].errors.local[0], truth.at(points[i].run),
+                  1e-15)
+          << runs << " runs, run " << points[i].run;
+  }
+}
+
 // Runs that share no visit cannot be compared.
 TEST(UnevenVisits, RunsWithoutACommonVisitStay) {
   const mdof::Run run = cut_run(2, [](const Visit& v) { return (v.run == 1) == (v.target < 7); });

@@ -20,8 +20,8 @@ namespace {
 constexpr double kTick_s = 1e-3, kWrong_m = 20e-9;
 constexpr std::int64_t kPacket = 4;                            // ticks
 constexpr double kDwell_s = 0.5, kMove_s = 0.1, kStep_mm = 1;  // 10 mm/s
-constexpr int kTargets = 8, kPasses = 8;                       // four runs, both ways
-constexpr double kEnd_s = (kTargets + 1) * kPasses * (kDwell_s + kMove_s);
+constexpr int kLinkTargets = 8, kPasses = 8;                   // four runs, both ways
+constexpr double kEnd_s = (kLinkTargets + 1) * kPasses * (kDwell_s + kMove_s);
 // What the probes A to E read, µm per mm of travel: one target further is a micrometre or more.
 constexpr std::array<double, 5> kSlope = {1.0, -1.3, 1.7, 2.1, -1.1};
 
@@ -29,9 +29,9 @@ constexpr std::array<double, 5> kSlope = {1.0, -1.3, 1.7, 2.1, -1.1};
 double travel_mm(double t_s) {
   const double step_s = kDwell_s + kMove_s;
   const auto place = [](std::int64_t stop) {
-    const std::int64_t in_pass = stop % (kTargets + 1);
-    const bool forward = stop / (kTargets + 1) % 2 == 0;
-    return kStep_mm * static_cast<double>(forward ? in_pass - 1 : kTargets - in_pass);
+    const std::int64_t in_pass = stop % (kLinkTargets + 1);
+    const bool forward = stop / (kLinkTargets + 1) % 2 == 0;
+    return kStep_mm * static_cast<double>(forward ? in_pass - 1 : kLinkTargets - in_pass);
   };
   const auto stop = static_cast<std::int64_t>(std::max(t_s, 0.0) / step_s);
   const double since_s = t_s - static_cast<double>(stop) * step_s;

@@ -10,15 +10,15 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kTick_ns = 1'000'000;  // a packet of one sample each millisecond
+constexpr double kRuleTick_ns = 1'000'000;  // a packet of one sample each millisecond
 
 // When a tick was, for a device that is fast by so much.
 std::int64_t at_ns(std::int64_t tick, double ppm) {
-  return 7'000'000'000 + std::llround(static_cast<double>(tick) * kTick_ns / (1 + ppm * 1e-6));
+  return 7'000'000'000 + std::llround(static_cast<double>(tick) * kRuleTick_ns / (1 + ppm * 1e-6));
 }
 
 TEST(DeviceClockRules, ANewOneKnowsNothing) {
-  const ClockState state = DeviceClock(kTick_ns).state();
+  const ClockState state = DeviceClock(kRuleTick_ns).state();
   EXPECT_EQ(state.drift_ppm, 0);
   EXPECT_EQ(state.jitter_ns, 0);
   EXPECT_FALSE(state.settled);
@@ -27,7 +27,7 @@ TEST(DeviceClockRules, ANewOneKnowsNothing) {
 
 // Sixteen quarters of a second.
 TEST(DeviceClockRules, SettlesAfterFourSeconds) {
-  DeviceClock clock(kTick_ns);
+  DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 6'000; ++tick) {
     clock.add(tick, at_ns(tick, 0));
     EXPECT_EQ(clock.state().settled, tick >= 4'000) << tick;
@@ -36,7 +36,7 @@ TEST(DeviceClockRules, SettlesAfterFourSeconds) {
 }
 
 TEST(DeviceClockRules, AfterAStepItIsDoubtfulForFourSeconds) {
-  DeviceClock clock(kTick_ns);
+  DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 5'000; ++tick) clock.add(tick, at_ns(tick, 0));
   for (std::uint64_t steps = 1; steps < 4; ++steps) {
     for (std::int64_t tick = 0; tick < 5'000; ++tick) {
@@ -49,7 +49,7 @@ TEST(DeviceClockRules, AfterAStepItIsDoubtfulForFourSeconds) {
 
 // What was stepped over before it had settled was not known well: a second is enough.
 TEST(DeviceClockRules, AfterAStepAtTheBeginningItIsDoubtfulForASecond) {
-  DeviceClock clock(kTick_ns);
+  DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 500; ++tick) clock.add(tick, at_ns(tick, 0));
   for (std::int64_t tick = 0; tick < 2'000; ++tick) {
     clock.add(tick, at_ns(tick + 500, 0));
@@ -61,7 +61,7 @@ TEST(DeviceClockRules, AfterAStepAtTheBeginningItIsDoubtfulForASecond) {
 // are 150 ms, more than the bound.
 TEST(DeviceClockRules, LateIsAgainstTheLine) {
   for (const double ppm : {500.0, -500.0}) {
-    DeviceClock clock(kTick_ns);
+    DeviceClock clock(kRuleTick_ns);
     for (std::int64_t tick = 0; tick < 300'000; tick += 100) {
       clock.add(tick, at_ns(tick, ppm));
       ASSERT_FALSE(clock.state().doubtful) << ppm << " " << tick;
@@ -85,7 +85,7 @@ TEST(DeviceClockRules, LateIsAgainstTheLine) {
 
 TEST(DeviceClockRules, NoClockIsTakenToBeMoreThanAThousandPpmWrong) {
   for (const double ppm : {3'000.0, -3'000.0}) {
-    DeviceClock clock(kTick_ns);
+    DeviceClock clock(kRuleTick_ns);
     for (std::int64_t tick = 0; tick < 6'000; ++tick) clock.add(tick, at_ns(tick, ppm));
     EXPECT_NEAR(clock.state().drift_ppm, ppm > 0 ? 1'000 : -1'000, 1e-6);
   }
@@ -94,7 +94,7 @@ TEST(DeviceClockRules, NoClockIsTakenToBeMoreThanAThousandPpmWrong) {
 // A drift that changes, as a device warms up: after 64 s and a little nothing of the old one is
 // left.
 TEST(DeviceClockRules, ForgetsWhatIsOlderThanAMinute) {
-  DeviceClock clock(kTick_ns);
+  DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 200'000; tick += 5) clock.add(tick, at_ns(tick, 50));
   EXPECT_NEAR(clock.state().drift_ppm, 50, 0.01);
   const std::int64_t later_ns = at_ns(200'000, 50) - at_ns(200'000, 80);
@@ -105,7 +105,7 @@ TEST(DeviceClockRules, ForgetsWhatIsOlderThanAMinute) {
 
 // Three of five stretches have packets that come 2 ms apart in their delay, the others none.
 TEST(DeviceClockRules, JitterIsTheMedianOfTheStretches) {
-  DeviceClock clock(kTick_ns);
+  DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 10'000; ++tick) {
     const bool spread = tick / 250 % 5 < 3 && tick % 2;
     clock.add(tick, at_ns(tick, 0) + (spread ? 2'000'000 : 0));
@@ -115,7 +115,7 @@ TEST(DeviceClockRules, JitterIsTheMedianOfTheStretches) {
 
 // The first time that is asked for is on the line at once, however late the first packet was.
 TEST(DeviceClockRules, BeginsOnTheLine) {
-  DeviceClock clock(kTick_ns);
+  DeviceClock clock(kRuleTick_ns);
   clock.add(0, at_ns(0, 0) + 50'000'000);
   clock.add(10, at_ns(10, 0));
   EXPECT_EQ(clock.host_ns(10), at_ns(10, 0));
@@ -125,14 +125,14 @@ TEST(DeviceClockRules, BeginsOnTheLine) {
 // settled, then by 2 per mil of it, both on top of the drift.
 TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
   for (const double ppm : {800.0, -800.0}) {
-    DeviceClock clock(kTick_ns);
+    DeviceClock clock(kRuleTick_ns);
     double least = 2, most = 0, settled_off = 0;
     std::int64_t last_ns = 0;
     for (std::int64_t tick = 0; tick < 12'000; ++tick) {
       const std::int64_t busy_ns = tick < 50 ? 30'000'000 : 0;
       clock.add(tick, at_ns(tick, ppm) + busy_ns);
       const std::int64_t ns = clock.host_ns(tick);
-      const double rate = static_cast<double>(ns - last_ns) / kTick_ns;
+      const double rate = static_cast<double>(ns - last_ns) / kRuleTick_ns;
       last_ns = ns;
       if (tick == 0) continue;
       if (clock.state().settled) {

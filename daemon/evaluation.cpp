@@ -130,7 +130,10 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
   for (std::size_t i = 0; i < runs.size(); ++i) {
     MDOF_TRY(runs[i], store.run(table.runs[i]));
   }
-  MDOF_TRY(const auto warnings, table_warnings(runs));
+  // Of a run a missing datum is a note; of a table in force it is a correction at another place.
+  std::vector<std::string> warnings = table_notes(runs);
+  MDOF_TRY(const auto of_table, table_warnings(runs));
+  warnings.insert(warnings.end(), of_table.begin(), of_table.end());
   const auto now = store.active(table.axis);
   const bool in_force = now && now->table.id == request.table;
   if (warnings.empty() || in_force || request.despite_warnings)
@@ -139,7 +142,7 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
   return fail(ErrorCode::conflict,
               "table " + std::to_string(request.table) + " is made of runs with " +
                   std::to_string(warnings.size()) +
-                  (warnings.size() == 1 ? " warning" : " warnings") +
+                  (warnings.size() == 1 ? " warning or note" : " warnings or notes") +
                   ", so that it is not put in force: " + warnings.front() +
                   (warnings.size() > 1 ? "; and more: see each run, mdof show RUN" : "") +
                   ". If they do no harm, ask with --despite-warnings, in the call with "

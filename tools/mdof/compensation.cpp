@@ -93,7 +93,7 @@ Status build(const CompensationCommand& asked) {
                                                   "notes", notes))
                           : print_table(table, 0, false));
   say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id) +
-      (warnings.empty() ? "" : " --despite-warnings"));
+      (warnings.empty() && notes.empty() ? "" : " --despite-warnings"));
   return {};
 }
 

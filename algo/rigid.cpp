@@ -83,7 +83,8 @@ AxisErrors solve_rigid(const Fixture& fixture, double travel_m,
   }
   AxisErrors result;
   Errors5 e{};
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  bool done = false;
+  for (int iteration = 0; iteration < kMaxIterations && !done; ++iteration) {
     const Eigen::VectorXd misfit = readings - rigid_readings(fixture, travel_m, e);
     const Eigen::MatrixXd J = rigid_jacobian(fixture, travel_m, e);
     const Eigen::VectorXd step = (root_weight.asDiagonal() * J)
@@ -99,9 +100,14 @@ AxisErrors solve_rigid(const Fixture& fixture, double travel_m,
           "directions and units";
       return result;
     }
-    const bool done = std::abs(step(0)) <= kStepDone_m && std::abs(step(1)) <= kStepDone_m &&
-                      step.tail(3).cwiseAbs().maxCoeff() <= kStepDone_rad;
-    if (done) break;
+    done = std::abs(step(0)) <= kStepDone_m && std::abs(step(1)) <= kStepDone_m &&
+           step.tail(3).cwiseAbs().maxCoeff() <= kStepDone_rad;
+  }
+  if (!done) {
+    result.reason =
+        "no errors fit the readings closer and closer; check the height maps of the target planes: "
+        "heights and places in mm and um as the rig says, nothing as steep as 1 in 10";
+    return result;
   }
   double sum = 0, count = 0;
   const Eigen::VectorXd left = readings - rigid_readings(fixture, travel_m, e);

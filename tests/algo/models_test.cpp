@@ -221,6 +221,37 @@ TEST(RigidModel, TakesKnownFlatnessOutOfTheReadings) {
   EXPECT_GT(std::abs(flat.solve(0.03, {m.data(), m.data() + 5}, {}).local[kDz] - e[kDz]), 1e-7);
 }
 
+// A height map in the wrong unit is steeper than any surface: what the steps do not settle at is no
+// result.
+TEST(RigidModel, ReadingsThatNoErrorsFitAreNotSolved) {
+  Rig rig = test::rig_x();
+  TargetPlane top;
+  top.normal = {0, 0, 1};
+  TargetPlane side;
+  side.normal = {0, 1, 0};
+  for (int i = -80; i <= 80; ++i) {  // teeth of 0.9 mm, 1.4 mm apart; D and E see them turn with yaw
+    side.flatness.first_m.push_back(0.7e-3 * i);
+    const double height_m = i % 2 == 0 ? 0 : 0.9e-3;
+    side.flatness.height_m.insert(side.flatness.height_m.end(), {height_m, height_m});
+  }
+  side.flatness.second_m = {-0.05, 0.05};
+  rig.planes = {top, side};
+  const Solver solver = Solver::create(rig, Model::rigid).value();
+  int unsolved = 0;
+  for (int i = 0; i < 100; ++i) {
+    const std::vector<double> readings_m = {0, 0, 0, 1e-4, 1e-4 + 3e-6 * i};
+    const double travel_m = 0.001 + 0.0001 * i;
+    const AxisErrors got = solver.solve(travel_m, readings_m, {});
+    unsolved += !got.valid;
+    if (!got.valid) continue;
+    const Eigen::VectorXd back = rigid_readings(solver.fixture(), travel_m, got.local);
+    for (std::size_t k = 0; k < 5; ++k)
+      EXPECT_NEAR(back(static_cast<Eigen::Index>(k)), readings_m[k], 1e-9) << i;
+  }
+  EXPECT_GT(unsolved, 0);
+  EXPECT_LT(unsolved, 100);
+}
+
 TEST(RigidModel, ReportsTheResidualOfRedundantProbes) {
   const Solver solver = Solver::create(test::rig_oblique(), Model::rigid).value();
   Eigen::VectorXd m = rigid_readings(solver.fixture(), 0.01, Errors5{});

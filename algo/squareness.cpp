@@ -144,10 +144,22 @@ Result<HorizontalSlope> horizontal_slope(const Run& measured) {
   return slope;
 }
 
+constexpr double kMostArtefact_rad = 0.01;  // more is no square
+
+Status check_given(const ArtefactGiven& given) {
+  const double angle_rad = given.angle_error_rad.value_or(0), u_rad = given.u_rad.value_or(0);
+  if (!(std::abs(angle_rad) <= kMostArtefact_rad))
+    return bad_input("the angle error of the square must be from -10000 to 10000 urad");
+  if (!(u_rad >= 0 && u_rad <= kMostArtefact_rad))
+    return bad_input("the standard uncertainty of the square's angle must be from 0 to 10000 urad");
+  return {};
+}
+
 }  // namespace
 
 Result<SquareArtefact> artefact_of(const Rig& rig_x, const Rig& rig_y, const ArtefactGiven& given) {
   constexpr const char* kAngle = "artefact_angle_error_urad";
+  MDOF_CHECK(check_given(given));
   SquareArtefact artefact;
   const auto x = rig_x.artefact_angle_error_rad, y = rig_y.artefact_angle_error_rad;
   if (!given.angle_error_rad && x && y && *x != *y)

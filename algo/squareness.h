@@ -15,7 +15,8 @@ struct ArtefactGiven {
   std::optional<double> angle_error_rad, u_rad;
 };
 
-// The square as both rigs know it, with the corner that their planes tell. Errors: the rigs differ;
+// The square as both rigs know it, with the corner that their planes tell. Errors: a given value is
+// beyond 10 mrad, or none; the rigs differ;
 // an angle error is given and a face lies at 0, or on both sides of it, so that the corner is not
 // known.
 Result<SquareArtefact> artefact_of(const Rig& rig_x, const Rig& rig_y, const ArtefactGiven& given);

@@ -185,6 +185,11 @@ TEST(Artefact, IsRefusedWhereTheRigsDifferOrTellNoCorner) {
   const auto [same_x, same_y] = rigs_at(15, -15, three, three);
   EXPECT_DOUBLE_EQ(artefact_of(same_x, same_y, {})->u_rad, 0.5e-6);
   const auto [at_0, other] = rigs_at(0, -15, three);
+  for (const double no_square : {1e302, -0.011, std::nan("")})
+    EXPECT_FALSE(artefact_of(same_x, same_y, {.angle_error_rad = no_square, .u_rad = {}}));
+  for (const double no_u : {-1e-9, 1e302, std::nan("")})
+    EXPECT_FALSE(artefact_of(same_x, same_y, {.angle_error_rad = {}, .u_rad = no_u}));
+  EXPECT_TRUE(artefact_of(same_x, same_y, {.angle_error_rad = -0.01, .u_rad = 0.01}));
   EXPECT_NE(artefact_of(at_0, other, {}).error().message.find("rig_X: its side probes"),
             std::string::npos);
   const auto [no_angle, needs_none] = rigs_at(0, -15);

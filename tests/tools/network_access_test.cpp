@@ -2,6 +2,7 @@
 #include "tools/mdof/network_access.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
@@ -16,7 +17,8 @@ namespace fs = std::filesystem;
 
 class NetworkAccess : public testing::Test {
  protected:
-  NetworkAccess() : machine{fs::path(testing::TempDir()) / "network_access"} {
+  NetworkAccess()
+      : machine{fs::path(testing::TempDir()) / ("network_access-" + std::to_string(::getpid()))} {
     fs::remove_all(machine.root);
     fs::create_directories(units());
   }

@@ -105,8 +105,8 @@ AxisErrors solve_rigid(const Fixture& fixture, double travel_m,
   }
   if (!done) {
     result.reason =
-        "no errors fit the readings closer and closer; check the height maps of the target planes: "
-        "heights and places in mm and um as the rig says, nothing as steep as 1 in 10";
+        "the model does not settle at any errors for these readings; check the height maps of the "
+        "rig's planes: flatness_um is in um, flatness_first_mm and flatness_second_mm in mm";
     return result;
   }
   double sum = 0, count = 0;

@@ -104,7 +104,7 @@ std::map<Key, Eigen::Index> numbered_effects(const std::map<Key, EffectFit::Entr
   return index;
 }
 
-// What runs and visits are linked by each other: the lowest visit of each group of them.
+// The groups of visits that are linked by runs with both; each is named by its lowest visit.
 class Links {
  public:
   explicit Links(Eigen::Index effects) {

@@ -49,7 +49,8 @@ struct ActivationRequest {
   Deed deed;  // who asks
 };
 // Puts the table in force. Refuses one that is not what its hash says. Refuses one whose runs carry
-// warnings unless that is asked for: a controller sees numbers only.
+// warnings, or whose encoder had no datum, unless that is asked for: a controller sees numbers
+// only.
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request);
 
 struct SquarenessRequest {

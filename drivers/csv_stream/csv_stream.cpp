@@ -240,9 +240,12 @@ Status CsvStream::check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t
 Status CsvStream::check_silence() const {
   const std::int64_t silent_ns = monotonic_ns() - last_row_ns_;
   if (silent_ns <= nanoseconds(options_.silence).count()) return {};
-  return io_error(source_ + ": no row for " + seconds(silent_ns) +
-                  "; does the script run, and does it flush after each row? Slow devices need "
-                  "silence_s");
+  const char* remedy = options_.port.empty()
+                           ? "; does the script run, and does it flush after each row? Slow "
+                             "devices need silence_s"
+                           : "; is the device on, does it send by itself, and is baud right? Slow "
+                             "devices need silence_s";
+  return io_error(source_ + ": no row for " + seconds(silent_ns) + remedy);
 }
 
 }  // namespace mdof::drivers

@@ -229,8 +229,8 @@ TEST(RigidModel, ReadingsThatNoErrorsFitAreNotSolved) {
   top.normal = {0, 0, 1};
   TargetPlane side;
   side.normal = {0, 1, 0};
-  for (int i = -80; i <= 80;
-       ++i) {  // teeth of 0.9 mm, 1.4 mm apart; D and E see them turn with yaw
+  // Teeth of 0.9 mm, 1.4 mm apart; D and E see them turn with the yaw.
+  for (int i = -80; i <= 80; ++i) {
     side.flatness.first_m.push_back(0.7e-3 * i);
     const double height_m = i % 2 == 0 ? 0 : 0.9e-3;
     side.flatness.height_m.insert(side.flatness.height_m.end(), {height_m, height_m});

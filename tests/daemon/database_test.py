@@ -12,7 +12,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mdofd import RIG, Client, Daemon, RpcError, simulator  # noqa: E402
+from mdofd import RIG, Client, Daemon, RpcError, simulator, write_log  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 CONFLICT = 3
@@ -21,16 +21,6 @@ CONFLICT = 3
 def mdof(*words):
     done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True)
     return done.returncode, done.stdout, done.stderr
-
-
-def write_log(path):
-    """Half a second at each of 0 ... 3 mm."""
-    with open(path, "w") as log:
-        log.write("time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n")
-        for i in range(2400):
-            target, at = divmod(i, 600)
-            encoder = target + (0 if at < 500 else (at - 500) / 100)
-            log.write(f"{i * 1e-3:.6f},{encoder:.6f},0.1,0.2,0.3,0.4,{0.5 + target / 10}\n")
 
 
 class Database(unittest.TestCase):

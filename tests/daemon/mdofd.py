@@ -21,14 +21,25 @@ dwell_s = {dwell_s}
 speed_mm_s = 100
 acceleration_mm_s2 = 4000
 targets_mm = {targets_mm}
-repeats = 3
+repeats = {repeats}
 {extra}
 """
 
 
-def simulator(axis="X", rate_hz=2000, dwell_s=0.3, targets_mm=(0, 2, 4.1, 6.2), extra=""):
+def simulator(axis="X", rate_hz=2000, dwell_s=0.3, targets_mm=(0, 2, 4.1, 6.2), extra="",
+              repeats=3):
     return SIMULATOR.format(rig=RIG[axis], rate_hz=rate_hz, dwell_s=dwell_s,
-                            targets_mm=list(targets_mm), extra=extra)
+                            targets_mm=list(targets_mm), extra=extra, repeats=repeats)
+
+
+def write_log(path):
+    """Half a second at each of 0 ... 3 mm, for a replay."""
+    with open(path, "w") as log:
+        log.write("time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n")
+        for i in range(2400):
+            target, at = divmod(i, 600)
+            encoder = target + (0 if at < 500 else (at - 500) / 100)
+            log.write(f"{i * 1e-3:.6f},{encoder:.6f},0.1,0.2,0.3,0.4,{0.5 + target / 10}\n")
 
 
 def replay(axis, log):

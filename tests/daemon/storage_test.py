@@ -13,18 +13,9 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mdofd import RIG, Client, Daemon, RpcError, simulator  # noqa: E402
+from mdofd import RIG, Client, Daemon, RpcError, simulator, write_log  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
-
-
-def write_log(path):
-    with open(path, "w") as log:
-        log.write("time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n")
-        for i in range(2400):
-            target, at = divmod(i, 600)
-            encoder = target + (0 if at < 500 else (at - 500) / 100)
-            log.write(f"{i * 1e-3:.6f},{encoder:.6f},0.1,0.2,0.3,0.4,{0.5 + target / 10}\n")
 
 
 class SmallDisk(unittest.TestCase):

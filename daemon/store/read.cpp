@@ -108,7 +108,7 @@ Result<RunHeader> Store::header_of(Statement& row) {
     header.scans_lost = natural(row.integer(16));
     MDOF_TRY(header.warnings, texts(row.text(17)));
     MDOF_TRY(header.temperature, temperature(header.id));
-  } else if (!open_runs_.contains(header.id) && !WriterLock::held(file())) {
+  } else if (!open_runs_.contains(header.id) && !WriterLock::open_runs_claimed(file())) {
     header.state = RunState::aborted;  // as the next writer will put down
     header.warnings = {"interrupted"};
   }

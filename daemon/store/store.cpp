@@ -91,6 +91,7 @@ Result<Store> Store::open(const fs::path& file, Access access, StoreOptions opti
   MDOF_TRY(Connection connection, open_writer(file, options));
   Store store(std::move(lock), std::move(connection), access);
   MDOF_CHECK(store.end_interrupted_runs());
+  MDOF_CHECK(store.lock_.claim_open_runs());
   return store;
 }
 

@@ -20,15 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A byte of the database that is far beyond its end and those that SQLite locks (1 GiB).
-constexpr off_t kLockedByte = off_t{1} << 62;
+// Bytes of the database that are far beyond its end and those that SQLite locks (1 GiB).
+constexpr off_t kWriterByte = off_t{1} << 62;
+constexpr off_t kOpenRunsByte = kWriterByte + 1;
 
 // Locks of the open file, not of the process: two stores in one process exclude each other too.
-struct flock one_byte(short type) {
+struct flock one_byte(off_t byte, short type) {
   struct flock lock {};
   lock.l_type = type;
   lock.l_whence = SEEK_SET;
-  lock.l_start = kLockedByte;
+  lock.l_start = byte;
   lock.l_len = 1;
   return lock;
 }
@@ -79,6 +80,11 @@ tl::unexpected<Error> not_opened(const fs::path& database) {
                   "and mode and that the file system is not mounted read-only, or name another");
 }
 
+tl::unexpected<Error> not_locked(const std::string& database) {
+  return io_error(database + ": cannot be locked: " + std::strerror(errno) +
+                  ". Keep the database on a local file system");
+}
+
 }  // namespace
 
 WriterLock::WriterLock(WriterLock&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
@@ -90,8 +96,10 @@ WriterLock& WriterLock::operator=(WriterLock&& other) noexcept {
 
 WriterLock::~WriterLock() {
   if (fd_ < 0) return;
-  struct flock release = one_byte(F_UNLCK);
-  (void)::fcntl(fd_, F_OFD_SETLK, &release);
+  for (const off_t byte : {kOpenRunsByte, kWriterByte}) {
+    struct flock release = one_byte(byte, F_UNLCK);
+    (void)::fcntl(fd_, F_OFD_SETLK, &release);
+  }
   idle().put(fd_);
 }
 
@@ -100,11 +108,9 @@ Result<WriterLock> WriterLock::acquire(const fs::path& database, int timeout_ms)
   if (lock.fd_ < 0) return not_opened(database);
   constexpr int kStepMs = 10;
   for (int waited_ms = 0;; waited_ms += kStepMs) {
-    struct flock request = one_byte(F_WRLCK);
+    struct flock request = one_byte(kWriterByte, F_WRLCK);
     if (::fcntl(lock.fd_, F_OFD_SETLK, &request) == 0) return lock;
-    if (errno != EAGAIN && errno != EACCES)
-      return io_error(database.string() + ": cannot be locked: " + std::strerror(errno) +
-                      ". Keep the database on a local file system");
+    if (errno != EAGAIN && errno != EACCES) return not_locked(database.string());
     if (waited_ms >= timeout_ms) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
   }
@@ -113,11 +119,25 @@ Result<WriterLock> WriterLock::acquire(const fs::path& database, int timeout_ms)
                                        "only one may; wait for it, or name another database");
 }
 
-bool WriterLock::held(const fs::path& database) {
+bool WriterLock::held_byte(const fs::path& database, std::int64_t byte) {
   const WriterLock file(descriptor_of(database, O_RDONLY));
   if (file.fd_ < 0) return false;
-  struct flock question = one_byte(F_RDLCK);
+  struct flock question = one_byte(byte, F_RDLCK);
   return ::fcntl(file.fd_, F_OFD_GETLK, &question) == 0 && question.l_type != F_UNLCK;
+}
+
+bool WriterLock::held(const fs::path& database) {
+  return held_byte(database, kWriterByte);
+}
+
+Status WriterLock::claim_open_runs() {
+  struct flock request = one_byte(kOpenRunsByte, F_WRLCK);
+  if (::fcntl(fd_, F_OFD_SETLK, &request) == 0) return {};
+  return not_locked("its database");
+}
+
+bool WriterLock::open_runs_claimed(const fs::path& database) {
+  return held_byte(database, kOpenRunsByte);
 }
 
 }  // namespace mdof::store

@@ -3,6 +3,7 @@
 // itself, whatever name or link it was opened by.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "schema/result.h"
@@ -16,6 +17,10 @@ class WriterLock {
   // Whether some process, or another lock of this one, holds it.
   static bool held(const std::filesystem::path& database);
 
+  // From now on runs without an end are this writer's; before that those that a kill has cut off.
+  Status claim_open_runs();
+  static bool open_runs_claimed(const std::filesystem::path& database);
+
   WriterLock() = default;  // holds nothing
   WriterLock(WriterLock&& other) noexcept;
   WriterLock& operator=(WriterLock&& other) noexcept;
@@ -23,6 +28,7 @@ class WriterLock {
 
  private:
   explicit WriterLock(int fd) : fd_(fd) {}
+  static bool held_byte(const std::filesystem::path& database, std::int64_t byte);
   int fd_ = -1;
 };
 

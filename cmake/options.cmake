@@ -19,6 +19,10 @@ if(MDOF_SANITIZE)
   target_compile_definitions(mdof_options INTERFACE MDOF_SANITIZED)
   target_compile_options(mdof_options INTERFACE -fsanitize=${MDOF_SANITIZE}
                          -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  if(NOT MDOF_SANITIZE STREQUAL thread)
+    target_compile_options(mdof_options INTERFACE
+                           -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitizer_ignore.txt)
+  endif()
   target_link_options(mdof_options INTERFACE -fsanitize=${MDOF_SANITIZE})
 else()
   target_compile_definitions(mdof_options INTERFACE $<$<CONFIG:Release>:_FORTIFY_SOURCE=2>

@@ -34,6 +34,15 @@ TEST(LineFit, GivesTheManualsLines) {
   EXPECT_NEAR(two.slope - one.slope, -25.0727, 1e-4);  // the manual's squareness, µrad
 }
 
+// Of readings equally far off, the first.
+TEST(LineFit, DeviationsNameTheFirstOfTheGreatest) {
+  const std::vector<double> x = {0, 1, 2, 3, 4}, y = {0, 2, -1, 2, -1};
+  const Deviations d = deviations_from(Line{}, x, y);
+  EXPECT_EQ(d.peak, 1u);
+  EXPECT_EQ(d.valley, 2u);
+  EXPECT_EQ(d.peak_to_valley, 3);
+}
+
 TEST(LineFit, AgreesWithNistNorris) {
   const std::vector<double> y = {0.1,   338.8, 118.1, 888.0, 9.2,   228.1, 668.5, 998.5, 449.1,
                                  778.9, 559.2, 0.3,   0.1,   778.1, 668.8, 339.3, 448.9, 10.8,

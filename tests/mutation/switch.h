@@ -24,22 +24,26 @@
 
 namespace mutate {
 
-struct Reached {
-  std::array<bool, 8192> change{};
+constinit inline std::array<bool, 8192> reached{};
+
+// A look at it is made millions of times: no more than a load, a store and a comparison.
+inline const std::size_t in_force = [] {
+  const char* const text = std::getenv("MDOF_CHANGE");
+  return text ? std::strtoul(text, nullptr, 10) : 0;
+}();
+
+inline const struct AtEnd {
   const char* file = std::getenv("MDOF_REACHED");
-  ~Reached() {
+  ~AtEnd() {
     if (!file) return;
     std::ofstream out(file);
-    for (std::size_t n = 0; n < change.size(); ++n)
-      if (change[n]) out << n << '\n';
+    for (std::size_t n = 0; n < reached.size(); ++n)
+      if (reached[n]) out << n << '\n';
   }
-};
+} at_end;
 
 inline bool on(std::size_t n) {
-  static Reached reached;
-  static const char* const text = std::getenv("MDOF_CHANGE");
-  static const std::size_t in_force = text ? std::strtoul(text, nullptr, 10) : 0;
-  reached.change[n] = true;
+  reached[n] = true;
   return n == in_force;
 }
 

@@ -1,0 +1,176 @@
+// When a stop begins and ends, and what is counted of a log: the test makes both and knows them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/algo/stepping_axis.h"
+#include "tests/algo/stepping_log.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kSlot_s = 0.0125;  // the grain of detection: a quarter of the window
+
+struct Found {
+  std::vector<Point> points;
+  DwellDetector::Summary summary;
+  std::vector<DwellNotice> notices;
+};
+
+Found found_in(const FrameBlock& frames, std::size_t block = 1'000'000, DwellOptions options = {}) {
+  DwellDetector detector(options, {"A"}, {200e-6});
+  Found found;
+  for (std::size_t i = 0; i < frames.size(); i += block)
+    detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);
+  detector.flush(found.points);
+  found.summary = detector.summary();
+  found.notices = detector.notices();
+  return found;
+}
+
+SteppingAxis fast_axis() {
+  SteppingAxis axis;
+  axis.rate_hz = 1000;
+  return axis;
+}
+
+// A stop is seen within a slot of its begin, and within two of its end what is averaged is over.
+TEST(DwellTimes, AreThoseOfTheStop) {
+  SteppingAxis axis = fast_axis();
+  std::vector<double> begin_s, end_s;
+  for (int i = 0; i < 25; ++i) {
+    axis.move_to(1e-3 * (i % 7) + 0.13e-3 * i);
+    begin_s.push_back(1e-9 * static_cast<double>(axis.t_ns));
+    axis.wait(0.4 + 0.0007 * i);
+    end_s.push_back(1e-9 * static_cast<double>(axis.t_ns));
+  }
+  axis.move_to(20e-3);
+  const Found found = found_in(axis.frames);
+  ASSERT_EQ(found.points.size(), 25u);
+  double longest_s = 0;
+  for (std::size_t i = 0; i < 25; ++i) {
+    const double late_s = 1e-9 * static_cast<double>(found.points[i].begin_ns) - begin_s[i] - 0.1;
+    const double early_s = end_s[i] - 1e-9 * static_cast<double>(found.points[i].end_ns);
+    EXPECT_GE(late_s, -0.003) << i;
+    EXPECT_LE(late_s, kSlot_s + 0.003) << i;
+    EXPECT_GE(early_s, 0) << i;
+    EXPECT_LE(early_s, 2 * kSlot_s + 0.003) << i;
+    longest_s = std::max(longest_s, end_s[i] - begin_s[i]);
+  }
+  EXPECT_LE(found.summary.longest_still_s, longest_s);
+  EXPECT_GE(found.summary.longest_still_s, longest_s - 3 * kSlot_s);
+}
+
+TEST(DwellTimes, AStopOfSettlingAndLeastLengthIsFoundAndAShorterOneTold) {
+  SteppingAxis axis = fast_axis();
+  for (int i = 0; i < 6; ++i) {
+    axis.move_to(30e-3 + 2e-3 * i);
+    axis.wait(i % 2 ? 0.17 : 0.25);
+  }
+  axis.move_to(50e-3);
+  const Found found = found_in(axis.frames);
+  ASSERT_EQ(found.points.size(), 3u);
+  ASSERT_EQ(found.summary.passed_over.size(), 3u);
+  ASSERT_EQ(found.notices.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double at_m = 30e-3 + 4e-3 * static_cast<double>(i);
+    EXPECT_NEAR(found.points[i].position_m, at_m, 20e-9);
+    const auto& passed = found.summary.passed_over[i];
+    EXPECT_NEAR(passed.position_m, at_m + 2e-3, 1e-6);
+    EXPECT_NEAR(passed.length_s, 0.17, 3 * kSlot_s);
+    EXPECT_TRUE(passed.too_short);
+    EXPECT_EQ(found.notices[i].kind, NoticeKind::short_stop);
+    EXPECT_NEAR(found.notices[i].position_m, at_m + 2e-3, 1e-6);
+  }
+}
+
+// 100 µm/s is 5 µm in a window of 50 ms, more than 2 µm; 20 µm/s is 1 µm. Either way.
+TEST(DwellTimes, ASlowTravelIsNoStop) {
+  for (const double speed_m_s : {100e-6, -100e-6, 20e-6, -20e-6}) {
+    SteppingAxis axis = fast_axis();
+    for (int i = 0; i < 2000; ++i) axis.x_m += speed_m_s / axis.rate_hz, axis.scan();
+    const double still_s = found_in(axis.frames).summary.longest_still_s;
+    EXPECT_EQ(still_s == 0, std::abs(speed_m_s) > 50e-6) << speed_m_s;
+    EXPECT_EQ(still_s > 1.8, std::abs(speed_m_s) < 50e-6) << speed_m_s;
+  }
+}
+
+TEST(DwellTimes, TheSummaryCountsWhatIsInTheLog) {
+  SteppingAxis axis = fast_axis();
+  axis.noise_m = 0;
+  for (const double at_m : {3e-3, -2e-3, 7e-3, 1e-3}) axis.stop(at_m);
+  const Found found = found_in(axis.frames, 17);
+  EXPECT_EQ(found.summary.scans, axis.frames.size());
+  EXPECT_EQ(found.summary.gaps, 0u);
+  EXPECT_EQ(found.summary.unplaced, 0u);
+  EXPECT_NEAR(found.summary.encoder_min_m, -2e-3, 1e-9);
+  EXPECT_NEAR(found.summary.encoder_max_m, 7e-3, 1e-9);
+  EXPECT_DOUBLE_EQ(found.summary.period_s, 1e-3);
+  EXPECT_DOUBLE_EQ(found.summary.tolerance_m, 2e-6);
+}
+
+// Two scans lost are an interval of three periods, three are a gap.
+TEST(DwellTimes, AGapIsMoreThanThreePeriods) {
+  for (const std::size_t lost : {1u, 2u, 3u}) {
+    SteppingAxis axis = fast_axis();
+    axis.stop(2e-3);
+    axis.move_to(5e-3);
+    FrameBlock frames = axis.frames;
+    const std::size_t row = 300;  // in the stop
+    for (auto* column : {&frames.encoder_m, frames.probe_m.data()})
+      column->erase(column->begin() + row, column->begin() + row + static_cast<int>(lost));
+    frames.time_ns.erase(frames.time_ns.begin() + row,
+                         frames.time_ns.begin() + row + static_cast<int>(lost));
+    const Found found = found_in(frames);
+    ASSERT_EQ(found.points.size(), 1u);
+    EXPECT_EQ(has_flag(found.points[0], "gap"), lost == 3) << lost;
+    EXPECT_EQ(found.summary.gaps, lost == 3 ? 1u : 0u) << lost;
+  }
+}
+
+// The period is the median of the first 32 intervals, whatever follows and however it is cut.
+TEST(DwellTimes, ThePeriodIsTheMedianOfTheFirstIntervals) {
+  SteppingAxis axis;
+  for (int i = 0; i < 500; ++i) axis.scan();
+  std::int64_t t_ns = 0;
+  for (std::size_t i = 0; i < axis.frames.size(); ++i) {
+    axis.frames.time_ns[i] = t_ns;
+    t_ns += i == 16 ? 1'100'000 : i < 32 && i % 2 == 0 ? 1'000'000 : i < 32 ? 1'200'000 : 1'500'000;
+  }
+  // 15 of 1 ms, 16 of 1.2 ms, one of 1.1 ms: with the 17th of 32 in order as the median 1.2 ms.
+  for (const std::size_t block : {1u, 33u, 40u, 1000u})
+    EXPECT_DOUBLE_EQ(found_in(axis.frames, block).summary.period_s, 1.2e-3) << block;
+  t_ns = 0;
+  for (std::size_t i = 0; i < axis.frames.size(); ++i) {
+    axis.frames.time_ns[i] = t_ns;
+    t_ns += i % 2 == 0 && i < 32 ? 1'000'000 : i == 31 ? 1'100'000 : 1'300'000;
+  }
+  for (const std::size_t block : {1u, 33u, 40u, 1000u})
+    EXPECT_DOUBLE_EQ(found_in(axis.frames, block).summary.period_s, 1.1e-3) << block;
+}
+
+// Even where the clock stands, each row is counted once.
+TEST(DwellTimes, RowsAtOneInstantAreCountedOnce) {
+  SteppingAxis axis;
+  for (int i = 0; i < 70; ++i) axis.scan();
+  std::fill(axis.frames.time_ns.begin(), axis.frames.time_ns.end(), 5'000'000);
+  EXPECT_EQ(found_in(axis.frames, 1).summary.scans, 70u);
+}
+
+TEST(DwellTimes, AStopOfFewerRowsThanThePeriodTakesIsFound) {
+  SteppingAxis axis;
+  axis.rate_hz = 20;
+  axis.wait(1.5);
+  ASSERT_EQ(axis.frames.size(), 30u);
+  for (const std::size_t block : {1u, 7u, 100u}) {
+    const Found found = found_in(axis.frames, block);
+    ASSERT_EQ(found.points.size(), 1u);
+    EXPECT_EQ(found.summary.scans, 30u);
+    EXPECT_NEAR(found.points[0].position_m, -1e-3, 20e-9);
+  }
+}
+
+}  // namespace
+}  // namespace mdof::algo

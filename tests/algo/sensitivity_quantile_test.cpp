@@ -1,0 +1,92 @@
+// The histogram of a study by hand: where its core lies, and that no trial is lost beyond it.
+#include "algo/sensitivity/quantile.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace mdof::algo {
+namespace {
+
+// Twice the central 98 %, about its middle: of 0 ... 199 that is 2 ... 197.
+TEST(HistogramScale, IsTwiceTheCentralPart) {
+  std::vector<double> values;
+  for (int i = 0; i < 200; ++i) values.push_back((i * 77) % 200);
+  values.push_back(std::numeric_limits<double>::quiet_NaN());
+  const OutputScale scale = scale_for(values);
+  EXPECT_EQ(scale.low, 99.5 - 195);
+  EXPECT_EQ(scale.high(), 99.5 + 195);
+  // All but rare ones are alike: what differs makes the core.
+  std::vector<double> rare(1000, 5.0);
+  rare[17] = 1;
+  rare[900] = 8;
+  EXPECT_EQ(scale_for(rare).low, 4.5 - 7);
+  EXPECT_EQ(scale_for(rare).high(), 4.5 + 7);
+}
+
+TEST(HistogramScale, OfAConstantIsAShareOfItOrOfTheUnit) {
+  const OutputScale small = scale_for({0.125, 0.125}), large = scale_for({-4, -4});
+  EXPECT_EQ(small.high() - small.low, 1 / 512.0);
+  EXPECT_EQ((small.high() + small.low) / 2, 0.125);
+  EXPECT_EQ(large.high() - large.low, 4 / 512.0);
+  EXPECT_EQ((large.high() + large.low) / 2, -4);
+  EXPECT_EQ(scale_for({}).low, -1);
+  EXPECT_EQ(scale_for({}).high(), 1);
+}
+
+const OutputScale kScale{-1, 2.0 / kCoreBins};
+
+std::uint64_t index_of(double x) {
+  if (x < -1) return 0;
+  return x > 1 ? kCoreBins + 1 : 1 + static_cast<std::uint64_t>((x + 1) / kScale.width);
+}
+
+OutputHistogram histogram_of(const std::vector<double>& x) {
+  std::vector<std::uint64_t> index;
+  for (const double value : x) index.push_back(index_of(value));
+  OutputHistogram counts;
+  counts.add(x, index.data(), kScale);
+  return counts;
+}
+
+// Beyond the core a bin of j widths begins where 64 + j has a power of 2 in 64 parts.
+TEST(OutputHistogram, NoTrialIsLost) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  for (const double sign : {1.0, -1.0}) {
+    for (const double x : {1.5, 3.0, 1e6, kMost}) {
+      OutputHistogram one = histogram_of({sign * x});
+      ASSERT_EQ(one.tails().size(), 1u) << sign * x;
+      const auto [key, n] = *one.tails().begin();
+      EXPECT_EQ(n, 1u);
+      EXPECT_GT(sign * key, 0);
+      const double distance = (x - 1) / kScale.width;
+      if (x < kMost) {
+        EXPECT_EQ(std::abs(key),
+                  1 + static_cast<int>(
+                          std::floor(64 * (std::ilogb((64 + distance) / 64) - 1) +
+                                     64 * std::scalbn(64 + distance, -std::ilogb(64 + distance)))));
+      } else {
+        EXPECT_EQ(std::abs(key), OutputHistogram::kLastTail);
+      }
+    }
+  }
+  OutputHistogram both = histogram_of({0.5, -7, 0.5, 9, -0.25});
+  EXPECT_EQ(both.core(index_of(0.5) - 1), 2u);
+  EXPECT_EQ(both.core(index_of(-0.25) - 1), 1u);
+  EXPECT_EQ(both.tails().size(), 2u);
+  both.add(histogram_of({0.5, 9}));
+  EXPECT_EQ(both.core(index_of(0.5) - 1), 3u);
+  EXPECT_EQ(both.tails().rbegin()->second, 2u);
+  const OrderedTrials ordered(both, kScale, -7, 9);
+  EXPECT_EQ(ordered.size(), 7u);
+  EXPECT_EQ(ordered.value(1), -7);
+  EXPECT_EQ(ordered.value(7), 9);
+  EXPECT_NEAR(ordered.value(2), -0.25, kScale.width);
+  for (const std::uint64_t rank : {3u, 4u, 5u}) EXPECT_NEAR(ordered.value(rank), 0.5, kScale.width);
+  EXPECT_NEAR(ordered.value(6), 9, ordered.resolution(6));
+  EXPECT_LT(ordered.resolution(6), 0.2);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -2,22 +2,22 @@
 # time, as most of it is headers. Names of the anonymous namespaces of a folder must then differ; a file with a
 # name that stands elsewhere too ("redefinition", "ambiguous") gets another name for it, or a line here.
 set(MDOF_COMPILED_ALONE
-    algo/encoder_jump.cpp algo/plausibility_visits.cpp algo/robust_mean.cpp algo/sequence.cpp
-    algo/sequence_cycle.cpp algo/sequence_odd_stops.cpp algo/usable_runs.cpp algo/sensitivity/moments.cpp
-    algo/sensitivity/plan_experiment.cpp drivers/capancdt/controller.cpp drivers/labjack_t7/registers.cpp
+    algo/plausibility/encoder_jump.cpp algo/plausibility/plausibility_visits.cpp algo/points/robust_mean.cpp algo/sequence/sequence.cpp
+    algo/sequence/sequence_cycle.cpp algo/sequence/sequence_odd_stops.cpp algo/sequence/usable_runs.cpp algo/sensitivity/statistics/moments.cpp
+    algo/sensitivity/plan/experiment.cpp drivers/capancdt/controller.cpp drivers/labjack_t7/registers.cpp
     drivers/labjack_t7/stream.cpp drivers/labjack_u6/device.cpp drivers/mcc_usb1608fs_plus/protocol.cpp
     drivers/qsb/qsb.cpp drivers/simulator/options.cpp drivers/simulator/raw.cpp drivers/usb/simulated_usb.cpp
-    daemon/methods_run.cpp daemon/replay.cpp daemon/resume.cpp daemon/rpc/topic_hub.cpp
-    daemon/store/study_read.cpp daemon/store/write.cpp tools/mdof/progress.cpp tools/mdof/record.cpp
-    tools/mdof/replay.cpp tools/mdof/status.cpp tools/mdof/plot/bins.cpp tools/mdof/plot/convergence.cpp
+    daemon/methods/run.cpp daemon/measure/replay.cpp daemon/station/resume.cpp daemon/rpc/topic_hub.cpp
+    daemon/store/study/study_read.cpp daemon/store/write.cpp tools/mdof/progress.cpp tools/mdof/commands/record.cpp
+    tools/mdof/commands/replay.cpp tools/mdof/commands/status.cpp tools/mdof/plot/bins.cpp tools/mdof/plot/convergence.cpp
     tools/mdof/plot/frontier.cpp tools/mdof/plot/histogram.cpp tools/mdof/plot/indices.cpp
-    tools/mdof/plot/panel.cpp tools/mdof/study/ranks.cpp tools/mdof_simulate/usbip.cpp
-    tests/algo/sensitivity_indices_test.cpp tests/algo/sensitivity_plan_test.cpp
-    tests/algo/sensitivity_presets_test.cpp tests/algo/sensitivity_statistics_test.cpp
-    tests/daemon/config_test.cpp tests/daemon/storekeeper_test.cpp tests/daemon/rpc/server_test.cpp
-    tests/drivers/simulator_options_test.cpp tests/schema/number_columns_test.cpp
-    tests/schema/number_test.cpp tests/drivers/modbus/driver_test.cpp
-    tests/daemon/resume_test.cpp tests/daemon/unrecorded_test.cpp
+    tools/mdof/plot/panel.cpp tools/mdof/study/running/ranks.cpp tools/mdof_simulate/usbip.cpp
+    tests/algo/sensitivity/indices_test.cpp tests/algo/sensitivity/plan_test.cpp
+    tests/algo/sensitivity/presets_test.cpp tests/algo/sensitivity/statistics_test.cpp
+    tests/daemon/measure/config_test.cpp tests/daemon/storekeeper/storekeeper_test.cpp tests/daemon/rpc/server_test.cpp
+    tests/drivers/simulator_options_test.cpp tests/schema/base/number_columns_test.cpp
+    tests/schema/base/number_test.cpp tests/drivers/modbus/driver_test.cpp
+    tests/daemon/station/resume_test.cpp tests/daemon/station/unrecorded_test.cpp
 )
 
 # mdof_compile_together(TARGET): once all its sources are known, in the folder that made it.

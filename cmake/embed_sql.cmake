@@ -1,4 +1,4 @@
-# embed_sql(FOLDER OUTPUT): writes OUTPUT, a source file for schema/sql.h with the texts of
+# embed_sql(FOLDER OUTPUT): writes OUTPUT, a source file for schema/sql/sql.h with the texts of
 # FOLDER/NNN_*.sql (migrations, in order) and FOLDER/recording.sql as raw strings. Runs again when
 # one of them changes.
 function(embed_sql folder output)
@@ -16,7 +16,7 @@ function(embed_sql folder output)
   file(READ ${folder}/recording.sql recording)
   file(CONFIGURE OUTPUT ${output} @ONLY CONTENT [[
 // Generated from schema/sql/ by cmake/embed_sql.cmake.
-#include "schema/sql.h"
+#include "schema/sql/sql.h"
 
 namespace mdof::sql {
 namespace {

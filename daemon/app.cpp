@@ -5,15 +5,15 @@
 #include <ctime>
 #include <optional>
 
-#include "daemon/check_start.h"
-#include "daemon/clock_watch.h"
-#include "daemon/hotplug.h"
-#include "daemon/methods.h"
+#include "daemon/methods/methods.h"
 #include "daemon/paths.h"
-#include "daemon/rpc/server.h"
+#include "daemon/rpc/line/server.h"
+#include "daemon/station/check_start.h"
+#include "daemon/station/clock_watch.h"
+#include "daemon/station/hotplug.h"
 #include "daemon/systemd/notify.h"
 #include "daemon/version.h"
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 
 namespace mdof::daemon {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "schema/base/json_writer.h"
 #include "schema/deed.h"
-#include "schema/json_writer.h"
 
 namespace mdof::daemon {
 

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "daemon/app.h"
-#include "daemon/check_start.h"
+#include "daemon/station/check_start.h"
 #include "daemon/version.h"
 
 namespace {

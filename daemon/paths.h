@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::daemon {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "schema/avx512.h"
+#include "schema/base/avx512.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {

@@ -5,13 +5,13 @@
 #include <string>
 #include <unordered_map>
 
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
 #include "schema/sample.h"
 
 namespace mdof::drivers {
 
-// Displacement along `measures` in m for a raw reading in µm (schema/rig.h, Calibration).
+// Displacement along `measures` in m for a raw reading in µm (schema/rig/rig.h, Calibration).
 double displacement_m(const Calibration& calibration, double raw_um);
 
 // Reentrant; holds a copy of what it needs of the rig.

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "drivers/driver.h"
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/base/result.h"
+#include "schema/base/toml_reader.h"
+#include "schema/rig/rig.h"
 #include "schema/sample.h"
-#include "schema/toml_reader.h"
 
 namespace mdof::drivers {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "drivers/clock/device_clock.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 #include "schema/sample.h"
 
 namespace mdof::drivers {

@@ -8,9 +8,9 @@
 
 #include "drivers/driver.h"
 #include "drivers/simulator/machine.h"
-#include "schema/result.h"
-#include "schema/rig.h"
-#include "schema/toml_reader.h"
+#include "schema/base/result.h"
+#include "schema/base/toml_reader.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::drivers {
 

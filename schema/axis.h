@@ -8,7 +8,7 @@
 //   Z: EXZ = δy   EYZ = δz   EAZ = εy   EBZ = εz   ECZ = εx
 // Error = actual - nominal. The local errors are those of the target in the metrology frame; the
 // ISO names are errors of the body that moves: the same for the target, the negative for the
-// fixture (schema/sides.h).
+// fixture (schema/rig/sides.h).
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-#include "schema/sides.h"
+#include "schema/rig/sides.h"
 
 namespace mdof {
 

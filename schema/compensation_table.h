@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "schema/axis.h"
-#include "schema/chain.h"
-#include "schema/reference.h"
+#include "schema/rig/chain.h"
+#include "schema/rig/reference.h"
 
 namespace mdof {
 
 // Sense: the table holds errors (actual - nominal) of the body that moves. What a controller adds
-// to the command of an axis follows from the machine's chain (schema/correction.h), and without one
-// is not known; every reply and export states which of the two it shows.
+// to the command of an axis follows from the machine's chain (schema/rig/correction.h), and without
+// one is not known; every reply and export states which of the two it shows.
 struct CompensationTable {
   std::int64_t id = 0;  // 0 until stored
   Axis axis = Axis::x;

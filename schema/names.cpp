@@ -2,7 +2,7 @@
 #include "schema/point.h"
 #include "schema/run.h"
 #include "schema/sample.h"
-#include "schema/study.h"
+#include "schema/study/study.h"
 
 namespace mdof {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 #include "schema/plausibility.h"
 
 namespace mdof {

@@ -32,7 +32,7 @@ enum class Model { simplified, exact, rigid };
 const char* to_string(Model model);
 bool model_from(std::string_view name, Model& model);
 
-// Five errors of the target with their covariance, stated at some point (schema/reference.h).
+// Five errors of the target with their covariance, stated at some point (schema/rig/reference.h).
 // Starts as "not solved" and says why.
 struct AxisErrors {
   bool valid = false;

@@ -10,7 +10,7 @@
 #include "schema/axis.h"
 #include "schema/plausibility.h"
 #include "schema/point.h"
-#include "schema/reference.h"
+#include "schema/rig/reference.h"
 
 namespace mdof {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "schema/correction.h"
+#include "schema/base/sha256.h"
 #include "schema/plausibility_json.h"
-#include "schema/sha256.h"
+#include "schema/rig/correction.h"
 #include "schema/units.h"
 
 namespace mdof {

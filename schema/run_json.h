@@ -1,8 +1,8 @@
 // The JSON of runs, squareness and compensation tables: one form for the command line and the RPC.
 #pragma once
 
+#include "schema/base/json_writer.h"
 #include "schema/compensation_table.h"
-#include "schema/json_writer.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "schema/random.h"
+#include "schema/base/random.h"
 
 namespace mdof {
 namespace {

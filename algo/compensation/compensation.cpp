@@ -1,14 +1,14 @@
-#include "algo/compensation.h"
+#include "algo/compensation/compensation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "algo/line_fit.h"
-#include "algo/restate.h"
-#include "algo/series.h"
-#include "algo/uneven_visits.h"
-#include "algo/usable_runs.h"
-#include "schema/number_text.h"
+#include "algo/iso230/line_fit.h"
+#include "algo/iso230/series.h"
+#include "algo/model/restate.h"
+#include "algo/sequence/uneven_visits.h"
+#include "algo/sequence/usable_runs.h"
+#include "schema/base/number/number_text.h"
 #include "schema/sample.h"
 #include "schema/units.h"
 

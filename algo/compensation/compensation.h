@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "schema/base/result.h"
 #include "schema/compensation_table.h"
-#include "schema/result.h"
 #include "schema/run.h"
 
 namespace mdof::algo {

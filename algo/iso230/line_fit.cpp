@@ -1,4 +1,4 @@
-#include "algo/line_fit.h"
+#include "algo/iso230/line_fit.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,11 +1,11 @@
-#include "algo/series.h"
+#include "algo/iso230/series.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
-#include "algo/uneven_visits.h"
+#include "algo/sequence/uneven_visits.h"
 
 namespace mdof::algo {
 namespace {

@@ -1,17 +1,17 @@
-#include "algo/squareness.h"
+#include "algo/iso230/squareness.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "algo/fixture.h"
-#include "algo/line_fit.h"
-#include "algo/restate.h"
-#include "algo/series.h"
-#include "algo/uneven_visits.h"
-#include "algo/usable_runs.h"
-#include "schema/number_text.h"
+#include "algo/iso230/line_fit.h"
+#include "algo/iso230/series.h"
+#include "algo/model/fixture.h"
+#include "algo/model/restate.h"
+#include "algo/sequence/uneven_visits.h"
+#include "algo/sequence/usable_runs.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
 

@@ -1,10 +1,10 @@
-#include "algo/straightness.h"
+#include "algo/iso230/straightness.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "algo/line_fit.h"
-#include "algo/series.h"
+#include "algo/iso230/line_fit.h"
+#include "algo/iso230/series.h"
 
 namespace mdof::algo {
 namespace {

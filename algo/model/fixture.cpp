@@ -1,9 +1,9 @@
-#include "algo/fixture.h"
+#include "algo/model/fixture.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::algo {
 

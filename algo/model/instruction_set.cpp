@@ -1,4 +1,4 @@
-#include "algo/instruction_set.h"
+#include "algo/model/instruction_set.h"
 
 namespace mdof::algo {
 

@@ -1,7 +1,7 @@
-#include "algo/restate.h"
+#include "algo/model/restate.h"
 
-#include "algo/small_rotation.h"
-#include "algo/straightness.h"
+#include "algo/iso230/straightness.h"
+#include "algo/model/small_rotation.h"
 
 namespace mdof::algo {
 namespace {

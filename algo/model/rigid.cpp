@@ -1,9 +1,9 @@
-#include "algo/rigid.h"
+#include "algo/model/rigid.h"
 
 #include <Eigen/QR>
 #include <cmath>
 
-#include "algo/small_rotation.h"
+#include "algo/model/small_rotation.h"
 
 namespace mdof::algo {
 namespace {

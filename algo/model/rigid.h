@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "algo/fixture.h"
+#include "algo/model/fixture.h"
 #include "schema/point.h"
 
 namespace mdof::algo {

@@ -1,12 +1,12 @@
-#include "algo/small_angle.h"
+#include "algo/model/small_angle.h"
 
 #include <Eigen/LU>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "algo/instruction_set.h"
-#include "algo/small_angle_kernel.h"
+#include "algo/model/instruction_set.h"
+#include "algo/model/small_angle_kernel.h"
 
 namespace mdof::algo {
 namespace {

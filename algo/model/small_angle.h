@@ -12,9 +12,9 @@
 #include <cstddef>
 #include <span>
 
-#include "algo/fixture.h"
+#include "algo/model/fixture.h"
+#include "schema/base/result.h"
 #include "schema/point.h"
-#include "schema/result.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/small_angle_kernel.h"
+#include "algo/model/small_angle_kernel.h"
 
 namespace mdof::algo {
 

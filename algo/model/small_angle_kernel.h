@@ -3,7 +3,7 @@
 // code shared between them, hence the internal linkage.
 #pragma once
 
-#include "algo/small_angle.h"
+#include "algo/model/small_angle.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/small_rotation.h"
+#include "algo/model/small_rotation.h"
 
 namespace mdof::algo {
 

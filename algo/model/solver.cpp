@@ -1,10 +1,10 @@
-#include "algo/solver.h"
+#include "algo/model/solver.h"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
-#include "algo/rigid.h"
+#include "algo/model/rigid.h"
 
 namespace mdof::algo {
 namespace {

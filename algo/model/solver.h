@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "algo/fixture.h"
-#include "algo/small_angle.h"
-#include "algo/visibility.h"
+#include "algo/model/fixture.h"
+#include "algo/model/small_angle.h"
+#include "algo/model/visibility.h"
 #include "schema/point.h"
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/visibility.h"
+#include "algo/model/visibility.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

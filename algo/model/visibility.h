@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algo/fixture.h"
+#include "algo/model/fixture.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/encoder_jump.h"
+#include "algo/plausibility/encoder_jump.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "algo/noise_floor.h"
+#include "algo/plausibility/noise_floor.h"
 
 #include <algorithm>
 #include <cmath>

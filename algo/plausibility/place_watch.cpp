@@ -1,9 +1,9 @@
-#include "algo/place_watch.h"
+#include "algo/plausibility/place_watch.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

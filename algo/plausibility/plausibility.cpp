@@ -1,11 +1,11 @@
-#include "algo/plausibility.h"
+#include "algo/plausibility/plausibility.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "algo/median.h"
-#include "algo/sequence_stops.h"
+#include "algo/points/median.h"
+#include "algo/sequence/sequence_stops.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "algo/dwell.h"
-#include "algo/sequence.h"
+#include "algo/points/dwell.h"
+#include "algo/sequence/sequence.h"
 #include "schema/plausibility.h"
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::algo {
 

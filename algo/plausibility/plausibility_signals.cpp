@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "algo/median.h"
-#include "algo/plausibility.h"
+#include "algo/plausibility/plausibility.h"
+#include "algo/points/median.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "algo/plausibility.h"
+#include "algo/plausibility/plausibility.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

@@ -7,10 +7,10 @@
 #include <set>
 #include <string>
 
-#include "algo/plausibility.h"
-#include "algo/ranges_text.h"
-#include "algo/shifted_targets.h"
-#include "algo/uneven_visits.h"
+#include "algo/plausibility/plausibility.h"
+#include "algo/points/ranges_text.h"
+#include "algo/sequence/shifted_targets.h"
+#include "algo/sequence/uneven_visits.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

@@ -1,4 +1,4 @@
-#include "algo/probe_step.h"
+#include "algo/plausibility/probe_step.h"
 
 #include <algorithm>
 #include <array>

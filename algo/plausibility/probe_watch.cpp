@@ -1,14 +1,14 @@
-#include "algo/probe_watch.h"
+#include "algo/plausibility/probe_watch.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include "algo/dwell_notice.h"
-#include "algo/flags.h"
-#include "algo/median.h"
-#include "algo/probe_step.h"
+#include "algo/plausibility/probe_step.h"
+#include "algo/points/dwell_notice.h"
+#include "algo/points/flags.h"
+#include "algo/points/median.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

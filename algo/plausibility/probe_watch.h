@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "algo/robust_mean.h"
+#include "algo/points/robust_mean.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 

@@ -1,4 +1,4 @@
-#include "algo/resolution.h"
+#include "algo/plausibility/resolution.h"
 
 #include <algorithm>
 #include <cmath>

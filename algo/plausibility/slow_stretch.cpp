@@ -1,4 +1,4 @@
-#include "algo/slow_stretch.h"
+#include "algo/plausibility/slow_stretch.h"
 
 #include <cmath>
 

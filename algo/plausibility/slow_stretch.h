@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "algo/dwell_notice.h"
+#include "algo/points/dwell_notice.h"
 
 namespace mdof::algo {
 

@@ -1,10 +1,10 @@
-#include "algo/align.h"
+#include "algo/points/align.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

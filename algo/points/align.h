@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {

@@ -1,14 +1,14 @@
-#include "algo/dwell.h"
+#include "algo/points/dwell.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
 
-#include "algo/flags.h"
-#include "algo/frame_rows.h"
-#include "algo/median.h"
-#include "schema/json_writer.h"
+#include "algo/points/flags.h"
+#include "algo/points/frame_rows.h"
+#include "algo/points/median.h"
+#include "schema/base/json_writer.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "algo/dwell_notice.h"
-#include "algo/encoder_jump.h"
-#include "algo/noise_floor.h"
-#include "algo/place_watch.h"
-#include "algo/probe_watch.h"
-#include "algo/resolution.h"
-#include "algo/slow_stretch.h"
+#include "algo/plausibility/encoder_jump.h"
+#include "algo/plausibility/noise_floor.h"
+#include "algo/plausibility/place_watch.h"
+#include "algo/plausibility/probe_watch.h"
+#include "algo/plausibility/resolution.h"
+#include "algo/plausibility/slow_stretch.h"
+#include "algo/points/dwell_notice.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algo/dwell.h"
-#include "algo/flags.h"
-#include "algo/robust_mean.h"
+#include "algo/points/dwell.h"
+#include "algo/points/flags.h"
+#include "algo/points/robust_mean.h"
 
 namespace mdof::algo {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algo/dwell.h"
+#include "algo/points/dwell.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

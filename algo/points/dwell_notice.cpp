@@ -1,4 +1,4 @@
-#include "algo/dwell_notice.h"
+#include "algo/points/dwell_notice.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "algo/frame_rows.h"
+#include "algo/points/frame_rows.h"
 
 namespace mdof::algo {
 namespace {

@@ -1,4 +1,4 @@
-#include "algo/median.h"
+#include "algo/points/median.h"
 
 #include <algorithm>
 

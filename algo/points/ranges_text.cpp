@@ -1,4 +1,4 @@
-#include "algo/ranges_text.h"
+#include "algo/points/ranges_text.h"
 
 #include <cstddef>
 

@@ -1,11 +1,11 @@
-#include "algo/robust_mean.h"
+#include "algo/points/robust_mean.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "algo/lane_sum.h"
-#include "algo/mean_uncertainty.h"
+#include "algo/model/lane_sum.h"
+#include "algo/uncertainty/mean_uncertainty.h"
 
 namespace mdof::algo {
 namespace {

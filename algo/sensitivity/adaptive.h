@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "algo/sensitivity/experiment.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::algo {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "algo/sensitivity/plan_columns.h"
+#include "algo/sensitivity/plan/columns.h"
 
 namespace mdof::algo {
 namespace {

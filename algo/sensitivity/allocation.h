@@ -10,10 +10,10 @@
 #include <cstddef>
 #include <functional>
 
-#include "algo/sensitivity/plan_experiment.h"
-#include "schema/result.h"
-#include "schema/study.h"
-#include "schema/study_plan.h"
+#include "algo/sensitivity/plan/experiment.h"
+#include "schema/base/result.h"
+#include "schema/study/plan.h"
+#include "schema/study/study.h"
 
 namespace mdof::algo {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "algo/sensitivity/experiment.h"
-#include "algo/sensitivity/plan_columns.h"
-#include "schema/study.h"
+#include "algo/sensitivity/plan/columns.h"
+#include "schema/study/study.h"
 
 namespace mdof::algo {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "schema/result.h"
-#include "schema/study_plan.h"
+#include "schema/base/result.h"
+#include "schema/study/plan.h"
 
 namespace mdof::algo {
 

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "algo/sensitivity/plan_functions.h"
-#include "schema/random.h"
+#include "algo/sensitivity/plan/functions.h"
+#include "schema/base/random.h"
 
 namespace mdof::algo {
 namespace {

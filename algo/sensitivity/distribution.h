@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "schema/study_plan.h"
+#include "schema/study/plan.h"
 
 namespace mdof::algo {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cassert>
 
-#include "algo/sensitivity/kernels.h"
-#include "schema/random.h"
+#include "algo/sensitivity/kernels/kernels.h"
+#include "schema/base/random.h"
 
 namespace mdof::algo {
 

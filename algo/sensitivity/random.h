@@ -1,14 +1,14 @@
 // The random numbers of a trial. Draw q of trial i is a pure function of (seed, stream, i, q): any
 // trial can be had alone, and a quantity more at the end of a list changes no other number.
 //
-// Philox4x32-10 (schema/random.h) with key = seed and counter = {i, i >> 32, q / 2, stream}; words
-// 0 and 1 of its block are draw 2(q/2), words 2 and 3 the next.
+// Philox4x32-10 (schema/base/random.h) with key = seed and counter = {i, i >> 32, q / 2, stream};
+// words 0 and 1 of its block are draw 2(q/2), words 2 and 3 the next.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-#include "algo/instruction_set.h"
+#include "algo/model/instruction_set.h"
 
 namespace mdof::algo {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "algo/sensitivity/kernels.h"
+#include "algo/sensitivity/kernels/kernels.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

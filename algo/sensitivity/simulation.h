@@ -14,9 +14,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "algo/instruction_set.h"
+#include "algo/model/instruction_set.h"
 #include "algo/sensitivity/experiment.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/sequence.h"
+#include "algo/sequence/sequence.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <iterator>
 
-#include "algo/sequence_stops.h"
+#include "algo/sequence/sequence_stops.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "algo/sequence_cycle.h"
+#include "algo/sequence/sequence_cycle.h"
+#include "schema/base/result.h"
 #include "schema/plausibility.h"
 #include "schema/point.h"
-#include "schema/result.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/sequence_cycle.h"
+#include "algo/sequence/sequence_cycle.h"
 
 #include <algorithm>
 #include <map>

@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "algo/flags.h"
-#include "algo/sequence_stops.h"
+#include "algo/points/flags.h"
+#include "algo/sequence/sequence_stops.h"
 
 namespace mdof::algo {
 namespace {

@@ -1,11 +1,11 @@
-#include "algo/sequence_stops.h"
+#include "algo/sequence/sequence_stops.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
-#include "algo/flags.h"
+#include "algo/points/flags.h"
 
 namespace mdof::algo {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "algo/sequence.h"
+#include "algo/sequence/sequence.h"
 #include "schema/plausibility.h"
 #include "schema/point.h"
 

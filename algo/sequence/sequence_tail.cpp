@@ -1,10 +1,10 @@
-#include "algo/sequence_tail.h"
+#include "algo/sequence/sequence_tail.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "algo/flags.h"
-#include "algo/sequence_stops.h"
+#include "algo/points/flags.h"
+#include "algo/sequence/sequence_stops.h"
 
 namespace mdof::algo {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "algo/sequence.h"
-#include "algo/sequence_cycle.h"
+#include "algo/sequence/sequence.h"
+#include "algo/sequence/sequence_cycle.h"
 #include "schema/point.h"
 
 namespace mdof::algo {

@@ -1,4 +1,4 @@
-#include "algo/shifted_targets.h"
+#include "algo/sequence/shifted_targets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "algo/sequence.h"
+#include "algo/sequence/sequence.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/uneven_visits.h"
+#include "algo/sequence/uneven_visits.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "algo/ranges_text.h"
+#include "algo/points/ranges_text.h"
 
 namespace mdof::algo {
 namespace {

@@ -1,4 +1,4 @@
-#include "algo/usable_runs.h"
+#include "algo/sequence/usable_runs.h"
 
 #include <algorithm>
 #include <map>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 #include "schema/run.h"
 
 namespace mdof::algo {

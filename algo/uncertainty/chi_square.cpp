@@ -1,4 +1,4 @@
-#include "algo/chi_square.h"
+#include "algo/uncertainty/chi_square.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "algo/flags.h"
-#include "algo/rigid.h"
+#include "algo/model/rigid.h"
+#include "algo/points/flags.h"
 #include "schema/sample.h"
 #include "schema/units.h"
 

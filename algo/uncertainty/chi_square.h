@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algo/solver.h"
+#include "algo/model/solver.h"
 #include "schema/point.h"
 
 namespace mdof::algo {

@@ -1,10 +1,10 @@
-#include "algo/mean_uncertainty.h"
+#include "algo/uncertainty/mean_uncertainty.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "algo/lane_sum.h"
+#include "algo/model/lane_sum.h"
 
 namespace mdof::algo {
 namespace {

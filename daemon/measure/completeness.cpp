@@ -1,4 +1,4 @@
-#include "daemon/completeness.h"
+#include "daemon/measure/completeness.h"
 
 #include <algorithm>
 #include <array>

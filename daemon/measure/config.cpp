@@ -1,4 +1,4 @@
-#include "daemon/config.h"
+#include "daemon/measure/config.h"
 
 #include <grp.h>
 #include <sys/un.h>
@@ -7,13 +7,13 @@
 #include <map>
 #include <set>
 
-#include "daemon/forward_model.h"
+#include "daemon/measure/forward_model.h"
+#include "daemon/measure/replay.h"
+#include "daemon/measure/slow_channels.h"
 #include "daemon/paths.h"
-#include "daemon/replay.h"
-#include "daemon/slow_channels.h"
 #include "drivers/calibration.h"
-#include "schema/files.h"
-#include "schema/toml_reader.h"
+#include "schema/base/files.h"
+#include "schema/base/toml_reader.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {

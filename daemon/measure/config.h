@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "daemon/pipeline.h"
+#include "daemon/measure/pipeline.h"
 #include "daemon/store/store.h"
 #include "drivers/registry.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::daemon {
 

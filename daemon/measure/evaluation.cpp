@@ -1,14 +1,14 @@
-#include "daemon/evaluation.h"
+#include "daemon/measure/evaluation.h"
 
 #include <set>
 
-#include "algo/compensation.h"
-#include "algo/restate.h"
-#include "algo/usable_runs.h"
+#include "algo/compensation/compensation.h"
+#include "algo/model/restate.h"
+#include "algo/sequence/usable_runs.h"
 #include "daemon/doer.h"
 #include "daemon/paths.h"
+#include "schema/base/toml_reader.h"
 #include "schema/run_json.h"
-#include "schema/toml_reader.h"
 
 namespace mdof::daemon {
 

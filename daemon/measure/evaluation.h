@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "algo/squareness.h"
+#include "algo/iso230/squareness.h"
 #include "daemon/store/store.h"
+#include "schema/base/result.h"
 #include "schema/compensation_table.h"
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 #include "schema/run.h"
 
 namespace mdof::daemon {

@@ -1,9 +1,9 @@
-#include "daemon/forward_model.h"
+#include "daemon/measure/forward_model.h"
 
 #include <Eigen/Core>
 
-#include "algo/fixture.h"
-#include "algo/rigid.h"
+#include "algo/model/fixture.h"
+#include "algo/model/rigid.h"
 
 namespace mdof::daemon {
 

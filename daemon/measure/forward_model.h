@@ -3,8 +3,8 @@
 #pragma once
 
 #include "drivers/simulator/machine.h"
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::daemon {
 

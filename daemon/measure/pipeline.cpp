@@ -1,17 +1,17 @@
-#include "daemon/pipeline.h"
+#include "daemon/measure/pipeline.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
-#include "algo/flags.h"
-#include "algo/plausibility.h"
-#include "algo/restate.h"
-#include "algo/straightness.h"
-#include "daemon/completeness.h"
-#include "schema/json_writer.h"
-#include "schema/number_text.h"
+#include "algo/iso230/straightness.h"
+#include "algo/model/restate.h"
+#include "algo/plausibility/plausibility.h"
+#include "algo/points/flags.h"
+#include "daemon/measure/completeness.h"
+#include "schema/base/json_writer.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {

@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "algo/align.h"
-#include "algo/chi_square.h"
-#include "algo/dwell.h"
-#include "algo/sequence.h"
-#include "algo/sequence_tail.h"
-#include "algo/solver.h"
+#include "algo/model/solver.h"
+#include "algo/points/align.h"
+#include "algo/points/dwell.h"
+#include "algo/sequence/sequence.h"
+#include "algo/sequence/sequence_tail.h"
+#include "algo/uncertainty/chi_square.h"
 #include "drivers/calibration.h"
+#include "schema/base/result.h"
 #include "schema/encoder_datum.h"
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 #include "schema/run.h"
 #include "schema/sample.h"
 

@@ -1,12 +1,12 @@
-#include "daemon/replay.h"
+#include "daemon/measure/replay.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "daemon/config.h"
+#include "daemon/measure/config.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
-#include "schema/rig_check.h"
+#include "schema/rig/rig_check.h"
 
 namespace mdof::daemon {
 namespace {

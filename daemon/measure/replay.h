@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "daemon/pipeline.h"
-#include "daemon/request_json.h"
+#include "daemon/measure/pipeline.h"
+#include "daemon/measure/request_json.h"
 #include "drivers/csv/csv_log.h"
 #include "drivers/recording/recording_log.h"
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
 #include "schema/run.h"
 
 namespace mdof::daemon {

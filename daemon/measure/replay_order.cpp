@@ -1,9 +1,9 @@
-#include "daemon/replay_order.h"
+#include "daemon/measure/replay_order.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "daemon/config.h"
+#include "daemon/measure/config.h"
 #include "daemon/paths.h"
 #include "schema/units.h"
 

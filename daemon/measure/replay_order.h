@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/replay.h"
+#include "daemon/measure/replay.h"
 
 namespace mdof::daemon {
 

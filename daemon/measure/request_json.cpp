@@ -1,10 +1,10 @@
-#include "daemon/request_json.h"
+#include "daemon/measure/request_json.h"
 
 #include <simdjson.h>
 
 #include <cmath>
 
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/pipeline.h"
-#include "schema/result.h"
+#include "daemon/measure/pipeline.h"
+#include "schema/base/result.h"
 
 namespace mdof::daemon {
 

@@ -1,6 +1,6 @@
-#include "daemon/slow_channels.h"
+#include "daemon/measure/slow_channels.h"
 
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 
 namespace mdof::daemon {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "algo/align.h"
+#include "algo/points/align.h"
 #include "drivers/driver.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::daemon {
 

@@ -1,4 +1,4 @@
-#include "daemon/verify_sources.h"
+#include "daemon/measure/verify_sources.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "drivers/recording/recording_log.h"
-#include "schema/sha256.h"
+#include "schema/base/sha256.h"
 
 namespace mdof::daemon {
 namespace {

@@ -1,13 +1,13 @@
 // compensation.build, activate, deactivate, status, grid, at.
 #include <cmath>
 
-#include "algo/compensation.h"
-#include "daemon/evaluation.h"
-#include "daemon/methods.h"
+#include "algo/compensation/compensation.h"
+#include "daemon/measure/evaluation.h"
+#include "daemon/methods/methods.h"
 #include "daemon/page.h"
 #include "daemon/paths.h"
-#include "schema/correction.h"
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
+#include "schema/rig/correction.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 

@@ -1,8 +1,8 @@
 // encoder.set
 #include <cstdio>
 
-#include "daemon/methods.h"
-#include "schema/json_writer.h"
+#include "daemon/methods/methods.h"
+#include "schema/base/json_writer.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {

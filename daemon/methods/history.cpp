@@ -1,5 +1,5 @@
 // history.list.
-#include "daemon/methods.h"
+#include "daemon/methods/methods.h"
 #include "daemon/page.h"
 
 namespace mdof::daemon {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "daemon/doer.h"
-#include "daemon/replayer.h"
-#include "daemon/rpc/event_loop.h"
+#include "daemon/methods/replayer.h"
+#include "daemon/rpc/line/event_loop.h"
 #include "daemon/rpc/method_table.h"
-#include "daemon/station.h"
+#include "daemon/station/station.h"
 #include "daemon/store/store.h"
-#include "daemon/storekeeper.h"
+#include "daemon/storekeeper/storekeeper.h"
 
 namespace mdof::daemon {
 

@@ -5,9 +5,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "daemon/methods.h"
-#include "daemon/replayer.h"
-#include "schema/json_writer.h"
+#include "daemon/methods/methods.h"
+#include "daemon/methods/replayer.h"
+#include "schema/base/json_writer.h"
 
 namespace mdof::daemon {
 namespace {

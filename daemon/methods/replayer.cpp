@@ -1,4 +1,4 @@
-#include "daemon/replayer.h"
+#include "daemon/methods/replayer.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

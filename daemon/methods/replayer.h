@@ -6,8 +6,8 @@
 #include <functional>
 #include <thread>
 
-#include "daemon/replay_order.h"
-#include "daemon/storekeeper.h"
+#include "daemon/measure/replay_order.h"
+#include "daemon/storekeeper/storekeeper.h"
 
 namespace mdof::daemon {
 

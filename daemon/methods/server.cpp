@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "daemon/live_json.h"
-#include "daemon/methods.h"
+#include "daemon/methods/methods.h"
+#include "daemon/station/live_json.h"
 #include "daemon/version.h"
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 #include "schema/run_json.h"
 
 namespace mdof::daemon {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

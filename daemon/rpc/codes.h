@@ -1,7 +1,7 @@
 // The error codes of the RPC interface: one table, read in both directions.
 #pragma once
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

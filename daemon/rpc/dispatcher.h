@@ -8,8 +8,8 @@
 
 #include "daemon/rpc/caller.h"
 #include "daemon/rpc/exchange.h"
+#include "daemon/rpc/line/server_options.h"
 #include "daemon/rpc/method_table.h"
-#include "daemon/rpc/server_options.h"
 
 namespace mdof::rpc {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/rpc/event_loop_core.h"
+#include "daemon/rpc/line/event_loop_core.h"
 #include "daemon/rpc/reply.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 
 namespace mdof::rpc {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "daemon/rpc/params.h"
 #include "daemon/rpc/reply.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "daemon/rpc/caller.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

@@ -1,6 +1,6 @@
 #include "daemon/rpc/request.h"
 
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 
 namespace mdof::rpc {
 namespace {

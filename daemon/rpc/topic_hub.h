@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/rpc/server_options.h"
+#include "daemon/rpc/line/server_options.h"
 #include "daemon/rpc/subscription.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

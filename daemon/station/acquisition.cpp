@@ -1,4 +1,4 @@
-#include "daemon/acquisition.h"
+#include "daemon/station/acquisition.h"
 
 #include <pthread.h>
 

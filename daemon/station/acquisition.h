@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "daemon/trouble.h"
+#include "daemon/station/trouble.h"
 #include "drivers/registry.h"
 #include "schema/sample.h"
 

@@ -1,4 +1,4 @@
-#include "daemon/check_start.h"
+#include "daemon/station/check_start.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "daemon/config.h"
-#include "schema/result.h"
+#include "daemon/measure/config.h"
+#include "schema/base/result.h"
 
 namespace mdof::daemon {
 

@@ -1,10 +1,10 @@
-#include "daemon/encoder_zero.h"
+#include "daemon/station/encoder_zero.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "drivers/clock/monotonic.h"
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "drivers/registry.h"
+#include "schema/base/result.h"
 #include "schema/encoder_datum.h"
-#include "schema/result.h"
 #include "schema/sample.h"
 
 namespace mdof::daemon {

@@ -1,4 +1,4 @@
-#include "daemon/hotplug.h"
+#include "daemon/station/hotplug.h"
 
 #include <libudev.h>
 

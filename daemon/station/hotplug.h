@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 struct udev;
 struct udev_monitor;

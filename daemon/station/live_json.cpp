@@ -1,4 +1,4 @@
-#include "daemon/live_json.h"
+#include "daemon/station/live_json.h"
 
 #include <algorithm>
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "daemon/pipeline.h"
-#include "daemon/station.h"
-#include "schema/json_writer.h"
-#include "schema/rig.h"
+#include "daemon/measure/pipeline.h"
+#include "daemon/station/station.h"
+#include "schema/base/json_writer.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::daemon {
 

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "daemon/resume.h"
-#include "daemon/station.h"
-#include "daemon/trouble.h"
-#include "daemon/unrecorded.h"
+#include "daemon/station/resume.h"
+#include "daemon/station/station.h"
+#include "daemon/station/trouble.h"
+#include "daemon/station/unrecorded.h"
 
 namespace mdof::daemon {
 

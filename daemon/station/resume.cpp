@@ -1,8 +1,8 @@
-#include "daemon/resume.h"
+#include "daemon/station/resume.h"
 
 #include <algorithm>
 
-#include "daemon/request_json.h"
+#include "daemon/measure/request_json.h"
 #include "drivers/recording/recording_log.h"
 
 namespace mdof::daemon {

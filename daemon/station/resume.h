@@ -9,12 +9,12 @@
 #include <set>
 #include <string>
 
-#include "daemon/config.h"
-#include "daemon/pipeline.h"
-#include "daemon/run_request.h"
+#include "daemon/measure/config.h"
+#include "daemon/measure/pipeline.h"
+#include "daemon/measure/run_request.h"
 #include "daemon/store/store.h"
-#include "daemon/storekeeper.h"
-#include "schema/result.h"
+#include "daemon/storekeeper/storekeeper.h"
+#include "schema/base/result.h"
 
 namespace mdof::daemon {
 

@@ -1,7 +1,7 @@
-#include "daemon/run_events.h"
+#include "daemon/station/run_events.h"
 
 #include "daemon/page.h"
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 #include "schema/run_json.h"
 
 namespace mdof::daemon {

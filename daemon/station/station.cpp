@@ -1,14 +1,14 @@
-#include "daemon/station.h"
+#include "daemon/station/station.h"
 
 #include <pthread.h>
 
 #include <algorithm>
 
-#include "daemon/live_json.h"
-#include "daemon/open_run.h"
+#include "daemon/measure/request_json.h"
+#include "daemon/measure/slow_channels.h"
 #include "daemon/paths.h"
-#include "daemon/request_json.h"
-#include "daemon/slow_channels.h"
+#include "daemon/station/live_json.h"
+#include "daemon/station/open_run.h"
 #include "daemon/version.h"
 
 namespace mdof::daemon {

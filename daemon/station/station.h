@@ -15,13 +15,13 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/acquisition.h"
 #include "daemon/bounded_queue.h"
-#include "daemon/config.h"
-#include "daemon/encoder_zero.h"
-#include "daemon/pipeline.h"
-#include "daemon/run_request.h"
-#include "daemon/storekeeper.h"
+#include "daemon/measure/config.h"
+#include "daemon/measure/pipeline.h"
+#include "daemon/measure/run_request.h"
+#include "daemon/station/acquisition.h"
+#include "daemon/station/encoder_zero.h"
+#include "daemon/storekeeper/storekeeper.h"
 
 namespace mdof::daemon {
 

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <deque>
 
-#include "algo/flags.h"
-#include "daemon/completeness.h"
-#include "daemon/live_json.h"
-#include "daemon/open_run.h"
+#include "algo/points/flags.h"
+#include "daemon/measure/completeness.h"
 #include "daemon/paths.h"
-#include "daemon/run_events.h"
-#include "daemon/station.h"
+#include "daemon/station/live_json.h"
+#include "daemon/station/open_run.h"
+#include "daemon/station/run_events.h"
+#include "daemon/station/station.h"
 #include "daemon/store/result_hash.h"
-#include "schema/json_writer.h"
-#include "schema/rig_check.h"
+#include "schema/base/json_writer.h"
+#include "schema/rig/rig_check.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 

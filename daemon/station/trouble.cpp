@@ -1,11 +1,11 @@
-#include "daemon/trouble.h"
+#include "daemon/station/trouble.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "algo/flags.h"
-#include "schema/json_writer.h"
+#include "algo/points/flags.h"
+#include "schema/base/json_writer.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {

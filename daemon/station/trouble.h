@@ -11,7 +11,7 @@
 
 #include "schema/axis.h"
 #include "schema/point.h"
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::daemon {
 

@@ -1,4 +1,4 @@
-#include "daemon/unrecorded.h"
+#include "daemon/station/unrecorded.h"
 
 #include <algorithm>
 

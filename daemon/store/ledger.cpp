@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "schema/sha256.h"
+#include "schema/base/sha256.h"
 
 namespace mdof::store {
 

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "schema/result.h"
-#include "schema/sqlite.h"
+#include "schema/base/result.h"
+#include "schema/base/sqlite.h"
 
 namespace mdof::store {
 

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "schema/result.h"
-#include "schema/sql.h"
-#include "schema/sqlite.h"
+#include "schema/base/result.h"
+#include "schema/base/sqlite.h"
+#include "schema/sql/sql.h"
 
 namespace mdof::store {
 

@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "schema/chunk.h"
-#include "schema/sql.h"
+#include "schema/recording/chunk.h"
+#include "schema/sql/sql.h"
 
 namespace mdof::store {
 

@@ -1,4 +1,4 @@
-// Writes a recording: samples in, chained chunks on disk. Format: schema/recording.h.
+// Writes a recording: samples in, chained chunks on disk. Format: schema/recording/recording.h.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 #include <map>
 #include <string>
 
-#include "schema/recording.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
+#include "schema/base/sqlite.h"
+#include "schema/recording/recording.h"
 #include "schema/sample.h"
-#include "schema/sqlite.h"
 
 namespace mdof::store {
 

@@ -16,8 +16,8 @@
 
 #include <string>
 
+#include "schema/base/sha256.h"
 #include "schema/run.h"
-#include "schema/sha256.h"
 
 namespace mdof::store {
 

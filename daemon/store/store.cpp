@@ -1,7 +1,7 @@
 #include "daemon/store/store.h"
 
 #include "daemon/store/migrate.h"
-#include "schema/sql.h"
+#include "schema/sql/sql.h"
 
 namespace mdof::store {
 

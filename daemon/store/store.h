@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "daemon/store/study_record.h"
+#include "daemon/store/study/study_record.h"
 #include "daemon/store/writer_lock.h"
+#include "schema/base/result.h"
+#include "schema/base/sqlite.h"
 #include "schema/compensation_table.h"
 #include "schema/deed.h"
-#include "schema/result.h"
 #include "schema/run.h"
-#include "schema/sqlite.h"
 #include "schema/squareness.h"
 
 namespace mdof::store {

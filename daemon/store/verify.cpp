@@ -1,7 +1,7 @@
 // Store: is everything as it was stored?
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
-#include "schema/sha256.h"
+#include "schema/base/sha256.h"
 
 namespace mdof::store {
 

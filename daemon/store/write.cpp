@@ -6,9 +6,9 @@
 #include "daemon/store/ledger.h"
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
+#include "schema/base/sha256.h"
 #include "schema/plausibility_json.h"
-#include "schema/sha256.h"
 
 namespace mdof::store {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::store {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::daemon {
 

@@ -1,11 +1,11 @@
-#include "daemon/storekeeper.h"
+#include "daemon/storekeeper/storekeeper.h"
 
 #include <pthread.h>
 #include <sys/statvfs.h>
 
 #include <algorithm>
 
-#include "daemon/storage_errors.h"
+#include "daemon/storekeeper/storage_errors.h"
 
 namespace mdof::daemon {
 namespace {

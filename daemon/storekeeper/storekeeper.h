@@ -20,7 +20,7 @@
 #include "daemon/store/file_watch.h"
 #include "daemon/store/recording_writer.h"
 #include "daemon/store/store.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 #include "schema/run.h"
 #include "schema/sample.h"
 

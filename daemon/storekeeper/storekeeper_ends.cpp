@@ -1,7 +1,7 @@
 // Storekeeper: points and ends of runs, at once or when the database can take them.
 #include "daemon/paths.h"
-#include "daemon/storage_errors.h"
-#include "daemon/storekeeper.h"
+#include "daemon/storekeeper/storage_errors.h"
+#include "daemon/storekeeper/storekeeper.h"
 
 namespace mdof::daemon {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::systemd {
 

@@ -7,7 +7,7 @@
 
 #include "drivers/capancdt/replies.h"
 #include "drivers/io/byte_stream.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers::capancdt {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "drivers/registry.h"
-#include "schema/result.h"
-#include "schema/toml_reader.h"
+#include "schema/base/result.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof::drivers {
 

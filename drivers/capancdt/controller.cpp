@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "drivers/capancdt/command_port.h"
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 
 namespace mdof::drivers::capancdt {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "drivers/capancdt/options.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers::capancdt {
 

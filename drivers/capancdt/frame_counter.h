@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "drivers/capancdt/protocol.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers::capancdt {
 

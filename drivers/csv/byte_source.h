@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/result.h"
-#include "schema/sha256.h"
+#include "schema/base/result.h"
+#include "schema/base/sha256.h"
 
 namespace mdof::drivers {
 

@@ -11,7 +11,7 @@
 #include <mutex>
 
 #include "drivers/csv/line_reader.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "drivers/driver.h"
-#include "schema/csv_row_parser.h"
-#include "schema/probe_log.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
+#include "schema/recording/csv_row_parser.h"
+#include "schema/recording/probe_log.h"
 #include "schema/sample.h"
 
 namespace mdof::drivers {

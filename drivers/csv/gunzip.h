@@ -6,7 +6,7 @@
 #include <memory>
 #include <string_view>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 struct z_stream_s;
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "schema/csv_row_parser.h"
+#include "schema/recording/csv_row_parser.h"
 
 namespace mdof::drivers {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 
 namespace mdof::drivers {
 namespace {

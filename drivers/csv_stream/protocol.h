@@ -1,4 +1,5 @@
-// Live rows of a probe log (schema/probe_log.h, CsvKind::stream) out of bytes as they come.
+// Live rows of a probe log (schema/recording/probe_log.h, CsvKind::stream) out of bytes as they
+// come.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/csv_line.h"
-#include "schema/probe_log.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
+#include "schema/recording/csv_line.h"
+#include "schema/recording/probe_log.h"
 
 namespace mdof::drivers {
 

@@ -15,7 +15,7 @@
 #include <memory>
 #include <utility>
 
-#include "schema/sha256.h"
+#include "schema/base/sha256.h"
 
 namespace mdof::drivers {
 namespace {

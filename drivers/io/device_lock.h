@@ -4,7 +4,7 @@
 #include <string>
 
 #include "drivers/io/byte_stream.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers {
 

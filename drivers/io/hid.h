@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "drivers/io/device_lock.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers {
 

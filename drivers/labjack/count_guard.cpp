@@ -1,6 +1,6 @@
 #include "drivers/labjack/count_guard.h"
 
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 
 namespace mdof::drivers::labjack {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "schema/toml_reader.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof::drivers::labjack {
 

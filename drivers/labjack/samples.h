@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers::labjack {
 

@@ -8,7 +8,7 @@
 #include "drivers/io/byte_stream.h"
 #include "drivers/labjack_t7/protocol.h"
 #include "drivers/modbus/client.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers::labjack_t7 {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 
 namespace mdof::drivers::labjack_t7 {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "drivers/labjack/samples.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers::labjack_u6 {
 

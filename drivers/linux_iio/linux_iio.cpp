@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 
 namespace mdof::drivers {
 namespace {

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers::mcc_usb1608fs_plus {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "drivers/io/byte_stream.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers {
 

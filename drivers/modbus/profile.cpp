@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "schema/toml_reader.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof::drivers::modbus {
 namespace {

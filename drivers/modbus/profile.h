@@ -11,7 +11,7 @@
 
 #include "drivers/io/byte_stream.h"
 #include "drivers/modbus/protocol.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 #include "schema/sample.h"
 
 namespace mdof::drivers::modbus {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers::modbus {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "schema/chunk.h"
+#include "schema/recording/chunk.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {

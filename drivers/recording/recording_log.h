@@ -1,5 +1,5 @@
-// A recording (schema/recording.h) as a driver: what it read live it gives again, chunk by chunk,
-// bit for bit. Writes nothing, neither to the file nor, for a sealed one, beside it.
+// A recording (schema/recording/recording.h) as a driver: what it read live it gives again, chunk
+// by chunk, bit for bit. Writes nothing, neither to the file nor, for a sealed one, beside it.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "drivers/driver.h"
-#include "schema/recording.h"
-#include "schema/sqlite.h"
+#include "schema/base/sqlite.h"
+#include "schema/recording/recording.h"
 
 namespace mdof::drivers {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "drivers/simulator/raw.h"
-#include "schema/random.h"
+#include "schema/base/random.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {

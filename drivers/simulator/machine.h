@@ -9,7 +9,7 @@
 #include "drivers/simulator/motion.h"
 #include "drivers/simulator/options.h"
 #include "schema/axis.h"
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 #include "schema/sample.h"
 
 namespace mdof::drivers {

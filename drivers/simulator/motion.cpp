@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "schema/random.h"
+#include "schema/base/random.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "schema/axis.h"
-#include "schema/random.h"
+#include "schema/base/random.h"
 #include "schema/targets.h"
 
 namespace mdof::drivers {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "schema/result.h"
-#include "schema/rig.h"
-#include "schema/toml_reader.h"
+#include "schema/base/result.h"
+#include "schema/base/toml_reader.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::drivers {
 

@@ -1,7 +1,7 @@
 // From the displacement of the target to the raw number of a probe: its calibration backwards.
 #pragma once
 
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::drivers {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers::usb {
 

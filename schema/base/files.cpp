@@ -1,4 +1,4 @@
-#include "schema/files.h"
+#include "schema/base/files.h"
 
 #include <cerrno>
 #include <cstring>

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 struct sqlite3;
 struct sqlite3_stmt;

@@ -1,4 +1,4 @@
-#include "schema/toml_reader.h"
+#include "schema/base/toml_reader.h"
 
 #include <toml++/toml.h>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "schema/toml_depth.h"
+#include "schema/base/toml_depth.h"
 
 namespace mdof {
 

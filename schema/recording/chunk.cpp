@@ -1,4 +1,4 @@
-#include "schema/chunk.h"
+#include "schema/recording/chunk.h"
 
 #include <zstd.h>
 
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "schema/bytes.h"
+#include "schema/base/bytes.h"
 
 namespace mdof {
 namespace {

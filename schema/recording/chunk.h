@@ -19,7 +19,7 @@
 #include <string>
 #include <string_view>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 #include "schema/sample.h"
 
 namespace mdof {

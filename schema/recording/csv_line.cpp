@@ -1,9 +1,9 @@
-#include "schema/csv_line.h"
+#include "schema/recording/csv_line.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 #include "schema/units.h"
 
 namespace mdof {

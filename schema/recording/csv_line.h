@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/probe_log.h"
+#include "schema/recording/probe_log.h"
 
 namespace mdof {
 

@@ -1,4 +1,4 @@
-#include "schema/csv_row_parser.h"
+#include "schema/recording/csv_row_parser.h"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include <numeric>
 #include <utility>
 
-#include "schema/csv_line.h"
-#include "schema/csv_stops.h"
+#include "schema/base/csv/csv_stops.h"
+#include "schema/recording/csv_line.h"
 #include "schema/units.h"
 
 namespace mdof {

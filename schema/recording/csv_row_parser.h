@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/csv_stops.h"
-#include "schema/number_columns.h"
-#include "schema/probe_log.h"
-#include "schema/result.h"
+#include "schema/base/csv/csv_stops.h"
+#include "schema/base/number/number_columns.h"
+#include "schema/base/result.h"
+#include "schema/recording/probe_log.h"
 #include "schema/sample.h"
 
 namespace mdof {

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 #include "schema/sample.h"
 
 namespace mdof {

@@ -1,6 +1,6 @@
-#include "schema/recording.h"
+#include "schema/recording/recording.h"
 
-#include "schema/sha256.h"
+#include "schema/base/sha256.h"
 
 namespace mdof {
 namespace {

@@ -1,4 +1,4 @@
-#include "schema/chain.h"
+#include "schema/rig/chain.h"
 
 #include <algorithm>
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/result.h"
-#include "schema/toml_reader.h"
+#include "schema/base/result.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof {
 

@@ -1,4 +1,4 @@
-#include "schema/correction.h"
+#include "schema/rig/correction.h"
 
 namespace mdof {
 namespace {

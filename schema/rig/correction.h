@@ -10,7 +10,7 @@
 #include <string>
 
 #include "schema/axis.h"
-#include "schema/chain.h"
+#include "schema/rig/chain.h"
 
 namespace mdof {
 

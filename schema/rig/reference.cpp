@@ -1,6 +1,6 @@
-#include "schema/reference.h"
+#include "schema/rig/reference.h"
 
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof {
 

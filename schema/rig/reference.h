@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "schema/axis.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof {
 

@@ -1,11 +1,11 @@
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "schema/files.h"
-#include "schema/rig_check.h"
-#include "schema/toml_reader.h"
+#include "schema/base/files.h"
+#include "schema/base/toml_reader.h"
+#include "schema/rig/rig_check.h"
 #include "schema/units.h"
 
 namespace mdof {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "schema/axis.h"
-#include "schema/chain.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
+#include "schema/rig/chain.h"
 
 namespace mdof {
 

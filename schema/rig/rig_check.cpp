@@ -1,4 +1,4 @@
-#include "schema/rig_check.h"
+#include "schema/rig/rig_check.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "schema/toml_reader.h"
+#include "schema/base/toml_reader.h"
 #include "schema/units.h"
 
 namespace mdof {

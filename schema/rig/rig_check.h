@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
 
 namespace mdof {
 

@@ -1,4 +1,4 @@
--- At which point results are stated, which body moved and which way (schema/reference.h, sides.h,
+-- At which point results are stated, which body moved and which way (schema/rig/reference.h, sides.h,
 -- chain.h). What is there from before was stated at the carriage, with a target that moves along +.
 
 ALTER TABLE run ADD COLUMN moves TEXT NOT NULL DEFAULT 'target' CHECK (moves IN ('target', 'fixture'));

@@ -1,6 +1,6 @@
 -- A recording (*.mdofrec): the raw samples of one session, written before any opinion. Append only;
 -- every chunk carries the hash of all that came before it, and a seal closes the file.
--- schema/recording.h says over which bytes the hashes run.
+-- schema/recording/recording.h says over which bytes the hashes run.
 
 CREATE TABLE header (
   key TEXT PRIMARY KEY,
@@ -15,7 +15,7 @@ CREATE TABLE chunk (
   scans INTEGER NOT NULL,
   lost INTEGER NOT NULL,
   sha256 TEXT NOT NULL,
-  payload BLOB NOT NULL     -- schema/chunk.h
+  payload BLOB NOT NULL     -- schema/recording/chunk.h
 ) STRICT;
 
 -- One row, when the recording has ended in good order.

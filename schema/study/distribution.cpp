@@ -1,11 +1,11 @@
-#include "schema/study_distribution.h"
+#include "schema/study/distribution.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "schema/files.h"
-#include "schema/number.h"
+#include "schema/base/files.h"
+#include "schema/base/number/number.h"
 
 namespace mdof {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "schema/study_plan.h"
-#include "schema/toml_reader.h"
+#include "schema/base/toml_reader.h"
+#include "schema/study/plan.h"
 
 namespace mdof {
 

@@ -1,12 +1,12 @@
-#include "schema/study_plan.h"
+#include "schema/study/plan.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "schema/axis.h"
-#include "schema/files.h"
-#include "schema/study_plan_parts.h"
-#include "schema/toml_reader.h"
+#include "schema/base/files.h"
+#include "schema/base/toml_reader.h"
+#include "schema/study/plan_parts.h"
 
 namespace mdof {
 namespace plan_parts {

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/base/result.h"
 #include "schema/point.h"
-#include "schema/result.h"
-#include "schema/rig.h"
-#include "schema/study_quantity.h"
+#include "schema/rig/rig.h"
+#include "schema/study/quantity.h"
 
 namespace mdof {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/study_plan.h"
-#include "schema/toml_reader.h"
+#include "schema/base/toml_reader.h"
+#include "schema/study/plan.h"
 
 namespace mdof::plan_parts {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "schema/axis.h"
-#include "schema/study_distribution.h"
-#include "schema/study_plan_parts.h"
+#include "schema/study/distribution.h"
+#include "schema/study/plan_parts.h"
 
 namespace mdof::plan_parts {
 

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "schema/axis.h"
-#include "schema/study_plan_parts.h"
+#include "schema/study/plan_parts.h"
 
 namespace mdof::plan_parts {
 namespace {

@@ -1,9 +1,9 @@
-#include "schema/study_quantity.h"
+#include "schema/study/quantity.h"
 
 #include <cmath>
 
 #include "schema/axis.h"
-#include "schema/toml_reader.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof {
 namespace {

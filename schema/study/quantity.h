@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
 
 namespace mdof {
 

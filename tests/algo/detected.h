@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algo/dwell.h"
+#include "algo/points/dwell.h"
 #include "tests/algo/stepping_log.h"
 
 namespace mdof::algo {

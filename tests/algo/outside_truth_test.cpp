@@ -6,12 +6,12 @@
 #include <cmath>
 #include <random>
 
-#include "algo/align.h"
-#include "algo/compensation.h"
-#include "algo/fixture.h"
-#include "algo/rigid.h"
-#include "algo/series.h"
-#include "algo/solver.h"
+#include "algo/compensation/compensation.h"
+#include "algo/iso230/series.h"
+#include "algo/model/fixture.h"
+#include "algo/model/rigid.h"
+#include "algo/model/solver.h"
+#include "algo/points/align.h"
 #include "tests/algo/rigs.h"
 
 namespace mdof::algo {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::test {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "algo/dwell.h"
+#include "algo/points/dwell.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {

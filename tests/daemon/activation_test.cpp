@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "daemon/doer.h"
-#include "daemon/evaluation.h"
+#include "daemon/measure/evaluation.h"
 #include "schema/run_json.h"
 
 namespace mdof::daemon {

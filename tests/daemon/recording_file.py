@@ -1,4 +1,4 @@
-"""The recording file by the letter of schema/recording.h, with nothing of mdof: its header, and its chain of hashes."""
+"""The recording file by the letter of schema/recording/recording.h, with nothing of mdof: its header, and its chain of hashes."""
 import hashlib
 import sqlite3
 

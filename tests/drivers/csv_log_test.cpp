@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/sha256.h"
+#include "schema/base/sha256.h"
 
 namespace mdof::drivers {
 namespace {

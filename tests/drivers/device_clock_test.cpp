@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "schema/random.h"
+#include "schema/base/random.h"
 
 namespace mdof::drivers {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "daemon/store/recording_writer.h"
 #include "drivers/csv/csv_log.h"
-#include "schema/files.h"
+#include "schema/base/files.h"
 
 namespace {
 

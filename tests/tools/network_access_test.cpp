@@ -1,5 +1,5 @@
 // That the packaged service may reach a device on a network: the drop-in, and who tells of it.
-#include "tools/mdof/network_access.h"
+#include "tools/mdof/checks/network_access.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

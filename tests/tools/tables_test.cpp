@@ -5,13 +5,13 @@
 #include <sstream>
 
 #include "schema/sample.h"
-#include "tools/mdof/csv_text.h"
-#include "tools/mdof/log_csv.h"
-#include "tools/mdof/run_csv.h"
-#include "tools/mdof/run_tables.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text_table.h"
-#include "tools/mdof/warnings.h"
+#include "tools/mdof/text/csv_text.h"
+#include "tools/mdof/text/log_csv.h"
+#include "tools/mdof/text/run_csv.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {

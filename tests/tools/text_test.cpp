@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "schema/sample.h"
-#include "tools/mdof/json_text.h"
-#include "tools/mdof/live_view.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/commands/live_view.h"
+#include "tools/mdof/text/json_text.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

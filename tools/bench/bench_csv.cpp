@@ -12,7 +12,7 @@
 #include "drivers/csv/byte_source.h"
 #include "drivers/csv/csv_rows.h"
 #include "drivers/csv/line_reader.h"
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 
 namespace {
 

@@ -16,10 +16,10 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/methods.h"
-#include "daemon/rpc/event_loop_core.h"
-#include "daemon/rpc/server.h"
-#include "daemon/rpc/socket.h"
+#include "daemon/methods/methods.h"
+#include "daemon/rpc/line/event_loop_core.h"
+#include "daemon/rpc/line/server.h"
+#include "daemon/rpc/line/socket.h"
 
 namespace {
 

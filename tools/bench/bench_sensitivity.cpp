@@ -10,7 +10,7 @@
 #include <ctime>
 
 #include "algo/sensitivity/simulation.h"
-#include "algo/sensitivity/statistics.h"
+#include "algo/sensitivity/statistics/statistics.h"
 
 namespace {
 

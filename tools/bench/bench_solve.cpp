@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "algo/small_angle.h"
-#include "schema/rig.h"
+#include "algo/model/small_angle.h"
+#include "schema/rig/rig.h"
 
 namespace {
 

@@ -18,7 +18,7 @@
 #include <random>
 #include <string>
 
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // What the caller's script sees (DESIGN §6).
 #pragma once
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::tools {
 

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/version.h"
-#include "tools/mdof/command.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/exit_code.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/usage.h"

@@ -16,7 +16,7 @@ void add_all_warnings_flag(CLI::App& command, bool& all);
 void add_database_option(CLI::App& command, std::string& database);
 void add_socket_option(CLI::App& command, std::string& socket);  // sets the default
 void add_model_option(CLI::App& command, std::string& model);    // one of the three names
-// One of the names of schema/reference.h.
+// One of the names of schema/rig/reference.h.
 CLI::Option* add_reference_option(CLI::App& command, std::string& reference);
 
 }  // namespace mdof::tools

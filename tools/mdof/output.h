@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::tools {
 

@@ -8,9 +8,9 @@
 
 #include "drivers/simulated_device.h"
 #include "drivers/usb/simulated_usb.h"
-#include "schema/result.h"
-#include "schema/rig.h"
-#include "schema/toml_reader.h"
+#include "schema/base/result.h"
+#include "schema/base/toml_reader.h"
+#include "schema/rig/rig.h"
 #include "tools/mdof_simulate/sensed.h"
 
 namespace mdof::simulate {

@@ -1,9 +1,9 @@
 #include "tools/mdof_simulate/plan.h"
 
-#include "daemon/forward_model.h"
+#include "daemon/measure/forward_model.h"
 #include "drivers/simulator/options.h"
-#include "schema/files.h"
-#include "schema/toml_reader.h"
+#include "schema/base/files.h"
+#include "schema/base/toml_reader.h"
 #include "tools/mdof_simulate/kinds.h"
 
 namespace mdof::simulate {

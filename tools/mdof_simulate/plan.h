@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 #include "tools/mdof_simulate/server.h"
 
 namespace mdof::simulate {

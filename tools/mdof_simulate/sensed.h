@@ -8,7 +8,7 @@
 
 #include "drivers/simulated_device.h"
 #include "drivers/simulator/machine.h"
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::simulate {
 

@@ -7,7 +7,7 @@
 
 #include "drivers/simulated_device.h"
 #include "drivers/sysfs/simulated_tree.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::simulate {
 

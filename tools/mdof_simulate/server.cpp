@@ -15,7 +15,7 @@
 #include <cstring>
 #include <deque>
 
-#include "schema/random.h"
+#include "schema/base/random.h"
 #include "tools/mdof_simulate/descriptor.h"
 #include "tools/mdof_simulate/usb_port.h"
 

@@ -10,7 +10,7 @@
 
 #include "drivers/simulated_device.h"
 #include "drivers/usb/simulated_usb.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::simulate {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "drivers/usb/simulated_usb.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::simulate {
 

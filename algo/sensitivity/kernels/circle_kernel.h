@@ -1,7 +1,7 @@
 // A point of the unit circle from an angle in turns, on vectors.
 #pragma once
 
-#include "algo/sensitivity/vector.h"
+#include "algo/sensitivity/kernels/vector.h"
 
 namespace mdof::algo {
 namespace {

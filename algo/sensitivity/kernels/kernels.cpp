@@ -1,4 +1,4 @@
-#include "algo/sensitivity/kernels.h"
+#include "algo/sensitivity/kernels/kernels.h"
 
 namespace mdof::algo {
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "algo/instruction_set.h"
+#include "algo/model/instruction_set.h"
+#include "algo/model/small_angle.h"
 #include "algo/sensitivity/random.h"
-#include "algo/small_angle.h"
 
 namespace mdof::algo {
 

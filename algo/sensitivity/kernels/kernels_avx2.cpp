@@ -1,5 +1,5 @@
-#include "algo/sensitivity/moments_kernel.h"
-#include "algo/sensitivity/simulation_kernel.h"
+#include "algo/sensitivity/kernels/moments_kernel.h"
+#include "algo/sensitivity/kernels/simulation_kernel.h"
 
 namespace mdof::algo {
 

@@ -1,8 +1,8 @@
 // Power sums, extremes and histogram bins of one cell, on vectors.
 #pragma once
 
-#include "algo/sensitivity/kernels.h"
-#include "algo/sensitivity/vector.h"
+#include "algo/sensitivity/kernels/kernels.h"
+#include "algo/sensitivity/kernels/vector.h"
 
 namespace mdof::algo {
 namespace {

@@ -1,9 +1,9 @@
-// Philox4x32-10 on vectors, one trial a lane: the bits of schema/random.h. Included by the
+// Philox4x32-10 on vectors, one trial a lane: the bits of schema/base/random.h. Included by the
 // translation units of one instruction set each.
 #pragma once
 
+#include "algo/sensitivity/kernels/vector.h"
 #include "algo/sensitivity/random.h"
-#include "algo/sensitivity/vector.h"
 
 namespace mdof::algo {
 namespace {
@@ -25,7 +25,7 @@ inline RoundKeys round_keys(std::uint64_t seed) {
   return keys;
 }
 
-// From the bits of a uniform of schema/random.h: (bits + 1/2) 2⁻⁵². All steps are exact.
+// From the bits of a uniform of schema/base/random.h: (bits + 1/2) 2⁻⁵². All steps are exact.
 inline Vector uniform_of(Words high, Words low) {
   const Words word = (high << 32) | (low & 0xFFFFFFFFu);
   return as_doubles((word >> 12) | 0x3FF0000000000000u) - (1.0 - 0x1p-53);

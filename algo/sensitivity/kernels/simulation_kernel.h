@@ -1,10 +1,10 @@
 // One vector of trials of the paper's simulations. SI inside.
 #pragma once
 
-#include "algo/sensitivity/circle_kernel.h"
-#include "algo/sensitivity/kernels.h"
-#include "algo/sensitivity/random_kernel.h"
-#include "algo/small_angle_kernel.h"
+#include "algo/model/small_angle_kernel.h"
+#include "algo/sensitivity/kernels/circle_kernel.h"
+#include "algo/sensitivity/kernels/kernels.h"
+#include "algo/sensitivity/kernels/random_kernel.h"
 
 namespace mdof::algo {
 namespace {

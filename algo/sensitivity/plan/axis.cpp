@@ -1,10 +1,10 @@
-#include "algo/sensitivity/plan_axis.h"
+#include "algo/sensitivity/plan/axis.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "schema/random.h"
+#include "schema/base/random.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

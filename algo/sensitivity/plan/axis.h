@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "algo/sensitivity/plan_draws.h"
-#include "algo/sensitivity/plan_mounting.h"
-#include "algo/solver.h"
-#include "schema/result.h"
-#include "schema/study_plan.h"
+#include "algo/model/solver.h"
+#include "algo/sensitivity/plan/draws.h"
+#include "algo/sensitivity/plan/mounting.h"
+#include "schema/base/result.h"
+#include "schema/study/plan.h"
 
 namespace mdof::algo {
 

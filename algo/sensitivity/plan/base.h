@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "algo/sensitivity/plan_draws.h"
-#include "algo/sensitivity/plan_experiment.h"
+#include "algo/sensitivity/plan/draws.h"
+#include "algo/sensitivity/plan/experiment.h"
 
 namespace mdof::algo {
 

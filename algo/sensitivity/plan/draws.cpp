@@ -1,4 +1,4 @@
-#include "algo/sensitivity/plan_draws.h"
+#include "algo/sensitivity/plan/draws.h"
 
 #include <algorithm>
 #include <cassert>
@@ -6,7 +6,7 @@
 
 #include "algo/sensitivity/correlation.h"
 #include "algo/sensitivity/random.h"
-#include "schema/random.h"
+#include "schema/base/random.h"
 
 namespace mdof::algo {
 namespace {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "algo/sensitivity/distribution.h"
-#include "schema/result.h"
-#include "schema/study_plan.h"
+#include "schema/base/result.h"
+#include "schema/study/plan.h"
 
 namespace mdof::algo {
 

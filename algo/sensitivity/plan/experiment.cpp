@@ -1,4 +1,4 @@
-#include "algo/sensitivity/plan_experiment.h"
+#include "algo/sensitivity/plan/experiment.h"
 
 #include <algorithm>
 #include <cassert>
@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
-#include "algo/line_fit.h"
-#include "algo/sensitivity/plan_axis.h"
-#include "algo/sensitivity/plan_base.h"
+#include "algo/iso230/line_fit.h"
+#include "algo/sensitivity/plan/axis.h"
+#include "algo/sensitivity/plan/base.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "algo/sensitivity/experiment.h"
-#include "schema/result.h"
-#include "schema/study_plan.h"
+#include "schema/base/result.h"
+#include "schema/study/plan.h"
 
 namespace mdof::algo {
 
@@ -30,7 +30,7 @@ class ScalableExperiment : public CausalExperiment {
 
 // Refuses, with the plan's file and key: a rig that cannot see an error or does not fit the model,
 // a matrix that is not positive definite, an output or effect that the forward model has not.
-// For plans with whole_run see tools/mdof/study/run_experiment.h.
+// For plans with whole_run see tools/mdof/study/running/run_experiment.h.
 Result<std::unique_ptr<ScalableExperiment>> make_plan_experiment(const StudyPlan& plan);
 
 // The same plan and random numbers on the rig of [compare]; to be called where plan.compare is set.

@@ -1,4 +1,4 @@
-#include "algo/sensitivity/plan_functions.h"
+#include "algo/sensitivity/plan/functions.h"
 
 #include <cassert>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "algo/sensitivity/plan_mounting.h"
+#include "algo/sensitivity/plan/mounting.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "algo/rigid.h"
-#include "algo/small_rotation.h"
-#include "schema/random.h"
+#include "algo/model/rigid.h"
+#include "algo/model/small_rotation.h"
+#include "schema/base/random.h"
 
 namespace mdof::algo {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "algo/fixture.h"
-#include "algo/sensitivity/plan_draws.h"
-#include "schema/study_plan.h"
+#include "algo/model/fixture.h"
+#include "algo/sensitivity/plan/draws.h"
+#include "schema/study/plan.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/sensitivity/intervals.h"
+#include "algo/sensitivity/statistics/intervals.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "algo/sensitivity/quantile.h"
-#include "schema/study.h"
+#include "algo/sensitivity/statistics/quantile.h"
+#include "schema/study/study.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/sensitivity/moments.h"
+#include "algo/sensitivity/statistics/moments.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "algo/sensitivity/kernels.h"
-#include "algo/sensitivity/quantile.h"
+#include "algo/sensitivity/kernels/kernels.h"
+#include "algo/sensitivity/statistics/quantile.h"
 
 namespace mdof::algo {
 

@@ -1,4 +1,4 @@
-#include "algo/sensitivity/quantile.h"
+#include "algo/sensitivity/statistics/quantile.h"
 
 #include <algorithm>
 #include <bit>

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "algo/sensitivity/kernels.h"
+#include "algo/sensitivity/kernels/kernels.h"
 
 namespace mdof::algo {
 

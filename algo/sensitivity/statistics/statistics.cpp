@@ -1,4 +1,4 @@
-#include "algo/sensitivity/statistics.h"
+#include "algo/sensitivity/statistics/statistics.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "algo/sensitivity/intervals.h"
-#include "algo/sensitivity/statistics_parts.h"
+#include "algo/sensitivity/statistics/intervals.h"
+#include "algo/sensitivity/statistics/statistics_parts.h"
 
 namespace mdof::algo {
 namespace {

@@ -15,12 +15,12 @@
 #include <string_view>
 #include <vector>
 
-#include "algo/instruction_set.h"
+#include "algo/model/instruction_set.h"
 #include "algo/sensitivity/adaptive.h"
 #include "algo/sensitivity/experiment.h"
-#include "algo/sensitivity/quantile.h"
-#include "schema/result.h"
-#include "schema/study.h"
+#include "algo/sensitivity/statistics/quantile.h"
+#include "schema/base/result.h"
+#include "schema/study/study.h"
 
 namespace mdof::algo {
 

@@ -5,8 +5,8 @@
 //   each {i32 key, varint count}.
 #include <cmath>
 
-#include "algo/sensitivity/statistics_parts.h"
-#include "schema/bytes.h"
+#include "algo/sensitivity/statistics/statistics_parts.h"
+#include "schema/base/bytes.h"
 
 namespace mdof::algo {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "algo/sensitivity/moments.h"
-#include "algo/sensitivity/quantile.h"
-#include "algo/sensitivity/statistics.h"
+#include "algo/sensitivity/statistics/moments.h"
+#include "algo/sensitivity/statistics/quantile.h"
+#include "algo/sensitivity/statistics/statistics.h"
 
 namespace mdof::algo {
 

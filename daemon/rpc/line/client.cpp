@@ -1,4 +1,4 @@
-#include "daemon/rpc/client.h"
+#include "daemon/rpc/line/client.h"
 
 #include <grp.h>
 #include <poll.h>
@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "daemon/rpc/codes.h"
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 
 namespace mdof::rpc {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/rpc/socket.h"
-#include "schema/result.h"
+#include "daemon/rpc/line/socket.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

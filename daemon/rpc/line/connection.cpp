@@ -1,4 +1,4 @@
-#include "daemon/rpc/connection.h"
+#include "daemon/rpc/line/connection.h"
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "daemon/rpc/codes.h"
+#include "daemon/rpc/line/peer.h"
+#include "daemon/rpc/line/server_core.h"
 #include "daemon/rpc/message.h"
-#include "daemon/rpc/peer.h"
-#include "daemon/rpc/server_core.h"
 
 namespace mdof::rpc {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/rpc/asio.h"
 #include "daemon/rpc/caller.h"
 #include "daemon/rpc/exchange.h"
-#include "daemon/rpc/line_buffer.h"
-#include "daemon/rpc/outbox.h"
+#include "daemon/rpc/line/asio.h"
+#include "daemon/rpc/line/line_buffer.h"
+#include "daemon/rpc/line/outbox.h"
 #include "daemon/rpc/topic_hub.h"
 
 namespace mdof::rpc {

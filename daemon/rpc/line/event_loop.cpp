@@ -1,8 +1,8 @@
-#include "daemon/rpc/event_loop.h"
+#include "daemon/rpc/line/event_loop.h"
 
 #include <utility>
 
-#include "daemon/rpc/event_loop_core.h"
+#include "daemon/rpc/line/event_loop_core.h"
 
 namespace mdof::rpc {
 namespace {

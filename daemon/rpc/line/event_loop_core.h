@@ -5,8 +5,8 @@
 #include <mutex>
 #include <utility>
 
-#include "daemon/rpc/asio.h"
-#include "daemon/rpc/event_loop.h"
+#include "daemon/rpc/line/asio.h"
+#include "daemon/rpc/line/event_loop.h"
 
 namespace mdof::rpc {
 

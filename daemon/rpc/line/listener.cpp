@@ -1,4 +1,4 @@
-#include "daemon/rpc/listener.h"
+#include "daemon/rpc/line/listener.h"
 
 #include <netinet/in.h>
 #include <netinet/tcp.h>

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "daemon/rpc/asio.h"
-#include "daemon/rpc/event_loop_core.h"
-#include "daemon/rpc/socket.h"
+#include "daemon/rpc/line/asio.h"
+#include "daemon/rpc/line/event_loop_core.h"
+#include "daemon/rpc/line/socket.h"
 
 namespace mdof::rpc {
 

@@ -1,4 +1,4 @@
-#include "daemon/rpc/outbox.h"
+#include "daemon/rpc/line/outbox.h"
 
 #include <sys/socket.h>
 

@@ -1,4 +1,4 @@
-#include "daemon/rpc/peer.h"
+#include "daemon/rpc/line/peer.h"
 
 #include <sys/socket.h>
 

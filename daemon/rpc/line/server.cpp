@@ -1,4 +1,4 @@
-#include "daemon/rpc/server.h"
+#include "daemon/rpc/line/server.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/rpc/listener.h"
-#include "daemon/rpc/server_core.h"
+#include "daemon/rpc/line/listener.h"
+#include "daemon/rpc/line/server_core.h"
 
 namespace mdof::rpc {
 namespace {

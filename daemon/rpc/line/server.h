@@ -9,11 +9,11 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/rpc/event_loop.h"
+#include "daemon/rpc/line/event_loop.h"
+#include "daemon/rpc/line/server_options.h"
 #include "daemon/rpc/method_table.h"
-#include "daemon/rpc/server_options.h"
 #include "daemon/rpc/topic.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

@@ -1,4 +1,4 @@
-#include "daemon/rpc/server_core.h"
+#include "daemon/rpc/line/server_core.h"
 
 #include <sys/socket.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "daemon/rpc/codes.h"
+#include "daemon/rpc/line/peer.h"
 #include "daemon/rpc/message.h"
-#include "daemon/rpc/peer.h"
 
 namespace mdof::rpc {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "daemon/rpc/asio.h"
-#include "daemon/rpc/connection.h"
 #include "daemon/rpc/dispatcher.h"
-#include "daemon/rpc/event_loop_core.h"
-#include "daemon/rpc/server_options.h"
+#include "daemon/rpc/line/asio.h"
+#include "daemon/rpc/line/connection.h"
+#include "daemon/rpc/line/event_loop_core.h"
+#include "daemon/rpc/line/server_options.h"
 #include "daemon/rpc/topic_hub.h"
 
 namespace mdof::rpc {

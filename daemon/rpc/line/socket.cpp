@@ -1,4 +1,4 @@
-#include "daemon/rpc/socket.h"
+#include "daemon/rpc/line/socket.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::rpc {
 

@@ -1,6 +1,6 @@
 // Store: what writes studies.
 #include "daemon/store/store.h"
-#include "schema/sha256.h"
+#include "schema/base/sha256.h"
 
 namespace mdof::store {
 

@@ -1,10 +1,10 @@
-#include "schema/csv_stops.h"
+#include "schema/base/csv/csv_stops.h"
 
 #include <array>
 #include <bit>
 #include <cstddef>
 
-#include "schema/avx512.h"
+#include "schema/base/avx512.h"
 
 namespace mdof {
 namespace {

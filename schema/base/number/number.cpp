@@ -1,8 +1,8 @@
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 
 #include <system_error>
 
-#include "schema/number_scan.h"
+#include "schema/base/number/number_scan.h"
 
 namespace mdof {
 

@@ -1,13 +1,12 @@
-#include "schema/number_columns.h"
+#include "schema/base/number/number_columns.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "schema/avx512.h"
-#include "schema/csv_line.h"
-#include "schema/number.h"
-#include "schema/number_columns_avx512.h"
-#include "schema/number_scan.h"
+#include "schema/base/avx512.h"
+#include "schema/base/number/number.h"
+#include "schema/base/number/number_columns_avx512.h"
+#include "schema/base/number/number_scan.h"
 
 namespace mdof {
 namespace {

@@ -1,4 +1,5 @@
-// Columns of plain decimal numbers from CSV text whose field ends are known (schema/csv_stops.h).
+// Columns of plain decimal numbers from CSV text whose field ends are known
+// (schema/base/csv/csv_stops.h).
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,9 @@
-#include "schema/number_columns_avx512.h"
+#include "schema/base/number/number_columns_avx512.h"
 
 #include <array>
 
-#include "schema/avx512.h"
-#include "schema/number_scan.h"
+#include "schema/base/avx512.h"
+#include "schema/base/number/number_scan.h"
 
 #if defined(__x86_64__)
 namespace mdof::avx512 {

@@ -1,10 +1,11 @@
-// What schema/number_columns.cpp does eight fields at a time where the processor has AVX-512.
+// What schema/base/number/number_columns.cpp does eight fields at a time where the processor has
+// AVX-512.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "schema/number_columns.h"
+#include "schema/base/number/number_columns.h"
 
 namespace mdof::avx512 {
 

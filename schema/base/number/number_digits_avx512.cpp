@@ -1,7 +1,7 @@
-#include "schema/number_digits_avx512.h"
+#include "schema/base/number/number_digits_avx512.h"
 
-#include "schema/avx512.h"
-#include "schema/number_round.h"
+#include "schema/base/avx512.h"
+#include "schema/base/number/number_round.h"
 
 #if defined(__x86_64__)
 
@@ -34,7 +34,7 @@ MDOF_AVX512 inline __m256i floor_log2_of_power_of_ten(__m256i q) {
   return _mm256_srai_epi32(_mm256_mullo_epi32(q, _mm256_set1_epi32(1741647)), 19);
 }
 
-// round_to_17() of schema/number_round.h, step by step.
+// round_to_17() of schema/base/number/number_round.h, step by step.
 struct Rounded {
   __m512i digits;
   __m256i exponent;

@@ -1,4 +1,4 @@
-// The digits of eight doubles at once, for schema/number_write.cpp.
+// The digits of eight doubles at once, for schema/base/number/number_write.cpp.
 #pragma once
 
 #include <cstdint>

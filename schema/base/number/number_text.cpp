@@ -1,4 +1,4 @@
-#include "schema/number_text.h"
+#include "schema/base/number/number_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
-// Numbers as text with 17 significant digits: the digits by schema/number_round.h or eight numbers
-// at a time, then their places.
+// Numbers as text with 17 significant digits: the digits by schema/base/number/number_round.h or
+// eight numbers at a time, then their places.
 #include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 
-#include "schema/avx512.h"
-#include "schema/number.h"
-#include "schema/number_digits_avx512.h"
-#include "schema/number_round.h"
+#include "schema/base/avx512.h"
+#include "schema/base/number/number.h"
+#include "schema/base/number/number_digits_avx512.h"
+#include "schema/base/number/number_round.h"
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif

@@ -5,12 +5,12 @@
 #include <random>
 #include <vector>
 
-#include "algo/compensation.h"
-#include "algo/line_fit.h"
-#include "algo/robust_mean.h"
-#include "algo/series.h"
-#include "algo/squareness.h"
-#include "algo/straightness.h"
+#include "algo/compensation/compensation.h"
+#include "algo/iso230/line_fit.h"
+#include "algo/iso230/series.h"
+#include "algo/iso230/squareness.h"
+#include "algo/iso230/straightness.h"
+#include "algo/points/robust_mean.h"
 
 namespace mdof::algo {
 namespace {

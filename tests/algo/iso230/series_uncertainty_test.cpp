@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "algo/series.h"
+#include "algo/iso230/series.h"
 
 namespace mdof::algo {
 namespace {

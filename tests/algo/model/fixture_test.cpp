@@ -1,5 +1,5 @@
 // Rigs that contradict themselves are refused by name; those that leave a doubt ask for a key.
-#include "algo/fixture.h"
+#include "algo/model/fixture.h"
 
 #include <gtest/gtest.h>
 

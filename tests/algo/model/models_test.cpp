@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <random>
 
-#include "algo/rigid.h"
-#include "algo/small_angle.h"
-#include "algo/small_rotation.h"
-#include "algo/solver.h"
+#include "algo/model/rigid.h"
+#include "algo/model/small_angle.h"
+#include "algo/model/small_rotation.h"
+#include "algo/model/solver.h"
 #include "tests/algo/rigs.h"
 
 namespace mdof::algo {

@@ -1,5 +1,5 @@
 // Errors at another point, against a pose made of Eigen's own rotations.
-#include "algo/restate.h"
+#include "algo/model/restate.h"
 
 #include <gtest/gtest.h>
 

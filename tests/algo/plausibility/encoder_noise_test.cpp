@@ -1,8 +1,8 @@
 // A noisy encoder loses no stop.
 #include <gtest/gtest.h>
 
-#include "algo/dwell.h"
-#include "algo/noise_floor.h"
+#include "algo/plausibility/noise_floor.h"
+#include "algo/points/dwell.h"
 #include "tests/algo/stepping_log.h"
 
 namespace mdof::algo {

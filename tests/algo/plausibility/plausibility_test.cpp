@@ -1,5 +1,5 @@
 // What is wrong with a run is said by name, and nothing of a run that is right.
-#include "algo/plausibility.h"
+#include "algo/plausibility/plausibility.h"
 
 #include <gtest/gtest.h>
 

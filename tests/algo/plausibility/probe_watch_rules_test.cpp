@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algo/probe_watch.h"
+#include "algo/plausibility/probe_watch.h"
 
 namespace mdof::algo {
 namespace {

@@ -1,5 +1,5 @@
 // The rule of resolution.h by hand: which steps make a resolution.
-#include "algo/resolution.h"
+#include "algo/plausibility/resolution.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "algo/encoder_jump.h"
-#include "algo/plausibility.h"
+#include "algo/plausibility/encoder_jump.h"
+#include "algo/plausibility/plausibility.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {

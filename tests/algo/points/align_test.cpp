@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "algo/align.h"
+#include "algo/points/align.h"
 
 namespace mdof::algo {
 namespace {

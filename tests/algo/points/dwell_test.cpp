@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "algo/dwell.h"
-#include "algo/sequence.h"
+#include "algo/points/dwell.h"
+#include "algo/sequence/sequence.h"
 
 namespace mdof::algo {
 namespace {

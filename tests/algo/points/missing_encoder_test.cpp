@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "algo/robust_mean.h"
+#include "algo/points/robust_mean.h"
 #include "tests/algo/detected.h"
 
 namespace mdof::algo {

@@ -7,8 +7,8 @@
 
 #include "algo/sensitivity/random.h"
 #include "algo/sensitivity/simulation.h"
-#include "algo/sensitivity/statistics.h"
-#include "schema/random.h"
+#include "algo/sensitivity/statistics/statistics.h"
+#include "schema/base/random.h"
 
 namespace mdof::algo {
 namespace {

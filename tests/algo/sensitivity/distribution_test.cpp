@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "algo/sensitivity/correlation.h"
-#include "algo/sensitivity/plan_functions.h"
+#include "algo/sensitivity/plan/functions.h"
 
 namespace mdof::algo {
 namespace {

@@ -8,9 +8,9 @@
 #include <map>
 
 #include "algo/sensitivity/comparison.h"
-#include "algo/sensitivity/plan_experiment.h"
+#include "algo/sensitivity/plan/experiment.h"
 #include "algo/sensitivity/random.h"
-#include "schema/random.h"
+#include "schema/base/random.h"
 
 namespace mdof::algo {
 namespace {

@@ -1,5 +1,5 @@
 // Plans as experiments: theory, what each quantity does, and how random numbers are addressed.
-#include "algo/sensitivity/plan_experiment.h"
+#include "algo/sensitivity/plan/experiment.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cstring>
 #include <functional>
 
-#include "algo/sensitivity/plan_mounting.h"
-#include "algo/small_angle.h"
+#include "algo/model/small_angle.h"
+#include "algo/sensitivity/plan/mounting.h"
 
 namespace mdof::algo {
 namespace {

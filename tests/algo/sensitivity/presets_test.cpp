@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "algo/model/small_angle.h"
 #include "algo/sensitivity/random.h"
 #include "algo/sensitivity/simulation.h"
-#include "algo/sensitivity/statistics.h"
-#include "algo/small_angle.h"
-#include "schema/sha256.h"
+#include "algo/sensitivity/statistics/statistics.h"
+#include "schema/base/sha256.h"
 #include "schema/units.h"
 #include "tests/algo/rigs.h"
 

@@ -1,5 +1,5 @@
 // The histogram of a study by hand: where its core lies, and that no trial is lost beyond it.
-#include "algo/sensitivity/quantile.h"
+#include "algo/sensitivity/statistics/quantile.h"
 
 #include <gtest/gtest.h>
 

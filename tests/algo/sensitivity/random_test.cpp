@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "algo/sensitivity/circle_kernel.h"
+#include "algo/sensitivity/kernels/circle_kernel.h"
 #include "algo/sensitivity/random.h"
 
 namespace mdof::algo {

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "algo/sensitivity/intervals.h"
 #include "algo/sensitivity/random.h"
 #include "algo/sensitivity/simulation.h"
-#include "algo/sensitivity/statistics.h"
-#include "schema/random.h"
-#include "schema/sha256.h"
+#include "algo/sensitivity/statistics/intervals.h"
+#include "algo/sensitivity/statistics/statistics.h"
+#include "schema/base/random.h"
+#include "schema/base/sha256.h"
 
 namespace mdof::algo {
 namespace {

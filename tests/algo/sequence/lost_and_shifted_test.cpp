@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "algo/plausibility.h"
-#include "algo/shifted_targets.h"
+#include "algo/plausibility/plausibility.h"
+#include "algo/sequence/shifted_targets.h"
 
 namespace mdof::algo {
 namespace {

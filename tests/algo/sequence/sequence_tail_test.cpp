@@ -1,6 +1,6 @@
 // A sequence that grows stop by stop is that of the whole; what the stops are is written down by
 // the test as it makes them.
-#include "algo/sequence_tail.h"
+#include "algo/sequence/sequence_tail.h"
 
 #include <gtest/gtest.h>
 

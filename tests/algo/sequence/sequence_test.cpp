@@ -1,5 +1,5 @@
 // The cycles in which axes are measured, as their encoder sees them.
-#include "algo/sequence.h"
+#include "algo/sequence/sequence.h"
 
 #include <gtest/gtest.h>
 

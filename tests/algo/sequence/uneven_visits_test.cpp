@@ -1,6 +1,6 @@
 // A log that is cut, or has targets with one approach, changes neither slope nor squareness by its
 // backlash or drift.
-#include "algo/uneven_visits.h"
+#include "algo/sequence/uneven_visits.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <random>
 #include <string>
 
-#include "algo/compensation.h"
-#include "algo/series.h"
-#include "algo/squareness.h"
-#include "algo/straightness.h"
+#include "algo/compensation/compensation.h"
+#include "algo/iso230/series.h"
+#include "algo/iso230/squareness.h"
+#include "algo/iso230/straightness.h"
 
 namespace mdof::algo {
 namespace {

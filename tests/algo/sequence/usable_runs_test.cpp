@@ -1,9 +1,9 @@
-#include "algo/usable_runs.h"
+#include "algo/sequence/usable_runs.h"
 
 #include <gtest/gtest.h>
 
-#include "algo/compensation.h"
-#include "algo/squareness.h"
+#include "algo/compensation/compensation.h"
+#include "algo/iso230/squareness.h"
 
 namespace mdof::algo {
 namespace {

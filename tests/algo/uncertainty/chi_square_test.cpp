@@ -1,9 +1,9 @@
 // Seven and six probes that agree, and one that does not.
 #include <gtest/gtest.h>
 
-#include "algo/chi_square.h"
-#include "algo/dwell.h"
-#include "algo/sequence.h"
+#include "algo/points/dwell.h"
+#include "algo/sequence/sequence.h"
+#include "algo/uncertainty/chi_square.h"
 #include "tests/algo/stepping_log.h"
 
 namespace mdof::algo {

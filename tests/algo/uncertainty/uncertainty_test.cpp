@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "algo/align.h"
-#include "algo/dwell.h"
-#include "algo/robust_mean.h"
+#include "algo/points/align.h"
+#include "algo/points/dwell.h"
+#include "algo/points/robust_mean.h"
 #include "tests/algo/stepping_log.h"
 
 namespace mdof::algo {

@@ -1,4 +1,4 @@
-#include "daemon/config.h"
+#include "daemon/measure/config.h"
 
 #include <gtest/gtest.h>
 

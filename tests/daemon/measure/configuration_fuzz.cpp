@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "daemon/config.h"
+#include "daemon/measure/config.h"
 
 namespace {
 

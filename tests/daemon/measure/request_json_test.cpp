@@ -1,4 +1,4 @@
-#include "daemon/request_json.h"
+#include "daemon/measure/request_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Devices that sample less often than a gap is long: the gap follows their rate, or they are
 // refused.
-#include "daemon/slow_channels.h"
+#include "daemon/measure/slow_channels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "daemon/rpc/line_buffer.h"
+#include "daemon/rpc/line/line_buffer.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <condition_variable>
 #include <deque>
 
-#include "daemon/rpc/client.h"
+#include "daemon/rpc/line/client.h"
 #include "tests/daemon/rpc/rpc_fixture.h"
 
 namespace mdof::rpc::test {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "daemon/rpc/dispatcher.h"
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 
 namespace {
 

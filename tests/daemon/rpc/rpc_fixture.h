@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/rpc/server.h"
-#include "daemon/rpc/socket.h"
-#include "schema/json_writer.h"
+#include "daemon/rpc/line/server.h"
+#include "daemon/rpc/line/socket.h"
+#include "schema/base/json_writer.h"
 
 namespace mdof::rpc::test {
 

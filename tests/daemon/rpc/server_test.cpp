@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "daemon/rpc/client.h"
+#include "daemon/rpc/line/client.h"
 #include "tests/daemon/rpc/rpc_fixture.h"
 
 namespace mdof::rpc::test {

@@ -1,6 +1,6 @@
 #include <atomic>
 
-#include "daemon/rpc/client.h"
+#include "daemon/rpc/line/client.h"
 #include "daemon/rpc/subscription.h"
 #include "tests/daemon/rpc/rpc_fixture.h"
 

@@ -1,5 +1,5 @@
 // A device that fails, comes back, and loses samples: what of that is told.
-#include "daemon/acquisition.h"
+#include "daemon/station/acquisition.h"
 #include "drivers/progress.h"
 
 #include <gtest/gtest.h>

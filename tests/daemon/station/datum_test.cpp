@@ -1,12 +1,12 @@
 // An encoder that counts from 0 again in the midst of a run: what came before stays right, what
 // comes after is not taken at a wrong place.
-#include "daemon/pipeline.h"
+#include "daemon/measure/pipeline.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "schema/rig.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::daemon {
 namespace {

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "daemon/pipeline.h"
+#include "daemon/measure/pipeline.h"
 #include "drivers/clock/device_clock.h"
-#include "schema/random.h"
-#include "schema/rig.h"
+#include "schema/base/random.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::daemon {
 namespace {

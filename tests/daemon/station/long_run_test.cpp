@@ -5,8 +5,8 @@
 #include <cmath>
 #include <ctime>
 
-#include "daemon/pipeline.h"
-#include "schema/rig.h"
+#include "daemon/measure/pipeline.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::daemon {
 namespace {

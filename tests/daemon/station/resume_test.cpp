@@ -1,4 +1,4 @@
-#include "daemon/resume.h"
+#include "daemon/station/resume.h"
 
 #include <gtest/gtest.h>
 

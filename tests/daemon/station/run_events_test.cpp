@@ -1,4 +1,4 @@
-#include "daemon/run_events.h"
+#include "daemon/station/run_events.h"
 
 #include <gtest/gtest.h>
 #include <simdjson.h>

@@ -1,4 +1,4 @@
-#include "daemon/trouble.h"
+#include "daemon/station/trouble.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "algo/align.h"
+#include "algo/points/align.h"
 #include "drivers/clock/device_clock.h"
-#include "schema/random.h"
+#include "schema/base/random.h"
 
 namespace mdof {
 namespace {

@@ -1,4 +1,4 @@
-#include "daemon/storekeeper.h"
+#include "daemon/storekeeper/storekeeper.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

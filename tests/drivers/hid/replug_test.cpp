@@ -12,11 +12,11 @@
 #include <fstream>
 #include <thread>
 
-#include "daemon/acquisition.h"
+#include "daemon/station/acquisition.h"
 #include "drivers/io/hid.h"
 #include "drivers/pokeys57u/device.h"
 #include "drivers/pokeys57u/pokeys57u.h"
-#include "schema/random.h"
+#include "schema/base/random.h"
 #include "tests/drivers/hid/hid_bus.h"
 
 namespace mdof::drivers {

@@ -1,4 +1,4 @@
-#include "schema/number_columns.h"
+#include "schema/base/number/number_columns.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/csv_stops.h"
+#include "schema/base/csv/csv_stops.h"
 
 namespace mdof {
 namespace {

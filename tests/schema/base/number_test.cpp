@@ -1,6 +1,6 @@
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 
-#include "schema/number_scan.h"
+#include "schema/base/number/number_scan.h"
 
 #include <gtest/gtest.h>
 

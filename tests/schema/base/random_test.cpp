@@ -1,4 +1,4 @@
-#include "schema/random.h"
+#include "schema/base/random.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "schema/chunk.h"
+#include "schema/recording/chunk.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "schema/chunk.h"
+#include "schema/recording/chunk.h"
 
 #include <gtest/gtest.h>
 #include <zstd.h>

@@ -1,4 +1,4 @@
-#include "schema/csv_row_parser.h"
+#include "schema/recording/csv_row_parser.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "schema/csv_row_parser.h"
+#include "schema/recording/csv_row_parser.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "schema/probe_log.h"
+#include "schema/recording/probe_log.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Plans as files: what is read, and what is said about every kind of bad one.
-#include "schema/study_plan.h"
+#include "schema/study/plan.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "schema/study_distribution.h"
+#include "schema/study/distribution.h"
 
 namespace mdof {
 namespace {

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-#include "schema/sha256.h"
+#include "schema/base/sha256.h"
 #include "tests/tools/plot/xml_check.h"
 #include "tools/mdof/plot/study_plots.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "tools/mdof/study/checkpoint.h"
+#include "tools/mdof/study/running/checkpoint.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Whole simulated runs as trials of a study.
-#include "tools/mdof/study/run_experiment.h"
+#include "tools/mdof/study/running/run_experiment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The runner of studies: any division and interruption of the work gives the same bytes.
-#include "tools/mdof/study/runner.h"
+#include "tools/mdof/study/running/runner.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "schema/random.h"
+#include "schema/base/random.h"
 #include "tools/mdof/interrupt.h"
-#include "tools/mdof/study/divided_trials.h"
 #include "tools/mdof/study/json.h"
-#include "tools/mdof/study/workers.h"
+#include "tools/mdof/study/running/divided_trials.h"
+#include "tools/mdof/study/running/workers.h"
 
 namespace mdof::tools {
 namespace {

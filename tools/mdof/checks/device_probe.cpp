@@ -1,12 +1,12 @@
-#include "tools/mdof/device_probe.h"
+#include "tools/mdof/checks/device_probe.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

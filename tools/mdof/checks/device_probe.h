@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drivers/registry.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/doctor_checks.h"
+#include "tools/mdof/checks/doctor_checks.h"
 
 #include <unistd.h>
 

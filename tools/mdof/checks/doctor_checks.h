@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/config.h"
+#include "daemon/measure/config.h"
 
 namespace mdof::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/network_access.h"
+#include "tools/mdof/checks/network_access.h"
 
 #include <arpa/inet.h>
 

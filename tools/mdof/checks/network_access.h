@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "schema/result.h"
-#include "tools/mdof/doctor_checks.h"
+#include "schema/base/result.h"
+#include "tools/mdof/checks/doctor_checks.h"
 
 namespace mdof::tools {
 

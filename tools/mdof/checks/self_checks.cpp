@@ -1,4 +1,4 @@
-#include "tools/mdof/self_checks.h"
+#include "tools/mdof/checks/self_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <random>
 
-#include "algo/rigid.h"
-#include "daemon/pipeline.h"
+#include "algo/model/rigid.h"
+#include "daemon/measure/pipeline.h"
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
 #include "schema/units.h"

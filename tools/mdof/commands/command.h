@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace CLI {
 class App;

@@ -3,18 +3,18 @@
 #include <optional>
 
 #include "daemon/doer.h"
-#include "daemon/evaluation.h"
+#include "daemon/measure/evaluation.h"
 #include "schema/run_json.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/compensation_text.h"
-#include "tools/mdof/database.h"
-#include "tools/mdof/holder.h"
-#include "tools/mdof/json_read.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/run_choice.h"
-#include "tools/mdof/table_csv.h"
-#include "tools/mdof/warnings.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/holder.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/text/compensation_text.h"
+#include "tools/mdof/text/table_csv.h"
+#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {

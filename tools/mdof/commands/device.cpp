@@ -4,17 +4,17 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "daemon/config.h"
-#include "daemon/rpc/client.h"
-#include "schema/json_writer.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/device_probe.h"
-#include "tools/mdof/device_table.h"
+#include "daemon/measure/config.h"
+#include "daemon/rpc/line/client.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/checks/device_probe.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/interrupt.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/own_daemon.h"
+#include "tools/mdof/stored/own_daemon.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/device_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <set>
 
-#include "daemon/rpc/client.h"
-#include "schema/json_writer.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/device_probe.h"
-#include "tools/mdof/doctor_checks.h"
+#include "daemon/rpc/line/client.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/checks/device_probe.h"
+#include "tools/mdof/checks/doctor_checks.h"
+#include "tools/mdof/checks/network_access.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/interrupt.h"
-#include "tools/mdof/json_read.h"
-#include "tools/mdof/network_access.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/own_daemon.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/stored/own_daemon.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -1,13 +1,13 @@
 // mdof encoder set: tells mdofd where an axis stands whose encoder counts from anywhere.
 #include <CLI/CLI.hpp>
 
-#include "schema/json_writer.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/daemon_call.h"
-#include "tools/mdof/json_read.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/stored/daemon_call.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -5,11 +5,11 @@
 #include <map>
 
 #include "drivers/recording/recording_log.h"
-#include "schema/rig.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/log_csv.h"
+#include "schema/rig/rig.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/text/log_csv.h"
 
 namespace mdof::tools {
 namespace {

@@ -2,16 +2,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "daemon/rpc/client.h"
-#include "schema/json_writer.h"
-#include "tools/mdof/command.h"
+#include "daemon/rpc/line/client.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/live_view.h"
 #include "tools/mdof/interrupt.h"
-#include "tools/mdof/json_read.h"
-#include "tools/mdof/live_view.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -3,22 +3,22 @@
 #include <filesystem>
 #include <optional>
 
-#include "algo/restate.h"
+#include "algo/model/restate.h"
 #include "daemon/doer.h"
-#include "daemon/evaluation.h"
-#include "daemon/replay_order.h"
-#include "schema/files.h"
+#include "daemon/measure/evaluation.h"
+#include "daemon/measure/replay_order.h"
+#include "schema/base/files.h"
 #include "schema/run_json.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/database.h"
-#include "tools/mdof/holder.h"
-#include "tools/mdof/json_read.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/progress.h"
-#include "tools/mdof/run_tables.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/holder.h"
+#include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/warnings.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {

@@ -3,12 +3,12 @@
 #include <filesystem>
 
 #include "schema/run_json.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/database.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

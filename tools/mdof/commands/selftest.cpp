@@ -1,12 +1,12 @@
 // mdof selftest: does this installation compute, detect and store as it should? Needs no files.
 #include <CLI/CLI.hpp>
 
-#include "schema/json_writer.h"
-#include "tools/mdof/command.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/checks/self_checks.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/self_checks.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -5,18 +5,18 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/paths.h"
-#include "tools/mdof/command.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/interrupt.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/plot/study_plots.h"
 #include "tools/mdof/study/json.h"
 #include "tools/mdof/study/output.h"
 #include "tools/mdof/study/questions.h"
-#include "tools/mdof/study/ranks.h"
-#include "tools/mdof/study/recorder.h"
 #include "tools/mdof/study/result.h"
-#include "tools/mdof/study/run_experiment.h"
-#include "tools/mdof/study/runner.h"
+#include "tools/mdof/study/running/ranks.h"
+#include "tools/mdof/study/running/recorder.h"
+#include "tools/mdof/study/running/run_experiment.h"
+#include "tools/mdof/study/running/runner.h"
 #include "tools/mdof/study/sensitivity_options.h"
 #include "tools/mdof/study/trial.h"
 

@@ -1,9 +1,9 @@
 // mdof setup network: lets the packaged service reach a device on a network.
 #include <CLI/CLI.hpp>
 
-#include "schema/json_writer.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/network_access.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/checks/network_access.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 

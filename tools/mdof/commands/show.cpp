@@ -2,18 +2,18 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/doer.h"
-#include "daemon/evaluation.h"
+#include "daemon/measure/evaluation.h"
 #include "schema/run_json.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/database.h"
-#include "tools/mdof/history_text.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/run_choice.h"
-#include "tools/mdof/run_csv.h"
-#include "tools/mdof/run_tables.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/warnings.h"
+#include "tools/mdof/text/history_text.h"
+#include "tools/mdof/text/run_csv.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {

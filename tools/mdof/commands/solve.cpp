@@ -3,13 +3,13 @@
 //   csv read -> here: parse, calibrate and solve -> write rows            (threads; bounded memory)
 #include <CLI/CLI.hpp>
 
-#include "daemon/replay.h"
+#include "daemon/measure/replay.h"
 #include "drivers/csv/csv_rows.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/error_rows.h"
-#include "tools/mdof/frame_solver.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/frame_solver.h"
+#include "tools/mdof/text/error_rows.h"
 
 namespace mdof::tools {
 namespace {

@@ -3,19 +3,19 @@
 #include <optional>
 
 #include "daemon/doer.h"
-#include "daemon/evaluation.h"
+#include "daemon/measure/evaluation.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/database.h"
-#include "tools/mdof/holder.h"
-#include "tools/mdof/json_read.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/run_choice.h"
-#include "tools/mdof/run_tables.h"
-#include "tools/mdof/text_table.h"
-#include "tools/mdof/warnings.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/holder.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {

@@ -1,12 +1,12 @@
 // mdof stop: ends the runs under way, through mdofd, which evaluates and stores them.
 #include <CLI/CLI.hpp>
 
-#include "daemon/rpc/client.h"
-#include "schema/json_writer.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/json_read.h"
+#include "daemon/rpc/line/client.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/json_read.h"
 
 namespace mdof::tools {
 namespace {

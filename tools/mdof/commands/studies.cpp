@@ -1,16 +1,16 @@
 // mdof studies, mdof study ID: sensitivity studies that were stored.
 #include <CLI/CLI.hpp>
 
-#include "schema/json_writer.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/database.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/plot/study_plots.h"
+#include "tools/mdof/stored/database.h"
 #include "tools/mdof/study/json.h"
 #include "tools/mdof/study/output.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

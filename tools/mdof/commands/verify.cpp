@@ -2,13 +2,13 @@
 // was once written?
 #include <CLI/CLI.hpp>
 
-#include "daemon/verify_sources.h"
+#include "daemon/measure/verify_sources.h"
 #include "drivers/recording/recording_log.h"
-#include "schema/json_writer.h"
-#include "tools/mdof/command.h"
-#include "tools/mdof/database.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
 
 namespace mdof::tools {
 namespace {

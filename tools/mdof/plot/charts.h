@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "schema/study.h"
+#include "schema/study/study.h"
 
 namespace mdof::tools::plot {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/study.h"
+#include "schema/study/study.h"
 #include "tools/mdof/plot/axis.h"
 #include "tools/mdof/plot/svg.h"
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "schema/result.h"
-#include "schema/study.h"
+#include "schema/base/result.h"
+#include "schema/study/study.h"
 
 namespace mdof::tools {
 

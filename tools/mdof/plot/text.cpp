@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 
 namespace mdof::tools::plot {
 namespace {

@@ -1,8 +1,8 @@
-#include "tools/mdof/daemon_call.h"
+#include "tools/mdof/stored/daemon_call.h"
 
-#include "daemon/rpc/client.h"
-#include "tools/mdof/json_text.h"
+#include "daemon/rpc/line/client.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/text/json_text.h"
 
 namespace mdof::tools {
 

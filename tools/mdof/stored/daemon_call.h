@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/database.h"
+#include "tools/mdof/stored/database.h"
 
 #include "daemon/paths.h"
 #include "daemon/store/writer_lock.h"

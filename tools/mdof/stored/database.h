@@ -5,7 +5,7 @@
 #include <string>
 
 #include "daemon/store/store.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::tools {
 

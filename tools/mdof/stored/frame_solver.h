@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "algo/solver.h"
+#include "algo/model/solver.h"
 #include "drivers/calibration.h"
-#include "schema/result.h"
-#include "schema/rig.h"
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
 #include "schema/sample.h"
 
 namespace mdof::tools {

@@ -1,12 +1,12 @@
-#include "tools/mdof/holder.h"
+#include "tools/mdof/stored/holder.h"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
 
-#include "tools/mdof/database.h"
-#include "tools/mdof/json_read.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/json_read.h"
 
 namespace mdof::tools {
 namespace {

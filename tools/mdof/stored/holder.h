@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "daemon/rpc/client.h"
-#include "schema/result.h"
+#include "daemon/rpc/line/client.h"
+#include "schema/base/result.h"
 
 namespace mdof::tools {
 

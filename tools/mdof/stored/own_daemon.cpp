@@ -1,10 +1,10 @@
-#include "tools/mdof/own_daemon.h"
+#include "tools/mdof/stored/own_daemon.h"
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
 
-#include "daemon/rpc/client.h"
-#include "daemon/rpc/socket.h"
+#include "daemon/rpc/line/client.h"
+#include "daemon/rpc/line/socket.h"
 
 namespace mdof::tools {
 

@@ -1,9 +1,9 @@
-#include "tools/mdof/run_choice.h"
+#include "tools/mdof/stored/run_choice.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 
-#include "tools/mdof/database.h"
+#include "tools/mdof/stored/database.h"
 
 namespace mdof::tools {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "daemon/store/store.h"
 #include "schema/axis.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace CLI {
 class App;

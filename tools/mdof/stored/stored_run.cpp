@@ -1,11 +1,11 @@
-#include "tools/mdof/stored_run.h"
+#include "tools/mdof/stored/stored_run.h"
 
-#include "daemon/evaluation.h"
+#include "daemon/measure/evaluation.h"
 #include "daemon/store/store.h"
-#include "tools/mdof/history_text.h"
-#include "tools/mdof/json_read.h"
-#include "tools/mdof/run_tables.h"
+#include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/history_text.h"
+#include "tools/mdof/text/run_tables.h"
 
 namespace mdof::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "daemon/rpc/client.h"
+#include "daemon/rpc/line/client.h"
 
 namespace mdof::tools {
 

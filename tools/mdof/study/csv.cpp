@@ -1,6 +1,6 @@
 #include <array>
 
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 #include "tools/mdof/study/output.h"
 
 namespace mdof::tools {

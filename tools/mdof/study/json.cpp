@@ -1,6 +1,6 @@
 #include "tools/mdof/study/json.h"
 
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/study/output.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "schema/result.h"
-#include "schema/study.h"
+#include "schema/base/result.h"
+#include "schema/study/study.h"
 
 namespace mdof::tools {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "schema/result.h"
-#include "schema/study.h"
+#include "schema/base/result.h"
+#include "schema/study/study.h"
 
 namespace mdof::tools {
 

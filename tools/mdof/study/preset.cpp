@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "schema/json_writer.h"
-#include "schema/toml_reader.h"
+#include "schema/base/json_writer.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof::tools {
 namespace {

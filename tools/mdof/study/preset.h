@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "algo/sensitivity/simulation.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 
 namespace mdof::tools {
 

@@ -12,8 +12,8 @@
 #include "algo/sensitivity/indices.h"
 #include "tools/mdof/interrupt.h"
 #include "tools/mdof/progress.h"
-#include "tools/mdof/study/run_experiment.h"
-#include "tools/mdof/study/workers.h"
+#include "tools/mdof/study/running/run_experiment.h"
+#include "tools/mdof/study/running/workers.h"
 
 namespace mdof::tools {
 namespace {

@@ -1,10 +1,10 @@
 // What a plan asks beyond the statistics of its trials: indices, tolerances, another fixture.
 #pragma once
 
-#include "schema/result.h"
-#include "schema/study.h"
-#include "tools/mdof/study/order.h"
-#include "tools/mdof/study/runner.h"
+#include "schema/base/result.h"
+#include "schema/study/study.h"
+#include "tools/mdof/study/running/order.h"
+#include "tools/mdof/study/running/runner.h"
 
 namespace mdof::tools {
 

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "schema/study.h"
-#include "tools/mdof/study/checkpoint.h"
-#include "tools/mdof/study/order.h"
+#include "schema/study/study.h"
+#include "tools/mdof/study/running/checkpoint.h"
+#include "tools/mdof/study/running/order.h"
 
 namespace mdof::tools {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "schema/files.h"
+#include "schema/base/files.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/study/preset.h"
-#include "tools/mdof/study/workers.h"
+#include "tools/mdof/study/running/workers.h"
 
 namespace mdof::tools {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "schema/result.h"
-#include "tools/mdof/study/order.h"
+#include "schema/base/result.h"
 #include "tools/mdof/study/output.h"
+#include "tools/mdof/study/running/order.h"
 
 namespace CLI {
 class App;

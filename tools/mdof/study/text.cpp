@@ -3,7 +3,7 @@
 
 #include "tools/mdof/study/output.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "schema/json_writer.h"
-#include "tools/mdof/json_text.h"
+#include "schema/base/json_writer.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/text/json_text.h"
 
 namespace mdof::tools {
 namespace {

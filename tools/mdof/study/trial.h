@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "schema/result.h"
-#include "tools/mdof/study/order.h"
+#include "schema/base/result.h"
+#include "tools/mdof/study/running/order.h"
 
 namespace mdof::tools {
 

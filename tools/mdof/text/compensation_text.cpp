@@ -1,10 +1,10 @@
-#include "tools/mdof/compensation_text.h"
+#include "tools/mdof/text/compensation_text.h"
 
-#include "schema/correction.h"
+#include "schema/rig/correction.h"
 #include "schema/run_json.h"
-#include "tools/mdof/run_tables.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -1,8 +1,8 @@
-#include "tools/mdof/csv_text.h"
+#include "tools/mdof/text/csv_text.h"
 
 #include <cmath>
 
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 
 namespace mdof::tools {
 

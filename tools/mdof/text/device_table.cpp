@@ -1,7 +1,7 @@
-#include "tools/mdof/device_table.h"
+#include "tools/mdof/text/device_table.h"
 
-#include "tools/mdof/json_read.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

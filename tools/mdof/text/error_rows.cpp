@@ -1,4 +1,4 @@
-#include "tools/mdof/error_rows.h"
+#include "tools/mdof/text/error_rows.h"
 
 #include <fcntl.h>
 #include <pthread.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 #include "tools/mdof/output.h"
 
 namespace mdof::tools {

@@ -7,10 +7,10 @@
 #include <thread>
 
 #include "schema/axis.h"
+#include "schema/base/result.h"
 #include "schema/point.h"
-#include "schema/result.h"
-#include "tools/mdof/frame_solver.h"
-#include "tools/mdof/hand_over.h"
+#include "tools/mdof/stored/frame_solver.h"
+#include "tools/mdof/stored/hand_over.h"
 
 namespace mdof::tools {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "daemon/doer.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/json_text.h"
+#include "tools/mdof/text/json_text.h"
 
 #include <simdjson.h>
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -1,9 +1,9 @@
-#include "tools/mdof/log_csv.h"
+#include "tools/mdof/text/log_csv.h"
 
 #include <cmath>
 #include <cstdio>
 
-#include "schema/number.h"
+#include "schema/base/number/number.h"
 #include "schema/units.h"
 
 namespace mdof::tools {

@@ -1,4 +1,5 @@
-// Raw samples of one device as a probe log (schema/probe_log.h): what mdof replay reads again.
+// Raw samples of one device as a probe log (schema/recording/probe_log.h): what mdof replay reads
+// again.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "tools/mdof/plausibility_text.h"
+#include "tools/mdof/text/plausibility_text.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "schema/units.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

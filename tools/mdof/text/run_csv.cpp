@@ -1,11 +1,11 @@
-#include "tools/mdof/run_csv.h"
+#include "tools/mdof/text/run_csv.h"
 
 #include <cmath>
 
 #include "schema/sample.h"
 #include "schema/units.h"
-#include "tools/mdof/csv_text.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/csv_text.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -1,13 +1,13 @@
-#include "tools/mdof/run_tables.h"
+#include "tools/mdof/text/run_tables.h"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "schema/axis.h"
-#include "tools/mdof/plausibility_text.h"
-#include "tools/mdof/text_table.h"
-#include "tools/mdof/warnings.h"
+#include "tools/mdof/text/plausibility_text.h"
+#include "tools/mdof/text/text_table.h"
+#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 #include <algorithm>
 #include <cassert>

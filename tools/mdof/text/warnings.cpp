@@ -1,4 +1,4 @@
-#include "tools/mdof/warnings.h"
+#include "tools/mdof/text/warnings.h"
 
 #include <cctype>
 #include <map>

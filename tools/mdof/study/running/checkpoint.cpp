@@ -1,6 +1,6 @@
-#include "tools/mdof/study/checkpoint.h"
+#include "tools/mdof/study/running/checkpoint.h"
 
-#include "schema/bytes.h"
+#include "schema/base/bytes.h"
 
 namespace mdof::tools {
 namespace {

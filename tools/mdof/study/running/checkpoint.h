@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "algo/sensitivity/statistics.h"
-#include "schema/result.h"
-#include "schema/study.h"
+#include "algo/sensitivity/statistics/statistics.h"
+#include "schema/base/result.h"
+#include "schema/study/study.h"
 
 namespace mdof::tools {
 

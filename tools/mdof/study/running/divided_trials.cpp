@@ -1,9 +1,9 @@
-#include "tools/mdof/study/divided_trials.h"
+#include "tools/mdof/study/running/divided_trials.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "tools/mdof/study/workers.h"
+#include "tools/mdof/study/running/workers.h"
 
 namespace mdof::tools {
 

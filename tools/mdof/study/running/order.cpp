@@ -1,16 +1,16 @@
-#include "tools/mdof/study/order.h"
+#include "tools/mdof/study/running/order.h"
 
 #include <cmath>
 #include <filesystem>
 #include <limits>
 
-#include "schema/files.h"
-#include "schema/json_writer.h"
-#include "schema/number.h"
-#include "schema/sha256.h"
-#include "schema/toml_reader.h"
+#include "schema/base/files.h"
+#include "schema/base/json_writer.h"
+#include "schema/base/number/number.h"
+#include "schema/base/sha256.h"
+#include "schema/base/toml_reader.h"
 #include "tools/mdof/study/preset.h"
-#include "tools/mdof/study/run_experiment.h"
+#include "tools/mdof/study/running/run_experiment.h"
 
 namespace mdof::tools {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "algo/sensitivity/adaptive.h"
-#include "algo/sensitivity/plan_experiment.h"
+#include "algo/sensitivity/plan/experiment.h"
 #include "algo/sensitivity/simulation.h"
-#include "schema/result.h"
-#include "schema/study_plan.h"
+#include "schema/base/result.h"
+#include "schema/study/plan.h"
 
 namespace mdof::tools {
 

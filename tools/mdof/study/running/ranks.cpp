@@ -1,4 +1,4 @@
-#include "tools/mdof/study/ranks.h"
+#include "tools/mdof/study/running/ranks.h"
 
 #include <dlfcn.h>
 

@@ -1,11 +1,11 @@
-#include "tools/mdof/study/recorder.h"
+#include "tools/mdof/study/running/recorder.h"
 
 #include <filesystem>
 
 #include "daemon/paths.h"
 #include "daemon/version.h"
-#include "tools/mdof/database.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
 
 namespace mdof::tools {
 namespace {

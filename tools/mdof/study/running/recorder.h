@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
-#include "daemon/store/study_record.h"
-#include "schema/result.h"
-#include "schema/study.h"
-#include "tools/mdof/study/checkpoint.h"
-#include "tools/mdof/study/order.h"
+#include "daemon/store/study/study_record.h"
+#include "schema/base/result.h"
+#include "schema/study/study.h"
+#include "tools/mdof/study/running/checkpoint.h"
+#include "tools/mdof/study/running/order.h"
 
 namespace mdof::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/study/run_experiment.h"
+#include "tools/mdof/study/running/run_experiment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "algo/line_fit.h"
-#include "algo/restate.h"
-#include "algo/sensitivity/plan_axis.h"
-#include "algo/sensitivity/plan_base.h"
-#include "daemon/pipeline.h"
+#include "algo/iso230/line_fit.h"
+#include "algo/model/restate.h"
+#include "algo/sensitivity/plan/axis.h"
+#include "algo/sensitivity/plan/base.h"
+#include "daemon/measure/pipeline.h"
 #include "drivers/simulator/simulator.h"
 #include "schema/units.h"
 

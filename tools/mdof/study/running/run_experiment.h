@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "algo/sensitivity/plan_experiment.h"
-#include "schema/result.h"
-#include "schema/study_plan.h"
+#include "algo/sensitivity/plan/experiment.h"
+#include "schema/base/result.h"
+#include "schema/study/plan.h"
 
 namespace mdof::tools {
 

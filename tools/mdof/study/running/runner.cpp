@@ -1,4 +1,4 @@
-#include "tools/mdof/study/runner.h"
+#include "tools/mdof/study/running/runner.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "tools/mdof/interrupt.h"
-#include "tools/mdof/study/workers.h"
+#include "tools/mdof/study/running/workers.h"
 
 namespace mdof::tools {
 namespace {

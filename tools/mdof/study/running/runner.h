@@ -15,11 +15,11 @@
 
 #include "algo/sensitivity/adaptive.h"
 #include "algo/sensitivity/experiment.h"
-#include "schema/result.h"
+#include "schema/base/result.h"
 #include "tools/mdof/progress.h"
-#include "tools/mdof/study/checkpoint.h"
-#include "tools/mdof/study/divided_trials.h"
-#include "tools/mdof/study/ranks.h"
+#include "tools/mdof/study/running/checkpoint.h"
+#include "tools/mdof/study/running/divided_trials.h"
+#include "tools/mdof/study/running/ranks.h"
 
 namespace mdof::tools {
 

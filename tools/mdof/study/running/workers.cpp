@@ -1,4 +1,4 @@
-#include "tools/mdof/study/workers.h"
+#include "tools/mdof/study/running/workers.h"
 
 #include <pthread.h>
 #include <sched.h>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "daemon/rpc/method_table.h"
-#include "schema/json_writer.h"
+#include "schema/base/json_writer.h"
 #include "schema/run.h"
 
 namespace mdof::daemon {

@@ -1,11 +1,11 @@
-#include "tools/mdof/live_view.h"
+#include "tools/mdof/commands/live_view.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tools/mdof/json_read.h"
+#include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text_table.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

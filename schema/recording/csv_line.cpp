@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "schema/base/number/number.h"
-#include "schema/units.h"
+#include "schema/base/number/seconds.h"
 
 namespace mdof {
 namespace {
 
 using State = CsvLine::State;
-constexpr double kMaxSeconds = 9.2e9;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
@@ -71,24 +70,6 @@ CsvLine wrong_count(std::string_view line, std::size_t fields, std::size_t colum
 }
 
 }  // namespace
-
-bool parse_seconds(std::string_view field, std::int64_t& time_ns) {
-  double seconds = 0;
-  if (!parse_whole_field(field, seconds) || !(std::abs(seconds) < kMaxSeconds)) return false;
-  if (field.find_first_not_of("-.0123456789") != field.npos) {  // an exponent
-    time_ns = std::llround(seconds * static_cast<double>(kNsPerS));
-    return true;
-  }
-  const std::size_t sign = field[0] == '-';
-  const std::size_t point = std::min(field.find('.'), field.size());
-  std::int64_t ns = 0;
-  for (const char c : field.substr(sign, point - sign)) ns = ns * 10 + (c - '0');
-  for (std::size_t i = point + 1; i <= point + 9; ++i)
-    ns = ns * 10 + (i < field.size() ? field[i] - '0' : 0);
-  if (point + 10 < field.size() && field[point + 10] >= '5') ++ns;
-  time_ns = sign ? -ns : ns;
-  return true;
-}
 
 bool is_missing_value(std::string_view field) {
   if (field.starts_with('-')) field.remove_prefix(1);  // the "-nan" of printf

@@ -30,8 +30,4 @@ bool is_missing_value(std::string_view field);
 // `line` without its line end. Spaces around a field and one '+' before a number are tolerated.
 CsvLine parse_csv_line(std::string_view line, const CsvHeader& header);
 
-// Decimal seconds to nanoseconds, to the nearest, exactly; also times of which a double would lose
-// the nanoseconds. False: not a number, or beyond ±9.2e9 s.
-bool parse_seconds(std::string_view field, std::int64_t& time_ns);
-
 }  // namespace mdof

@@ -7,6 +7,7 @@
 #include "schema/base/number/number.h"
 #include "schema/base/number/number_columns_avx512.h"
 #include "schema/base/number/number_scan.h"
+#include "schema/base/number/seconds.h"
 
 namespace mdof {
 namespace {

@@ -24,6 +24,11 @@ TEST(Usb1608Protocol, ScanStartIsTheVectors) {
   EXPECT_EQ(read->channels, 0x1F);
   EXPECT_EQ(read->options, kNoStall);
   EXPECT_EQ(rate_of(read_scan_start(at_10kHz)->period), 10'000);
+  const auto finite = read_scan_start(bytes("04 03 02 01 14 13 12 11 21 31"));
+  EXPECT_EQ(finite->scans, 0x01020304U);
+  EXPECT_EQ(finite->period, 0x11121314U);
+  EXPECT_EQ(finite->channels, 0x21);
+  EXPECT_EQ(finite->options, 0x31);
   EXPECT_FALSE(read_scan_start(at_1kHz.substr(1)));
 }
 

@@ -100,6 +100,23 @@ TEST(CapancdtFrameCounter, DropsWhatCameBefore) {
   EXPECT_EQ(placed.size(), 6u);
 }
 
+// 21 values in a packet: one sent twice a little later counts back by 42.
+TEST(CapancdtFrameCounter, DropsLargePacketsThatCameBefore) {
+  Source source{CounterUnit::value, 3, 7, 1, 1000};
+  FrameCounter counter(1, kMostLost);
+  std::deque<PlacedPacket> placed;
+  std::vector<Packet> sent;
+  for (int i = 0; i < 10; ++i) {
+    sent.push_back(source.next());
+    ASSERT_TRUE(counter.add(sent.back(), placed));
+  }
+  ASSERT_TRUE(counter.add(sent[7], placed));
+  ASSERT_TRUE(counter.add(source.next(), placed));
+  EXPECT_EQ(counter.duplicates(), 1u);
+  EXPECT_EQ(counter.lost(), 0u);
+  EXPECT_EQ(placed.back().first_frame, 70);
+}
+
 TEST(CapancdtFrameCounter, LearnsAnewWhenPacketsGrow) {
   // With one frame in a packet, frames and packets cannot be told apart.
   Source source{CounterUnit::packet, 2, 1, 1};
@@ -191,6 +208,31 @@ TEST(CapancdtRateWatch, BearsSlowControllers) {
   RateWatch watch(400e6);  // 2.5 frames a second
   for (int i = 0; i < 1000; ++i)
     EXPECT_FALSE(watch.add(i, i * std::int64_t{400'000'000} + (i % 3) * 50'000'000)) << i;
+}
+
+// 64 s of the host's clock had passed before the first frame: they are no part of a stretch.
+TEST(CapancdtRateWatch, OneSlowStretchAtTheBeginningIsAHoldUp) {
+  RateWatch watch(1e6);
+  std::int64_t t_ns = 64'000'000'000;
+  for (int i = 0; i < 10'000; ++i) {
+    EXPECT_FALSE(watch.add(i, t_ns)) << i;
+    t_ns += i < 1'500 ? 1'400'000 : 1'000'000;
+  }
+}
+
+// A tenth: 9 % are borne, of 11 % it tells.
+TEST(CapancdtRateWatch, TellsMoreThanATenth) {
+  const auto told = [](double ratio) {
+    RateWatch watch(1e6);
+    bool tells = false;
+    for (int i = 0; i < 10'000; ++i)
+      tells = tells || watch.add(i, static_cast<std::int64_t>(i * ratio * 1e6));
+    return tells;
+  };
+  EXPECT_FALSE(told(1.09));
+  EXPECT_FALSE(told(0.91));
+  EXPECT_TRUE(told(1.11));
+  EXPECT_TRUE(told(0.89));
 }
 
 }  // namespace

@@ -206,5 +206,39 @@ TEST(CapancdtProtocol, LargestPacket) {
   }
 }
 
+// The manual's table of the header: each field at its offset, none of them as any other.
+TEST(CapancdtProtocol, EachFieldHasItsPlace) {
+  const std::string bytes = from_hex(
+      "53 41 45 4D 01 02 03 04 11 12 13 14 40 00 00 00 00 00 00 00 31 32 33 34 04 00 01 00 41 42 "
+      "43 44 56 34 12 00");
+  PacketParser parser;
+  parser.add(bytes);
+  Packet packet;
+  ASSERT_TRUE(parser.next(packet));
+  EXPECT_EQ(packet.article, 0x04030201);
+  EXPECT_EQ(packet.serial, 0x14131211);
+  EXPECT_EQ(packet.position(4), 0);
+  EXPECT_EQ(packet.status, 0x34333231U);
+  EXPECT_EQ(packet.counter, 0x44434241U);
+  EXPECT_EQ(packet.values, std::vector<std::int32_t>{0x123456});
+  EXPECT_EQ(encode(packet, SizeOrder::bytes_per_frame_first), bytes);
+}
+
+TEST(CapancdtProtocol, APacketBeginsEmpty) {
+  EXPECT_EQ(Packet{}.channels(), 0);
+  EXPECT_EQ(Packet{}.frames(), 0);
+  EXPECT_EQ(Packet{}.counter, 0U);
+}
+
+TEST(CapancdtProtocol, EachValueOfAFrameHasItsPlace) {
+  Packet packet;
+  packet.channel_bits = 0x15;  // channels 1 to 3
+  packet.values = {11, 12, 13, 21, 22, 23};
+  EXPECT_EQ(packet.value(0, 0), 11);
+  EXPECT_EQ(packet.value(0, 2), 13);
+  EXPECT_EQ(packet.value(1, 0), 21);
+  EXPECT_EQ(packet.value(1, 2), 23);
+}
+
 }  // namespace
 }  // namespace mdof::drivers::capancdt

@@ -16,6 +16,19 @@ TEST(LabjackVolts, NominalVolts) {
   EXPECT_NEAR(volts(nominal_calibration(2), 65535), 0.10109575, 1e-7);
 }
 
+// U6 and T7: a tenth a step of the gain of 0.00031580578, -0.0003158058 V a code and centre 33523
+// (LabJackPython, src/u6.py, CalibrationInfo; LabJack's T7 example stream.c).
+TEST(LabjackVolts, EachGainIsATenth) {
+  const double lowest_v[] = {-10.586757, -1.0586757, -0.10586757, -0.010586757};
+  const double highest_v[] = {10.109575, 1.0109575, 0.10109575, 0.010109575};
+  for (std::size_t gain = 0; gain < 4; ++gain) {
+    const AinCalibration c = nominal_calibration(gain);
+    EXPECT_NEAR(volts(c, 0) / lowest_v[gain], 1, 1e-6) << gain;
+    EXPECT_NEAR(volts(c, 65535) / highest_v[gain], 1, 1e-6) << gain;
+    EXPECT_EQ(c.centre, 33523) << gain;
+  }
+}
+
 TEST(LabjackVolts, EachSideOfTheCentreHasItsSlope) {
   const AinCalibration c{2e-4, -3e-4, 1000};
   EXPECT_NEAR(volts(c, 1010), 2e-3, 1e-9);

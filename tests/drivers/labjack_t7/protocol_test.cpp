@@ -89,6 +89,29 @@ TEST(LabjackT7Protocol, WhatIsNoStreamIsRefused) {
   }
 }
 
+// A length of 10: no sample, as where only a status is told.
+TEST(LabjackT7Protocol, APacketWithoutSamplesIsOne) {
+  PacketReader reader;
+  reader.append(modbus::bytes("00 05 00 00 00 0A 01 4C 10 00 00 00 0B 7C 00 00"));
+  StreamPacket p;
+  ASSERT_TRUE(reader.next(p).value());
+  EXPECT_EQ(p.transaction, 5);
+  EXPECT_EQ(p.status, 2940);
+  EXPECT_TRUE(p.samples.empty());
+}
+
+// T-Series Datasheet 3.2.4: at most 512 samples on Ethernet, a length of 1034.
+TEST(LabjackT7Protocol, TheLargestPacketIsRead) {
+  std::string bytes = modbus::bytes("00 00 00 00 04 0A 01 4C 10 00 00 00 00 00 00 00");
+  bytes.append(1024, '\x11');
+  PacketReader reader;
+  reader.append(bytes);
+  StreamPacket p;
+  ASSERT_TRUE(reader.next(p).value());
+  EXPECT_EQ(p.samples, std::vector<std::uint16_t>(512, 0x1111));
+  EXPECT_EQ(encode(p), bytes);
+}
+
 TEST(LabjackT7Protocol, RangesAndFlash) {
   EXPECT_EQ(range_index(0.1), std::optional<std::size_t>(2));
   EXPECT_FALSE(range_index(5));

@@ -37,6 +37,7 @@ TEST_F(LabjackT7Vectors, AddressesAreThoseOfLabjacksMap) {
       {reg::stream_buffer, "STREAM_BUFFER_SIZE_BYTES", 4012},
       {reg::stream_clock_source, "STREAM_CLOCK_SOURCE", 4014},
       {reg::stream_target, "STREAM_AUTO_TARGET", 4016},
+      {reg::stream_data_type, "STREAM_DATATYPE", 4018},
       {reg::stream_scans, "STREAM_NUM_SCANS", 4020},
       {reg::stream_start_time, "STREAM_START_TIME_STAMP", 4026},
       {reg::stream_no_recovery, "STREAM_AUTORECOVER_DISABLE", 4028},
@@ -100,6 +101,31 @@ TEST_F(LabjackT7Vectors, EachInputHasItsRangeAndNegativeChannel) {
   };
   for (const VendorVector& vector : vectors)
     EXPECT_EQ(mismatch(ask(vector.request), vector.reply), "") << vector;
+}
+
+// ljm_constants.json, "errors"; index 10 and bit 1 of HARDWARE_INSTALLED: the registers' texts.
+TEST_F(LabjackT7Vectors, NumbersAreThoseOfLabjacksConstants) {
+  EXPECT_EQ(status::recovering, 2940);         // STREAM_AUTO_RECOVER_ACTIVE
+  EXPECT_EQ(status::recovered, 2941);          // STREAM_AUTO_RECOVER_END
+  EXPECT_EQ(status::scan_overlap, 2942);       // STREAM_SCAN_OVERLAP
+  EXPECT_EQ(status::recovery_overflow, 2943);  // STREAM_AUTO_RECOVER_END_OVERFLOW
+  EXPECT_EQ(status::burst_complete, 2944);     // STREAM_BURST_COMPLETE
+  EXPECT_EQ(status::buffer_full, 2945);        // STREAM_BUFFER_FULL
+  for (const int code : {2605, 2606, 2607, 2608, 2618, 2620, 2625, 2940, 2945})
+    EXPECT_TRUE(error_text(code).starts_with("LabJack error " + std::to_string(code) + ", "));
+  EXPECT_EQ(kQuadrature, 10U);
+  EXPECT_EQ(kHasWifi, 2U);
+  EXPECT_EQ(kSingleEnded, 199);
+  EXPECT_EQ(kAins, 14);
+  EXPECT_EQ(kCore_Hz, 40e6);
+  EXPECT_EQ(kMostSamples, 512U);
+  EXPECT_EQ(kTestValue, 0x00112233U);
+}
+
+// T7 calibration: 13 floats a read from 0x3C4000, block by block (LabJack's example stream.c).
+TEST_F(LabjackT7Vectors, FlashIsReadBlockByBlock) {
+  const std::uint32_t addresses[] = {0x3C4000, 0x3C4034, 0x3C4068, 0x3C409C};
+  for (int block = 0; block < 4; ++block) EXPECT_EQ(flash_address(block), addresses[block]);
 }
 
 }  // namespace

@@ -56,6 +56,26 @@ TEST(LabjackU6Protocol, ClocksCoverSlowAndFast) {
   EXPECT_FALSE(stream_clock(1e9));
 }
 
+// U6 Datasheet 5.2.12: an interval of 1 to 65535 of 4 MHz, or of that divided by 256.
+TEST(LabjackU6Protocol, TheLongestAndShortestIntervals) {
+  const auto longest = stream_clock(4e6 / 65535);  // 61.04 Hz
+  ASSERT_TRUE(longest);
+  EXPECT_EQ(longest->config, 0);
+  EXPECT_EQ(longest->interval, 65535);
+  const auto divided = stream_clock(4e6 / 65536);
+  ASSERT_TRUE(divided);
+  EXPECT_EQ(divided->config, 2);
+  EXPECT_EQ(divided->interval, 256);
+  EXPECT_EQ(stream_clock(15625.0 / 65535)->interval, 65535);
+  EXPECT_FALSE(stream_clock(15625.0 / 65536));
+  EXPECT_EQ(stream_clock(4e6)->interval, 1);
+}
+
+TEST(LabjackU6Protocol, AReplyThatIsTooLongIsRefused) {
+  EXPECT_FALSE(read_stream_start(bytes("A9 A9 00 00 00")));
+  EXPECT_FALSE(read_stream_config(bytes("0B F8 01 11 00 00 00 00 00 00")));
+}
+
 TEST(LabjackU6Protocol, RepliesAreRead) {
   EXPECT_TRUE(read_stream_config(bytes("0B F8 01 11 00 00 00 00")));
   EXPECT_TRUE(read_stream_start(bytes("A9 A9 00 00")));

@@ -114,5 +114,38 @@ TEST_F(LabjackU6Vectors, NominalConstantsAndTheirSigns) {
   EXPECT_NEAR(labjack::volts(nominal, 65535), (65535 - 33523.0) * 3.1580578e-4, 1e-6);
 }
 
+// exodriver, liblabjackusb/labjackusb.h: LJ_VENDOR_ID, U6_PRODUCT_ID, U6_PIPE_EP1_OUT,
+// U6_PIPE_EP2_IN, U6_PIPE_EP3_IN; U6 Datasheet 5.1: at most 64 bytes either way.
+TEST_F(LabjackU6Vectors, EndpointsAreThoseOfTheExodriver) {
+  EXPECT_EQ(kVendor, 0x0CD5);
+  EXPECT_EQ(kProduct, 6);
+  EXPECT_EQ(kCommandOut, 0x01);
+  EXPECT_EQ(kReplyIn, 0x82);
+  EXPECT_EQ(kStreamIn, 0x83);
+  EXPECT_EQ(kCommandBytes, 64U);
+  EXPECT_EQ(kAins, 14);
+}
+
+// LabJackPython, src/LabJackPython.py, errorcodes: those of a stream.
+TEST_F(LabjackU6Vectors, ErrorsOfAStreamHaveWords) {
+  for (const int code : {48, 49, 50, 52, 55, 56, 58, 59, 60, 63})
+    EXPECT_TRUE(error_text(code).starts_with("U6 error " + std::to_string(code) + ", ")) << code;
+  for (const int code : {47, 51, 53, 54, 57, 61, 62})
+    EXPECT_EQ(error_text(code), "U6 error " + std::to_string(code));
+}
+
+// U6 Datasheet 5.2.12: bits 5-4 of a channel's options are the gain; byte 10 is the settling in
+// 10 us. LabJackPython, src/u6.py, U6.streamConfig.
+TEST_F(LabjackU6Vectors, AStreamOfAnotherGainAndSettling) {
+  StreamSetup setup;
+  setup.gain = 2;
+  setup.settling_10us = 5;
+  setup.resolution_index = 3;
+  setup.samples_per_packet = 20;
+  setup.list = {1, kTimer0, kCapture};
+  EXPECT_EQ(stream_config(setup, {2, 0x1234, 0}),
+            bytes("43 F8 07 11 30 02 03 03 14 00 05 02 34 12 01 20 C8 00 E0 00"));
+}
+
 }  // namespace
 }  // namespace mdof::drivers::labjack_u6

@@ -51,6 +51,10 @@ TEST(CheckCount, SaysWhatToWriteWhere) {
   CountFiles good{"quadrature x4", "normal", "1", "65535", "0"};
   EXPECT_EQ(check_count(good, "count0", "quadrature x4", 0), 65535u);
   EXPECT_EQ(check_count({}, "count0", "", 65535), 65535u);
+  // The kernel's ABI: of the modes only these two go on counting at an end.
+  CountFiles modulo = good;
+  modulo.count_mode = "modulo-n";
+  EXPECT_EQ(check_count(modulo, "count0", "quadrature x4", 0), 65535u);
   const auto refused = [&](auto change, const std::string& function = "") {
     CountFiles files = good;
     change(files);

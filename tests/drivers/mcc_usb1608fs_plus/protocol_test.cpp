@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "drivers/mcc_usb1608fs_plus/settings.h"
 #include "tests/drivers/modbus/hex.h"
 
 namespace mdof::drivers::mcc_usb1608fs_plus {
@@ -23,6 +24,11 @@ TEST(Usb1608Protocol, ScanStartIsTheVectors) {
   EXPECT_EQ(read->channels, 0x1F);
   EXPECT_EQ(read->options, kNoStall);
   EXPECT_EQ(rate_of(read_scan_start(at_10kHz)->period), 10'000);
+  const auto finite = read_scan_start(bytes("04 03 02 01 14 13 12 11 21 31"));
+  EXPECT_EQ(finite->scans, 0x01020304U);
+  EXPECT_EQ(finite->period, 0x11121314U);
+  EXPECT_EQ(finite->channels, 0x21);
+  EXPECT_EQ(finite->options, 0x31);
   EXPECT_FALSE(read_scan_start(at_1kHz.substr(1)));
 }
 
@@ -112,6 +118,36 @@ TEST(Usb1608Protocol, ImpossibleCalibrationIsRefused) {
        {pair(0, 0), pair(2, 0), pair(-1, 0), pair(1, 10'000), pair(NAN, 0), pair(1, NAN),
         pair(INFINITY, 0), std::string(8, '\xFF'), std::string(7, '\0')})
     EXPECT_FALSE(read_calibration(bad));
+}
+
+TEST(Usb1608Protocol, CalibrationMayBeATenthOff) {
+  const auto slope = [](const char* hex) {
+    return read_calibration(bytes(hex) + std::string(4, '\0')).has_value();
+  };
+  EXPECT_TRUE(slope("5C 8F 8A 3F"));   // 1.0825
+  EXPECT_FALSE(slope("33 33 93 3F"));  // 1.15
+  EXPECT_FALSE(slope("9A 99 59 3F"));  // 0.85
+}
+
+TEST(Usb1608Settings, AScanHasItsInputsAndOptions) {
+  Settings settings;
+  settings.rate_hz = 1000;
+  settings.inputs.resize(2);
+  settings.inputs[0].input = 2;
+  settings.inputs[1].input = 7;
+  EXPECT_EQ(scan_start(scan_setup(settings)), bytes("00 00 00 00 3F 9C 00 00 84 80"));
+  settings.rate_hz = 100;  // a packet of 64 bytes would take 160 ms: each scan at once
+  EXPECT_EQ(scan_start(scan_setup(settings)), bytes("00 00 00 00 7F 1A 06 00 84 81"));
+}
+
+// Packets of 64 bytes; 5 ms of them in a transfer, 0.25 s of them under way, 4 to 64 transfers.
+TEST(Usb1608Settings, TransfersHoldAQuarterOfASecond) {
+  EXPECT_EQ(transfers_for(400'000).bytes, 62U * 64);  // 12,500 packets a second
+  EXPECT_EQ(transfers_for(400'000).transfers, 51U);
+  EXPECT_EQ(transfers_for(32'000).bytes, 5U * 64);
+  EXPECT_EQ(transfers_for(32'000).transfers, 50U);
+  EXPECT_EQ(transfers_for(10).bytes, 64U);
+  EXPECT_EQ(transfers_for(10).transfers, 4U);
 }
 
 }  // namespace

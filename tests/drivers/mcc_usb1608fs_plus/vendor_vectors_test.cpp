@@ -54,5 +54,18 @@ TEST_F(Usb1608Vectors, TheConstantsAreWhereTheVendorReadsThem) {
   EXPECT_EQ(device.identity().product, 0x00EA);
 }
 
+// src/usb/UsbDaqDevice.cpp: vendor 0x09db; src/usb/Usb1608fsPlus.cpp and AiUsb1608fsPlus.cpp: eight
+// inputs, a serial number of 8 characters, 100 kS/s each and 400 kS/s in all; product 0x00ea.
+TEST_F(Usb1608Vectors, NumbersAreTheVendors) {
+  EXPECT_EQ(kVendor, 0x09DB);
+  EXPECT_EQ(kProduct, 0x00EA);
+  EXPECT_EQ(kSamplesIn, 0x81);
+  EXPECT_EQ(kInputs, 8U);
+  EXPECT_EQ(kSerialBytes, 8U);
+  EXPECT_EQ(kPacket, 64U);
+  EXPECT_EQ(kMostRate_Hz, 100e3);
+  EXPECT_EQ(kMostSamples_Hz, 400e3);
+}
+
 }  // namespace
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

@@ -121,6 +121,15 @@ TEST(ModbusProtocol, AHeaderThatLiesIsRefused) {
   EXPECT_NE(why_not(Framing::tcp, asked, good + '\0'), "accepted");
 }
 
+// MODBUS Messaging on TCP/IP 3.1.3: the length counts unit and PDU, and a PDU has a function.
+TEST(ModbusProtocol, AReplyWithoutAFunctionIsCutShort) {
+  const Frame asked{2, 1, read_request(kReadHolding, 55100, 2)};
+  EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 01 01")), "a reply was cut short");
+  EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 00")), "a reply was cut short");
+  EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 08 01 03 04 00 11 22 33")),
+            "a reply of length 8 came instead of 7");
+}
+
 TEST(ModbusProtocol, EveryBitOfAnRtuReplyIsGuarded) {
   const Frame asked{0, 1, read_request(kReadInput, 0, 2)};
   const std::string good = bytes("01 04 04 00 00 04 D2 79 19");
@@ -146,6 +155,17 @@ TEST(ModbusProtocol, AWriteIsConfirmedByItsOwnEcho) {
 }
 
 TEST(ModbusProtocol, ExceptionsHaveNames) {
+  // MODBUS Application Protocol V1.1b3, 7; 7 from the older Modicon guide.
+  EXPECT_STREQ(exception_name(1), "illegal function");
+  EXPECT_STREQ(exception_name(3), "illegal data value");
+  EXPECT_STREQ(exception_name(4), "server device failure");
+  EXPECT_STREQ(exception_name(5), "acknowledge");
+  EXPECT_STREQ(exception_name(6), "server device busy");
+  EXPECT_STREQ(exception_name(7), "negative acknowledge");
+  EXPECT_STREQ(exception_name(8), "memory parity error");
+  EXPECT_STREQ(exception_name(10), "gateway path unavailable");
+  EXPECT_STREQ(exception_name(0), "of no known meaning");
+  EXPECT_STREQ(exception_name(12), "of no known meaning");
   EXPECT_STREQ(exception_name(2), "illegal data address");
   EXPECT_STREQ(exception_name(11), "gateway target device failed to respond");
   EXPECT_STREQ(exception_name(9), "of no known meaning");

@@ -109,6 +109,20 @@ TEST(ModbusReadings, ARingCountsOnAcrossItsEndsAndStartsAnewAfterReset) {
   EXPECT_EQ(count(5), 5);
 }
 
+// Of a LabJack T7 and a PoKeys57E: the other word first.
+TEST(ModbusReadings, ValuesAreWrittenInBothWordOrders) {
+  const auto words = [](const std::string& keys, double raw) {
+    return encode(profile_from(value(keys)).values[0], raw);
+  };
+  using Words = std::vector<std::uint16_t>;
+  EXPECT_EQ(words("", 0xFFFE), (Words{0xFFFE}));
+  EXPECT_EQ(words("type = \"i16\"", -2), (Words{0xFFFE}));
+  EXPECT_EQ(words("type = \"u32\"", 0x89ABCDEF), (Words{0x89AB, 0xCDEF}));
+  EXPECT_EQ(words("type = \"u32\"\nwords = \"low-first\"", 0x89ABCDEF), (Words{0xCDEF, 0x89AB}));
+  EXPECT_EQ(words("type = \"i32\"", -2), (Words{0xFFFF, 0xFFFE}));
+  EXPECT_EQ(words("type = \"f32\"", -2.5), (Words{0xC020, 0}));
+}
+
 TEST(ModbusReadings, AdjacentRegistersAreReadTogether) {
   const auto at = [](int address, int count = 1, Function function = kReadHolding) {
     return Span{{function, address}, count};

@@ -134,5 +134,42 @@ TEST(PoKeys57uProtocol, WhereAllNumbersAreOwedTheOldestIsUsed) {
   EXPECT_EQ(ids.next(300), first);
 }
 
+// What is put into a frame stays within its place: encoder 13 ends at byte 59, input 7 at 21, the
+// tick at 5.
+TEST(PoKeys57uProtocol, NothingIsWrittenBesideItsPlace) {
+  struct {
+    Counts counts;
+    std::int32_t beside = -1;
+  } block{};
+  block.counts.fill(-1);
+  Frame reply;
+  set_counts(reply, block.counts);
+  EXPECT_EQ(wrap(Way::reply, reply).substr(56), bytes("FF FF FF FF 00 00 00 00"));
+  struct {
+    Codes raw;
+    std::uint16_t beside = 0xFFFF;
+  } inputs{};
+  inputs.raw.fill(0x0FFF);
+  reply = {};
+  set_analogue(reply, inputs.raw);
+  EXPECT_EQ(wrap(Way::reply, reply).substr(18, 8), bytes("0F FF 0F FF 00 00 00 00"));
+  reply = {};
+  set_tick(reply, 0xFFFFFFFF);
+  EXPECT_EQ(wrap(Way::reply, reply).substr(0, 12), bytes("AA 00 FF FF FF FF 00 A6 00 00 00 00"));
+}
+
+// "increment per request": one more than the last, over what is owed still.
+TEST(PoKeys57uProtocol, NumbersGoOnByOneAndPassOverWhatIsOwed) {
+  RequestIds ids;
+  const std::uint8_t owed = ids.next(0);
+  for (int i = 1; i < 256; ++i) {
+    const std::uint8_t id = ids.next(i);
+    EXPECT_EQ(id, static_cast<std::uint8_t>(owed + i));
+    ids.answered(id);
+  }
+  const std::uint8_t after = ids.next(256);
+  EXPECT_EQ(after, static_cast<std::uint8_t>(owed + 1));
+}
+
 }  // namespace
 }  // namespace mdof::drivers::pokeys57u

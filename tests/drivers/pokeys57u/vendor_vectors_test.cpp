@@ -59,5 +59,30 @@ TEST(PoKeys57uVectors, TheSimulatedOneAnswersWhatTheVendorsLibraryAccepts) {
   }
 }
 
+// PoKeysLibCore.c: vendor 0x1DC3, product 0x1001, interface 1, frames of 64 bytes; the
+// specification: 25 encoders and an ultra-fast one, seven analogue inputs of 12 bits, 0 to 3.3 V.
+TEST(PoKeys57uVectors, NumbersAreTheVendors) {
+  EXPECT_EQ(kVendor, 0x1DC3);
+  EXPECT_EQ(kProduct, 0x1001);
+  EXPECT_EQ(kInterface, 1);
+  EXPECT_EQ(kFrameBytes, 64U);
+  EXPECT_EQ(kEncoders, 25U);
+  EXPECT_EQ(kUltraFast, 25U);
+  EXPECT_EQ(kCounters, 26U);
+  EXPECT_EQ(kAnalogues, 7U);
+  EXPECT_EQ(kAnalogueTop, 4095);
+  EXPECT_EQ(kAnalogueTop_V, 3.3);
+}
+
+// The specification's table of hardware numbers.
+TEST(PoKeys57uVectors, BoardsHaveTheirNames) {
+  const auto named = [](int hardware) { return Identity{1, hardware, ""}.model(); };
+  EXPECT_EQ(named(10), "PoKeys56U");
+  EXPECT_EQ(named(28), "PoKeys57U");
+  EXPECT_EQ(named(30), "PoKeys57U v1.1");
+  EXPECT_EQ(named(32), "PoKeys57CNC");
+  EXPECT_EQ(named(99), "PoKeys");
+}
+
 }  // namespace
 }  // namespace mdof::drivers::pokeys57u

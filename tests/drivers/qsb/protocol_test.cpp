@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "drivers/qsb/tick_length.h"
@@ -81,6 +82,26 @@ TEST(TickLength, LearnsAnotherLength) {
     EXPECT_NEAR(learned(qsb::kTick_ns, true_ns, 0.7) / true_ns, 1, 0.02) << true_ns;
     EXPECT_NEAR(learned(qsb::kTick_ns, true_ns, 70) / true_ns, 1, 7e-4) << true_ns;
   }
+}
+
+// The first lines were held up for 0.2 s and came together: the ticks are as long as before.
+TEST(TickLength, AHoldUpAtTheBeginningIsNoOtherLength) {
+  TickLength tick(1e6);
+  for (std::int64_t ticks = 0; ticks < 2000; ++ticks)
+    tick.add(ticks, std::max<std::int64_t>(ticks * 1'000'000, 200'000'000));
+  EXPECT_EQ(tick.ns(), 1e6);
+}
+
+// Lines of 0.12 to 0.36 s came 9 ms late; the length is that from the first to those near 0.5 s.
+TEST(TickLength, IsMeasuredByTheLastQuarterOfASpan) {
+  constexpr std::int64_t kTrue_ns = 3'906'250;  // 1/256 s
+  TickLength tick(qsb::kTick_ns);
+  for (std::int64_t ticks = 0; ticks * kTrue_ns < 600'000'000; ++ticks) {
+    const std::int64_t at_ns = ticks * kTrue_ns;
+    const bool late = at_ns > 120'000'000 && at_ns < 360'000'000;
+    tick.add(ticks, at_ns + (late ? 9'000'000 : 0));
+  }
+  EXPECT_NEAR(tick.ns() / static_cast<double>(kTrue_ns), 1, 1e-3);
 }
 
 }  // namespace

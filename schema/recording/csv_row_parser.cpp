@@ -202,7 +202,7 @@ Status CsvRowParser::parse_one_line() {
   const CsvLine line = parse_csv_line(text_.substr(begin_, end - begin_), header_);
   if (line.state == CsvLine::State::fatal) return bad_input(where(line_) + line.reason);
   if (line.state == CsvLine::State::blank) {
-    ++blank_lines_;
+    MDOF_CHECK(count_blank_line(end + 1 - begin_));
   } else {
     MDOF_CHECK(report_blank_lines());
     if (block_ends_) return {};  // comes again after the block was handed over
@@ -254,8 +254,20 @@ std::vector<std::string> CsvRowParser::missing_values() const {
   return lines;
 }
 
+Status CsvRowParser::count_blank_line(std::size_t bytes) {
+  ++blank_lines_;
+  blank_bytes_ += bytes;
+  if (blank_bytes_ <= limits_.blank_bytes) return {};
+  const std::uint64_t first = line_ + 1 - blank_lines_;
+  return bad_input(
+      where(first) + "more than " + std::to_string(limits_.blank_bytes) +
+      " bytes of empty lines from here on (" + std::to_string(blank_lines_) +
+      " lines so far); this is no recording: keep the lines before it, or record again");
+}
+
 // Blank lines that turn out not to be the end of the file.
 Status CsvRowParser::report_blank_lines() {
+  blank_bytes_ = 0;
   for (; blank_lines_ > 0; --blank_lines_)
     MDOF_CHECK(report_bad(line_ - blank_lines_, "empty line"));
   return {};

@@ -21,6 +21,9 @@ inline constexpr int kCsvMargin = 64;  // bytes that may be read around a piece 
 struct CsvLimits {
   std::size_t bad_lines = 100;         // skipped and reported; one more is an error. 0: none may be
   std::size_t scans_per_block = 8192;  // half a megabyte of columns: stays in a core's cache
+  // Of empty lines that follow one another; one more is an error: a gzip file of some MB may hold
+  // hours of them.
+  std::size_t blank_bytes = std::size_t{4} << 20;
 };
 
 // Values are raw, in the channel's unit; all are finite but for the missing ones (NaN, marked as
@@ -35,7 +38,7 @@ class CsvRowParser {
   // before and behind. It must stay until next() gave false.
   void give(std::string_view lines);
   // True: `block` is the next block (what it held is reused). False: give() more first.
-  // Errors: too many bad lines, time not growing, a decimal comma. Final.
+  // Errors: too many bad or empty lines, time not growing, a decimal comma. Final.
   Result<bool> next(SampleBlock& block);
   // After the last piece: true and the last, shorter block, or false. Error: there was no good row.
   Result<bool> last(SampleBlock& block);
@@ -56,6 +59,7 @@ class CsvRowParser {
   std::size_t read_times(std::size_t rows, std::size_t stride);
   Status parse_one_line();
   Status store(const struct CsvLine& line);
+  Status count_blank_line(std::size_t bytes);
   Status report_blank_lines();
   Status report_bad(std::uint64_t line, const std::string& reason);
   std::string where(std::uint64_t line) const;
@@ -72,6 +76,7 @@ class CsvRowParser {
   std::size_t begin_ = 0;          // of the next line in text_
   std::uint64_t line_ = 0;         // number of the next line
   std::uint64_t blank_lines_ = 0;  // just before it: at the end of a file they do not matter
+  std::size_t blank_bytes_ = 0;    // of these
   SampleBlock block_;              // in the making: columns at full length, row_ rows filled
   std::size_t row_ = 0;
   bool block_ends_ = false;        // before a line that is skipped

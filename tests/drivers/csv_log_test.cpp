@@ -195,6 +195,21 @@ TEST_F(CsvLogTest, GivesTheRowsBeforeAnErrorFirst) {
   EXPECT_NE(r.error.find(":9003: column time_s"), r.error.npos) << r.error;
 }
 
+// 5 MB of empty lines in 5 kB; the limit is the one that every program has.
+TEST_F(CsvLogTest, ReadsNoFurtherThanTheBoundOfEmptyLines) {
+  const std::string blank(5 << 20, '\n');
+  std::string many = gzipped(log_text(10) + blank);
+  const std::string more = gzipped(blank);
+  for (int k = 0; k < 100; ++k) many += more;
+  const std::string path = file(many);
+  CsvLog log(path);
+  const Replay r = replay(log);
+  EXPECT_NE(r.error.find(path + ":13: more than 4194304 bytes of empty lines"), r.error.npos)
+      << r.error;
+  EXPECT_LT(log.bytes(), many.size());  // the other 500 MB were never unpacked
+  EXPECT_EQ(replay(file(gzipped(log_text(10) + std::string(4 << 20, '\n')))).rows(), 10u);
+}
+
 TEST_F(CsvLogTest, StopsItsThreadsWhenLeftInTheMiddle) {
   const std::string path = file(log_text(100'000));
   for (int reads = 0; reads < 8; ++reads) {

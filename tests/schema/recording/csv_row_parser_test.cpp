@@ -218,6 +218,25 @@ TEST(CsvRowParser, DoesNotMindBlankLinesAtTheEnd) {
   EXPECT_EQ(p.times().size(), 1u);
 }
 
+TEST(CsvRowParser, BoundsEmptyLinesThatFollowOneAnother) {
+  const CsvLimits limits{.blank_bytes = 10};
+  const std::string row = "0,1,2\n", next = "1,1,2\n";
+  EXPECT_EQ(parse(kHeader + row + "\n\r\n\n \r\n\n \n", limits).error, "");  // 10 bytes
+  for (const char* blank : {"\n\n\n\n\n\n\n\n\n\n\n", "\n         \n", "\r\n\r\n\r\n\r\n\r\n\r\n"})
+    for (const std::string& end : {std::string(), next})
+      for (const std::size_t piece : {1u, 7u, 1'000'000u})
+        expect_contains(parse(kHeader + row + blank + end, limits, CsvKind::probe_log, piece).error,
+                        {"x.csv:3: ", "more than 10 bytes of empty lines", "record"});
+}
+
+TEST(CsvRowParser, CountsEmptyLinesAnewAfterEachRow) {
+  std::string text = kHeader;
+  for (int i = 0; i < 20; ++i) text += std::to_string(i) + ",1,2\n\n\n\n\n";
+  const Parsed p = parse(text, {.bad_lines = 100, .blank_bytes = 4});
+  EXPECT_EQ(p.error, "");
+  EXPECT_EQ(p.bad_lines.size(), 19u * 4u);
+}
+
 TEST(CsvRowParser, GivesUpAfterTheStatedNumberOfBadLines) {
   std::string text = kHeader + "0,1,2\n";
   for (int i = 0; i < 5; ++i) text += "bad\n";

@@ -9,9 +9,20 @@ namespace {
 constexpr std::size_t kReach = 5;  // rows before and after
 constexpr double kGreatest_m_s2 = 10;
 
-// Voted by its neighbours: a spike of one scan is no jump.
-double voted(std::span<const double> x, std::size_t i) {
-  return std::max(std::min(x[i - 1], x[i]), std::min(std::max(x[i - 1], x[i]), x[i + 1]));
+double middle(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+// In m a scan, of four rows: the middle one of their three steps, so that neither a jump between
+// two of them nor a spike of one counts.
+double speed_from(std::span<const double> x, std::size_t first) {
+  return middle(x[first + 1] - x[first], x[first + 2] - x[first + 1], x[first + 3] - x[first + 2]);
+}
+
+// Voted by its neighbours, each brought here at the speed of the axis: a spike of one scan is no
+// jump, and a jump keeps its size whichever way the axis moves.
+double voted(std::span<const double> x, std::size_t i, double speed) {
+  return middle(x[i - 1] + speed, x[i], x[i + 1] - speed);
 }
 
 struct Step {
@@ -20,9 +31,11 @@ struct Step {
 
 // The step from i - 1 to i that is left when the axis goes on as before and after.
 Step step_at(std::span<const double> x, std::size_t i) {
-  const double before = (voted(x, i - 1) - voted(x, i - 4)) / 3;
-  const double after = (voted(x, i + 3) - voted(x, i)) / 3;
-  return {voted(x, i) - voted(x, i - 1) - 0.5 * (before + after), after - before};
+  const double speed_before = speed_from(x, i - 4), speed_after = speed_from(x, i);
+  const double last = voted(x, i - 1, speed_before), next = voted(x, i, speed_after);
+  const double before = (last - voted(x, i - 4, speed_before)) / 3;
+  const double after = (voted(x, i + 3, speed_after) - next) / 3;
+  return {next - last - 0.5 * (before + after), after - before};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ struct StudyRecord {
   std::string name;
   std::string plan_toml;      // a user's plan, or the options of a preset
   std::string source;         // file of the plan; "" for a preset
-  std::string settings_toml;  // see tools/mdof/study/running/order.h
+  std::string settings_toml;  // see tools/mdof/study/running/study_request.h
   std::int64_t seed = 0;
   std::optional<std::int64_t> trials_wanted;  // none: as many as the adaptive rule takes
   std::string fingerprint;                    // of its files and first trials

@@ -10,9 +10,9 @@
 
 #include "tests/tools/plot/xml_check.h"
 #include "tools/mdof/plot/axis.h"
+#include "tools/mdof/plot/labels.h"
 #include "tools/mdof/plot/style.h"
 #include "tools/mdof/plot/svg.h"
-#include "tools/mdof/plot/text.h"
 
 namespace mdof::tools::plot {
 namespace {

@@ -1,7 +1,7 @@
 // mdof sensitivity: how mounting errors become errors of the result, by Monte Carlo.
 //
-//   rank 0 reads the order ─▶ all ranks make the experiment ─▶ all run its trials ─▶ rank 0 answers
-//   the plan's questions, stores, draws and prints
+//   rank 0 reads the request ─▶ all ranks make the experiment ─▶ all run its trials ─▶ rank 0
+//   answers the plan's questions, stores, draws and prints
 #include <CLI/CLI.hpp>
 
 #include "daemon/paths.h"
@@ -9,9 +9,9 @@
 #include "tools/mdof/interrupt.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/plot/study_plots.h"
+#include "tools/mdof/study/analyses.h"
 #include "tools/mdof/study/json.h"
 #include "tools/mdof/study/output.h"
-#include "tools/mdof/study/questions.h"
 #include "tools/mdof/study/result.h"
 #include "tools/mdof/study/running/ranks.h"
 #include "tools/mdof/study/running/recorder.h"
@@ -33,29 +33,29 @@ struct Job {
 
 // What rank 0 knows from the command line and the database before the experiment is made.
 struct Start {
-  StudyOrder order;
+  StudyRequest request;
   std::optional<StoredStudy> stored;  // to be continued
 };
 
 Result<Start> start_of(const SensitivityCommand& command) {
   if (!command.plots.empty()) MDOF_CHECK(check_plot_folder(command.plots));
   if (!command.continued) {
-    MDOF_TRY(StudyOrder order, order_of(command));
-    return Start{std::move(order), std::nullopt};
+    MDOF_TRY(StudyRequest request, request_of(command));
+    return Start{std::move(request), std::nullopt};
   }
   MDOF_TRY(StoredStudy stored, study_to_continue(command.database, *command.continued));
-  return Start{stored.order, std::move(stored)};
+  return Start{stored.request, std::move(stored)};
 }
 
-Result<StudyOrder> share(StudyOrder order, Ranks& ranks) {
-  order.plan_toml = ranks.broadcast(std::move(order.plan_toml));
-  order.source = ranks.broadcast(std::move(order.source));
-  MDOF_TRY(order.settings, parse_settings(ranks.broadcast(settings_toml(order.settings))));
-  return order;
+Result<StudyRequest> share(StudyRequest request, Ranks& ranks) {
+  request.plan_toml = ranks.broadcast(std::move(request.plan_toml));
+  request.source = ranks.broadcast(std::move(request.source));
+  MDOF_TRY(request.settings, parse_settings(ranks.broadcast(settings_toml(request.settings))));
+  return request;
 }
 
 RunnerOptions runner_options(const SensitivityCommand& command, const Job& job) {
-  const StudySettings& settings = job.study.order.settings;
+  const StudySettings& settings = job.study.request.settings;
   return {settings.trials,    settings.adaptive,
           *settings.coverage, command.threads,
           job.study.slow(),   [&job](const StudyWork& work) { job.recorder.checkpoint(work); }};
@@ -74,13 +74,13 @@ Status set_up_record(const SensitivityCommand& command, const std::optional<Stor
 
 Result<Job> make_job(Start start, unsigned threads, Ranks& ranks) {
   const auto& stored = start.stored;
-  MDOF_TRY(StudyOrder order, share(std::move(start.order), ranks));
-  MDOF_TRY(Study study, make_study(std::move(order)));
+  MDOF_TRY(StudyRequest request, share(std::move(start.request), ranks));
+  MDOF_TRY(Study study, make_study(std::move(request)));
   if (stored) {
     MDOF_TRY(StudyWork work, continued_work(*stored, study));
     return Job{std::move(study), std::move(work), {}, {}};
   }
-  const auto trials = study.order.settings.trials.value_or(algo::kPilotTrials);
+  const auto trials = study.request.settings.trials.value_or(algo::kPilotTrials);
   const algo::Experiment& experiment = *study.experiment;
   const algo::StudyScale scale =
       study.slow()
@@ -126,7 +126,7 @@ Status finish(const SensitivityCommand& command, Job& job, StudyState state,
               const std::string& not_settled) {
   StudyResult result = result_of(job.study, job.work, job.started_utc);
   if (state == StudyState::complete && unsolved_output(result).empty()) {
-    MDOF_TRY(state, answer_questions(job.study, command.threads, result));
+    MDOF_TRY(state, analyse(job.study, command.threads, result));
   }
   result.state = state;
   if (state == StudyState::complete && !not_settled.empty()) result.warnings.push_back(not_settled);
@@ -155,8 +155,8 @@ Status run_study(const SensitivityCommand& command, Ranks& ranks) {
 
 Status show_trial(const SensitivityCommand& command, const Ranks& ranks) {
   if (!ranks.first()) return {};
-  MDOF_TRY(StudyOrder order, order_of(command));
-  MDOF_TRY(const Study study, make_study(std::move(order)));
+  MDOF_TRY(StudyRequest request, request_of(command));
+  MDOF_TRY(const Study study, make_study(std::move(request)));
   return print_trial(study, *command.trial, command.form == StudyForm::json);
 }
 

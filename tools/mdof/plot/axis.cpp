@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/mdof/plot/labels.h"
 #include "tools/mdof/plot/style.h"
-#include "tools/mdof/plot/text.h"
 
 namespace mdof::tools::plot {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "tools/mdof/plot/charts.h"
+#include "tools/mdof/plot/labels.h"
 #include "tools/mdof/plot/panel.h"
 #include "tools/mdof/plot/style.h"
-#include "tools/mdof/plot/text.h"
 
 namespace mdof::tools::plot {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/mdof/plot/labels.h"
 #include "tools/mdof/plot/style.h"
-#include "tools/mdof/plot/text.h"
 
 namespace mdof::tools::plot {
 namespace {

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "tools/mdof/plot/charts.h"
-#include "tools/mdof/plot/text.h"
+#include "tools/mdof/plot/labels.h"
 
 namespace mdof::tools {
 namespace {

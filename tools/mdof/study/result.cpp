@@ -41,12 +41,12 @@ void end_convergence(StudyResult& result) {
 }  // namespace
 
 StudyResult result_of(const Study& study, const StudyWork& state, const std::string& started_utc) {
-  const StudySettings& settings = study.order.settings;
+  const StudySettings& settings = study.request.settings;
   const algo::SummaryRequest request{*settings.coverage,
                                      {0.005, 0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975, 0.995}};
   StudyResult result;
   result.name = study.name;
-  result.plan_toml = study.order.plan_toml;
+  result.plan_toml = study.request.plan_toml;
   result.software = daemon::kVersion;
   result.started_utc = started_utc;
   result.seed = *settings.seed;

@@ -5,7 +5,7 @@
 
 #include "schema/study/study.h"
 #include "tools/mdof/study/running/checkpoint.h"
-#include "tools/mdof/study/running/order.h"
+#include "tools/mdof/study/running/study_request.h"
 
 namespace mdof::tools {
 

@@ -192,14 +192,14 @@ Status check_usage(SensitivityCommand& command) {
   return check_trials(command.trials);
 }
 
-Result<StudyOrder> order_of(const SensitivityCommand& command) {
+Result<StudyRequest> request_of(const SensitivityCommand& command) {
   MDOF_TRY(StudySettings settings, settings_of(command));
   if (command.plan.empty()) {
     MDOF_TRY(const auto options, preset_options(command));
-    return StudyOrder{preset_toml(command.preset, options), "", std::move(settings)};
+    return StudyRequest{preset_toml(command.preset, options), "", std::move(settings)};
   }
   MDOF_TRY(std::string plan_toml, read_text_file(command.plan));
-  return StudyOrder{std::move(plan_toml), command.plan, std::move(settings)};
+  return StudyRequest{std::move(plan_toml), command.plan, std::move(settings)};
 }
 
 Status check_plot_folder(const std::string& folder) {

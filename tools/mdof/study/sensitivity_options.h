@@ -9,7 +9,7 @@
 
 #include "schema/base/result.h"
 #include "tools/mdof/study/output.h"
-#include "tools/mdof/study/running/order.h"
+#include "tools/mdof/study/running/study_request.h"
 
 namespace CLI {
 class App;
@@ -42,7 +42,7 @@ void declare_options(CLI::App& command, SensitivityCommand& o);
 // What the options must not be together; sets the form.
 Status check_usage(SensitivityCommand& command);
 // The study they describe; reads the plan's file.
-Result<StudyOrder> order_of(const SensitivityCommand& command);
+Result<StudyRequest> request_of(const SensitivityCommand& command);
 // Before hours of work: that the folder is there, or can be made, and can be written.
 Status check_plot_folder(const std::string& folder);
 

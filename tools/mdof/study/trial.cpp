@@ -50,7 +50,7 @@ void write(JsonWriter& json, const char* name, const Values& values) {
 Status print_trial(const Study& study, std::uint64_t trial, bool as_json) {
   MDOF_TRY(const Values inputs, inputs_of(study, trial));
   JsonWriter json;
-  json.begin_object().field("name", study.name).field("seed", *study.order.settings.seed);
+  json.begin_object().field("name", study.name).field("seed", *study.request.settings.seed);
   json.field("trial", trial);
   write(json, "inputs", inputs);
   write(json, "errors", outputs_of(*study.experiment, trial));

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "schema/base/result.h"
-#include "tools/mdof/study/running/order.h"
+#include "tools/mdof/study/running/study_request.h"
 
 namespace mdof::tools {
 

@@ -11,13 +11,13 @@ namespace mdof::tools {
 namespace {
 
 Result<store::StudyRecord> record_of(const Study& study, const std::string& started_utc) {
-  const StudySettings& settings = study.order.settings;
+  const StudySettings& settings = study.request.settings;
   store::StudyRecord record;
   record.name = study.name;
-  record.plan_toml = study.order.plan_toml;
+  record.plan_toml = study.request.plan_toml;
   // To be found from wherever the study is continued.
-  if (!study.order.source.empty())
-    record.source = std::filesystem::absolute(study.order.source).lexically_normal();
+  if (!study.request.source.empty())
+    record.source = std::filesystem::absolute(study.request.source).lexically_normal();
   record.settings_toml = settings_toml(settings);
   record.seed = static_cast<std::int64_t>(*settings.seed);
   if (settings.trials && !settings.adaptive)
@@ -48,7 +48,7 @@ Result<StoredStudy> study_to_continue(const std::string& database, std::int64_t 
   }
   stored.checkpoint = std::move(*checkpoint);
   MDOF_TRY(const StudySettings settings, parse_settings(stored.record.settings_toml));
-  stored.order = {stored.record.plan_toml, stored.record.source, settings};
+  stored.request = {stored.record.plan_toml, stored.record.source, settings};
   return stored;
 }
 

@@ -10,7 +10,7 @@
 #include "schema/base/result.h"
 #include "schema/study/study.h"
 #include "tools/mdof/study/running/checkpoint.h"
-#include "tools/mdof/study/running/order.h"
+#include "tools/mdof/study/running/study_request.h"
 
 namespace mdof::tools {
 
@@ -18,7 +18,7 @@ namespace mdof::tools {
 struct StoredStudy {
   store::StudyRecord record;
   store::StudyCheckpoint checkpoint;
-  StudyOrder order;
+  StudyRequest request;
 };
 // not_found, or a conflict where it is complete or nothing of it was kept.
 Result<StoredStudy> study_to_continue(const std::string& database, std::int64_t id);

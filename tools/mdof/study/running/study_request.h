@@ -27,7 +27,7 @@ Result<StudySettings> parse_settings(const std::string& toml);
 // "EBX_urad=0.01": a numerical tolerance, finite and above zero, for one output.
 Status add_tolerance(const std::string& key_value, algo::AdaptiveTolerance& tolerance);
 
-struct StudyOrder {
+struct StudyRequest {
   std::string plan_toml;  // a plan, or a preset's options (study_preset.h)
   std::string source;     // file of the plan, to which its paths are relative; "": a preset
   StudySettings settings;
@@ -35,7 +35,7 @@ struct StudyOrder {
 
 // Ready to run. Its settings are in full; only the number of trials may be open.
 struct Study {
-  StudyOrder order;
+  StudyRequest request;
   std::string name;
   std::optional<algo::SimulationOptions> preset;
   std::optional<StudyPlan> plan;
@@ -45,7 +45,7 @@ struct Study {
 
   bool slow() const { return plan && plan->whole_run; }  // milliseconds a trial
 };
-Result<Study> make_study(StudyOrder order);
+Result<Study> make_study(StudyRequest request);
 
 // What must be the same for a study to be continued, a line each, as sha256sum writes them: the
 // rigs and samples that the plan names, by those names, and the first trials, which differ where

@@ -1,4 +1,4 @@
-#include "tools/mdof/study/running/order.h"
+#include "tools/mdof/study/running/study_request.h"
 
 #include <cmath>
 #include <filesystem>
@@ -54,9 +54,9 @@ void fill_in(StudySettings& settings) {
 }
 
 Status make_preset(Study& study) {
-  MDOF_TRY(Preset preset, parse_preset(study.order.plan_toml));
-  fill_in(study.order.settings);
-  preset.options.seed = *study.order.settings.seed;
+  MDOF_TRY(Preset preset, parse_preset(study.request.plan_toml));
+  fill_in(study.request.settings);
+  preset.options.seed = *study.request.settings.seed;
   MDOF_TRY(study.experiment, algo::make_simulation(preset.options));
   study.name = preset.name;
   study.preset = preset.options;
@@ -64,10 +64,10 @@ Status make_preset(Study& study) {
 }
 
 Status make_plan(Study& study) {
-  MDOF_TRY(StudyPlan plan, parse_study_plan(study.order.plan_toml, study.order.source));
-  fill_in(study.order.settings, plan);
-  plan.seed = *study.order.settings.seed;
-  plan.coverage = *study.order.settings.coverage;
+  MDOF_TRY(StudyPlan plan, parse_study_plan(study.request.plan_toml, study.request.source));
+  fill_in(study.request.settings, plan);
+  plan.seed = *study.request.settings.seed;
+  plan.coverage = *study.request.settings.coverage;
   MDOF_TRY(auto experiment,
            plan.whole_run ? make_run_experiment(plan) : algo::make_plan_experiment(plan));
   study.scalable = experiment.get();
@@ -78,8 +78,8 @@ Status make_plan(Study& study) {
 }
 
 // The rigs and samples that a plan names; it has been read before, so that all of it is sound.
-Result<std::vector<std::string>> named_files(const StudyOrder& order) {
-  MDOF_TRY(TomlTable plan, TomlTable::parse(order.plan_toml, order.source));
+Result<std::vector<std::string>> named_files(const StudyRequest& request) {
+  MDOF_TRY(TomlTable plan, TomlTable::parse(request.plan_toml, request.source));
   std::vector<std::string> files{plan.string("rig")};
   if (auto squareness = plan.table("squareness")) files.push_back(squareness->string("rig_y"));
   if (auto compare = plan.table("compare")) files.push_back(compare->string("rig"));
@@ -153,19 +153,19 @@ Status add_tolerance(const std::string& key_value, algo::AdaptiveTolerance& tole
   return {};
 }
 
-Result<Study> make_study(StudyOrder order) {
+Result<Study> make_study(StudyRequest request) {
   Study study;
-  study.order = std::move(order);
-  MDOF_CHECK(study.order.source.empty() ? make_preset(study) : make_plan(study));
-  MDOF_CHECK(check(study.order.settings));
+  study.request = std::move(request);
+  MDOF_CHECK(study.request.source.empty() ? make_preset(study) : make_plan(study));
+  MDOF_CHECK(check(study.request.settings));
   return study;
 }
 
 Result<std::string> fingerprint(const Study& study) {
   std::string lines;
   if (study.plan) {
-    MDOF_TRY(const auto files, named_files(study.order));
-    const auto folder = std::filesystem::path(study.order.source).parent_path();
+    MDOF_TRY(const auto files, named_files(study.request));
+    const auto folder = std::filesystem::path(study.request.source).parent_path();
     for (const std::string& file : files) {
       MDOF_TRY(const std::string bytes, read_text_file(folder / file, kFileLimit_bytes));
       lines += sha256_hex(bytes) + "  " + file + "\n";

@@ -1,4 +1,4 @@
-#include "tools/mdof/plot/text.h"
+#include "tools/mdof/plot/labels.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "tools/mdof/study/questions.h"
+#include "tools/mdof/study/analyses.h"
 
 #include <algorithm>
 #include <atomic>
@@ -118,7 +118,7 @@ Result<StudyState> compare(const Study& study, unsigned threads, StudyResult& re
 
 }  // namespace
 
-Result<StudyState> answer_questions(const Study& study, unsigned threads, StudyResult& result) {
+Result<StudyState> analyse(const Study& study, unsigned threads, StudyResult& result) {
   if (!study.plan) return StudyState::complete;
   StudyState end = StudyState::complete;
   if (study.plan->indices) end = find_indices(study, threads, result);

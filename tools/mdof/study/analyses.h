@@ -3,8 +3,8 @@
 
 #include "schema/base/result.h"
 #include "schema/study/study.h"
-#include "tools/mdof/study/running/order.h"
 #include "tools/mdof/study/running/runner.h"
+#include "tools/mdof/study/running/study_request.h"
 
 namespace mdof::tools {
 
@@ -13,6 +13,6 @@ inline constexpr std::uint64_t kMostComparedTrials = std::uint64_t{1} << 18;
 
 // Fills indices, allocations and comparison; warns of trials too few for good standard errors. The
 // figures do not depend on the threads.
-Result<StudyState> answer_questions(const Study& study, unsigned threads, StudyResult& result);
+Result<StudyState> analyse(const Study& study, unsigned threads, StudyResult& result);
 
 }  // namespace mdof::tools

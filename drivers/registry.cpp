@@ -7,6 +7,7 @@
 #include "drivers/csv_stream/configure.h"
 #include "drivers/labjack_t7/configure.h"
 #include "drivers/labjack_u6/configure.h"
+#include "drivers/linux_comedi/configure.h"
 #include "drivers/linux_counter/configure.h"
 #include "drivers/linux_iio/configure.h"
 #include "drivers/locked_driver.h"
@@ -64,6 +65,7 @@ constexpr Row kDrivers[] = {
     {"csv_stream", configure_csv_stream},
     {"labjack_t7", configure_labjack_t7},
     {"labjack_u6", configure_labjack_u6},
+    {"linux_comedi", configure_linux_comedi},
     {"linux_counter", configure_linux_counter},
     {"linux_iio", configure_linux_iio},
     {"mcc_usb1608fs_plus", configure_mcc_usb1608fs_plus},

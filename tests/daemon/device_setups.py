@@ -30,11 +30,12 @@ period_mm = 8
 
 class Setup:
     def __init__(self, rig, plan, devices, straightness_um, angle_urad, measure="", targets=(0, 2, 4.1, 6.2),
-                 dwell_s=0.35, speed_mm_s=100, usb=False):
+                 dwell_s=0.35, speed_mm_s=100, usb=False, comedi=False):
         self.rig = os.path.join(DATA, "devices", rig)
         self.plan, self.devices, self.measure = plan, devices, measure
         self.straightness_um, self.angle_urad = straightness_um, angle_urad
         self.usb = usb  # needs the kernel's vhci_hcd, and root: in tests/vm
+        self.comedi = comedi  # needs comedi_by_rows.cpp in the place of comedilib
         self.targets, self.dwell_s, self.speed_mm_s = list(targets), dwell_s, speed_mm_s
 
     def plan_text(self):
@@ -139,6 +140,28 @@ driver = "qsb"
 name = "scale"
 port = "{scale serial}"
 """ + channels(encoder=("count", "um_per_count = 0.1")) + T7 + channels(**AINS), straightness_um=0.03, angle_urad=2),
+    "linux_comedi": Setup("rig_volts_X.toml", """
+[[device]]
+name = "board"
+kind = "csv_stream"
+inputs = ["A", "B", "C", "D", "E"]
+rate_hz = 500
+[[device]]
+name = "scale"
+kind = "qsb"
+um_per_count = 0.1
+""", """
+[[axis.device]]
+driver = "linux_comedi"
+name = "board"
+device = "{board rows}"
+rate_hz = 500
+""" + channels(**{c: f"CH{i}" for i, c in enumerate("ABCDE")}) + """
+[[axis.device]]
+driver = "qsb"
+name = "scale"
+port = "{scale serial}"
+""" + channels(encoder=("count", "um_per_count = 0.1")), straightness_um=0.03, angle_urad=2, comedi=True),
     # A scale of 0.1 mm a count; ten readings of each amplifier a second.
     "modbus": Setup("rig_volts_X.toml", """
 [[device]]

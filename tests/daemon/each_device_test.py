@@ -2,7 +2,9 @@
 """A live run of every driver: simulated devices on real sockets, lines and files -> mdofd -> points that are
 right, and the same bits from a replay of the recording. Those on the USB: tests/vm/run live.
 
-usage: each_device_test.py MDOFD MDOF MDOF_SIMULATE [--keep FOLDER] [SETUP...]
+usage: each_device_test.py MDOFD MDOF MDOF_SIMULATE [--comedi LIBRARY] [--keep FOLDER] [SETUP...]
+
+--comedi LIBRARY stands for comedilib's boards (comedi_by_rows.cpp); without it those are left out.
 
 --keep FOLDER writes NAME.mdofrec and NAME.json, what a replay of it must give: tests/data/devices/recordings,
 which tests/daemon/kept_recordings_test.py replays."""
@@ -77,6 +79,8 @@ def check(options, name):
         shutil.copy(setup.rig, folder)
         daemon = Daemon(os.path.abspath(options.mdofd), folder, setup.config_text(simulators.addresses),
                         relative=True)
+        if setup.comedi:
+            daemon.environment = {"LD_PRELOAD": os.path.abspath(options.comedi)}
         try:
             client = daemon.start(timeout_s=60)
             wait_until_all_flow(client)
@@ -122,8 +126,12 @@ def main():
         parser.add_argument(program)
     parser.add_argument("setups", nargs="*", default=[n for n, s in SETUPS.items() if not s.usb])
     parser.add_argument("--keep")
+    parser.add_argument("--comedi")
     options = parser.parse_intermixed_args()
     for name in options.setups:
+        if SETUPS[name].comedi and not options.comedi:
+            print(f"{name}: left out, as there is no --comedi", flush=True)
+            continue
         print(check(options, name), flush=True)
 
 

@@ -45,6 +45,11 @@ fs::path usb_node(const Machine& machine, const fs::path& device) {
          three(first_line(device / "devnum"));
 }
 
+void sort_by_text(std::vector<Diagnosis>& all) {
+  std::sort(all.begin(), all.end(),
+            [](const Diagnosis& a, const Diagnosis& b) { return a.what < b.what; });
+}
+
 }  // namespace
 
 Diagnosis check_clock(const Machine& machine) {
@@ -104,8 +109,27 @@ std::vector<Diagnosis> check_usb(const Machine& machine) {
                      "group: sudo usermod -aG mdof $USER, then log in anew"});
     }
   }
-  std::sort(all.begin(), all.end(),
-            [](const Diagnosis& a, const Diagnosis& b) { return a.what < b.what; });
+  sort_by_text(all);
+  return all;
+}
+
+std::vector<Diagnosis> check_comedi(const Machine& machine) {
+  std::vector<Diagnosis> all;
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(machine.at("sys/class/comedi"), ec)) {
+    const std::string board = entry.path().filename().string();
+    if (board.find('_') != std::string::npos) continue;  // comedi0_subd0 is a part of comedi0
+    const fs::path node = machine.at("dev") / board;
+    if (::access(node.c_str(), R_OK | W_OK) == 0) {
+      all.push_back({Level::good, "Comedi board: /dev/" + board, ""});
+    } else {
+      all.push_back(
+          {Level::bad, "Comedi board: no permission for /dev/" + board,
+           "sudo usermod -aG iocard $USER, then log in anew; the rules of libcomedi0 give "
+           "boards to that group"});
+    }
+  }
+  sort_by_text(all);
   return all;
 }
 

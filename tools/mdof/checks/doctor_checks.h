@@ -29,6 +29,8 @@ Diagnosis check_udev_rules(const Machine& machine, bool wanted);
 Diagnosis check_storage(const daemon::Config& config);
 // USB devices known to mdof that are plugged in, and whether this user may open their nodes.
 std::vector<Diagnosis> check_usb(const Machine& machine);
+// Boards of Linux Comedi that the kernel has, and whether this user may open them.
+std::vector<Diagnosis> check_comedi(const Machine& machine);
 
 const char* to_string(Diagnosis::Level level);  // "ok", "doubtful", "WRONG"
 

@@ -118,6 +118,7 @@ std::vector<Diagnosis> examine(const DoctorCommand& command) {
   }
   all.push_back(check_udev_rules(machine, usb));
   add(check_usb(machine));
+  add(check_comedi(machine));
   if (!config) {
     all.push_back({Level::bad, "configuration: " + config.error().message,
                    "mdofd --check-config --config " + command.config});

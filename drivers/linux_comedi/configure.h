@@ -1,0 +1,13 @@
+// The table [axis.device] with driver = "linux_comedi" (keys: drivers/README.md).
+#pragma once
+
+#include "drivers/linux_comedi/settings.h"
+#include "drivers/registry.h"
+
+namespace mdof::drivers {
+
+// Takes all keys and finishes the table. Errors name file, line and key.
+Result<linux_comedi::Settings> read_linux_comedi(TomlTable& table, const DriverContext& context);
+Result<DriverSpec> configure_linux_comedi(TomlTable& table, const DriverContext& context);
+
+}  // namespace mdof::drivers

@@ -1,0 +1,154 @@
+#include "drivers/linux_comedi/linux_comedi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "drivers/clock/monotonic.h"
+#include "drivers/scan_block.h"
+#include "schema/base/number/number_text.h"
+
+namespace mdof::drivers::linux_comedi {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr std::size_t kBuffer = 65536;
+constexpr double kSilence_s = 2;
+constexpr double kBoardKeeps = 1024;  // samples: half of a board's FIFO, which then gives them
+
+milliseconds left_until(steady_clock::time_point until) {
+  return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(until - steady_clock::now()));
+}
+
+}  // namespace
+
+LinuxComedi::LinuxComedi(Settings settings)
+    : settings_(std::move(settings)),
+      rate_hz_(settings_.rate_hz),
+      clock_(1e9 / rate_hz_),
+      line_(settings_.inputs.size(), false),
+      buffer_(kBuffer) {
+  for (const InputSetting& input : settings_.inputs) channels_.push_back(input.channel);
+  setup_.description = "Comedi board at " + settings_.device;
+}
+
+LinuxComedi::~LinuxComedi() {
+  close();
+}
+
+DeviceInfo LinuxComedi::info() const {
+  return {settings_.name, "linux_comedi", setup_.description, channels_,
+          rate_hz_,       false,          clock_.state(),     "",
+          setup_.warnings};
+}
+
+std::string LinuxComedi::place() const {
+  return "device \"" + settings_.name + "\" (" + settings_.device + ")";
+}
+
+Status LinuxComedi::open() {
+  close();
+  if (auto started = start(); !started) {
+    close();
+    return in_context(place(), std::move(started.error()));
+  }
+  return {};
+}
+
+void LinuxComedi::close() {
+  board_.reset();
+  codes_.clear();
+  first_ = 0;
+  broken_ = {};
+  clock_.reset();
+  reopened_ = last_time_ns_ != 0;
+}
+
+Status LinuxComedi::start() {
+  MDOF_TRY(auto board, settings_.open(settings_.device));
+  MDOF_TRY(setup_, set_up(*board, settings_));
+  rate_hz_ = rate_of(setup_.command);
+  clock_ = DeviceClock(1e9 / rate_hz_);
+  line_ = CodeLine(settings_.inputs.size(), setup_.long_samples);
+  MDOF_CHECK(board->start(setup_.command));
+  received_ns_ = monotonic_ns();
+  board_ = std::move(board);
+  return {};
+}
+
+// What came before an error is given out first.
+Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
+  start_block(block, settings_.name, channels_);
+  if (!board_) return io_error(place() + " is not open; open it before reading");
+  if (broken_) {
+    if (auto received = receive(steady_clock::now() + timeout); !received)
+      broken_ = in_context(place(), std::move(received.error()));
+  }
+  if (!broken_ && codes_.empty()) return tl::unexpected(broken_.error());
+  hand_out(block);
+  return ReadState::more;
+}
+
+// Until scans have come, at most until then.
+Status LinuxComedi::receive(Time until) {
+  do {
+    MDOF_TRY(const Received received, board_->receive(buffer_, left_until(until)));
+    if (received.bytes > 0) take(received.bytes);
+    MDOF_CHECK(check(received.stream));
+  } while (codes_.empty() && steady_clock::now() < until);
+  return {};
+}
+
+void LinuxComedi::take(std::size_t bytes) {
+  received_ns_ = monotonic_ns();
+  line_.take({buffer_.data(), bytes}, codes_);
+  const std::uint64_t scans = first_ + codes_.size() / channels_.size();
+  if (!codes_.empty()) clock_.add(static_cast<std::int64_t>(scans) - 1, received_ns_);
+}
+
+Status LinuxComedi::check(Stream stream) {
+  if (stream == Stream::overran)
+    return io_error(
+        "a buffer has run over, the board's or the kernel's of " + plain_number(setup_.buffer_s) +
+        " s: lower rate_hz, find what keeps this computer from reading, or enlarge the kernel's "
+        "(comedi_config --read-buffer)");
+  if (stream == Stream::ended)
+    return io_error("the board has ended the command by itself; dmesg may say why");
+  const double silent_s = static_cast<double>(monotonic_ns() - received_ns_) * 1e-9;
+  const double kept_s = kBoardKeeps / rate_hz_ / static_cast<double>(channels_.size());
+  if (silent_s > kSilence_s + kept_s)
+    return io_error("nothing has come for " + plain_number(kSilence_s + kept_s) +
+                    " s though it scans: interrupts of the board do not arrive; dmesg may say why");
+  return {};
+}
+
+void LinuxComedi::hand_out(SampleBlock& block) {
+  const std::size_t scans = codes_.size() / channels_.size();
+  for (std::size_t scan = 0; scan < scans; ++scan) append(block, scan);
+  codes_.clear();
+  first_ += scans;
+}
+
+void LinuxComedi::append(SampleBlock& block, std::size_t scan) {
+  const std::int64_t time_ns = clock_.host_ns(static_cast<std::int64_t>(first_ + scan));
+  if (std::exchange(reopened_, false)) block.lost += lost_while_closed(time_ns);
+  last_time_ns_ = time_ns;
+  block.time_ns.push_back(time_ns);
+  for (std::size_t c = 0; c < channels_.size(); ++c) {
+    const std::uint32_t code = codes_[scan * channels_.size() + c];
+    const Conversion& conversion = setup_.conversions[c];
+    block.value[c].push_back(volts(code, conversion.to_volts));
+    block.quality[c].push_back(at_rail(code, conversion.most) ? Quality::over_range
+                                                              : Quality::good);
+  }
+}
+
+// Scans that would have come since the last one.
+std::uint64_t LinuxComedi::lost_while_closed(std::int64_t time_ns) const {
+  const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
+  return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));
+}
+
+}  // namespace mdof::drivers::linux_comedi

@@ -1,0 +1,57 @@
+// Commands, codes and volts of Comedi. Pure. Sources: Linux-Comedi/comedilib demo/cmd.c
+// (prepare_cmd, main), lib/cmd.c (__generic_timed), lib/range.c (comedi_to_phys), lib/calib.c
+// (apply_polynomial).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/linux_comedi/board.h"
+
+namespace mdof::drivers::linux_comedi {
+
+const char* name_of(Reference reference);
+std::optional<Reference> reference_of(const std::string& name);
+
+// The one with these ends; none: there is no such.
+std::optional<unsigned> range_index(const std::vector<Range>& ranges, double low_v, double high_v);
+std::string text_of(const Range& range);  // "-10 to 10 V"
+
+struct ScanTiming {
+  double rate_hz = 0;
+  std::optional<double> convert_us;  // from input to input; none: at once where the board can
+};
+// A command that scans `inputs` until it is stopped, of the sources that there are. Error: the
+// board cannot scan by a timer of its own.
+Result<Command> timed_command(const Command& sources, unsigned subdevice,
+                              const std::vector<BoardInput>& inputs, const ScanTiming& timing);
+double rate_of(const Command& command);  // scans a second
+// From input to input; 0: at once.
+double convert_us(const Command& command);
+const char* failed_step(int test);  // what Board::test() says, in comedilib's words
+
+// Cuts what came, of any lengths, into the codes of whole scans.
+class CodeLine {
+ public:
+  CodeLine(std::size_t inputs, bool long_samples);
+  // Adds the codes of the scans that end in it, one scan after the other.
+  void take(std::string_view bytes, std::vector<std::uint32_t>& codes);
+
+ private:
+  std::size_t inputs_, size_;
+  std::string begun_;
+};
+
+// Of a board without a calibration file.
+Polynomial nominal(const Range& range, std::uint32_t most);
+double volts(std::uint32_t code, const Polynomial& to_volts);
+// At an end of its range: comedi_to_phys makes it NaN.
+inline bool at_rail(std::uint32_t code, std::uint32_t most) {
+  return code == 0 || code >= most;
+}
+
+}  // namespace mdof::drivers::linux_comedi

@@ -1,0 +1,179 @@
+// Preloaded into mdofd by each_device_test.py: a Comedi board in the place of comedilib's, so that
+// a real program meets a simulated machine by it. "/dev/comedi0" is here the address of a
+// csv_stream of mdof-simulate; its columns, µm, are the board's inputs, of 10 µm/V, and each row is
+// a scan. What is not here is comedilib's own.
+#include <comedilib.h>
+#include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+constexpr double kUmPerV = 10;
+constexpr lsampl_t kMost = 65535;
+comedi_range the_range{-10, 10, UNIT_volt};
+
+int connected(const std::string& address) {
+  const std::size_t colon = address.rfind(':');
+  addrinfo hints{}, *found = nullptr;
+  hints.ai_socktype = SOCK_STREAM;
+  if (colon == address.npos || ::getaddrinfo(address.substr(0, colon).c_str(),
+                                             address.substr(colon + 1).c_str(), &hints, &found))
+    return -1;
+  int fd = ::socket(found->ai_family, SOCK_STREAM, 0);
+  if (::connect(fd, found->ai_addr, found->ai_addrlen) != 0) {
+    ::close(fd);
+    fd = -1;
+  }
+  ::freeaddrinfo(found);
+  return fd;
+}
+
+sampl_t code_of(double volts) {
+  const double code = std::round((volts + 10) / 20 * kMost);
+  return static_cast<sampl_t>(std::clamp(code, 0.0, static_cast<double>(kMost)));
+}
+
+// "time_s,A_um,…" of one row; the header gives none.
+std::vector<double> volts_of(const char* row) {
+  std::vector<double> volts;
+  char* end = nullptr;
+  std::strtod(row, &end);
+  if (end == row) return volts;
+  while (*end == ',') {
+    const char* field = end + 1;
+    volts.push_back(std::strtod(field, &end) / kUmPerV);
+  }
+  return volts;
+}
+
+}  // namespace
+
+struct comedi_t_struct {
+  int rows = -1;               // from mdof-simulate
+  int ends[2] = {-1, -1};      // of the samples: that which is read, that which is written
+  std::vector<unsigned> list;  // of channels
+  std::thread scanning;
+
+  void scan() const {
+    std::string line;
+    char byte = 0;
+    while (::read(rows, &byte, 1) == 1) {
+      if (byte != '\n') {
+        line += byte;
+        continue;
+      }
+      const auto volts = volts_of(line.c_str());
+      line.clear();
+      if (volts.empty()) continue;
+      std::vector<sampl_t> codes;
+      for (const unsigned input : list) codes.push_back(code_of(volts.at(CR_CHAN(input))));
+      const std::size_t bytes = codes.size() * sizeof(sampl_t);
+      if (::write(ends[1], codes.data(), bytes) != static_cast<ssize_t>(bytes)) return;
+    }
+    ::shutdown(ends[1], SHUT_WR);
+  }
+};
+
+extern "C" {
+
+comedi_t* comedi_open(const char* address) {
+  auto* board = new comedi_t;
+  board->rows = connected(address);
+  if (board->rows >= 0 && ::socketpair(AF_UNIX, SOCK_STREAM, 0, board->ends) == 0) return board;
+  delete board;
+  errno = ENODEV;
+  return nullptr;
+}
+
+int comedi_close(comedi_t* board) {
+  ::shutdown(board->rows, SHUT_RDWR);
+  ::shutdown(board->ends[0], SHUT_RDWR);
+  if (board->scanning.joinable()) board->scanning.join();
+  for (const int fd : {board->rows, board->ends[0], board->ends[1]}) ::close(fd);
+  delete board;
+  return 0;
+}
+
+int comedi_errno() {
+  return errno;
+}
+int comedi_fileno(comedi_t* board) {
+  return board->ends[0];
+}
+const char* comedi_get_driver_name(comedi_t*) {
+  return "rows";
+}
+const char* comedi_get_board_name(comedi_t*) {
+  return "rows-of-csv";
+}
+int comedi_get_n_subdevices(comedi_t*) {
+  return 1;
+}
+int comedi_get_subdevice_type(comedi_t*, unsigned) {
+  return COMEDI_SUBD_AI;
+}
+int comedi_get_subdevice_flags(comedi_t*, unsigned) {
+  return static_cast<int>(SDF_CMD_READ | SDF_GROUND);
+}
+int comedi_get_n_channels(comedi_t*, unsigned) {
+  return 8;
+}
+lsampl_t comedi_get_maxdata(comedi_t*, unsigned, unsigned) {
+  return kMost;
+}
+int comedi_get_n_ranges(comedi_t*, unsigned, unsigned) {
+  return 1;
+}
+comedi_range* comedi_get_range(comedi_t*, unsigned, unsigned, unsigned) {
+  return &the_range;
+}
+int comedi_get_buffer_size(comedi_t*, unsigned) {
+  return 65536;
+}
+char* comedi_get_default_calibration_path(comedi_t*) {
+  return nullptr;
+}
+int comedi_poll(comedi_t*, unsigned) {
+  return 0;
+}
+int comedi_set_read_subdevice(comedi_t*, unsigned) {
+  return 0;
+}
+
+int comedi_get_cmd_src_mask(comedi_t*, unsigned subdevice, comedi_cmd* mask) {
+  std::memset(mask, 0, sizeof *mask);
+  mask->subdev = subdevice;
+  mask->start_src = TRIG_NOW;
+  mask->scan_begin_src = TRIG_TIMER;
+  mask->convert_src = TRIG_NOW;
+  mask->scan_end_src = TRIG_COUNT;
+  mask->stop_src = TRIG_NONE;
+  return 0;
+}
+
+// Takes any rate: what it is given has to be that of the rows.
+int comedi_command_test(comedi_t*, comedi_cmd* command) {
+  const bool fits = command->start_src == TRIG_NOW && command->scan_begin_src == TRIG_TIMER &&
+                    command->convert_src == TRIG_NOW && command->stop_src == TRIG_NONE &&
+                    command->scan_end_arg == command->chanlist_len;
+  return fits ? 0 : 1;
+}
+
+int comedi_command(comedi_t* board, comedi_cmd* command) {
+  board->list.assign(command->chanlist, command->chanlist + command->chanlist_len);
+  board->scanning = std::thread([board] { board->scan(); });
+  return 0;
+}
+
+}  // extern "C"

@@ -24,7 +24,7 @@ struct Place {
   int forward = 0, reverse = 0;
   bool parked = false;  // only the first stop of the log, which nobody saw the axis come to
   bool first = false, last = false;
-  bool kept = false, judged = false;
+  bool kept = false;
   int visits() const { return forward + reverse; }
 };
 
@@ -86,7 +86,7 @@ Typical typical_of(std::vector<Place>& places) {
   std::vector<double> intervals;
   const Place* before = nullptr;
   for (Place& p : places) {
-    p.kept = p.judged = surely_a_target(p, typical);
+    p.kept = surely_a_target(p, typical);
     if (p.kept && before) intervals.push_back(p.position_m - before->position_m);
     if (p.kept) before = &p;
   }
@@ -126,7 +126,7 @@ void judge(std::vector<Place>& places, const Typical& typical) {
   std::vector<std::size_t> order;
   std::vector<double> distance(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].judged) continue;
+    if (places[i].kept) continue;
     const Neighbours n = neighbours(places, i);
     distance[i] = std::min(n.below_m, n.above_m);
     order.push_back(i);
@@ -135,10 +135,8 @@ void judge(std::vector<Place>& places, const Typical& typical) {
     if (places[a].visits() != places[b].visits()) return places[a].visits() > places[b].visits();
     return distance[a] < distance[b];
   });
-  for (const std::size_t i : order) {
+  for (const std::size_t i : order)
     places[i].kept = may_be_a_target(places[i], neighbours(places, i), typical);
-    places[i].judged = true;
-  }
 }
 
 // All places have one visit: only a start off the grid can be told.

@@ -29,8 +29,6 @@ double scatter_limit(const std::vector<double>& sorted) {
       limit = scatter;
     }
   }
-  // Every step small: all stops are at one target.
-  if (!steps.empty() && steps.back() <= kMinStep_m) limit = steps.back();
   return limit;
 }
 

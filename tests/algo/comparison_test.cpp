@@ -55,6 +55,22 @@ TEST(ComparisonByHand, ATrialThatOneCannotSolveCountsForNeither) {
   EXPECT_NEAR(result[0].sd_other, std::sqrt(18.0), 1e-12);
 }
 
+// 2 and 4, 1 and 5: variances 2 and 8.
+TEST(ComparisonByHand, ABlockThatNeitherCanSolveHidesNoOther) {
+  const double nan = std::nan("");
+  const auto result = compared({"EYX_um", {nan, nan, 2, 4}}, {"EYX_um", {nan, nan, 1, 5}});
+  EXPECT_NEAR(result[0].sd_this, std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(result[0].sd_other, std::sqrt(8.0), 1e-12);
+  EXPECT_NEAR(result[0].ratio, 2, 1e-12);
+}
+
+// 0.1, 0.2, 0.3, 0.4: variances far below 1.
+TEST(ComparisonByHand, SmallNumbersHaveAStandardErrorToo) {
+  const auto result = compared({"EYX_um", {0.1, 0.2, 0.3, 0.4}}, {"EYX_um", {0.2, 0, 0.2, 0.8}});
+  EXPECT_NEAR(result[0].ratio, std::sqrt(12 * 3 / 5.0), 1e-12);
+  EXPECT_NEAR(result[0].ratio_se, result[0].ratio / 6, 1e-12);
+}
+
 TEST(ComparisonByHand, WhatOnlyOneHasIsNotCompared) {
   EXPECT_TRUE(compared({"EYX_um", {1, 2, 3, 4}}, {"EZX_um", {1, 2, 3, 4}}).empty());
 }

@@ -126,6 +126,17 @@ TEST(EncoderJumpInMotion, NoiseNeitherMakesNorHidesOne) {
   }
 }
 
+// Gone over in two scans, the neighbour shows as much: the axis itself went that far.
+TEST(EncoderJumpInMotion, AJumpOverTwoScansIsNone) {
+  for (const double speed : kSpeeds_mm_s) {
+    auto rows = Motion{.speed_mm_s = speed, .jump_um = 100}.encoder_m();
+    rows[kAt] -= 50e-6;
+    EXPECT_FALSE(jump_among(rows)) << speed;
+    rows[kAt] += 40e-6;  // 90 and 10 um: more than four times as much
+    EXPECT_TRUE(jump_among(rows)) << speed;
+  }
+}
+
 TEST(EncoderJumpInMotion, MissingPlacesAreNone) {
   auto rows = Motion{.speed_mm_s = 10}.encoder_m();
   for (std::size_t i = 25; i < 35; ++i) rows[i] = kNaN;

@@ -198,6 +198,22 @@ TEST(Plausibility, APendulumOfOneRunIsSaidToBeAGuess) {
   EXPECT_TRUE(judge(m).says("taken for a pendulum cycle"));
 }
 
+// Its end targets have one visit by design; any other hole is one.
+TEST(Plausibility, APendulumLacksNothingAtItsEnds) {
+  const auto pendulum = [](int missed) {
+    Machine m;
+    m.visit(1, 1, 1);
+    for (int run = 1; run <= 3; ++run) {
+      for (int t = 2; t <= 7; ++t) m.visit(t, run, 1);
+      for (int t = 6; t >= 1; --t)
+        if (run != 2 || t != missed) m.visit(t, run, -1);
+    }
+    return judge(m).all();
+  };
+  EXPECT_EQ(pendulum(0), "");
+  EXPECT_EQ(pendulum(4), "target 4 (14.9000 mm): no reverse visit in run 2\nrun 2" + kLevelled);
+}
+
 // ---- units ----
 
 Plausibility right() {

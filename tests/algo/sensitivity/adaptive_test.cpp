@@ -86,6 +86,8 @@ TEST(AdaptiveRule, ToleranceIsHalfAUnitOfTheLastDigit) {
   EXPECT_DOUBLE_EQ(tolerance(36, 1), 5);
   EXPECT_DOUBLE_EQ(tolerance(36, 2), 0.5);
   EXPECT_DOUBLE_EQ(tolerance(9.96, 2), 0.5);  // rounds to 10: c = 10, l = 0
+  EXPECT_DOUBLE_EQ(tolerance(1, 1), 0.5);
+  EXPECT_DOUBLE_EQ(tolerance(100, 3), 0.5);
   EXPECT_DOUBLE_EQ(tolerance(1.2e-9, 3), 0.5e-11);
 }
 
@@ -113,6 +115,15 @@ TEST(AdaptiveRule, AConstantOutputIsSettledAfterTwoBlocks) {
   EXPECT_FALSE(rule.settled());
   rule.add({{10'000, 4, 0, 4, 4}});
   EXPECT_TRUE(rule.settled());
+}
+
+// Constant in each block, and another constant in the next.
+TEST(AdaptiveRule, AnOutputThatJumpsFromBlockToBlockIsNotConstant) {
+  AdaptiveRule rule = rule_of({2, {}});
+  rule.add({{10'000, 4, 0, 4, 4}});
+  rule.add({{10'000, 6, 0, 6, 6}});
+  EXPECT_FALSE(rule.progress().at(0).constant);
+  EXPECT_FALSE(rule.settled());
 }
 
 TEST(AdaptiveRule, RefusesWhatItCannotDo) {

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "algo/sensitivity/comparison.h"
 
@@ -105,6 +108,66 @@ TEST(Allocation, IsTheSameHoweverItsTasksAreRun) {
                         }).value();
   EXPECT_EQ(forward.alone[0].value, backward.alone[0].value);
   EXPECT_EQ(forward.reached, backward.reached);
+}
+
+// Every trial gives `scale` times its quantity, which is 1: within a limit up to just that factor.
+class Proportional : public ScalableExperiment {
+ public:
+  const std::vector<std::string>& outputs() const override { return outputs_; }
+  const BinnedQuantity& binned() const override { return binned_; }
+  const std::vector<std::string>& causes() const override { return quantities_; }
+  const std::vector<std::string>& quantities() const override { return quantities_; }
+  const std::vector<double>& sizes() const override { return sizes_; }
+  std::vector<std::pair<std::string, double>> inputs(std::uint64_t) const override { return {}; }
+  void run(std::uint64_t first, std::uint64_t step, std::size_t n,
+           std::span<double* const> out) const override {
+    run_scaled(std::vector<double>{1}, first, step, n, out);
+  }
+  void run_mixed(std::span<const std::uint8_t>, std::uint64_t first, std::uint64_t step,
+                 std::size_t n, std::span<double* const> out) const override {
+    run(first, step, n, out);
+  }
+  void run_scaled(std::span<const double> scale, std::uint64_t first, std::uint64_t step,
+                  std::size_t n, std::span<double* const> out) const override {
+    for (std::size_t j = 0; j < n; ++j) {
+      last_ = std::max(last_, first + step * j);
+      out[0][j] = j % 2 ? scale[0] : -scale[0];
+    }
+  }
+  std::uint64_t last() const { return last_; }
+
+ private:
+  std::vector<std::string> outputs_ = {"EBX_urad"}, quantities_ = {"probe.A.drift_nm"};
+  std::vector<double> sizes_ = {3};
+  BinnedQuantity binned_;
+  mutable std::uint64_t last_ = 0;
+};
+
+double largest_factor(double limit) {
+  const Proportional e;
+  const PlannedAllocation planned{"EBX_urad",           limit, 0.95,
+                                  {"probe.A.drift_nm"}, 300,   "plan.toml:9"};
+  const Allocation found = allocate(e, planned).value();
+  EXPECT_EQ(e.last(), 299u);
+  EXPECT_EQ(found.reached, limit >= 1 ? 1 : 0);
+  EXPECT_EQ(found.alone.at(0).value, 3 * found.common_factor);
+  EXPECT_EQ(found.alone.at(0).low, found.alone.at(0).value);
+  EXPECT_EQ(found.alone.at(0).high, found.alone.at(0).value);
+  return found.common_factor;
+}
+
+// Powers of two are tried themselves, between them by halves to 5e-4; from 2^20 on all is allowed,
+// below 2^-20 nothing.
+TEST(Allocation, OfAProportionalOutputIsItsLimit) {
+  for (const double limit : {1.0, 8.0, 0x1p19, 0.25, 0x1p-19})
+    EXPECT_EQ(largest_factor(limit), limit);
+  for (const double limit : {1.3, 7.9, 1000.1, 0.9, 0.013, 0x1.8p19, 0x1.8p-20}) {
+    EXPECT_LE(largest_factor(limit), limit);
+    EXPECT_GE(largest_factor(limit), (1 - 5e-4) * limit);
+  }
+  EXPECT_EQ(largest_factor(0x1p20), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(largest_factor(0x1.8p20), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(largest_factor(0x1.8p-21), 0);
 }
 
 TEST(Allocation, RefusesWhatIsNotThere) {

@@ -88,5 +88,28 @@ TEST(OutputHistogram, NoTrialIsLost) {
   EXPECT_LT(ordered.resolution(6), 0.2);
 }
 
+// The first and the last bin of the core keep theirs when there are others beyond.
+TEST(OutputHistogram, WhatIsBeyondTakesNothingFromTheCore) {
+  const OutputHistogram counts = histogram_of({-1 + kScale.width / 2, -7, 1 - kScale.width / 2, 9});
+  EXPECT_EQ(counts.core(0), 1u);
+  EXPECT_EQ(counts.core(kCoreBins - 1), 1u);
+  EXPECT_EQ(counts.tails().size(), 2u);
+}
+
+// Counts of 32 bits are moved into larger ones before they could overflow.
+TEST(OutputHistogram, CountsAreMovedBeforeTheyOverflow) {
+  OutputHistogram counts(3);
+  for (int i = 0; i < 5; ++i) {
+    const std::vector<double> x = {-1 + kScale.width / 2, 0.5, 1 - kScale.width / 2};
+    std::vector<std::uint64_t> index;
+    for (const double value : x) index.push_back(index_of(value));
+    counts.add(x, index.data(), kScale);
+  }
+  for (const std::uint64_t i : {std::uint64_t{1}, index_of(0.5), std::uint64_t{kCoreBins}})
+    EXPECT_EQ(counts.core(i - 1), 5u);
+  EXPECT_EQ(counts.core(1), 0u);
+  EXPECT_EQ(counts.core(kCoreBins - 2), 0u);
+}
+
 }  // namespace
 }  // namespace mdof::algo

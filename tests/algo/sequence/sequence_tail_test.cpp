@@ -108,6 +108,50 @@ TEST(SequenceTail, OddStopsAreAsInTheWhole) {
     expect_alike(grown(stops, whole, given), recognise_sequence(stops, given));
 }
 
+// Five targets 5 mm apart; `whole` stops are recognised, the others appended.
+Sequence appended(const std::vector<Point>& stops, std::size_t whole) {
+  SequenceOptions given;
+  for (int i = 0; i < 5; ++i) given.targets_m.push_back(i * 5e-3);
+  return grown(stops, whole, given);
+}
+
+// The axis left its last target and came back to it, unseen: it has the approach of before.
+TEST(SequenceTail, AStopWhereTheAxisStayedWaitsForNone) {
+  Walk walk;
+  for (int i = 0; i < 5; ++i) walk.stop(i * 5e-3, i + 1, 1);
+  Point again = walk.stops.back();
+  again.begin_ns += 500'000'000, again.end_ns += 500'000'000;
+  again.direction = 0, again.way_max_m += 1e-3;
+  walk.stops.push_back(again);
+  walk.stop(15e-3, 4, 1);
+  for (const std::size_t whole : {5u, 6u}) {
+    const Sequence sequence = appended(walk.stops, whole);
+    ASSERT_EQ(sequence.points.size(), 7u);
+    EXPECT_EQ(sequence.points[5].point.direction, 1) << whole;
+    EXPECT_TRUE(has_flag(sequence.points[5].point, kApproachAssumed)) << whole;
+    EXPECT_EQ(sequence.points[6].point.direction, -1) << whole;
+  }
+}
+
+// Back at target 5 by way of 4: what follows tells its approach, not the stop before the last.
+TEST(SequenceTail, AStopAwayFromTheLastWaitsForTheNext) {
+  Walk walk;
+  for (int i = 0; i < 5; ++i) walk.stop(i * 5e-3, i + 1, 1);
+  walk.stop(15e-3, 4, 1);
+  walk.stop(20e-3, 5, 2);
+  walk.stops.back().direction = 0;
+  walk.stops.back().way_min_m = walk.stops.back().way_max_m = kNaN;
+  const Sequence last = appended(walk.stops, 6);
+  EXPECT_EQ(last.points.back().point.direction, 1);  // until more is known
+  EXPECT_TRUE(has_flag(last.points.back().point, kApproachAssumed));
+  walk.stop(10e-3, 3, 1);
+  for (const std::size_t whole : {6u, 7u}) {
+    const Sequence sequence = appended(walk.stops, whole);
+    ASSERT_EQ(sequence.points.size(), 8u);
+    EXPECT_EQ(sequence.points[6].point.direction, -1) << whole;
+  }
+}
+
 // Neither targets nor repeats: places that nobody has seen before go on at the end.
 TEST(SequenceTail, NewTargetsGoOnAtTheEnd) {
   Walk walk;

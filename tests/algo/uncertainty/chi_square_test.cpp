@@ -53,6 +53,25 @@ TEST(ChiSquare, LimitsAreThoseOfTheTables) {
   EXPECT_GT(chi_square_limit(12), chi_square_limit(11));
 }
 
+// The probability of a greater value: e^-x/2, erfc(√(x/2)), and for each two degrees of freedom
+// more a term (x/2)^a e^-x/2 / Γ(a + 1).
+double exceeds(int freedom, double chi_square) {
+  const double x = chi_square / 2;
+  double a = freedom % 2 ? 0.5 : 1, q = freedom % 2 ? std::erfc(std::sqrt(x)) : std::exp(-x);
+  for (; a < 0.5 * freedom; ++a) q += std::pow(x, a) * std::exp(-x) / std::tgamma(a + 1);
+  return q;
+}
+
+TEST(ChiSquare, OneInAMillionExceedsEachLimit) {
+  for (int freedom = 1; freedom <= 11; ++freedom)
+    EXPECT_NEAR(exceeds(freedom, chi_square_limit(freedom)) * 1e6, 1, 1e-3) << freedom;
+  for (int freedom = 12; freedom <= 60; ++freedom) {
+    EXPECT_LT(exceeds(freedom, chi_square_limit(freedom)) * 1e6, 1) << freedom;
+    EXPECT_LT(chi_square_limit(freedom) - chi_square_limit(freedom - 1), 2.2) << freedom;
+  }
+  EXPECT_EQ(chi_square_limit(0), chi_square_limit(1));
+}
+
 TEST(ChiSquare, ProbesThatAgreeRaiseNoAlarm) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SteppingLog log;

@@ -1,0 +1,176 @@
+// Lines, angles, tables and squareness of a few points, worked by hand. Found missing by
+// tests/mutate.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "algo/compensation/compensation.h"
+#include "algo/iso230/line_fit.h"
+#include "algo/iso230/squareness.h"
+#include "algo/iso230/straightness.h"
+#include "schema/sample.h"
+#include "tests/algo/rigs.h"
+
+namespace mdof::algo {
+namespace {
+
+using Column = std::vector<double>;
+
+// Run j has y_of(j, target) as its first named error and EBX/EBY = b_of(target), both ways.
+template <class Y, class B>
+mdof::Run run_by_hand(Axis axis, const Column& x_m, int runs, Y y_of, B b_of) {
+  mdof::Run run;
+  run.header.axis = axis;
+  run.header.state = RunState::complete;
+  run.header.id = axis == Axis::x ? 1 : 2;
+  for (int j = 0; j < runs; ++j) {
+    for (const int direction : {1, -1}) {
+      for (std::size_t i = 0; i < x_m.size(); ++i) {
+        MeasuredPoint p;
+        p.target = static_cast<int>(i) + 1;
+        p.run = j + 1;
+        p.point.direction = direction;
+        p.point.position_m = p.target_m = x_m[i];
+        p.errors.valid = true;
+        p.errors.local = local_from_named(axis, {y_of(j, i), 0, 0, b_of(i), 0});
+        run.points.push_back(p);
+      }
+    }
+  }
+  return run;
+}
+
+// Through (1, 5) and (4, -1): slope -2, 7 at 0.
+TEST(LineByHand, ThroughTheEnds) {
+  const Line line = end_point_line(Column{1, 2, 4}, Column{5, 99, -1});
+  EXPECT_EQ(line.slope, -2);
+  EXPECT_EQ(line.intercept, 7);
+  EXPECT_EQ(line.at(2), 3);
+}
+
+// x 0, 1, 5 and y 1, 0, 5: means 2 and 2, Sxx = 14, Sxy = 2 + 2 + 9 = 13.
+TEST(LineByHand, OfLeastSquares) {
+  const Line line = least_squares_line(Column{0, 1, 5}, Column{1, 0, 5});
+  EXPECT_NEAR(line.slope, 13 / 14.0, 1e-15);
+  EXPECT_NEAR(line.intercept, 2 - 26 / 14.0, 1e-15);
+  // What is left: Syy - Sxy²/Sxx = 14 - 169/14 = 27/14, of one degree of freedom.
+  EXPECT_NEAR(line.residual_sd, std::sqrt(27 / 14.0), 1e-14);
+  EXPECT_NEAR(line.u_slope, std::sqrt(27.0) / 14, 1e-14);
+  EXPECT_NEAR(line.u_intercept, std::sqrt(27 / 14.0 * (1 / 3.0 + 4 / 14.0)), 1e-14);
+}
+
+// About the line y = 2: deviations -3, 4, 4, -5, 0.
+TEST(LineByHand, Deviations) {
+  Line level;
+  level.intercept = 2;
+  const Deviations d = deviations_from(level, Column{0, 1, 2, 3, 4}, Column{-1, 6, 6, -3, 2});
+  EXPECT_EQ(d.peak, 1u);
+  EXPECT_EQ(d.valley, 3u);
+  EXPECT_EQ(d.peak_to_valley, 9);
+}
+
+const Column kUneven_m = {0, 1e-3, 5e-3, 7e-3, 20e-3};
+const Column kAngle_rad = {7e-6, 4e-6, 9e-6, 12e-6, 6e-6};
+
+// The angle begins at 7 urad: it goes from -3 to 5 urad about its start.
+TEST(AnglesByHand, AreReferredToAStartThatIsNotNought) {
+  const mdof::Run run = run_by_hand(
+      Axis::x, kUneven_m, 1, [](int, std::size_t) { return 0.0; },
+      [](std::size_t i) { return kAngle_rad[i]; });
+  int found = 0;
+  for (const AngleFigure& f : angles(run.header.moving(), run.points)) {
+    if (f.error_key != "EBX_urad") continue;
+    ++found;
+    EXPECT_NEAR(f.start_rad, 7e-6, 1e-18);
+    EXPECT_NEAR(f.min_rad, -3e-6, 1e-18);
+    EXPECT_NEAR(f.max_rad, 5e-6, 1e-18);
+  }
+  EXPECT_EQ(found, 3);
+}
+
+TEST(TableByHand, AnglesBeginAtNoughtAndStraightnessHasNoSlope) {
+  const mdof::Run run = run_by_hand(
+      Axis::x, kUneven_m, 1, [](int, std::size_t i) { return 3e-6 + 50e-6 * kUneven_m[i]; },
+      [](std::size_t i) { return kAngle_rad[i]; });
+  const CompensationTable table = build_table({run}, {}).value();
+  ASSERT_EQ(table.position_m, kUneven_m);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(table.forward[0][i], 0, 1e-18) << i;
+    EXPECT_NEAR(table.forward[3][i], kAngle_rad[i] - 7e-6, 1e-18) << i;
+    EXPECT_NEAR(table.reverse[3][i], kAngle_rad[i] - 7e-6, 1e-18) << i;
+  }
+}
+
+CompensationTable table_of(const Column& x_m, const Column& y) {
+  CompensationTable table;
+  table.position_m = x_m;
+  for (std::size_t k = 0; k < 5; ++k) {
+    table.forward[k] = table.reverse[k] = y;
+    table.u_forward[k] = table.u_reverse[k] = Column(y.size(), 1e-9);
+  }
+  return table;
+}
+
+TEST(TableByHand, OfOnePositionIsTheSameEverywhere) {
+  const CompensationTable table = table_of({2e-3}, {5e-6});
+  for (const double at_m : {0.0, 2e-3, 9e-3}) {
+    const TableValue value = table_at(table, at_m, TableSide::mean);
+    EXPECT_EQ(value.error[4], 5e-6) << at_m;
+    EXPECT_EQ(value.inside, at_m == 2e-3) << at_m;
+  }
+}
+
+// Without a value at 1 and 3: linear from 0 to 2, and held beyond 2.
+TEST(TableByHand, GoesStraightOverAHole) {
+  const CompensationTable table = table_of({0, 1, 2, 3}, {4, kNaN, 10, kNaN});
+  const auto at = [&](double x) { return table_at(table, x, TableSide::forward); };
+  EXPECT_EQ(at(0).error[0], 4);
+  EXPECT_EQ(at(0.5).error[0], 5.5);
+  EXPECT_EQ(at(1).error[0], 7);
+  EXPECT_EQ(at(1.5).error[0], 8.5);
+  EXPECT_EQ(at(2).error[0], 10);
+  EXPECT_EQ(at(2.5).error[0], 10);
+  EXPECT_EQ(at(3).error[0], 10);
+  EXPECT_TRUE(at(2).inside);
+  EXPECT_FALSE(at(2.1).inside);
+  EXPECT_EQ(table_at(table_of({0, 1, 2}, {kNaN, 6, 8}), 0.5, TableSide::forward).error[0], 6);
+}
+
+// Three runs turn by 10, 20 and 60 urad about the middle of targets that are not evenly apart:
+// s = √700 urad of the slopes, u = s/√3. Of the targets themselves it would be less.
+TEST(SquarenessByHand, TheScatterOfTheSlopesIsInIt) {
+  const double middle_m = 33e-3 / 5;
+  const Column slopes = {10e-6, 20e-6, 60e-6};
+  const auto none = [](std::size_t) { return 0.0; };
+  const mdof::Run x = run_by_hand(
+      Axis::x, kUneven_m, 3,
+      [&](int j, std::size_t i) {
+        return slopes[static_cast<std::size_t>(j)] * (kUneven_m[i] - middle_m);
+      },
+      none);
+  const mdof::Run y = run_by_hand(
+      Axis::y, kUneven_m, 1, [](int, std::size_t) { return 0.0; }, none);
+  const Squareness s = squareness(x, y, {}).value();
+  EXPECT_NEAR(s.slope_EYX_rad, 30e-6, 1e-16);
+  EXPECT_NEAR(s.u_slope_EYX_rad, 1e-6 * std::sqrt(700 / 3.0), 1e-15);
+  EXPECT_NEAR(s.u_EC0Y_rad, s.u_slope_EYX_rad, 1e-15);
+}
+
+// The angle of the square in one rig alone, and that of both where they agree.
+TEST(ArtefactByHand, OneRigMayKnowIt) {
+  Rig with = test::rig_x(), without = test::rig_x();
+  with.artefact_angle_error_rad = -4e-6;
+  with.u_artefact_angle_rad = 0.25e-6;
+  for (const auto& [x, y] :
+       {std::pair(with, without), std::pair(without, with), std::pair(with, with)}) {
+    const auto artefact = artefact_of(x, y, {});
+    ASSERT_TRUE(artefact);
+    EXPECT_EQ(artefact->angle_error_rad, -4e-6);
+    EXPECT_EQ(artefact->u_rad, 0.25e-6);
+  }
+  EXPECT_EQ(artefact_of(without, without, {})->angle_error_rad, 0);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,120 @@
+// What is said of units on either side of each limit. Found missing by tests/mutate.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "algo/plausibility/plausibility.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kRange_m = 400e-6;
+
+// Five probes 20 mm apart, of which B reads a gap; nothing is wrong.
+Rig rig_of_gap() {
+  Rig rig;
+  for (int k = 0; k < 5; ++k) {
+    Probe probe;
+    probe.id = std::string(1, static_cast<char>('A' + k));
+    probe.position_m = {5e-3 * k, 0, 0};
+    probe.range_m = kRange_m;
+    rig.probes.push_back(probe);
+  }
+  rig.probes[1].calibration.reads_gap = true;
+  return rig;
+}
+
+Plausibility figures() {
+  Plausibility p;
+  p.rate_hz = 1000;
+  p.encoder_max_m = 60e-3;
+  for (const char* id : {"A", "B", "C", "D", "E"})
+    p.probes.push_back({id, 78, 10e-9, 20e-6, -8e-6, 12e-6});
+  return p;
+}
+
+std::size_t said_of(const Plausibility& p, const Rig& rig = rig_of_gap()) {
+  return warnings_of_units(rig, p).size();
+}
+
+std::size_t said_of_probe(const ProbeFigures& probe) {
+  Plausibility p = figures();
+  p.probes[1] = probe;
+  return said_of(p);
+}
+
+TEST(UnitsLimits, OfTheEncoder) {
+  for (const auto& [travel_m, said] :
+       {std::pair(0.49e-3, 1u), std::pair(0.5e-3, 0u), std::pair(2.0, 0u), std::pair(2.01, 1u)}) {
+    EXPECT_EQ(encoder_unit_doubt(travel_m).empty(), said == 0) << travel_m;
+    Plausibility p = figures();
+    p.encoder_min_m = -0.25 * travel_m, p.encoder_max_m = 0.75 * travel_m;
+    EXPECT_EQ(said_of(p), said) << travel_m;
+  }
+}
+
+TEST(UnitsLimits, OfTime) {
+  for (const auto& [rate_hz, said] : {std::pair(1.9, 1u), std::pair(2.0, 0u), std::pair(2e6, 0u),
+                                      std::pair(2.1e6, 1u), std::pair(kNaN, 0u)}) {
+    Plausibility p = figures();
+    p.rate_hz = rate_hz;
+    EXPECT_EQ(said_of(p), said) << rate_hz;
+  }
+}
+
+// Within a thousandth of half the range, 0.2 um, and quieter than 0.5 nm.
+TEST(UnitsLimits, AProbeInMillimetres) {
+  const double least_m = 1e-3 * kRange_m / 2;
+  EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, -least_m, 0}), 1u);
+  EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, 0, least_m}), 1u);
+  EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, 0, 1.01 * least_m}), 0u);
+  EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, -1.01 * least_m, 0}), 0u);
+  EXPECT_EQ(said_of_probe({"B", 78, 0.5e-9, 1e-9, 0, least_m}), 0u);
+  EXPECT_EQ(said_of_probe({"B", 78, 0.49e-9, 1e-9, 0, least_m}), 1u);
+  EXPECT_EQ(said_of_probe({"B", 78, 0, 0, 0, least_m}), 0u);  // it does not change at all
+  EXPECT_EQ(said_of_probe({"B", 0, 0, 1e-9, 0, 0}), 0u);      // nothing is known
+}
+
+// Noise over 1 um and a quarter of a hundredth of the range, whichever is more.
+TEST(UnitsLimits, AProbeInNanometres) {
+  EXPECT_EQ(said_of_probe({"B", 78, 1.01e-6, 20e-6, -8e-6, 12e-6}), 1u);
+  EXPECT_EQ(said_of_probe({"B", 78, 0.99e-6, 20e-6, -8e-6, 12e-6}), 0u);
+  Rig wide = rig_of_gap();
+  wide.probes[1].range_m = 4e-3;
+  for (const double sd_m : {9.9e-6, 10.1e-6}) {
+    Plausibility p = figures();
+    p.probes[1].sd_m = sd_m;
+    EXPECT_EQ(said_of(p, wide), sd_m > 10e-6 ? 1u : 0u) << sd_m;
+  }
+}
+
+// The middle of what it reads is off zero by more than a tenth of the range, 40 um.
+TEST(UnitsLimits, AGapWithoutOffset) {
+  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 20e-6, -50.1e-6, -30e-6}), 1u);
+  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 20e-6, -49.9e-6, -30e-6}), 0u);
+  const double tenth_m = 0.1 * kRange_m;
+  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 0, -tenth_m, -tenth_m}), 0u);
+  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 300e-6, -300e-6, 0}), 0u);  // it reads 0, too
+  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 20e-6, 80e-6, 100e-6}), 0u);
+  EXPECT_EQ(said_of_probe({"B", 0, 10e-9, 20e-6, -100e-6, -80e-6}), 0u);
+}
+
+TEST(UnitsLimits, OfTheFixture) {
+  for (const auto& [size_m, said] :
+       {std::pair(0.49e-3, 1u), std::pair(0.51e-3, 0u), std::pair(0.49, 0u), std::pair(0.51, 1u)}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Rig rig = rig_of_gap();
+      for (std::size_t k = 0; k < 5; ++k) {
+        rig.probes[k].position_m = {};
+        rig.probes[k].position_m[axis] = size_m * static_cast<double>(k) / 4;
+      }
+      EXPECT_EQ(said_of(figures(), rig), said) << size_m << " along " << axis;
+      for (auto& probe : rig.probes) probe.position_m[axis] -= 0.6;  // far from the origin
+      EXPECT_EQ(said_of(figures(), rig), size_m < 0.5e-3 ? 2u : 1u) << size_m;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,98 @@
+// Which cycle a row of visits is, and the run of each, on either side of the limits: rows by hand.
+// Found missing by tests/mutate.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "algo/sequence/sequence_cycle.h"
+
+namespace mdof::algo {
+namespace {
+
+using Runs = std::vector<int>;
+
+// Each number is a target, with the sign of the direction.
+std::vector<Visit> visits_of(const std::vector<int>& row) {
+  std::vector<Visit> visits;
+  for (const int v : row) visits.push_back({std::abs(v), v > 0 ? 1 : -1});
+  return visits;
+}
+
+// Over seven targets and back; the first `repeated` visits of each pass up are there twice.
+std::vector<int> over_and_back(int runs, int repeated) {
+  std::vector<int> row;
+  for (int run = 0; run < runs; ++run) {
+    for (int t = 1; t <= 7; ++t) row.insert(row.end(), run == 0 && t <= repeated ? 2 : 1, t);
+    for (int t = 7; t >= 1; --t) row.push_back(-t);
+  }
+  return row;
+}
+
+bool by_passes(const std::vector<int>& row) {
+  return recognise_cycle(visits_of(row), 7).by_passes;
+}
+
+TEST(CycleRule, ThreeRepeatedVisitsAreForgivenInAShortRun) {
+  EXPECT_TRUE(by_passes(over_and_back(1, 3)));   // 3 of 17
+  EXPECT_FALSE(by_passes(over_and_back(1, 4)));  // 4 of 18
+}
+
+TEST(CycleRule, ThreeOfTwentyAreForgivenInALongOne) {
+  EXPECT_TRUE(by_passes(over_and_back(3, 7)));  // 7 of 49
+  auto more = over_and_back(3, 7);
+  more.insert(more.begin(), 1);
+  EXPECT_FALSE(by_passes(more));  // 8 of 50
+}
+
+// 4, 6 follow a visit from the other side; 5 and 7 from there are not beyond the 3.
+TEST(CycleRule, APassThatAnotherInterruptsIsOutOfOrder) {
+  EXPECT_FALSE(by_passes({1, 2, -3, 4, -5, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
+  EXPECT_TRUE(by_passes({1, 2, -3, 4, 5, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
+}
+
+// A short way before the first turn is a pass of its own, whichever way it goes.
+TEST(CycleRule, AShortFirstPassIsARun) {
+  for (const int up : {1, -1}) {
+    const auto at = [&](int target) { return up * (up > 0 ? target : 8 - target); };
+    std::vector<int> row = {-at(3), -at(2), -at(1)};
+    for (int t = 1; t <= 7; ++t) row.push_back(at(t));
+    for (int t = 7; t >= 1; --t) row.push_back(-at(t));
+    const Runs expected = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2};
+    EXPECT_EQ(recognise_cycle(visits_of(row), 7).run, expected) << up;
+    row.erase(row.begin(), row.begin() + 2);  // a single stop is none
+    EXPECT_EQ(recognise_cycle(visits_of(row), 7).run, Runs(15, 1)) << up;
+  }
+}
+
+// Each target twice; from one to the next the axis goes one way, but for one in seven.
+TEST(CycleRule, APilgrimGoesAlong) {
+  const auto cycle = [](const std::vector<int>& targets, int count) {
+    std::vector<int> row;
+    for (const int t : targets) row.insert(row.end(), {t, -t});
+    return recognise_cycle(visits_of(row), count).cycle;
+  };
+  EXPECT_EQ(cycle({1, 2, 3, 4, 5}, 5), Cycle::pilgrim);
+  EXPECT_EQ(cycle({5, 4, 3, 2, 1}, 5), Cycle::pilgrim);
+  EXPECT_NE(cycle({1, 2, 4, 3, 5}, 5), Cycle::pilgrim);
+  EXPECT_NE(cycle({5, 4, 2, 3, 1}, 5), Cycle::pilgrim);
+  EXPECT_EQ(cycle({1, 2, 3, 5, 4, 6, 7, 8}, 8), Cycle::pilgrim);
+  EXPECT_EQ(cycle({8, 7, 6, 4, 5, 3, 2, 1}, 8), Cycle::pilgrim);
+  EXPECT_NE(cycle({1, 2, 3, 5, 4, 6, 7}, 7), Cycle::pilgrim);
+}
+
+// Of up to three targets one makes a pass; of more, half of them.
+TEST(CycleRule, APassTurnsAtHalfOfTheTargets) {
+  const auto runs = [](int targets, const std::vector<int>& row) {
+    Passes passes(targets);
+    Runs all;
+    for (const Visit& v : visits_of(row)) all.push_back(passes.next(v));
+    return all;
+  };
+  EXPECT_EQ(runs(3, {1, 2, -1, 2}), (Runs{1, 1, 1, 2}));
+  EXPECT_EQ(runs(4, {1, 2, 3, -2, 3, 4}), (Runs{1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(runs(4, {1, 2, 3, -2, -1, 2, 3, 4}), (Runs{1, 1, 1, 1, 1, 2, 2, 2}));
+}
+
+}  // namespace
+}  // namespace mdof::algo

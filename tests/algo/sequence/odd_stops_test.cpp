@@ -1,0 +1,166 @@
+// Which places are no targets, by their visits and their distance, on either side of each limit.
+// Found missing by tests/mutate.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "algo/points/flags.h"
+#include "algo/sequence/sequence_stops.h"
+
+namespace mdof::algo {
+namespace {
+
+// A place and how often it is visited from below and from above.
+struct Visited {
+  double position_mm;
+  int forward, reverse;
+};
+
+struct Told {
+  std::vector<double> kept_mm;
+  std::vector<std::string> reasons;  // of each stop left out
+};
+
+// The log goes over all places, and again over those that have more visits: it ends at one of them.
+Told odd_stops_of(const std::vector<Visited>& places, bool parked_first = false) {
+  std::vector<double> targets_m;
+  for (const Visited& place : places) targets_m.push_back(1e-3 * place.position_mm);
+  std::vector<MeasuredPoint> points;
+  for (int i = 0; i < 20; ++i) {
+    for (std::size_t t = 0; t < places.size(); ++t) {
+      if (i >= places[t].forward + places[t].reverse) continue;
+      MeasuredPoint p;
+      p.target = static_cast<int>(t) + 1;
+      p.point.position_m = targets_m[t];
+      p.point.direction = i < places[t].forward ? 1 : -1;
+      points.push_back(p);
+    }
+  }
+  if (parked_first) add_flag(points.front().point, kApproachAssumed);
+  Told told;
+  for (const StopLeftOut& stop : leave_out_odd_stops(points, targets_m))
+    told.reasons.push_back(stop.reason);
+  for (const double x : targets_m) told.kept_mm.push_back(1e3 * x);
+  for (const MeasuredPoint& p : points)
+    EXPECT_EQ(p.point.position_m, targets_m[static_cast<std::size_t>(p.target) - 1]);
+  return told;
+}
+
+// Targets at 0, 10 ... 60 mm, and one more place.
+Told with_place(const Visited& odd, int forward, int reverse) {
+  std::vector<Visited> places;
+  for (int i = 0; i < 7; ++i) places.push_back({10.0 * i, forward, reverse});
+  const auto above = [](const Visited& a, const Visited& b) {
+    return a.position_mm < b.position_mm;
+  };
+  places.insert(std::upper_bound(places.begin(), places.end(), odd, above), odd);
+  return odd_stops_of(places);
+}
+
+bool is_target(const Visited& place, int forward, int reverse) {
+  const Told told = with_place(place, forward, reverse);
+  EXPECT_EQ(told.kept_mm.size() + (told.reasons.empty() ? 0 : 1), 8u);
+  return told.reasons.empty();
+}
+
+TEST(OddStops, ATargetHasSixTenthsOfTheVisits) {
+  EXPECT_TRUE(is_target({3, 3, 3}, 5, 5));   // 6 of 10: whatever its distance
+  EXPECT_FALSE(is_target({3, 3, 2}, 5, 5));  // 3 mm from the next one
+  EXPECT_FALSE(is_target({3, 6, 0}, 5, 5));  // from one side only
+  EXPECT_TRUE(is_target({3, 3, 0}, 5, 0));
+  EXPECT_FALSE(is_target({3, 2, 0}, 5, 0));
+  EXPECT_TRUE(is_target({3, 0, 3}, 0, 5));
+  EXPECT_FALSE(is_target({3, 3, 0}, 0, 5));  // from the other side than the others
+}
+
+// Between targets from 0.6 of their interval on.
+TEST(OddStops, APlaceBetweenTargetsIsOneWhereTheyLeaveRoom) {
+  const auto with_gap = [](double gap_mm, double at_mm) {
+    std::vector<Visited> places;
+    for (int i = 0; i < 4; ++i) places.push_back({10.0 * i, 3, 3});
+    places.push_back({30 + at_mm, 1, 1});
+    for (int i = 0; i < 4; ++i) places.push_back({30 + gap_mm + 10.0 * i, 3, 3});
+    return odd_stops_of(places).reasons;
+  };
+  EXPECT_TRUE(with_gap(20, 10).empty());
+  EXPECT_TRUE(with_gap(20, 6.1).empty());
+  EXPECT_TRUE(with_gap(20, 13.9).empty());
+  EXPECT_EQ(with_gap(20, 5.9).size(), 2u);
+  EXPECT_EQ(with_gap(20, 14.1).size(), 2u);
+}
+
+// Beyond the end targets up to 1.6 of the interval.
+TEST(OddStops, BeyondTheEndATargetIsNotFar) {
+  for (const bool below : {false, true}) {
+    const auto at = [&](double off_mm) { return below ? -off_mm : 60 + off_mm; };
+    EXPECT_FALSE(is_target({at(5.9), 1, 1}, 3, 3));
+    EXPECT_TRUE(is_target({at(6.1), 1, 1}, 3, 3));
+    EXPECT_TRUE(is_target({at(15.9), 1, 1}, 3, 3));
+    EXPECT_FALSE(is_target({at(16.1), 1, 1}, 3, 3));
+  }
+}
+
+// A target that all passes but one missed is none, where there are three; of two it may be.
+TEST(OddStops, VisitedOnceBeyondTheEndItIsNoneFromThreeVisitsOn) {
+  for (const double at_mm : {-10.0, 70.0}) {
+    EXPECT_TRUE(is_target({at_mm, 1, 0}, 2, 0));
+    EXPECT_FALSE(is_target({at_mm, 1, 0}, 3, 0));
+    EXPECT_FALSE(is_target({at_mm, 1, 0}, 3, 3));
+  }
+}
+
+// Those with more visits are judged first: at 72 mm a target, so that none is at 67 mm.
+TEST(OddStops, MoreVisitsAreJudgedFirst) {
+  const auto beyond = [](int near, int far) {
+    std::vector<Visited> places;
+    for (int i = 0; i < 7; ++i) places.push_back({10.0 * i, 3, 3});
+    places.push_back({67, near, 0});
+    places.push_back({72, far, 0});
+    return odd_stops_of(places).kept_mm.back();
+  };
+  EXPECT_NEAR(beyond(2, 3), 72, 1e-9);
+  EXPECT_NEAR(beyond(3, 2), 67, 1e-9);
+  EXPECT_NEAR(beyond(2, 2), 67, 1e-9);  // then the nearer
+}
+
+// A row of places with few visits goes on from the last target, place by place.
+TEST(OddStops, ARowOfFewVisitsGoesOn) {
+  std::vector<Visited> places;
+  for (int i = 0; i < 10; ++i) places.push_back({10.0 * i, i < 7 ? 3 : 1, i < 7 ? 3 : 1});
+  EXPECT_TRUE(odd_stops_of(places).reasons.empty());
+}
+
+TEST(OddStops, TheReasonSaysWhatThePlaceIs) {
+  EXPECT_EQ(
+      with_place({3, 2, 0}, 3, 3).reasons,
+      std::vector<std::string>(2, "visited 2 times, from one side only, between targets: a pause"));
+  EXPECT_EQ(with_place({62, 1, 1}, 3, 3).reasons,
+            std::vector<std::string>(2, "visited 2 times, beyond the end target: a turning point"));
+  EXPECT_EQ(with_place({3, 2, 2}, 4, 4).reasons,
+            std::vector<std::string>(4, "visited 4 times, between targets: a pause"));
+  EXPECT_EQ(with_place({-2, 1, 0}, 3, 3).reasons,
+            std::vector<std::string>{"visited once, before the first target"});
+  EXPECT_EQ(with_place({62, 1, 0}, 3, 3).reasons,
+            std::vector<std::string>{"visited once, beyond the end target: a turning point"});
+}
+
+// All places have one visit: a start off the grid, of four places and more.
+TEST(OddStops, AParkedStartOffTheGridOfASinglePass) {
+  const auto kept = [](double parked_mm, int targets) {
+    std::vector<Visited> places = {{parked_mm, 1, 0}};
+    for (int i = 1; i <= targets; ++i) places.push_back({10.0 * i, 1, 0});
+    return odd_stops_of(places, true).reasons.empty();
+  };
+  EXPECT_TRUE(kept(0, 4));
+  EXPECT_FALSE(kept(4.1, 4));  // 5.9 mm from the next
+  EXPECT_TRUE(kept(3.9, 4));
+  EXPECT_TRUE(kept(-5.9, 4));
+  EXPECT_FALSE(kept(-6.1, 4));
+  EXPECT_FALSE(kept(-6.1, 3));
+  EXPECT_TRUE(kept(-6.1, 2));  // three places tell nothing
+}
+
+}  // namespace
+}  // namespace mdof::algo

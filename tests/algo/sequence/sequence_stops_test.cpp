@@ -1,0 +1,199 @@
+// Each step of recognise_sequence() by itself, of stops made by hand, on either side of its limits.
+// Found missing by tests/mutate.
+#include "algo/sequence/sequence_stops.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "algo/points/flags.h"
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+using Places = std::vector<double>;
+
+std::vector<Point> stops_at(const Places& positions_m) {
+  std::vector<Point> points;
+  for (const double x : positions_m) {
+    Point p;
+    p.position_m = x;
+    points.push_back(p);
+  }
+  return points;
+}
+
+// A stop of a target, with the way that led to it.
+MeasuredPoint stop_of(int target, double position_m, int direction, double way_min_m,
+                      double way_max_m, std::size_t samples = 100) {
+  MeasuredPoint p;
+  p.target = target;
+  p.point.position_m = position_m;
+  p.point.direction = direction;
+  p.point.way_min_m = way_min_m;
+  p.point.way_max_m = way_max_m;
+  p.point.samples = samples;
+  return p;
+}
+
+TEST(TargetsOfStops, AreNoneOfNone) {
+  EXPECT_EQ(targets_of_stops({}), Places{});
+  EXPECT_EQ(targets_of_stops(stops_at({3e-3})), Places{3e-3});
+}
+
+// Stops scatter by 50 um at the most.
+TEST(TargetsOfStops, ScatterByFiftyMicrometresAndNoMore) {
+  EXPECT_EQ(targets_of_stops(stops_at({0, 50e-6, 10e-3})), (Places{0, 10e-3}));
+  EXPECT_EQ(targets_of_stops(stops_at({0, 51e-6, 10e-3})), (Places{0, 51e-6, 10e-3}));
+}
+
+// The next target is ten times as far as stops scatter; in parts of 2^-18 m, which are exact.
+TEST(TargetsOfStops, LieTenTimesAsFarApartAsTheirStops) {
+  const double part_m = 0x1p-18;  // 3.8 um
+  EXPECT_EQ(targets_of_stops(stops_at({0, part_m, 11 * part_m})), (Places{0, 11 * part_m}));
+  EXPECT_EQ(targets_of_stops(stops_at({0, part_m, 10.9 * part_m})).size(), 3u);
+}
+
+// Of two gaps in the steps the larger tells: 4, 60 and 6000 um are 15 and 100 times as far.
+TEST(TargetsOfStops, AreToldByTheGreatestOfTheGaps) {
+  EXPECT_EQ(targets_of_stops(stops_at({0, 4e-6, 64e-6, 6e-3})).size(), 3u);
+  EXPECT_EQ(targets_of_stops(stops_at({0, 4e-6, 44e-6, 6e-3})), (Places{0, 6e-3}));
+}
+
+TEST(TargetsOfStops, OfStopsWithinTwoMicrometresAreOne) {
+  EXPECT_EQ(targets_of_stops(stops_at({2e-6, 0, 1e-6, 3e-6})), Places{2e-6});
+  EXPECT_EQ(targets_of_stops(stops_at({0, 1e-9, 0.5e-6, 2e-6})), Places{0});
+  EXPECT_EQ(targets_of_stops(stops_at({0, 2.1e-6})).size(), 2u);
+}
+
+// Not the lowest stop, nor the last.
+TEST(TargetsOfStops, AreWhereTheAxisFirstStopped) {
+  EXPECT_EQ(targets_of_stops(stops_at({5.001e-3, 1e-6, 5e-3, 0, 5.002e-3})),
+            (Places{1e-6, 5.001e-3}));
+}
+
+TEST(NearestTarget, IsTheNearerOfTheTwoBeside) {
+  const Places targets_m = {0, 1, 3};
+  EXPECT_EQ(nearest_target(targets_m, -5), 0u);
+  EXPECT_EQ(nearest_target(targets_m, 0.4), 0u);
+  EXPECT_EQ(nearest_target(targets_m, 0.5), 0u);  // the lower one of two as near
+  EXPECT_EQ(nearest_target(targets_m, 0.6), 1u);
+  EXPECT_EQ(nearest_target(targets_m, 1), 1u);
+  EXPECT_EQ(nearest_target(targets_m, 1.9), 1u);
+  EXPECT_EQ(nearest_target(targets_m, 2.1), 2u);
+  EXPECT_EQ(nearest_target(targets_m, 7), 2u);
+}
+
+// The axis stands at 0 after it was `beyond_m` past it, and comes from `from_m` away.
+bool is_overshot(int direction, double beyond_m, double from_m) {
+  Point p;
+  p.direction = direction;  // of the last motion, the correction
+  p.way_min_m = direction < 0 ? -from_m : -beyond_m;
+  p.way_max_m = direction < 0 ? beyond_m : from_m;
+  const bool overshot = correct_overshot(p);
+  EXPECT_EQ(p.direction, overshot ? -direction : direction);
+  EXPECT_EQ(has_flag(p, kOvershot), overshot);
+  return overshot;
+}
+
+TEST(Overshot, IsMoreThanFortyAndAtMostTwoHundredAndFiftyMicrometres) {
+  for (const int direction : {1, -1}) {
+    EXPECT_FALSE(is_overshot(direction, 40e-6, 5e-3));
+    EXPECT_TRUE(is_overshot(direction, 41e-6, 5e-3));
+    EXPECT_TRUE(is_overshot(direction, 0.25e-3, 5e-3));
+    EXPECT_FALSE(is_overshot(direction, 0.251e-3, 5e-3));
+    EXPECT_TRUE(is_overshot(direction, 0.1e-3, 0.21e-3));
+    EXPECT_FALSE(is_overshot(direction, 0.1e-3, 0.2e-3));  // twice as far at least
+    EXPECT_FALSE(is_overshot(direction, kNaN, kNaN));
+  }
+  EXPECT_FALSE(is_overshot(0, 0.1e-3, 5e-3));
+}
+
+TEST(Overshot, AreCounted) {
+  std::vector<Point> points(4);
+  for (Point& p : points) p.direction = -1, p.way_min_m = -5e-3, p.way_max_m = 0;
+  EXPECT_EQ(correct_overshot(points), 0);
+  points[1].way_max_m = points[3].way_max_m = 0.1e-3;
+  EXPECT_EQ(correct_overshot(points), 2);
+  EXPECT_EQ(points[0].direction, -1);
+  EXPECT_EQ(points[3].direction, 1);
+}
+
+std::vector<int> assumed(std::vector<MeasuredPoint> points) {
+  assume_approaches(points);
+  std::vector<int> directions;
+  for (const MeasuredPoint& p : points) directions.push_back(p.point.direction);
+  return directions;
+}
+
+TEST(AssumedApproach, IsThatOfTheMotionThatFollows) {
+  const auto at = [](int target, int direction) {
+    return stop_of(target, 1e-3 * target, direction, kNaN, kNaN);
+  };
+  EXPECT_EQ(assumed({at(3, 0), at(4, 1)}), (std::vector{1, 1}));
+  EXPECT_EQ(assumed({at(3, 0), at(2, -1)}), (std::vector{-1, -1}));
+  EXPECT_EQ(assumed({at(3, 0), at(3, -1)}), (std::vector{1, -1}));
+  EXPECT_EQ(assumed({at(3, 0)}), std::vector{1});
+  EXPECT_EQ(assumed({at(3, -1), at(3, 0), at(5, 1)}), (std::vector{-1, -1, 1}));  // it stayed
+  EXPECT_EQ(assumed({at(2, 1), at(3, 0), at(1, -1)}), (std::vector{1, -1, -1}));
+  std::vector<MeasuredPoint> points = {at(3, 0), at(4, 1)};
+  assume_approaches(points);
+  EXPECT_TRUE(has_flag(points[0].point, kApproachAssumed));
+  EXPECT_FALSE(has_flag(points[1].point, kApproachAssumed));
+}
+
+// The longer part is kept, of two as long the first; the way is that to the first.
+TEST(Interrupted, TheLongerPartIsKept) {
+  for (const std::size_t samples : {99u, 100u, 101u}) {
+    std::vector<MeasuredPoint> points = {stop_of(2, 5e-3, 1, 0, 5e-3),
+                                         stop_of(2, 5.001e-3, 1, 5e-3, 5.001e-3, samples)};
+    merge_interrupted(points);
+    ASSERT_EQ(points.size(), 1u);
+    EXPECT_EQ(points[0].point.position_m, samples > 100 ? 5.001e-3 : 5e-3) << samples;
+    EXPECT_EQ(points[0].point.way_min_m, 0);
+    EXPECT_EQ(points[0].point.way_max_m, 5e-3);
+    EXPECT_TRUE(has_flag(points[0].point, kInterrupted));
+  }
+}
+
+TEST(Interrupted, IsNoStopThatTheAxisLeft) {
+  const auto left = [](const MeasuredPoint& second) {
+    std::vector<MeasuredPoint> points = {stop_of(2, 0, 1, -5e-3, 0), second};
+    merge_interrupted(points);
+    return points.size();
+  };
+  EXPECT_EQ(left(stop_of(2, 0, 1, -50e-6, 50e-6)), 1u);
+  EXPECT_EQ(left(stop_of(2, 0, 1, -51e-6, 0)), 2u);
+  EXPECT_EQ(left(stop_of(2, 0, 1, 0, 51e-6)), 2u);
+  EXPECT_EQ(left(stop_of(2, 0, -1, 0, 0)), 2u);
+  EXPECT_EQ(left(stop_of(3, 0, 1, 0, 0)), 2u);
+}
+
+TEST(ParkedStart, IsLeftOutWhereTheAxisCameAgain) {
+  const auto left_out = [](bool assumed, const MeasuredPoint& next) {
+    std::vector<MeasuredPoint> points = {stop_of(1, 2e-6, 1, kNaN, kNaN), next};
+    points[0].point.begin_ns = 7;
+    if (assumed) add_flag(points[0].point, kApproachAssumed);
+    const auto found = leave_out_parked_start(points);
+    EXPECT_EQ(points.size(), 2 - found.size());
+    if (!found.empty()) {
+      EXPECT_EQ(found[0].position_m, 2e-6);
+      EXPECT_EQ(found[0].begin_ns, 7);
+      EXPECT_EQ(points[0].point.position_m, next.point.position_m);
+    }
+    return found.size();
+  };
+  EXPECT_EQ(left_out(true, stop_of(1, 0, 1, -1e-3, 0)), 1u);
+  EXPECT_EQ(left_out(false, stop_of(1, 0, 1, -1e-3, 0)), 0u);
+  EXPECT_EQ(left_out(true, stop_of(1, 0, -1, -1e-3, 0)), 0u);
+  EXPECT_EQ(left_out(true, stop_of(2, 0, 1, -1e-3, 0)), 0u);
+  EXPECT_EQ(left_out(true, stop_of(1, 0, 1, -10e-6, 0)), 0u);  // it stayed
+  std::vector<MeasuredPoint> none, one = {stop_of(1, 0, 1, -1e-3, 0)};
+  EXPECT_TRUE(leave_out_parked_start(none).empty());
+  EXPECT_TRUE(leave_out_parked_start(one).empty());
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,54 @@
+// The uncertainty of a mean by sums of products worked by hand. Found missing by tests/mutate.
+#include "algo/uncertainty/mean_uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace mdof::algo {
+namespace {
+
+// `runs` times `length` readings of +1 and then of -1: the mean is 0, the sd √(n/(n - 1)).
+double u_of_runs(int length, int runs) {
+  std::vector<double> x;
+  for (int k = 0; k < runs; ++k)
+    x.insert(x.end(), static_cast<std::size_t>(length), k % 2 ? -1 : 1);
+  const auto n = static_cast<double>(x.size());
+  return mean_uncertainty(x, std::sqrt(n / (n - 1)));
+}
+
+// Sixteen readings, four runs of four. Of 15 neighbours three differ: 9/16; of 14 at distance two
+// six: 2/16; of 13 at distance three nine: -5/16. So the first pair of lags, 25/16, counts and the
+// next does not: (2 × 25/16 - 1) / (16 - 3).
+TEST(MeanUncertainty, OfOnePairOfLags) {
+  EXPECT_NEAR(u_of_runs(4, 4), std::sqrt((50 / 16.0 - 1) / 13), 1e-14);
+}
+
+// Thirty-two, four runs of eight: 1, 25/32 | 18/32, 11/32 | 4/32, -3/32, of which the last pair is
+// below the noise √(2/32).
+TEST(MeanUncertainty, OfTwoPairsOfLags) {
+  EXPECT_NEAR(u_of_runs(8, 4), std::sqrt((2 * 86 / 32.0 - 1) / 25), 1e-14);
+}
+
+// Of readings that alternate the pairs sum up to less than one reading's variance: as if they
+// were independent, never less.
+TEST(MeanUncertainty, IsNeverLessThanOfIndependentReadings) {
+  EXPECT_NEAR(u_of_runs(1, 16), 1 / std::sqrt(15), 1e-14);
+}
+
+TEST(MeanUncertainty, OfFewReadings) {
+  EXPECT_EQ(mean_uncertainty({}, 0), 0);
+  EXPECT_EQ(mean_uncertainty(std::vector<double>{0}, 3), 0);
+  EXPECT_NEAR(mean_uncertainty(std::vector<double>{1, -1}, std::sqrt(2)), 1, 1e-14);
+}
+
+// More than 256 readings are taken by means of equal length: of 1024, four together, each run of
+// sixteen readings is one of four.
+TEST(MeanUncertainty, OfManyReadingsByTheirMeans) {
+  const double few = u_of_runs(4, 64), many = u_of_runs(16, 64);
+  EXPECT_NEAR(many, few, 1e-12);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "algo/sensitivity/kernels/kernels.h"
+#include "schema/study/plan.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -47,7 +48,8 @@ Status check(const SimulationOptions& o) {
   if (o.travel_to_mm < o.travel_from_mm) {
     return refused("travel_to_mm", "must not be below travel_from_mm");
   }
-  if (o.travel_bins < 1 || o.travel_bins > 200) return refused("travel_bins", "must be 1 to 200");
+  if (o.travel_bins < 1 || o.travel_bins > kMostStudyBins)
+    return refused("travel_bins", "must be 1 to " + std::to_string(kMostStudyBins));
   return {};
 }
 

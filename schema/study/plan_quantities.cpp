@@ -210,7 +210,11 @@ void read_bins(TomlTable& table, StudyPlan& plan, const std::set<std::string>& g
   auto bins = table.table("bins");
   if (!bins) return;
   plan.binned_key = bins->string("quantity", "travel_mm");
-  plan.bins = static_cast<std::size_t>(read_count(*bins, "count", 20, 1, 1000));
+  plan.bins = static_cast<std::size_t>(bins->integer("count", 20));
+  if (plan.bins < 1 || plan.bins > kMostStudyBins)  // one below zero is large
+    bins->reject("count", "must be from 1 to " + std::to_string(kMostStudyBins) +
+                              ": each bin takes 33 kB of memory an output and thread; for a finer "
+                              "look give the quantity a part of its range, a plan for each part");
   const PlannedQuantity* quantity = quantity_with(plan, plan.binned_key);
   if (!quantity || quantity->distribution.kind != Kind::rectangular ||
       quantity->name != plan.binned_key)

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
@@ -41,6 +42,13 @@ class StoreTest : public testing::Test {
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+template <class Values>
+std::vector<std::uint64_t> bits(const Values& values) {
+  std::vector<std::uint64_t> all;
+  for (const double x : values) all.push_back(std::bit_cast<std::uint64_t>(x));
+  return all;
 }
 
 inline MeasuredPoint make_point(int target, int repetition) {

@@ -1,6 +1,5 @@
 #include "daemon/store/store.h"
 
-#include <bit>
 #include <cmath>
 #include <thread>
 
@@ -11,15 +10,6 @@
 
 namespace mdof::store {
 namespace {
-
-using Bits = std::vector<std::uint64_t>;
-
-template <class Values>
-Bits bits(const Values& values) {
-  Bits all;
-  for (const double x : values) all.push_back(std::bit_cast<std::uint64_t>(x));
-  return all;
-}
 
 void expect_same(const MeasuredPoint& a, const MeasuredPoint& b) {
   EXPECT_EQ(a.target, b.target);
@@ -307,116 +297,6 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
     }
   }
   EXPECT_EQ(tables, 18);
-}
-
-TEST_F(StoreTest, KeepsSquareness) {
-  auto store = writer();
-  ASSERT_TRUE(store->add_run(make_run(1)));
-  ASSERT_TRUE(store->add_run(make_run(1, Axis::y)));
-  const Squareness s{0,    1,    2, 1e-5, 2e-7, 9e-6, 3e-6, 4e-8, -5e-6, 6e-8, {7e-7, 8e-8, -1},
-                     true, "utc"};
-  EXPECT_EQ(store->add_squareness(s).value(), 1);
-  const auto list = store->list_squareness(0, 10).value();
-  ASSERT_EQ(list.size(), 1u);
-  EXPECT_EQ(list[0].run_y, 2);
-  EXPECT_EQ(list[0].EC0Y_rad, 1e-5);
-  EXPECT_EQ(list[0].u_slope_EXY_rad, 6e-8);
-  EXPECT_EQ(list[0].artefact.angle_error_rad, 7e-7);
-  EXPECT_EQ(list[0].artefact.u_rad, 8e-8);
-  EXPECT_EQ(list[0].artefact.corner, -1);
-  EXPECT_EQ(list[0].form_rad, 9e-6);
-  EXPECT_TRUE(list[0].simulated);
-  EXPECT_EQ(store->add_squareness({0, 1, 9, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}).error().code,
-            ErrorCode::not_found);
-}
-
-TEST_F(StoreTest, GivesACompensationTableBackToTheLastBit) {
-  auto store = writer();
-  for (int i = 0; i < 2; ++i) ASSERT_TRUE(store->add_run(make_run(1)));
-  CompensationTable table = make_table({2, 1});
-  table.reverse[4][1] = kNaN;
-  table.sides = {true, true};
-  table.stated = {Reference::tool, {1e-3, -2e-3, 0.1}};
-  table.machine = chain_from("w-Y-b-X-Z-t", "Y+ X- Z-").value();
-  const CompensationTable back = store->table(store->add_table(table).value()).value();
-  EXPECT_EQ(back.id, 1);
-  EXPECT_EQ(back.runs, table.runs);
-  EXPECT_EQ(back.sides, table.sides);
-  EXPECT_EQ(back.stated, table.stated);
-  EXPECT_EQ(back.machine, table.machine);
-  EXPECT_FALSE(back.of_schema_2);
-  EXPECT_EQ(bits(back.position_m), bits(table.position_m));
-  for (std::size_t k = 0; k < 5; ++k) {
-    EXPECT_EQ(bits(back.forward[k]), bits(table.forward[k]));
-    EXPECT_EQ(bits(back.reverse[k]), bits(table.reverse[k]));
-    EXPECT_EQ(bits(back.u_forward[k]), bits(table.u_forward[k]));
-    EXPECT_EQ(bits(back.u_reverse[k]), bits(table.u_reverse[k]));
-  }
-  table.forward[2].pop_back();
-  EXPECT_EQ(store->add_table(table).error().code, ErrorCode::usage);
-}
-
-TEST_F(StoreTest, WhatIsInForceOrNotIsNotMadeSoAgain) {
-  auto store = writer();
-  ASSERT_TRUE(store->add_run(make_run(1)));
-  for (const Axis axis : {Axis::x, Axis::x, Axis::y})
-    ASSERT_TRUE(store->add_table(make_table({1}, axis)));
-  EXPECT_FALSE(store->deactivate(Axis::x, "anna", "t0")->changed);
-  const auto first = store->activate(1, "anna", "t1");
-  ASSERT_TRUE(first->changed);
-  ASSERT_TRUE(store->activate(3, "anna", "t2")->changed);
-  const auto again = store->activate(1, "ben", "t3");
-  EXPECT_FALSE(again->changed);
-  EXPECT_EQ(again->generation, first->generation);
-  EXPECT_EQ(store->active(Axis::x)->actor, "anna");
-  const auto out = store->deactivate(Axis::x, "ben", "t4");
-  EXPECT_GT(out->generation, first->generation + 1);
-  EXPECT_EQ(store->active(Axis::x).error().code, ErrorCode::not_found);
-  EXPECT_EQ(store->active(Axis::y)->table.id, 3);
-  EXPECT_EQ(store->generation().value(), out->generation);
-  EXPECT_FALSE(store->deactivate(Axis::x, "ben", "t5")->changed);
-  const auto back = store->activate(1, "ben", "t6");  // in force again
-  EXPECT_GT(back->generation, out->generation);
-  EXPECT_EQ(store->active(Axis::x)->generation, back->generation);
-}
-
-// A client keeps what it read under a number: no number comes again, not even in a new database.
-TEST_F(StoreTest, GenerationsGoOnWhereTheDatabaseWasMadeAnew) {
-  std::int64_t last = 0;
-  for (int database = 0; database < 2; ++database) {
-    auto store = writer();
-    ASSERT_TRUE(store->add_run(make_run(1)));
-    ASSERT_TRUE(store->add_table(make_table({1})));
-    const std::string utc = "2026-11-22T15:30:0" + std::to_string(database) + ".5Z";
-    const auto first = store->activate(1, "anna", utc);
-    EXPECT_EQ(first->generation, 1'795'361'400 + database);  // date -ud ... +%s
-    EXPECT_GT(first->generation, last);
-    last = first->generation;
-    fs::remove(file_);
-  }
-}
-
-TEST_F(StoreTest, GenerationsRiseOverAllAxes) {
-  auto store = writer();
-  ASSERT_TRUE(store->add_run(make_run(1)));
-  for (const Axis axis : {Axis::x, Axis::x, Axis::y})
-    ASSERT_TRUE(store->add_table(make_table({1}, axis)));
-  EXPECT_EQ(store->generation().value(), 0);
-  const std::int64_t first = store->activate(2, "anna", "t1")->generation;
-  EXPECT_GT(first, 0);
-  const std::int64_t second = store->activate(3, "anna", "t2")->generation;
-  EXPECT_GT(second, first);
-  const std::int64_t third = store->activate(1, "ben", "t3")->generation;
-  EXPECT_GT(third, second);
-  const ActiveTable x = store->active(Axis::x).value();
-  EXPECT_EQ(x.table.id, 1);
-  EXPECT_EQ(x.generation, third);
-  EXPECT_EQ(x.actor, "ben");
-  EXPECT_EQ(x.activated_utc, "t3");
-  EXPECT_EQ(store->active(Axis::y)->generation, second);
-  EXPECT_EQ(store->generation().value(), third);
-  EXPECT_EQ(store->list_tables(0, 9).value().size(), 3u);
-  EXPECT_EQ(store->list_tables(0, 9, Axis::y).value().at(0).id, 3);
 }
 
 TEST_F(StoreTest, ViewsNameErrorsByAxisWithTheirSigns) {

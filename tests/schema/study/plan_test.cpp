@@ -86,6 +86,13 @@ TEST(StudyPlan, EveryNameIsOneThatTheRigKnows) {
   }
 }
 
+// Each bin has a histogram for each output and thread.
+TEST(StudyPlan, TwoHundredBinsAreTheMost) {
+  const auto plan = parse_study_plan(kHead + "[bins]\ncount = 200\n", kFolder + "plan.toml");
+  ASSERT_TRUE(plan) << plan.error().message;
+  EXPECT_EQ(plan->bins, 200U);
+}
+
 struct Bad {
   std::string text, says;
 };
@@ -160,7 +167,10 @@ INSTANTIATE_TEST_SUITE_P(
                    "coefficient = 1\n",
             "between -1 and 1"},
         Bad{kHead + "[bins]\nquantity = \"probe.A.x_um\"\n", "rectangular"},
-        Bad{kHead + "[bins]\ncount = 0\n", "count: must be from 1"},
+        Bad{kHead + "[bins]\ncount = 0\n", "count: must be from 1 to 200"},
+        Bad{kHead + "[bins]\ncount = -1\n", "count: must be from 1 to 200"},
+        Bad{kHead + "[bins]\ncount = 201\n", "bins.count: must be from 1 to 200"},
+        Bad{kHead + "[bins]\ncount = 201\n", "a plan for each part"},
         Bad{kHead + "[adaptive]\ndigits = 9\n", "digits: must be from 1 to 6"},
         Bad{kHead + "[adaptive]\n[adaptive.tolerance]\nEYX_um = 0\n", "greater than zero"},
         Bad{kHead + "[adaptive]\n[adaptive.tolerance]\nEXX_um = 1\n", "EXX_um"},

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "schema/base/files.h"
+#include "schema/study/plan.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/study/preset.h"
 #include "tools/mdof/study/running/workers.h"
@@ -39,7 +40,7 @@ void declare_preset(CLI::App& command, SensitivityCommand& o) {
       ->group(group)
       ->type_name("FROM TO");
   command.add_option("--bins", o.bins, "Results also for so many parts of the travel")
-      ->check(CLI::Range(1, 1000))
+      ->check(CLI::Range(1, static_cast<int>(kMostStudyBins)))
       ->group(group)
       ->type_name("N");
 }

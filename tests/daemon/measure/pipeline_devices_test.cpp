@@ -1,0 +1,98 @@
+// Probes and encoder on two devices, each with scans and troubles of its own.
+#include <gtest/gtest.h>
+
+#include "algo/points/flags.h"
+#include "tests/daemon/measure/test_axis.h"
+
+namespace mdof::daemon {
+namespace {
+
+const std::vector<std::string> kTop = {kEncoderChannel, "A", "B", "C"}, kSide = {"D", "E"};
+
+// `side_falls_silent`: the scan from which the second device gives nothing more.
+class TwoDevices {
+ public:
+  explicit TwoDevices(std::size_t side_falls_silent = SIZE_MAX) : silent_(side_falls_silent) {
+    axis_.pass_both_ways({0, 5, 10, 15, 20});
+    axis_.pass_both_ways({0, 5, 10, 15, 20});
+  }
+  // Feeds what comes in 50 ms; false: there is nothing more.
+  bool feed(Pipeline& pipeline) {
+    const std::size_t begin = at_;
+    at_ += 50;
+    SampleBlock top = axis_.block(begin, at_, kTop, "t7");
+    EXPECT_TRUE(pipeline.push(top));
+    if (begin < silent_) {
+      SampleBlock side = axis_.block(begin, at_, kSide, "capa");
+      for (auto& time_ns : side.time_ns) time_ns += 300'000;  // it samples at other instants
+      EXPECT_TRUE(pipeline.push(side));
+    }
+    return at_ < axis_.scans();
+  }
+  std::size_t at() const { return at_; }
+
+ private:
+  TestAxis axis_;
+  std::size_t silent_, at_ = 0;
+};
+
+TEST(PipelineOfTwoDevices, MeasuresAsOneDoes) {
+  Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
+  TwoDevices devices;
+  while (devices.feed(pipeline)) continue;
+  const auto run = pipeline.finish();
+  ASSERT_TRUE(run) << run.error().message;
+  ASSERT_EQ(run->points.size(), 20u);
+  for (const auto& p : run->points) expect_true_errors(p, 1e3 * p.target_m);
+  EXPECT_EQ(run->points.back().run, 2);
+}
+
+TEST(PipelineOfTwoDevices, TheSilenceOfOneIsToldAndDoesNotHoldUpTheOtherForEver) {
+  constexpr std::size_t kSilent = 3000;  // scans: 3 s, at the sixth stop
+  Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
+  TwoDevices devices(kSilent);
+  while (devices.feed(pipeline) && devices.at() < kSilent + 1000) continue;
+  const auto waits = pipeline.waiting_for();
+  ASSERT_TRUE(waits);
+  EXPECT_TRUE(*waits == "D" || *waits == "E") << *waits;
+  const std::size_t held_up = pipeline.points().size();
+  while (devices.feed(pipeline)) continue;
+  EXPECT_GT(pipeline.points().size(), held_up + 5) << "after the lag bound points come again";
+  const auto run = pipeline.finish();
+  ASSERT_TRUE(run) << run.error().message;
+  ASSERT_EQ(run->points.size(), 20u);
+  for (const auto& p : run->points) {
+    const bool before = p.point.end_ns < TestAxis::time_ns(kSilent);
+    EXPECT_EQ(p.errors.valid, before || p.point.begin_ns < TestAxis::time_ns(kSilent));
+    if (before) expect_true_errors(p, 1e3 * p.target_m);
+    if (p.point.begin_ns < TestAxis::time_ns(kSilent)) continue;
+    EXPECT_TRUE(algo::has_flag(p.point, "lost:D") && algo::has_flag(p.point, "lost:E"));
+    EXPECT_NE(p.errors.reason.find("probes A B C cannot"), std::string::npos) << p.errors.reason;
+    EXPECT_TRUE(std::isnan(p.point.probe_m[3]) && !std::isnan(p.point.probe_m[0]));
+  }
+}
+
+TEST(PipelineOfTwoDevices, AnEncoderThatFallsSilentTakesNoMemory) {
+  PipelineOptions options;
+  Pipeline pipeline = Pipeline::create(five_probe_rig(), options).value();
+  TestAxis axis;
+  axis.pass_both_ways({0, 5, 10, 15, 20});
+  SampleBlock all = axis.block(0, axis.scans(), kTop, "t7"),
+              side = axis.block(0, axis.scans(), kSide, "capa");
+  ASSERT_TRUE(pipeline.push(all));
+  ASSERT_TRUE(pipeline.push(side));
+  // An hour of the other device, whose samples no frame will ever need.
+  SampleBlock more = side;
+  for (std::int64_t k = 0; k < 600; ++k) {
+    more = axis.block(0, axis.scans(), kSide, "capa");
+    for (auto& time_ns : more.time_ns)
+      time_ns += (k + 2) * static_cast<std::int64_t>(axis.scans()) * TestAxis::kPeriod_ns;
+    ASSERT_TRUE(pipeline.push(more));
+  }
+  const auto run = pipeline.finish();
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->points.size(), 10u);
+}
+
+}  // namespace
+}  // namespace mdof::daemon

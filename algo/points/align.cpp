@@ -68,14 +68,19 @@ Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids)
   for (auto& id : probe_ids) {
     Track track;
     track.gap_ns = to_ns(options_.gap_s(id));
+    if (const auto delay = options_.delay_s.find(id); delay != options_.delay_s.end())
+      track.delay_ns = std::llround(delay->second * 1e9);
+    delay_ns_ = std::max(delay_ns_, track.delay_ns);
     track.id = std::move(id);
     probes_.push_back(std::move(track));
   }
+  lag_bound_ns_ = to_ns(options_.lag_bound_s) + delay_ns_;
 }
 
 // Whether the block has all channels of the rig; finds them, -1 where it has none.
 bool Aligner::whole(const SampleBlock& block) {
   if (block.channels.size() <= probes_.size()) return false;  // a device of several
+  if (!options_.delay_s.empty()) return false;  // a scan's readings are of different instants
   if (block.channels != known_channels_) {
     known_channels_ = block.channels;
     channel_of_.assign(probes_.size() + 1, -1);
@@ -152,7 +157,7 @@ Status Aligner::enqueue(const SampleBlock& block) {
 
 Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track) {
   for (std::size_t i = 0; i < block.scans(); ++i) {
-    const std::int64_t t = block.time_ns[i];
+    const std::int64_t t = block.time_ns[i] - track.delay_ns;
     if (t <= track.newest_ns) {
       return bad_input("device \"" + block.device + "\", channel " + track.id +
                        ": time goes backwards, from " + std::to_string(track.newest_ns) +
@@ -209,7 +214,7 @@ void Aligner::mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bo
 void Aligner::emit(FrameBlock& out, bool at_end) {
   while (!encoder_.readings.empty()) {
     const Reading at = encoder_.readings.front();
-    const bool overdue = at_end || newest_ns_ - at.time_ns > to_ns(options_.lag_bound_s);
+    const bool overdue = at_end || newest_ns_ - at.time_ns > lag_bound_ns_;
     const bool reached = std::all_of(probes_.begin(), probes_.end(), [&](const Track& probe) {
       return probe.newest_ns >= at.time_ns;
     });
@@ -235,7 +240,7 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
 // Where encoder positions wait, emit() drops what they have left behind.
 void Aligner::let_go_of_what_is_too_old() {
   if (!encoder_.readings.empty()) return;
-  const std::int64_t oldest_ns = newest_ns_ - to_ns(2 * options_.lag_bound_s + 1);
+  const std::int64_t oldest_ns = newest_ns_ - 2 * lag_bound_ns_ - to_ns(1);
   for (Track& probe : probes_) {
     auto& readings = probe.readings;
     while (readings.size() >= 2 && readings[1].time_ns <= oldest_ns) readings.pop_front();
@@ -268,14 +273,17 @@ void Aligner::flush(FrameBlock& out) {
   out.probe_m.resize(probes_.size());
   out.probe_quality.resize(probes_.size());
   if (out.size() == 0) clear_columns(out);
+  auto& waits = encoder_.readings;
+  while (delay_ns_ > 0 && !waits.empty() && waits.back().time_ns > newest_ns_ - delay_ns_)
+    waits.pop_back();
   emit(out, true);
 }
 
 std::optional<std::string> Aligner::waiting_for() const {
   if (encoder_.readings.empty()) {
-    const bool silent = newest_ns_ > encoder_.newest_ns &&
-                        (encoder_.newest_ns == INT64_MIN ||
-                         newest_ns_ - encoder_.newest_ns > to_ns(options_.lag_bound_s));
+    const bool silent =
+        newest_ns_ > encoder_.newest_ns &&
+        (encoder_.newest_ns == INT64_MIN || newest_ns_ - encoder_.newest_ns > lag_bound_ns_);
     return silent ? std::optional(encoder_.id) : std::nullopt;
   }
   const auto latest =

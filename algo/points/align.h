@@ -25,17 +25,21 @@ struct AlignOptions {
   // Time between the samples of slow channels, as their devices state it: for these a gap begins at
   // two and a half of it, one sample that is late or lost is none.
   std::map<std::string, double> interval_s = {};
+  // How much later than the encoder's a probe's readings come, beyond what their time stamps say (a
+  // filter, the order of a scan); negative: earlier. A reading is of that much before its stamp.
+  // Where any probe has one, a single device's scans are interpolated as well.
+  std::map<std::string, double> delay_s = {};
 
   double gap_s(const std::string& channel) const;
 };
 
-// Takes calibrated blocks (Unit::metre). Where one device gives the encoder and all probes, its
-// scans are the frames, bit for bit. Otherwise each probe is interpolated linearly between its two
-// samples around the encoder's instant; quality is the worst of the two and the encoder's. Where a
-// probe is slower than the encoder, frames say which instants have a new sample of its own
-// (probe_fresh): the others repeat what is known. While the encoder is silent, probe samples are
-// kept for twice the lag bound and a second: what it sends after that is of later instants.
-// Thread-bound.
+// Takes calibrated blocks (Unit::metre). Where one device gives the encoder and all probes, and
+// none has a delay, its scans are the frames, bit for bit. Otherwise each probe is interpolated
+// linearly between its two samples around the encoder's instant; quality is the worst of the two
+// and the encoder's. Where a probe is slower than the encoder, frames say which instants have a new
+// sample of its own (probe_fresh): the others repeat what is known. While the encoder is silent,
+// probe samples are kept for twice the lag bound and a second: what it sends after that is of later
+// instants. Thread-bound.
 class Aligner {
  public:
   Aligner(AlignOptions options, std::vector<std::string> probe_ids);
@@ -44,7 +48,8 @@ class Aligner {
   // appended to `out`; where its time_ns is empty, whatever its other columns hold is given up.
   // Error: time of a channel goes backwards (names channel and times).
   Status push(SampleBlock& block, FrameBlock& out);
-  // End of the data: what waits is given out, missing where nothing more came.
+  // End of the data: what waits is given out, missing where nothing more came; but the last
+  // instants, whose delayed readings would still have come, are left out.
   void flush(FrameBlock& out);
 
   // The channel that holds up the frames now, if any.
@@ -67,7 +72,7 @@ class Aligner {
     std::deque<Reading> readings;
     std::int64_t newest_ns = INT64_MIN;
     std::int64_t used_ns = INT64_MIN;  // the newest of its samples that is in the frames
-    std::int64_t gap_ns = 0;
+    std::int64_t gap_ns = 0, delay_ns = 0;
     std::uint64_t asked = 0, in_gap = 0;  // values, and those in a gap
     std::int64_t shortest_gap_ns = INT64_MAX;
   };
@@ -84,6 +89,8 @@ class Aligner {
   void mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const;
 
   AlignOptions options_;
+  std::int64_t lag_bound_ns_ = 0;  // with the longest delay in it
+  std::int64_t delay_ns_ = 0;      // the longest; 0: none comes later than the encoder
   Track encoder_;
   std::vector<Track> probes_;
   std::vector<int> channel_of_;  // of known_channels_: [probe..., encoder]

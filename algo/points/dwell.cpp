@@ -42,6 +42,7 @@ std::string DwellOptions::json() const {
       .field("min_length_s", min_length_s)
       .field("approach_um", to_um(approach_m))
       .field("max_scans", static_cast<std::uint64_t>(max_scans));
+  if (leave_s != 0) json.field("leave_s", leave_s);
   if (max_speed_m_s != DwellOptions().max_speed_m_s)
     json.field("max_speed_mm_s", to_mm(max_speed_m_s));
   json.end_object();
@@ -259,14 +260,13 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   gave_point_ = false;
   left_ns_ = slots_.back().begin_ns;
   left_m_ = slots_[slots_.size() - 3].middle();
-  const std::size_t end_row = std::min(slots_[slots_.size() - 2].first_row, cut_row_);
+  const std::size_t end_row = std::min(end_of_rest(slots_[slots_.size() - 2]), cut_row_);
   const double still_s = ns_to_s(slots_[slots_.size() - 2].begin_ns - still_since_ns_);
   summary_.longest_still_s = std::max(summary_.longest_still_s, still_s);
   const auto settled_ns = still_since_ns_ + static_cast<std::int64_t>(options_.settle_s * 1e9);
   const auto first = std::lower_bound(buffer_.time_ns.begin(), buffer_.time_ns.end(), settled_ns);
   const auto first_row = static_cast<std::size_t>(first - buffer_.time_ns.begin());
-  const bool long_enough =
-      still_s >= options_.settle_s + options_.min_length_s && end_row >= first_row + kMinScans;
+  const bool long_enough = still_s >= options_.shortest_s() && end_row >= first_row + kMinScans;
   if (long_enough) {
     Point point = average(first_row, end_row);
     if (slots_[slots_.size() - 2].unplaced > unplaced_before_) add_flag(point, "missing:encoder");
@@ -281,6 +281,14 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
     summary_.passed_over.push_back({left_m_, still_s, still_since_ns_, !long_enough});
   }
   remember_way(slots_[slots_.size() - 2]);
+}
+
+// Of the stop that `last` may have left: the row from which on readings may be made of the way on.
+std::size_t DwellDetector::end_of_rest(const Slot& last) const {
+  if (!(options_.leave_s > 0)) return last.first_row;
+  const auto until_ns = last.begin_ns - std::llround(options_.leave_s * 1e9);
+  const auto end = std::lower_bound(buffer_.time_ns.begin(), buffer_.time_ns.end(), until_ns);
+  return static_cast<std::size_t>(end - buffer_.time_ns.begin());
 }
 
 // A stop that creeps a little has readings that belong to its mean position; one that creeps far is

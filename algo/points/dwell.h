@@ -28,11 +28,13 @@ struct DwellOptions {
   double tolerance_m = 0;
   double window_s = 0.05;
   double settle_s = 0.1;       // left out at the start of each stop
+  double leave_s = 0;          // and at its end: readings that a filter has made from the way on
   double min_length_s = 0.1;   // to be averaged; a shorter stop (a reversal) is no dwell
   double approach_m = 50e-6;   // travel from which a direction of approach counts
   double max_speed_m_s = 100;  // of the axis: a position that it cannot reach is left out
   std::size_t max_scans = std::size_t{1} << 19;  // averaged of one dwell; bounds memory
 
+  double shortest_s() const { return settle_s + min_length_s + leave_s; }  // of a stop
   std::string json() const;  // for the provenance of a result
 };
 
@@ -123,6 +125,7 @@ class DwellDetector {
   int direction_to(double position_m) const;
   void begin_dwell();
   void end_dwell(std::vector<Point>& out);
+  std::size_t end_of_rest(const Slot& last) const;
   void end_of_sight(std::vector<Point>& out);
   void pass_break(std::vector<Point>& out);
   Point average(std::size_t from, std::size_t to);

@@ -27,10 +27,9 @@ void DwellDetector::look_at_window(bool still) {
   watch_.take_newest(buffer_, newest.first_row, newest.first_row + newest.rows, newest.min_m,
                      newest.max_m);
   if (slots_.size() < 4) return;
-  const auto creep =
-      slow_.take({slots_.front().begin_ns, newest.begin_ns, slots_.front().middle(),
-                  newest.middle(), window_range(), still},
-                 summary_.tolerance_m, options_.settle_s + options_.min_length_s, kSlowTravel_m);
+  const auto creep = slow_.take({slots_.front().begin_ns, newest.begin_ns, slots_.front().middle(),
+                                 newest.middle(), window_range(), still},
+                                summary_.tolerance_m, options_.shortest_s(), kSlowTravel_m);
   if (creep) note(*creep);
   const std::size_t end = newest.first_row + newest.rows;
   for (std::size_t k = 0; k + 1 < slots_.size(); ++k)
@@ -93,7 +92,7 @@ void DwellDetector::mark(std::vector<Point>& points) const {
 }
 
 std::vector<std::string> DwellDetector::warnings(const std::vector<Point>& points) const {
-  auto all = describe(notices_, points, origin_ns_, options_.settle_s + options_.min_length_s);
+  auto all = describe(notices_, points, origin_ns_, options_.shortest_s());
   for (auto& warning : places_.warnings(origin_ns_)) all.push_back(std::move(warning));
   const auto probes = describe(watch_, probe_ids_, origin_ns_);
   all.insert(all.end(), probes.begin(), probes.end());

@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -22,6 +23,18 @@ struct TomlTable::Node {
   std::string path;  // "probe[2]."
   std::set<std::string, std::less<>> asked;
   std::vector<std::shared_ptr<Node>> children;
+  std::map<const toml::table*, std::shared_ptr<Node>> child_of;
+
+  // The same for all who ask: each may know some of its keys.
+  std::shared_ptr<Node> child(const toml::table* of, std::string its_path) {
+    auto& known = child_of[of];
+    if (known) return known;
+    known = std::make_shared<Node>();
+    known->table = of;
+    known->path = std::move(its_path);
+    children.push_back(known);
+    return known;
+  }
 };
 
 namespace {
@@ -252,11 +265,8 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
       array = nullptr;
       break;
     }
-    auto child = std::make_shared<Node>();
-    child->table = table;
-    child->path = node_->path + std::string(key) + "[" + std::to_string(i + 1) + "].";
-    node_->children.push_back(child);
-    out.push_back(TomlTable(document_, child));
+    out.push_back(TomlTable(document_, node_->child(table, node_->path + std::string(key) + "[" +
+                                                               std::to_string(i + 1) + "].")));
   }
   if (!array) reject(key, "must be written as [[" + std::string(key) + "]] tables");
   return out;
@@ -271,11 +281,7 @@ std::optional<TomlTable> TomlTable::table(std::string_view key) {
     reject(key, "must be a table, [" + std::string(key) + "]");
     return std::nullopt;
   }
-  auto child = std::make_shared<Node>();
-  child->table = table;
-  child->path = node_->path + std::string(key) + ".";
-  node_->children.push_back(child);
-  return TomlTable(document_, child);
+  return TomlTable(document_, node_->child(table, node_->path + std::string(key) + "."));
 }
 
 Status TomlTable::finish() {

@@ -86,6 +86,27 @@ TEST(DwellTimes, AStopOfSettlingAndLeastLengthIsFoundAndAShorterOneTold) {
   }
 }
 
+// A filter's readings of the last 60 ms of a stop are made from the way on too.
+TEST(DwellTimes, WhatIsToBeLeftOutAtTheEndOfAStopIs) {
+  SteppingAxis axis = fast_axis();
+  for (const double wait_s : {0.5, 0.25, 0.32, 0.5}) {
+    axis.move_to(axis.x_m + 3e-3);
+    axis.wait(wait_s);
+  }
+  axis.move_to(20e-3);
+  const Found whole = found_in(axis.frames), cut = found_in(axis.frames, 7, {.leave_s = 0.06});
+  ASSERT_EQ(whole.points.size(), 4u);
+  ASSERT_EQ(cut.points.size(), 3u);  // 0.25 s is too short for 0.1 + 0.1 + 0.06
+  ASSERT_EQ(cut.summary.passed_over.size(), 1u);
+  EXPECT_TRUE(cut.summary.passed_over[0].too_short);
+  for (const auto& [was, is] : {std::pair(0, 0), std::pair(2, 1), std::pair(3, 2)}) {
+    const Point& a = whole.points[static_cast<std::size_t>(was)];
+    const Point& b = cut.points[static_cast<std::size_t>(is)];
+    EXPECT_EQ(b.begin_ns, a.begin_ns);
+    EXPECT_NEAR(1e-9 * static_cast<double>(a.end_ns - b.end_ns), 0.06, 0.0011);
+  }
+}
+
 // 100 µm/s is 5 µm in a window of 50 ms, more than 2 µm; 20 µm/s is 1 µm. Either way.
 TEST(DwellTimes, ASlowTravelIsNoStop) {
   for (const double speed_m_s : {100e-6, -100e-6, 20e-6, -20e-6}) {

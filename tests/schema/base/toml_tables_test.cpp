@@ -1,0 +1,37 @@
+// Several readers of one table: each knows some of its keys.
+#include <gtest/gtest.h>
+
+#include "schema/base/toml_reader.h"
+
+namespace mdof {
+namespace {
+
+constexpr const char* kText = "[[channel]]\nid = \"A\"\ndelay_us = 5\n[[channel]]\nid = \"B\"\n";
+
+std::string after(const std::vector<const char*>& keys_of_second) {
+  auto root = TomlTable::parse(kText, "mdofd.toml").value();
+  for (auto& table : root.tables("channel")) table.number("delay_us", 0);
+  for (auto& table : root.tables("channel"))
+    for (const char* key : keys_of_second) table.string(key, "");
+  const Status finished = root.finish();
+  return finished ? "" : finished.error().message;
+}
+
+TEST(TomlTables, AreKnownToAllWhoAsk) {
+  EXPECT_EQ(after({"id"}), "");
+  EXPECT_NE(after({}).find("mdofd.toml:2: channel[1].id: unknown key"), std::string::npos)
+      << after({});
+}
+
+TEST(TomlTables, AreInTheirOrderForBoth) {
+  auto root = TomlTable::parse(kText, "mdofd.toml").value();
+  for (int reader = 0; reader < 2; ++reader) {
+    auto tables = root.tables("channel");
+    ASSERT_EQ(tables.size(), 2u);
+    EXPECT_EQ(tables[0].string("id"), "A");
+    EXPECT_EQ(tables[1].string("id"), "B");
+  }
+}
+
+}  // namespace
+}  // namespace mdof

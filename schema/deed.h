@@ -16,13 +16,15 @@ struct Doer {
 
 struct Deed {
   std::string name;  // "run.start", "run.resume", "run.stop", "run.abort", "run.replay",
-                     // "squareness.fit", "compensation.build", ".activate", ".deactivate"
+                     // "squareness.fit", "compensation.build", ".activate", ".deactivate",
+                     // "encoder.set"
   Doer by;
   std::string utc;
   // Given when it is stored.
   std::int64_t id = 0, row = 0;
   std::string subject = {};  // the table with this row: run, squareness, compensation_table,
-                             // activation, deactivation
+                             // activation, deactivation, encoder_datum
+  std::string detail = {};   // for people, where there is more to say: setting_text()
 };
 
 }  // namespace mdof

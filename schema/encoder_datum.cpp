@@ -1,9 +1,14 @@
 #include "schema/encoder_datum.h"
 
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
 namespace mdof {
 namespace {
 
 using Kind = EncoderDatum::Kind;
+
+constexpr int kDigits = 9;  // nanometres of a metre
 
 constexpr Kind kKinds[] = {Kind::absolute, Kind::none, Kind::configured, Kind::set};
 
@@ -39,6 +44,12 @@ std::string datum_note(Kind kind, const std::string& device) {
          "the machine; errors against each other are right, but a table is in place only where the "
          "count began at the machine's zero. Bring the axis to a known place and say where it is: "
          "mdof encoder set AXIS POSITION_MM";
+}
+
+std::string setting_text(const DatumSetting& setting) {
+  return std::string(1, letter(setting.axis)) + " stands at " +
+         plain_number(to_mm(setting.position_m), kDigits) + " mm; until then it was at " +
+         plain_number(to_mm(setting.before_m), kDigits) + " mm";
 }
 
 }  // namespace mdof

@@ -1,7 +1,10 @@
 // Where an encoder's positions are counted from: known, or not.
 #pragma once
 
+#include <cstdint>
 #include <string>
+
+#include "schema/axis.h"
 
 namespace mdof {
 
@@ -25,5 +28,19 @@ bool datum_kind_from(const std::string& name, EncoderDatum::Kind& kind);
 
 // For people, of a run; "" where positions are known.
 std::string datum_note(EncoderDatum::Kind kind, const std::string& device);
+
+// What encoder.set said of an axis once, as it is stored.
+struct DatumSetting {
+  std::int64_t id = 0;  // given when it is stored
+  Axis axis = Axis::x;
+  std::string device;     // whose encoder it is
+  double before_m = 0;    // where it stood by what held until then
+  double position_m = 0;  // where it stands
+  double offset_m = 0;    // added to what the device shows from then on
+  std::string utc;
+  bool operator==(const DatumSetting&) const = default;
+};
+// For people: "X stands at 12.5 mm; until then it was at 0.031 mm".
+std::string setting_text(const DatumSetting& setting);
 
 }  // namespace mdof

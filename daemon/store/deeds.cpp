@@ -44,7 +44,15 @@ Result<std::vector<Deed>> Store::read_deeds(Statement& rows) {
     if (!row) return list;
     list.push_back(deed_of(rows));
     MDOF_CHECK(check_link(connection_, Fact::deed, list.back().id));
+    MDOF_CHECK(add_detail(list.back()));
   }
+}
+
+Status Store::add_detail(Deed& deed) {
+  if (deed.subject != "encoder_datum") return {};
+  MDOF_TRY(const auto setting, datum(deed.row));
+  if (setting) deed.detail = setting_text(*setting);
+  return {};
 }
 
 Result<std::vector<Deed>> Store::deeds_of_run(std::int64_t run) {

@@ -22,7 +22,7 @@ struct FactKind {
   const char* values;
 };
 
-constexpr std::array<FactKind, 7> kKinds = {{
+constexpr std::array<FactKind, 8> kKinds = {{
     {Fact::run, "run", "id", "run",
      "SELECT run.axis, run.started_utc, run.simulated, run.note, run.model, run.supersedes, "
      "recording.kind, recording.path, recording.sha256, rig.text, options.text, "
@@ -52,6 +52,9 @@ constexpr std::array<FactKind, 7> kKinds = {{
      "SELECT axis, actor, deactivated_utc FROM deactivation NOT INDEXED WHERE generation = ?"},
     {Fact::deed, "deed", "id", "deed",
      "SELECT name, subject, row, uid, gid, pid, user, utc FROM deed NOT INDEXED WHERE id = ?"},
+    {Fact::encoder_datum, "encoder_datum", "id", "encoder datum",
+     "SELECT axis, device, before_m, position_m, offset_m, utc FROM encoder_datum NOT INDEXED "
+     "WHERE id = ?"},
 }};
 
 const FactKind& kind_of(Fact fact) {
@@ -176,7 +179,7 @@ Status add_link(Connection& connection, Fact fact, std::int64_t row) {
 
 Status link_old_facts(Connection& connection) {
   for (const FactKind& kind : kKinds) {
-    if (kind.fact == Fact::deed) continue;
+    if (kind.fact == Fact::deed || kind.fact == Fact::encoder_datum) continue;
     std::vector<std::int64_t> rows;
     {
       MDOF_TRY(Statement keys, connection.prepare(std::string("SELECT ") + kind.key + " FROM " +

@@ -22,11 +22,12 @@ namespace mdof::store {
 
 inline constexpr int kLedgerSchema = 8;  // the migration that made it
 
-enum class Fact { run, run_end, squareness, table, activation, deactivation, deed };
+enum class Fact { run, run_end, squareness, table, activation, deactivation, deed, encoder_datum };
 
 // Within the transaction that stored the fact.
 Status add_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
-// Links all facts of a database from before it had a ledger; of deeds there were none then.
+// Links all facts of a database from before it had a ledger; of deeds and encoder data there were
+// none.
 Status link_old_facts(sqlite::Connection& connection);
 
 // Error (bad_input): the fact is not what was stored, or has no link.

@@ -17,6 +17,7 @@
 #include "schema/base/sqlite.h"
 #include "schema/compensation_table.h"
 #include "schema/deed.h"
+#include "schema/encoder_datum.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
 
@@ -121,6 +122,11 @@ class Store {
   Result<ActiveTable> active(Axis axis);  // not_found where none is in force
   Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
 
+  // ---- where an axis stood when somebody said so ----
+  Result<std::int64_t> add_datum(const DatumSetting& setting,  // its id is not used
+                                 const std::optional<Deed>& deed = std::nullopt);
+  Result<std::optional<DatumSetting>> last_datum(Axis axis);
+
   // ---- who did it ----
   // With a run, or with one that it supersedes; in order.
   Result<std::vector<Deed>> deeds_of_run(std::int64_t run);
@@ -191,6 +197,10 @@ class Store {
   // deeds.cpp
   Status insert_deed(std::string_view subject, std::int64_t row, const std::optional<Deed>& deed);
   Result<std::vector<Deed>> read_deeds(sqlite::Statement& rows);
+  Status add_detail(Deed& deed);
+  // encoder_data.cpp
+  Result<std::optional<DatumSetting>> read_datum(sqlite::Statement& row);
+  Result<std::optional<DatumSetting>> datum(std::int64_t id);
   // study_write.cpp
   Status replace_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
   Status insert_outcome(std::int64_t study, const StudyOutcome& outcome);

@@ -78,7 +78,7 @@ Status LinuxComedi::start() {
   return {};
 }
 
-// What came before an error is given out first.
+// An error comes alone: what came before it has been given out.
 Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
   if (!board_) return io_error(place() + " is not open; open it before reading");
@@ -86,7 +86,7 @@ Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
     if (auto received = receive(steady_clock::now() + timeout); !received)
       broken_ = in_context(place(), std::move(received.error()));
   }
-  if (!broken_ && codes_.empty()) return tl::unexpected(broken_.error());
+  if (!broken_) return tl::unexpected(broken_.error());
   hand_out(block);
   return ReadState::more;
 }

@@ -8,7 +8,8 @@ namespace mdof::drivers::linux_comedi {
 namespace {
 
 constexpr double kRateOff = 0.01;  // of the rate asked for
-constexpr int kTests = 4;          // a first adjusts, others adjust to that
+constexpr const char* kMadeUp = "comedi_test";
+constexpr int kTests = 4;  // a first adjusts, others adjust to that
 
 std::string channel_text(unsigned channel) {
   return "CH" + std::to_string(channel);
@@ -149,6 +150,9 @@ Result<Setup> set_up(Board& board, const Settings& settings) {
   setup.buffer_s =
       static_cast<double>(board.buffer_bytes(subdevice)) / scan_bytes / rate_of(setup.command);
   describe(board, settings, setup);
+  if (board.driver() == kMadeUp)
+    setup.warnings.push_back(
+        "comedi_test is a driver of the kernel for tests: it measures nothing");
   MDOF_CHECK(convert(board, has, setup));
   return setup;
 }

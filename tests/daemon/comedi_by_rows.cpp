@@ -1,7 +1,8 @@
 // Preloaded into mdofd by each_device_test.py: a Comedi board in the place of comedilib's, so that
 // a real program meets a simulated machine by it. "/dev/comedi0" is here the address of a
 // csv_stream of mdof-simulate; its columns, µm, are the board's inputs, of 10 µm/V, and each row is
-// a scan. What is not here is comedilib's own.
+// a scan. The board reads 5 % and 50 mV high, which a calibration file puts right; its name is in
+// MDOF_COMEDI_CALIBRATION. What is not here is comedilib's own.
 #include <comedilib.h>
 #include <netdb.h>
 #include <sys/socket.h>
@@ -19,7 +20,7 @@
 
 namespace {
 
-constexpr double kUmPerV = 10;
+constexpr double kUmPerV = 10, kGain = 1.05, kOffset_v = 0.05;
 constexpr lsampl_t kMost = 65535;
 comedi_range the_range{-10, 10, UNIT_volt};
 
@@ -40,7 +41,7 @@ int connected(const std::string& address) {
 }
 
 sampl_t code_of(double volts) {
-  const double code = std::round((volts + 10) / 20 * kMost);
+  const double code = std::round((volts * kGain + kOffset_v + 10) / 20 * kMost);
   return static_cast<sampl_t>(std::clamp(code, 0.0, static_cast<double>(kMost)));
 }
 
@@ -59,7 +60,7 @@ std::vector<double> volts_of(const char* row) {
 
 }  // namespace
 
-struct comedi_t_struct {
+struct comedi_t_struct {       // NOLINT(readability-identifier-naming): comedilib names it
   int rows = -1;               // from mdof-simulate
   int ends[2] = {-1, -1};      // of the samples: that which is read, that which is written
   std::vector<unsigned> list;  // of channels
@@ -124,7 +125,7 @@ int comedi_get_subdevice_type(comedi_t*, unsigned) {
   return COMEDI_SUBD_AI;
 }
 int comedi_get_subdevice_flags(comedi_t*, unsigned) {
-  return static_cast<int>(SDF_CMD_READ | SDF_GROUND);
+  return static_cast<int>(SDF_CMD_READ | SDF_GROUND | SDF_SOFT_CALIBRATED);
 }
 int comedi_get_n_channels(comedi_t*, unsigned) {
   return 8;
@@ -142,7 +143,8 @@ int comedi_get_buffer_size(comedi_t*, unsigned) {
   return 65536;
 }
 char* comedi_get_default_calibration_path(comedi_t*) {
-  return nullptr;
+  const char* file = std::getenv("MDOF_COMEDI_CALIBRATION");
+  return file ? ::strdup(file) : nullptr;
 }
 int comedi_poll(comedi_t*, unsigned) {
   return 0;

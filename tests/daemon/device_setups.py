@@ -79,6 +79,28 @@ stream_port = {t7 stream port}
 rate_hz = 1000
 """
 
+# Of the board of comedi_by_rows.cpp: volts = (code · 20 / 65535 - 10 - 0.05) / 1.05, about code 32768.
+COMEDI_CALIBRATION = f"""{{
+  driver_name => "rows",
+  board_name => "rows-of-csv",
+  calibrations =>
+  [
+    {{
+      subdevice => 0,
+      channels => [],
+      ranges => [0],
+      arefs => [],
+      caldacs => [],
+      softcal_to_phys =>
+      {{
+        coefficients => [{(32768 * 20 / 65535 - 10.05) / 1.05:.17e}, {20 / 65535 / 1.05:.17e}],
+        expansion_origin => 32768.0
+      }}
+    }},
+  ]
+}}
+"""
+
 SETUPS = {
     "capancdt": Setup("rig_X.toml", """
 [[device]]

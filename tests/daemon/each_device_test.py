@@ -18,7 +18,7 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from device_setups import SETUPS, Simulators, worst_errors  # noqa: E402
+from device_setups import COMEDI_CALIBRATION, SETUPS, Simulators, worst_errors  # noqa: E402
 from mdofd import Client, Daemon  # noqa: E402
 
 
@@ -80,7 +80,10 @@ def check(options, name):
         daemon = Daemon(os.path.abspath(options.mdofd), folder, setup.config_text(simulators.addresses),
                         relative=True)
         if setup.comedi:
-            daemon.environment = {"LD_PRELOAD": os.path.abspath(options.comedi)}
+            with open(os.path.join(folder, "board.calibration"), "w") as f:
+                f.write(COMEDI_CALIBRATION)
+            daemon.environment = {"LD_PRELOAD": os.path.abspath(options.comedi),
+                                  "MDOF_COMEDI_CALIBRATION": "board.calibration"}
         try:
             client = daemon.start(timeout_s=60)
             wait_until_all_flow(client)

@@ -170,6 +170,16 @@ name = "mcc"
 rate_hz = 500
 channel = [{ id = "D", input = "CH0" }, { id = "E", input = "CH1" }]
 """
+# The kernel's own board for tests: a sawtooth and a square.
+COMEDI_CONFIG = """
+[[axis.device]]
+driver = "linux_comedi"
+name = "board"
+board = "comedi_test"
+rate_hz = {rate_hz}
+range_v = {range_v}
+channel = [{{ id = "D", input = "CH0" }}, {{ id = "E", input = "CH1" }}]
+"""
 
 
 class Station:

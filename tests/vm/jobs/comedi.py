@@ -13,15 +13,6 @@ import guest
 
 AMPLITUDE_V, PERIOD_S, RATE_HZ = 5.0, 2.0, 500.0
 CODE_V = 20 / 65535  # at -10 to 10 V
-CONFIG = guest.still_config("A_um", "B_um", "C_um", "encoder_mm") + """
-[[axis.device]]
-driver = "linux_comedi"
-name = "board"
-board = "comedi_test"
-rate_hz = {rate_hz}
-range_v = {range_v}
-channel = [{{ id = "D", input = "CH0" }}, {{ id = "E", input = "CH1" }}]
-"""
 
 
 def plug(amplitude_V=AMPLITUDE_V, buffer_KiB=2048):
@@ -83,7 +74,8 @@ def check_samples(samples):
 
 
 def config(rate_hz=RATE_HZ, range_v=10):
-    return CONFIG.format(rate_hz=rate_hz, range_v=range_v)
+    still = guest.still_config("A_um", "B_um", "C_um", "encoder_mm")
+    return still + guest.COMEDI_CONFIG.format(rate_hz=rate_hz, range_v=range_v)
 
 
 def check_overrun():

@@ -1,5 +1,5 @@
 """systemd as the first process, and mdofd as its package installs it: units, user and group, udev rules. Active
-and ready, a device without root, restarted by the watchdog, the socket kept; rights by the rules."""
+and ready, devices without root (USB, Comedi), restarted by the watchdog, the socket kept; rights by the rules."""
 # pid 1: systemd
 # limit: 400 s
 import grp
@@ -19,12 +19,12 @@ def show(prop):
     return guest.run("systemctl", "show", "-P", prop, "mdofd.service").strip()
 
 
-def wait_for_scans():
+def wait_for_scans(device="encoders"):
     """In a client of its own, as every client would: the socket never goes."""
     client = guest.Client(SOCKET, timeout_s=60)
 
     def scans():
-        return {d["device"]: d for d in client.call("device.list")["devices"]}["encoders"]["scans"]
+        return {d["device"]: d for d in client.call("device.list")["devices"]}[device]["scans"]
 
     before = scans()
     guest.wait_until(lambda: scans() > before + 10, "scans of the service", timeout_s=60)
@@ -79,19 +79,20 @@ def check_watchdog():
     guest.figure(f"watchdog: restarted {time.monotonic() - begin:.1f} s after SIGSTOP, samples again")
 
 
-guest.load("vhci-hcd", "usbhid", "hid-generic", "uhid")
+guest.load("vhci-hcd", "usbhid", "hid-generic", "uhid", "comedi_test")
 guest.run("systemd-sysusers")
 guest.run("udevadm", "control", "--reload")
 encoders = guest.Simulate("encoders", guest.POKEYS)
 encoders.start()
-probes = guest.Simulate("probes", guest.PROBES)
+probes = guest.Simulate("probes", guest.CAPA)
 probes.start()
 guest.wait_until(lambda: len(guest.hidraw_nodes()) == 3, "hidraw nodes")
 guest.run("udevadm", "settle", "-t", "60")
 os.makedirs("/etc/mdof", exist_ok=True)
 with open(CONFIG, "w") as f:
     rig = "/etc/mdof/rig_X.toml"
-    f.write((guest.PROBES_CONFIG + guest.POKEYS_CONFIG).replace(guest.RIG, rig))
+    board = guest.COMEDI_CONFIG.format(rate_hz=100, range_v=10)
+    f.write((guest.CAPA_CONFIG + board + guest.POKEYS_CONFIG).replace(guest.RIG, rig))
     with open(guest.RIG) as source, open(rig, "w") as copy:
         copy.write(source.read())
 begin = time.monotonic()
@@ -102,6 +103,8 @@ assert show("ActiveState") == "active" and show("SubState") == "running", show("
 guest.figure(f"active and ready {time.monotonic() - begin:.1f} s after systemctl start: {show('StatusText')}")
 check_rules()
 wait_for_scans()
+wait_for_scans("board")
+guest.figure("the service reads a Comedi board, which is iocard's")
 check_user()
 # In systemd's unit, through the udev rule, unplugged and plugged in again.
 encoders.kill()

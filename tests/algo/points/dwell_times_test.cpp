@@ -111,6 +111,28 @@ TEST(DwellTimes, TheSummaryCountsWhatIsInTheLog) {
   EXPECT_DOUBLE_EQ(found.summary.tolerance_m, 2e-6);
 }
 
+TEST(DwellTimes, TheSummaryOfNothingIsNought) {
+  const DwellDetector::Summary none = found_in(SteppingAxis().frames).summary;
+  EXPECT_EQ(none.scans + none.gaps + none.unplaced, 0u);
+  EXPECT_EQ(none.encoder_min_m, 0);
+  EXPECT_EQ(none.encoder_max_m, 0);
+  EXPECT_EQ(none.period_s, 0);
+  EXPECT_EQ(none.longest_still_s, 0);
+  EXPECT_TRUE(none.passed_over.empty());
+}
+
+// Six times the encoder's noise, here of 1 um, as far as its floor is known (in eighths of an
+// octave).
+TEST(DwellTimes, TheToleranceIsSixTimesTheNoise) {
+  SteppingAxis axis = fast_axis();
+  axis.noise_m = 1e-6;
+  for (int i = 0; i < 10; ++i) axis.stop(1e-3 * i);
+  EXPECT_NEAR(found_in(axis.frames).summary.tolerance_m, 6e-6, 0.5e-6);
+  DwellOptions given;
+  given.tolerance_m = 3e-6;
+  EXPECT_EQ(found_in(axis.frames, 100, given).summary.tolerance_m, 3e-6);
+}
+
 // Two scans lost are an interval of three periods, three are a gap.
 TEST(DwellTimes, AGapIsMoreThanThreePeriods) {
   for (const std::size_t lost : {1u, 2u, 3u}) {

@@ -97,6 +97,20 @@ TEST(DwellTimes, ASlowTravelIsNoStop) {
   }
 }
 
+// At 0.2 mm/s, between fast motions: up to 200 um it was to be a stop. The stretch is seen from the
+// slot in which it begins to three slots before its end.
+TEST(DwellTimes, ACreepOverMoreThanAFifthOfAMillimetreIsATravel) {
+  for (const int scans : {1000, 1100}) {  // 200 um and 220 um, seen as 190 um and 210 um
+    SteppingAxis axis = fast_axis();
+    axis.move_to(5e-3);
+    for (int i = 0; i < scans; ++i) axis.x_m += 0.2e-6, axis.scan();
+    axis.move_to(20e-3);
+    axis.wait(0.4);
+    const Found found = found_in(axis.frames);
+    EXPECT_EQ(found.notices.size(), scans == 1000 ? 1u : 0u) << scans;
+  }
+}
+
 TEST(DwellTimes, TheSummaryCountsWhatIsInTheLog) {
   SteppingAxis axis = fast_axis();
   axis.noise_m = 0;

@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "algo/model/rigid.h"
 #include "algo/model/small_angle.h"
+#include "algo/model/solver.h"
 #include "tests/algo/rigs.h"
 
 namespace mdof::algo {
@@ -88,6 +91,24 @@ TEST(SmallAngleFixture, IsWideEnough) {
     Fixture narrow = fixture_of_five();
     narrow.probes[4].p_MP.x() = narrow.probes[3].p_MP.x() + apart_m;
     EXPECT_EQ(refused(narrow).empty(), std::abs(apart_m) > 1e-5) << apart_m;
+  }
+}
+
+// Each probe looks the other way, alone. The readings are those of the rigid model; what the other
+// models leave out of errors so small is some 10 nrad and 10 nm.
+TEST(SmallAngleFixture, EachProbeHasItsOwnSign) {
+  const Errors5 e{3e-6, -2e-6, 1e-4, 2e-4, -3e-4};
+  for (std::size_t turned = 0; turned < 5; ++turned) {
+    Rig rig = test::rig_x();
+    for (double& component : rig.probes[turned].direction) component = -component;
+    const Eigen::VectorXd model = rigid_readings(make_fixture(rig).value(), 0.03, e);
+    const std::vector<double> readings(model.begin(), model.end());
+    for (const Model kind : {Model::simplified, Model::exact}) {
+      const AxisErrors got = Solver::create(rig, kind).value().solve(0.03, readings, {});
+      ASSERT_TRUE(got.valid);
+      for (std::size_t k = 0; k < 5; ++k)
+        EXPECT_NEAR(got.local[k], e[k], 1e-7) << turned << " " << k;
+    }
   }
 }
 

@@ -31,6 +31,37 @@ TEST(Aligner, OneDeviceGoesThroughBitForBitInTheRigsOrder) {
   EXPECT_EQ(out.probe_m[0], (std::vector<double>{0, 0.1, 0.2}));
 }
 
+// Frames that nobody took yet are gone on with; those that were taken may hold anything.
+TEST(Aligner, OneDevicesBlocksFollowOneAnother) {
+  Aligner aligner({}, {"A"});
+  FrameBlock out;
+  for (const std::vector<std::int64_t>& times_ms : {std::vector<std::int64_t>{0, 1}, {2}, {3, 4}}) {
+    SampleBlock b = block("dev", {"A", "encoder"}, times_ms, 2.0);
+    ASSERT_TRUE(aligner.push(b, out));
+  }
+  EXPECT_EQ(out.time_ns,
+            (std::vector<std::int64_t>{0, 1'000'000, 2'000'000, 3'000'000, 4'000'000}));
+  EXPECT_EQ(out.probe_m[0], (std::vector<double>{0, 2, 4, 6, 8}));
+  EXPECT_EQ(out.encoder_m, (std::vector<double>{0, 2, 4, 6, 8}));
+  out.time_ns.clear();
+  SampleBlock b = block("dev", {"A", "encoder"}, {5}, 2.0);
+  ASSERT_TRUE(aligner.push(b, out));
+  EXPECT_EQ(out.time_ns, std::vector<std::int64_t>{5'000'000});
+  EXPECT_EQ(out.probe_m[0], std::vector<double>{10});
+  EXPECT_EQ(out.encoder_m, std::vector<double>{10});
+}
+
+// A sample of the encoder's very instant is all that it waits for.
+TEST(Aligner, AProbesSampleAtTheInstantIsEnough) {
+  Aligner aligner({}, {"A"});
+  FrameBlock out;
+  SampleBlock probe = block("p", {"A"}, {0, 4}, 2.0);
+  SampleBlock encoder = block("e", {"encoder"}, {4, 5}, 1.0);
+  ASSERT_TRUE(aligner.push(probe, out));
+  ASSERT_TRUE(aligner.push(encoder, out));
+  EXPECT_EQ(out.probe_m[0], std::vector<double>{8});
+}
+
 TEST(Aligner, WaitsForNothingBeforeAnythingCame) {
   EXPECT_EQ(Aligner({}, {"A"}).waiting_for(), std::nullopt);
 }

@@ -118,6 +118,20 @@ TEST(DwellTimes, ASlowTravelIsNoStop) {
   }
 }
 
+// At 0.2 mm/s, between fast motions: up to 200 um it was to be a stop. The stretch is seen from the
+// slot in which it begins to three slots before its end.
+TEST(DwellTimes, ACreepOverMoreThanAFifthOfAMillimetreIsATravel) {
+  for (const int scans : {1000, 1100}) {  // 200 um and 220 um, seen as 190 um and 210 um
+    SteppingAxis axis = fast_axis();
+    axis.move_to(5e-3);
+    for (int i = 0; i < scans; ++i) axis.x_m += 0.2e-6, axis.scan();
+    axis.move_to(20e-3);
+    axis.wait(0.4);
+    const Found found = found_in(axis.frames);
+    EXPECT_EQ(found.notices.size(), scans == 1000 ? 1u : 0u) << scans;
+  }
+}
+
 TEST(DwellTimes, TheSummaryCountsWhatIsInTheLog) {
   SteppingAxis axis = fast_axis();
   axis.noise_m = 0;
@@ -130,6 +144,28 @@ TEST(DwellTimes, TheSummaryCountsWhatIsInTheLog) {
   EXPECT_NEAR(found.summary.encoder_max_m, 7e-3, 1e-9);
   EXPECT_DOUBLE_EQ(found.summary.period_s, 1e-3);
   EXPECT_DOUBLE_EQ(found.summary.tolerance_m, 2e-6);
+}
+
+TEST(DwellTimes, TheSummaryOfNothingIsNought) {
+  const DwellDetector::Summary none = found_in(SteppingAxis().frames).summary;
+  EXPECT_EQ(none.scans + none.gaps + none.unplaced, 0u);
+  EXPECT_EQ(none.encoder_min_m, 0);
+  EXPECT_EQ(none.encoder_max_m, 0);
+  EXPECT_EQ(none.period_s, 0);
+  EXPECT_EQ(none.longest_still_s, 0);
+  EXPECT_TRUE(none.passed_over.empty());
+}
+
+// Six times the encoder's noise, here of 1 um, as far as its floor is known (in eighths of an
+// octave).
+TEST(DwellTimes, TheToleranceIsSixTimesTheNoise) {
+  SteppingAxis axis = fast_axis();
+  axis.noise_m = 1e-6;
+  for (int i = 0; i < 10; ++i) axis.stop(1e-3 * i);
+  EXPECT_NEAR(found_in(axis.frames).summary.tolerance_m, 6e-6, 0.5e-6);
+  DwellOptions given;
+  given.tolerance_m = 3e-6;
+  EXPECT_EQ(found_in(axis.frames, 100, given).summary.tolerance_m, 3e-6);
 }
 
 // Two scans lost are an interval of three periods, three are a gap.

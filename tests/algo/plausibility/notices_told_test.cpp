@@ -1,0 +1,128 @@
+// Which notices become a sentence, and how many. Found missing by tests/mutate.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "algo/plausibility/slow_stretch.h"
+#include "algo/points/dwell_notice.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+// Two stops at 0 and 10 mm, from 10 s to 11 s and from 20 s to 21 s.
+std::vector<Point> two_points() {
+  std::vector<Point> points(2);
+  points[0].position_m = 0, points[1].position_m = 10e-3;
+  points[0].begin_ns = 10 * kSecond_ns, points[0].end_ns = 11 * kSecond_ns;
+  points[1].begin_ns = 20 * kSecond_ns, points[1].end_ns = 21 * kSecond_ns;
+  return points;
+}
+
+bool is_told(NoticeKind kind, double position_mm, double time_s, double length_s = 0.5) {
+  const DwellNotice n{kind, static_cast<std::int64_t>(time_s * 1e9), 1e-3 * position_mm, 0,
+                      length_s};
+  const auto texts = describe({n}, two_points(), 0, 0.2);
+  EXPECT_LE(texts.size(), 1u);
+  return !texts.empty();
+}
+
+// A stop that has its point, just before or after, needs no word.
+TEST(NoticesTold, AShortStopBesideItsPointIsNot) {
+  for (const NoticeKind kind : {NoticeKind::short_stop, NoticeKind::creep}) {
+    EXPECT_TRUE(is_told(kind, 5, 15));
+    EXPECT_FALSE(is_told(kind, 9.99, 18.6));
+    EXPECT_TRUE(is_told(kind, 9.99, 18.4));
+    EXPECT_FALSE(is_told(kind, 9.99, 21.9));
+    EXPECT_TRUE(is_told(kind, 9.99, 22.1));
+    EXPECT_TRUE(is_told(kind, 9.94, 20.5));
+    EXPECT_FALSE(is_told(kind, 9.96, 20.5));
+    EXPECT_TRUE(is_told(kind, 10, 10.5));  // the other one's time
+  }
+}
+
+// Beyond the ends the axis turns round.
+TEST(NoticesTold, ATurnBeyondTheEndsIsNot) {
+  EXPECT_TRUE(is_told(NoticeKind::short_stop, 10.04, 30));
+  EXPECT_FALSE(is_told(NoticeKind::short_stop, 10.06, 30));
+  EXPECT_TRUE(is_told(NoticeKind::short_stop, -0.04, 30));
+  EXPECT_FALSE(is_told(NoticeKind::short_stop, -0.06, 30));
+  const DwellNotice n{NoticeKind::short_stop, kSecond_ns, 50e-3, 0, 0.1};
+  EXPECT_EQ(describe({n}, {}, 0, 0.2).size(), 1u);
+}
+
+TEST(NoticesTold, WhatConcernsThePositionsAlwaysIs) {
+  for (const NoticeKind kind : {NoticeKind::jump, NoticeKind::hole, NoticeKind::crept}) {
+    EXPECT_TRUE(is_told(kind, 10, 20.5));
+    EXPECT_TRUE(is_told(kind, 15, 30));
+  }
+}
+
+// Ten of a kind, and how many more; jumps first.
+TEST(NoticesTold, TenOfAKindAreNamed) {
+  std::vector<DwellNotice> notices(10, {NoticeKind::hole, kSecond_ns, 5e-3, 1e-3, 2});
+  notices.push_back({NoticeKind::jump, 3 * kSecond_ns, 4e-3, -25e-6, 0});
+  const auto ten = describe(notices, two_points(), kSecond_ns, 0.2);
+  ASSERT_EQ(ten.size(), 11u);
+  EXPECT_EQ(
+      ten[0].find("the encoder jumped by -25.0 um at 4.0000 mm, 2.000 s after the first scan"), 0u)
+      << ten[0];
+  EXPECT_EQ(ten[1].find("no position was recorded for 2.000 s, 0.000 s after the first scan, at "
+                        "5.0000 mm (+1.0000 mm until it went on)"),
+            0u)
+      << ten[1];
+  notices.insert(notices.end(), 2, notices[0]);
+  const auto twelve = describe(notices, two_points(), kSecond_ns, 0.2);
+  ASSERT_EQ(twelve.size(), 12u);
+  EXPECT_EQ(twelve.back(), "and 2 more holes");
+}
+
+// Windows of 50 ms that the axis goes through at `speed`, with a tolerance of 2 um: up to 50 um in
+// a window it is slow. The stretch is told when it ends.
+std::optional<DwellNotice> slow_over(int windows, double per_window_m, bool stood = false,
+                                     double most_m = 200e-6) {
+  SlowStretch stretch;
+  const auto window = [&](int i, double range_m, bool still) {
+    const double at_m = i * per_window_m;
+    const std::int64_t begin_ns = 50'000'000LL * i;
+    return stretch.take(
+        {begin_ns, begin_ns + 50'000'000, at_m, at_m + per_window_m, range_m, still}, 2e-6, 0.2,
+        most_m);
+  };
+  EXPECT_FALSE(window(0, 1e-3, false));
+  for (int i = 1; i <= windows; ++i)
+    EXPECT_FALSE(window(i, std::abs(per_window_m), stood && i == 2));
+  auto told = window(windows + 1, 1e-3, false);
+  EXPECT_FALSE(window(windows + 2, 1e-3, false));
+  return told;
+}
+
+TEST(SlowStretchRule, IsToldWithItsPlaceSizeAndLength) {
+  for (const double per_window_m : {10e-6, -10e-6}) {
+    const auto told = slow_over(10, per_window_m);
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->kind, NoticeKind::creep);
+    EXPECT_EQ(told->time_ns, 50'000'000);
+    EXPECT_NEAR(told->size_m, 10 * per_window_m, 1e-12);
+    EXPECT_NEAR(told->position_m, 6 * per_window_m, 1e-12);
+    EXPECT_NEAR(told->length_s, 0.5, 1e-12);
+  }
+}
+
+TEST(SlowStretchRule, NeitherTooShortNorTooFarNorWithAStop) {
+  EXPECT_TRUE(slow_over(4, 10e-6));
+  EXPECT_FALSE(slow_over(3, 10e-6));  // 0.15 s
+  EXPECT_TRUE(slow_over(10, 19.9e-6));
+  EXPECT_FALSE(slow_over(10, 20.1e-6));
+  EXPECT_FALSE(slow_over(10, -20.1e-6));
+  EXPECT_FALSE(slow_over(10, 10e-6, true));
+  EXPECT_TRUE(slow_over(10, 49.9e-6, false, 1));
+  EXPECT_FALSE(slow_over(10, 50.1e-6, false, 1));  // faster than slow
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -156,7 +156,7 @@ void resume_run(Methods& m, const Params& params, Reply reply) {
 void stop_run(Methods& m, const Params& params, Reply reply) {
   const std::int64_t id = params.integer("run");
   for (auto& station : m.stations) {
-    if (station->run() != id) continue;
+    if (id < 1 || station->run() != id) continue;  // 0: it has none, -1: about to begin
     const bool abort = params.boolean("abort");
     return station->stop_run(abort, deed_of(params, abort ? "run.abort" : "run.stop"),
                              answer_with_run(std::move(reply), station->config().rig.axis));

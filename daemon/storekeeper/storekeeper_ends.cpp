@@ -36,6 +36,13 @@ store::RunEnd provisional_of(store::RunEnd whole, const char* where) {
   return whole;
 }
 
+// The end of a run that whoever stopped it was told has failed.
+store::RunEnd refused_at_first(store::RunEnd whole, const Error& error) {
+  whole.warnings.push_back("the disk refused the end of this run at first, so that it is failed: " +
+                           error.message + " A replay of its recording gives the whole run.");
+  return whole;
+}
+
 }  // namespace
 
 // Runs whose end the disk refused: tried again until it takes it.
@@ -153,7 +160,8 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
 // A refused end is not given up: it is tried again until the disk takes it.
 Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
   Status ended = store_->end_run(run, end);
-  if (!ended && !is_busy(ended)) refused_end({run, end}, ended.error());
+  if (!ended && !is_busy(ended))
+    refused_end({run, refused_at_first(end, ended.error())}, ended.error());
   return ended;
 }
 

@@ -1,5 +1,6 @@
 #include "schema/base/files.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -16,9 +17,12 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::size_
   if (!in) {
     return bad_input(file.string() + ": cannot be read: " + std::strerror(errno ? errno : EIO));
   }
-  std::string text(limit_bytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
+  std::string text;  // no larger than the file: its owner may keep it
+  std::array<char, 16 * 1024> piece;
+  while (text.size() <= limit_bytes && in) {
+    in.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  }
   if (text.size() > limit_bytes) {
     return bad_input(file.string() + ": larger than " + std::to_string(limit_bytes) +
                      " bytes; this is not the file meant");

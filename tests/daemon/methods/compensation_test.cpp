@@ -1,0 +1,156 @@
+// compensation.build, activate, deactivate, status, grid, at.
+#include "tests/daemon/methods/methods_fixture.h"
+
+namespace mdof::daemon {
+namespace {
+
+#define EXPECT_SAID(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+class CompensationMethods : public MethodsTest {
+ protected:
+  // A table of a run of X, in force; its generation.
+  std::string activate() {
+    add_run();
+    EXPECT_EQ(call("compensation.build", R"({"runs":[1],"keep_slope":true})").code(), 0);
+    const Answer done = call("compensation.activate", R"({"table":1,"despite_warnings":true})");
+    EXPECT_EQ(done.at("/result/changed"), "true") << done.text();
+    return done.at("/result/generation");
+  }
+  Answer value_at(double mm, int direction) {
+    return call("compensation.at", R"({"axis":"X","position_mm":)" + std::to_string(mm) +
+                                       R"(,"direction":)" + std::to_string(direction) + "}");
+  }
+};
+
+TEST_F(CompensationMethods, ATableThatIsBuiltIsNotYetInForce) {
+  add_run();
+  const Answer built = call("compensation.build", R"({"runs":[1]})");
+  ASSERT_EQ(built.code(), 0) << built.text();
+  EXPECT_EQ(built.at("/result/table"), "1");
+  EXPECT_EQ(built.at("/result/axis"), "\"X\"");
+  EXPECT_EQ(built.at("/result/reference"), "\"fixture\"");
+  EXPECT_EQ(built.at("/result/sha256").size(), 66u);
+  EXPECT_EQ(built.at("/result/warnings").front(), '[') << built.text();
+  const Answer status = call("compensation.status");
+  EXPECT_EQ(status.at("/result/generation"), "0");
+  EXPECT_EQ(status.at("/result/axes"), "{}");
+  const Answer none = value_at(5, 1);
+  EXPECT_EQ(none.code(), rpc::kNotFound);
+  EXPECT_SAID(none.message(), "no compensation table is active for axis X");
+  EXPECT_EQ(call("compensation.grid", R"({"axis":"X"})").code(), rpc::kNotFound);
+}
+
+TEST_F(CompensationMethods, WhatCannotBeBuiltIsRefused) {
+  add_run('X', "a"), add_run('Y', "b"), add_run('X', "c", false);
+  EXPECT_EQ(call("compensation.build", R"({"runs":[9]})").code(), rpc::kNotFound);
+  EXPECT_SAID(call("compensation.build", R"({"runs":[1,1]})").message(), "given twice");
+  EXPECT_EQ(call("compensation.build", R"({"runs":[1,2]})").code(), rpc::kBadInput);
+  EXPECT_NE(call("compensation.build", R"({"runs":[]})").code(), 0);
+  EXPECT_SAID(call("compensation.build", R"({"runs":[3]})").message(), "partial");
+  EXPECT_SAID(call("compensation.build", R"({"runs":["1"]})").message(), "runs");
+  EXPECT_SAID(call("compensation.build", R"({"runs":[1],"reference":"bed"})").message(), "bed");
+  EXPECT_SAID(call("compensation.build", R"({"runs":[1],"reference":"tool"})").message(),
+              "tool_point_mm");
+  EXPECT_EQ(call("compensation.build", R"({"runs":[3],"partial":true})").at("/result/table"), "1");
+  const Answer carriage = call("compensation.build", R"({"runs":[1],"reference":"carriage"})");
+  EXPECT_EQ(carriage.at("/result/reference"), "\"carriage\"") << carriage.text();
+}
+
+TEST_F(CompensationMethods, InForceItIsServedWithItsGeneration) {
+  const std::string generation = activate();
+  EXPECT_NE(generation, "0");
+  const Answer status = call("compensation.status");
+  EXPECT_EQ(status.at("/result/generation"), generation);
+  EXPECT_EQ(status.at("/result/axes/X/table"), "1");
+  EXPECT_EQ(status.at("/result/axes/X/generation"), generation);
+  EXPECT_SAID(status.at("/result/axes/X/activated_by"), "1234");
+  EXPECT_EQ(call("server.info").at("/result/generation"), generation);
+  const Answer at = value_at(5, 1);
+  EXPECT_EQ(at.at("/result/generation"), generation);
+  EXPECT_EQ(at.at("/result/table"), "1");
+}
+
+TEST_F(CompensationMethods, ValuesAreTheErrorsOfTheirPlaceAndSide) {
+  activate();
+  const TrueErrors first = TrueErrors::at(0), truth = TrueErrors::at(15);
+  for (const int direction : {-1, 0, 1}) {
+    const Answer at = value_at(15, direction);
+    EXPECT_NEAR(at.number("/result/error/EYX_um"), 1e6 * truth.at_fixture(15)[0], 1e-2)
+        << at.text();
+    // Angles from the start.
+    EXPECT_NEAR(at.number("/result/error/EAX_urad"), truth.ex_urad - first.ex_urad, 1e-2);
+    EXPECT_NEAR(at.number("/result/error/EBX_urad"), truth.ey_urad - first.ey_urad, 1e-2);
+    EXPECT_EQ(at.number("/result/direction"), direction);
+    EXPECT_NEAR(at.number("/result/position_mm"), 15, 1e-9);
+  }
+  EXPECT_EQ(value_at(15, 1).at("/result/inside"), "true");
+  EXPECT_EQ(value_at(25, 1).at("/result/inside"), "false");
+  EXPECT_EQ(value_at(-5, 1).at("/result/inside"), "false");
+  // Between two grid points, on the straight line of the angles.
+  EXPECT_NEAR(value_at(7.5, 1).number("/result/error/EAX_urad"), 7.5, 1e-2);
+  EXPECT_GT(value_at(5, 1).number("/result/u/EYX_um"), 0);
+}
+
+TEST_F(CompensationMethods, WithoutAChainThereIsNoCorrectionAndTheReasonIsSaid) {
+  activate();
+  const Answer at = value_at(5, 1);
+  EXPECT_EQ(at.at("/result/correction"), "null") << at.text();
+  EXPECT_SAID(at.at("/result/correction_reason"), "chain");
+}
+
+TEST_F(CompensationMethods, ADirectionIsOneOfThree) {
+  activate();
+  for (const int direction : {-2, 2}) {
+    EXPECT_EQ(value_at(5, direction).code(), rpc::kInvalidParams);
+    EXPECT_SAID(value_at(5, direction).message(), "direction must be 1");
+  }
+  EXPECT_EQ(call("compensation.at", R"({"axis":"X"})").code(), rpc::kInvalidParams);
+  EXPECT_EQ(call("compensation.at", R"({"axis":"Q","position_mm":1})").code(), rpc::kInvalidParams);
+  EXPECT_EQ(call("compensation.at", R"({"axis":"Y","position_mm":1})").code(), rpc::kNotFound);
+}
+
+TEST_F(CompensationMethods, AGridIsReadByPageAndAnotherGenerationIsTold) {
+  const std::string generation = activate();
+  const Answer page = call("compensation.grid", R"({"axis":"X","offset":3,"count":1})");
+  ASSERT_EQ(page.size("/result/points"), 1u) << page.text();
+  EXPECT_EQ(page.number("/result/offset"), 3);
+  EXPECT_NEAR(page.number("/result/points/0/position_mm"), 15, 1e-6);
+  EXPECT_NEAR(page.number("/result/points/0/forward/EAX_urad"), 15, 1e-2);
+  EXPECT_EQ(call("compensation.grid", R"({"axis":"X","generation":)" + generation + "}")
+                .size("/result/points"),
+            5u);
+  EXPECT_EQ(call("compensation.grid", R"({"axis":"X","offset":5})").size("/result/points"), 0u);
+  const Answer changed = call("compensation.grid", R"({"axis":"X","generation":7})");
+  EXPECT_EQ(changed.code(), rpc::kChanged);
+  EXPECT_SAID(changed.message(), "generation changed to " + generation);
+}
+
+TEST_F(CompensationMethods, OutOfForceNothingIsServed) {
+  const std::string generation = activate();
+  const Answer out = call("compensation.deactivate", R"({"axis":"X"})");
+  EXPECT_EQ(out.at("/result/changed"), "true") << out.text();
+  EXPECT_GT(out.number("/result/generation"), std::stod(generation));
+  EXPECT_EQ(value_at(5, 1).code(), rpc::kNotFound);
+  EXPECT_EQ(call("compensation.status").at("/result/axes"), "{}");
+  EXPECT_EQ(call("compensation.deactivate", R"({"axis":"X"})").at("/result/changed"), "false");
+  const auto history = call("history.list");
+  EXPECT_EQ(history.at("/result/history/0/deed"), "\"compensation.deactivate\"") << history.text();
+}
+
+TEST_F(CompensationMethods, WhatHasWarningsIsPutInForceOnlyWhenAskedFor) {
+  add_run('X', "", false);
+  call("compensation.build", R"({"runs":[1],"partial":true})");
+  EXPECT_EQ(call("compensation.activate", R"({"table":9})").code(), rpc::kNotFound);
+  const Answer refused = call("compensation.activate", R"({"table":1})");
+  EXPECT_EQ(refused.code(), rpc::kChanged) << refused.text();
+  EXPECT_SAID(refused.message(), "despite_warnings");
+  EXPECT_EQ(call("compensation.status").at("/result/axes"), "{}");
+  const auto done = call("compensation.activate", R"({"table":1,"despite_warnings":true})");
+  EXPECT_EQ(done.at("/result/changed"), "true");
+  const auto again = call("compensation.activate", R"({"table":1})");
+  EXPECT_EQ(again.at("/result/changed"), "false") << "it is in force: no refusal " << again.text();
+  EXPECT_EQ(again.at("/result/generation"), done.at("/result/generation"));
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -1,0 +1,189 @@
+// server.info, device.list, live.subscribe, live.unsubscribe, encoder.set, run.replay.
+#include <fstream>
+
+#include "drivers/clock/monotonic.h"
+#include "tests/daemon/methods/methods_fixture.h"
+
+namespace mdof::daemon {
+namespace {
+
+#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+class ServerMethods : public MethodsTest {
+ protected:
+  // A log of an axis with known errors, as a user would have exported it.
+  std::string write_log() {
+    TestAxis axis;
+    axis.pass_both_ways({0, 5, 10});
+    const SampleBlock block = axis.whole();
+    const auto file = folder_ / "log.csv";
+    std::ofstream out(file);
+    out.precision(12);
+    out << "time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n";
+    for (std::size_t i = 0; i < block.scans(); ++i) {
+      out << 1e-9 * static_cast<double>(block.time_ns[i]);
+      for (std::size_t c = 0; c < 6; ++c) out << "," << block.value[c][i];
+      out << "\n";
+    }
+    return file.string();
+  }
+  std::string replay_of(const std::string& path, const std::string& more = "") {
+    JsonWriter json;
+    json.begin_object().field("path", path).field("rig", five_probe_rig().text).end_object();
+    std::string params = json.take();
+    params.insert(params.size() - 1, more);
+    return params;
+  }
+};
+
+TEST_F(ServerMethods, TellsWhatItServes) {
+  add_axis();
+  const Answer info = call("server.info");
+  EXPECT_EQ(info.at("/result/server"), "\"mdofd\"");
+  EXPECT_EQ(info.at("/result/storage"), "\"ok\"");
+  EXPECT_EQ(info.at("/result/storage_reason"), "null");
+  EXPECT_EQ(info.at("/result/database"), "\"" + (folder_ / "mdof.db").string() + "\"");
+  EXPECT_EQ(info.at("/result/axes/0/axis"), "\"X\"");
+  EXPECT_EQ(info.at("/result/axes/0/rig"), "\"five-probe fixture, X axis\"");
+  EXPECT_EQ(info.at("/result/axes/0/devices"), "[\"daq\"]");
+  EXPECT_EQ(info.at("/result/axes/0/run"), "null");
+  EXPECT_EQ(info.at("/result/axes/0/simulated"), "false");
+  EXPECT_GE(info.number("/result/uptime_s"), 0);
+}
+
+TEST_F(ServerMethods, ListsDevicesWithTheirAxisAndState) {
+  EXPECT_EQ(call("device.list").at("/result/devices"), "[]");
+  add_axis();
+  TestAxis axis(3);
+  axis.stand(0.5);
+  feed_->give(axis.whole());
+  feed_->wait_until_read();
+  for (int i = 0; i < 200 && call("device.list").number("/result/devices/0/scans") < 500; ++i)
+    ::usleep(10'000);
+  const Answer list = call("device.list");
+  EXPECT_EQ(list.at("/result/devices/0/axis"), "\"X\"");
+  EXPECT_EQ(list.at("/result/devices/0/device"), "\"daq\"") << list.text();
+  EXPECT_EQ(list.at("/result/devices/0/state"), "\"open\"");
+  EXPECT_EQ(list.number("/result/devices/0/scans"), 500);
+}
+
+TEST_F(ServerMethods, ALostDatabaseIsToldAndNothingIsStored) {
+  add_axis();
+  std::filesystem::rename(folder_ / "mdof.db", folder_ / "aside.db");
+  Answer info = call("server.info");
+  for (int i = 0; i < 200 && info.at("/result/storage") == "\"ok\""; ++i) {
+    ::usleep(10'000);
+    info = call("server.info");
+  }
+  EXPECT_EQ(info.at("/result/storage"), "\"lost\"");
+  EXPECT_HAS(info.at("/result/storage_reason"), "was deleted");
+  for (const auto& [name, params] :
+       std::map<std::string, std::string>{{"run.start", R"({"axis":"X"})"},
+                                          {"squareness.fit", R"({"run_x":1,"run_y":2})"},
+                                          {"compensation.build", R"({"runs":[1]})"},
+                                          {"compensation.activate", R"({"table":1})"},
+                                          {"compensation.deactivate", R"({"axis":"X"})"}}) {
+    const Answer refused = call(name, params);
+    EXPECT_EQ(refused.code(), rpc::kIo) << refused.text();
+    EXPECT_HAS(refused.message(), "was deleted");
+  }
+}
+
+TEST_F(ServerMethods, SubscribesToTheLiveViewAndEventsAndEndsBoth) {
+  const Answer both = call("live.subscribe", R"({"interval_ms":200})");
+  EXPECT_EQ(both.at("/result/interval_ms"), "200");
+  using Subscribed = std::vector<std::pair<std::string, std::chrono::milliseconds>>;
+  EXPECT_EQ(bench_->caller.subscribed, (Subscribed{{kLiveTopic, std::chrono::milliseconds(200)},
+                                                   {kRunTopic, std::chrono::milliseconds(0)}}));
+  EXPECT_EQ(call("live.unsubscribe").at("/result"), "{}");
+  EXPECT_TRUE(bench_->caller.subscribed.empty());
+  EXPECT_EQ(call("live.subscribe", R"({"events":false})").at("/result/interval_ms"), "100");
+  EXPECT_EQ(bench_->caller.subscribed, (Subscribed{{kLiveTopic, std::chrono::milliseconds(100)}}));
+  EXPECT_EQ(call("live.subscribe", R"({"interval_ms":19})").code(), rpc::kInvalidParams);
+  EXPECT_EQ(call("live.subscribe", R"({"interval_ms":20})").code(), 0);
+}
+
+TEST_F(ServerMethods, TheEncoderIsSetWhereTheAxisStandsAndNotWhileItIsNotKnown) {
+  EXPECT_EQ(call("encoder.set", R"({"axis":"X","position_mm":1})").code(), rpc::kNotFound);
+  add_axis();
+  const Answer nothing = call("encoder.set", R"({"axis":"X","position_mm":1})");
+  EXPECT_EQ(nothing.code(), rpc::kChanged);
+  EXPECT_HAS(nothing.message(), "nothing has come from the encoder");
+  TestAxis axis(3);
+  axis.stand(2);
+  Answer set = nothing;
+  for (int i = 0; i < 20 && set.code() != 0; ++i) {  // a busy machine may be too late with it
+    SampleBlock block = axis.whole();
+    const std::int64_t shift_ns = drivers::monotonic_ns() - block.time_ns.back();
+    for (auto& time_ns : block.time_ns) time_ns += shift_ns;
+    feed_->give(block);
+    feed_->wait_until_read();
+    ::usleep(20'000);
+    set = call("encoder.set", R"({"axis":"X","position_mm":12.5})");
+  }
+  EXPECT_NEAR(set.number("/result/offset_mm"), 9.5, 1e-9) << set.text();
+  EXPECT_EQ(set.number("/result/position_mm"), 12.5);
+  EXPECT_EQ(set.at("/result/axis"), "\"X\"");
+  EXPECT_EQ(set.at("/result/device"), "\"daq\"");
+}
+
+TEST_F(ServerMethods, ALogIsReplayedForWhoMayReadIt) {
+  bench_->replayer = std::make_unique<Replayer>(*bench_->keeper);
+  bench_->methods.replayer = bench_->replayer.get();
+  bench_->caller.who = rpc::Credentials{0, 0, 1};
+  const std::string log = write_log();
+  const Answer done = call("run.replay", replay_of(log, R"(,"note":"again")"));
+  ASSERT_EQ(done.at("/result/run"), "1") << done.text();
+  const Answer run = call("run.get", R"({"run":1})");
+  EXPECT_EQ(run.number("/result/points_total"), 6);
+  EXPECT_EQ(run.at("/result/note"), "\"again\"");
+  EXPECT_EQ(call("history.list").at("/result/history/0/deed"), "\"run.replay\"");
+  const auto by_target = call("run.replay", replay_of(log, R"(,"targets_mm":[5])"));
+  EXPECT_EQ(call("run.get", R"({"run":2})").number("/result/points_total"), 2) << by_target.text();
+  EXPECT_HAS(call("run.replay", replay_of(log, R"(,"model":"elastic")")).message(), "model");
+  EXPECT_HAS(call("run.replay", replay_of(log, R"(,"min_length_s":0)")).message(), "min_length_s");
+  EXPECT_HAS(call("run.replay", R"({"path":")" + log + "\"}").message(), "has no rig");
+  const Answer no_rig = call("run.replay", R"({"path":")" + log + R"(","rig":"name = 1"})");
+  EXPECT_EQ(no_rig.code(), rpc::kBadInput) << no_rig.text();
+}
+
+TEST_F(ServerMethods, ALogThatTheCallerMayNotReadIsNotReadForIt) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root gives a file to others";
+  bench_->replayer = std::make_unique<Replayer>(*bench_->keeper);
+  bench_->methods.replayer = bench_->replayer.get();
+  const std::string log = write_log();
+  constexpr uid_t kOwner = 2001, kOther = 2002;
+  constexpr gid_t kGroup = 3001, kAnother = 3002;
+  ASSERT_EQ(::chown(log.c_str(), kOwner, kGroup), 0);
+  const auto may_read = [&](uid_t uid, gid_t gid, mode_t mode) {
+    EXPECT_EQ(::chmod(log.c_str(), mode), 0);
+    bench_->caller.who = rpc::Credentials{uid, gid, 42};
+    const Answer answer = call("run.replay", replay_of(log));
+    if (answer.code() != 0) {
+      EXPECT_HAS(answer.message(), "is not yours to read");
+    }
+    return answer.code() == 0;
+  };
+  EXPECT_TRUE(may_read(kOwner, kAnother, 0400));
+  EXPECT_FALSE(may_read(kOwner, kGroup, 0044)) << "an owner without the right";
+  EXPECT_TRUE(may_read(kOther, kGroup, 0040));
+  EXPECT_FALSE(may_read(kOther, kGroup, 0404)) << "a member of the group without the right";
+  EXPECT_TRUE(may_read(kOther, kAnother, 0004));
+  EXPECT_FALSE(may_read(kOther, kAnother, 0440)) << "anybody else";
+  EXPECT_TRUE(may_read(0, 0, 0));
+  // One of the daemon's own group, as its recordings are, is open to who may use the socket.
+  ASSERT_EQ(::chown(log.c_str(), kOwner, ::getegid()), 0);
+  EXPECT_TRUE(may_read(kOther, kAnother, 0440));
+  bench_->caller.who.reset();
+  EXPECT_HAS(call("run.replay", replay_of(log)).message(), "only over the Unix socket");
+}
+
+TEST_F(ServerMethods, APathThatIsNoLogIsRefused) {
+  EXPECT_HAS(call("run.replay", replay_of("log.csv")).message(), "must be absolute");
+  EXPECT_HAS(call("run.replay", replay_of("/nowhere/log.csv")).message(), "No such file");
+  EXPECT_HAS(call("run.replay", replay_of(folder_.string())).message(), "is no file");
+  EXPECT_HAS(call("run.replay", replay_of(write_log())).message(), "replays no logs");
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -1,0 +1,226 @@
+// A station with a store of its own, whose device gives what a test feeds it, in the test's time.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "daemon/doer.h"
+#include "daemon/station/station.h"
+#include "tests/daemon/measure/test_axis.h"
+
+namespace mdof::daemon {
+
+// What a test holds of a device; its driver lives with the station. Thread-safe.
+class Feed {
+ public:
+  void give(SampleBlock block) {
+    const std::lock_guard lock(mutex_);
+    blocks_.push_back(std::move(block));
+    changed_.notify_all();
+  }
+  // The device answers no more, neither to a read nor when it is opened, until it is back.
+  void go() { set_gone(true); }
+  void come_back() { set_gone(false); }
+  void end() {  // of a file
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+  }
+  // All that was given has been read.
+  void wait_until_read() {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(
+        changed_.wait_for(lock, std::chrono::seconds(20), [this] { return blocks_.empty(); }));
+  }
+
+  Status open() {
+    const std::lock_guard lock(mutex_);
+    return gone_ ? io_error("10.0.0.9: no route to host") : Status();
+  }
+  Result<drivers::ReadState> read(SampleBlock& block) {
+    std::unique_lock lock(mutex_);
+    block = SampleBlock();
+    changed_.wait_for(lock, std::chrono::milliseconds(5),
+                      [this] { return gone_ || ended_ || !blocks_.empty(); });
+    if (gone_ && blocks_.empty()) return io_error("10.0.0.9: connection lost");
+    if (blocks_.empty()) return ended_ ? drivers::ReadState::end : drivers::ReadState::more;
+    block = std::move(blocks_.front());
+    blocks_.pop_front();
+    changed_.notify_all();
+    return drivers::ReadState::more;
+  }
+
+ private:
+  void set_gone(bool gone) {
+    const std::lock_guard lock(mutex_);
+    gone_ = gone;
+    changed_.notify_all();
+  }
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<SampleBlock> blocks_;
+  bool gone_ = false, ended_ = false;
+};
+
+class FedDriver final : public drivers::Driver {
+ public:
+  FedDriver(std::string name, std::shared_ptr<Feed> feed)
+      : name_(std::move(name)), feed_(std::move(feed)) {}
+  drivers::DeviceInfo info() const override {
+    drivers::DeviceInfo info;
+    info.name = name_;
+    info.driver = "fed";
+    info.rate_hz = 1000;
+    return info;
+  }
+  Status open() override { return feed_->open(); }
+  Result<drivers::ReadState> read(SampleBlock& block, std::chrono::milliseconds) override {
+    return feed_->read(block);
+  }
+
+ private:
+  std::string name_;
+  std::shared_ptr<Feed> feed_;
+};
+
+inline drivers::DriverSpec fed_by(std::shared_ptr<Feed> feed, bool live = true) {
+  drivers::DriverSpec spec;
+  spec.driver = "fed";
+  spec.name = "daq";
+  spec.live = spec.recorded = live;
+  spec.encoder.counts = live;
+  if (!live) spec.source_path = "/logs/of_a_test.csv";
+  spec.make = [feed]() -> Result<std::unique_ptr<drivers::Driver>> {
+    return std::make_unique<FedDriver>("daq", feed);
+  };
+  spec.source_info = [](const drivers::Driver&) { return drivers::SourceInfo{}; };
+  return spec;
+}
+
+// Those of a station as they came. Thread-safe.
+class Events {
+ public:
+  StationEvents sink() {
+    StationEvents events;
+    events.live = [this](std::string json) { add(live_, std::move(json)); };
+    events.run_event = [this](std::string json) { add(run_events_, std::move(json)); };
+    events.trouble = [this](Axis, std::int64_t run, const Trouble& trouble) {
+      add(troubles_, std::to_string(run) + " " + trouble_line(trouble));
+    };
+    return events;
+  }
+  // The first run event with all these parts; waits for it. Empty: none came.
+  std::string wait_for(const std::vector<std::string>& parts) { return wait(run_events_, parts); }
+  std::string wait_for_live(const std::vector<std::string>& parts) { return wait(live_, parts); }
+  std::string wait_for_trouble(const std::vector<std::string>& parts) {
+    return wait(troubles_, parts);
+  }
+  std::size_t count(const std::string& part) {
+    const std::lock_guard lock(mutex_);
+    return static_cast<std::size_t>(
+        std::count_if(run_events_.begin(), run_events_.end(),
+                      [&](const auto& json) { return json.find(part) != std::string::npos; }));
+  }
+
+ private:
+  void add(std::vector<std::string>& to, std::string json) {
+    const std::lock_guard lock(mutex_);
+    to.push_back(std::move(json));
+    changed_.notify_all();
+  }
+  std::string wait(const std::vector<std::string>& in, const std::vector<std::string>& parts) {
+    std::unique_lock lock(mutex_);
+    std::string found;
+    changed_.wait_for(lock, std::chrono::seconds(20), [&] {
+      for (const auto& json : in) {
+        const auto has = [&](const auto& part) { return json.find(part) != std::string::npos; };
+        if (!std::all_of(parts.begin(), parts.end(), has)) continue;
+        found = json;
+        return true;
+      }
+      return false;
+    });
+    return found;
+  }
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::string> live_, run_events_, troubles_;
+};
+
+class FedStation : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "mdof-station-XXXXXX").string();
+    ASSERT_TRUE(::mkdtemp(name.data()));
+    folder_ = name;
+    open_store();
+    make_station();
+  }
+  void TearDown() override {
+    station_.reset();
+    keeper_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+
+  void open_store() {
+    Storekeeper::Options options{folder_ / "mdof.db"};
+    options.commit_interval = std::chrono::milliseconds(5);
+    keeper_ = Storekeeper::start(
+                  options, {[](std::int64_t, std::int64_t) {}, [](std::int64_t, const Error&) {}})
+                  .value();
+  }
+  void make_station(bool live = true) {
+    feed_ = std::make_shared<Feed>();
+    station_ = std::make_unique<Station>(AxisConfig{five_probe_rig(), {fed_by(feed_, live)}},
+                                         PipelineOptions(), "# mdofd.toml of a test\n",
+                                         folder_ / "recordings", *keeper_, events_.sink());
+  }
+  // Begins a run, or goes on with one.
+  Result<std::int64_t> start(const RunRequest& request = {}) {
+    std::promise<Result<std::int64_t>> id;
+    station_->start_run(request, [&](const auto& begun) { id.set_value(begun); });
+    return id.get_future().get();
+  }
+  Result<std::int64_t> stop(bool abort = false) {
+    std::promise<Result<std::int64_t>> id;
+    const Deed deed = deed_now(abort ? "run.abort" : "run.stop", this_process());
+    station_->stop_run(abort, deed, [&](const auto& ended) { id.set_value(ended); });
+    return id.get_future().get();
+  }
+  // Gives scans begin ... end - 1, 100 a block.
+  void give(const TestAxis& axis, std::size_t begin = 0, std::size_t end = SIZE_MAX) {
+    for (std::size_t i = begin; i < std::min(end, axis.scans()); i += 100)
+      feed_->give(axis.block(i, std::min(i + 100, end)));
+    feed_->wait_until_read();
+  }
+  mdof::Run stored(std::int64_t id) {
+    auto store = store::Store::open(folder_ / "mdof.db", store::Access::read_only);
+    return store.value().run(id).value();
+  }
+  static std::string warnings(const mdof::Run& run) {
+    std::string all;
+    for (const auto& warning : run.header.warnings) all += warning + "\n";
+    return all;
+  }
+
+  std::filesystem::path folder_;
+  std::unique_ptr<Storekeeper> keeper_;
+  Events events_;  // outlives the station
+  std::shared_ptr<Feed> feed_;
+  std::unique_ptr<Station> station_;
+};
+
+}  // namespace mdof::daemon

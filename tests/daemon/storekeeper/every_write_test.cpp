@@ -1,0 +1,274 @@
+// A run that is recorded, measured and ended, with a crash between any two writes, and with a disk
+// that is full from any one of them on: nothing that was acknowledged is lost, nothing is half
+// there, and it goes on.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "daemon/storekeeper/storekeeper.h"
+#include "drivers/recording/recording_log.h"
+#include "tests/daemon/storekeeper/watched_disk.h"
+
+namespace mdof::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kScansOfBlock = 50;
+
+MeasuredPoint solved_point(int target) {
+  MeasuredPoint p;
+  p.target = target;
+  p.run = 1;
+  p.target_m = p.point.position_m = 1e-3 * target;
+  p.point.direction = 1;
+  p.point.probe_m = p.point.probe_u_m = {1e-6, 2e-6, 3e-6, 4e-6, 5e-6};
+  p.point.samples = 100;
+  p.errors.valid = true;
+  return p;
+}
+
+SampleBlock some_scans(std::int64_t k) {
+  SampleBlock block{"d", {{"A", Unit::um}}, {}, {{}}, {}, 0};
+  for (std::size_t i = 0; i < kScansOfBlock; ++i) {
+    block.time_ns.push_back(1 + k * 1'000'000 + static_cast<std::int64_t>(i));
+    block.value[0].push_back(static_cast<double>(i));
+  }
+  return block;
+}
+
+// What a client has been told so far. On the store's thread.
+struct Told {
+  std::int64_t run = 0;    // begun
+  std::size_t points = 0;  // kept
+  std::int64_t chunks = 0;
+  std::int64_t ended = 0;  // the run to read
+  bool refused = false;    // something was, or the run has failed
+};
+
+class EveryWrite : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "mdof-writes-XXXXXX").string();
+    ASSERT_TRUE(::mkdtemp(name.data()));
+    folder_ = name;
+    ASSERT_TRUE(store::Store::open(folder_ / "fresh.db", store::Access::read_write));
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // The database of a mdofd that has run before.
+  fs::path begin_life(const std::string& name) {
+    const fs::path life = folder_ / name;
+    fs::create_directories(life);
+    fs::copy_file(folder_ / "fresh.db", life / "mdof.db");
+    return life;
+  }
+  std::unique_ptr<Storekeeper> keeper_of(const fs::path& life, Told& told) {
+    Storekeeper::Options options{life / "mdof.db"};
+    options.commit_interval = std::chrono::milliseconds(1);
+    return Storekeeper::start(options, {[&](std::int64_t, std::int64_t seq) { told.chunks = seq; },
+                                        [&](std::int64_t, const Error&) { told.refused = true; }})
+        .value();
+  }
+  static bool begin(Storekeeper& keeper, const fs::path& recording, Told& told) {
+    std::promise<bool> begun;
+    NewRun run;
+    run.recording = recording;
+    run.header.started_utc = "2026-11-23T00:00:00.000Z";
+    run.header.provenance.recording_kind = "recording";
+    run.header.provenance.recording_path = recording.string();
+    run.header.provenance.model = "rigid";
+    keeper.begin_run(std::move(run), [&](const auto& id) {
+      told.run = id.value_or(0);
+      begun.set_value(id.has_value());
+    });
+    return begun.get_future().get();
+  }
+  static void append(Storekeeper& keeper, int block, std::vector<MeasuredPoint> points,
+                     Told& told) {
+    EXPECT_TRUE(keeper.record(told.run, {some_scans(block)}, true));
+    std::promise<void> done;
+    keeper.append_points(told.run, points, [&](const Status& kept) {
+      if (kept) told.points += points.size();
+      told.refused = told.refused || !kept;
+      done.set_value();
+    });
+    done.get_future().get();
+  }
+  // A run of three points in two portions; `otherwise`: at its end they turn out otherwise, and
+  // what supersedes it has four.
+  static void measure(Storekeeper& keeper, const fs::path& recording, bool otherwise, Told& told) {
+    if (!begin(keeper, recording, told)) return;
+    append(keeper, 0, {solved_point(1), solved_point(2)}, told);
+    append(keeper, 1, {solved_point(3)}, told);
+    mdof::Run result;
+    result.header.state = RunState::complete;
+    for (int target = 1; target <= (otherwise ? 4 : 3); ++target)
+      result.points.push_back(solved_point(target));
+    std::promise<void> done;
+    keeper.end_run(told.run, result, {otherwise}, [&](const auto& id) {
+      told.ended = id.value_or(0);
+      told.refused = told.refused || !id;
+      done.set_value();
+    });
+    done.get_future().get();
+  }
+
+  // What anybody finds who opens it afterwards.
+  static void expect_sound(store::Store& store, const fs::path& recording, const Told& told,
+                           std::size_t points_at_end) {
+    const auto findings = store.verify();
+    ASSERT_TRUE(findings) << findings.error().message;
+    EXPECT_TRUE(findings->empty()) << findings->front();
+    if (told.run == 0) return;
+    const auto run = store.run(told.run);
+    ASSERT_TRUE(run) << run.error().message;
+    EXPECT_GE(run->points.size(), told.points);
+    const auto by = store.superseded_by(told.run).value();
+    if (by) {
+      EXPECT_EQ(run->header.state, RunState::failed);
+      EXPECT_EQ(store.run(*by)->points.size(), points_at_end) << "both, or neither";
+      EXPECT_EQ(store.run(*by)->header.state, RunState::complete);
+    }
+    if (told.ended != 0) {
+      const auto read = store.run(told.ended);
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_EQ(read->header.state, RunState::complete);
+      EXPECT_EQ(read->points.size(), points_at_end);
+    }
+    drivers::RecordingLog log("recording", recording);
+    const Status opened = log.open();
+    ASSERT_TRUE(opened || told.chunks == 0) << opened.error().message;
+    std::size_t scans = 0;
+    SampleBlock block;
+    while (opened) {
+      const auto state = log.read(block, std::chrono::milliseconds(0));
+      if (!state || *state == drivers::ReadState::end) break;
+      scans += block.scans();
+    }
+    EXPECT_GE(scans, kScansOfBlock * static_cast<std::size_t>(told.chunks));
+    EXPECT_GE(scans, kScansOfBlock * (told.points / 2 + told.points % 2)) << "of the points";
+  }
+
+  fs::path folder_;
+};
+
+// All files of a folder but SQLite's shared memory, as they are now.
+class Snapshot {
+ public:
+  Snapshot(const fs::path& folder, const Told& told) : told_(told) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() == ".lock" || entry.path().string().ends_with("-shm")) continue;
+      std::ifstream in(entry.path(), std::ios::binary);
+      files_[entry.path().filename()] = {std::istreambuf_iterator<char>(in), {}};
+    }
+  }
+  void put_into(const fs::path& folder) const {
+    fs::create_directories(folder);
+    for (const auto& [name, bytes] : files_)
+      std::ofstream(folder / name, std::ios::binary)
+          .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+  const Told& told() const { return told_; }
+
+ private:
+  std::map<std::string, std::string> files_;
+  Told told_;
+};
+
+TEST_F(EveryWrite, ACrashBetweenAnyTwoLosesNothingThatWasAcknowledged) {
+  for (const bool otherwise : {false, true}) {
+    std::vector<Snapshot> crashes;
+    {
+      const fs::path life = begin_life(otherwise ? "superseded" : "plain");
+      Told told;
+      const WatchedDisk disk([&] {
+        crashes.emplace_back(life, told);
+        return SQLITE_OK;
+      });
+      auto keeper = keeper_of(life, told);
+      measure(*keeper, life / "run.mdofrec", otherwise, told);
+      EXPECT_EQ(told.ended, otherwise ? 2 : 1);
+      EXPECT_FALSE(told.refused);
+      keeper.reset();
+      crashes.emplace_back(life, told);
+    }
+    EXPECT_GT(crashes.size(), 40u);
+    std::set<std::size_t> kept;
+    std::size_t number = 0;
+    for (const Snapshot& crash : crashes) {
+      const fs::path after = folder_ / ("after_" + std::to_string(number));
+      SCOPED_TRACE("write " + std::to_string(number++) + " of " + std::to_string(crashes.size()));
+      crash.put_into(after);
+      auto store = store::Store::open(after / "mdof.db", store::Access::read_write,
+                                      {store::Durability::off, 50});
+      ASSERT_TRUE(store) << store.error().message;
+      expect_sound(*store, after / "run.mdofrec", crash.told(), otherwise ? 4 : 3);
+      kept.insert(crash.told().points);
+      const auto run = store->run_header(1);
+      EXPECT_TRUE(!run || run->state != RunState::open);
+      EXPECT_TRUE(store->begin_run({})) << "it goes on";
+      fs::remove_all(after);
+    }
+    EXPECT_EQ(kept, (std::set<std::size_t>{0, 2, 3}));
+  }
+}
+
+TEST_F(EveryWrite, ADiskThatIsFullFromAnyOneOnLosesNothingAndIsToldAndGoesOn) {
+  int refused_lives = 0, whole_lives = 0;
+  for (int first_refused = 0;; ++first_refused) {
+    SCOPED_TRACE("full from write " + std::to_string(first_refused));
+    const bool otherwise = first_refused % 2 == 1;
+    const fs::path life = begin_life("life" + std::to_string(first_refused));
+    std::atomic<bool> begun = false, has_room = false;
+    std::atomic<int> writes = 0;
+    Told told, next;
+    {
+      std::unique_ptr<Storekeeper> keeper;
+      const WatchedDisk disk([&] {
+        return begun && !has_room && writes++ >= first_refused ? SQLITE_FULL : SQLITE_OK;
+      });
+      keeper = keeper_of(life, told);
+      begun = true;
+      measure(*keeper, life / "run.mdofrec", otherwise, told);
+      has_room = true;
+      EXPECT_TRUE(told.run != 0 || !fs::exists(life / "run.mdofrec")) << "of no run";
+      const Told before = told;
+      measure(*keeper, life / "next.mdofrec", otherwise, next);
+      told.chunks = before.chunks;  // those of the next were counted there as well
+      told.refused = before.refused;
+      keeper.reset();
+    }
+    EXPECT_GT(next.ended, 0) << "what comes once there is room again is stored";
+    EXPECT_FALSE(next.refused);
+    auto store = store::Store::open(life / "mdof.db", store::Access::read_only);
+    ASSERT_TRUE(store) << store.error().message;
+    expect_sound(*store, life / "run.mdofrec", told, otherwise ? 4 : 3);
+    expect_sound(*store, life / "next.mdofrec", next, otherwise ? 4 : 3);
+    const bool whole = told.ended > 0 && !told.refused;
+    EXPECT_TRUE(whole || told.run == 0 || told.refused) << "lost in silence";
+    if (told.run > 0) {
+      const RunHeader run = store->run_header(told.run).value();
+      EXPECT_NE(run.state, RunState::open);
+      EXPECT_TRUE(whole || (run.state == RunState::failed && !run.warnings.empty()))
+          << "it does not say why";
+    }
+    fs::remove_all(life);
+    refused_lives += !whole;
+    whole_lives += whole;
+    if (whole && writes <= first_refused) break;  // there was no write left to refuse
+    ASSERT_LT(first_refused, 1000);
+  }
+  EXPECT_GT(refused_lives, 20);
+  EXPECT_GT(whole_lives, 0);
+}
+
+}  // namespace
+}  // namespace mdof::daemon

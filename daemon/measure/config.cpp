@@ -181,9 +181,10 @@ Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem:
   return device;
 }
 
-// Where devices are aligned, each must sample often enough to be of any use.
+// Where readings are interpolated, each device must sample often enough to be of any use.
 Status check_rates(const TomlTable& table, const AxisConfig& axis, const Config& config) {
-  if (axis.devices.size() < 2) return {};
+  const auto options = with_delays(config.measure, axis.rig, axis.delays);
+  if (axis.devices.size() < 2 && options.align.delay_s.empty()) return {};
   for (const auto& device : axis.devices) {
     MDOF_TRY(const auto driver, device.make());
     if (auto works = check_rate(driver->info(), config.measure.align, config.gap_given); !works)
@@ -258,6 +259,7 @@ Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& co
   AxisConfig axis;
   MDOF_TRY(axis.rig, read_rig(table, base, config.measure.model));
   for (auto& device : device_tables(table)) {
+    read_delays(device, axis.rig, config.measure.dwell.settle_s, axis.delays);
     MDOF_TRY(auto spec, read_device(device, base, axis, config.measure.dwell.settle_s));
     axis.devices.push_back(std::move(spec));
   }

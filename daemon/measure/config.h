@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/measure/delays.h"
 #include "daemon/measure/pipeline.h"
 #include "daemon/store/store.h"
 #include "drivers/registry.h"
@@ -21,6 +22,7 @@ struct AxisConfig {
   Rig rig;
   // Live ones that together give the rig's channels, or one replay.
   std::vector<drivers::DriverSpec> devices;
+  ChannelDelays delays = {};
 
   bool live() const { return devices.front().live; }
   bool recorded() const { return devices.front().recorded; }

@@ -44,6 +44,14 @@ void keep_last(const FrameBlock& frames, FrameBlock& newest) {
   }
 }
 
+void write_by_channel(JsonWriter& json, const char* key,
+                      const std::map<std::string, double>& numbers) {
+  if (numbers.empty()) return;
+  json.key(key).begin_object();
+  for (const auto& [channel, x] : numbers) json.field(channel, x);
+  json.end_object();
+}
+
 // Of what knows its positions by itself there is nothing to say.
 void write_datum(JsonWriter& json, const EncoderDatum& datum) {
   if (datum == EncoderDatum()) return;
@@ -76,11 +84,8 @@ std::string PipelineOptions::json() const {
       .begin_object()
       .field("lag_bound_s", align.lag_bound_s)
       .field("max_gap_s", align.max_gap_s);
-  if (!align.interval_s.empty()) {
-    json.key("interval_s").begin_object();
-    for (const auto& [channel, interval_s] : align.interval_s) json.field(channel, interval_s);
-    json.end_object();
-  }
+  write_by_channel(json, "interval_s", align.interval_s);
+  write_by_channel(json, "delay_s", align.delay_s);
   json.end_object();
   json.key("dwell").raw(dwell.json());
   json.key("targets_mm").begin_array();
@@ -281,7 +286,7 @@ Status Pipeline::explain_nothing() const {
                    plain_number(to_mm(s.encoder_max_m), 6) + " mm" + ": the longest stop was " +
                    plain_number(s.longest_still_s) + " s" + " within " +
                    plain_number(to_um(s.tolerance_m)) + " um" + ", needed are " +
-                   plain_number(options_.dwell.settle_s + options_.dwell.min_length_s) + " s" +
+                   plain_number(options_.dwell.shortest_s()) + " s" +
                    "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um" +
                    (doubt.empty() ? "" : "; " + doubt));
 }
@@ -334,7 +339,7 @@ void Pipeline::add_plausibility(Run& run) const {
                                dwell_.summary(),
                                lost_,
                                !options_.sequence.targets_m.empty(),
-                               dwell.settle_s + dwell.min_length_s};
+                               dwell.shortest_s()};
   run.plausibility = algo::plausibility(whole);
   auto& warnings = run.header.warnings;
   for (const auto& more :

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "daemon/measure/config.h"
+#include "daemon/measure/delays.h"
 #include "daemon/paths.h"
 #include "schema/units.h"
 
@@ -43,6 +44,8 @@ Result<PipelineOptions> options_of(const ReplayOrder& order, const ReplayLog& lo
   if (!order.targets_mm.empty()) options.sequence.targets_m.clear();
   for (const double t : order.targets_mm) options.sequence.targets_m.push_back(from_mm(t));
   std::sort(options.sequence.targets_m.begin(), options.sequence.targets_m.end());
+  const Status settles = check_settling(options);
+  if (order.settle_s && !settles) return fail(ErrorCode::usage, settles.error().message);
   return options;
 }
 

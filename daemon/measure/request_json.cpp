@@ -12,6 +12,8 @@ namespace {
 
 using simdjson::dom::element;
 
+constexpr double kMostDelay_s = 10;  // as delays.cpp takes it
+
 // Members of an object, each into its place; the first that is of another kind is the error. One
 // that is absent, or null, leaves its place as it is.
 class Members {
@@ -67,20 +69,27 @@ double seconds(double x_s) {
   return x_s;
 }
 
+// An object with a number for each channel.
+void read_by_channel(Members& members, const char* key, std::map<std::string, double>& to,
+                     bool (*good)(double)) {
+  const auto found = members.object(key);
+  simdjson::dom::object channels;
+  if (!found || found->get(channels)) return;  // it is one
+  to.clear();
+  for (const auto member : channels) {
+    double x = 0;
+    if (member.value.get(x) || !good(x)) members.reject(key);
+    to[std::string(member.key)] = x;
+  }
+}
+
 Status read_align(element object, algo::AlignOptions& align) {
   Members members(object);
   members.take("lag_bound_s", align.lag_bound_s, seconds);
   members.take("max_gap_s", align.max_gap_s, seconds);
-  const auto intervals = members.object("interval_s");
-  if (!intervals) return members.status();
-  align.interval_s.clear();
-  simdjson::dom::object channels;
-  if (intervals->get(channels)) return members.status();  // it is one
-  for (const auto member : channels) {
-    double interval_s = 0;
-    if (member.value.get(interval_s) || !(interval_s > 0)) members.reject("interval_s");
-    align.interval_s[std::string(member.key)] = interval_s;
-  }
+  read_by_channel(members, "interval_s", align.interval_s, [](double s) { return s > 0; });
+  read_by_channel(members, "delay_s", align.delay_s,
+                  [](double s) { return std::abs(s) <= kMostDelay_s; });
   return members.status();
 }
 
@@ -90,6 +99,7 @@ Status read_dwell(element object, algo::DwellOptions& dwell) {
   members.take("window_s", dwell.window_s, seconds);
   members.take("settle_s", dwell.settle_s, seconds);
   members.take("min_length_s", dwell.min_length_s, seconds);
+  members.take("leave_s", dwell.leave_s, seconds);
   members.take("approach_um", dwell.approach_m, from_um);
   members.take("max_speed_mm_s", dwell.max_speed_m_s, from_mm);
   std::uint64_t max_scans = dwell.max_scans;

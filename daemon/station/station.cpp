@@ -98,21 +98,24 @@ Acquisition::Sink Station::sink() {
 // ---- main thread ----
 
 PipelineOptions Station::options_for(const RunRequest& request) const {
-  PipelineOptions options = with_rates(options_);
+  PipelineOptions options = with_devices(options_);
   options.sequence.targets_m = request.targets_m;
   options.repeats = request.repeats;
   options.datum = zero_.datum();
   return options;
 }
 
-// What is known of the devices' rates now: some state theirs only once they are open, or never.
-PipelineOptions Station::with_rates(PipelineOptions options) const {
+// With the delays of their channels, and what is known of their rates now: some state theirs only
+// once they are open, or never.
+PipelineOptions Station::with_devices(PipelineOptions options) const {
+  options = with_delays(std::move(options), config_.rig, config_.delays);
   std::vector<drivers::DeviceInfo> infos;
   for (const auto& device : devices()) {
     infos.push_back(device.info);
     if (device.info.rate_hz == 0) infos.back().rate_hz = device.measured_hz;
   }
-  if (infos.size() > 1) options.align = with_intervals(std::move(options.align), infos);
+  if (infos.size() > 1 || !options.align.delay_s.empty())
+    options.align = with_intervals(std::move(options.align), infos);
   return options;
 }
 

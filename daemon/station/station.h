@@ -111,7 +111,7 @@ class Station {
   Acquisition::Sink sink();
   NewRun describe_run(const RunRequest& request, const PipelineOptions& options) const;
   PipelineOptions options_for(const RunRequest& request) const;
-  PipelineOptions with_rates(PipelineOptions options) const;
+  PipelineOptions with_devices(PipelineOptions options) const;
   // `options`: once for description and measuring, so that a replay measures the same.
   using Options = std::shared_ptr<const PipelineOptions>;
   void begin_run(NewRun description, const RunRequest& request, const Options& options,

@@ -206,7 +206,7 @@ void Station::take_samples(SampleBlock& block) {
   if (config_.live()) zero_.apply(block);
   if (!open_) {
     if (!view_) {
-      auto view = Pipeline::create(config_.rig, without_points(with_rates(options_)));
+      auto view = Pipeline::create(config_.rig, without_points(with_devices(options_)));
       if (!view) return;  // checked with the configuration
       view_.emplace(std::move(*view));
     }

@@ -4,7 +4,7 @@
 
 #include "drivers/channels.h"
 #include "drivers/io/device_lock.h"
-#include "drivers/labjack/count_guard.h"
+#include "drivers/labjack/input_keys.h"
 #include "drivers/labjack_t7/labjack_t7.h"
 
 namespace mdof::drivers {
@@ -13,7 +13,6 @@ namespace {
 using namespace labjack_t7;
 
 constexpr int kCommandPort = 502, kStreamPort = 702;
-constexpr const char* kCounter = "DIO0";
 constexpr double kMostSamples_Hz = 100'000;  // of all inputs
 // Its firmware serves each edge. Recalled of LabJack's support for a T7 that streams; not looked
 // up.
@@ -32,7 +31,7 @@ void read_endpoints(TomlTable& table, Settings& settings) {
 
 void read_converter(TomlTable& table, Settings& settings) {
   settings.range_v = table.number("range_v", settings.range_v);
-  if (!range_index(settings.range_v)) table.reject("range_v", "must be 10, 1, 0.1 or 0.01");
+  if (!range_index(settings.range_v)) table.reject("range_v", labjack::kRangesText);
   const std::int64_t resolution = table.integer("resolution_index", 0);
   if (resolution < 0 || resolution > kMostResolution)
     table.reject("resolution_index", "must be from 0 (the default) to 8");
@@ -63,81 +62,50 @@ void read_rate(TomlTable& table, Settings& settings) {
   settings.samples_per_packet = static_cast<std::size_t>(samples);
 }
 
+std::string counter_name(int line) {
+  return "DIO" + std::to_string(line);
+}
+
 std::vector<std::string> known_inputs() {
   std::vector<std::string> names;
   for (int n = 0; n < kAins; ++n) names.push_back("AIN" + std::to_string(n));
-  names.emplace_back(kCounter);
+  for (const int line : kQuadratureLines) names.push_back(counter_name(line));
   return names;
 }
 
-// Besides those of every family's channels.
-struct ChannelMore {
-  double most_counts_per_s = 0, range_v = 0;  // 0: not given
-  std::string negative;
-};
-
-ChannelMore read_channel(TomlTable& channel) {
-  ChannelMore keys;
-  keys.most_counts_per_s = labjack::read_most_counts_per_s(channel);
-  keys.negative = channel.string("negative", "");
-  if (!channel.has("range_v")) return keys;
-  keys.range_v = channel.number("range_v", 0);
-  if (!range_index(keys.range_v)) channel.reject("range_v", "must be 10, 1, 0.1 or 0.01");
-  return keys;
-}
-
-// LabJack's pairs: an even input against the one after it.
-Result<int> negative_of(const ChannelInput& channel, int ain, const std::string& negative) {
-  const std::string partner = "AIN" + std::to_string(ain + 1);
-  if (ain % 2 == 0 && negative == partner) return ain + 1;
-  return bad_input(channel.where + ": negative = \"" + negative +
-                   "\": a T7 measures an even AIN against the one after it" +
-                   (ain % 2 == 0
-                        ? ": " + channel.input + " against " + partner
-                        : ", and " + channel.input + " is none: use AIN" + std::to_string(ain - 1) +
-                              " with negative = \"" + channel.input + "\""));
-}
-
-Result<Input> input_of(const ChannelInput& channel, const ChannelMore& keys) {
+Result<Input> counter_of(const ChannelInput& channel, const labjack::InputKeys& keys, int line) {
+  if (!keys.negative.empty() || keys.range_v > 0)
+    return bad_input(channel.where + ": " + channel.input +
+                     " counts; negative and range_v are of an AIN");
+  MDOF_CHECK(check_um_per_count(channel));
   Input input;
-  const double most_counts_per_s = keys.most_counts_per_s;
-  if (channel.input == kCounter) {
-    if (!keys.negative.empty() || keys.range_v > 0)
-      return bad_input(channel.where + ": " + kCounter +
-                       " counts; negative and range_v are of an AIN");
-    MDOF_CHECK(check_um_per_count(channel));
-    input.channel = {channel.id, Unit::um};
-    input.um_per_count = channel.um_per_count;
-    input.most_counts_per_s = most_counts_per_s > 0 ? most_counts_per_s : kMostCounts_per_s;
-    return input;
-  }
+  input.channel = {channel.id, Unit::um};
+  input.dio = line;
+  input.um_per_count = channel.um_per_count;
+  input.most_counts_per_s = keys.most_counts_per_s > 0 ? keys.most_counts_per_s : kMostCounts_per_s;
+  return input;
+}
+
+Result<Input> input_of(const ChannelInput& channel, const labjack::InputKeys& keys) {
+  for (const int line : kQuadratureLines)
+    if (channel.input == counter_name(line)) return counter_of(channel, keys, line);
   const std::vector<std::string> known = known_inputs();
   const auto at = std::find(known.begin(), known.end(), channel.input);
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.id == kEncoderChannel)
-    return bad_input(channel.where + ": an encoder is counted, by input \"" + kCounter + "\"");
-  if (channel.um_per_count != 0 || most_counts_per_s > 0)
+    return bad_input(channel.where + ": an encoder is counted, by input \"" + counter_name(0) +
+                     "\"");
+  if (channel.um_per_count != 0 || keys.most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
                      " gives volts and counts nothing; take um_per_count and most_counts_per_s "
                      "away (the rig has um_per_V)");
+  Input input;
   input.channel = {channel.id, Unit::volt};
   input.ain = static_cast<int>(at - known.begin());
   input.range_v = keys.range_v;
   if (keys.negative.empty()) return input;
-  MDOF_TRY(input.negative, negative_of(channel, input.ain, keys.negative));
+  MDOF_TRY(input.negative, labjack::negative_of("T7", channel, input.ain, keys.negative));
   return input;
-}
-
-// What one input is measured against is no input of its own.
-Status check_pairs(const std::vector<ChannelInput>& channels, const std::vector<Input>& inputs) {
-  for (const Input& one : inputs) {
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-      if (one.negative >= 0 && inputs[i].ain == one.negative)
-        return bad_input(channels[i].where + ": " + channels[i].input +
-                         " is the negative input of \"" + one.channel.id +
-                         "\" and gives no probe of its own; use another");
-  }
-  return {};
 }
 
 }  // namespace
@@ -145,15 +113,17 @@ Status check_pairs(const std::vector<ChannelInput>& channels, const std::vector<
 Result<Settings> read_labjack_t7(TomlTable& table, const DriverContext& context) {
   Settings settings;
   settings.name = context.name;
-  std::vector<ChannelMore> more;
+  std::vector<labjack::InputKeys> keys;
+  std::vector<labjack::InputUse> uses;
   MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
-             more.push_back(read_channel(channel));
+             keys.push_back(labjack::read_input_keys(channel));
            }));
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    MDOF_TRY(const Input input, input_of(channels[i], more[i]));
+    MDOF_TRY(const Input input, input_of(channels[i], keys[i]));
     settings.inputs.push_back(input);
+    uses.push_back({input.ain, input.negative});
   }
-  MDOF_CHECK(check_pairs(channels, settings.inputs));
+  MDOF_CHECK(labjack::check_uses(channels, uses));
   settings.encoder = encoder_origin(channels, true);
   read_endpoints(table, settings);
   read_converter(table, settings);

@@ -56,6 +56,12 @@ AinCalibration Device::calibration(std::size_t range) {
   return c;
 }
 
+std::optional<int> Device::counter_line(int address) {
+  for (const int line : kQuadratureLines)
+    if (address == reg::dio_ef_read_a.address + 2 * line) return line;
+  return std::nullopt;
+}
+
 std::vector<SimulatedDevice::Port> Device::ports() const {
   return {{"command", 502}, {"stream", 702}};
 }
@@ -125,7 +131,7 @@ std::optional<std::uint16_t> Device::read(int address, std::int64_t now_ns) cons
 std::optional<std::uint32_t> Device::computed(int address, std::int64_t now_ns) const {
   const std::size_t ain = static_cast<std::size_t>(address) / 2;
   if (ain < kAins) return bits(static_cast<float>(senses_(ain, now_ns)));
-  if (address == reg::dio_ef_read_a.address) return count_at(now_ns);
+  if (const auto line = counter_line(address)) return count_at(*line, now_ns);
   if (address == reg::stream_start_time.address) return start_stamp(now_ns);
   if (address == reg::stream_enable.address) return stream_ ? 1 : 0;
   if (address == reg::test.address) return kTestValue;
@@ -195,7 +201,7 @@ int Device::check_stream() const {
   for (std::uint32_t i = 0; i < entries; ++i) {
     const auto entry = stored(reg::stream_scan_list.address + 2 * static_cast<int>(i));
     const bool ain = entry < 2 * kAins && entry % 2 == 0;
-    const bool count = entry == static_cast<std::uint32_t>(reg::dio_ef_read_a.address);
+    const bool count = counter_line(static_cast<int>(entry)).has_value();
     const bool capture = entry == static_cast<std::uint32_t>(reg::capture_16.address) && i > 0;
     if (!ain && !count && !capture) return 2625;
   }

@@ -32,8 +32,8 @@ struct Faults {
   bool no_capture = false;  // the upper word is of the count when it is read (no T7 does that)
 };
 
-// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in volts, input 14 the counts of DIO0 and DIO1. Inside
-// a scan the entries of the list are taken 10 us apart.
+// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in volts, input 14 the counts of the pair of lines
+// that counts. Inside a scan the entries of the list are taken 10 us apart.
 class Device final : public SimulatedDevice {
  public:
   struct Options {
@@ -88,7 +88,8 @@ class Device final : public SimulatedDevice {
   StreamPacket packet_of(Stream& stream);
   void append_scan(StreamPacket& packet, const Stream& stream, std::uint64_t scan) const;
   std::uint16_t ain_code(std::size_t ain, std::int64_t t_ns) const;
-  std::uint32_t count_at(std::int64_t t_ns) const;
+  static std::optional<int> counter_line(int address);  // of DIO_EF_READ_A of a pair
+  std::uint32_t count_at(int line, std::int64_t t_ns) const;
   std::uint32_t core_at(std::int64_t t_ns) const;
 
   Senses senses_;

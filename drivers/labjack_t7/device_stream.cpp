@@ -55,12 +55,14 @@ StreamPacket Device::packet_of(Stream& s) {
 void Device::append_scan(StreamPacket& packet, const Stream& s, std::uint64_t scan) const {
   std::int64_t t_ns = s.start_ns + std::llround(static_cast<double>(scan) * s.period_ns);
   std::uint32_t captured = 0;
+  int counted = 0;
   for (const int entry : s.list) {
     if (entry == reg::capture_16.address) {
-      const std::uint32_t count = options_.faults.no_capture ? count_at(t_ns) : captured;
+      const std::uint32_t count = options_.faults.no_capture ? count_at(counted, t_ns) : captured;
       packet.samples.push_back(words_of(count)[0]);
-    } else if (entry == reg::dio_ef_read_a.address) {
-      captured = count_at(t_ns);
+    } else if (const auto line = counter_line(entry)) {
+      counted = *line;
+      captured = count_at(counted, t_ns);
       packet.samples.push_back(words_of(captured)[1]);
     } else {
       packet.samples.push_back(ain_code(static_cast<std::size_t>(entry) / 2, t_ns));
@@ -80,7 +82,12 @@ std::uint16_t Device::ain_code(std::size_t ain, std::int64_t t_ns) const {
   return static_cast<std::uint16_t>(std::clamp(code, 0.0, 65535.0));
 }
 
-std::uint32_t Device::count_at(std::int64_t t_ns) const {
+// Of lines that are not set to count, 0.
+std::uint32_t Device::count_at(int line, std::int64_t t_ns) const {
+  for (const int n : {line, line + 1})
+    if (stored(reg::dio_ef_enable.address + 2 * n) != 1 ||
+        stored(reg::dio_ef_index.address + 2 * n) != kQuadrature)
+      return 0;
   const std::int64_t count = std::llround(senses_(kCounterInput, t_ns));
   return static_cast<std::uint32_t>(count);
 }

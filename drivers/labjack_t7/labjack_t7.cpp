@@ -111,8 +111,8 @@ Status LabjackT7::start() {
   description_ = describe(identity, settings_);
   MDOF_CHECK(stop_stream(*registers_));
   MDOF_TRY(calibrations_, set_up_ains(*registers_, settings_));
-  if (counter_of(settings_)) {
-    MDOF_TRY(const bool went_on, start_counter(*registers_));
+  if (const Input* counter = counter_of(settings_)) {
+    MDOF_TRY(const bool went_on, start_counter(*registers_, counter->dio));
     zero_lost_ = zero_lost_ || (counted_ && !went_on);
     counted_ = true;
     if (!went_on) count_.reset();

@@ -76,7 +76,8 @@ inline constexpr Register flash_read{61812, "INTERNAL_FLASH_READ"};
 inline constexpr std::uint32_t kTestValue = 0x00112233;
 inline constexpr std::uint32_t kTestSwapped = 0x22330011;
 inline constexpr std::uint32_t kQuadrature = 10;
-inline constexpr std::uint32_t kHasWifi = 2;  // of HARDWARE_INSTALLED
+inline constexpr std::array kQuadratureLines{0, 2, 6};  // the even ones of pairs that can count so
+inline constexpr std::uint32_t kHasWifi = 2;            // of HARDWARE_INSTALLED
 inline constexpr std::uint16_t kSingleEnded = 199;
 
 using Words = std::array<std::uint16_t, 2>;

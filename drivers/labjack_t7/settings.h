@@ -14,11 +14,12 @@ namespace mdof::drivers::labjack_t7 {
 
 struct Input {
   Channel channel;
-  int ain = -1;                  // -1: the quadrature counter of DIO0 and DIO1
+  int ain = -1;                  // -1: a quadrature counter
   double um_per_count = 0;       // of the counter
   double most_counts_per_s = 0;  // of the counter, without losing any; 0: not watched
   int negative = -1;             // of a differential input: the AIN it is measured against
   double range_v = 0;            // of its own; 0: that of all
+  int dio = 0;                   // of the counter: its even line; its second is the next
 };
 
 struct Settings {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kProduct = 7;
 constexpr std::uint32_t kBufferBytes = 32768;  // the most a T7 has; at 4 kHz x 7 half a second
-constexpr int kLines = 2;                      // of a quadrature pair: DIO0, DIO1
+constexpr int kLines = 2;                      // of a quadrature pair
 constexpr double kStampFirmware = 1.0214, kRecoveryFirmware = 1.026;
 
 Status check_words(std::uint32_t test) {
@@ -126,19 +126,19 @@ Result<std::vector<AinCalibration>> set_up_ains(Registers& registers, const Sett
   return calibrations;
 }
 
-Result<bool> start_counter(Registers& registers) {
+Result<bool> start_counter(Registers& registers, int dio) {
   bool running = true;
-  for (int line = 0; line < kLines; ++line) {
+  for (int line = dio; line < dio + kLines; ++line) {
     MDOF_TRY(const std::uint32_t enabled, registers.u32(reg::dio_ef_enable + 2 * line));
     MDOF_TRY(const std::uint32_t index, registers.u32(reg::dio_ef_index + 2 * line));
     running = running && enabled == 1 && index == kQuadrature;
   }
   if (running) return true;
-  for (int line = 0; line < kLines; ++line)
+  for (int line = dio; line < dio + kLines; ++line)
     MDOF_CHECK(registers.write(reg::dio_ef_enable + 2 * line, 0));
-  for (int line = 0; line < kLines; ++line)
+  for (int line = dio; line < dio + kLines; ++line)
     MDOF_CHECK(registers.write(reg::dio_ef_index + 2 * line, kQuadrature));
-  for (int line = 0; line < kLines; ++line)
+  for (int line = dio; line < dio + kLines; ++line)
     MDOF_CHECK(registers.write(reg::dio_ef_enable + 2 * line, 1));
   return false;
 }
@@ -174,7 +174,8 @@ std::vector<int> scan_list(const std::vector<Input>& inputs) {
     if (input.ain >= 0) {
       list.push_back(reg::ain.address + 2 * input.ain);
     } else {
-      list.insert(list.end(), {reg::dio_ef_read_a.address, reg::capture_16.address});
+      list.insert(list.end(),
+                  {reg::dio_ef_read_a.address + 2 * input.dio, reg::capture_16.address});
     }
   }
   return list;

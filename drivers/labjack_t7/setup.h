@@ -25,9 +25,9 @@ Status stop_stream(Registers& registers);
 // Range and negative channel of each input; gives the constants of each, in their order.
 Result<std::vector<AinCalibration>> set_up_ains(Registers& registers, const Settings& settings);
 
-// Lets the counter of DIO0 and DIO1 run. True: it was running and its count goes on; false: it was
-// started, from 0.
-Result<bool> start_counter(Registers& registers);
+// Lets the counter of `dio` and the line after it run. True: it was running and its count goes on;
+// false: it was started, from 0.
+Result<bool> start_counter(Registers& registers, int dio);
 
 // All but STREAM_ENABLE. Gives the true rate in Hz.
 Result<double> set_up_stream(Registers& registers, const Settings& settings);

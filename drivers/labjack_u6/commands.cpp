@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::uint8_t kStart = 0xA8, kStop = 0xB0;
 constexpr int kProVersion = 12;
+// Of a channel's options: LabJackPython, src/u6.py, U6.streamConfig.
+constexpr int kGainBits = 4, kDifferential = 0x80;
 constexpr char kConfigureTimer0 = 0x2B, kConfigureTimer1 = 0x2D, kQuadrature = 8;
 
 std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
@@ -155,9 +157,9 @@ std::string stream_config(const StreamSetup& setup, const StreamClock& clock) {
         setup.settling_10us, static_cast<int>(clock.config), clock.interval & 0xFF,
         clock.interval >> 8})
     body += static_cast<char>(value);
-  for (const int entry : setup.list) {
-    body += static_cast<char>(entry);
-    body += static_cast<char>(entry < kAins ? setup.gain << 4 : 0);
+  for (const Entry& entry : setup.list) {
+    body += static_cast<char>(entry.channel);
+    body += static_cast<char>(entry.gain << kGainBits | (entry.differential ? kDifferential : 0));
   }
   return extended(kStreamConfig, body);
 }

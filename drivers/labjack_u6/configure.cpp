@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "drivers/channels.h"
-#include "drivers/labjack/count_guard.h"
+#include "drivers/labjack/input_keys.h"
 #include "drivers/labjack_u6/labjack_u6.h"
 
 namespace mdof::drivers {
@@ -12,7 +12,8 @@ namespace {
 
 using namespace labjack_u6;
 
-constexpr const char* kCounter = "FIO0";
+// Two timers may be on any lines; here on the pairs that have terminals of their own.
+constexpr int kCounterLines[] = {0, 2};
 constexpr double kMostSamples_Hz = 50'000;  // of all inputs
 // Its firmware serves each edge: LabJack's manual of the U3, of the same kind.
 constexpr double kMostCounts_per_s = 30'000;
@@ -24,12 +25,14 @@ void read_serial(TomlTable& table, Settings& settings) {
   if (serial > 0) settings.serial = std::to_string(serial);
 }
 
+// The gain of all inputs that have no range of their own.
+int read_gain(TomlTable& table) {
+  const int gain = labjack::range_of(table.number("range_v", 10));
+  if (gain < 0) table.reject("range_v", labjack::kRangesText);
+  return std::max(gain, 0);
+}
+
 void read_converter(TomlTable& table, Settings& settings) {
-  const double range_v = table.number("range_v", 10);
-  settings.gain = -1;
-  for (int gain = 0; gain < 4; ++gain)
-    if (std::abs(range_v * std::pow(10, gain) - 10) < 1e-9) settings.gain = gain;
-  if (settings.gain < 0) table.reject("range_v", "must be 10, 1, 0.1 or 0.01");
   const std::int64_t resolution = table.integer("resolution_index", 0);
   if (resolution < 0 || resolution > kMostResolution)
     table.reject("resolution_index", "must be from 0 (the default) to 8");
@@ -50,47 +53,68 @@ void read_rate(TomlTable& table, Settings& settings) {
                                 std::to_string(words) + " (a counter two)");
 }
 
+std::string counter_name(int line) {
+  return "FIO" + std::to_string(line);
+}
+
 std::vector<std::string> known_inputs() {
   std::vector<std::string> names;
   for (int n = 0; n < kAins; ++n) names.push_back("AIN" + std::to_string(n));
-  names.emplace_back(kCounter);
+  for (const int line : kCounterLines) names.push_back(counter_name(line));
   return names;
 }
 
-Result<Input> input_of(const ChannelInput& channel, double most_counts_per_s) {
+Result<Input> counter_of(const ChannelInput& channel, const labjack::InputKeys& keys, int line) {
+  if (!keys.negative.empty() || keys.range_v > 0)
+    return bad_input(channel.where + ": " + channel.input +
+                     " counts; negative and range_v are of an AIN");
+  MDOF_CHECK(check_um_per_count(channel));
   Input input;
-  if (channel.input == kCounter) {
-    MDOF_CHECK(check_um_per_count(channel));
-    input.channel = {channel.id, Unit::um};
-    input.um_per_count = channel.um_per_count;
-    input.most_counts_per_s = most_counts_per_s > 0 ? most_counts_per_s : kMostCounts_per_s;
-    return input;
-  }
+  input.channel = {channel.id, Unit::um};
+  input.fio = line;
+  input.um_per_count = channel.um_per_count;
+  input.most_counts_per_s = keys.most_counts_per_s > 0 ? keys.most_counts_per_s : kMostCounts_per_s;
+  return input;
+}
+
+Result<Input> input_of(const ChannelInput& channel, const labjack::InputKeys& keys, int gain) {
+  for (const int line : kCounterLines)
+    if (channel.input == counter_name(line)) return counter_of(channel, keys, line);
   const std::vector<std::string> known = known_inputs();
   const auto at = std::find(known.begin(), known.end(), channel.input);
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.id == kEncoderChannel)
-    return bad_input(channel.where + ": an encoder is counted, by input \"" + kCounter + "\"");
-  if (channel.um_per_count != 0 || most_counts_per_s > 0)
+    return bad_input(channel.where + ": an encoder is counted, by input \"" + counter_name(0) +
+                     "\"");
+  if (channel.um_per_count != 0 || keys.most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
                      " gives volts and counts nothing; take um_per_count and most_counts_per_s "
                      "away (the rig has um_per_V)");
+  Input input;
   input.channel = {channel.id, Unit::volt};
   input.ain = static_cast<int>(at - known.begin());
+  input.gain = keys.range_v > 0 ? std::max(labjack::range_of(keys.range_v), 0) : gain;
+  if (keys.negative.empty()) return input;
+  MDOF_CHECK(labjack::negative_of("U6", channel, input.ain, keys.negative));
+  input.differential = true;
   return input;
 }
 
 Status read_inputs(TomlTable& table, const DriverContext& context, Settings& settings) {
   auto& inputs = settings.inputs;
-  std::vector<double> most;
+  const int gain = read_gain(table);
+  std::vector<labjack::InputKeys> keys;
+  std::vector<labjack::InputUse> uses;
   MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
-             most.push_back(labjack::read_most_counts_per_s(channel));
+             keys.push_back(labjack::read_input_keys(channel));
            }));
   settings.encoder = encoder_origin(channels, true);
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    MDOF_TRY(const Input input, input_of(channels[i], most[i]));
+    MDOF_TRY(const Input input, input_of(channels[i], keys[i], gain));
     inputs.push_back(input);
+    uses.push_back({input.ain, input.differential ? input.ain + 1 : -1});
   }
+  MDOF_CHECK(labjack::check_uses(channels, uses));
   const bool analogue =
       std::any_of(inputs.begin(), inputs.end(), [](const Input& input) { return input.ain >= 0; });
   if (!analogue)

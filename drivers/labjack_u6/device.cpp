@@ -194,10 +194,10 @@ std::string Device::configured(std::string_view command) {
   rate_hz_ = clock_Hz / static_cast<double>(interval);
   samples_per_packet_ = samples;
   list_.clear();
-  gains_.clear();
+  options_.clear();
   for (std::size_t i = 0; i < n; ++i) {
     list_.push_back(byte_at(command, 14 + 2 * i));
-    gains_.push_back(byte_at(command, 15 + 2 * i) >> 4 & 3);
+    options_.push_back(byte_at(command, 15 + 2 * i));
   }
   return reply(0);
 }
@@ -262,8 +262,10 @@ std::uint16_t Device::sample(std::uint64_t number) {
     captured_ = static_cast<std::uint32_t>(std::llround(senses_(kCounterInput, t_ns) - zero_));
     return static_cast<std::uint16_t>(captured_);
   }
-  const AinCalibration c = calibration(gains_[at]);
-  const double v = senses_(static_cast<std::size_t>(entry), t_ns);
+  const AinCalibration c = calibration(options_[at] >> 4 & 3);
+  const bool differential = (options_[at] & 0x80) != 0;
+  const auto ain = static_cast<std::size_t>(entry);
+  const double v = senses_(ain, t_ns) - (differential ? senses_(ain + 1, t_ns) : 0);
   const double code = std::round(c.centre + v / (v < 0 ? -c.negative_slope : c.positive_slope));
   return static_cast<std::uint16_t>(std::clamp(code, 0.0, 65535.0));
 }

@@ -73,7 +73,7 @@ class Device final : public usb::SimulatedUsb {
   double rate_hz_ = 0;
   std::size_t samples_per_packet_ = 25;
   std::vector<int> list_;
-  std::vector<std::size_t> gains_;  // of the entries
+  std::vector<std::uint8_t> options_;  // of the entries: gain, differential
   std::optional<Stream> stream_;
   std::string timers_ = std::string(3, '\0');  // how many, counters, pin offset
   double zero_ = 0;                            // of the counter

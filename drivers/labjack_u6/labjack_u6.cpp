@@ -112,10 +112,10 @@ Status LabjackU6::start() {
   MDOF_TRY(const Identity identity, identify(*handle_));
   description_ = describe(identity, handle_->where()) + speed_of(settings_);
   MDOF_CHECK(stop_stream(*handle_));
-  MDOF_TRY(calibration_, read_ain_calibration(*handle_, settings_.gain));
+  MDOF_TRY(calibrations_, read_ain_calibrations(*handle_));
   MDOF_CHECK(take_up_counter());
   const StreamSetup setup{static_cast<int>(samples_), settings_.resolution_index,
-                          settings_.settling_10us, settings_.gain, list_};
+                          settings_.settling_10us, list_};
   MDOF_TRY(const std::string configured, ask(*handle_, stream_config(setup, scan_clock_)));
   MDOF_CHECK(read_stream_config(configured));
   const double samples_hz = scan_clock_.rate_hz * static_cast<double>(list_.size());
@@ -128,13 +128,14 @@ Status LabjackU6::start() {
 // What another program has left the timers doing cannot be read: only a counter of this object's is
 // known to count.
 Status LabjackU6::take_up_counter() {
-  if (!counter_of(settings_)) return {};
+  const Input* counter = counter_of(settings_);
+  if (!counter) return {};
   if (counted_) {
-    MDOF_TRY(const bool runs, counter_runs(*handle_));
+    MDOF_TRY(const bool runs, counter_runs(*handle_, counter->fio));
     if (runs) return {};
     zero_lost_ = true;
   }
-  MDOF_CHECK(start_counter(*handle_));
+  MDOF_CHECK(start_counter(*handle_, counter->fio));
   counted_ = true;
   count_.reset();
   return {};
@@ -213,9 +214,11 @@ void LabjackU6::append(SampleBlock& block, const Scan& scan) {
   reopened_ = false;
   std::size_t word = 0;
   for (std::size_t c = 0; c < settings_.inputs.size(); ++c) {
+    const Input& input = settings_.inputs[c];
     const std::uint16_t first = scan.words[word++];
-    if (!counts(settings_.inputs[c])) {
-      block.value[c].push_back(labjack::volts(calibration_, first));
+    if (!counts(input)) {
+      const auto gain = static_cast<std::size_t>(input.gain);
+      block.value[c].push_back(labjack::volts(calibrations_[gain], first));
       block.quality[c].push_back(labjack::at_rail(first) ? Quality::over_range : Quality::good);
       continue;
     }
@@ -223,7 +226,7 @@ void LabjackU6::append(SampleBlock& block, const Scan& scan) {
     const std::int64_t count = count_(raw);
     const bool sure =
         guard_.take(count, static_cast<double>(scan.index) / scan_clock_.rate_hz) && !zero_lost_;
-    block.value[c].push_back(static_cast<double>(count) * settings_.inputs[c].um_per_count);
+    block.value[c].push_back(static_cast<double>(count) * input.um_per_count);
     block.quality[c].push_back(sure ? Quality::good : Quality::suspect);
   }
 }
@@ -234,13 +237,13 @@ std::uint64_t LabjackU6::lost_while_closed(std::int64_t time_ns) const {
   return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));
 }
 
-std::vector<int> scan_list(const std::vector<Input>& inputs) {
-  std::vector<int> list;
+std::vector<Entry> scan_list(const std::vector<Input>& inputs) {
+  std::vector<Entry> list;
   for (const Input& input : inputs) {
     if (counts(input)) {
-      list.insert(list.end(), {kTimer0, kCapture});
+      list.insert(list.end(), {Entry{kTimer0}, Entry{kCapture}});
     } else {
-      list.push_back(input.ain);
+      list.push_back({input.ain, input.gain, input.differential});
     }
   }
   return list;

@@ -6,6 +6,7 @@
 // time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -49,7 +50,7 @@ class LabjackU6 final : public Driver {
   std::string place() const;
 
   Settings settings_;
-  std::vector<int> list_;
+  std::vector<Entry> list_;
   StreamClock scan_clock_;
   std::size_t samples_;  // of a packet
   std::string description_;
@@ -57,7 +58,7 @@ class LabjackU6 final : public Driver {
   std::optional<usb::Handle> handle_;
   std::optional<usb::InStream> stream_;
   PacketLine line_;
-  AinCalibration calibration_;
+  std::array<AinCalibration, 4> calibrations_;  // of the gains
 
   DeviceClock clock_;               // ticks are scans
   std::int64_t last_chunk_ns_ = 0;  // host time; at first of the start

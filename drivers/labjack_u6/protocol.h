@@ -86,17 +86,24 @@ std::string config_io_read();
 Result<Timers> read_timers(std::string_view reply);
 std::string config_io(int timers, int pin_offset);
 Status read_config_io(std::string_view reply, int timers, int pin_offset);
-// Timers 0 and 1 in mode 8: a quadrature counter, started from 0.
+// Timers 0 and 1, on the first two lines from the offset on, in mode 8: a quadrature counter,
+// started from 0.
 std::string start_quadrature();
 Status read_feedback(std::string_view reply);
 
 inline constexpr int kMostSamples = 25;  // of a packet
+// An entry of the scan list. Of a gain 0 ... 3, range 10 V / 10^gain; `differential`: an even AIN
+// against the one after it.
+struct Entry {
+  int channel = 0;  // 0 ... 13, or kTimer0, kCapture
+  int gain = 0;
+  bool differential = false;
+};
 struct StreamSetup {
   int samples_per_packet = 25;
   int resolution_index = 1;
   int settling_10us = 0;
-  int gain = 0;
-  std::vector<int> list;
+  std::vector<Entry> list;
 };
 struct StreamClock {
   std::uint8_t config = 0;

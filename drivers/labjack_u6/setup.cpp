@@ -6,7 +6,7 @@ namespace mdof::drivers::labjack_u6 {
 namespace {
 
 constexpr std::chrono::milliseconds kReply{1000}, kQuiet{20};
-constexpr int kTimers = 2, kPinOffset = 0;
+constexpr int kTimers = 2;
 
 }  // namespace
 
@@ -27,24 +27,28 @@ Status stop_stream(usb::Handle& handle) {
   return handle.drain(kStreamIn, kQuiet);
 }
 
-Result<AinCalibration> read_ain_calibration(usb::Handle& handle, int gain) {
+Result<std::array<AinCalibration, 4>> read_ain_calibrations(usb::Handle& handle) {
   std::array<CalibrationBlock, 4> blocks{};
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     MDOF_TRY(const std::string reply, ask(handle, read_calibration(static_cast<int>(i))));
     MDOF_TRY(blocks[i], read_calibration_reply(reply));
   }
-  return calibration_of(blocks, static_cast<std::size_t>(gain));
+  std::array<AinCalibration, 4> calibrations{};
+  for (std::size_t gain = 0; gain < calibrations.size(); ++gain) {
+    MDOF_TRY(calibrations[gain], calibration_of(blocks, gain));
+  }
+  return calibrations;
 }
 
-Result<bool> counter_runs(usb::Handle& handle) {
+Result<bool> counter_runs(usb::Handle& handle, int fio) {
   MDOF_TRY(const std::string reply, ask(handle, config_io_read()));
   MDOF_TRY(const Timers timers, read_timers(reply));
-  return timers.count == kTimers && timers.pin_offset == kPinOffset;
+  return timers.count == kTimers && timers.pin_offset == fio;
 }
 
-Status start_counter(usb::Handle& handle) {
-  MDOF_TRY(const std::string configured, ask(handle, config_io(kTimers, kPinOffset)));
-  MDOF_CHECK(read_config_io(configured, kTimers, kPinOffset));
+Status start_counter(usb::Handle& handle, int fio) {
+  MDOF_TRY(const std::string configured, ask(handle, config_io(kTimers, fio)));
+  MDOF_CHECK(read_config_io(configured, kTimers, fio));
   MDOF_TRY(const std::string started, ask(handle, start_quadrature()));
   return read_feedback(started);
 }

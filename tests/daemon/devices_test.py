@@ -185,8 +185,8 @@ class Devices(unittest.TestCase):
         self.assertEqual(json.loads(out)["points"], points)
         self.check_against_truth(points)
 
-    def replayed(self, header):
-        done = subprocess.run([MDOF, "replay", header["recording"]["path"], "--no-store", "--json"],
+    def replayed(self, header, *options):
+        done = subprocess.run([MDOF, "replay", header["recording"]["path"], "--no-store", "--json", *options],
                               capture_output=True, text=True)
         return done.returncode, done.stdout, done.stderr
 
@@ -312,6 +312,25 @@ class Devices(unittest.TestCase):
         self.assertTrue(any('clock of device "capa-1" was not settled' in w for w in warnings()))
         self.wait_until(lambda: all(d["clock"]["settled"] for d in self.devices().values()), "clocks do not settle")
         self.assertEqual(warnings(), [])
+
+    def test_8_channels_with_delays_replay_to_the_same_bits(self):
+        self.daemon.stop()
+        delayed = CONFIG.replace('input = "1"', 'input = "1", delay_us = 3840').replace(
+            'input = "AIN1"', 'input = "AIN1"\ndelay_us = 6500')
+        type(self).daemon = Daemon(MDOFD, self.folder.name,
+                                   delayed.format(rig=RIG, ports=self.simulators.ports))
+        type(self).client = self.daemon.start()
+        self.wait_until_all_flow()
+        run, _ = self.measured(targets_mm=TARGETS, repeats=1)
+        header, points = self.client.call("run.get", run=run), self.client.points(run)
+        self.assertEqual(header["state"], "complete", header)
+        self.check_against_truth(points)
+        code, out, err = self.replayed(header)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(json.loads(out)["points"], points)
+        code, _, err = self.replayed(header, "--settle-s", "0.005")
+        self.assertEqual(code, 2, err)
+        self.assertIn("raise settle_s of [measure] to 0.0065", err)
 
 
 if __name__ == "__main__":

@@ -115,6 +115,21 @@ TEST_F(ConfigFile, ARigThatCannotSeeIsRefusedAtStartUp) {
   EXPECT_NE(says.find("ECX"), std::string::npos) << says;
 }
 
+TEST_F(ConfigFile, ChannelsOfAnyDriverMayHaveADelay) {
+  const std::string delayed = kAxis + "channel = [{ id = \"B\", delay_us = 3800 }]\n";
+  const auto config = load(delayed);
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->axes[0].delays, (ChannelDelays{{"B", 0.0038}}));
+  EXPECT_NE(
+      refusal("[measure]\nsettle_s = 0.003\n" + delayed)
+          .find("mdofd.toml:9: axis[1].device.channel[1].delay_us: readings that come 0.0038 s "
+                "late"),
+      std::string::npos)
+      << refusal("[measure]\nsettle_s = 0.003\n" + delayed);
+  EXPECT_NE(refusal(kAxis + "channel = [{ id = \"B\", input = \"1\" }]\n").find("unknown key"),
+            std::string::npos);
+}
+
 // Probes of a slow AD7746 beside a counter: accepted by themselves, refused with a gap that is
 // shorter than their interval.
 TEST_F(ConfigFile, AGapShorterThanAProbesIntervalIsRefusedAtStartUp) {

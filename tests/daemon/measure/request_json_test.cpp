@@ -16,6 +16,8 @@ PipelineOptions asked_options() {
   options.repeats = 3;
   options.dwell.max_speed_m_s = 0.25;
   options.align.interval_s = {{"A", 0.1}, {"E", 0.25}};
+  options.align.delay_s = {{"A", 0.00384}, {"B", 0.001}, {"E", -0.0065}};
+  options.dwell.leave_s = 0.00384;
   return options;
 }
 
@@ -29,6 +31,8 @@ TEST(RequestJson, ComesBackAsItWas) {
   EXPECT_EQ(back->options.model, Model::exact);
   EXPECT_EQ(back->options.repeats, 3);
   EXPECT_EQ(back->options.align.interval_s, asked.options.align.interval_s);
+  EXPECT_EQ(back->options.align.delay_s, asked.options.align.delay_s);
+  EXPECT_EQ(back->options.dwell.leave_s, 0.00384);
 }
 
 // Whoever adds an option to PipelineOptions::json() must read it back as well: else a replay of a
@@ -75,6 +79,9 @@ TEST(RequestJson, WhatCannotBeReadIsNamed) {
       {R"({"options":{"targets_mm":["x"]}})", "targets_mm"},
       {R"({"options":{"align":{"max_gap_s":"long"}}})", "max_gap_s"},
       {R"({"options":{"align":{"interval_s":{"A":0}}}})", "interval_s"},
+      {R"({"options":{"align":{"delay_s":{"A":10.1}}}})", "delay_s"},
+      {R"({"options":{"align":{"delay_s":{"A":-10.1}}}})", "delay_s"},
+      {R"({"options":{"align":{"delay_s":[1]}}})", "delay_s"},
       {R"({"options":{"dwell":7}})", "dwell"},
   };
   for (const auto& [text, says] : cases) {

@@ -156,6 +156,21 @@ TEST(LabjackT7Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
   EXPECT_TRUE(has(refusal(a, std::string(kChannels) + "range_v = 1\n"), "are of an AIN"));
 }
 
+TEST(LabjackT7Configure, TheEncoderMayBeAtOtherPairsOfLines) {
+  const auto encoder = [](const std::string& id, const std::string& input) {
+    return "[[channel]]\nid = \"" + id + "\"\ninput = \"" + input + "\"\num_per_count = 0.05\n";
+  };
+  const std::string a = "address = \"t7\"\n";
+  for (const int line : {0, 2, 6}) {
+    const auto s = settings(a + encoder("encoder", "DIO" + std::to_string(line)));
+    ASSERT_TRUE(s) << s.error().message;
+    EXPECT_EQ(s->inputs[0].dio, line);
+    EXPECT_EQ(labjack_t7::scan_list(s->inputs), (std::vector<int>{3000 + 2 * line, 4899}));
+  }
+  EXPECT_TRUE(has(refusal(a, encoder("encoder", "DIO4")), "AIN13, DIO0, DIO2, DIO6"));
+  EXPECT_TRUE(has(refusal(a, kChannels + encoder("C", "DIO2")), "DIO0 counts already"));
+}
+
 TEST(LabjackT7Configure, TheRegistryKnowsIt) {
   auto table = TomlTable::parse("address = \"t7\"\n" + std::string(kChannels), "mdofd.toml");
   ASSERT_TRUE(table);

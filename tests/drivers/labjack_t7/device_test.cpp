@@ -36,8 +36,15 @@ class LabjackT7Device : public testing::Test {
     for (const std::uint32_t entry : list)
       write(std::exchange(address, address + 2), words_of(entry));
     write(43900, words_of_float(10));
+    count_by(0);
     device.opened(kStream, 2, now);
     EXPECT_EQ(write(4990, words_of(1)), modbus::bytes("00 09 00 00 00 06 01 10 13 7E 00 02"));
+  }
+  void count_by(int line) {
+    for (const int n : {line, line + 1}) {
+      write(44100 + 2 * n, words_of(kQuadrature));
+      write(44000 + 2 * n, words_of(1));
+    }
   }
   std::vector<StreamPacket> packets() {
     reader.append(device.exchange(kStream, 2, "", now));
@@ -53,6 +60,7 @@ class LabjackT7Device : public testing::Test {
 };
 
 TEST_F(LabjackT7Device, AnswersTheVectorsOfReading) {
+  count_by(0);
   EXPECT_EQ(
       ask("00 01 00 00 00 06 01 03 00 00 00 0A"),
       modbus::bytes("00 01 00 00 00 17 01 03 14 3F800000 C0200000 3E000000 411C0000 C1200000"));
@@ -116,6 +124,21 @@ TEST_F(LabjackT7Device, SwapsWordsWhenAsked) {
   faults.swapped_words = true;
   device.set_faults(faults);
   EXPECT_EQ(ask("00 02 00 00 00 06 01 03 D7 3C 00 02").substr(9), modbus::bytes("22 33 00 11"));
+}
+
+// T-Series Datasheet 13.2.9: DIO_EF_READ_A of line n is at 3000 + 2 n.
+TEST_F(LabjackT7Device, OnlyAPairThatIsSetToCountCounts) {
+  const auto high = [&](const char* address) {  // of the count, all ones while it is negative
+    return ask((std::string("00 01 00 00 00 06 01 03 ") + address + " 00 02").c_str()).substr(9, 2);
+  };
+  now = 1'000'000;
+  EXPECT_EQ(high("0B BC"), modbus::bytes("00 00"));  // 3004, DIO2
+  count_by(2);
+  EXPECT_EQ(high("0B BC"), modbus::bytes("FF FF"));
+  EXPECT_EQ(high("0B C4"), modbus::bytes("00 00"));  // 3012, DIO6
+  count_by(6);
+  EXPECT_EQ(high("0B C4"), modbus::bytes("FF FF"));
+  EXPECT_EQ(high("0B B8"), modbus::bytes("00 00"));  // 3000, DIO0
 }
 
 // The counter passes from 0xFFFF to 0x10000 between the two entries of every scan.

@@ -54,6 +54,7 @@ class LabjackT7Driver : public testing::Test {
     settings.stream = {"127.0.0.1", served->port(1)};
     settings.rate_hz = kRate_Hz;
     settings.inputs = inputs();
+    settings.inputs.back().dio = dio;
     settings.samples_per_packet = quick_packet(kRate_Hz, 5);
   }
   LabjackT7& driver() {
@@ -94,6 +95,7 @@ class LabjackT7Driver : public testing::Test {
 
   Truth truth;
   std::uint32_t core_start = 0xFFF00000;
+  int dio = 0;  // of the encoder
   std::unique_ptr<Device> device;
   std::unique_ptr<ServedDevice> served;
   Settings settings;
@@ -349,6 +351,15 @@ TEST_F(LabjackT7Driver, TheCountGoesOnOverABrokenConnection) {
   ASSERT_EQ(refusal(), "opened");
   ASSERT_EQ(read(before + 20), "");
   EXPECT_EQ(quality[3].back(), Quality::good);
+}
+
+TEST_F(LabjackT7Driver, CountsAtAnotherPairOfLines) {
+  dio = 6;
+  serve({});
+  ASSERT_EQ(refusal(), "opened");
+  ASSERT_EQ(read(20), "");
+  EXPECT_EQ(quality[3].back(), Quality::good);
+  EXPECT_LT(value[3].back(), value[3].front());
 }
 
 TEST_F(LabjackT7Driver, ACountThatWasRestartedIsSuspect) {

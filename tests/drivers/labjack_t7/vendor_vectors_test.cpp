@@ -28,6 +28,7 @@ TEST_F(LabjackT7Vectors, AddressesAreThoseOfLabjacksMap) {
   const Row rows[] = {
       {reg::ain + 2 * 13, "AIN13", 26},
       {reg::dio_ef_read_a, "DIO0_EF_READ_A", 3000},
+      {reg::dio_ef_read_a + 2 * 6, "DIO6_EF_READ_A", 3012},
       {reg::capture_16, "STREAM_DATA_CAPTURE_16", 4899},
       {reg::stream_rate, "STREAM_SCANRATE_HZ", 4002},
       {reg::stream_addresses, "STREAM_NUM_ADDRESSES", 4004},
@@ -51,6 +52,7 @@ TEST_F(LabjackT7Vectors, AddressesAreThoseOfLabjacksMap) {
       {reg::ain_all_negative_ch, "AIN_ALL_NEGATIVE_CH", 43902},
       {reg::dio_ef_enable, "DIO0_EF_ENABLE", 44000},
       {reg::dio_ef_index, "DIO0_EF_INDEX", 44100},
+      {reg::dio_ef_index + 2 * 6, "DIO6_EF_INDEX", 44112},
       {reg::wifi_ip, "WIFI_IP", 49200},
       {reg::last_error, "LAST_ERR_DETAIL", 55000},
       {reg::test, "TEST", 55100},

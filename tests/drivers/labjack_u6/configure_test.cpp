@@ -31,6 +31,13 @@ std::string refusal(const std::string& keys, const std::string& channels = kChan
   return settings ? "accepted" : settings.error().message;
 }
 
+std::vector<int> entries(const labjack_u6::Settings& settings) {
+  std::vector<int> channels;
+  for (const auto& entry : labjack_u6::scan_list(settings.inputs))
+    channels.push_back(entry.channel);
+  return channels;
+}
+
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -43,10 +50,10 @@ TEST(LabjackU6Configure, TakesItsKeys) {
   EXPECT_EQ(settings->name, "daq");
   EXPECT_EQ(settings->serial, "360012345");
   EXPECT_EQ(settings->rate_hz, 5000);
-  EXPECT_EQ(settings->gain, 2);
+  EXPECT_EQ(settings->inputs[0].gain, 2);
   EXPECT_EQ(settings->resolution_index, 2);
   EXPECT_EQ(settings->settling_10us, 3);
-  EXPECT_EQ(labjack_u6::scan_list(settings->inputs), (std::vector<int>{0, 200, 224}));
+  EXPECT_EQ(entries(*settings), (std::vector<int>{0, 200, 224}));
 }
 
 TEST(LabjackU6Configure, DefaultsSuffice) {
@@ -54,7 +61,7 @@ TEST(LabjackU6Configure, DefaultsSuffice) {
   ASSERT_TRUE(settings) << settings.error().message;
   EXPECT_EQ(settings->serial, "");
   EXPECT_EQ(settings->rate_hz, 1000);
-  EXPECT_EQ(settings->gain, 0);
+  EXPECT_EQ(settings->inputs[0].gain, 0);
 }
 
 TEST(LabjackU6Configure, BadValuesNameTheirKey) {
@@ -78,6 +85,44 @@ TEST(LabjackU6Configure, BadInputsAreRefused) {
   EXPECT_TRUE(has(refusal("", channel("encoder", "FIO0", "um_per_count = 1\n")),
                   "only beside an analogue input"));
   EXPECT_TRUE(has(refusal("", channel("C", "AIN0")), "C"));
+}
+
+TEST(LabjackU6Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
+  const auto pair = [](const std::string& input, const std::string& negative) {
+    return "[[channel]]\nid = \"B\"\ninput = \"" + input + "\"\nnegative = \"" + negative + "\"\n";
+  };
+  const auto s = read("range_v = 1\n", kChannels + pair("AIN2", "AIN3") + "range_v = 0.1\n");
+  ASSERT_TRUE(s) << s.error().message;
+  const auto list = labjack_u6::scan_list(s->inputs);
+  ASSERT_EQ(list.size(), 4U);
+  EXPECT_EQ(list[0].gain, 1);
+  EXPECT_FALSE(list[0].differential);
+  EXPECT_EQ(list[1].gain, 0);  // of the counter
+  EXPECT_EQ(list[3].channel, 2);
+  EXPECT_EQ(list[3].gain, 2);
+  EXPECT_TRUE(list[3].differential);
+  EXPECT_TRUE(has(refusal("", kChannels + pair("AIN2", "AIN5")), "a U6 measures an even AIN"));
+  EXPECT_TRUE(has(refusal("", kChannels + pair("AIN3", "AIN2")), "use AIN2 with negative"));
+  EXPECT_TRUE(has(refusal("", pair("AIN0", "AIN1") + "[[channel]]\nid = \"A\"\ninput = \"AIN1\"\n"),
+                  "AIN1 is the negative input of \"B\""));
+  EXPECT_TRUE(has(refusal("", kChannels + pair("AIN2", "AIN3") + "range_v = 2\n"),
+                  "range_v: must be 10, 1, 0.1 or 0.01"));
+  EXPECT_TRUE(has(refusal("", kChannels + "range_v = 1\n"), "are of an AIN"));
+}
+
+TEST(LabjackU6Configure, TheEncoderMayBeAtFio2) {
+  const auto encoder = [](const char* id, const char* input) {
+    return std::string("[[channel]]\nid = \"") + id + "\"\ninput = \"" + input +
+           "\"\num_per_count = 0.05\n";
+  };
+  const std::string probe = "[[channel]]\nid = \"A\"\ninput = \"AIN0\"\n";
+  const auto s = read("", probe + encoder("encoder", "FIO2"));
+  ASSERT_TRUE(s) << s.error().message;
+  EXPECT_EQ(s->inputs[1].fio, 2);
+  EXPECT_EQ(read("", kChannels)->inputs[1].fio, 0);
+  EXPECT_EQ(entries(*s), (std::vector<int>{0, 200, 224}));  // timers are counted from the first
+  EXPECT_TRUE(has(refusal("", probe + encoder("encoder", "FIO1")), "AIN13, FIO0, FIO2"));
+  EXPECT_TRUE(has(refusal("", kChannels + encoder("B", "FIO2")), "FIO0 counts already"));
 }
 
 TEST(LabjackU6Configure, TheCounterHasAGreatestSpeed) {

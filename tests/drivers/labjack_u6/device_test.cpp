@@ -26,7 +26,7 @@ class LabjackU6Device : public testing::Test {
   }
   void start() {
     StreamSetup setup;
-    setup.list = {0, 1, 2, 3, 4, kTimer0, kCapture};
+    setup.list = {{0}, {1}, {2}, {3}, {4}, {kTimer0}, {kCapture}};
     ASSERT_TRUE(read_stream_stop(ask(stream_stop())));
     ASSERT_TRUE(read_stream_config(ask(stream_config(setup, *stream_clock(1000)))));
     ASSERT_TRUE(read_stream_start(ask(stream_start())));
@@ -93,6 +93,20 @@ TEST_F(LabjackU6Device, StreamsInputsAndTheCounterInOneScan) {
     const auto raw = static_cast<std::uint32_t>(scan.words[6]) << 16 | scan.words[5];
     ASSERT_EQ(static_cast<std::int32_t>(raw), static_cast<std::int64_t>(scan.index) * 1000 - 450);
   }
+}
+
+// AIN0 at 20 V less AIN1 at -2.5 V is beyond the range; AIN2 less itself is nothing.
+TEST_F(LabjackU6Device, ADifferentialEntryIsAgainstTheNextInputAtItsOwnGain) {
+  StreamSetup setup;
+  setup.list = {{1, 0}, {2, 1, true}, {0, 0, true}};
+  ASSERT_TRUE(read_stream_config(ask(stream_config(setup, *stream_clock(1000)))));
+  ASSERT_TRUE(read_stream_start(ask(stream_start())));
+  line = PacketLine(3);
+  ASSERT_EQ(stream(200), "");
+  ASSERT_GT(scans.size(), 150U);
+  EXPECT_NEAR(labjack::volts(Device::calibration(0), scans[9].words[0]), -2.5, 2e-4);
+  EXPECT_NEAR(labjack::volts(Device::calibration(1), scans[9].words[1]), 0, 2e-5);
+  EXPECT_TRUE(labjack::at_rail(scans[9].words[2]));
 }
 
 TEST_F(LabjackU6Device, DroppedScansKeepTheTimeLine) {

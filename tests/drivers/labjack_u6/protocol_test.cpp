@@ -35,13 +35,13 @@ TEST(LabjackU6Protocol, AFeedbackOfFiveInputsIsFramed) {
 
 TEST(LabjackU6Protocol, StreamConfigIsTheVectors) {
   StreamSetup setup;
-  setup.list = {0, 1, 2, 3, 4};
+  setup.list = {{0}, {1}, {2}, {3}, {4}};
   const auto clock = stream_clock(1000);
   ASSERT_TRUE(clock);
   EXPECT_EQ(clock->rate_hz, 1000);
   EXPECT_EQ(stream_config(setup, *clock),
             bytes("EB F8 09 11 D8 00 05 01 19 00 00 00 A0 0F 00 00 01 00 02 00 03 00 04 00"));
-  setup.list = {0, 1, 2, 3, 4, kTimer0, kCapture};
+  setup.list = {{0}, {1}, {2}, {3}, {4}, {kTimer0}, {kCapture}};
   EXPECT_EQ(stream_config(setup, *clock),
             bytes("99 F8 0B 11 82 02 07 01 19 00 00 00 A0 0F 00 00 01 00 02 00 03 00 04 00 C8 00 "
                   "E0 00"));

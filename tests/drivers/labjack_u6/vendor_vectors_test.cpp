@@ -33,6 +33,9 @@ TEST_F(LabjackU6Vectors, TheSimulatedOneAnswersWhatTheVendorAccepts) {
       {"ConfigIO, two timers", "0C F8 05 0B 03 00 01 02 00 00 00 00 00 00 00 00",
        "0B F8 05 0B 02 00 00 00 02 00 00 00 00 00 00 00",
        "labjack/LabJackPython, src/u6.py, U6.configIO"},
+      {"ConfigIO, two timers from FIO2 on", "0E F8 05 0B 05 00 01 02 00 02 00 00 00 00 00 00",
+       "0D F8 05 0B 04 00 00 00 02 00 02 00 00 00 00 00",
+       "labjack/LabJackPython, src/u6.py, U6.configIO, TimerCounterPinOffset"},
       {"ConfigIO, none", "0A F8 05 0B 01 00 01 00 00 00 00 00 00 00 00 00",
        "09 F8 05 0B 00 00 00 00 00 00 00 00 00 00 00 00",
        "labjack/exodriver, examples/U6/u6Stream.c, ConfigIO_example"},
@@ -138,13 +141,21 @@ TEST_F(LabjackU6Vectors, ErrorsOfAStreamHaveWords) {
 // 10 us. LabJackPython, src/u6.py, U6.streamConfig.
 TEST_F(LabjackU6Vectors, AStreamOfAnotherGainAndSettling) {
   StreamSetup setup;
-  setup.gain = 2;
   setup.settling_10us = 5;
   setup.resolution_index = 3;
   setup.samples_per_packet = 20;
-  setup.list = {1, kTimer0, kCapture};
+  setup.list = {{1, 2}, {kTimer0}, {kCapture}};
   EXPECT_EQ(stream_config(setup, {2, 0x1234, 0}),
             bytes("43 F8 07 11 30 02 03 03 14 00 05 02 34 12 01 20 C8 00 E0 00"));
+}
+
+// LabJackPython, src/u6.py, U6.streamConfig: of a channel's options bit 7 is differential, bits 5-4
+// are the gain. exodriver, examples/U6/u6.c, eAIN: an odd input after the even one is its negative.
+TEST_F(LabjackU6Vectors, EachInputOfAStreamHasItsOwnGainAndMayBeDifferential) {
+  StreamSetup setup;
+  setup.list = {{0, 0, true}, {2, 1, true}, {4, 2, false}, {6, 3, true}, {8, 0, false}};
+  EXPECT_EQ(stream_config(setup, *stream_clock(1000)),
+            bytes("D7 F8 09 11 C2 02 05 01 19 00 00 00 A0 0F 00 80 02 90 04 20 06 B0 08 00"));
 }
 
 }  // namespace

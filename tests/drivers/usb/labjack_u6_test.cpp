@@ -50,8 +50,9 @@ class UsbLabjackU6 : public testing::Test {
       settings.rate_hz = rate_hz;
       settings.inputs = {{{"A", Unit::volt}, 0, 0},
                          {{"B", Unit::volt}, 1, 0},
-                         {{"C", Unit::volt}, 2, 0},
+                         third,
                          {{"encoder", Unit::um}, -1, -0.5, most_counts_per_s}};
+      settings.inputs.back().fio = fio;
       made = std::make_unique<LabjackU6>(settings);
     }
     return *made;
@@ -68,6 +69,8 @@ class UsbLabjackU6 : public testing::Test {
   std::unique_ptr<Device> device;
   std::string serial;
   double rate_hz = kRate_Hz, most_counts_per_s = 0;
+  Input third = {{"C", Unit::volt}, 2, 0};
+  int fio = 0;  // of the encoder
   int number = 0;
   usb::Bus bus;
   std::unique_ptr<LabjackU6> made;
@@ -94,6 +97,22 @@ TEST_F(UsbLabjackU6, GivesVoltsAndMicrometresAtTheirTimes) {
     ASSERT_EQ(all.quality[i][1], Quality::over_range);
     ASSERT_EQ(all.quality[i][3], Quality::good);
   }
+}
+
+// AIN2 against AIN3 is 0 V, which the constants of another range take for 1 mV.
+TEST_F(UsbLabjackU6, AnInputMayBeDifferentialAndHaveARangeOfItsOwnAndTheEncoderOtherLines) {
+  third.gain = 3;
+  third.differential = true;
+  fio = 2;
+  plug();
+  ASSERT_EQ(refusal(), "opened");
+  const Collected all = collect(driver(), 100);
+  ASSERT_EQ(all.error, "");
+  for (const auto& scan : all.scans) ASSERT_NEAR(scan[2], 0, 1e-6);
+  EXPECT_LT(all.scans.back()[3], all.scans.front()[3]);
+  EXPECT_EQ(all.quality.back()[3], Quality::good);
+  ASSERT_EQ(refusal(), "opened");  // it counts on
+  EXPECT_EQ(driver().info().datum_lost, "");
 }
 
 // The counter goes 1,000,000 counts a second.

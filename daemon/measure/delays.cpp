@@ -1,0 +1,76 @@
+#include "daemon/measure/delays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "schema/base/number/number_text.h"
+#include "schema/sample.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr double kMost_us = 10e6;  // ten seconds: an average of more is no reading of an axis
+constexpr int kDigits = 9;         // so that what is asked for is enough
+
+double of(const ChannelDelays& delays, const std::string& id) {
+  const auto found = delays.find(id);
+  return found == delays.end() ? 0 : found->second;
+}
+
+// "": it is one of the rig's.
+std::string doubt_of(const std::string& id, const Rig& rig) {
+  std::vector<std::string> known = {kEncoderChannel};
+  for (const Probe& probe : rig.probes) known.push_back(probe.id);
+  if (std::find(known.begin(), known.end(), id) != known.end()) return "";
+  const std::string near = nearest_of(id, known);
+  return "\"" + id + "\" is no probe of " + rig.source + " and not \"" + kEncoderChannel + "\"" +
+         (near.empty() ? "" : "; did you mean \"" + near + "\"?");
+}
+
+std::string too_long(double delay_s, double settle_s) {
+  const std::string delay = plain_number(delay_s, kDigits);
+  return "readings that come " + delay + " s late are of the way to a stop for longer than " +
+         "settle_s = " + plain_number(settle_s, kDigits) + " s: raise settle_s of [measure] to " +
+         delay + " or more, or filter for a shorter time";
+}
+
+}  // namespace
+
+void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDelays& delays) {
+  for (TomlTable& channel : device.tables("channel")) {
+    const std::string id = channel.string("id", "");
+    const double delay_us = channel.number("delay_us", 0);
+    if (!channel.has("delay_us")) continue;
+    if (const std::string doubt = doubt_of(id, rig); !doubt.empty()) channel.reject("id", doubt);
+    if (!(delay_us >= 0 && delay_us <= kMost_us)) {
+      channel.reject("delay_us", "must be from 0 to " + plain_number(kMost_us, kDigits) +
+                                     ": by how much later than its time stamp says this channel "
+                                     "is read; what is earlier than the others gets 0, and the "
+                                     "others the difference");
+    } else if (delay_us / 1e6 > settle_s) {
+      channel.reject("delay_us", too_long(delay_us / 1e6, settle_s));
+    }
+    delays[id] = delay_us / 1e6;
+  }
+}
+
+PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const ChannelDelays& delays) {
+  const double encoder_s = of(delays, kEncoderChannel);
+  bool differ = false;
+  for (const Probe& probe : rig.probes) {
+    const double delay_s = of(delays, probe.id);
+    differ = differ || delay_s != encoder_s;
+    options.align.delay_s[probe.id] = delay_s - encoder_s;
+    options.dwell.leave_s = std::max(options.dwell.leave_s, delay_s);
+  }
+  if (!differ) options.align.delay_s.clear();
+  return options;
+}
+
+Status check_settling(const PipelineOptions& options) {
+  if (options.dwell.leave_s <= options.dwell.settle_s) return {};
+  return bad_input(too_long(options.dwell.leave_s, options.dwell.settle_s));
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,56 @@
+#include "drivers/labjack/input_keys.h"
+
+#include <array>
+#include <optional>
+
+#include "drivers/labjack/count_guard.h"
+
+namespace mdof::drivers::labjack {
+
+InputKeys read_input_keys(TomlTable& channel) {
+  InputKeys keys;
+  keys.most_counts_per_s = read_most_counts_per_s(channel);
+  keys.negative = channel.string("negative", "");
+  if (!channel.has("range_v")) return keys;
+  keys.range_v = channel.number("range_v", 0);
+  if (range_of(keys.range_v) < 0) channel.reject("range_v", kRangesText);
+  return keys;
+}
+
+int range_of(double range_v) {
+  constexpr std::array kAll_v = {10.0, 1.0, 0.1, 0.01};
+  for (std::size_t i = 0; i < kAll_v.size(); ++i)
+    if (range_v == kAll_v[i]) return static_cast<int>(i);
+  return -1;
+}
+
+Result<int> negative_of(const std::string& device, const ChannelInput& channel, int ain,
+                        const std::string& negative) {
+  const std::string partner = "AIN" + std::to_string(ain + 1);
+  if (ain % 2 == 0 && negative == partner) return ain + 1;
+  return bad_input(channel.where + ": negative = \"" + negative + "\": a " + device +
+                   " measures an even AIN against the one after it" +
+                   (ain % 2 == 0
+                        ? ": " + channel.input + " against " + partner
+                        : ", and " + channel.input + " is none: use AIN" + std::to_string(ain - 1) +
+                              " with negative = \"" + channel.input + "\""));
+}
+
+Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<InputUse>& uses) {
+  std::optional<std::size_t> counter;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if (uses[i].ain < 0 && counter)
+      return bad_input(channels[i].where + ": " + channels[*counter].input +
+                       " counts already; mdofd takes one counter of a device, count \"" +
+                       channels[i].id + "\" by another");
+    if (uses[i].ain < 0) counter = i;
+    for (std::size_t other = 0; other < uses.size(); ++other)
+      if (uses[i].ain >= 0 && uses[other].negative == uses[i].ain)
+        return bad_input(channels[i].where + ": " + channels[i].input +
+                         " is the negative input of \"" + channels[other].id +
+                         "\" and gives no probe of its own; use another");
+  }
+  return {};
+}
+
+}  // namespace mdof::drivers::labjack

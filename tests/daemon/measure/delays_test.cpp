@@ -1,0 +1,82 @@
+// delay_us of channels: what is refused, what alignment is told, and what it does to a run.
+#include "daemon/measure/delays.h"
+
+#include <gtest/gtest.h>
+
+namespace mdof::daemon {
+namespace {
+
+Rig two_probes() {
+  Rig rig;
+  rig.source = "rig.toml";
+  rig.probes.resize(2);
+  rig.probes[0].id = "A";
+  rig.probes[1].id = "B";
+  return rig;
+}
+
+Status read_with(const std::string& text, ChannelDelays& delays) {
+  auto device = TomlTable::parse(text, "mdofd.toml").value();
+  read_delays(device, two_probes(), 0.1, delays);
+  for (auto& channel : device.tables("channel")) channel.string("input", "");
+  return device.finish();
+}
+
+TEST(Delays, AreReadOfEachChannelThatHasOne) {
+  ChannelDelays delays = {{"encoder", 0.001}};
+  const auto read = read_with(
+      "channel = [{ id = \"A\", input = \"1\", delay_us = 3840 }, { id = \"B\" }]\n", delays);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(delays, (ChannelDelays{{"A", 0.00384}, {"encoder", 0.001}}));
+  EXPECT_TRUE(read_with("channel = [{ id = \"A\", delay_us = 100_000 }]", delays));
+}
+
+TEST(Delays, WhatCannotBeIsRefusedWithTheRemedy) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"id = \"A\", delay_us = -1",
+       "mdofd.toml:1: channel[1].delay_us: must be from 0 to 10000000"},
+      {"id = \"A\", delay_us = nan", "must be a finite number"},
+      {"id = \"A\", delay_us = inf", "must be a finite number"},
+      {"id = \"A\", delay_us = 10_000_001", "must be from 0"},
+      {"id = \"A\", delay_us = \"long\"", "delay_us"},
+      {"id = \"A\", delay_us = 100_001",
+       "longer than settle_s = 0.1 s: raise settle_s of [measure] to 0.100001 or more"},
+      {"id = \"encodr\", delay_us = 1", "did you mean \"encoder\"?"},
+      {"id = \"Z\", delay_us = 1", "is no probe of rig.toml"},
+      {"id = \"A\", delay_ms = 1", "did you mean \"delay_us\"?"},
+  };
+  for (const auto& [channel, says] : cases) {
+    ChannelDelays delays;
+    const auto read = read_with(std::string("channel = [{ ") + channel + " }]", delays);
+    ASSERT_FALSE(read) << channel;
+    EXPECT_NE(read.error().message.find(says), std::string::npos) << read.error().message;
+  }
+}
+
+TEST(Delays, AreTakenOutAgainstTheEncoders) {
+  const Rig rig = two_probes();
+  const auto options = with_delays({}, rig, {{"A", 0.004}, {"encoder", 0.001}});
+  EXPECT_EQ(options.align.delay_s, (std::map<std::string, double>{{"A", 0.003}, {"B", -0.001}}));
+  EXPECT_EQ(options.dwell.leave_s, 0.004);
+}
+
+TEST(Delays, ThatAreAllTheSameLeaveTheScansAsTheyAre) {
+  const Rig rig = two_probes();
+  EXPECT_TRUE(with_delays({}, rig, {}).align.delay_s.empty());
+  EXPECT_EQ(with_delays({}, rig, {}).json(), PipelineOptions().json());
+  const ChannelDelays same = {{"A", 0.004}, {"B", 0.004}, {"encoder", 0.004}};
+  EXPECT_TRUE(with_delays({}, rig, same).align.delay_s.empty());
+  EXPECT_EQ(with_delays({}, rig, same).dwell.leave_s, 0.004);
+}
+
+TEST(Delays, AReplayMayNotSettleForLess) {
+  PipelineOptions options = with_delays({}, two_probes(), {{"A", 0.08}});
+  EXPECT_TRUE(check_settling(options));
+  options.dwell.settle_s = 0.05;
+  const auto checked = check_settling(options);
+  ASSERT_FALSE(checked);
+  EXPECT_NE(checked.error().message.find("settle_s = 0.05 s"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -37,7 +37,8 @@ std::string server_info(const Methods& m) {
       .field("uptime_s", std::chrono::duration<double>(up).count())
       .field("database", ec ? m.database : database.string())
       .field("generation", m.generation)
-      .field("store_jobs_dropped", m.keeper.dropped_blocks());
+      .field("store_jobs_dropped", m.keeper.dropped_blocks())
+      .field("store_points_dropped", m.keeper.dropped_points());
   const StorageState storage = m.keeper.storage();
   json.field("storage", storage.state).key("storage_reason");
   storage.reason.empty() ? json.null() : json.value(storage.reason);

@@ -15,20 +15,6 @@ constexpr int kDigits = 9;        // nanometres of a metre
 constexpr double kRest_m = 5e-6;  // an axis that holds its place may tremble so far
 constexpr std::int64_t kRest_ns = 200'000'000, kStale_ns = 1'000'000'000;
 
-// Of the raw values of this unit.
-double metres_per(Unit unit) {
-  switch (unit) {
-    case Unit::um:
-      return 1e-6;
-    case Unit::mm:
-      return 1e-3;
-    case Unit::metre:
-      return 1;
-    default:
-      return 0;  // no length; the calibration says so
-  }
-}
-
 // Of what was said and does not hold any more.
 std::string lost_note(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
   std::string note = "set to " + plain_number(to_mm(said.position_m), kDigits) + " mm on " +
@@ -45,8 +31,8 @@ std::string lost_note(const DatumSetting& said, bool since_start, const EncoderD
 }  // namespace
 
 EncoderZero::EncoderZero(const std::vector<drivers::DriverSpec>& devices,
-                         std::optional<DatumSetting> before)
-    : last_(std::move(before)) {
+                         std::optional<DatumSetting> before, std::optional<double> um_per_V)
+    : um_per_V_(um_per_V), last_(std::move(before)) {
   for (const auto& device : devices) {
     const auto& ids = device.channels;
     const bool all = ids.empty();
@@ -79,6 +65,22 @@ EncoderState EncoderZero::state() const {
 std::string EncoderZero::device() const {
   const std::lock_guard lock(mutex_);
   return device_;
+}
+
+// Of the raw values of this unit.
+double EncoderZero::metres_per(Unit unit) const {
+  switch (unit) {
+    case Unit::um:
+      return 1e-6;
+    case Unit::mm:
+      return 1e-3;
+    case Unit::metre:
+      return 1;
+    case Unit::volt:
+      return from_um(um_per_V_.value_or(0));
+    default:
+      return 0;  // no length; the calibration says so
+  }
 }
 
 void EncoderZero::apply(SampleBlock& block) {

@@ -25,9 +25,11 @@ struct EncoderState {
 // datum(), state() and device() from any thread, all others from one, the measuring one.
 class EncoderZero {
  public:
-  // `before`: what was said last before this program began, which it does not hold any more.
+  // `um_per_V`: of an encoder that gives volts. `before`: what was said last before this program
+  // began, which it does not hold any more.
   explicit EncoderZero(const std::vector<drivers::DriverSpec>& devices,
-                       std::optional<DatumSetting> before = std::nullopt);
+                       std::optional<DatumSetting> before = std::nullopt,
+                       std::optional<double> um_per_V = std::nullopt);
 
   // Adds the offset to the encoder's values of `block`, where it has any, and keeps what it shows.
   void apply(SampleBlock& block);
@@ -45,8 +47,10 @@ class EncoderZero {
   std::string device() const;
 
  private:
+  double metres_per(Unit unit) const;
   void watch(double shown_m, std::int64_t time_ns);
 
+  const std::optional<double> um_per_V_;
   mutable std::mutex mutex_;
   EncoderDatum datum_;  // guarded by mutex_
   std::string device_;  // guarded by mutex_

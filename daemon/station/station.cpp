@@ -39,7 +39,8 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
       keeper_(keeper),
       shared_(std::make_shared<Shared>(std::move(events))),
       measure_turn_(steady_clock::now()),
-      zero_(config_.devices, config_.live() ? std::move(before) : std::nullopt) {
+      zero_(config_.devices, config_.live() ? std::move(before) : std::nullopt,
+            config_.rig.encoder_um_per_V) {
   for (const auto& device : config_.devices)
     acquisitions_.push_back(std::make_unique<Acquisition>(device, sink()));
   measure_thread_ = std::thread([this] { measure(); });

@@ -58,6 +58,21 @@ TEST(EncoderZero, WhatIsFoundHoldsOnlyOnceItIsPut) {
   EXPECT_EQ(zero.state().note, "set to 12.5 mm on 2026-11-23T07:00:00Z by uid 1000");
 }
 
+TEST(EncoderZero, VoltsAreOffsetByTheirScale) {
+  EncoderZero zero({counting()}, std::nullopt, -500);
+  SampleBlock block = resting_at(2);
+  block.channels[0].unit = Unit::volt;  // -1 mm
+  zero.apply(block);
+  const auto found = zero.find(mdof::Axis::x, 0.004, "now");
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->before_m, -0.001, 1e-12);
+  ASSERT_TRUE(zero.put(*found, "me"));
+  block = resting_at(2);
+  block.channels[0].unit = Unit::volt;
+  zero.apply(block);
+  EXPECT_NEAR(block.value[0][0] * -500, 4000, 1e-6);
+}
+
 TEST(EncoderZero, ASecondTimeCountsFromWhatHolds) {
   EncoderZero zero({counting()});
   for (const double position_m : {0.0125, 0.1}) {

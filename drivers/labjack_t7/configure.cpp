@@ -114,8 +114,6 @@ Result<Input> input_of(const ChannelInput& channel, const ChannelMore& keys) {
   const std::vector<std::string> known = known_inputs();
   const auto at = std::find(known.begin(), known.end(), channel.input);
   if (at == known.end()) return no_such_input(channel, known);
-  if (channel.id == kEncoderChannel)
-    return bad_input(channel.where + ": an encoder is counted, by input \"" + kCounter + "\"");
   if (channel.um_per_count != 0 || most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
                      " gives volts and counts nothing; take um_per_count and most_counts_per_s "
@@ -154,7 +152,7 @@ Result<Settings> read_labjack_t7(TomlTable& table, const DriverContext& context)
     settings.inputs.push_back(input);
   }
   MDOF_CHECK(check_pairs(channels, settings.inputs));
-  settings.encoder = encoder_origin(channels, true);
+  settings.encoder = encoder_origin(channels, counts_at(channels, kCounter));
   read_endpoints(table, settings);
   read_converter(table, settings);
   read_rate(table, settings);

@@ -69,8 +69,6 @@ Result<Input> input_of(const ChannelInput& channel, double most_counts_per_s) {
   const std::vector<std::string> known = known_inputs();
   const auto at = std::find(known.begin(), known.end(), channel.input);
   if (at == known.end()) return no_such_input(channel, known);
-  if (channel.id == kEncoderChannel)
-    return bad_input(channel.where + ": an encoder is counted, by input \"" + kCounter + "\"");
   if (channel.um_per_count != 0 || most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
                      " gives volts and counts nothing; take um_per_count and most_counts_per_s "
@@ -86,7 +84,7 @@ Status read_inputs(TomlTable& table, const DriverContext& context, Settings& set
   MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
              most.push_back(labjack::read_most_counts_per_s(channel));
            }));
-  settings.encoder = encoder_origin(channels, true);
+  settings.encoder = encoder_origin(channels, counts_at(channels, kCounter));
   for (std::size_t i = 0; i < channels.size(); ++i) {
     MDOF_TRY(const Input input, input_of(channels[i], most[i]));
     inputs.push_back(input);

@@ -300,7 +300,7 @@ class Units(unittest.TestCase):
                     ('driver = "modbus"\nprofile = "adam-6017"\naddress = "127.0.0.1"\n'
                      'channel = [{ id = "encoder", input = "AI0", um_per_count = 3 }]', "um_per_count is for counts"),
                     ('driver = "labjack_t7"\naddress = "127.0.0.1"\nchannel = [{ id = "encoder", input = "AIN0" }]',
-                     "an encoder is counted")):
+                     r"is in V, .*rig_volts_X.toml \(\[encoder\] um_per_V\)")):
                 config = os.path.join(folder, "mdofd.toml")
                 with open(config, "w") as f:
                     f.write(f'[store]\ndatabase = "{folder}/mdof.db"\n[rpc]\nsocket = "{folder}/s"\n[[axis]]\n'
@@ -309,6 +309,17 @@ class Units(unittest.TestCase):
                 done = subprocess.run([MDOFD, "--config", config, "--check-config"], capture_output=True, text=True)
                 self.assertNotEqual(done.returncode, 0, device)
                 self.assertRegex(done.stderr, r"mdofd.toml:\d+: axis\[1\].device\[1\].channel.*" + why)
+                if "is in V" not in why:
+                    continue
+                with open(os.path.join(folder, "rig_volts_X.toml")) as rig, \
+                        open(os.path.join(folder, "scaled.toml"), "w") as scaled:
+                    scaled.write(rig.read() + "\n[encoder]\num_per_V = 500\n")
+                with open(config) as f:
+                    text = f.read()
+                with open(config, "w") as f:
+                    f.write(text.replace("rig_volts_X", "scaled"))
+                done = subprocess.run([MDOFD, "--config", config, "--check-config"], capture_output=True, text=True)
+                self.assertNotIn("is in V", done.stderr)
 
 
 class Simulated(unittest.TestCase):

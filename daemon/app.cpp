@@ -89,6 +89,7 @@ struct App::Parts {
   Status open_store();
   void read_anew();
   void start_stations();
+  std::optional<DatumSetting> last_datum(Axis axis);
   void tell(const char* topic, const std::string& json);
   void to_journal(Axis axis, const Trouble& trouble);
   void heed_signals();
@@ -153,8 +154,18 @@ void App::Parts::start_stations() {
   };
   for (auto& axis : config.axes) {
     stations.push_back(std::make_unique<Station>(axis, config.measure, config.text,
-                                                 config.recordings, *keeper, events));
+                                                 config.recordings, *keeper, events,
+                                                 last_datum(axis.rig.axis)));
   }
+}
+
+// Where somebody said last that the axis stood. What is damaged counts for nothing.
+std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
+  auto last = reader->last_datum(axis);
+  if (last) return std::move(*last);
+  std::fprintf(stderr, "axis %c: where it stood last is not known: %s\n", letter(axis),
+               last.error().message.c_str());
+  return std::nullopt;
 }
 
 // What cannot be sent is not lost in silence: clients see it counted, and the journal has it.

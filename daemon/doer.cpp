@@ -42,7 +42,9 @@ std::string deed_json(const Deed& deed) {
   JsonWriter json;
   json.begin_object().field("deed", deed.name).field("of", deed.subject).field("id", deed.row);
   json.field("utc", deed.utc).field("uid", deed.by.uid).field("gid", deed.by.gid);
-  json.field("pid", deed.by.pid).field("user", deed.by.user).end_object();
+  json.field("pid", deed.by.pid).field("user", deed.by.user);
+  if (!deed.detail.empty()) json.field("detail", deed.detail);
+  json.end_object();
   return json.take();
 }
 

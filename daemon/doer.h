@@ -15,7 +15,7 @@ Deed deed_now(std::string name, Doer by);
 
 // "uid 1000 (anna) gid 1000 pid 4711"
 std::string doer_text(const Doer& doer);
-// {"deed", "of": "run", "id", "utc", "uid", "gid", "pid", "user"}
+// {"deed", "of": "run", "id", "utc", "uid", "gid", "pid", "user"}, and "detail" where it has one
 std::string deed_json(const Deed& deed);
 void write_deeds(JsonWriter& json, const std::vector<Deed>& deeds);  // an array
 

@@ -103,20 +103,36 @@ bool displace(const Calibration& c, double um_per_unit, Window window, std::span
 
 namespace {
 
-Status reject_encoder(const SampleBlock& block, const Channel& encoder) {
+Status reject_encoder(const SampleBlock& block, const Channel& encoder, const std::string& rig) {
   const std::string unit = suffix(encoder.unit);
-  return bad_input(
-      (block.device.empty() ? "" : "device \"" + block.device + "\": ") +
-      "channel \"encoder\" is " + (unit.empty() ? "without a unit" : "in " + unit) +
-      ", and the axis position must be a length: take an input that counts, with "
-      "um_per_count, or that gives um or mm; a script makes it one and names its column "
-      "encoder_mm or encoder_um");
+  const std::string scale =
+      encoder.unit == Unit::volt ? "say its scale in " + rig + " ([encoder] um_per_V), or " : "";
+  return bad_input((block.device.empty() ? "" : "device \"" + block.device + "\": ") +
+                   "channel \"encoder\" is " + (unit.empty() ? "without a unit" : "in " + unit) +
+                   ", and the axis position must be a length: " + scale +
+                   "take an input that counts, with um_per_count, or that gives um or mm; a "
+                   "script makes it one and names its column encoder_mm or encoder_um");
 }
 
 }  // namespace
 
-Calibrator::Calibrator(const Rig& rig) : rig_source_(rig.source) {
+Calibrator::Calibrator(const Rig& rig)
+    : encoder_um_per_V_(rig.encoder_um_per_V), rig_source_(rig.source) {
   for (const auto& probe : rig.probes) probes_.emplace(probe.id, probe);
+}
+
+Status Calibrator::apply_encoder(std::size_t channel, SampleBlock& block) const {
+  const Unit unit = block.channels[channel].unit;
+  auto& values = block.value[channel];
+  if (unit == Unit::volt && encoder_um_per_V_) {
+    for (double& value : values) value = from_um(value * *encoder_um_per_V_);
+    return {};
+  }
+  if (unit != Unit::um && unit != Unit::mm)
+    return reject_encoder(block, block.channels[channel], rig_source_);
+  const double per_metre = unit == Unit::um ? 1e6 : 1e3;
+  for (double& value : values) value /= per_metre;
+  return {};
 }
 
 Status Calibrator::apply_probe(const Probe& probe, std::size_t channel, SampleBlock& block) const {
@@ -157,9 +173,7 @@ Status Calibrator::apply(SampleBlock& block) const {
     const Channel& what = block.channels[channel];
     if (what.unit == Unit::metre) continue;
     if (what.id == kEncoderChannel) {
-      if (what.unit != Unit::um && what.unit != Unit::mm) return reject_encoder(block, what);
-      const double per_metre = what.unit == Unit::um ? 1e6 : 1e3;
-      for (double& value : block.value[channel]) value /= per_metre;
+      MDOF_CHECK(apply_encoder(channel, block));
     } else if (const auto probe = probes_.find(what.id); probe != probes_.end()) {
       MDOF_CHECK(apply_probe(probe->second, channel, block));
     } else {
@@ -168,6 +182,14 @@ Status Calibrator::apply(SampleBlock& block) const {
     block.channels[channel].unit = Unit::metre;
   }
   return {};
+}
+
+Status Calibrator::check(const std::vector<Channel>& channels) const {
+  SampleBlock block;
+  block.channels = channels;
+  block.time_ns.assign(1, 0);
+  block.value.assign(channels.size(), {0.0});
+  return apply(block);
 }
 
 }  // namespace mdof::drivers

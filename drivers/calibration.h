@@ -2,8 +2,10 @@
 // last step of every driver; nothing after it knows volts or gaps.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "schema/base/result.h"
 #include "schema/rig/rig.h"
@@ -24,11 +26,15 @@ class Calibrator {
   // Channels the rig does not know are left as they are. Error: volts without um_per_V, a probe or
   // the encoder in a unit that is no length.
   Status apply(SampleBlock& block) const;
+  // The same error for a device with these channels, before it gives anything.
+  Status check(const std::vector<Channel>& channels) const;
 
  private:
+  Status apply_encoder(std::size_t channel, SampleBlock& block) const;
   Status apply_probe(const Probe& probe, std::size_t channel, SampleBlock& block) const;
 
   std::unordered_map<std::string, Probe> probes_;
+  std::optional<double> encoder_um_per_V_;
   std::string rig_source_;
 };
 

@@ -67,6 +67,14 @@ std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels) {
   return ids;
 }
 
+bool counts_at(const std::vector<ChannelInput>& channels,
+               const std::vector<std::string>& counters) {
+  return std::any_of(channels.begin(), channels.end(), [&](const ChannelInput& channel) {
+    return channel.id == kEncoderChannel &&
+           std::find(counters.begin(), counters.end(), channel.input) != counters.end();
+  });
+}
+
 EncoderOrigin encoder_origin(const std::vector<ChannelInput>& channels, bool counts) {
   for (const auto& channel : channels)
     if (channel.id == kEncoderChannel) return {counts, channel.offset_mm};

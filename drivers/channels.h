@@ -32,6 +32,9 @@ Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& ri
 // Of DriverSpec.
 std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels);
 
+// Whether the encoder is at one of these inputs, which count; volts at another have no beginning to
+// lose.
+bool counts_at(const std::vector<ChannelInput>& channels, const std::vector<std::string>& counters);
 // Of the encoder among them; `counts`: this family's encoders count from where they were switched
 // on.
 EncoderOrigin encoder_origin(const std::vector<ChannelInput>& channels, bool counts);

@@ -156,12 +156,8 @@ Status check_log(drivers::DriverSpec& device, const Rig& rig) {
 Status check_units(const TomlTable& table, const drivers::DriverSpec& device, const Rig& rig) {
   if (!device.live || device.simulated) return {};
   MDOF_TRY(const auto driver, device.make());
-  SampleBlock block;
-  block.channels = driver->info().channels;
-  block.time_ns.assign(1, 0);
-  block.value.assign(block.channels.size(), {0.0});
-  if (auto applied = drivers::Calibrator(rig).apply(block); !applied)
-    return in_context(table.where("channel"), std::move(applied.error()));
+  if (auto fits = drivers::Calibrator(rig).check(driver->info().channels); !fits)
+    return in_context(table.where("channel"), std::move(fits.error()));
   return {};
 }
 

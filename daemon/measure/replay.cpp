@@ -37,6 +37,19 @@ Status check_unit(const std::string& source, const std::vector<Channel>& channel
   return {};
 }
 
+// Volts say no place without a scale.
+Status check_encoder(const std::string& source, const std::vector<Channel>& channels,
+                     const Rig& rig) {
+  for (const Channel& c : channels) {
+    if (c.id != kEncoderChannel || c.unit != Unit::volt || rig.encoder_um_per_V) continue;
+    return bad_input(source + ": column \"" + column_name(c) +
+                     "\" is the axis position in volts, and " + rig.source +
+                     " does not say their scale; give it there ([encoder] um_per_V), or convert "
+                     "the column and name it encoder_mm");
+  }
+  return {};
+}
+
 // "X" of "axis: X"; empty where no comment says it.
 std::string stated_axis(const std::vector<std::string>& comments) {
   constexpr std::string_view kKey = "axis:";
@@ -152,7 +165,7 @@ Status check_channels(const std::string& source, const std::vector<Channel>& cha
                      " (" + probe.id + "_um or " + probe.id + "_V); its columns are " + columns +
                      ". Correct the rig or the header");
   }
-  if (has_channel(channels, kEncoderChannel)) return {};
+  if (has_channel(channels, kEncoderChannel)) return check_encoder(source, channels, rig);
   return bad_input(source + ": has no axis position (encoder_mm); its columns are " + columns);
 }
 

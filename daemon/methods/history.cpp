@@ -26,11 +26,13 @@ Result<std::string> list_history(Methods& m, const Params& params) {
 
 void add_history_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "history.list",
-             .summary = "Who did what with runs, squareness and tables: newest first, a page at a "
-                        "time.",
+             .summary = "Who did what with runs, squareness, tables and encoders: newest first, a "
+                        "page at a time.",
              .params = {offset_param(), count_param(kMaxDeedsPage)},
-             .result = "total, history: deed (run.start, compensation.activate, ...), of and id "
-                       "(what it was done to), utc, uid, gid, pid, user",
+             .result =
+                 "total, history: deed (run.start, compensation.activate, ...), of and id "
+                 "(what it was done to), utc, uid, gid, pid, user; detail, where there is more "
+                 "to say",
              .example = R"({"offset": 0, "count": 20})",
              .handler = [&m](const Params& p) { return list_history(m, p); }});
 }

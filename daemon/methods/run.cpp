@@ -123,9 +123,9 @@ void begin_run(Station& station, RunRequest request, Reply reply) {
   for (auto& warning : standing_trouble(station)) request.warnings.push_back(std::move(warning));
   for (auto& warning : unsettled_clocks(station)) request.warnings.push_back(std::move(warning));
   for (auto& warning : settings_of_devices(station)) request.warnings.push_back(std::move(warning));
-  const EncoderDatum datum = station.datum();
-  if (auto note = datum_note(datum.kind, datum.device); !note.empty())
-    request.notes.push_back(std::move(note));
+  EncoderState encoder = station.encoder();
+  if (encoder.datum.kind != EncoderDatum::Kind::set && !encoder.note.empty())
+    request.notes.push_back(std::move(encoder.note));
   auto done = answer_with_run(std::move(reply), station.config().rig.axis, request);
   station.start_run(request, done);
 }

@@ -7,12 +7,22 @@
 #include "daemon/version.h"
 #include "schema/base/json_writer.h"
 #include "schema/run_json.h"
+#include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
 
 using rpc::Params;
 using rpc::ParamType;
+
+void write_encoder(JsonWriter& json, const EncoderState& encoder) {
+  json.begin_object()
+      .field("datum", to_string(encoder.datum.kind))
+      .field("offset_mm", to_mm(encoder.datum.offset_m))
+      .key("note");
+  encoder.note.empty() ? json.null() : json.value(encoder.note);
+  json.end_object();
+}
 
 std::string server_info(const Methods& m) {
   const auto up = std::chrono::steady_clock::now() - m.started;
@@ -27,7 +37,8 @@ std::string server_info(const Methods& m) {
       .field("uptime_s", std::chrono::duration<double>(up).count())
       .field("database", ec ? m.database : database.string())
       .field("generation", m.generation)
-      .field("store_jobs_dropped", m.keeper.dropped_blocks());
+      .field("store_jobs_dropped", m.keeper.dropped_blocks())
+      .field("store_points_dropped", m.keeper.dropped_points());
   const StorageState storage = m.keeper.storage();
   json.field("storage", storage.state).key("storage_reason");
   storage.reason.empty() ? json.null() : json.value(storage.reason);
@@ -42,6 +53,8 @@ std::string server_info(const Methods& m) {
     json.end_array();
     json.key("run");
     station->run() > 0 ? json.value(station->run()) : json.null();
+    json.key("encoder");
+    write_encoder(json, station->encoder());
     json.end_object();
   }
   json.end_array().end_object();
@@ -155,7 +168,10 @@ Result<ActiveTables> load_active(store::Store& store) {
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
              .summary = "Version, uptime, axes and the compensation generation in force.",
-             .result = "identity of the daemon; axes with their devices and the run under way",
+             .result =
+                 "identity of the daemon; axes with their devices, the run under way and what "
+                 "the positions of the encoder are counted from: datum (absolute, none, "
+                 "configured, set), offset_mm, note",
              .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add({.name = "device.list",
              .summary = "Every device with its axis, state, last error, channels and counts.",

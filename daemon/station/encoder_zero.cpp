@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "drivers/clock/monotonic.h"
 #include "schema/base/number/number_text.h"
@@ -10,26 +11,28 @@
 namespace mdof::daemon {
 namespace {
 
+constexpr int kDigits = 9;        // nanometres of a metre
 constexpr double kRest_m = 5e-6;  // an axis that holds its place may tremble so far
 constexpr std::int64_t kRest_ns = 200'000'000, kStale_ns = 1'000'000'000;
 
-// Of the raw values of this unit.
-double metres_per(Unit unit) {
-  switch (unit) {
-    case Unit::um:
-      return 1e-6;
-    case Unit::mm:
-      return 1e-3;
-    case Unit::metre:
-      return 1;
-    default:
-      return 0;  // no length; the calibration says so
-  }
+// Of what was said and does not hold any more.
+std::string lost_note(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
+  std::string note = "set to " + plain_number(to_mm(said.position_m), kDigits) + " mm on " +
+                     said.utc + ", lost " +
+                     (since_start ? "when its device was without power" : "by a restart of mdofd") +
+                     ": set it again (mdof encoder set " + letter(said.axis) + " POSITION_MM); ";
+  const std::string none = datum_note(now.kind, now.device);
+  if (!none.empty()) return note + none;
+  if (now.kind == EncoderDatum::Kind::configured)
+    return note + "until then offset_mm of the configuration holds";
+  return note + "until then positions are as the device shows them";
 }
 
 }  // namespace
 
-EncoderZero::EncoderZero(const std::vector<drivers::DriverSpec>& devices) {
+EncoderZero::EncoderZero(const std::vector<drivers::DriverSpec>& devices,
+                         std::optional<DatumSetting> before, std::optional<double> um_per_V)
+    : um_per_V_(um_per_V), last_(std::move(before)) {
   for (const auto& device : devices) {
     const auto& ids = device.channels;
     const bool all = ids.empty();
@@ -50,9 +53,34 @@ EncoderDatum EncoderZero::datum() const {
   return datum_;
 }
 
+EncoderState EncoderZero::state() const {
+  const std::lock_guard lock(mutex_);
+  if (!last_) return {datum_, datum_note(datum_.kind, datum_.device)};
+  if (datum_.kind != EncoderDatum::Kind::set)
+    return {datum_, lost_note(*last_, since_start_, datum_)};
+  return {datum_, "set to " + plain_number(to_mm(last_->position_m), kDigits) + " mm on " +
+                      datum_.utc + " by " + datum_.by};
+}
+
 std::string EncoderZero::device() const {
   const std::lock_guard lock(mutex_);
   return device_;
+}
+
+// Of the raw values of this unit.
+double EncoderZero::metres_per(Unit unit) const {
+  switch (unit) {
+    case Unit::um:
+      return 1e-6;
+    case Unit::mm:
+      return 1e-3;
+    case Unit::metre:
+      return 1;
+    case Unit::volt:
+      return from_um(um_per_V_.value_or(0));
+    default:
+      return 0;  // no length; the calibration says so
+  }
 }
 
 void EncoderZero::apply(SampleBlock& block) {
@@ -88,8 +116,7 @@ void EncoderZero::watch(double shown_m, std::int64_t time_ns) {
   last_ns_ = time_ns;
 }
 
-Result<EncoderDatum> EncoderZero::set(double position_m, const std::string& utc,
-                                      const std::string& by) {
+Result<DatumSetting> EncoderZero::find(Axis axis, double position_m, const std::string& utc) {
   if (drivers::monotonic_ns() - last_ns_ > kStale_ns)
     return fail(ErrorCode::conflict,
                 "nothing has come from the encoder for a second, so what it shows at this place is "
@@ -100,7 +127,21 @@ Result<EncoderDatum> EncoderZero::set(double position_m, const std::string& utc,
                 "say where it is");
   const double shown_m = rest_m_ + sum_m_ / static_cast<double>(count_);
   const std::lock_guard lock(mutex_);
-  datum_ = {EncoderDatum::Kind::set, datum_.offset_m + (position_m - shown_m), device_, utc, by};
+  found_ = true;
+  return DatumSetting{
+      0, axis, device_, shown_m, position_m, datum_.offset_m + (position_m - shown_m), utc};
+}
+
+Result<EncoderDatum> EncoderZero::put(const DatumSetting& setting, const std::string& by) {
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(found_, false))
+    return fail(ErrorCode::conflict,
+                "device \"" + setting.device +
+                    "\" was without power just now, so what its encoder showed does not hold any "
+                    "more: say again where the axis stands");
+  datum_ = {EncoderDatum::Kind::set, setting.offset_m, setting.device, setting.utc, by};
+  last_ = setting;
+  since_start_ = true;
   count_ = 0;
   return datum_;
 }
@@ -108,6 +149,7 @@ Result<EncoderDatum> EncoderZero::set(double position_m, const std::string& utc,
 void EncoderZero::lose(const std::string& device) {
   const std::lock_guard lock(mutex_);
   if (device != device_ || datum_.kind == EncoderDatum::Kind::absolute) return;
+  found_ = false;
   datum_.kind = EncoderDatum::Kind::none;
   datum_.device = device;
   datum_.utc = datum_.by = "";

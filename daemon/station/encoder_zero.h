@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,29 +16,48 @@
 
 namespace mdof::daemon {
 
-// datum() from any thread, all others from one, the measuring one.
+// What holds now, and for people what was said of it and what of that is lost; "": nothing.
+struct EncoderState {
+  EncoderDatum datum;
+  std::string note;
+};
+
+// datum(), state() and device() from any thread, all others from one, the measuring one.
 class EncoderZero {
  public:
-  explicit EncoderZero(const std::vector<drivers::DriverSpec>& devices);
+  // `um_per_V`: of an encoder that gives volts. `before`: what was said last before this program
+  // began, which it does not hold any more.
+  explicit EncoderZero(const std::vector<drivers::DriverSpec>& devices,
+                       std::optional<DatumSetting> before = std::nullopt,
+                       std::optional<double> um_per_V = std::nullopt);
 
   // Adds the offset to the encoder's values of `block`, where it has any, and keeps what it shows.
   void apply(SampleBlock& block);
-  // The axis stands at `position_m` now. Error (conflict): it has not been still for 0.2 s, or
-  // nothing has come from its encoder for a second.
-  Result<EncoderDatum> set(double position_m, const std::string& utc, const std::string& by);
+  // What it means that the axis stands at `position_m` now; nothing is changed yet. Error
+  // (conflict): it has not been still for 0.2 s, or nothing has come from its encoder for a second.
+  Result<DatumSetting> find(Axis axis, double position_m, const std::string& utc);
+  // It holds from now on. Error (conflict): its device has been without power since it was found.
+  Result<EncoderDatum> put(const DatumSetting& setting, const std::string& by);
   // Its device counts from elsewhere now.
   void lose(const std::string& device);
 
   EncoderDatum datum() const;
+  EncoderState state() const;
   // The device that gives the encoder; "": not known before it gave some.
   std::string device() const;
 
  private:
+  double metres_per(Unit unit) const;
   void watch(double shown_m, std::int64_t time_ns);
 
+  const std::optional<double> um_per_V_;
   mutable std::mutex mutex_;
   EncoderDatum datum_;  // guarded by mutex_
   std::string device_;  // guarded by mutex_
+  // What was said last, before this program or since. Guarded by mutex_.
+  std::optional<DatumSetting> last_;
+  bool since_start_ = false;
+  bool found_ = false;  // by find(), and its device has had power since
 
   // Of the values with their offset, since the axis came to rest.
   double rest_m_ = 0, sum_m_ = 0;

@@ -30,7 +30,8 @@ std::string file_stamp(std::string utc) {
 }  // namespace
 
 Station::Station(AxisConfig config, PipelineOptions options, std::string configuration,
-                 std::filesystem::path recordings, Storekeeper& keeper, StationEvents events)
+                 std::filesystem::path recordings, Storekeeper& keeper, StationEvents events,
+                 std::optional<DatumSetting> before)
     : config_(std::move(config)),
       options_(std::move(options)),
       configuration_(std::move(configuration)),
@@ -38,7 +39,8 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
       keeper_(keeper),
       shared_(std::make_shared<Shared>(std::move(events))),
       measure_turn_(steady_clock::now()),
-      zero_(config_.devices) {
+      zero_(config_.devices, config_.live() ? std::move(before) : std::nullopt,
+            config_.rig.encoder_um_per_V) {
   for (const auto& device : config_.devices)
     acquisitions_.push_back(std::make_unique<Acquisition>(device, sink()));
   measure_thread_ = std::thread([this] { measure(); });
@@ -219,24 +221,6 @@ void Station::stop_run(bool abort, const Deed& deed, RunDone done) {
   item.abort = abort;
   item.deed = deed;
   item.done = std::move(done);
-  shared_->queue.push_always(std::move(item));
-}
-
-void Station::set_encoder(double position_m, const std::string& by, DatumDone done) {
-  const std::string axis(1, letter(config_.rig.axis));
-  if (!config_.live())
-    return done(fail(ErrorCode::conflict,
-                     "axis " + axis + " is read from a log, whose positions are as they are"));
-  std::int64_t none = 0;
-  if (!shared_->run.compare_exchange_strong(none, -1))
-    return done(fail(ErrorCode::conflict, "a run of axis " + axis +
-                                              " is under way and its positions must not shift; "
-                                              "stop it with run.stop first"));
-  Item item;
-  item.kind = Item::Kind::datum;
-  item.position_m = position_m;
-  item.by = by;
-  item.datum_done = std::move(done);
   shared_->queue.push_always(std::move(item));
 }
 

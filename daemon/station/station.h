@@ -40,8 +40,10 @@ using RunDone = std::function<void(Result<std::int64_t>)>;
 // Calls from the main thread only, but for status().
 class Station {
  public:
+  // `before`: where the axis stood when somebody said so last, before this program began.
   Station(AxisConfig config, PipelineOptions options, std::string configuration,
-          std::filesystem::path recordings, Storekeeper& keeper, StationEvents events);
+          std::filesystem::path recordings, Storekeeper& keeper, StationEvents events,
+          std::optional<DatumSetting> before = std::nullopt);
   ~Station();  // an open run ends as aborted
   // Asks the devices to stop and waits for none, so that those of all stations stop together.
   void begin_stopping();
@@ -49,11 +51,12 @@ class Station {
   void start_run(const RunRequest& request, const RunDone& done);
   // `done`: the id of the run to read (see Storekeeper::end_run), once it is on the disk.
   void stop_run(bool abort, const Deed& deed, RunDone done);
-  // The axis stands at `position_m` now, says `by`. Errors (conflict): a run is under way, the axis
-  // moves, nothing comes from its encoder; it is that of a log.
+  // The axis stands at `position_m` now: holds once it is stored with who says so. Errors
+  // (conflict): a run is under way, the axis moves, nothing comes from its encoder; it is that of a
+  // log. Others: it could not be stored.
   using DatumDone = std::function<void(Result<EncoderDatum>)>;
-  void set_encoder(double position_m, const std::string& by, DatumDone done);
-  EncoderDatum datum() const { return zero_.datum(); }
+  void set_encoder(double position_m, const Deed& deed, DatumDone done);
+  EncoderState encoder() const { return zero_.state(); }
   // The run under way: 0 none, -1 about to begin.
   std::int64_t run() const { return shared_->run.load(); }
   // The store gave up on this run.
@@ -79,7 +82,8 @@ class Station {
       stop,
       storage_failed,
       trouble,
-      datum
+      datum,
+      datum_stored
     } kind = Kind::samples;
     SampleBlock block;
     std::int64_t run = 0;
@@ -87,14 +91,14 @@ class Station {
     std::shared_ptr<const PipelineOptions> options;  // of the run to attach
     std::shared_ptr<Beginning> beginning;            // of a run that goes on from another
     bool abort = false;
-    std::optional<Deed> deed;  // who stops
+    std::optional<Deed> deed;  // who stops, or says where the axis stands
     std::string reason;
     drivers::SourceInfo source;
     std::uint64_t pass = 0;  // of a source that is read once a run
     RunDone done;
     std::shared_ptr<const Trouble> trouble;
-    double position_m = 0;  // of Kind::datum
-    std::string by;
+    double position_m = 0;         // of Kind::datum
+    Result<DatumSetting> setting;  // of Kind::datum_stored
     DatumDone datum_done;
   };
   using Queue = BoundedQueue<Item>;
@@ -128,7 +132,10 @@ class Station {
   void tell_unsolved(const std::vector<MeasuredPoint>& points);
   void keep_new_points(const std::vector<MeasuredPoint>& points);
   void attach(Item& item);
+  // station_datum.cpp
   void take_datum(const Item& item);
+  void store_datum(const DatumSetting& setting, const Item& item);
+  void put_datum(const Item& item);
   void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
               RunDone done, const std::optional<Deed>& deed = std::nullopt);
   const Pipeline* pipeline() const;

@@ -164,6 +164,8 @@ void Station::handle(Item& item) {
       return;
     case Item::Kind::datum:
       return take_datum(item);
+    case Item::Kind::datum_stored:
+      return put_datum(item);
   }
 }
 
@@ -187,19 +189,6 @@ void Station::attach(Item& item) {
   shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
   item.done(item.run);
   if (!config_.live()) acquisitions_.front()->start();
-}
-
-// No run is under way: set_encoder() has seen to it. The live view begins afresh, as the axis does
-// not jump.
-void Station::take_datum(const Item& item) {
-  const auto set = zero_.set(item.position_m, utc_now(), item.by);
-  if (set) {
-    view_.reset();
-    for (auto& acquisition : acquisitions_)
-      if (acquisition->spec().name == set->device) acquisition->trust_count();
-  }
-  shared_->run = 0;
-  item.datum_done(set);
 }
 
 void Station::take_samples(SampleBlock& block) {

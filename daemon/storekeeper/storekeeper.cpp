@@ -89,7 +89,7 @@ void Storekeeper::work() {
     commit_recordings();
     watch_files();
     if (!store_) open_again();
-    store_what_waits();
+    if (now >= next_try_) store_what_waits();
     if (!unended_.empty()) end_what_can_be();
     next_commit = now + options_.commit_interval;
   }
@@ -201,13 +201,18 @@ Status Storekeeper::commit(std::int64_t run, Recording& recording) {
 
 // The samples are on the disk before what is made of them.
 Status Storekeeper::keep_points(std::int64_t run, const std::vector<MeasuredPoint>& points) {
-  if (incomplete_.contains(run)) return io_error("an earlier point was not kept");
+  if (const auto found = incomplete_.find(run); found != incomplete_.end()) {
+    found->second += points.size();
+    dropped_points_ += points.size();
+    return io_error("an earlier point was not kept");
+  }
   const auto recording = recordings_.find(run);
   Status kept = recording == recordings_.end() ? Status() : commit(run, recording->second);
   if (kept) kept = store_->append_points(run, points);
   if (kept || is_busy(kept)) return kept;
   note_full(kept.error());
-  incomplete_.insert(run);
+  incomplete_[run] += points.size();
+  dropped_points_ += points.size();
   events_.failed(run, kept.error());
   return kept;
 }

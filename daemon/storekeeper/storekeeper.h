@@ -12,7 +12,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 
@@ -56,8 +55,10 @@ class Storekeeper {
     std::filesystem::path database;
     store::Durability durability = store::Durability::full;
     std::chrono::milliseconds commit_interval{50};
-    // For a foreign program that holds the database, each time; what can wait is then tried again.
+    // For a foreign program that holds the database, each time; what can wait is then tried again,
+    // after as long a time for all other work.
     std::chrono::milliseconds busy_timeout{1000};
+    std::size_t most_waiting = 4096;  // points, meanwhile
   };
   // All called on the store thread.
   struct Events {
@@ -85,7 +86,9 @@ class Storekeeper {
   // `wait`: for a source that can wait; otherwise a full queue drops the blocks, counted as one.
   bool record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait);
   // Where a foreign program holds the database, points and ends wait for it to let go: the
-  // recording has them meanwhile, and `done` comes when they are stored.
+  // recording has them meanwhile, and `done` comes when they are stored. Points beyond
+  // `most_waiting`, and all later ones of their run, are dropped (`done`: an error) and counted:
+  // they are stored when the run ends, as in a run that supersedes it.
   void append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                      std::function<void(Status)> done);
   // Seals the recording and ends the run. If the result differs from the points already stored,
@@ -101,6 +104,7 @@ class Storekeeper {
   // Why a run whose measuring has ended stands as open; empty: it does not.
   std::string why_open(std::int64_t run) const;
   std::uint64_t dropped_blocks() const { return queue_.dropped(); }
+  std::uint64_t dropped_points() const { return dropped_points_.load(); }  // of append_points()
   // When the thread last came round; for the watchdog.
   std::chrono::steady_clock::time_point last_turn() const { return last_turn_.load(); }
 
@@ -125,9 +129,12 @@ class Storekeeper {
   void seal(Ending& ending);
   Result<std::int64_t> end(Ending& ending);
   void wait_for_database(Points points);
+  void drop(const Points& points);
+  std::size_t dropped_of(std::int64_t run);
   void wait_for_database(Ending ending);
   void explain(std::int64_t run, const std::string& why);
   void refused_end(Unended unended, const Error& error);
+  void try_later();
   void store_what_waits();
   void give_up_what_waits();
   Status end_or_wait(std::int64_t run, const store::RunEnd& end);
@@ -151,6 +158,7 @@ class Storekeeper {
     Run result;
     RunEnding how;
     std::function<void(Result<std::int64_t>)> done;
+    std::size_t dropped = 0;  // points of it
   };
   struct Unended {
     std::int64_t run;
@@ -170,8 +178,12 @@ class Storekeeper {
   std::map<std::int64_t, std::string> open_because_;
   std::vector<Unended> unended_;
   std::deque<Points> waiting_points_;  // for a foreign program to let go of the database
-  std::deque<Ending> waiting_ends_;    // the same
-  std::set<std::int64_t> incomplete_;  // runs of which a point could not be kept
+  std::size_t waiting_count_ = 0;      // points in them
+  std::deque<Ending> waiting_ends_;    // for the same
+  std::chrono::steady_clock::time_point next_try_{};  // to store what waits
+  // Run -> points of it that were not kept: the disk refused one, or too many waited.
+  std::map<std::int64_t, std::size_t> incomplete_, overflowed_;
+  std::atomic<std::uint64_t> dropped_points_{0};
   BoundedQueue<std::function<void()>> queue_;
   std::atomic<std::chrono::steady_clock::time_point> last_turn_;
   std::thread thread_;

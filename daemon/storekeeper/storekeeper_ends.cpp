@@ -10,6 +10,11 @@ constexpr const char* kHeld =
     ": another program holds it in a transaction that does not end; what is measured waits and is "
     "in the recording: end that program";
 
+std::string too_many(std::size_t most) {
+  return "; more than " + std::to_string(most) +
+         " points wait, those beyond are stored when their run ends";
+}
+
 store::RunEnd end_of(const Run& run) {
   store::RunEnd end;
   end.state = run.header.state;
@@ -57,12 +62,12 @@ void Storekeeper::end_what_can_be() {
 
 // In the order in which they came.
 void Storekeeper::take(Points points) {
-  const Status kept = waiting_points_.empty() ? keep_points(points.run, points.points)
-                                              : Status(tl::unexpected(Error()));
-  if (!waiting_points_.empty() || is_busy(kept))
-    wait_for_database(std::move(points));
-  else
-    points.done(kept);
+  if (overflowed_.contains(points.run)) return drop(points);
+  if (waiting_points_.empty()) {
+    const Status kept = keep_points(points.run, points.points);
+    if (!is_busy(kept)) return points.done(kept);
+  }
+  wait_for_database(std::move(points));
 }
 
 void Storekeeper::take(Ending ending) {
@@ -75,8 +80,33 @@ void Storekeeper::take(Ending ending) {
 }
 
 void Storekeeper::wait_for_database(Points points) {
-  set(held_, options_.database.string() + kHeld);
+  const std::size_t count = waiting_count_ + points.points.size();
+  if (count > options_.most_waiting) {
+    set(held_, options_.database.string() + kHeld + too_many(options_.most_waiting));
+    return drop(points);
+  }
+  if (waiting_points_.empty()) set(held_, options_.database.string() + kHeld);
+  waiting_count_ = count;
   waiting_points_.push_back(std::move(points));
+}
+
+// And all that come after it of the same run, which are stored in order.
+void Storekeeper::drop(const Points& points) {
+  overflowed_[points.run] += points.points.size();
+  dropped_points_ += points.points.size();
+  points.done(io_error("no room for it" + too_many(options_.most_waiting)));
+}
+
+// Their number is asked for once, when the run ends.
+std::size_t Storekeeper::dropped_of(std::int64_t run) {
+  std::size_t dropped = 0;
+  for (auto* runs : {&incomplete_, &overflowed_}) {
+    const auto found = runs->find(run);
+    if (found == runs->end()) continue;
+    dropped += found->second;
+    runs->erase(found);
+  }
+  return dropped;
 }
 
 void Storekeeper::wait_for_database(Ending ending) {
@@ -100,16 +130,22 @@ void Storekeeper::refused_end(Unended unended, const Error& error) {
   unended_.push_back(std::move(unended));
 }
 
+// Else all the time would go into waiting, and the samples of the runs would not be recorded.
+void Storekeeper::try_later() {
+  next_try_ = std::chrono::steady_clock::now() + options_.busy_timeout;
+}
+
 void Storekeeper::store_what_waits() {
   for (; !waiting_points_.empty(); waiting_points_.pop_front()) {
     const Points& next = waiting_points_.front();
     const Status kept = keep_points(next.run, next.points);
-    if (is_busy(kept)) return;
+    if (is_busy(kept)) return try_later();
+    waiting_count_ -= next.points.size();
     next.done(kept);
   }
   for (; !waiting_ends_.empty(); waiting_ends_.pop_front()) {
     auto ended = end(waiting_ends_.front());
-    if (is_busy(ended)) return;
+    if (is_busy(ended)) return try_later();
     explain(waiting_ends_.front().run, ended ? "" : ended.error().message);
     waiting_ends_.front().done(std::move(ended));
   }
@@ -142,13 +178,19 @@ void Storekeeper::seal(Ending& ending) {
 
 Result<std::int64_t> Storekeeper::end(Ending& ending) {
   const std::int64_t run = ending.run;
-  if (incomplete_.erase(run) > 0) ending.how.differs = !ending.result.points.empty();
+  if (const std::size_t dropped = dropped_of(run); dropped > 0) {
+    ending.dropped = dropped;
+    ending.how.differs = !ending.result.points.empty();
+  }
   store::RunEnd whole = end_of(ending.result);
   whole.deed = ending.how.deed;
   if (!ending.how.differs) {
     MDOF_CHECK(end_or_wait(run, whole));
     return run;
   }
+  if (ending.dropped > 0)
+    whole.warnings.push_back(std::to_string(ending.dropped) +
+                             " points could not be stored when they were measured");
   auto superseded = store_->end_and_supersede(
       run, provisional_of(whole, "the run that supersedes this one has them"), ending.result);
   if (!superseded && !is_busy(superseded))

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "drivers/calibration.h"
 #include "drivers/csv_stream/csv_stream.h"
 #include "drivers/io/device_lock.h"
 #include "drivers/serial_settings.h"
@@ -43,7 +44,9 @@ void read_header(TomlTable& table, CsvStreamOptions& options) {
   options.header = table.string("header", "");
   if (options.header.empty()) return;
   const auto header = parse_csv_header(options.header + "\n", CsvKind::stream, "header");
-  if (!header) table.reject("header", header.error().message);
+  if (!header) return table.reject("header", header.error().message);
+  if (const auto fits = options.check_units(header->channels); !fits)
+    table.reject("header", fits.error().message);
 }
 
 CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
@@ -59,6 +62,9 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
   } else {
     read_source(table, context.base_path, options);
   }
+  options.check_units = [rig = Calibrator(context.rig)](const std::vector<Channel>& channels) {
+    return rig.check(channels);
+  };
   read_header(table, options);
   // Longer, and the watchdog would take the thread for dead.
   options.start = read_seconds(table, "start_s", options.start, 5);

@@ -127,13 +127,20 @@ Status CsvStream::check_columns() const {
   const auto& ids = options_.expected;
   std::string found, wanted;
   for (const Channel& channel : channels) {
-    if (std::find(ids.begin(), ids.end(), channel.id) != ids.end()) return {};
+    if (std::find(ids.begin(), ids.end(), channel.id) != ids.end()) return check_units();
     found += (found.empty() ? "" : ", ") + channel.id;
   }
   for (const auto& id : ids) wanted += (wanted.empty() ? "" : ", ") + id;
   return no_header({ErrorCode::bad_input,
                     source_ + ": no column of the header is of the rig: there are " + found +
                         ", wanted are some of " + wanted + " (as in A_um, A_V, encoder_mm)"});
+}
+
+Status CsvStream::check_units() const {
+  if (!options_.check_units) return {};
+  Status fits = options_.check_units(protocol_->header()->channels);
+  if (!fits) return in_context(source_, std::move(fits.error()));
+  return {};
 }
 
 Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ struct CsvStreamOptions {
   std::chrono::milliseconds silence{2000};
   std::size_t bad_lines = 100;        // of 10,000
   std::vector<std::string> expected;  // ids: one column at least must be of these
+  // Whether the rig can make lengths of what the header names. Empty: it is not asked.
+  std::function<Status(const std::vector<Channel>&)> check_units;
 };
 
 // Thread-bound. With time_s the times are the device's own, by DeviceClock; without it those of
@@ -61,6 +64,7 @@ class CsvStream final : public Driver {
   Status wait_for_header();
   tl::unexpected<Error> no_header(Error why) const;
   Status check_columns() const;
+  Status check_units() const;
   ByteStream& stream() { return child_ ? child_->output() : *stream_; }
   Status fetch(std::chrono::milliseconds timeout);
   tl::unexpected<Error> ended(const Error& why);

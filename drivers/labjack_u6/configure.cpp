@@ -57,10 +57,16 @@ std::string counter_name(int line) {
   return "FIO" + std::to_string(line);
 }
 
+std::vector<std::string> counters() {
+  std::vector<std::string> names;
+  for (const int line : kCounterLines) names.push_back(counter_name(line));
+  return names;
+}
+
 std::vector<std::string> known_inputs() {
   std::vector<std::string> names;
   for (int n = 0; n < kAins; ++n) names.push_back("AIN" + std::to_string(n));
-  for (const int line : kCounterLines) names.push_back(counter_name(line));
+  for (const std::string& counter : counters()) names.push_back(counter);
   return names;
 }
 
@@ -83,9 +89,6 @@ Result<Input> input_of(const ChannelInput& channel, const labjack::InputKeys& ke
   const std::vector<std::string> known = known_inputs();
   const auto at = std::find(known.begin(), known.end(), channel.input);
   if (at == known.end()) return no_such_input(channel, known);
-  if (channel.id == kEncoderChannel)
-    return bad_input(channel.where + ": an encoder is counted, by input \"" + counter_name(0) +
-                     "\"");
   if (channel.um_per_count != 0 || keys.most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
                      " gives volts and counts nothing; take um_per_count and most_counts_per_s "
@@ -108,7 +111,7 @@ Status read_inputs(TomlTable& table, const DriverContext& context, Settings& set
   MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
              keys.push_back(labjack::read_input_keys(channel));
            }));
-  settings.encoder = encoder_origin(channels, true);
+  settings.encoder = encoder_origin(channels, counts_at(channels, counters()));
   for (std::size_t i = 0; i < channels.size(); ++i) {
     MDOF_TRY(const Input input, input_of(channels[i], keys[i], gain));
     inputs.push_back(input);

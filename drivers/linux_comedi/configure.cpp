@@ -79,10 +79,11 @@ Result<unsigned> number_of(const ChannelInput& channel) {
 
 Result<InputSetting> input_of(const ChannelInput& channel, const Wiring& wiring) {
   MDOF_TRY(const unsigned number, number_of(channel));
-  if (channel.id == kEncoderChannel || channel.um_per_count != 0)
-    return bad_input(channel.where + ": " + channel.input +
-                     " gives volts and counts nothing; an encoder needs a device that counts "
-                     "(counters of Comedi boards are not read)");
+  if (channel.um_per_count != 0)
+    return bad_input(
+        channel.where + ": " + channel.input +
+        " gives volts and counts nothing (counters of Comedi boards are not read); take "
+        "um_per_count away (the rig has um_per_V, of the encoder as well)");
   return InputSetting{
       {channel.id, Unit::volt}, number, wiring.low_v, wiring.high_v, wiring.reference};
 }
@@ -101,6 +102,7 @@ Result<Settings> read_linux_comedi(TomlTable& table, const DriverContext& contex
     MDOF_TRY(const InputSetting input, input_of(channels[i], wirings[i]));
     settings.inputs.push_back(input);
   }
+  settings.encoder = encoder_origin(channels, false);
   read_board(table, settings);
   read_timing(table, settings);
   MDOF_CHECK(table.finish());
@@ -113,6 +115,7 @@ Result<DriverSpec> configure_linux_comedi(TomlTable& table, const DriverContext&
   spec.driver = "linux_comedi";
   spec.name = context.name;
   for (const InputSetting& input : settings.inputs) spec.channels.push_back(input.channel.id);
+  spec.encoder = settings.encoder;
   spec.identity = [device = settings.device] { return identity_of_path(device); };
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<LinuxComedi>(settings);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/driver.h"
 #include "drivers/linux_comedi/board.h"
 #include "schema/sample.h"
 
@@ -25,6 +26,7 @@ struct Settings {
   double rate_hz = 1000;
   std::optional<double> convert_us;  // from input to input of a scan
   std::vector<InputSetting> inputs;
+  EncoderOrigin encoder;  // where an input gives its volts
   BoardOpener open = open_board;
 };
 

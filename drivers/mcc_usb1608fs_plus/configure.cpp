@@ -32,9 +32,10 @@ Result<Input> input_of(const ChannelInput& channel) {
   for (std::size_t n = 0; n < kInputs; ++n) known.push_back("CH" + std::to_string(n));
   const auto at = std::find(known.begin(), known.end(), channel.input);
   if (at == known.end()) return no_such_input(channel, known);
-  if (channel.id == kEncoderChannel || channel.um_per_count != 0)
+  if (channel.um_per_count != 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " gives volts and counts nothing; an encoder needs a device that counts");
+                     " gives volts and counts nothing; take um_per_count away (the rig has "
+                     "um_per_V, of the encoder as well)");
   return Input{{channel.id, Unit::volt}, static_cast<std::size_t>(at - known.begin())};
 }
 
@@ -48,6 +49,7 @@ Result<Settings> read_mcc_usb1608fs_plus(TomlTable& table, const DriverContext& 
     MDOF_TRY(const Input input, input_of(channel));
     settings.inputs.push_back(input);
   }
+  settings.encoder = encoder_origin(channels, false);
   read_converter(table, settings);
   read_rate(table, settings);
   MDOF_CHECK(table.finish());
@@ -60,6 +62,7 @@ Result<DriverSpec> configure_mcc_usb1608fs_plus(TomlTable& table, const DriverCo
   spec.driver = "mcc_usb1608fs_plus";
   spec.name = context.name;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
+  spec.encoder = settings.encoder;
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<MccUsb1608fsPlus>(settings);
   };

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/driver.h"
 #include "drivers/mcc_usb1608fs_plus/protocol.h"
 #include "drivers/usb/in_stream.h"
 #include "schema/sample.h"
@@ -22,6 +23,7 @@ struct Settings {
   double rate_hz = 1000;
   Range range = kRanges.front();
   std::vector<Input> inputs;  // in the order of the configuration; the device's is by number
+  EncoderOrigin encoder;      // where an input gives its volts
 };
 
 std::uint8_t mask_of(const std::vector<Input>& inputs);

@@ -87,15 +87,17 @@ Result<DriverSpec> configure_pokeys57u(TomlTable& table, const DriverContext& co
              more.push_back(read_channel(channel));
            }));
   MDOF_CHECK(table.finish());
+  bool counts = false;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     MDOF_TRY(Input input, make_input(channels[i], more[i]));
+    counts = counts || (channels[i].id == kEncoderChannel && input.counts());
     settings.inputs.push_back(std::move(input));
   }
   DriverSpec spec;
   spec.driver = "pokeys57u";
   spec.name = context.name;
   spec.channels = ids_of(channels);
-  spec.encoder = encoder_origin(channels, true);
+  spec.encoder = encoder_origin(channels, counts);
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<PoKeys57u>(settings);
   };

@@ -38,6 +38,25 @@ std::string sysfs_error(int error) {
   }
 }
 
+std::string sysfs_write_error(int error) {
+  switch (error) {
+    case EACCES:
+    case EPERM:
+      return std::string(std::strerror(error)) +
+             "; mdof's udev rules (60-mdof.rules) let the group mdof write it: install them, sudo "
+             "udevadm control --reload && sudo udevadm trigger --action=add "
+             "--subsystem-match=iio, and run as a member of that group; or leave the value as it "
+             "is by leaving out its key";
+    case EROFS:
+      return std::string(std::strerror(error)) +
+             "; as a service mdofd may write there only with ReadWritePaths=-/sys/devices, which "
+             "its unit has: install that, or write a drop-in by sudo systemctl edit mdofd "
+             "([Service], then that line); a container must be given a writable /sys";
+    default:
+      return sysfs_error(error);
+  }
+}
+
 std::optional<std::int64_t> parse_sysfs_integer(std::string_view text) {
   const char* const end = text.data() + text.size();
   if (text.starts_with('-')) {
@@ -100,12 +119,12 @@ Result<std::optional<std::string>> read_sysfs(const std::string& path) {
 
 Status write_sysfs(const std::string& path, const std::string& text) {
   const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (fd < 0) return io_error(path + ": " + sysfs_error(errno));
+  if (fd < 0) return io_error(path + ": " + sysfs_write_error(errno));
   const ssize_t n = ::write(fd, text.data(), text.size());
   const int error = errno;
   ::close(fd);
   if (n == static_cast<ssize_t>(text.size())) return {};
-  return io_error(path + ": writing " + text + ": " + sysfs_error(error));
+  return io_error(path + ": writing " + text + ": " + sysfs_write_error(error));
 }
 
 }  // namespace mdof::drivers

@@ -47,6 +47,7 @@ Status write_sysfs(const std::string& path, const std::string& text);
 
 // What an error number of a read or write means for a device in sysfs, with the remedy.
 std::string sysfs_error(int error);
+std::string sysfs_write_error(int error);  // where a write may be refused by rights alone
 // Decimal, the whole text; from -2^63 to 2^64 - 1. Pure.
 std::optional<std::int64_t> parse_sysfs_integer(std::string_view text);
 

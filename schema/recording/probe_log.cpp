@@ -85,14 +85,14 @@ Status check_unit(const CsvHeader& header, std::size_t column) {
                                         : "time is read in seconds only;") +
                      " convert it to seconds from the start and name it time_s");
   if (!is_named(name, kEncoderChannel)) return {};
-  for (const char* known : {kEncoderColumn, "encoder_um", "encoder_m"})
+  for (const char* known : {kEncoderColumn, "encoder_um", "encoder_m", "encoder_V"})
     if (name == known) return {};
   return bad_input(where(header, column) +
-                   (name == kEncoderChannel ? "has no unit; name it encoder_mm, encoder_um or "
-                                              "encoder_m, whichever it is in"
-                                            : "the axis position is read in mm, um or m, and this "
-                                              "log says no scale; convert it and name it "
-                                              "encoder_mm"));
+                   (name == kEncoderChannel ? "has no unit; name it encoder_mm, encoder_um, "
+                                              "encoder_m or encoder_V, whichever it is in"
+                                            : "the axis position is read in mm, um or m, and in V "
+                                              "where the rig has [encoder] um_per_V; convert it "
+                                              "and name it encoder_mm"));
 }
 
 Status add_column(CsvHeader& header, std::size_t column) {

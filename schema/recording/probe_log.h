@@ -9,7 +9,8 @@
 // skipped. A column "A_um" is channel "A" in micrometres. Suffixes: _um _mm _V _C; a column that
 // ends in another unit of the project (_s _hz _urad _percent _hPa) or in none is kept as
 // Unit::other under its whole name; any other suffix is an error. The axis position may also be
-// encoder_um or encoder_m; in no other unit, and time in seconds alone.
+// encoder_um, encoder_m or, where the rig says its scale, encoder_V; in no other unit, and time in
+// seconds alone.
 #pragma once
 
 #include <cstddef>

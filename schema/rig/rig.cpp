@@ -151,6 +151,17 @@ Sides read_sides(TomlTable& table) {
   return {read_choice(table, "moves", "target", "fixture"), read_choice(table, "travel", "+", "-")};
 }
 
+void read_encoder(TomlTable& table, Rig& rig) {
+  auto encoder = table.table("encoder");
+  if (!encoder) return;
+  const double um_per_V = encoder->number("um_per_V");
+  if (!(std::abs(um_per_V) > 0 && std::isfinite(um_per_V)))
+    encoder->reject("um_per_V",
+                    "must be the micrometres along the axis for a volt of its encoder, negative "
+                    "where the volts fall as its position grows, and not 0");
+  rig.encoder_um_per_V = um_per_V;
+}
+
 void read_artefact(TomlTable& table, Rig& rig) {
   if (table.has("artefact_angle_error_urad")) {
     rig.artefact_angle_error_rad = from_urad(table.number("artefact_angle_error_urad"));
@@ -230,6 +241,7 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
     rig.tool_point_m = {from_mm(mm[0]), from_mm(mm[1]), from_mm(mm[2])};
   }
   read_artefact(table, rig);
+  read_encoder(table, rig);
   rig.machine = read_machine(table);
   check_machine(table, rig);
   for (auto& probe : table.tables("probe")) rig.probes.push_back(read_probe(probe));

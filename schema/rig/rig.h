@@ -64,6 +64,9 @@ struct Rig {
   std::string name;
   Axis axis = Axis::x;
   std::vector<Probe> probes;
+  // [encoder]: micrometres along the axis for a volt of an encoder that gives volts, negative where
+  // the volts fall as it goes on. None: such an encoder is refused.
+  std::optional<double> encoder_um_per_V;
   Sides sides;                       // `moves` and `travel`
   Chain machine;                     // [machine]; may be not known
   std::vector<TargetPlane> planes;   // empty: planes normal to the probes' directions

@@ -7,6 +7,7 @@ import json
 import os
 import re
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -15,7 +16,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from device_setups import SETUPS, Simulators  # noqa: E402
-from mdofd import Client, Daemon, RpcError, simulator  # noqa: E402
+from mdofd import Client, Daemon, RpcError, replay, simulator, write_log  # noqa: E402
 
 MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 TARGETS = [0, 2, 4.1]
@@ -30,7 +31,7 @@ class EncoderDatum(unittest.TestCase):
         self.simulators = Simulators(SIMULATE, self.setup_, self.folder.name)
 
     def begin(self, change=lambda text: text):
-        self.offset_mm = 0
+        self.offset_mm, self.said_mm = 0, []
         self.daemon = Daemon(MDOFD, self.folder.name, change(self.setup_.config_text(self.simulators.addresses)))
         self.client = self.daemon.start()
         self.wait(lambda: self.device()["scans"] > 300)
@@ -86,12 +87,13 @@ class EncoderDatum(unittest.TestCase):
         """Says where the axis stands, by which its count becomes `wanted_mm` of the machine. The axis goes on by
         itself: said too late it was refused, or true of another stop, and is said again."""
         for _ in range(100):
-            shown_mm = self.shown_still()
+            position_mm = self.shown_still() + wanted_mm - self.offset_mm
             try:
-                self.offset_mm = set_position(shown_mm + wanted_mm - self.offset_mm)
+                self.offset_mm = set_position(position_mm)
             except RpcError as error:
                 self.assertIn("moves", str(error))
                 continue
+            self.said_mm = self.said_mm + [position_mm]
             if abs(self.offset_mm - wanted_mm) < 0.01:
                 return
         self.fail(f"the offset is {self.offset_mm} mm and not {wanted_mm}")
@@ -186,6 +188,81 @@ class EncoderDatum(unittest.TestCase):
         self.assertNotIn("cannot be placed", " ".join(header["warnings"]))
         self.assertEqual(len(points), 2 * len(TARGETS))
 
+    def encoder(self):
+        return self.client.call("server.info")["axes"][0]["encoder"]
+
+    def status(self):
+        code, out, err = self.mdof("status", "--socket", self.daemon.socket)
+        self.assertEqual(code, 0, err)
+        return " ".join(out.split())
+
+    def test_it_is_stored_with_who_said_it_and_a_restart_tells_what_it_forgot(self):
+        self.begin()
+        encoder = self.encoder()
+        self.assertEqual((encoder["datum"], encoder["offset_mm"]), ("none", 0))
+        self.assertIn("has no datum", encoder["note"])
+        self.assertIn("encoder of X: the encoder (device \"t7\") has no datum", self.status())
+        self.set_at_rest(112.5, self.set_by_rpc)
+        encoder = self.encoder()
+        self.assertEqual((encoder["datum"], encoder["offset_mm"]), ("set", self.offset_mm))
+        said = self.client.call("history.list", count=1)["history"][0]
+        self.assertEqual((said["deed"], said["of"]), ("encoder.set", "encoder_datum"))
+        self.assertEqual((said["uid"], said["gid"], said["pid"]), (os.getuid(), os.getgid(), os.getpid()))
+        stands = re.match(r"X stands at ([\d.]+) mm; until then it was at ([\d.-]+) mm$", said["detail"])
+        self.assertTrue(stands, said["detail"])
+        position_mm, before_mm = map(float, stands.groups())
+        self.assertAlmostEqual(position_mm, self.said_mm[-1], places=6)
+        if len(self.said_mm) == 1:
+            self.assertAlmostEqual(position_mm - before_mm, self.offset_mm, places=6)
+        self.assertRegex(encoder["note"], rf"^set to {position_mm:.9g} mm on {said['utc']} by uid {os.getuid()} ")
+        code, out, err = self.mdof("history", "--db", self.daemon.database)
+        self.assertIn(said["detail"], " ".join(out.split()), err)
+        self.assertEqual(self.client.call("history.list")["total"], len(self.said_mm))
+        self.daemon.stop()
+        code, out, err = self.mdof("verify", "--db", self.daemon.database)
+        self.assertEqual(code, 0, out + err)
+
+        self.client = self.daemon.start()
+        self.offset_mm = 0
+        encoder = self.encoder()
+        self.assertEqual((encoder["datum"], encoder["offset_mm"]), ("none", 0))
+        lost = f"set to {position_mm:.9g} mm on {said['utc']}, lost by a restart of mdofd: set it again"
+        self.assertTrue(encoder["note"].startswith(lost), encoder["note"])
+        self.assertIn("encoder of X: " + lost, self.status())
+        started = self.client.call("run.start", axis="X")
+        self.assertIn(lost, " ".join(started["notes"]))
+        self.client.call("run.stop", run=started["run"], abort=True)
+        self.wait(lambda: self.device()["scans"] > 300)
+        self.set_at_rest(30, self.set_by_rpc)
+        self.assertTrue(self.encoder()["note"].startswith("set to "))
+        self.daemon.stop()
+        with sqlite3.connect(self.daemon.database) as database:
+            database.execute("DROP TRIGGER encoder_datum_no_update")
+            database.execute("UPDATE encoder_datum SET offset_m = 1 WHERE id = 1")
+        database.close()
+        code, out, err = self.mdof("verify", "--db", self.daemon.database)
+        self.assertEqual(code, 1, out + err)
+        self.assertIn("encoder datum 1: is not what was stored", " ".join((out + err).split()))
+        self.client = self.daemon.start()
+
+    def test_what_cannot_be_stored_does_not_hold(self):
+        self.begin()
+        other = sqlite3.connect(self.daemon.database, isolation_level=None)
+        other.execute("BEGIN IMMEDIATE")
+        end = time.monotonic() + 20
+        told = "moves"
+        while "moves" in told and time.monotonic() < end:
+            self.shown_still()
+            with self.assertRaises(RpcError) as refused:
+                self.client.call("encoder.set", axis="X", position_mm=100)
+            told = str(refused.exception)
+        other.execute("ROLLBACK")
+        other.close()
+        self.assertIn("SQLITE_BUSY", told)
+        self.assertEqual((self.encoder()["datum"], self.encoder()["offset_mm"]), ("none", 0))
+        self.assertEqual(self.client.call("history.list")["total"], 0)
+        self.set_at_rest(5, self.set_by_rpc)  # the axis is free again
+
     def test_the_configuration_may_say_it(self):
         self.begin(lambda text: text.replace('input = "DIO0"', 'input = "DIO0", offset_mm = -250.25'))
         started, header, points = self.measured(-250.25)
@@ -223,7 +300,7 @@ class Units(unittest.TestCase):
                     ('driver = "modbus"\nprofile = "adam-6017"\naddress = "127.0.0.1"\n'
                      'channel = [{ id = "encoder", input = "AI0", um_per_count = 3 }]', "um_per_count is for counts"),
                     ('driver = "labjack_t7"\naddress = "127.0.0.1"\nchannel = [{ id = "encoder", input = "AIN0" }]',
-                     "an encoder is counted")):
+                     r"is in V, .*rig_volts_X.toml \(\[encoder\] um_per_V\)")):
                 config = os.path.join(folder, "mdofd.toml")
                 with open(config, "w") as f:
                     f.write(f'[store]\ndatabase = "{folder}/mdof.db"\n[rpc]\nsocket = "{folder}/s"\n[[axis]]\n'
@@ -232,6 +309,17 @@ class Units(unittest.TestCase):
                 done = subprocess.run([MDOFD, "--config", config, "--check-config"], capture_output=True, text=True)
                 self.assertNotEqual(done.returncode, 0, device)
                 self.assertRegex(done.stderr, r"mdofd.toml:\d+: axis\[1\].device\[1\].channel.*" + why)
+                if "is in V" not in why:
+                    continue
+                with open(os.path.join(folder, "rig_volts_X.toml")) as rig, \
+                        open(os.path.join(folder, "scaled.toml"), "w") as scaled:
+                    scaled.write(rig.read() + "\n[encoder]\num_per_V = 500\n")
+                with open(config) as f:
+                    text = f.read()
+                with open(config, "w") as f:
+                    f.write(text.replace("rig_volts_X", "scaled"))
+                done = subprocess.run([MDOFD, "--config", config, "--check-config"], capture_output=True, text=True)
+                self.assertNotIn("is in V", done.stderr)
 
 
 class Simulated(unittest.TestCase):
@@ -245,6 +333,36 @@ class Simulated(unittest.TestCase):
             daemon.stop()
             self.assertEqual(started["notes"] + header["notes"], [])
             self.assertNotIn("encoder_datum", header["options"])
+
+    def test_what_was_set_is_told_of_a_device_and_not_of_a_log(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def encoder(config, act=lambda client: None):
+                daemon = Daemon(MDOFD, folder, config)
+                client = daemon.start()
+                self.addCleanup(client.socket.close)
+                act(client)
+                told = client.call("server.info")["axes"][0]["encoder"]
+                daemon.stop()
+                return told
+
+            def set_at_rest(client):
+                end = time.monotonic() + 20
+                while time.monotonic() < end:
+                    try:
+                        return client.call("encoder.set", axis="X", position_mm=12.5)
+                    except RpcError:
+                        time.sleep(0.01)
+
+            self.assertEqual(encoder(simulator("X")), {"datum": "absolute", "offset_mm": 0, "note": None})
+            told = encoder(simulator("X"), set_at_rest)
+            self.assertEqual(told["datum"], "set")
+            self.assertRegex(told["note"], "^set to 12.5 mm on ")
+            told = encoder(simulator("X"))
+            self.assertEqual(told["datum"], "absolute")
+            self.assertRegex(told["note"], "^set to 12.5 mm on .*, lost by a restart of mdofd.*as the device shows")
+            log = os.path.join(folder, "log.csv")
+            write_log(log)
+            self.assertIsNone(encoder(replay("X", log))["note"])
 
 
 if __name__ == "__main__":

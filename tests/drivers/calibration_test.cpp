@@ -42,6 +42,29 @@ TEST(Calibration, AMissingValueStaysMissingWhateverTheCalibration) {
   }
 }
 
+TEST(Calibration, TakesThePositionInVoltsByTheScaleOfTheRig) {
+  for (const double um_per_V : {5000.0, -250.0}) {
+    const Rig rig = rig_with("[encoder]\num_per_V = " + std::to_string(um_per_V) + "\n");
+    SampleBlock block = block_of({kEncoderChannel, Unit::volt}, {2, -1.5, kNaN});
+    ASSERT_TRUE(Calibrator(rig).apply(block));
+    EXPECT_DOUBLE_EQ(block.value[0][0], 2e-6 * um_per_V);
+    EXPECT_DOUBLE_EQ(block.value[0][1], -1.5e-6 * um_per_V);
+    EXPECT_TRUE(std::isnan(block.value[0][2]));
+    EXPECT_EQ(block.channels[0].unit, Unit::metre);
+    // Of volts alone.
+    SampleBlock length = block_of({kEncoderChannel, Unit::mm}, {12.5});
+    ASSERT_TRUE(Calibrator(rig).apply(length));
+    EXPECT_EQ(length.value[0][0], 0.0125);
+    for (const Unit unit : {Unit::deg_c, Unit::other})
+      EXPECT_FALSE(Calibrator(rig).check({{kEncoderChannel, unit}}));
+    EXPECT_TRUE(Calibrator(rig).check({{kEncoderChannel, Unit::volt}}));
+  }
+  const Status refused = Calibrator(rig_with("")).check({{kEncoderChannel, Unit::volt}});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("([encoder] um_per_V)"), std::string::npos)
+      << refused.error().message;
+}
+
 TEST(Calibration, TakesThePositionInAnyUnitOfLengthAndNoOther) {
   const Calibrator calibrator(rig_with(""));
   for (const auto& [unit, value] :

@@ -185,9 +185,13 @@ class HeldDatabase : public StorekeeperTest {
  protected:
   void SetUp() override {
     StorekeeperTest::SetUp();
+    restart(std::chrono::milliseconds(20));
+  }
+  void restart(std::chrono::milliseconds busy_timeout) {
     keeper_.reset();
     Storekeeper::Options options{folder_ / "mdof.db"};
-    options.busy_timeout = std::chrono::milliseconds(20);
+    options.busy_timeout = busy_timeout;
+    options.most_waiting = 3;
     keeper_ =
         Storekeeper::start(options, {[](std::int64_t, std::int64_t) {},
                                      [this](std::int64_t run, const Error&) { failed_ = run; }})
@@ -222,6 +226,71 @@ TEST_F(HeldDatabase, IsWaitedForAndThenHasEveryPointAndTheEnd) {
   for (int i = 0; i < 100 && keeper_->storage().state != "ok"; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_EQ(keeper_->storage().state, "ok");
+}
+
+// Points that nobody can store take no memory without bound. What was told to clients stays in
+// order, and the end of the run has them all.
+TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredWithTheEndOfTheirRun) {
+  const std::int64_t id = begin(), other = begin();
+  ForeignLock foreign(folder_ / "mdof.db");
+  std::vector<MeasuredPoint> all;
+  std::vector<std::future<Status>> kept;
+  const auto append = [&](std::int64_t run, const MeasuredPoint& p) {
+    auto told = std::make_shared<std::promise<Status>>();
+    kept.push_back(told->get_future());
+    keeper_->append_points(run, {p}, [told](const Status& status) { told->set_value(status); });
+  };
+  for (int target = 1; target <= 5; ++target) {
+    all.push_back(point(target, 1));
+    append(id, all.back());
+  }
+  EXPECT_FALSE(kept[3].get());  // at once, while it is still held
+  EXPECT_FALSE(kept[4].get());
+  EXPECT_EQ(keeper_->dropped_points(), 2u);
+  EXPECT_EQ(keeper_->storage().state, "held");
+  EXPECT_NE(keeper_->storage().reason.find("more than 3 points wait"), std::string::npos)
+      << keeper_->storage().reason;
+  foreign.end();
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(kept[i].get()) << i;
+  EXPECT_EQ(stored(id).points.size(), 3u);
+  all.push_back(point(6, 1));
+  append(id, all.back());  // no hole before it
+  EXPECT_FALSE(kept.back().get());
+  append(other, point(1, 1));  // that of another run is in its place
+  EXPECT_TRUE(kept.back().get());
+  EXPECT_EQ(keeper_->dropped_points(), 3u);
+  const std::int64_t read = end(id, all, false);
+  EXPECT_NE(read, id);
+  EXPECT_EQ(stored(read).points.size(), 6u);
+  EXPECT_TRUE(stored(read).header.warnings.empty());
+  EXPECT_EQ(stored(id).header.warnings.front(),
+            "3 points could not be stored when they were measured");
+  // Once it was let go there is room again.
+  ForeignLock again(folder_ / "mdof.db");
+  for (int target = 2; target <= 4; ++target) append(other, point(target, 1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(keeper_->dropped_points(), 3u);
+  again.end();
+  EXPECT_TRUE(kept.back().get());
+  EXPECT_EQ(end(other, {point(1, 1), point(2, 1), point(3, 1), point(4, 1)}, false), other);
+}
+
+// Each look at whether it is still held takes the whole time-out.
+TEST_F(HeldDatabase, KeepsNoOtherWorkWaiting) {
+  restart(std::chrono::milliseconds(300));
+  const std::int64_t id = begin();
+  const ForeignLock foreign(folder_ / "mdof.db");
+  keeper_->append_points(id, {point(1, 1)}, [](const Status&) {});
+  const auto start = std::chrono::steady_clock::now();
+  std::promise<void> last;
+  constexpr int kJobs = 50;
+  for (int i = 1; i <= kJobs; ++i)
+    ASSERT_TRUE(keeper_->post([&last, i](store::Store&) {
+      if (i == kJobs) last.set_value();
+    }));
+  last.get_future().wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  keeper_.reset();
 }
 
 TEST_F(HeldDatabase, AnEndOfTheDaemonMeanwhileIsTold) {

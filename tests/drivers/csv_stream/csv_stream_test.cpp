@@ -63,6 +63,32 @@ TEST(CsvStream, RowsOfATcpServerWithItsOwnTimes) {
   EXPECT_LT(std::abs(monotonic_ns() - all.time_ns.back()), 5'000'000'000);
 }
 
+TEST(CsvStream, APositionInVoltsNeedsTheScaleOfTheRig) {
+  CsvStreamDevice device({"encoder_V", "A_um"}, 1000, true, counts);
+  const ServedDevice served(device);
+  for (const bool scaled : {false, true}) {
+    DriverContext context;
+    context.name = "probe";
+    context.rig.source = "rig_X.toml";
+    if (scaled) context.rig.encoder_um_per_V = 500;
+    auto table =
+        TomlTable::parse("source = \"tcp://" + served.address() + "\"\n", "mdofd.toml").value();
+    const auto stream = configure_csv_stream(table, context)->make().value();
+    const auto opened = stream->open();
+    const std::string told = opened ? "" : opened.error().message;
+    ASSERT_EQ(told.empty(), scaled) << told;
+    if (scaled) continue;
+    EXPECT_NE(told.find("scale in rig_X.toml ([encoder] um_per_V)"), std::string::npos) << told;
+  }
+  // Of a source that sends no header line it is known at once.
+  DriverContext context;
+  auto table = TomlTable::parse("source = \"fifo:x\"\nheader = \"encoder_V,A_um\"\n", "mdofd.toml");
+  const auto spec = configure_csv_stream(*table, context);
+  ASSERT_FALSE(spec);
+  EXPECT_NE(spec.error().message.find("mdofd.toml:2: header: "), std::string::npos)
+      << spec.error().message;
+}
+
 TEST(CsvStream, BadLinesAreCountedAsLost) {
   CsvStreamDevice device({"A_um"}, 2000, false, counts, {.bad_line_every = 10});
   const ServedDevice served(device);

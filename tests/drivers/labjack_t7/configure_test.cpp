@@ -101,6 +101,21 @@ TEST(LabjackT7Configure, TheCounterHasAGreatestSpeed) {
       has(with_channel("id = \"A\"\ninput = \"AIN0\"\nmost_counts_per_s = 5\n"), "counts nothing"));
 }
 
+TEST(LabjackT7Configure, AnEncoderCountsOrGivesVolts) {
+  const auto counts = settings("address = \"t7\"\n" + std::string(kChannels));
+  EXPECT_TRUE(counts->encoder.counts);
+  const auto volts = settings(
+      "address = \"t7\"\n[[channel]]\nid = \"A\"\ninput = \"AIN0\"\n[[channel]]\n"
+      "id = \"encoder\"\ninput = \"AIN2\"\nnegative = \"AIN3\"\noffset_mm = -7\n");
+  ASSERT_TRUE(volts) << volts.error().message;
+  EXPECT_EQ(volts->inputs[1].channel, (Channel{"encoder", Unit::volt}));
+  EXPECT_EQ(volts->inputs[1].negative, 3);
+  EXPECT_FALSE(volts->encoder.counts);  // nothing to lose with the power
+  EXPECT_EQ(volts->encoder.offset_mm, -7);
+  EXPECT_TRUE(
+      has(with_channel("id = \"encoder\"\ninput = \"AIN0\"\num_per_count = 5\n"), "um_per_V"));
+}
+
 TEST(LabjackT7Configure, ThePacketIsQuickAtEveryRate) {
   EXPECT_EQ(labjack_t7::quick_packet(4000, 7), 112U);  // 16 scans, 4 ms
   EXPECT_EQ(labjack_t7::quick_packet(10, 7), 7U);
@@ -129,7 +144,6 @@ TEST(LabjackT7Configure, BadChannelsAreRefused) {
   EXPECT_TRUE(has(with_channel("id = \"A\"\ninput = \"AIN14\"\n"), "AIN13, DIO0"));
   EXPECT_TRUE(has(with_channel("id = \"D\"\ninput = \"AIN0\"\n"), "no probe"));
   EXPECT_TRUE(has(with_channel("id = \"encoder\"\ninput = \"DIO0\"\n"), "um_per_count"));
-  EXPECT_TRUE(has(with_channel("id = \"encoder\"\ninput = \"AIN0\"\n"), "DIO0"));
   EXPECT_TRUE(has(with_channel("id = \"A\"\ninput = \"AIN0\"\num_per_count = 1\n"), "um_per_V"));
   EXPECT_TRUE(has(refusal("address = \"t7\"\n", ""), "channel"));
 }

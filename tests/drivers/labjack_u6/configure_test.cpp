@@ -79,7 +79,11 @@ TEST(LabjackU6Configure, BadInputsAreRefused) {
     return "[[channel]]\nid = \"" + id + "\"\ninput = \"" + input + "\"\n" + more;
   };
   EXPECT_TRUE(has(refusal("", channel("A", "AIN14")), "AIN13"));
-  EXPECT_TRUE(has(refusal("", channel("encoder", "AIN0")), "FIO0"));
+  EXPECT_TRUE(has(refusal("", channel("encoder", "AIN0", "um_per_count = 1\n")), "um_per_V"));
+  const auto volts = read("", channel("A", "AIN0") + channel("encoder", "AIN1"));
+  ASSERT_TRUE(volts) << volts.error().message;
+  EXPECT_EQ(volts->inputs[1].channel, (Channel{"encoder", Unit::volt}));
+  EXPECT_FALSE(volts->encoder.counts);
   EXPECT_TRUE(has(refusal("", channel("encoder", "FIO0")), "um_per_count"));
   EXPECT_TRUE(has(refusal("", channel("A", "AIN0", "um_per_count = 1\n")), "counts nothing"));
   EXPECT_TRUE(has(refusal("", channel("encoder", "FIO0", "um_per_count = 1\n")),

@@ -43,6 +43,14 @@ TEST(ComediConfigure, Defaults) {
   EXPECT_EQ(settings->inputs[1].reference, Reference::ground);
 }
 
+TEST(ComediConfigure, AnEncoderInVoltsHasNoCountToLose) {
+  const auto settings = read(channel("A", "CH0") + channel("encoder", "CH1", "offset_mm = 2.5\n"));
+  ASSERT_TRUE(settings) << settings.error().message;
+  EXPECT_EQ(settings->inputs[1].channel, (Channel{"encoder", Unit::volt}));
+  EXPECT_FALSE(settings->encoder.counts);
+  EXPECT_EQ(settings->encoder.offset_mm, 2.5);
+}
+
 TEST(ComediConfigure, ChannelsHaveRangeAndReferenceOfTheirOwn) {
   const auto settings = read(
       "device = \"/dev/comedi2\"\nboard = \"pci-6221\"\nsubdevice = 0\nrate_hz = 500\n"
@@ -77,7 +85,7 @@ TEST(ComediConfigure, BadValuesNameTheirKey) {
       {channel("A", "AIN0"), "channel 0 of its subdevice is \"CH0\""},
       {channel("A", "CH256"), "is none of a board"},
       {channel("A", "CH00"), "is none of a board"},
-      {channel("encoder", "CH0"), "counters of Comedi boards are not read"},
+      {channel("encoder", "CH0", "um_per_count = 1\n"), "counters of Comedi boards are not read"},
       {channel("A", "CH0", "um_per_count = 1\n"), "counts nothing"},
       {channel("A", "CH0", "reference = 5\n"), "reference"},
   };

@@ -89,6 +89,9 @@ TEST(SysfsError, NamesTheRemedy) {
   EXPECT_NE(sysfs_error(EIO).find("check wires"), std::string::npos);
   EXPECT_NE(sysfs_error(ENODEV).find("gone"), std::string::npos);
   EXPECT_NE(sysfs_error(EACCES).find("udev rule"), std::string::npos);
+  EXPECT_NE(sysfs_write_error(EACCES).find("60-mdof.rules"), std::string::npos);
+  EXPECT_NE(sysfs_write_error(EROFS).find("ReadWritePaths=-/sys/devices"), std::string::npos);
+  EXPECT_EQ(sysfs_write_error(EIO), sysfs_error(EIO));
 }
 
 class LinuxCounter : public testing::Test {

@@ -1,10 +1,14 @@
 #include "drivers/linux_iio/linux_iio.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -112,6 +116,47 @@ TEST_F(LinuxIio, ReadsGapsOfBothKindsOfInputs) {
   EXPECT_EQ(read_sysfs((root_ / "bus/iio/devices/iio:device0/in_capacitance_sampling_frequency"))
                 ->value(),
             "91");
+}
+
+// As another user, or where /sys is read-only: in a child, whose rights and mounts are its own.
+constexpr int kNotPossibleHere = 77;
+
+template <class Restrict>
+int exit_of_child(const LinuxIioOptions& options, const std::string& part, Restrict restrict) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (!restrict()) ::_exit(kNotPossibleHere);
+    const auto status = make_linux_iio("probes", options)->open();
+    const bool told = !status && status.error().message.find(part) != std::string::npos;
+    if (!told && !status) std::fprintf(stderr, "%s\n", status.error().message.c_str());
+    ::_exit(told ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST_F(LinuxIio, ARateThatMayNotBeWrittenIsRefusedWithTheRule) {
+  const auto file = root_ / "bus/iio/devices/iio:device0/in_capacitance_sampling_frequency";
+  std::filesystem::permissions(file, std::filesystem::perms(0444));
+  constexpr uid_t kNobody = 65534;
+  EXPECT_EQ(
+      exit_of_child(options_, file.string() + ": Permission denied; mdof's udev rules (60-mdof",
+                    [] { return ::geteuid() != 0 || ::seteuid(kNobody) == 0; }),
+      0);
+}
+
+TEST_F(LinuxIio, ARateInAReadOnlySysfsIsRefusedWithTheDropIn) {
+  const auto read_only = [this] {
+    const char* root = root_.c_str();
+    return ::unshare(CLONE_NEWNS) == 0 &&
+           ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+           ::mount(root, root, nullptr, MS_BIND, nullptr) == 0 &&
+           ::mount("none", root, nullptr, MS_BIND | MS_REMOUNT | MS_RDONLY, nullptr) == 0;
+  };
+  const int exit = exit_of_child(options_, "ReadWritePaths=-/sys/devices", read_only);
+  if (exit == kNotPossibleHere) GTEST_SKIP() << "mounting needs root; not tested here";
+  EXPECT_EQ(exit, 0);
 }
 
 TEST_F(LinuxIio, NothingBeforeTheProbeIsMissing) {

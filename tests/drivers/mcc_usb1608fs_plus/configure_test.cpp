@@ -51,9 +51,18 @@ TEST(Usb1608Configure, BadValuesNameTheirKey) {
 
 TEST(Usb1608Configure, BadInputsAreRefused) {
   EXPECT_TRUE(has(refusal("", channel("A", "CH8")), "CH7"));
-  EXPECT_TRUE(has(refusal("", channel("encoder", "CH0")), "a device that counts"));
   EXPECT_TRUE(has(refusal("", channel("A", "CH0", "um_per_count = 1\n")), "counts nothing"));
   EXPECT_TRUE(has(refusal("", channel("A", "CH0") + channel("B", "CH0")), "CH0"));
+}
+
+TEST(Usb1608Configure, AnEncoderGivesVoltsAndHasNoCountToLose) {
+  const auto settings =
+      read("", channel("A", "CH0") + channel("encoder", "CH5", "offset_mm = 3\n"));
+  ASSERT_TRUE(settings) << settings.error().message;
+  EXPECT_EQ(settings->inputs[1].channel, (Channel{"encoder", Unit::volt}));
+  EXPECT_FALSE(settings->encoder.counts);
+  EXPECT_EQ(settings->encoder.offset_mm, 3);
+  EXPECT_TRUE(has(refusal("", channel("encoder", "CH0", "um_per_count = 1\n")), "um_per_V"));
 }
 
 TEST(Usb1608Settings, AlwaysAskNotToStallAndAreQuickWhenSlow) {

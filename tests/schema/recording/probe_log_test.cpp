@@ -84,7 +84,10 @@ TEST(ProbeLogHeader, NamesTheColumnThatIsWrong) {
 
 TEST(ProbeLogHeader, TakesThePositionInAnyUnitOfLengthThatIsNamed) {
   for (const auto& [name, unit] :
-       {std::pair{"encoder_um", Unit::um}, {"encoder_mm", Unit::mm}, {"encoder_m", Unit::metre}}) {
+       {std::pair{"encoder_um", Unit::um},
+        {"encoder_mm", Unit::mm},
+        {"encoder_m", Unit::metre},
+        {"encoder_V", Unit::volt}}) {  // the rig says whether it has a scale
     const auto header = log_header("time_s," + std::string(name) + ",A_um\n");
     ASSERT_TRUE(header) << header.error().message;
     EXPECT_EQ(header->channels[0], (Channel{"encoder", unit})) << name;
@@ -92,7 +95,7 @@ TEST(ProbeLogHeader, TakesThePositionInAnyUnitOfLengthThatIsNamed) {
 }
 
 TEST(ProbeLogHeader, RefusesTimeAndPositionInAnyOtherUnitByName) {
-  for (const char* name : {"encoder", "encoder_V", "encoder_nm", "encoder_counts", "encoder_C",
+  for (const char* name : {"encoder", "encoder_mV", "encoder_nm", "encoder_counts", "encoder_C",
                            "encoder_urad", "encoder_s", "encoder_in"})
     expect_error("time_s," + std::string(name) + ",A_um\n",
                  {"column 2 \"" + std::string(name) + "\"", "encoder_mm"});

@@ -125,5 +125,14 @@ TEST(RigCheck, TargetsInOtherUnits) {
   expect_warned(with("HEIGHT", "500", map), {"r.toml:19: ", "flatness_um", "not nm"});
 }
 
+TEST(RigEncoder, HasAScaleInVoltsOrNone) {
+  EXPECT_EQ(parse_rig(kRig, "r.toml")->encoder_um_per_V, std::nullopt);
+  EXPECT_EQ(parse_rig(kRig + "[encoder]\num_per_V = -12.5\n", "r.toml")->encoder_um_per_V, -12.5);
+  for (const char* value : {"0", "nan", "inf", "-inf", "\"1\""})
+    expect_refused(kRig + "[encoder]\num_per_V = " + value + "\n", {"r.toml:16: ", "um_per_V"});
+  expect_refused(kRig + "[encoder]\n", {"um_per_V"});
+  expect_refused(kRig + "[encoder]\num_per_V = 1\num_per_v = 1\n", {"r.toml:17: ", "um_per_v"});
+}
+
 }  // namespace
 }  // namespace mdof

@@ -27,10 +27,10 @@ std::string deeds_json(const std::vector<Deed>& deeds, std::int64_t total) {
 }
 
 std::string deeds_text(const std::vector<Deed>& deeds) {
-  TextTable table({"when", "what", "of", "id", "by"});
+  TextTable table({"when", "what", "of", "id", "by", "detail"});
   for (const Deed& deed : deeds)
-    table.add(
-        {deed.utc, deed.name, deed.subject, std::to_string(deed.row), daemon::doer_text(deed.by)});
+    table.add({deed.utc, deed.name, deed.subject, std::to_string(deed.row),
+               daemon::doer_text(deed.by), deed.detail});
   return table.text(terminal_columns());
 }
 
@@ -45,8 +45,8 @@ Status list_history(const HistoryCommand& command) {
 
 void add_history(CLI::App& app, Action& chosen) {
   const auto o = std::make_shared<HistoryCommand>();
-  auto* command =
-      app.add_subcommand("history", "Who started, stopped, built and activated, newest first");
+  auto* command = app.add_subcommand(
+      "history", "Who started, stopped, built, activated and set an encoder, newest first");
   add_database_option(*command, o->database);
   command->add_option("--offset", o->offset, "Leave out so many")->check(CLI::NonNegativeNumber);
   command->add_option("--count", o->count, "At most")

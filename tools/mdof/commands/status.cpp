@@ -27,6 +27,15 @@ std::string or_dash(const std::optional<std::int64_t>& number) {
   return number ? std::to_string(*number) : "-";
 }
 
+// Of the axes of which there is more to say than that they know their positions.
+std::string encoder_text(const array& axes, std::size_t columns) {
+  std::string lines;
+  for (const element axis : axes)
+    if (const std::string note = text(axis["encoder"], "note"); !note.empty())
+      lines += wrapped("encoder of " + text(axis, "axis") + ": " + note, columns, 2) + "\n";
+  return lines;
+}
+
 std::string server_text(const element& info, std::size_t columns) {
   std::string lines = text(info, "server") + " " + text(info, "version") + ", up for " +
                       fixed(number(info, "uptime_s"), 0) + " s\n" +
@@ -39,7 +48,8 @@ std::string server_text(const element& info, std::size_t columns) {
   for (const element axis : axes)
     table.add({text(axis, "axis"), or_dash(integer(axis, "run")), text(axis, "rig"),
                joined(texts(axis, "devices")), flag(axis, "simulated") ? "SIMULATED" : "no"});
-  return lines + (axes.size() > 0 ? "\n" + table.text(columns) : "no axis is configured\n");
+  if (axes.size() == 0) return lines + "no axis is configured\n";
+  return lines + "\n" + table.text(columns) + encoder_text(axes, columns);
 }
 
 std::string compensation_text(const element& status, std::size_t columns) {

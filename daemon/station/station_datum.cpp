@@ -1,0 +1,69 @@
+// Station: somebody says where the axis stands. Found by the measuring thread, stored, and only
+// then in force; meanwhile no run can begin.
+#include "daemon/doer.h"
+#include "daemon/station/open_run.h"
+#include "daemon/station/station.h"
+
+namespace mdof::daemon {
+
+// ---- main thread ----
+
+void Station::set_encoder(double position_m, const Deed& deed, DatumDone done) {
+  const std::string axis(1, letter(config_.rig.axis));
+  if (!config_.live())
+    return done(fail(ErrorCode::conflict,
+                     "axis " + axis + " is read from a log, whose positions are as they are"));
+  std::int64_t none = 0;
+  if (!shared_->run.compare_exchange_strong(none, -1))
+    return done(fail(ErrorCode::conflict, "a run of axis " + axis +
+                                              " is under way and its positions must not shift; "
+                                              "stop it with run.stop first"));
+  Item item;
+  item.kind = Item::Kind::datum;
+  item.position_m = position_m;
+  item.deed = deed;
+  item.datum_done = std::move(done);
+  shared_->queue.push_always(std::move(item));
+}
+
+// ---- measuring thread; no run is under way: set_encoder() has seen to it ----
+
+void Station::take_datum(const Item& item) {
+  const auto found = zero_.find(config_.rig.axis, item.position_m, item.deed->utc);
+  if (found) return store_datum(*found, item);
+  shared_->run = 0;
+  item.datum_done(tl::unexpected(found.error()));
+}
+
+void Station::store_datum(const DatumSetting& setting, const Item& asked) {
+  const auto put = [shared = shared_, deed = asked.deed,
+                    done = asked.datum_done](Result<DatumSetting> stored) {
+    Item item;
+    item.kind = Item::Kind::datum_stored;
+    item.setting = std::move(stored);
+    item.deed = deed;
+    item.datum_done = done;
+    shared->queue.push_always(std::move(item));
+  };
+  if (const std::string fault = keeper_.fault(); !fault.empty()) return put(io_error(fault));
+  const bool posted = keeper_.post([put, setting, deed = asked.deed](store::Store& store) {
+    const auto id = store.add_datum(setting, deed);
+    put(id ? Result<DatumSetting>(setting) : tl::unexpected(id.error()));
+  });
+  if (!posted) put(io_error("the store is behind with its work; try again"));
+}
+
+// The live view begins afresh, as the axis does not jump.
+void Station::put_datum(const Item& item) {
+  const auto set = item.setting ? zero_.put(*item.setting, doer_text(item.deed->by))
+                                : Result<EncoderDatum>(tl::unexpected(item.setting.error()));
+  if (set) {
+    view_.reset();
+    for (auto& acquisition : acquisitions_)
+      if (acquisition->spec().name == set->device) acquisition->trust_count();
+  }
+  shared_->run = 0;
+  item.datum_done(set);
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,130 @@
+// Where an axis stands by somebody's word: found, then in force; and what is told of it once it is
+// lost.
+#include "daemon/station/encoder_zero.h"
+
+#include <gtest/gtest.h>
+
+#include "drivers/clock/monotonic.h"
+
+namespace mdof::daemon {
+namespace {
+
+drivers::DriverSpec counting() {
+  drivers::DriverSpec device;
+  device.driver = device.name = "t7";
+  device.channels = {kEncoderChannel};
+  device.encoder.counts = true;
+  return device;
+}
+
+// 0.3 s of an axis at rest, up to now.
+SampleBlock resting_at(double mm) {
+  SampleBlock block{"t7", {{kEncoderChannel, Unit::mm}}, {}, {{}}, {{}}, 0};
+  const std::int64_t end_ns = drivers::monotonic_ns();
+  for (int i = 300; i > 0; --i) {
+    block.time_ns.push_back(end_ns - i * 1'000'000);
+    block.value[0].push_back(mm);
+    block.quality[0].push_back(Quality::good);
+  }
+  return block;
+}
+
+DatumSetting said(double position_m) {
+  return {1, mdof::Axis::y, "t7", 0, position_m, position_m, "2026-11-01T06:00:00Z"};
+}
+
+bool begins_with(const std::string& text, const std::string& part) {
+  return text.starts_with(part);
+}
+
+TEST(EncoderZero, WhatIsFoundHoldsOnlyOnceItIsPut) {
+  EncoderZero zero({counting()});
+  SampleBlock block = resting_at(3);
+  zero.apply(block);
+  const auto found = zero.find(mdof::Axis::y, 0.0125, "2026-11-23T07:00:00Z");
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->before_m, 0.003, 1e-12);
+  EXPECT_NEAR(found->offset_m, 0.0095, 1e-12);
+  EXPECT_EQ(found->axis, mdof::Axis::y);
+  EXPECT_EQ(found->device, "t7");
+  EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
+  block = resting_at(3);
+  zero.apply(block);
+  EXPECT_EQ(block.value[0][0], 3);
+  ASSERT_TRUE(zero.put(*found, "uid 1000"));
+  block = resting_at(3);
+  zero.apply(block);
+  EXPECT_NEAR(block.value[0][0], 12.5, 1e-9);
+  EXPECT_EQ(zero.state().note, "set to 12.5 mm on 2026-11-23T07:00:00Z by uid 1000");
+}
+
+TEST(EncoderZero, VoltsAreOffsetByTheirScale) {
+  EncoderZero zero({counting()}, std::nullopt, -500);
+  SampleBlock block = resting_at(2);
+  block.channels[0].unit = Unit::volt;  // -1 mm
+  zero.apply(block);
+  const auto found = zero.find(mdof::Axis::x, 0.004, "now");
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->before_m, -0.001, 1e-12);
+  ASSERT_TRUE(zero.put(*found, "me"));
+  block = resting_at(2);
+  block.channels[0].unit = Unit::volt;
+  zero.apply(block);
+  EXPECT_NEAR(block.value[0][0] * -500, 4000, 1e-6);
+}
+
+TEST(EncoderZero, ASecondTimeCountsFromWhatHolds) {
+  EncoderZero zero({counting()});
+  for (const double position_m : {0.0125, 0.1}) {
+    SampleBlock block = resting_at(3);
+    zero.apply(block);
+    ASSERT_TRUE(zero.put(zero.find(mdof::Axis::y, position_m, "now").value(), "me"));
+  }
+  EXPECT_NEAR(zero.datum().offset_m, 0.097, 1e-12);
+}
+
+TEST(EncoderZero, WhatWasFoundBeforeThePowerWentIsNotPut) {
+  EncoderZero zero({counting()});
+  SampleBlock block = resting_at(3);
+  zero.apply(block);
+  const auto found = zero.find(mdof::Axis::y, 0.0125, "now");
+  ASSERT_TRUE(found);
+  zero.lose("t7");
+  const auto put = zero.put(*found, "me");
+  ASSERT_FALSE(put);
+  EXPECT_EQ(put.error().code, ErrorCode::conflict);
+  EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
+}
+
+TEST(EncoderZero, WhatARestartForgotIsTold) {
+  EXPECT_TRUE(begins_with(EncoderZero({counting()}).state().note, "the encoder (device \"t7\")"));
+  const std::string lost =
+      "set to 12.5 mm on 2026-11-01T06:00:00Z, lost by a restart of mdofd: set it again (mdof "
+      "encoder set Y POSITION_MM); ";
+  EXPECT_TRUE(begins_with(EncoderZero({counting()}, said(0.0125)).state().note,
+                          lost + "the encoder (device \"t7\") has no datum"));
+  auto configured = counting();
+  configured.encoder.offset_mm = 5;
+  EXPECT_EQ(EncoderZero({configured}, said(0.0125)).state().note,
+            lost + "until then offset_mm of the configuration holds");
+  auto absolute = counting();
+  absolute.encoder.counts = false;
+  EXPECT_EQ(EncoderZero({absolute}, said(0.0125)).state().note,
+            lost + "until then positions are as the device shows them");
+  EXPECT_EQ(EncoderZero({absolute}).state().note, "");
+}
+
+TEST(EncoderZero, WhatThePowerTookIsToldOtherwise) {
+  EncoderZero zero({counting()}, said(0.5));
+  SampleBlock block = resting_at(3);
+  zero.apply(block);
+  ASSERT_TRUE(zero.put(zero.find(mdof::Axis::y, 0.0125, "2026-11-23T07:00:00Z").value(), "me"));
+  zero.lose("t7");
+  EXPECT_TRUE(begins_with(zero.state().note,
+                          "set to 12.5 mm on 2026-11-23T07:00:00Z, lost when its device was "
+                          "without power: set it again"))
+      << zero.state().note;
+}
+
+}  // namespace
+}  // namespace mdof::daemon

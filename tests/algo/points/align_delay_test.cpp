@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "algo/points/align.h"
+#include "algo/points/dwell.h"
 
 namespace mdof::algo {
 namespace {
@@ -96,6 +97,54 @@ TEST(AlignDelay, LongerThanTheLagBoundIsAwaitedAndASilentProbeIsNot) {
   ASSERT_EQ(some.size(), 649u);  // to 0.35 s before the newest
   EXPECT_EQ(some.quality_at(2, 100), Quality::missing);
   EXPECT_EQ(some.quality_at(0, 100), Quality::good);
+}
+
+// An axis that goes on by 1 mm and stops for 0.5 s, and a probe behind a mean of the last 161 ms.
+SampleBlock averaged_stops() {
+  constexpr int kMean = 161;
+  SampleBlock b;
+  b.device = "daq";
+  b.channels = {{kEncoderChannel, Unit::metre}, {"A", Unit::metre}};
+  b.value.resize(2);
+  for (int t = 0; t < 5200; ++t) {
+    const int stop = t / 520, on = std::max(0, t % 520 - 500);  // 20 ms of travel
+    b.time_ns.push_back(std::int64_t{1'000'000} * t);
+    b.value[0].push_back(1e-3 * stop + 50e-6 * on);
+  }
+  for (int t = 0; t < 5200; ++t) {
+    double sum_m = 0;
+    for (int i = 0; i < kMean; ++i)
+      sum_m += b.value[0][static_cast<std::size_t>(std::max(0, t - i))];
+    b.value[1].push_back(kSlope * sum_m / kMean);
+  }
+  return b;
+}
+
+// What the probe is off by at the worst of the stops, m.
+double worst_stop_m(const AlignOptions& align, const DwellOptions& dwell) {
+  Aligner aligner(align, {"A"});
+  DwellDetector detector(dwell, {"A"}, {200e-6});
+  SampleBlock block = averaged_stops();
+  FrameBlock out;
+  std::vector<Point> points;
+  EXPECT_TRUE(aligner.push(block, out));
+  aligner.flush(out);
+  detector.push(out, points);
+  detector.flush(points);
+  EXPECT_GE(points.size(), 9u);
+  double worst = 0;
+  for (const Point& p : points)
+    worst = std::max(worst, std::abs(p.probe_m[0] - kSlope * p.position_m));
+  return worst;
+}
+
+// Half of its mean before the instant and half after it: settled for and left out.
+TEST(AlignDelay, AStopIsOfTheStopAloneWhereAFilterIsSettledForAndLeftOut) {
+  const AlignOptions known{.delay_s = {{"A", 0.08}}};
+  EXPECT_LT(worst_stop_m(known, {.leave_s = 0.08}), 1e-14);
+  EXPECT_GT(worst_stop_m(known, {}), 1e-9);
+  EXPECT_GT(worst_stop_m({}, {.leave_s = 0.08}), 1e-9);
+  EXPECT_GT(worst_stop_m(known, {.settle_s = 0.03, .leave_s = 0.08}), 1e-9);
 }
 
 }  // namespace

@@ -128,6 +128,10 @@ TEST_F(ConfigFile, ChannelsOfAnyDriverMayHaveADelay) {
       << refusal("[measure]\nsettle_s = 0.003\n" + delayed);
   EXPECT_NE(refusal(kAxis + "channel = [{ id = \"B\", input = \"1\" }]\n").find("unknown key"),
             std::string::npos);
+  // Its scans are then interpolated, as of several devices.
+  const std::string gap = "[measure]\nmax_gap_s = 0.05\n", slow = "rate_hz = 10\n";
+  EXPECT_EQ(refusal(gap + kAxis + slow), "accepted");
+  EXPECT_NE(refusal(gap + delayed + slow).find("max_gap_s = 0.05"), std::string::npos);
 }
 
 // Probes of a slow AD7746 beside a counter: accepted by themselves, refused with a gap that is

@@ -26,7 +26,7 @@ struct Settings {
   double rate_hz = 1000;
   std::optional<double> convert_us;  // from input to input of a scan
   std::vector<InputSetting> inputs;
-  EncoderOrigin encoder;  // where an input gives its volts
+  EncoderOrigin encoder = {};  // where an input gives its volts
   BoardOpener open = open_board;
 };
 

@@ -22,8 +22,8 @@ struct Settings {
   std::string serial;  // "": the only one there is
   double rate_hz = 1000;
   Range range = kRanges.front();
-  std::vector<Input> inputs;  // in the order of the configuration; the device's is by number
-  EncoderOrigin encoder;      // where an input gives its volts
+  std::vector<Input> inputs;   // in the order of the configuration; the device's is by number
+  EncoderOrigin encoder = {};  // where an input gives its volts
 };
 
 std::uint8_t mask_of(const std::vector<Input>& inputs);

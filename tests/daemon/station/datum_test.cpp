@@ -15,9 +15,9 @@ constexpr int kStop = 500, kMove = 100;  // scans, at 1 kHz
 
 // Stops at 0, 5, 10, 15, 20 mm and back; from stop `restart` on the encoder shows 7 mm less and is
 // suspect.
-class Axis {
+class LostCountAxis {
  public:
-  explicit Axis(int restart) {
+  explicit LostCountAxis(int restart) {
     const double stops_mm[] = {-1, 0, 5, 10, 15, 20, 21, 20, 15, 10, 5, 0, -1};
     double from_mm = stops_mm[0];
     int stop = 0;
@@ -60,7 +60,7 @@ class Axis {
   std::vector<bool> suspect_;
 };
 
-Result<Run> measured(const Axis& axis, std::size_t scans, std::size_t per_block,
+Result<Run> measured(const LostCountAxis& axis, std::size_t scans, std::size_t per_block,
                      std::vector<double> targets_m = {}) {
   MDOF_TRY(const Rig rig, load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml"));
   PipelineOptions options;
@@ -83,7 +83,7 @@ constexpr int kRestart = 8;  // at 15 mm on the way back
 constexpr std::size_t kBefore = kRestart * (kMove + kStop);
 
 TEST(Datum, StopsAfterItIsLostAreLeftOutAndCounted) {
-  const Axis axis(kRestart);
+  const LostCountAxis axis(kRestart);
   for (const std::size_t per_block : {1u, 64u, 100'000u}) {
     const auto whole = measured(axis, axis.scans(), per_block);
     const auto before = measured(axis, kBefore, per_block);
@@ -104,21 +104,21 @@ TEST(Datum, StopsAfterItIsLostAreLeftOutAndCounted) {
 }
 
 TEST(Datum, AFalsePlaceIsNoGivenTarget) {
-  const Axis axis(kRestart);  // 7 mm less: 15 mm looks like 8, 12 would look like 5
+  const LostCountAxis axis(kRestart);  // 7 mm less: 15 mm looks like 8, 12 would look like 5
   const auto run = measured(axis, axis.scans(), 100, {0, 0.005, 0.008, 0.010, 0.015, 0.020});
   ASSERT_TRUE(run) << run.error().message;
   for (const auto& p : run->points) EXPECT_NE(p.target, 3) << "a stop at 15 mm counted as 8 mm";
 }
 
 TEST(Datum, LostFromTheStartIsTheReasonWhyNothingWasMeasured) {
-  const Axis axis(0);
+  const LostCountAxis axis(0);
   const auto run = measured(axis, axis.scans(), 100);
   ASSERT_FALSE(run);
   EXPECT_NE(run.error().message.find("cannot be placed"), std::string::npos) << run.error().message;
 }
 
 TEST(Datum, SingleSuspectReadingsCostNoStop) {
-  const Axis axis(99);
+  const LostCountAxis axis(99);
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   Pipeline pipeline = Pipeline::create(rig, {}).value();
   for (std::size_t begin = 0; begin < axis.scans(); begin += 50) {
@@ -134,7 +134,7 @@ TEST(Datum, SingleSuspectReadingsCostNoStop) {
 
 // A device whose encoder has nothing to say yet when the run begins.
 TEST(Datum, AFirstScanWithoutPositionFailsNoRun) {
-  const Axis axis(99);
+  const LostCountAxis axis(99);
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   for (const std::size_t without : {std::size_t{1}, axis.scans()}) {
     Pipeline pipeline = Pipeline::create(rig, {}).value();

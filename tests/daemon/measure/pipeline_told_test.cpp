@@ -1,0 +1,143 @@
+// What a run says beside its points: of whom it is, where its positions come from, what was lost
+// and left out.
+#include <gtest/gtest.h>
+
+#include "algo/points/flags.h"
+#include "tests/daemon/measure/test_axis.h"
+
+namespace mdof::daemon {
+namespace {
+
+TestAxis pass_over_five() {
+  TestAxis axis;
+  axis.pass_both_ways({0, 5, 10, 15, 20});
+  return axis;
+}
+
+// Scans of the stops of pass_over_five(), 0 ... 9.
+constexpr std::size_t kToStop = 100, kAtStop = 400;
+constexpr std::size_t first_scan_of(std::size_t stop) {
+  return kToStop + stop * (kToStop + kAtStop) + (stop >= 5 ? kToStop : 0);
+}
+
+std::string told_of(const Run& run) {
+  std::string all;
+  for (const auto& warning : run.header.warnings) all += warning + "\n";
+  return all;
+}
+
+#define EXPECT_HAS_PART(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+Result<Run> run_of(Pipeline& pipeline, std::vector<SampleBlock> blocks) {
+  for (SampleBlock& block : blocks) MDOF_CHECK(pipeline.push(block));
+  return pipeline.finish();
+}
+
+TEST(PipelineTold, TheAxisAndItsFiguresAreThoseOfTheRig) {
+  const TestAxis axis = pass_over_five();
+  Pipeline pipeline = Pipeline::create(five_probe_rig('Y'), {}).value();
+  const auto run = run_of(pipeline, {axis.whole()});
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->header.axis, Axis::y);
+  ASSERT_FALSE(run->straightness.empty());
+  EXPECT_EQ(run->straightness.front().error_key, "EXY_um");
+  EXPECT_TRUE(run->header.notes.empty());
+}
+
+TEST(PipelineTold, PositionsWithoutADatumAreANote) {
+  const TestAxis axis = pass_over_five();
+  PipelineOptions options;
+  options.datum.kind = EncoderDatum::Kind::none;
+  options.datum.device = "t7";
+  Pipeline pipeline = Pipeline::create(five_probe_rig(), options).value();
+  const auto run = run_of(pipeline, {axis.whole()});
+  ASSERT_TRUE(run && run->header.notes.size() == 1);
+  EXPECT_HAS_PART(run->header.notes[0], "t7");
+}
+
+// One stop in which the encoder was suspect throughout.
+TEST(PipelineTold, AStopWithoutAPlaceIsLeftOutAndItsTimeIsSaid) {
+  const TestAxis axis = pass_over_five();
+  Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
+  SampleBlock block = axis.whole();
+  block.quality.assign(6, {});
+  block.quality[0].assign(block.scans(), Quality::good);
+  const std::size_t begin = first_scan_of(7);
+  std::fill_n(block.quality[0].begin() + static_cast<std::ptrdiff_t>(begin - 10), kAtStop + 20,
+              Quality::suspect);
+  const auto run = run_of(pipeline, {block});
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->points.size(), 9u);
+  for (const auto& p : run->points)
+    EXPECT_FALSE(p.target == 3 && p.point.direction < 0) << "the one at 10 mm on the way back";
+  EXPECT_HAS_PART(told_of(*run), "1 stop from 3.8");  // 3.7 s and what it is given to settle
+  EXPECT_HAS_PART(told_of(*run), "device \"daq\"");
+}
+
+TEST(PipelineTold, WhatTheEncoderDidNotSeeIsAWarning) {
+  const TestAxis axis = pass_over_five();
+  Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
+  const std::size_t unseen = first_scan_of(7) - kToStop;
+  SampleBlock after = axis.block(unseen + kToStop + 50, axis.scans());
+  after.lost = kToStop + 50;
+  const auto run = run_of(pipeline, {axis.block(0, unseen), after});
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_HAS_PART(told_of(*run), "no position was recorded for 0.15");
+}
+
+// Less than a window of the dwells: nothing can have happened in it.
+TEST(PipelineTold, AFewScansLostWithinAStopNeitherEndItNorHideAWay) {
+  const TestAxis axis = pass_over_five();
+  Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
+  const std::size_t lost_at = first_scan_of(7) + 200;
+  SampleBlock after = axis.block(lost_at + 20, axis.scans());
+  after.lost = 20;
+  const auto run = run_of(pipeline, {axis.block(0, lost_at), after});
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->header.scans_lost, 20u);
+  ASSERT_EQ(run->points.size(), 10u);
+  for (const auto& p : run->points)
+    EXPECT_FALSE(algo::has_flag(p.point, algo::kApproachAssumed)) << p.target;
+}
+
+// An axis that turns at its end targets has one visit of them.
+TEST(PipelineTold, HowTheSequenceWasTakenIsSaidWhereItIsADoubt) {
+  TestAxis axis;
+  for (const double mm : {0.0, 5.0, 10.0, 15.0, 20.0, 15.0, 10.0, 5.0, 0.0}) axis.stop_at(mm);
+  Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
+  const auto run = run_of(pipeline, {axis.whole()});
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->points.size(), 9u);
+  EXPECT_HAS_PART(told_of(*run), "pendulum");
+}
+
+// A second device whose samples come further apart than anything is interpolated over.
+TEST(PipelineTold, AProbeThatIsTooSlowIsTheReasonWithTheRemedy) {
+  const TestAxis axis = pass_over_five();
+  Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
+  const SampleBlock side = axis.block(0, axis.scans(), {"D", "E"}, "adam");
+  SampleBlock slow{"adam", side.channels, {}, {{}, {}}, {}, 0};
+  for (std::size_t i = 0; i < side.scans(); i += 100) append_scans(slow, side, i, i + 1);
+  const auto run =
+      run_of(pipeline, {axis.block(0, axis.scans(), {kEncoderChannel, "A", "B", "C"}), slow});
+  ASSERT_FALSE(run);
+  EXPECT_HAS_PART(run.error().message, "D");
+  EXPECT_HAS_PART(run.error().message, "max_gap_s");
+}
+
+TEST(PipelineTold, TheLiveViewShowsThatAReadingIsMissing) {
+  const TestAxis axis = pass_over_five();
+  Pipeline view = Pipeline::create(five_probe_rig(), {}).value();
+  SampleBlock block = axis.block(0, 300);
+  block.quality.assign(6, {});
+  block.quality[4].assign(300, Quality::missing);
+  block.value[4].assign(300, kNaN);
+  ASSERT_TRUE(view.push(block));
+  ASSERT_EQ(view.newest().size(), 1u);
+  EXPECT_EQ(view.newest().encoder_m.size(), 1u);
+  EXPECT_EQ(view.newest().quality_at(3, 0), Quality::missing);
+  EXPECT_EQ(view.newest().quality_at(2, 0), Quality::good);
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -97,6 +97,15 @@ TEST(RobustMeanPlainly, OfReadingsThatHardlyChange) {
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 99u);
 }
 
+TEST(RobustMeanPlainly, OfTwo) {
+  std::vector<double> scratch;
+  const RobustMean two = robust_mean(std::vector<double>{1, 3}, 1, scratch);
+  EXPECT_EQ(two.used, 2u);
+  EXPECT_EQ(two.mean, 2);
+  EXPECT_NEAR(two.sd, std::sqrt(2), 1e-15);
+  EXPECT_NEAR(two.u, 1, 1e-15);
+}
+
 TEST(RobustMeanPlainly, OfNoneAndOfOne) {
   std::vector<double> scratch;
   EXPECT_EQ(robust_mean({}, 1, scratch).used, 0u);

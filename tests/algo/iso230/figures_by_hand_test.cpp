@@ -137,6 +137,18 @@ TEST(TableByHand, GoesStraightOverAHole) {
   EXPECT_EQ(table_at(table_of({0, 1, 2}, {kNaN, 6, 8}), 0.5, TableSide::forward).error[0], 6);
 }
 
+// Targets of two runs are one within 2 % of the smallest step, 1 mm.
+TEST(TableByHand, TargetsOfTwoRunsAreOneWithinTwoHundredths) {
+  const auto nought = [](auto...) { return 0.0; };
+  for (const double off_m : {19.9e-6, -19.9e-6, 20.1e-6, -20.1e-6}) {
+    mdof::Run first = run_by_hand(Axis::x, kUneven_m, 1, nought, nought), second = first;
+    second.header.id = 7;
+    for (MeasuredPoint& p : second.points) p.point.position_m += p.target == 4 ? off_m : 0;
+    const auto table = build_table({first, second}, {});
+    EXPECT_EQ(table.has_value(), std::abs(off_m) < 20e-6) << off_m;
+  }
+}
+
 // Three runs turn by 10, 20 and 60 urad about the middle of targets that are not evenly apart:
 // s = √700 urad of the slopes, u = s/√3. Of the targets themselves it would be less.
 TEST(SquarenessByHand, TheScatterOfTheSlopesIsInIt) {

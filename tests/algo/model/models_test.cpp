@@ -268,6 +268,20 @@ TEST(RigidModel, RefusesAnglesThatCannotBe) {
 }
 
 // sd of 20,000 solutions of noisy readings against the covariance that is reported.
+TEST(RigidModel, RefusesEachAngleBeyondAQuarter) {
+  const Solver solver = Solver::create(test::rig_x(), Model::rigid).value();
+  for (const std::size_t k : {kEx, kEy, kEz}) {
+    for (const double angle : {-0.26, -0.24, 0.24, 0.26}) {
+      Errors5 e{};
+      e[k] = angle;
+      const Eigen::VectorXd model = rigid_readings(solver.fixture(), 0.02, e);
+      const AxisErrors got = solver.solve(0.02, {model.begin(), model.end()}, {});
+      EXPECT_EQ(got.valid, std::abs(angle) < 0.25) << k << " " << angle;
+      EXPECT_EQ(got.reason.find("rotation beyond 0.25 rad") != std::string::npos, !got.valid);
+    }
+  }
+}
+
 TEST(Covariance, IsTheScatterOfNoisySolutions) {
   for (const Rig& rig : {test::rig_x(), test::rig_oblique()}) {
     const Solver solver = Solver::create(rig, Model::rigid).value();

@@ -137,6 +137,23 @@ TEST(EncoderJumpInMotion, AJumpOverTwoScansIsNone) {
   }
 }
 
+// Another one three scans later, or earlier, is in the speed after it, or before: a sixth of it in
+// the size of this one, and of both in that of its neighbour, which a jump is four times as large
+// as.
+TEST(EncoderJumpInMotion, OneWithAnotherBesideItIsNone) {
+  for (const std::size_t other : {kAt - 3, kAt + 3}) {
+    for (const double size_um : {30.0, 50.0}) {
+      auto rows = Motion{.speed_mm_s = 2, .jump_um = 100}.encoder_m();
+      for (std::size_t i = other; i < kRows; ++i) rows[i] += 1e-6 * size_um;
+      const auto jump = jump_among(rows);
+      ASSERT_EQ(jump.has_value(), size_um == 30) << other;
+      if (jump) {
+        EXPECT_NEAR(jump->size_m, 95e-6, 1e-12);
+      }
+    }
+  }
+}
+
 TEST(EncoderJumpInMotion, MissingPlacesAreNone) {
   auto rows = Motion{.speed_mm_s = 10}.encoder_m();
   for (std::size_t i = 25; i < 35; ++i) rows[i] = kNaN;

@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kRows = 16;
+constexpr std::size_t kRowsOfSlot = 16;
 
 // Mean |second difference| of white noise of this sd, and the share by which the quartile of 16
 // values lies below it.
@@ -22,7 +22,7 @@ double bend_of(double sd) {
 
 double floor_of(const std::vector<double>& sds) {
   NoiseFloor floor;
-  for (const double sd : sds) floor.add(bend_of(sd), kRows);
+  for (const double sd : sds) floor.add(bend_of(sd), kRowsOfSlot);
   return floor.sd();
 }
 
@@ -59,8 +59,8 @@ TEST(NoiseFloorRule, NoNoiseIsNoughtAndWhatIsMissingIsNoSlot) {
   EXPECT_EQ(floor_of({0}), 0);
   EXPECT_EQ(floor_of({middle(4, -51)}), 0);  // below 1e-15 m
   NoiseFloor floor;
-  floor.add(bend_of(middle(5, -20)), kRows);
-  for (int i = 0; i < 10; ++i) floor.add(kNaN, kRows), floor.add(0, 0);
+  floor.add(bend_of(middle(5, -20)), kRowsOfSlot);
+  for (int i = 0; i < 10; ++i) floor.add(kNaN, kRowsOfSlot), floor.add(0, 0);
   EXPECT_NEAR(floor.sd() / middle(5, -20), 1, 1e-12);
 }
 

@@ -63,13 +63,13 @@ TEST(ProbeStepRule, WhereTheReadingCannotBeSettledThereIsNone) {
   EXPECT_EQ(Rows(17).steps(0, 10, 39).size(), 0u);
 }
 
-// The readings beside the step, and one of three a little further, may be anything.
+// Of three readings, not counting the one beside the step: one of them may be anything.
 TEST(ProbeStepRule, ItsSizeIsOfTheMiddleOneOfThree) {
   Rows rows;
-  rows.frames.probe_m[1][kAt - 2] = -0.4e-6;
-  rows.frames.probe_m[1][kAt + 3] = 1.4e-6;
-  ASSERT_EQ(rows.steps().size(), 1u);
-  EXPECT_EQ(rows.steps()[0].size_m, 1e-6);
+  rows.frames.probe_m[1][kAt - 2] = rows.frames.probe_m[1][kAt - 1] = -0.4e-6;
+  rows.frames.probe_m[1][kAt + 3] = rows.frames.probe_m[1][kAt + 4] = 1.4e-6;
+  ASSERT_EQ(rows.steps(0, 10, 24).size(), 1u);
+  EXPECT_EQ(rows.steps(0, 10, 24)[0].size_m, 1e-6);
 }
 
 TEST(ProbeStepRule, ItStaysAtSixTenthsAtLeast) {

@@ -192,6 +192,39 @@ TEST(Dwell, AGlitchOfTheEncoderIsNoApproach) {
   EXPECT_EQ(s.points[2].point.direction, 1);
 }
 
+// A knock that is seen in two slots (quarters of the window) is none, in three it is a way: the
+// axis came from above.
+TEST(Dwell, AKnockOfTwoSlotsIsNoApproach) {
+  for (const int length_ms : {14, 26}) {
+    Stepper axis;
+    axis.move_to(5e-3), axis.dwell();
+    while (axis.t_ns % 12'500'000 != 0) axis.scan();
+    axis.x += 0.3e-3;
+    for (int i = 0; i < length_ms; ++i) axis.scan();
+    axis.x -= 0.3e-3;
+    axis.dwell();
+    const auto points = detect(axis.frames, 1000);
+    ASSERT_EQ(points.size(), 2u) << length_ms;
+    EXPECT_EQ(points[0].direction, 1);
+    EXPECT_EQ(points[1].direction, length_ms == 14 ? 1 : -1);
+  }
+}
+
+// Half of the scans of a stop are enough for a probe.
+TEST(Dwell, AProbeIsLostWhereMostOfItsScansAreMissing) {
+  for (const int of_ten : {4, 6}) {
+    Stepper axis;
+    axis.passes({0, 2e-3}, 1);
+    auto& quality = axis.frames.probe_quality[0];
+    for (std::size_t i = 0; i < axis.frames.size(); ++i)
+      quality.push_back(static_cast<int>(i % 10) < of_ten ? Quality::good : Quality::missing);
+    for (const Point& p : detect(axis.frames, 1000)) {
+      EXPECT_EQ(std::isnan(p.probe_m[0]), of_ten == 4);
+      EXPECT_EQ(p.flags, std::vector<std::string>{of_ten == 4 ? "lost:A" : "missing:A"});
+    }
+  }
+}
+
 TEST(Dwell, AnEndlessStopKeepsMemoryBoundedAndSaysSo) {
   Stepper axis;
   axis.dwell_s = 60;

@@ -111,8 +111,10 @@ TEST(Allocation, IsTheSameHoweverItsTasksAreRun) {
 }
 
 // Every trial gives `scale` times its quantity, which is 1: within a limit up to just that factor.
+// Trial j of n gives (1 + spread j/n) times that.
 class Proportional : public ScalableExperiment {
  public:
+  explicit Proportional(double spread = 0) : spread_(spread) {}
   const std::vector<std::string>& outputs() const override { return outputs_; }
   const BinnedQuantity& binned() const override { return binned_; }
   const std::vector<std::string>& causes() const override { return quantities_; }
@@ -131,7 +133,8 @@ class Proportional : public ScalableExperiment {
                   std::size_t n, std::span<double* const> out) const override {
     for (std::size_t j = 0; j < n; ++j) {
       last_ = std::max(last_, first + step * j);
-      out[0][j] = j % 2 ? scale[0] : -scale[0];
+      const double size = scale[0] * (1 + spread_ * static_cast<double>(first + step * j) / 300);
+      out[0][j] = j % 2 ? size : -size;
     }
   }
   std::uint64_t last() const { return last_; }
@@ -140,6 +143,7 @@ class Proportional : public ScalableExperiment {
   std::vector<std::string> outputs_ = {"EBX_urad"}, quantities_ = {"probe.A.drift_nm"};
   std::vector<double> sizes_ = {3};
   BinnedQuantity binned_;
+  double spread_ = 0;
   mutable std::uint64_t last_ = 0;
 };
 
@@ -168,6 +172,24 @@ TEST(Allocation, OfAProportionalOutputIsItsLimit) {
   EXPECT_EQ(largest_factor(0x1p20), std::numeric_limits<double>::infinity());
   EXPECT_EQ(largest_factor(0x1.8p20), std::numeric_limits<double>::infinity());
   EXPECT_EQ(largest_factor(0x1.8p-21), 0);
+}
+
+// 300 trials from 1 to 2, of which 285 are to be within 10: the 285th in order is 1 + 284/300. The
+// bounds are of 293 and 277 trials: 285 ± 1.96 √(300 · 0.95 · 0.05) = 292.4 and 277.6.
+TEST(Allocation, IsThatOfTheOrderStatistic) {
+  const Proportional e(1);
+  const PlannedAllocation planned{"EBX_urad", 10, 0.95, {"probe.A.drift_nm"}, 300, "plan.toml:9"};
+  const Allocation found = allocate(e, planned).value();
+  const auto expect_just_below = [](double got, int rank) {
+    const double largest = 3 * 10 / (1 + (rank - 1) / 300.0);
+    EXPECT_LE(got, largest * (1 + 1e-12)) << rank;
+    EXPECT_GE(got, largest * (1 - 5e-4)) << rank;
+  };
+  expect_just_below(found.alone.at(0).value, 285);
+  expect_just_below(found.alone.at(0).low, 293);
+  expect_just_below(found.alone.at(0).high, 277);
+  const PlannedAllocation tight{"EBX_urad", 1.5, 0.95, {"probe.A.drift_nm"}, 300, "plan.toml:9"};
+  EXPECT_EQ(allocate(e, tight)->reached, 151 / 300.0);
 }
 
 TEST(Allocation, RefusesWhatIsNotThere) {

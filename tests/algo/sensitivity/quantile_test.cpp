@@ -35,6 +35,13 @@ TEST(HistogramScale, OfAConstantIsAShareOfItOrOfTheUnit) {
   EXPECT_EQ(scale_for({}).high(), 1);
 }
 
+// Edges keep apart: not less than 2^-30 of the size.
+TEST(HistogramScale, IsNotNarrowerThanItsEdgesAllow) {
+  const OutputScale narrow = scale_for({4, 4 + 0x1p-36}), wide = scale_for({4, 4 + 0x1p-28});
+  EXPECT_NEAR(narrow.width * kCoreBins / 0x1p-28, 1, 1e-6);
+  EXPECT_NEAR(wide.width * kCoreBins / 0x1p-27, 1, 1e-6);
+}
+
 const OutputScale kScale{-1, 2.0 / kCoreBins};
 
 std::uint64_t index_of(double x) {

@@ -102,16 +102,42 @@ TEST(StatisticsByHand, AnAdaptiveBlockHasAHundredTrialsOutside) {
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.99024).value(), 20480u);
 }
 
-// Blocks of -0 and of +0, the one or the other first.
+// Blocks of -0 and of +0 after a first number, the one or the other first.
 TEST(StatisticsByHand, NoughtHasOneSignInAnyOrder) {
-  std::vector<double> values(1024, 0.0);
-  std::fill_n(values.begin(), 512, -0.0);
-  const Given e(values);
-  StudyStatistics a(e, pilot_scale(e)), b(e, pilot_scale(e));
-  a.add_block(e, 0, 512), a.add_block(e, 512, 512);
-  b.add_block(e, 512, 512), b.add_block(e, 0, 512);
-  EXPECT_EQ(a.serialise(), b.serialise());
-  EXPECT_FALSE(std::signbit(a.overall()[0].min) || std::signbit(a.overall()[0].max));
+  for (const double first : {5.0, -5.0}) {
+    std::vector<double> values(1024, 0.0);
+    std::fill_n(values.begin(), 512, -0.0);
+    values[0] = values[512] = first;
+    const Given e(values);
+    StudyStatistics a(e, pilot_scale(e)), b(e, pilot_scale(e));
+    a.add_block(e, 0, 512), a.add_block(e, 512, 512);
+    b.add_block(e, 512, 512), b.add_block(e, 0, 512);
+    EXPECT_EQ(a.serialise(), b.serialise()) << first;
+    const OutputSummary s = a.overall()[0];
+    EXPECT_FALSE(std::signbit(first > 0 ? s.min : s.max)) << first;
+  }
+}
+
+// 1, 4, 9 ... of a number that is no multiple of what a processor takes at once.
+TEST(StatisticsByHand, OfAnyNumberByEveryInstructionSet) {
+  std::vector<double> squares;
+  for (int i = 1; i <= 17; ++i) squares.push_back(i * i);
+  const Given e(squares);
+  for (const InstructionSet set : available_instruction_sets()) {
+    for (std::uint64_t n = 2; n <= 17; ++n) {
+      StudyStatistics study_of_n(e, pilot_scale(e, 17), set);
+      study_of_n.add_block(e, 0, n);
+      const OutputSummary s = study_of_n.overall().at(0);
+      const auto x = static_cast<double>(n);
+      EXPECT_EQ(s.n, n);
+      EXPECT_NEAR(s.mean, (x + 1) * (2 * x + 1) / 6, 1e-9) << n;
+      // Sum of fourth powers n (n + 1) (2n + 1) (3n² + 3n - 1)/30.
+      const double fourth = (x + 1) * (2 * x + 1) * (3 * x * x + 3 * x - 1) / 30;
+      EXPECT_NEAR(s.sd, std::sqrt((fourth - s.mean * s.mean) * x / (x - 1)), 1e-6) << n;
+      EXPECT_EQ(s.min, 1);
+      EXPECT_EQ(s.max, x * x);
+    }
+  }
 }
 
 // Its end is marked by no count in no bin; bytes that end with no count in one bin are damaged.

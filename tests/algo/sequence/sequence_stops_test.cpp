@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "algo/points/flags.h"
 #include "schema/sample.h"
+#include "tests/algo/stepping_log.h"
 
 namespace mdof::algo {
 namespace {
@@ -175,7 +175,7 @@ TEST(ParkedStart, IsLeftOutWhereTheAxisCameAgain) {
   const auto left_out = [](bool assumed, const MeasuredPoint& next) {
     std::vector<MeasuredPoint> points = {stop_of(1, 2e-6, 1, kNaN, kNaN), next};
     points[0].point.begin_ns = 7;
-    if (assumed) add_flag(points[0].point, kApproachAssumed);
+    if (assumed) points[0].point.flags.emplace_back(kApproachAssumed);
     const auto found = leave_out_parked_start(points);
     EXPECT_EQ(points.size(), 2 - found.size());
     if (!found.empty()) {

@@ -259,6 +259,9 @@ Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& co
     MDOF_TRY(auto spec, read_device(device, base, axis, config.measure.dwell.settle_s));
     axis.devices.push_back(std::move(spec));
   }
+  if (const auto settles = check_settling(with_delays(config.measure, axis.rig, axis.delays));
+      !settles)
+    return bad_input(axis.rig.source + ": " + settles.error().message);
   take_machine(table, config.machine, axis.rig);
   if (axis.devices.empty()) {
     table.reject("device", "is missing; add [axis.device] with driver = \"...\"");

@@ -32,7 +32,7 @@ std::string too_long(double delay_s, double settle_s) {
   const std::string delay = plain_number(delay_s, kDigits);
   return "readings that come " + delay + " s late are of the way to a stop for longer than " +
          "settle_s = " + plain_number(settle_s, kDigits) + " s: raise settle_s of [measure] to " +
-         delay + " or more, or filter for a shorter time";
+         delay + " or more (mdof replay: --settle-s), or filter for a shorter time";
 }
 
 }  // namespace
@@ -59,12 +59,24 @@ PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const Chann
   const double encoder_s = of(delays, kEncoderChannel);
   bool differ = false;
   for (const Probe& probe : rig.probes) {
-    const double delay_s = of(delays, probe.id);
+    const double delay_s = probe.delay_s + of(delays, probe.id);
     differ = differ || delay_s != encoder_s;
     options.align.delay_s[probe.id] = delay_s - encoder_s;
     options.dwell.leave_s = std::max(options.dwell.leave_s, delay_s);
   }
   if (!differ) options.align.delay_s.clear();
+  return options;
+}
+
+PipelineOptions with_delays_of(const Rig& rig, const Rig& recorded, PipelineOptions options) {
+  for (const Probe& probe : rig.probes) {
+    const auto before = recorded.probe_index(probe.id);
+    const double more_s = probe.delay_s - (before ? recorded.probes[*before].delay_s : 0);
+    if (more_s == 0) continue;
+    double& delay_s = options.align.delay_s[probe.id];
+    delay_s += more_s;
+    options.dwell.leave_s = std::max(options.dwell.leave_s, delay_s);
+  }
   return options;
 }
 

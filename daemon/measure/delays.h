@@ -1,5 +1,6 @@
-// `delay_us` of channels: what their readings come later than their time stamps say, by a filter or
-// by their place in a scan; and what of it alignment takes out.
+// `delay_us` of a rig's probes (their amplifiers' filters) and of a device's channels (its filter,
+// their place in a scan): what readings come later than their time stamps say, and what of it
+// alignment takes out. A probe that has both has their sum.
 #pragma once
 
 #include <map>
@@ -22,6 +23,10 @@ void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDela
 // the encoder. A reading that comes late knows already of what came after its instant: so much is
 // left out at the end of each stop. Delays that are all the same leave the scans as they are.
 PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const ChannelDelays& delays);
+
+// For a replay: `options` with the delays of `rig` instead of those of `recorded`, which they have
+// in them already (no rig: none).
+PipelineOptions with_delays_of(const Rig& rig, const Rig& recorded, PipelineOptions options);
 
 // Error: stops are given less time to settle than the channels' filters need (`leave_s` of the same
 // options). Says what to set.

@@ -44,8 +44,20 @@ Result<PipelineOptions> options_of(const ReplayOrder& order, const ReplayLog& lo
   if (!order.targets_mm.empty()) options.sequence.targets_m.clear();
   for (const double t : order.targets_mm) options.sequence.targets_m.push_back(from_mm(t));
   std::sort(options.sequence.targets_m.begin(), options.sequence.targets_m.end());
-  const Status settles = check_settling(options);
-  if (order.settle_s && !settles) return fail(ErrorCode::usage, settles.error().message);
+  return options;
+}
+
+// With the delays of a rig that is given instead of the recorded one, or beside a CSV log.
+Result<PipelineOptions> delayed(PipelineOptions options, const ReplayOrder& order,
+                                const ReplayLog& log, const Rig& rig) {
+  const std::string recorded = log.rig_text();
+  Rig before;
+  if (!recorded.empty()) {
+    MDOF_TRY(before, parse_rig(recorded, order.log + " (its rig)"));
+  }
+  options = with_delays_of(rig, before, std::move(options));
+  if (const auto settles = check_settling(options); !settles)
+    return fail(ErrorCode::usage, settles.error().message);
   return options;
 }
 
@@ -62,7 +74,8 @@ Result<Rig> rig_of(const ReplayOrder& order, const ReplayLog& log) {
 Result<Run> replay(const ReplayOrder& order, const ReplayProgress& progress) {
   MDOF_TRY(ReplayLog log, ReplayLog::open(order.log));
   MDOF_TRY(const Rig rig, rig_of(order, log));
-  MDOF_TRY(const auto options, options_of(order, log));
+  MDOF_TRY(auto asked, options_of(order, log));
+  MDOF_TRY(const auto options, delayed(std::move(asked), order, log, rig));
   MDOF_TRY(Run run, replay(log, rig, options, progress));
   if (run.header.started_utc.empty()) run.header.started_utc = utc_now();
   if (!order.note.empty()) run.header.note = order.note;

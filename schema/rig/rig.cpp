@@ -11,6 +11,8 @@
 namespace mdof {
 namespace {
 
+constexpr double kMostDelay_us = 10e6;  // an average of more is no reading of an axis
+
 Vec3 unit_vector(Vec3 v) {
   const double norm = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   return {v[0] / norm, v[1] / norm, v[2] / norm};
@@ -101,6 +103,12 @@ Probe read_probe(TomlTable& table) {
   if (range_um <= 0) table.reject("range_um", "must be greater than zero");
   probe.range_m = from_um(range_um);
   probe.calibration = read_calibration(table);
+  const double delay_us = table.number("delay_us", 0.0);
+  if (!(delay_us >= 0 && delay_us <= kMostDelay_us))
+    table.reject("delay_us",
+                 "must be from 0 to 10000000: by how much later than the encoder's its readings "
+                 "come, by its amplifier's filter");
+  probe.delay_s = delay_us / 1e6;
   return probe;
 }
 

@@ -41,6 +41,8 @@ struct Probe {
   std::string plane;  // id of the target plane it looks at; empty: the one that its direction tells
   double range_m = 0;  // full range; saturated at ±range/2 (a gap probe: at 0 and range)
   Calibration calibration;
+  // By how much its readings come later than the encoder's: its amplifier's filter.
+  double delay_s = 0;
 };
 
 // Known flatness of a target plane: height above the plane on a grid, bilinear between, ends held.

@@ -69,6 +69,29 @@ TEST(Delays, ThatAreAllTheSameLeaveTheScansAsTheyAre) {
   EXPECT_EQ(with_delays({}, rig, same).dwell.leave_s, 0.004);
 }
 
+TEST(Delays, ThatOfAProbesAmplifierIsAddedToItsChannels) {
+  Rig rig = two_probes();
+  rig.probes[1].delay_s = 0.008;
+  const auto options = with_delays({}, rig, {{"A", 0.004}, {"B", 0.001}, {"encoder", 0.002}});
+  EXPECT_EQ(options.align.delay_s.at("A"), 0.004 - 0.002);
+  EXPECT_EQ(options.align.delay_s.at("B"), 0.008 + 0.001 - 0.002);
+  EXPECT_EQ(options.dwell.leave_s, 0.009);
+}
+
+TEST(Delays, AReplayTakesThoseOfItsRigInsteadOfTheRecordedOnes) {
+  Rig rig = two_probes(), recorded = two_probes();
+  const auto of_csv = with_delays_of(rig, Rig(), {});
+  EXPECT_TRUE(of_csv.align.delay_s.empty());
+  recorded.probes[0].delay_s = 0.004;
+  rig.probes[0].delay_s = 0.006;
+  PipelineOptions options = with_delays({}, recorded, {{"A", 0.001}});
+  EXPECT_EQ(with_delays_of(recorded, recorded, options).json(), options.json());
+  options = with_delays_of(rig, recorded, options);
+  EXPECT_DOUBLE_EQ(options.align.delay_s.at("A"), 0.007);
+  EXPECT_DOUBLE_EQ(options.dwell.leave_s, 0.007);
+  EXPECT_EQ(with_delays_of(rig, Rig(), {}).align.delay_s.at("A"), 0.006);
+}
+
 TEST(Delays, AReplayMayNotSettleForLess) {
   PipelineOptions options = with_delays({}, two_probes(), {{"A", 0.08}});
   EXPECT_TRUE(check_settling(options));

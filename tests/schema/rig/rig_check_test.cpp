@@ -101,6 +101,15 @@ TEST(RigCheck, RangesInOtherUnits) {
   expect_warned(with("range_um = 200", "range_um = 50e3"), {"r.toml:14: ", "range_um"});
 }
 
+TEST(RigCheck, TheDelayOfAnAmplifierIsInMicroseconds) {
+  const Result<Rig> rig = parse_rig(kRig + "delay_us = 8000\n", "r.toml");
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_EQ(rig->probes[0].delay_s, 0);
+  EXPECT_EQ(rig->probes[1].delay_s, 0.008);
+  for (const char* wrong : {"-1", "10_000_001", "nan"})
+    expect_refused(kRig + "delay_us = " + wrong + "\n", {"r.toml:15: ", "delay_us"});
+}
+
 TEST(RigCheck, CalibrationsInOtherUnits) {
   expect_refused(kRig + "um_per_V = 0.01\n", {"r.toml:15: ", "um_per_V", "2e+04 V"});
   expect_refused(kRig + "um_per_V = 1e6\n", {"r.toml:15: ", "um_per_V"});

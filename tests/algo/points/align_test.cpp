@@ -51,6 +51,20 @@ TEST(Aligner, OneDevicesBlocksFollowOneAnother) {
   EXPECT_EQ(out.encoder_m, std::vector<double>{10});
 }
 
+// What stood in frames that were taken is no mark of the next ones.
+TEST(Aligner, TakenFramesLeaveNoMarks) {
+  Aligner aligner({}, {"A"});
+  FrameBlock out;
+  SampleBlock b = block("dev", {"A", "encoder"}, {0}, 2.0);
+  b.quality = {{Quality::suspect}, {Quality::good}};
+  ASSERT_TRUE(aligner.push(b, out));
+  EXPECT_EQ(out.quality_at(0, 0), Quality::suspect);
+  out.time_ns.clear();
+  b = block("dev", {"A", "encoder"}, {1}, 2.0);
+  ASSERT_TRUE(aligner.push(b, out));
+  EXPECT_TRUE(out.probe_quality[0].empty());
+}
+
 // A sample of the encoder's very instant is all that it waits for.
 TEST(Aligner, AProbesSampleAtTheInstantIsEnough) {
   Aligner aligner({}, {"A"});

@@ -140,6 +140,16 @@ TEST(StatisticsByHand, OfAnyNumberByEveryInstructionSet) {
   }
 }
 
+TEST(StatisticsByHand, TrialsThatWereNotSolvedAreKept) {
+  const Given e({1, std::nan(""), 3, std::nan(""), 5});
+  const auto read = StudyStatistics::parse(study(e, 5).serialise(), e);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->trials(), 5u);
+  EXPECT_EQ(read->overall().at(0).n, 3u);
+  EXPECT_EQ(read->overall().at(0).unsolved, 2u);
+  EXPECT_NEAR(read->overall().at(0).mean, 3, 1e-12);
+}
+
 // Its end is marked by no count in no bin; bytes that end with no count in one bin are damaged.
 TEST(StatisticsByHand, TheEndOfAHistogramIsLookedAt) {
   const Given e({1, 3});

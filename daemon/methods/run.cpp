@@ -76,7 +76,7 @@ Result<RunRequest> read_request(const Params& params) {
     if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
       return fail(ErrorCode::usage, "targets_mm must ascend");
     }
-    request.targets_m.push_back(from_mm(target_mm));
+    request.targets_m.push_back(from_mm(target_mm) + 0.0);  // -0 is 0, as a replay reads it
   }
   if (request.repeats > 0 && request.targets_m.empty()) {
     return fail(ErrorCode::usage, "repeats goes with targets_mm, or with from_mm and to_mm");

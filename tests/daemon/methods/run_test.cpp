@@ -67,6 +67,13 @@ TEST_F(RunMethods, TargetsByIntervalAreWhatAListWouldBe) {
     EXPECT_NEAR(moved.number("/result/targets_mm/" + std::to_string(i)), 30.0 * i, 2);
 }
 
+// Its recording's JSON has no -0, and a replay is to give the same bits.
+TEST_F(RunMethods, ATargetOfMinusZeroIsZero) {
+  add_axis();
+  const Answer begun = call("run.start", R"({"axis":"X","targets_mm":[-0.0,5]})");
+  EXPECT_EQ(begun.at("/result/targets_mm"), "[0,5]") << begun.text();
+}
+
 TEST_F(RunMethods, IntervalsThatHideTheScalesErrorAreWarnedOf) {
   add_axis();
   const Answer begun = call("run.start", R"({"axis":"X","from_mm":0,"to_mm":10,"interval_mm":1,)"

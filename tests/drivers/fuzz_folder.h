@@ -1,0 +1,37 @@
+// A folder of a fuzzer's own for what has to be a file, in memory where the machine has such a file
+// system: a file that is written anew for each input costs a disk some milliseconds.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace mdof {
+
+class FuzzFolder {
+ public:
+  FuzzFolder() {
+    const std::filesystem::path memory = "/dev/shm";
+    std::error_code ec;
+    std::string name =
+        ((std::filesystem::is_directory(memory, ec) ? memory
+                                                    : std::filesystem::temp_directory_path()) /
+         "mdof_fuzz_XXXXXX")
+            .string();
+    if (!::mkdtemp(name.data())) std::abort();
+    path_ = name;
+  }
+  ~FuzzFolder() {
+    std::error_code ec;
+    std::filesystem::remove_all(path_, ec);
+  }
+  FuzzFolder(const FuzzFolder&) = delete;
+  FuzzFolder& operator=(const FuzzFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace mdof

@@ -155,13 +155,14 @@ class StationDatum : public FedStation {
   }
   Result<EncoderDatum> set(double mm) {
     std::promise<Result<EncoderDatum>> done;
-    station_->set_encoder(1e-3 * mm, "anna", [&](const auto& datum) { done.set_value(datum); });
+    const Deed deed{"encoder.set", {1000, 1000, 4711, "anna"}, "2026-11-23T08:00:00Z"};
+    station_->set_encoder(1e-3 * mm, deed, [&](const auto& datum) { done.set_value(datum); });
     return done.get_future().get();
   }
 };
 
 TEST_F(StationDatum, IsWhatTheUserSaysOfWhereTheAxisStands) {
-  EXPECT_EQ(station_->datum().kind, EncoderDatum::Kind::none);
+  EXPECT_EQ(station_->encoder().datum.kind, EncoderDatum::Kind::none);
   const auto nothing = set(12.5);
   ASSERT_FALSE(nothing);
   EXPECT_TOLD(nothing.error().message, "nothing has come from the encoder");
@@ -173,8 +174,8 @@ TEST_F(StationDatum, IsWhatTheUserSaysOfWhereTheAxisStands) {
   }
   ASSERT_TRUE(datum) << datum.error().message;
   EXPECT_NEAR(datum->offset_m, 10.5e-3, 1e-12);
-  EXPECT_EQ(station_->datum().kind, EncoderDatum::Kind::set);
-  EXPECT_EQ(station_->datum().by, "anna");
+  EXPECT_EQ(station_->encoder().datum.kind, EncoderDatum::Kind::set);
+  EXPECT_EQ(station_->encoder().datum.by, "uid 1000 (anna) gid 1000 pid 4711");
   EXPECT_EQ(station_->run(), 0) << "the axis is free for a run";
 }
 
@@ -185,7 +186,7 @@ TEST_F(StationDatum, DoesNotShiftUnderARun) {
   ASSERT_FALSE(datum);
   EXPECT_EQ(datum.error().code, ErrorCode::conflict);
   EXPECT_TOLD(datum.error().message, "stop it with run.stop first");
-  EXPECT_EQ(station_->datum().kind, EncoderDatum::Kind::none);
+  EXPECT_EQ(station_->encoder().datum.kind, EncoderDatum::Kind::none);
 }
 
 TEST_F(StationDatum, OfALogIsAsItIs) {

@@ -2,6 +2,7 @@
 """mdof beside a daemon: stop, replay into its database, and the same answers with it and without it.
 
 usage: command_line_test.py MDOFD MDOF"""
+import contextlib
 import json
 import os
 import re
@@ -106,6 +107,17 @@ class Replay(CommandLine):
         with self.assertRaisesRegex(RpcError, "settle_s.* must be from 0"):
             self.client.call("run.replay", path=LOG["X"], rig=open(RIG["X"]).read(), settle_s=-1)
 
+    def wait_until_read(self):
+        """Until the daemon's thread that reads a CSV log is there: the replay itself takes 0.2 s on a fast machine."""
+        tasks = f"/proc/{self.daemon.process.pid}/task"
+        for _ in range(10_000):
+            for task in os.listdir(tasks):
+                with contextlib.suppress(FileNotFoundError, ProcessLookupError), open(f"{tasks}/{task}/comm") as name:
+                    if name.read().strip() == "csv read":
+                        return
+            time.sleep(0.001)
+        self.fail("the daemon reads no log")
+
     def test_a_daemon_that_stops_gives_the_log_up(self):
         log = os.path.join(self.folder.name, "long.csv")
         with open(log, "w") as file:
@@ -113,7 +125,7 @@ class Replay(CommandLine):
             for i in range(1_500_000):
                 file.write(f"{i * 0.001:.3f},{i // 1000}.{i % 7},1,2,3,4,{i % 5}\n")
         asked = subprocess.Popen([MDOF, "replay", log, "--rig", RIG["X"], *self.at], stderr=subprocess.PIPE)
-        time.sleep(0.3)
+        self.wait_until_read()
         begin = time.monotonic()
         self.daemon.stop()
         self.assertLess(time.monotonic() - begin, 5)

@@ -75,7 +75,7 @@ TEST(Delays, ThatOfAProbesAmplifierIsAddedToItsChannels) {
   const auto options = with_delays({}, rig, {{"A", 0.004}, {"B", 0.001}, {"encoder", 0.002}});
   EXPECT_EQ(options.align.delay_s.at("A"), 0.004 - 0.002);
   EXPECT_EQ(options.align.delay_s.at("B"), 0.008 + 0.001 - 0.002);
-  EXPECT_EQ(options.dwell.leave_s, 0.009);
+  EXPECT_DOUBLE_EQ(options.dwell.leave_s, 0.009);
 }
 
 TEST(Delays, AReplayTakesThoseOfItsRigInsteadOfTheRecordedOnes) {

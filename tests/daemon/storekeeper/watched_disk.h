@@ -45,8 +45,8 @@ class WatchedDisk {
     static Current one;
     return one;
   }
-  // The real file lies behind it.
-  struct alignas(16) File {
+  // The real file lies behind it; SQLite's memory is aligned for both.
+  struct File {
     sqlite3_file base;
     sqlite3_file* real() { return reinterpret_cast<sqlite3_file*>(this + 1); }
   };

@@ -45,7 +45,7 @@ std::string text(const char* from) {
 }
 
 std::string open_error(const std::string& device, int error) {
-  const std::string what = device + ": " + comedi_strerror(error);
+  std::string what = device + ": " + comedi_strerror(error);
   if (error == ENOENT)
     return what +
            "; is the board there, and its driver loaded? ls /dev/comedi* (an ISA board is attached "

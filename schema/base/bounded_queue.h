@@ -4,12 +4,14 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <utility>
 
-namespace mdof::daemon {
+namespace mdof {
 
 // Thread-safe.
 template <class T>
@@ -63,11 +65,7 @@ class BoundedQueue {
   std::optional<T> pop(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
     filled_.wait_for(lock, timeout, [&] { return closed_ || !items_.empty(); });
-    if (items_.empty()) return std::nullopt;
-    std::optional<T> value(std::move(items_.front()));
-    items_.pop_front();
-    emptied_.notify_one();
-    return value;
+    return take_front();
   }
 
   // All of them into `taken`, the oldest first; none if none came in time or the queue is closed
@@ -79,6 +77,13 @@ class BoundedQueue {
     filled_.wait_for(lock, timeout, [&] { return closed_ || !items_.empty(); });
     taken.swap(items_);
     emptied_.notify_all();
+  }
+
+  // Waits for one; nothing if the queue is closed and empty.
+  std::optional<T> pop() {
+    std::unique_lock lock(mutex_);
+    filled_.wait(lock, [&] { return closed_ || !items_.empty(); });
+    return take_front();
   }
 
   // No more pushes; what is inside can still be popped.
@@ -99,6 +104,14 @@ class BoundedQueue {
   }
 
  private:
+  std::optional<T> take_front() {
+    if (items_.empty()) return std::nullopt;
+    std::optional<T> value(std::move(items_.front()));
+    items_.pop_front();
+    emptied_.notify_one();
+    return value;
+  }
+
   const std::size_t capacity_;
   mutable std::mutex mutex_;
   std::condition_variable filled_, emptied_;
@@ -107,4 +120,4 @@ class BoundedQueue {
   bool closed_ = false;
 };
 
-}  // namespace mdof::daemon
+}  // namespace mdof

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "algo/model/instruction_set.h"
 #include "algo/model/small_angle_kernel.h"
+#include "schema/base/instruction_set.h"
 
 namespace mdof::algo {
 namespace {

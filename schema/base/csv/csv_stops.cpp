@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstddef>
 
-#include "schema/base/avx512.h"
+#include "schema/base/compiled_for.h"
 
 namespace mdof {
 namespace {
@@ -23,13 +23,15 @@ std::uint64_t of_the_text(std::size_t n) {
 }
 
 // Bit i: byte p[i] is a stop, i < 64.
-std::uint64_t stop_bits(const char* p) {
+[[gnu::always_inline]] inline std::uint64_t stop_bits(const char* p) {
 #ifdef __SSE2__
-  auto sixteen = [p](int offset) {
-    const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + offset));
-    return static_cast<std::uint64_t>(_mm_movemask_epi8(_mm_cmplt_epi8(text, _mm_set1_epi8('-'))));
-  };
-  return sixteen(0) | sixteen(16) << 16 | sixteen(32) << 32 | sixteen(48) << 48;
+  std::uint64_t bits = 0;
+  for (unsigned i = 0; i < kStep; i += 16) {
+    const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + i));
+    const int stops = _mm_movemask_epi8(_mm_cmplt_epi8(text, _mm_set1_epi8('-')));
+    bits |= static_cast<std::uint64_t>(static_cast<unsigned>(stops)) << i;
+  }
+  return bits;
 #else
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < kStep; ++i)
@@ -38,32 +40,45 @@ std::uint64_t stop_bits(const char* p) {
 #endif
 }
 
-// std::popcount() without its call into a library where the processor is not known to have one.
-std::uint64_t count_bits(std::uint64_t bits) {
+// std::popcount(); without its call into a library where the processor is not known to have one.
+template <bool kHasInstruction>
+[[gnu::always_inline]] inline std::uint64_t count_bits(std::uint64_t bits) {
+  if constexpr (kHasInstruction) return static_cast<std::uint64_t>(std::popcount(bits));
   bits -= bits >> 1 & 0x5555555555555555;
   bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
   return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56;
 }
 
 // In groups of four: a loop of unknown length is mispredicted at its end.
-Out append(const char* text, std::size_t begin, std::uint64_t bits, Out out) {
-  std::uint32_t* const end = out.at + count_bits(bits);
+template <bool kPopcount>
+[[gnu::always_inline]] inline Out append(const char* text, std::size_t begin, std::uint64_t bits,
+                                         Out out) {
+  std::uint32_t* const end = out.at + count_bits<kPopcount>(bits);
+  Out to = out;
   do {
     for (int k = 0; k < 4; ++k, bits &= bits - 1) {
       const std::size_t at = begin + (static_cast<unsigned>(std::countr_zero(bits)) & 63u);
-      *out.at++ = static_cast<std::uint32_t>(at);
-      *out.byte++ = text[at];
+      to.at[k] = static_cast<std::uint32_t>(at);
+      to.byte[k] = text[at];
     }
-  } while (out.at < end);
-  return {end, out.byte - (out.at - end)};
+    to = {to.at + 4, to.byte + 4};
+  } while (to.at < end);
+  return {end, out.byte + (end - out.at)};
 }
 
-[[maybe_unused]] Out append_all(std::string_view text, Out out) {
+template <bool kPopcount>
+[[gnu::always_inline]] inline Out append_all(std::string_view text, Out out) {
   for (std::size_t begin = 0; begin < text.size(); begin += kStep) {
     const std::uint64_t bits = stop_bits(text.data() + begin) & of_the_text(text.size() - begin);
-    out = append(text.data(), begin, bits, out);
+    out = append<kPopcount>(text.data(), begin, bits, out);
   }
   return out;
+}
+Out append_all_baseline(std::string_view text, Out out) {
+  return append_all<false>(text, out);
+}
+MDOF_AVX2 Out append_all_avx2(std::string_view text, Out out) {
+  return append_all<true>(text, out);
 }
 
 #if defined(__x86_64__)
@@ -73,8 +88,7 @@ constexpr std::array<char, kStep> kPlaces = [] {
   return places;
 }();
 
-[[gnu::target("avx512f,avx512bw,avx512vbmi2,popcnt")]] Out append_all_avx512(std::string_view text,
-                                                                             Out out) {
+MDOF_AVX512 Out append_all_avx512(std::string_view text, Out out) {
   const __m512i all_places = _mm512_loadu_si512(kPlaces.data());
   for (std::size_t begin = 0; begin < text.size(); begin += kStep) {
     const __m512i bytes = _mm512_loadu_si512(text.data() + begin);
@@ -96,17 +110,16 @@ constexpr std::array<char, kStep> kPlaces = [] {
 #endif
 
 using AppendAll = Out (*)(std::string_view, Out);
-AppendAll choose() {
+AppendAll append_all_of(InstructionSet set) {
 #if defined(__x86_64__)
-  if (has_avx512()) return append_all_avx512;
+  if (has_avx512(set)) return append_all_avx512;
 #endif
-  return append_all;
+  return has_avx2(set) ? append_all_avx2 : append_all_baseline;
 }
 
 }  // namespace
 
-void find_stops(std::string_view text, CsvStops& stops) {
-  static const AppendAll kAppendAll = choose();
+void find_stops(std::string_view text, CsvStops& stops, InstructionSet set) {
   const std::size_t most = 1 + text.size() + kStep;
   if (stops.room < most) {
     stops.at.reset(new std::uint32_t[most]);
@@ -115,7 +128,7 @@ void find_stops(std::string_view text, CsvStops& stops) {
   }
   stops.at[0] = static_cast<std::uint32_t>(-1);
   stops.byte[0] = '\n';
-  const Out end = kAppendAll(text, {stops.at.get() + 1, stops.byte.get() + 1});
+  const Out end = append_all_of(set)(text, {stops.at.get() + 1, stops.byte.get() + 1});
   stops.count = static_cast<std::size_t>(end.at - stops.at.get());
 }
 

@@ -7,6 +7,8 @@
 #include <memory>
 #include <string_view>
 
+#include "schema/base/instruction_set.h"
+
 namespace mdof {
 
 // All bytes below '-' (as signed numbers): ',', LF, CR and what has no business in a row of plain
@@ -22,6 +24,7 @@ struct CsvStops {
 // Replaces `stops` with those of the text, which is below 4 GiB; reads up to kStopsMargin bytes
 // behind it.
 inline constexpr int kStopsMargin = 64;
-void find_stops(std::string_view text, CsvStops& stops);
+void find_stops(std::string_view text, CsvStops& stops,
+                InstructionSet set = best_instruction_set());
 
 }  // namespace mdof

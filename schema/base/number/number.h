@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "schema/base/instruction_set.h"
+
 namespace mdof {
 
 // Reads the longest number at `begin`: digits with an optional '-', '.' and exponent, or inf, nan;
@@ -22,6 +24,7 @@ struct DoubleText {
   char text[kDouble17Size];
   int size;
 };
-void write_doubles_17(const double* x, std::size_t n, DoubleText* out);
+void write_doubles_17(const double* x, std::size_t n, DoubleText* out,
+                      InstructionSet set = best_instruction_set());
 
 }  // namespace mdof

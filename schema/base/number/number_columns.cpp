@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "schema/base/avx512.h"
 #include "schema/base/number/number.h"
-#include "schema/base/number/number_columns_avx512.h"
+#include "schema/base/number/number_columns_vector.h"
 #include "schema/base/number/number_scan.h"
 #include "schema/base/number/seconds.h"
 
@@ -48,12 +47,12 @@ ColumnText after(const ColumnText& column, std::size_t rows) {
   return {column.text, column.stop + rows * column.stride, column.stride};
 }
 
-// Eight at a time while they are plain; eight that are not, and the last few, one by one.
-template <class T>
-std::size_t read_eights(const ColumnText& column, std::size_t n, T* out) {
+// Several at a time while they are plain; eight where some are not, and the last few, one by one.
+template <class T, class ReadPlain>
+std::size_t read_groups(ReadPlain* read_plain, const ColumnText& column, std::size_t n, T* out) {
   std::size_t j = 0;
   while (j < n) {
-    j += avx512::read_plain(after(column, j), n - j, out + j);
+    j += read_plain(after(column, j), n - j, out + j);
     const std::size_t few = std::min<std::size_t>(n - j, 8);
     const std::size_t read = read_one_by_one(after(column, j), few, out + j);
     j += read;
@@ -64,20 +63,14 @@ std::size_t read_eights(const ColumnText& column, std::size_t n, T* out) {
 
 }  // namespace
 
-std::size_t read_doubles_baseline(const ColumnText& column, std::size_t n, double* out) {
-  return read_one_by_one(column, n, out);
+std::size_t read_doubles(const ColumnText& column, std::size_t n, double* out, InstructionSet set) {
+  if (set == InstructionSet::baseline) return read_one_by_one(column, n, out);
+  return read_groups(plain_readers(set).doubles, column, n, out);
 }
-std::size_t read_times_ns_baseline(const ColumnText& column, std::size_t n, std::int64_t* out) {
-  return read_one_by_one(column, n, out);
-}
-
-std::size_t read_doubles(const ColumnText& column, std::size_t n, double* out) {
-  static const bool kWide = has_avx512();
-  return kWide ? read_eights(column, n, out) : read_one_by_one(column, n, out);
-}
-std::size_t read_times_ns(const ColumnText& column, std::size_t n, std::int64_t* out) {
-  static const bool kWide = has_avx512();
-  return kWide ? read_eights(column, n, out) : read_one_by_one(column, n, out);
+std::size_t read_times_ns(const ColumnText& column, std::size_t n, std::int64_t* out,
+                          InstructionSet set) {
+  if (set == InstructionSet::baseline) return read_one_by_one(column, n, out);
+  return read_groups(plain_readers(set).times_ns, column, n, out);
 }
 
 }  // namespace mdof

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "schema/base/instruction_set.h"
+
 namespace mdof {
 
 // Fields of one column in rows that follow one another: field j is the text between
@@ -19,12 +21,10 @@ inline constexpr int kColumnMargin = 64;
 
 // Reads up to n fields; gives the number of fields before the first that is not a finite decimal
 // number. The doubles are the nearest ones, as from parse_double(), whatever the processor.
-std::size_t read_doubles(const ColumnText& column, std::size_t n, double* out);
+std::size_t read_doubles(const ColumnText& column, std::size_t n, double* out,
+                         InstructionSet set = best_instruction_set());
 // The same for decimal seconds to nanoseconds, as from parse_seconds().
-std::size_t read_times_ns(const ColumnText& column, std::size_t n, std::int64_t* out);
-
-// The portable form of both, for tests.
-std::size_t read_doubles_baseline(const ColumnText& column, std::size_t n, double* out);
-std::size_t read_times_ns_baseline(const ColumnText& column, std::size_t n, std::int64_t* out);
+std::size_t read_times_ns(const ColumnText& column, std::size_t n, std::int64_t* out,
+                          InstructionSet set = best_instruction_set());
 
 }  // namespace mdof

@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "schema/base/avx512.h"
 #include "schema/base/number/number.h"
-#include "schema/base/number/number_digits_avx512.h"
+#include "schema/base/number/number_digits.h"
 #include "schema/base/number/number_round.h"
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -31,8 +30,9 @@ void store8(char* out, uint64_t v) {
 // The 17 digits of a number: one, eight, eight; the eights as bytes 0 ... 9, the first lowest.
 struct Digits {
   uint64_t first, upper, lower;
-  int significant;  // up to the last that is not 0
 
+  // Up to the last that is not 0.
+  int significant() const { return (lower ? 17 : 9) - std::countl_zero(lower ? lower : upper) / 8; }
   void store_rest(char* out) const {
     store8(out, upper | kZeros);
     store8(out + 8, lower | kZeros);
@@ -77,8 +77,7 @@ Digits split(uint64_t d) {
   const uint64_t nine = d / 100'000'000;
   const uint64_t first = d / 10'000'000'000'000'000;
   const Sixteen rest = sixteen_digits(nine - first * 100'000'000, d - nine * 100'000'000);
-  const int zeros = std::countl_zero(rest.lower ? rest.lower : rest.upper) / 8;
-  return {first, rest.upper, rest.lower, (rest.lower ? 17 : 9) - zeros};
+  return {first, rest.upper, rest.lower};
 }
 
 // "0.00ddd": -5 < exponent < 0
@@ -87,7 +86,7 @@ char* write_below_one(char* out, const Digits& digits, int exponent) {
   char* const first = out + 1 - exponent;
   *first = static_cast<char>('0' + digits.first);
   digits.store_rest(first + 1);
-  return first + digits.significant;
+  return first + digits.significant();
 }
 
 // "ddd.ddd" with `whole` digits before the point, 1 ... 7: the digits behind it move by one byte.
@@ -96,7 +95,7 @@ char* write_up_to_7_whole(char* out, const Digits& digits, int whole) {
   const uint64_t before = (uint64_t{1} << 8 * whole) - 1;
   digits.store_rest(out + 2);
   store8(out, (head & before) | uint64_t{'.'} << 8 * whole | (head & ~before) << 8);
-  return out + (digits.significant > whole ? digits.significant + 1 : whole);
+  return out + (digits.significant() > whole ? digits.significant() + 1 : whole);
 }
 
 // "d.ddde-05": -99 <= exponent < -4
@@ -117,17 +116,15 @@ char* write_digits(char* out, bool negative, const Digits& digits, int exponent)
   return write_scientific(out, digits, exponent);
 }
 
-void write_eight(const double* x, DoubleText* out) {
-  avx512::EightDigits digits;
-  const unsigned slow = avx512::find_digits(x, digits);
+void write_eight(FindDigits find, const double* x, DoubleText* out) {
+  EightDigits digits;
+  const unsigned slow = find(x, digits);
   for (std::size_t i = 0; i < 8; ++i) {
     const bool negative = std::bit_cast<uint64_t>(x[i]) >> 63;
-    const char* const end = slow >> i & 1
-                                ? write_slowly(out[i].text, x[i])
-                                : write_digits(out[i].text, negative,
-                                               {digits.first[i], digits.upper[i], digits.lower[i],
-                                                static_cast<int>(digits.significant[i])},
-                                               static_cast<int>(digits.exponent[i]));
+    const Digits of_one{digits.first[i], digits.upper[i], digits.lower[i]};
+    const char* const end = slow >> i & 1 ? write_slowly(out[i].text, x[i])
+                                          : write_digits(out[i].text, negative, of_one,
+                                                         static_cast<int>(digits.exponent[i]));
     out[i].size = static_cast<int>(end - out[i].text);
   }
 }
@@ -144,10 +141,10 @@ char* write_double_17(char* out, double x) {
   return write_digits(out, bits >> 63, split(decimal.digits), decimal.exponent);
 }
 
-void write_doubles_17(const double* x, std::size_t n, DoubleText* out) {
-  static const bool kWide = has_avx512();
+void write_doubles_17(const double* x, std::size_t n, DoubleText* out, InstructionSet set) {
+  const FindDigits find = find_digits(set);
   std::size_t i = 0;
-  for (; kWide && i + 8 <= n; i += 8) write_eight(x + i, out + i);
+  for (; find && i + 8 <= n; i += 8) write_eight(find, x + i, out + i);
   for (; i < n; ++i)
     out[i].size = static_cast<int>(write_double_17(out[i].text, x[i]) - out[i].text);
 }

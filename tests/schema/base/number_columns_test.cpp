@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -17,47 +21,86 @@ namespace {
 // Text of rows of two columns, the first of which is looked at, with other text around it.
 class Rows {
  public:
-  explicit Rows(const std::vector<std::string>& fields) : fields_(fields) {
+  explicit Rows(const std::vector<std::string>& fields, const std::string& line_end = "\n")
+      : fields_(fields), stops_of_row_(1 + line_end.size()) {
     text_ = std::string(kColumnMargin, '9');
-    for (const std::string& field : fields) text_ += field + ",7.5\n";
+    for (const std::string& field : fields) text_ += field + ",7.5" + line_end;
     size_ = text_.size() - kColumnMargin;
     text_ += std::string(kColumnMargin, '9');
     find_stops({text(), size_}, stops_);
   }
-  ColumnText column() const { return {text(), stops_.at.get(), 2}; }
+  ColumnText column(std::size_t from = 0) const {
+    return {text(), stops_.at.get() + from * stops_of_row_, stops_of_row_};
+  }
   std::size_t size() const { return fields_.size(); }
   const std::string& field(std::size_t j) const { return fields_[j]; }
 
  private:
   const char* text() const { return text_.data() + kColumnMargin; }
   std::vector<std::string> fields_;
+  std::size_t stops_of_row_;
   std::string text_;
   std::size_t size_ = 0;
   CsvStops stops_;
 };
 
-void expect_as_baseline(const Rows& rows) {
-  std::vector<double> fast(rows.size()), slow(rows.size());
-  const std::size_t n = read_doubles_baseline(rows.column(), rows.size(), slow.data());
-  ASSERT_EQ(read_doubles(rows.column(), rows.size(), fast.data()), n);
-  for (std::size_t j = 0; j < n; ++j)
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(fast[j]), std::bit_cast<std::uint64_t>(slow[j]))
-        << rows.field(j);
-  std::vector<std::int64_t> fast_ns(rows.size()), slow_ns(rows.size());
-  const std::size_t times = read_times_ns_baseline(rows.column(), rows.size(), slow_ns.data());
-  ASSERT_EQ(read_times_ns(rows.column(), rows.size(), fast_ns.data()), times);
-  for (std::size_t j = 0; j < times; ++j) ASSERT_EQ(fast_ns[j], slow_ns[j]) << rows.field(j);
+std::vector<double> read_all(const Rows& rows, InstructionSet set) {
+  std::vector<double> read(rows.size());
+  read.resize(read_doubles(rows.column(), rows.size(), read.data(), set));
+  return read;
+}
+std::vector<std::int64_t> read_all_ns(const Rows& rows, InstructionSet set) {
+  std::vector<std::int64_t> read(rows.size());
+  read.resize(read_times_ns(rows.column(), rows.size(), read.data(), set));
+  return read;
 }
 
+void expect_as_baseline(const Rows& rows) {
+  const auto doubles = read_all(rows, InstructionSet::baseline);
+  const auto times_ns = read_all_ns(rows, InstructionSet::baseline);
+  for (const InstructionSet set : available_instruction_sets()) {
+    SCOPED_TRACE(to_string(set));
+    const auto read = read_all(rows, set);
+    ASSERT_EQ(read.size(), doubles.size());
+    for (std::size_t j = 0; j < read.size(); ++j)
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(read[j]), std::bit_cast<std::uint64_t>(doubles[j]))
+          << rows.field(j);
+    const auto read_ns = read_all_ns(rows, set);
+    ASSERT_EQ(read_ns.size(), times_ns.size());
+    for (std::size_t j = 0; j < read_ns.size(); ++j)
+      ASSERT_EQ(read_ns[j], times_ns[j]) << rows.field(j);
+  }
+}
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// What std::from_chars makes of a whole field; NaN where that is no finite number.
+double from_chars(const std::string& field) {
+  double x = kNaN;
+  const char* const end = field.data() + field.size();
+  const auto [after, error] = std::from_chars(field.data(), end, x);
+  if (after != end) return kNaN;
+  if (error == std::errc::result_out_of_range) x = std::strtod(field.c_str(), nullptr);
+  return error == std::errc::invalid_argument || !std::isfinite(x) ? kNaN : x;
+}
+
+// Reads as far as there are numbers, and past each that is none.
 void expect_as_from_chars(const Rows& rows) {
-  std::vector<double> read(rows.size());
-  ASSERT_EQ(read_doubles(rows.column(), rows.size(), read.data()), rows.size());
-  for (std::size_t j = 0; j < rows.size(); ++j) {
-    double expected = 0;
-    const std::string& field = rows.field(j);
-    std::from_chars(field.data(), field.data() + field.size(), expected);
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(read[j]), std::bit_cast<std::uint64_t>(expected))
-        << field;
+  std::vector<double> expected;
+  for (std::size_t j = 0; j < rows.size(); ++j) expected.push_back(from_chars(rows.field(j)));
+  for (const InstructionSet set : available_instruction_sets()) {
+    SCOPED_TRACE(to_string(set));
+    std::vector<double> read(rows.size());
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      const ColumnText rest = rows.column(j);
+      const std::size_t end = j + read_doubles(rest, rows.size() - j, read.data() + j, set);
+      for (; j < end; ++j)
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(read[j]), std::bit_cast<std::uint64_t>(expected[j]))
+            << rows.field(j);
+      if (j < rows.size()) {
+        ASSERT_TRUE(std::isnan(expected[j])) << rows.field(j);
+      }
+    }
   }
 }
 
@@ -120,6 +163,62 @@ TEST(NumberColumns, RoundsHalvesToEven) {
   expect_as_from_chars(Rows(fields));
 }
 
+// A cell as files have them, or as somebody who means ill writes them; without a stop in it.
+std::string hostile_cell(Random& random) {
+  switch (random.below(16)) {
+    case 0:
+      return random.number(1, 17) + "e-" +
+             random.digits(1 + random.below(3));  // to denormals, to 0
+    case 1:
+      return random.number(18, 3) + "E" + random.digits(1 + random.below(3));  // to infinity
+    case 2:
+      return std::string(random.below(28), '0') + random.digits(random.below(20));
+    case 3:
+      return "-0." + std::string(random.below(24), '0') + random.digits(random.below(20));
+    case 4:
+      return random.digits(random.below(40));
+    case 5:
+      return std::array{
+          "nan", "-inf", "inf", "NaN", "", "-", ".", "-.", "--1", "1e"}[random.below(10)];
+    case 6: {  // one byte of a good one is another
+      std::string text = random.number(4, 14);
+      text[random.below(text.size())] = "./-0:e9;_\x7f"[random.below(10)];
+      return text;
+    }
+    case 7:
+      return random.number(2, 20) + std::array{"", ".", "-", "."}[random.below(4)];
+    default:
+      return random.below(2) ? random.number(3, 6) : random.number(2, 17);
+  }
+}
+
+TEST(NumberColumns, ReadsAMillionHostileCellsAsFromChars) {
+  Random random;
+  for (int round = 0; round < 100; ++round) {
+    const auto cell = [&] {
+      return random.below(24) > static_cast<std::uint64_t>(round % 25) ? random.number(3, 6)
+                                                                       : hostile_cell(random);
+    };
+    expect_as_from_chars(Rows(many(10'007, cell), round % 2 ? "\n" : "\r\n"));
+    if (HasFatalFailure()) return;
+  }
+}
+
+// Shortest text of any double: all exponents, denormals, 1 to 17 digits.
+TEST(NumberColumns, ReadsDoublesOfAnyBitsBack) {
+  Random random;
+  const auto cell = [&] {
+    const auto x = std::bit_cast<double>(random.below(~std::uint64_t{0}));
+    std::array<char, 400> text{};
+    const auto format = std::abs(x) < 1e18 && std::abs(x) > 1e-12 ? std::chars_format::fixed
+                                                                  : std::chars_format::scientific;
+    std::string shortest(text.data(), std::to_chars(text.data(), text.data() + 400, x, format).ptr);
+    std::erase(shortest, '+');
+    return shortest;
+  };
+  expect_as_from_chars(Rows(many(200'003, cell)));
+}
+
 TEST(NumberColumns, TakesTheEdges) {
   expect_as_from_chars(Rows({"0",
                              "-0",
@@ -147,6 +246,15 @@ TEST(NumberColumns, TakesTheEdges) {
                              "1"}));
 }
 
+// As long as what is looked at, and longer.
+TEST(NumberColumns, TakesAPointBeforeAllDigits) {
+  for (std::size_t size = 2; size < 40; ++size) {
+    const std::string digits(size - 1, '0');
+    expect_as_from_chars(Rows(std::vector<std::string>(24, "." + digits.substr(1) + "7")));
+    expect_as_from_chars(Rows(std::vector<std::string>(24, "-." + digits.substr(1) + "7")));
+  }
+}
+
 // One odd field in any place of a group must not hide, nor spoil its neighbours.
 TEST(NumberColumns, StopsBeforeWhatIsNoNumber) {
   for (const char* odd :
@@ -160,9 +268,8 @@ TEST(NumberColumns, StopsBeforeWhatIsNoNumber) {
       fields[at] = odd;
       const Rows rows(fields);
       expect_as_baseline(rows);
-      std::vector<double> read(24);
       if (std::string(odd).starts_with("1234567890")) continue;  // a number, if a long one
-      EXPECT_EQ(read_doubles(rows.column(), 24, read.data()), at) << odd;
+      EXPECT_EQ(read_all(rows, InstructionSet::baseline).size(), at) << odd;
     }
   }
 }
@@ -172,13 +279,12 @@ TEST(NumberColumns, ReadsTimesToTheNanosecond) {
   expect_as_baseline(Rows(many(20'003, [&] { return random.number(9, 9); })));
   const Rows rows({"0.000250", "1.000000001", "-3.5", "9199999998.999999999", "0", "12.", "7.25",
                    "1e-3", "0.1234567894", "0.1234567895", "99.5", "4", "5", "6", "7", "8"});
-  std::vector<std::int64_t> ns(rows.size());
-  ASSERT_EQ(read_times_ns(rows.column(), rows.size(), ns.data()), rows.size());
-  EXPECT_EQ(
-      ns, (std::vector<std::int64_t>{
-              250'000, 1'000'000'001, -3'500'000'000, 9'199'999'998'999'999'999, 0, 12'000'000'000,
-              7'250'000'000, 1'000'000, 123'456'789, 123'456'790, 99'500'000'000, 4'000'000'000,
-              5'000'000'000, 6'000'000'000, 7'000'000'000, 8'000'000'000}));
+  expect_as_baseline(rows);
+  EXPECT_EQ(read_all_ns(rows, best_instruction_set()),
+            (std::vector<std::int64_t>{
+                250'000, 1'000'000'001, -3'500'000'000, 9'199'999'998'999'999'999, 0,
+                12'000'000'000, 7'250'000'000, 1'000'000, 123'456'789, 123'456'790, 99'500'000'000,
+                4'000'000'000, 5'000'000'000, 6'000'000'000, 7'000'000'000, 8'000'000'000}));
 }
 
 TEST(NumberColumns, FindsAllStops) {
@@ -195,11 +301,14 @@ TEST(NumberColumns, FindsAllStops) {
       bytes += text[i];
     }
     const std::string padded = text + std::string(kStopsMargin, ',');
-    CsvStops stops;
-    find_stops({padded.data(), text.size()}, stops);
-    ASSERT_EQ(stops.count, expected.size() + 1);
-    EXPECT_EQ(std::vector(stops.at.get() + 1, stops.at.get() + stops.count), expected);
-    EXPECT_EQ(std::string(stops.byte.get() + 1, stops.byte.get() + stops.count), bytes);
+    for (const InstructionSet set : available_instruction_sets()) {
+      SCOPED_TRACE(to_string(set));
+      CsvStops stops;
+      find_stops({padded.data(), text.size()}, stops, set);
+      ASSERT_EQ(stops.count, expected.size() + 1);
+      EXPECT_EQ(std::vector(stops.at.get() + 1, stops.at.get() + stops.count), expected);
+      EXPECT_EQ(std::string(stops.byte.get() + 1, stops.byte.get() + stops.count), bytes);
+    }
   }
 }
 

@@ -66,12 +66,15 @@ void expect_as_printf(double x) {
 
 // The same text as one number at a time, whatever stands beside it.
 void expect_as_one_by_one(const std::vector<double>& x) {
-  std::vector<DoubleText> got(x.size());
-  write_doubles_17(x.data(), x.size(), got.data());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    char expected[kDouble17Size + 1];
-    *write_double_17(expected, x[i]) = 0;
-    ASSERT_EQ(std::string(got[i].text, static_cast<std::size_t>(got[i].size)), expected);
+  for (const InstructionSet set : available_instruction_sets()) {
+    SCOPED_TRACE(to_string(set));
+    std::vector<DoubleText> got(x.size());
+    write_doubles_17(x.data(), x.size(), got.data(), set);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      char expected[kDouble17Size + 1];
+      *write_double_17(expected, x[i]) = 0;
+      ASSERT_EQ(std::string(got[i].text, static_cast<std::size_t>(got[i].size)), expected);
+    }
   }
 }
 

@@ -1,4 +1,5 @@
-// Who did what: each change of state of what is stored, with who asked for it.
+// An entry of the history (an audit trail): a change of what is stored, and who asked for it. The
+// database's table and the member of the RPC are called "deed", and so is it here.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 namespace mdof {
 
 // A process, as the kernel knows it; the name is the user's at that time.
-struct Doer {
+struct Actor {
   std::int64_t uid = 0, gid = 0, pid = 0;
   std::string user;
 };
@@ -18,7 +19,7 @@ struct Deed {
   std::string name;  // "run.start", "run.resume", "run.stop", "run.abort", "run.replay",
                      // "squareness.fit", "compensation.build", ".activate", ".deactivate",
                      // "encoder.set"
-  Doer by;
+  Actor by;
   std::string utc;
   // Given when it is stored.
   std::int64_t id = 0, row = 0;

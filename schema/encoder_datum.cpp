@@ -10,7 +10,11 @@ using Kind = EncoderDatum::Kind;
 
 constexpr int kDigits = 9;  // nanometres of a metre
 
-constexpr Kind kKinds[] = {Kind::absolute, Kind::none, Kind::configured, Kind::set};
+constexpr Kind kKinds[] = {Kind::absolute, Kind::none, Kind::configured, Kind::set, Kind::index};
+
+std::string mm_text(double position_m) {
+  return plain_number(to_mm(position_m), kDigits) + " mm";
+}
 
 }  // namespace
 
@@ -24,6 +28,8 @@ const char* to_string(Kind kind) {
       return "configured";
     case Kind::set:
       return "set";
+    case Kind::index:
+      return "index";
   }
   return "";
 }
@@ -46,10 +52,22 @@ std::string datum_note(Kind kind, const std::string& device) {
          "mdof encoder set AXIS POSITION_MM";
 }
 
+std::string datum_text(const EncoderDatum& datum) {
+  switch (datum.kind) {
+    case Kind::configured:
+      return "offset_mm of the configuration, " + mm_text(datum.offset_m);
+    case Kind::set:
+      return "set on " + datum.utc + " by " + datum.by + ", offset " + mm_text(datum.offset_m);
+    case Kind::index:
+      return "index at " + mm_text(datum.offset_m) + ", passed on " + datum.utc;
+    default:
+      return "";
+  }
+}
+
 std::string setting_text(const DatumSetting& setting) {
-  return std::string(1, letter(setting.axis)) + " stands at " +
-         plain_number(to_mm(setting.position_m), kDigits) + " mm; until then it was at " +
-         plain_number(to_mm(setting.before_m), kDigits) + " mm";
+  return std::string(1, letter(setting.axis)) + " stands at " + mm_text(setting.position_m) +
+         "; until then it was at " + mm_text(setting.before_m);
 }
 
 }  // namespace mdof

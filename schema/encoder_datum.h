@@ -16,11 +16,12 @@ struct EncoderDatum {
     none,        // it counts from where it was switched on, wherever that was
     configured,  // offset_mm of its channel in the configuration
     set,         // somebody said where the axis stood: encoder.set
+    index,       // the axis went over the encoder's reference mark: index_mm of its channel
   };
   Kind kind = Kind::absolute;
   double offset_m = 0;
   std::string device;   // whose encoder it is; empty where it is absolute
-  std::string utc, by;  // of one that was set
+  std::string utc, by;  // of one that was set; `utc`: when the mark was passed, too
   bool operator==(const EncoderDatum&) const = default;
 };
 const char* to_string(EncoderDatum::Kind kind);
@@ -28,6 +29,9 @@ bool datum_kind_from(const std::string& name, EncoderDatum::Kind& kind);
 
 // For people, of a run; "" where positions are known.
 std::string datum_note(EncoderDatum::Kind kind, const std::string& device);
+// For people: "index at 12.5 mm, passed on 2026-11-23T07:00:00Z"; "" of Kind::none, which has its
+// note, and of Kind::absolute.
+std::string datum_text(const EncoderDatum& datum);
 
 // What encoder.set said of an axis once, as it is stored.
 struct DatumSetting {

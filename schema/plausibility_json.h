@@ -6,6 +6,7 @@
 #include <string>
 
 #include "schema/base/json_writer.h"
+#include "schema/base/result.h"
 #include "schema/plausibility.h"
 
 namespace mdof {
@@ -20,5 +21,8 @@ inline constexpr std::size_t kAllVisits = static_cast<std::size_t>(-1);
 void write_plausibility(JsonWriter& json, const Plausibility& plausibility,
                         std::size_t most_visits = kAllVisits);
 std::string plausibility_json(const Plausibility& plausibility);
+// Of what plausibility_json() has written. Error: a member is not there, or of another kind; it is
+// named.
+Result<Plausibility> read_plausibility_json(const std::string& json);
 
 }  // namespace mdof

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "schema/base/sha256.h"
+#include "schema/figures_json.h"
 #include "schema/plausibility_json.h"
 #include "schema/rig/correction.h"
 #include "schema/units.h"
@@ -25,28 +26,6 @@ void write_corrections(JsonWriter& json, const CompensationTable& t) {
     signs.factor[k] == 0 ? json.null() : json.value(signs.factor[k]);
     json.field("command", std::string(1, corrected_by(name)));
     if (!signs.gap[k].empty()) json.field("reason", signs.gap[k]);
-    json.end_object();
-  }
-  json.end_object();
-}
-
-// Figures of one error follow one another by approach; they become nested objects.
-template <class Figure, class Write>
-void write_by_key(JsonWriter& json, const std::vector<Figure>& figures, Write write_figure) {
-  json.begin_object();
-  std::vector<std::string> done;
-  for (const auto& first : figures) {
-    bool again = false;
-    for (const auto& key : done) again = again || key == first.error_key;
-    if (again) continue;
-    done.push_back(first.error_key);
-    json.key(first.error_key).begin_object();
-    for (const auto& figure : figures) {
-      if (figure.error_key != first.error_key) continue;
-      json.key(figure.approach).begin_object();
-      write_figure(figure);
-      json.end_object();
-    }
     json.end_object();
   }
   json.end_object();

@@ -63,12 +63,20 @@ Status check_separator(const CsvHeader& header, std::string_view line) {
   return {};
 }
 
+std::string example_of(CsvKind kind) {
+  if (kind == CsvKind::table) return "position_mm,deviation_um";
+  return std::string(kind == CsvKind::probe_log ? "time_s," : "") + "encoder_mm,A_um,B_um";
+}
+
 Status check_first_name(const CsvHeader& header) {
   const std::string& name = header.columns[0];
   if (name.empty() || (name[0] != '-' && (name[0] < '0' || name[0] > '9'))) return {};
   return bad_input(where(header) + "a row of numbers where the header must be; put a line like \"" +
-                   (header.kind == CsvKind::probe_log ? "time_s," : "") +
-                   "encoder_mm,A_um,B_um\" before it");
+                   example_of(header.kind) + "\" before it");
+}
+
+bool has_time(CsvKind kind) {
+  return kind == CsvKind::probe_log || kind == CsvKind::stream;
 }
 
 // Whether `name` is `of` with a unit or without: "encoder", "encoder_counts".
@@ -79,7 +87,7 @@ bool is_named(std::string_view name, std::string_view of) {
 // Time and place are to be in units that leave no doubt; what a user may have meant is said.
 Status check_unit(const CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
-  if (is_named(name, kTimeName) && name != kTimeColumn && header.kind != CsvKind::frames)
+  if (is_named(name, kTimeName) && name != kTimeColumn && has_time(header.kind))
     return bad_input(where(header, column) +
                      (name == kTimeName ? "has no unit; name it time_s where it is in seconds, else"
                                         : "time is read in seconds only;") +
@@ -99,7 +107,7 @@ Status add_column(CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (name.empty())
     return bad_input(where(header, column) + "no name; name the column or take its comma away");
-  if (name == kTimeColumn && header.kind != CsvKind::frames) {
+  if (name == kTimeColumn && has_time(header.kind)) {
     if (header.time_column >= 0)
       return bad_input(where(header, column) + "there twice; take one away");
     header.time_column = static_cast<int>(column);
@@ -128,6 +136,7 @@ Status check_required(const CsvHeader& header) {
                      "; add it or rename the one that holds it");
   };
   if (header.kind == CsvKind::probe_log && header.time_column < 0) return missing(kTimeColumn);
+  if (header.kind == CsvKind::table) return {};
   if (header.kind == CsvKind::stream) return header.channels.empty() ? missing("A_um") : Status{};
   const bool encoder =
       std::any_of(header.channels.begin(), header.channels.end(),
@@ -157,7 +166,13 @@ Status check_encoding(std::string_view text, const std::string& source) {
 }  // namespace
 
 bool CsvHeader::may_be_missing(std::size_t channel) const {
-  return kind == CsvKind::stream || channels[channel].id != kEncoderChannel;
+  return kind == CsvKind::stream || kind == CsvKind::table ||
+         channels[channel].id != kEncoderChannel;
+}
+
+bool CsvHeader::says_simulated() const {
+  return std::any_of(comments.begin(), comments.end(),
+                     [](const std::string& text) { return text.starts_with("simulated"); });
 }
 
 Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const std::string& source) {

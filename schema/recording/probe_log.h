@@ -4,6 +4,7 @@
 //   time_s,encoder_mm,A_um,B_um,temperature_C       probe log: time_s and encoder_mm must be there
 //   encoder_mm,A_um,B_um                            frames: encoder_mm must be there
 //   A_um,B_um                                       stream: live rows, any channels, time_s or not
+//   position_mm,deviation_um                        table: measured series; the reader says which
 //
 // Columns in any order; comma separated, '.' decimal, LF or CRLF, a UTF-8 byte order mark is
 // skipped. A column "A_um" is channel "A" in micrometres. Suffixes: _um _mm _V _C; a column that
@@ -28,6 +29,7 @@ enum class CsvKind {
   probe_log,  // samples against time: time_s must grow from row to row
   stream,     // rows as they come from a device
   frames,     // positions and readings in any order; time_s, if there, is a column like any other
+  table,      // any named columns, in any order of rows; any cell may be missing
 };
 
 struct CsvHeader {
@@ -42,8 +44,11 @@ struct CsvHeader {
   std::size_t bytes = 0;                     // of the file, header included
 
   // Whether a field of this channel may be empty or nan: a missing value. Not that of the encoder,
-  // without which a row has no place (but for a stream, whose channels come when they come).
+  // without which a row has no place (but for a stream, whose channels come when they come, and a
+  // table, whose reader says which cells it needs).
   bool may_be_missing(std::size_t channel) const;
+  // A comment begins so: no machine is behind the numbers.
+  bool says_simulated() const;
 };
 
 // `text` is the beginning of a file, or all of it; it must reach beyond the header line.

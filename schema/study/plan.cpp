@@ -101,7 +101,7 @@ Result<StudyPlan> parse_study_plan(std::string_view toml_text, const std::string
   MDOF_CHECK(read_quantities(table, folder, plan));
   read_dependence(table, plan);
   read_settings(table, plan);
-  read_questions(table, folder, plan);
+  read_analyses(table, folder, plan);
   MDOF_CHECK(table.finish());
   return plan;
 }

@@ -1,4 +1,4 @@
-// The parts of a plan's document, each read by its own function; for study_plan.cpp only. What is
+// The parts of a plan's document, each read by its own function; for plan.cpp only. What is
 // wrong is recorded in the table.
 #pragma once
 
@@ -18,7 +18,7 @@ void read_outputs(TomlTable& table, StudyPlan& plan);
 Status read_quantities(TomlTable& table, const std::filesystem::path& folder, StudyPlan& plan);
 void read_dependence(TomlTable& table, StudyPlan& plan);  // correlations and bins
 void read_settings(TomlTable& table, StudyPlan& plan);    // series, expansion, flatness, run
-void read_questions(TomlTable& table, const std::filesystem::path& folder, StudyPlan& plan);
+void read_analyses(TomlTable& table, const std::filesystem::path& folder, StudyPlan& plan);
 
 // The rig that `key` names; an empty one where it cannot be read, with the reason recorded.
 Rig read_rig(TomlTable& table, std::string_view key, const std::filesystem::path& folder);

@@ -63,6 +63,16 @@ TEST(ProbeLogHeader, NeedsNoTimeInAFramesFile) {
   EXPECT_TRUE(parse_csv_header("time_s,encoder_mm,A_um\n", CsvKind::frames, "x.csv"));
 }
 
+TEST(ProbeLogHeader, ATableHasAnyColumnsAndNoTime) {
+  const auto header = parse_csv_header("time_s,run,deviation_um\n", CsvKind::table, "x.csv");
+  ASSERT_TRUE(header);
+  EXPECT_EQ(header->time_column, -1);
+  EXPECT_EQ(header->channels[2].id, "deviation");
+  EXPECT_TRUE(header->may_be_missing(2));
+  EXPECT_NE(error_of("1,2\n", CsvKind::table).find("position_mm,deviation_um\" before it"),
+            std::string::npos);
+}
+
 TEST(ProbeLogHeader, NamesWhatIsMissing) {
   expect_error("", {"empty"});
   expect_error("# only\n# comments\n", {"no header"});

@@ -133,7 +133,7 @@ void read_outputs(TomlTable& table, StudyPlan& plan) {
     if (output.kind == usual) plan.outputs.push_back(output);
 }
 
-void read_questions(TomlTable& table, const std::filesystem::path& folder, StudyPlan& plan) {
+void read_analyses(TomlTable& table, const std::filesystem::path& folder, StudyPlan& plan) {
   read_adaptive(table, plan);
   if (auto indices = table.table("indices")) {
     plan.indices.emplace();

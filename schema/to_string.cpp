@@ -1,4 +1,4 @@
-// Words for the enumerations of the vocabulary.
+// The enumerations of the vocabulary as text.
 #include "schema/point.h"
 #include "schema/run.h"
 #include "schema/sample.h"

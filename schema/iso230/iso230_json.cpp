@@ -1,0 +1,104 @@
+#include "schema/iso230/iso230_json.h"
+
+#include <string>
+
+#include "schema/axis.h"
+#include "schema/figures_json.h"
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+// -0 is noise of a subtraction: people and scripts read 0.
+double unsigned_zero(double x) {
+  return x + 0.0;
+}
+
+void write_line(JsonWriter& json, const char* name, const ReferenceLine& line) {
+  json.key(name)
+      .begin_object()
+      .field("slope_um_per_m", unsigned_zero(to_urad(line.slope_rad)))
+      .field("intercept_um", unsigned_zero(to_um(line.intercept_m)))
+      .field("zone_um", to_um(line.zone_m))
+      .field("residual_um", to_um(line.residual_m))
+      .end_object();
+}
+
+void write_squareness_line(JsonWriter& json, const char* name, const SquarenessLine& line) {
+  json.key(name)
+      .begin_object()
+      .field("EC0Y_urad", unsigned_zero(to_urad(line.EC0Y_rad)))
+      .field("slope_EYX_urad", unsigned_zero(to_urad(line.slope_EYX_rad)))
+      .field("slope_EXY_urad", unsigned_zero(to_urad(line.slope_EXY_rad)))
+      .end_object();
+}
+
+// Fields whose names end in one unit.
+class Figures {
+ public:
+  Figures(JsonWriter& json, bool angle) : json_(json), unit_(angle ? "_urad" : "_um") {}
+  const Figures& operator()(const std::string& name, double value) const {
+    json_.field(name + unit_, unsigned_zero(to_key_unit(value)));
+    return *this;
+  }
+
+ private:
+  JsonWriter& json_;
+  std::string unit_;
+};
+
+void write_target(JsonWriter& json, const Figures& figures, const PositioningTarget& t) {
+  json.begin_object()
+      .field("target_mm", unsigned_zero(to_mm(t.target_m)))
+      .field("n_forward", static_cast<std::uint64_t>(t.forward.n))
+      .field("n_reverse", static_cast<std::uint64_t>(t.reverse.n));
+  figures("mean_forward", t.forward.mean)("mean_reverse", t.reverse.mean)("mean", t.mean);
+  figures("s_forward", t.forward.s)("s_reverse", t.reverse.s);
+  figures("B", t.B)("R_forward", t.forward.R)("R_reverse", t.reverse.R)("R", t.R);
+  json.end_object();
+}
+
+}  // namespace
+
+void write_reference_lines(JsonWriter& json, const ReferenceLines& lines) {
+  write_line(json, "end_point", lines.end_point);
+  write_line(json, "least_squares", lines.least_squares);
+  write_line(json, "minimum_zone", lines.minimum_zone);
+}
+
+void write_straightness_lines(JsonWriter& json, const std::vector<StraightnessLines>& lines) {
+  write_by_key(json, lines,
+               [&](const StraightnessLines& of) { write_reference_lines(json, of.lines); });
+}
+
+void write_squareness_lines(JsonWriter& json, const SquarenessLines& lines) {
+  json.begin_object();
+  write_squareness_line(json, "end_point", lines.end_point);
+  write_squareness_line(json, "least_squares", lines.least_squares);
+  write_squareness_line(json, "minimum_zone", lines.minimum_zone);
+  json.end_object();
+}
+
+void write_positioning(JsonWriter& json, const Positioning& p, bool angle) {
+  const Figures figures(json, angle);
+  figures("B", p.B)("B_mean", p.B_mean);
+  figures("R_forward", p.R_forward)("R_reverse", p.R_reverse)("R", p.R);
+  figures("E_forward", p.E_forward)("E_reverse", p.E_reverse)("E", p.E)("M", p.M);
+  figures("A_forward", p.A_forward)("A_reverse", p.A_reverse)("A", p.A);
+  json.key("targets").begin_array();
+  for (const PositioningTarget& t : p.targets) write_target(json, figures, t);
+  json.end_array();
+}
+
+void write_positioning_uncertainty(JsonWriter& json, const PositioningUncertainty& U) {
+  json.begin_object()
+      .field("k", 2)
+      .field("U_device_um", to_um(U.device))
+      .field("U_drift_um", to_um(U.drift))
+      .field("U_E_M_A_um", to_um(U.E_M_A))
+      .field("U_B_um", to_um(U.B))
+      .field("not_in_it", "temperature of the machine, alignment")
+      .end_object();
+}
+
+}  // namespace mdof

@@ -1,0 +1,29 @@
+// JSON of reference lines and of the parameters of ISO 230-2.
+#pragma once
+
+#include <vector>
+
+#include "schema/base/json_writer.h"
+#include "schema/iso230/positioning.h"
+#include "schema/iso230/reference_lines.h"
+
+namespace mdof {
+
+// Members of an open object: "end_point", "least_squares", "minimum_zone", each {"slope_um_per_m",
+// "intercept_um", "zone_um", "residual_um"}.
+void write_reference_lines(JsonWriter& json, const ReferenceLines& lines);
+
+// {"EYX_um": {"forward": {"end_point": {...}, ...}, "reverse": {...}, "mean": {...}}, ...}
+void write_straightness_lines(JsonWriter& json, const std::vector<StraightnessLines>& lines);
+
+// {"end_point": {"EC0Y_urad", "slope_EYX_urad", "slope_EXY_urad"}, "least_squares", "minimum_zone"}
+void write_squareness_lines(JsonWriter& json, const SquarenessLines& lines);
+
+// Members of an open object: "B_um", "B_mean_um" ... "A_um", then "targets" with those of each;
+// what is not known is null. `angle`: deviations in rad, keys end in _urad.
+void write_positioning(JsonWriter& json, const Positioning& positioning, bool angle);
+
+// {"k", "U_device_um", "U_drift_um", "U_E_M_A_um", "U_B_um", "not_in_it"}
+void write_positioning_uncertainty(JsonWriter& json, const PositioningUncertainty& U);
+
+}  // namespace mdof

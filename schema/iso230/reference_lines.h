@@ -1,0 +1,39 @@
+// The reference lines of straightness (ISO 230-1) through a series of deviations over positions.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace mdof {
+
+struct ReferenceLine {
+  double slope_rad = 0;    // m/m
+  double intercept_m = 0;  // of the line at position 0
+  double zone_m = 0;       // peak to valley of the deviations from it, along the deviation
+  double residual_m = 0;   // root mean square of these
+};
+
+struct ReferenceLines {
+  std::size_t readings = 0, positions = 0;  // different ones
+  double first_m = 0, last_m = 0;
+  ReferenceLine end_point, least_squares, minimum_zone;
+};
+
+// Of one straightness error of a run, approached from one side or the mean of both; over the moving
+// body's own travel in M.
+struct StraightnessLines {
+  std::string error_key;  // "EYX_um"
+  std::string approach;   // "forward", "reverse", "mean"
+  ReferenceLines lines;
+};
+
+// Squareness by one line through each of the two straightness errors.
+struct SquarenessLine {
+  double slope_EYX_rad = 0, slope_EXY_rad = 0;
+  double EC0Y_rad = 0;
+};
+struct SquarenessLines {
+  SquarenessLine end_point, least_squares, minimum_zone;
+};
+
+}  // namespace mdof

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "algo/iso230/line_fit.h"
-#include "algo/iso230/series.h"
+#include "algo/iso230/target_means.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/uneven_visits.h"
 #include "algo/sequence/usable_runs.h"

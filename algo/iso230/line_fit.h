@@ -1,4 +1,4 @@
-// Straight lines through measured series.
+// Straight lines through measured points.
 #pragma once
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "algo/iso230/line_fit.h"
-#include "algo/iso230/series.h"
+#include "algo/iso230/target_means.h"
 #include "algo/model/fixture.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/uneven_visits.h"

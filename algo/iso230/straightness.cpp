@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "algo/iso230/line_fit.h"
-#include "algo/iso230/series.h"
+#include "algo/iso230/reference_lines.h"
+#include "algo/iso230/target_means.h"
 
 namespace mdof::algo {
 namespace {
@@ -44,6 +45,21 @@ std::vector<StraightnessFigure> straightness(const MovingAxis& moving,
     }
   }
   return figures;
+}
+
+std::vector<StraightnessLines> straightness_lines(const MovingAxis& moving,
+                                                  const std::vector<MeasuredPoint>& points) {
+  std::vector<StraightnessLines> found;
+  for (const Approach approach : kApproaches) {
+    const auto series = target_means(moving, points, approach);
+    for (std::size_t k = 0; k < 5; ++k) {
+      const ErrorName& name = error_names(moving.axis)[k];
+      if (name.angle) continue;
+      const auto lines = reference_lines(own_travels(moving.sides, series), column(series, k));
+      if (lines) found.push_back({name.key, to_string(approach), *lines});
+    }
+  }
+  return found;
 }
 
 std::vector<AngleFigure> angles(const MovingAxis& moving,

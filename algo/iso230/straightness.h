@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "schema/iso230/reference_lines.h"
 #include "schema/run.h"
 
 namespace mdof::algo {
@@ -11,6 +12,10 @@ namespace mdof::algo {
 // at which `points` are stated.
 std::vector<StraightnessFigure> straightness(const MovingAxis& moving,
                                              const std::vector<MeasuredPoint>& points);
+
+// The same series about each of the three reference lines, of those with at least three targets.
+std::vector<StraightnessLines> straightness_lines(const MovingAxis& moving,
+                                                  const std::vector<MeasuredPoint>& points);
 
 // For the three angles and each approach that has at least two targets.
 std::vector<AngleFigure> angles(const MovingAxis& moving, const std::vector<MeasuredPoint>& points);

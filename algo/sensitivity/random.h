@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "algo/model/instruction_set.h"
+#include "schema/base/instruction_set.h"
 
 namespace mdof::algo {
 

@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "algo/model/instruction_set.h"
 #include "algo/sensitivity/experiment.h"
+#include "schema/base/instruction_set.h"
 #include "schema/base/result.h"
 
 namespace mdof::algo {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "algo/compensation/compensation.h"
-#include "algo/iso230/series.h"
+#include "algo/iso230/target_means.h"
 #include "algo/model/fixture.h"
 #include "algo/model/rigid.h"
 #include "algo/model/solver.h"

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "algo/model/instruction_set.h"
 #include "algo/model/small_angle.h"
 #include "algo/sensitivity/random.h"
+#include "schema/base/instruction_set.h"
 
 namespace mdof::algo {
 

@@ -15,10 +15,10 @@
 #include <string_view>
 #include <vector>
 
-#include "algo/model/instruction_set.h"
 #include "algo/sensitivity/adaptive.h"
 #include "algo/sensitivity/experiment.h"
 #include "algo/sensitivity/statistics/quantile.h"
+#include "schema/base/instruction_set.h"
 #include "schema/base/result.h"
 #include "schema/study/study.h"
 

@@ -7,9 +7,11 @@
 
 #include "algo/compensation/compensation.h"
 #include "algo/iso230/line_fit.h"
-#include "algo/iso230/series.h"
 #include "algo/iso230/squareness.h"
+#include "algo/iso230/squareness_lines.h"
 #include "algo/iso230/straightness.h"
+#include "algo/iso230/target_means.h"
+#include "algo/model/restate.h"
 #include "algo/points/robust_mean.h"
 
 namespace mdof::algo {
@@ -212,6 +214,52 @@ TEST(Straightness, ReportsBothReferenceLinesForEachApproach) {
   EXPECT_EQ(figures[0].error_key, "EYX_um");
   EXPECT_NEAR(figures[0].straightness_least_squares_m * 1e6, 0.703636, 1e-6);
   EXPECT_NEAR(figures[0].straightness_end_point_m * 1e6, 0.866667, 1e-6);
+}
+
+// Whichever way the encoder counts; the slope of a body that goes against it has the other sign.
+TEST(Straightness, EachLineIsOverTheBodysOwnTravel) {
+  mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
+  for (const bool against : {false, true}) {
+    run.header.sides.against_encoder = against;
+    const auto lines = straightness_lines(run.header.moving(), run.points);
+    const auto figures = straightness(run.header.moving(), run.points);
+    ASSERT_EQ(lines.size(), figures.size());
+    const double sign = against ? -1 : 1;
+    EXPECT_NEAR(lines[0].lines.minimum_zone.slope_rad * 1e6, sign * 7.833333, 1e-6);
+    EXPECT_NEAR(lines[0].lines.minimum_zone.zone_m * 1e6, 0.65, 1e-6);
+    EXPECT_NEAR(lines[0].lines.end_point.slope_rad, figures[0].slope_end_point_rad, 1e-18);
+  }
+}
+
+TEST(Squareness, ByEachLineTakesBothSlopesFromTheArtefact) {
+  const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um),
+                  y = run_of(Axis::y, kAxis2_m, kAxis2_um);
+  const Squareness s = squareness(x, y, {2e-6, 0.5e-6, -1}).value();
+  const SquarenessLines lines = squareness_lines(x, y, s).value();
+  EXPECT_EQ(lines.least_squares.EC0Y_rad, s.EC0Y_rad);
+  EXPECT_NEAR(lines.end_point.EC0Y_rad * 1e6, 18.444444 - 8.333333 - 2, 1e-5);
+  EXPECT_NEAR(lines.minimum_zone.EC0Y_rad * 1e6, 16.666667 - 7.833333 - 2, 1e-5);
+  // The manual states θ2 - θ1, in its own sense: -5.2" and -5.5".
+  const double arcsec = 180 * 3600 / (4 * std::atan(1.0));
+  const auto manual = [&](const SquarenessLine& line) {
+    return (line.slope_EXY_rad - line.slope_EYX_rad) * arcsec;
+  };
+  EXPECT_NEAR(manual(lines.least_squares), -5.17162, 1e-5);
+  EXPECT_NEAR(manual(lines.end_point), -5.52331, 1e-5);
+}
+
+// Yaw has a lever between the fixture and the carriage's origin.
+TEST(Squareness, ByEachLineIsStatedAtTheFixture) {
+  mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um);
+  const mdof::Run y = run_of(Axis::y, kAxis2_m, kAxis2_um);
+  for (MeasuredPoint& p : x.points) p.errors.local[kEz] = 3e-6 * p.point.position_m;
+  const mdof::Run at_carriage = restate(x, {Reference::carriage, {}});
+  ASSERT_GT(std::abs(at_carriage.points[9].errors.local[kDy] - x.points[9].errors.local[kDy]),
+            1e-6);
+  const SquarenessLines here = squareness_lines(x, y, {}).value(),
+                        there = squareness_lines(at_carriage, y, {}).value();
+  EXPECT_NEAR(there.end_point.EC0Y_rad, here.end_point.EC0Y_rad, 1e-11);
+  EXPECT_NEAR(there.minimum_zone.EC0Y_rad, here.minimum_zone.EC0Y_rad, 1e-11);
 }
 
 TEST(Angles, AreReferredToTheStart) {

@@ -11,9 +11,9 @@
 #include <string>
 
 #include "algo/compensation/compensation.h"
-#include "algo/iso230/series.h"
 #include "algo/iso230/squareness.h"
 #include "algo/iso230/straightness.h"
+#include "algo/iso230/target_means.h"
 
 namespace mdof::algo {
 namespace {

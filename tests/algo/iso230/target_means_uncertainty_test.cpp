@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "algo/iso230/series.h"
+#include "algo/iso230/target_means.h"
 
 namespace mdof::algo {
 namespace {

@@ -31,10 +31,10 @@ struct TargetMean {
 std::vector<TargetMean> target_means(const MovingAxis& moving,
                                      const std::vector<MeasuredPoint>& points, Approach approach);
 
-// Columns of a series for the line fits.
-std::vector<double> positions(const std::vector<TargetMean>& series);
-std::vector<double> column(const std::vector<TargetMean>& series, std::size_t named);
+// What the line fits take of them.
+std::vector<double> positions(const std::vector<TargetMean>& means);
+std::vector<double> column(const std::vector<TargetMean>& means, std::size_t named);
 // The same positions as travel of the moving body along + of M.
-std::vector<double> own_travels(const Sides& sides, const std::vector<TargetMean>& series);
+std::vector<double> own_travels(const Sides& sides, const std::vector<TargetMean>& means);
 
 }  // namespace mdof::algo

@@ -1,4 +1,4 @@
-#include "algo/iso230/series.h"
+#include "algo/iso230/target_means.h"
 
 #include <algorithm>
 #include <array>
@@ -159,26 +159,26 @@ std::vector<TargetMean> target_means(const MovingAxis& moving,
   for (const auto& [target, drifting] : means_of(moving, points, approach))
     for (std::size_t k = 0; k < 5; ++k)
       means[target].u[k] = std::max({means[target].u[k], drifting.u[k], std::abs(u_level[k])});
-  std::vector<TargetMean> series;
-  for (const auto& [target, mean] : means) series.push_back(mean);
-  return series;
+  std::vector<TargetMean> ascending;
+  for (const auto& [target, mean] : means) ascending.push_back(mean);
+  return ascending;
 }
 
-std::vector<double> positions(const std::vector<TargetMean>& series) {
+std::vector<double> positions(const std::vector<TargetMean>& means) {
   std::vector<double> x;
-  for (const TargetMean& m : series) x.push_back(m.position_m);
+  for (const TargetMean& m : means) x.push_back(m.position_m);
   return x;
 }
 
-std::vector<double> own_travels(const Sides& sides, const std::vector<TargetMean>& series) {
+std::vector<double> own_travels(const Sides& sides, const std::vector<TargetMean>& means) {
   std::vector<double> x;
-  for (const TargetMean& m : series) x.push_back(sides.own_travel_m(m.position_m));
+  for (const TargetMean& m : means) x.push_back(sides.own_travel_m(m.position_m));
   return x;
 }
 
-std::vector<double> column(const std::vector<TargetMean>& series, std::size_t named) {
+std::vector<double> column(const std::vector<TargetMean>& means, std::size_t named) {
   std::vector<double> y;
-  for (const TargetMean& m : series) y.push_back(m.named[named]);
+  for (const TargetMean& m : means) y.push_back(m.named[named]);
   return y;
 }
 

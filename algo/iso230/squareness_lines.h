@@ -1,0 +1,16 @@
+// Squareness by each reference line of straightness (DESIGN §3, ISO 230-1).
+#pragma once
+
+#include "schema/base/result.h"
+#include "schema/iso230/reference_lines.h"
+#include "schema/run.h"
+#include "schema/squareness.h"
+
+namespace mdof::algo {
+
+// Lines through the means of both approaches, at the fixture, of the two runs that `fitted` is of;
+// least_squares is what `fitted` says. Errors: a run without three targets.
+Result<SquarenessLines> squareness_lines(const Run& run_x, const Run& run_y,
+                                         const Squareness& fitted);
+
+}  // namespace mdof::algo

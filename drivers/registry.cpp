@@ -1,120 +1,216 @@
 #include "drivers/registry.h"
 
-#include <filesystem>
-
 #include "drivers/capancdt/configure.h"
-#include "drivers/csv/csv_log.h"
+#include "drivers/capancdt/simulated_capancdt.h"
 #include "drivers/csv_stream/configure.h"
+#include "drivers/csv_stream/simulated_csv_stream.h"
 #include "drivers/labjack_t7/configure.h"
+#include "drivers/labjack_t7/simulated_labjack_t7.h"
 #include "drivers/labjack_u6/configure.h"
+#include "drivers/labjack_u6/simulated_labjack_u6.h"
 #include "drivers/linux_comedi/configure.h"
 #include "drivers/linux_counter/configure.h"
+#include "drivers/linux_counter/mark.h"
+#include "drivers/linux_counter/simulated_linux_counter.h"
 #include "drivers/linux_iio/configure.h"
+#include "drivers/linux_iio/simulated_linux_iio.h"
 #include "drivers/locked_driver.h"
 #include "drivers/mcc_usb1608fs_plus/configure.h"
+#include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
 #include "drivers/modbus/configure.h"
+#include "drivers/modbus/simulated_modbus.h"
 #include "drivers/pokeys57u/configure.h"
+#include "drivers/pokeys57u/simulated_pokeys57u.h"
 #include "drivers/qsb/configure.h"
-#include "drivers/recording/recording_log.h"
-#include "drivers/simulator/simulator.h"
+#include "drivers/qsb/simulated_qsb.h"
+#include "drivers/recording/configure.h"
+#include "drivers/simulator/configure.h"
 
 namespace mdof::drivers {
 namespace {
 
-template <class Log>
-SourceInfo info_of(const Driver& driver) {
-  const auto& log = static_cast<const Log&>(driver);
-  return {log.sha256(), log.warnings()};
-}
+constexpr const char* kResetOnly =
+    "a LabJack can at most set the count to 0 at the mark, and tells nobody: near 0 that looks "
+    "like motion, so that whether the mark was passed is not known";
 
-Result<DriverSpec> configure_simulator(TomlTable& table, const DriverContext& context) {
-  SimulatorOptions options;
-  MDOF_CHECK(read_options(table, options));
-  DriverSpec spec;
-  spec.driver = "simulator";
-  spec.name = context.name;
-  spec.live = options.real_time;
-  spec.simulated = true;
-  spec.make = [context, options]() -> Result<std::unique_ptr<Driver>> {
-    MDOF_TRY(auto simulator, Simulator::make(context.name, context.rig, options, context.forward));
-    return std::unique_ptr<Driver>(std::move(simulator));
-  };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
-  MDOF_TRY(const auto tried, spec.make());  // what only shows against the rig, said at start-up
-  return spec;
+Status check_index(const DriverRow& row, const EncoderOrigin& encoder) {
+  if (!encoder.index_mm || !row.no_index) return {};
+  return bad_input(encoder.index_where + ": " + row.no_index +
+                   ". Take index_mm away and say where the axis stands (mdof encoder set), or let "
+                   "a QSB (qsb) or a 104-QUAD-8 (linux_counter) count the encoder");
 }
-
-Result<DriverSpec> configure_replay(TomlTable& table, const DriverContext& context) {
-  const std::string file = table.string("file");
-  MDOF_CHECK(table.finish());
-  const auto path = std::filesystem::path(context.base_path) / file;
-  std::error_code ec;  // not even to be looked at: the same to the user
-  if (!std::filesystem::is_regular_file(path, ec)) {
-    return bad_input(table.where("file") + ": " + path.string() + " is no file that can be read");
-  }
-  return log_driver(context.name, path.string());
-}
-
-struct Row {
-  const char* name;
-  Result<DriverSpec> (*configure)(TomlTable&, const DriverContext&);
-};
-// A new driver: one row.
-constexpr Row kDrivers[] = {
-    {"capancdt", configure_capancdt},
-    {"csv_stream", configure_csv_stream},
-    {"labjack_t7", configure_labjack_t7},
-    {"labjack_u6", configure_labjack_u6},
-    {"linux_comedi", configure_linux_comedi},
-    {"linux_counter", configure_linux_counter},
-    {"linux_iio", configure_linux_iio},
-    {"mcc_usb1608fs_plus", configure_mcc_usb1608fs_plus},
-    {"modbus", configure_modbus},
-    {"pokeys57u", configure_pokeys57u},
-    {"qsb", configure_qsb},
-    {"replay", configure_replay},
-    {"simulator", configure_simulator},
-};
 
 }  // namespace
 
-DriverSpec log_driver(const std::string& name, const std::string& path) {
-  DriverSpec spec;
-  spec.driver = "replay";
-  spec.name = name;
-  spec.live = false;
-  spec.recorded = false;
-  spec.source_path = std::filesystem::absolute(path).string();
-  if (is_recording(path)) {
-    spec.make = [name, path]() -> Result<std::unique_ptr<Driver>> {
-      return std::make_unique<RecordingLog>(name, path);
-    };
-    spec.source_info = info_of<RecordingLog>;
-  } else {
-    spec.make = [path]() -> Result<std::unique_ptr<Driver>> {
-      return std::make_unique<CsvLog>(path);
-    };
-    spec.source_info = info_of<CsvLog>;
-  }
-  return spec;
+// A new driver: one row.
+const std::vector<DriverRow>& driver_rows() {
+  static const std::vector<DriverRow> rows = {
+      {
+          .name = "capancdt",
+          .folder = "capancdt",
+          .devices = "Micro-Epsilon capaNCDT 6200: TCP, its command port and its data port",
+          .configure = configure_capancdt,
+          .simulated = {{32, "up to 32 probes, in µm", "TCP: command, data",
+                         capancdt::make_simulated_capancdt}},
+      },
+      {
+          .name = "csv_stream",
+          .folder = "csv_stream",
+          .devices = "live CSV rows of a script: its standard output, a FIFO, a TCP server, a "
+                     "serial line",
+          .configure = configure_csv_stream,
+          .simulated = {{64, "probes in µm, the encoder in mm", "TCP", make_simulated_csv_stream}},
+      },
+      {
+          .name = "labjack_t7",
+          .folder = "labjack_t7",
+          .devices =
+              "LabJack T7 over Ethernet: amplifier outputs and encoders in one hardware scan",
+          .configure = configure_labjack_t7,
+          .simulated = {{labjack_t7::kAins,
+                         "up to 14 probes or the encoder, in volts; the encoder always, in counts",
+                         "TCP: command, stream", labjack_t7::make_simulated_labjack_t7}},
+          .no_index = kResetOnly,
+      },
+      {
+          .name = "labjack_u6",
+          .folder = "labjack_u6",
+          .devices = "LabJack U6 over USB: amplifier outputs and one encoder in one hardware scan",
+          .configure = configure_labjack_u6,
+          .node = UsbDevice{.name = "LabJack",
+                            .vendor = labjack_u6::kVendor,
+                            .note = "U3, U6, UE9, T4, T7, T8"},
+          .simulated = {{labjack_u6::kAins, "up to 14 probes, in volts; the encoder always", "USB",
+                         labjack_u6::make_simulated_labjack_u6}},
+          .no_index = kResetOnly,
+      },
+      {
+          .name = "linux_comedi",
+          .folder = "linux_comedi",
+          .devices = "any board that Linux Comedi drives (PCI, USB, ISA), by comedilib: amplifier "
+                     "outputs in one hardware scan",
+          .configure = configure_linux_comedi,
+          .node = ClassDevice{.name = "Comedi board",
+                              .subsystem = "comedi",
+                              .group = "iocard",
+                              .remedy = "sudo usermod -aG iocard $USER, then log in anew; the "
+                                        "rules of libcomedi0 give boards to that group",
+                              .note = "as 90-comedi.rules of libcomedi0 has them, which comes "
+                                      "later, and for whoever is logged in"},
+      },
+      {
+          .name = "linux_counter",
+          .folder = "linux_counter",
+          .devices = "sysfs: encoders at counters of the Linux kernel",
+          .configure = configure_linux_counter,
+          .node = SysfsFile{.name = "104-QUAD-8 of Linux' counters",
+                            .subsystem = "counter",
+                            .devices = kQuad8,
+                            .files = "count*/preset count*/preset_enable",
+                            .key = "index_mm",
+                            .note = "what mdofd writes where index_mm is given"},
+          .simulated = {{1, "the encoder", "`sysfs_root`", make_simulated_linux_counter}},
+          .no_index = nullptr,
+      },
+      {
+          .name = "linux_iio",
+          .folder = "linux_iio",
+          .devices = "sysfs: AD7745, AD7746 capacitance converters behind Linux' industrial I/O",
+          .configure = configure_linux_iio,
+          .node = SysfsFile{.name = "IIO converter",
+                            .subsystem = "iio",
+                            .devices = "ad7745|ad7746",
+                            .files = "in_capacitance_sampling_frequency",
+                            .key = "sampling_hz",
+                            .note = "AD7745, AD7746, the file of their rate, which mdofd writes "
+                                    "where sampling_hz is given"},
+          .simulated = {{2, "up to 2 probes, as capacitances", "`sysfs_root`",
+                         make_simulated_linux_iio}},
+      },
+      {
+          .name = "mcc_usb1608fs_plus",
+          .folder = "mcc_usb1608fs_plus",
+          .devices = "MCC USB-1608FS-Plus: up to eight outputs sampled at the same instant",
+          .configure = configure_mcc_usb1608fs_plus,
+          .node = UsbDevice{.name = "MCC USB-1608FS-Plus",
+                            .vendor = mcc_usb1608fs_plus::kVendor,
+                            .product = mcc_usb1608fs_plus::kProduct},
+          .simulated = {{mcc_usb1608fs_plus::kInputs, "up to 8 probes, in volts", "USB",
+                         mcc_usb1608fs_plus::make_simulated_mcc_usb1608fs_plus}},
+      },
+      {
+          .name = "modbus",
+          .folder = "modbus",
+          .devices = "any Modbus TCP or RTU device by a profile: Lika SMAX, ADAM-6017, PoKeys57E "
+                     "ship; or your own",
+          .configure = configure_modbus,
+          .simulated = {{64, "the values of the profile, in its order", "TCP or a serial line",
+                         make_simulated_modbus}},
+          .no_index = "a Modbus device does not tell that the mark was passed",
+      },
+      {
+          .name = "pokeys57u",
+          .folder = "pokeys57u",
+          .devices = "PoLabs PoKeys57U, 56U over USB HID: encoders (and analogue inputs), asked "
+                     "for each scan",
+          .configure = configure_pokeys57u,
+          .node = UsbDevice{.name = "PoKeys",
+                            .vendor = pokeys57u::kVendor,
+                            .node = UsbNode::hidraw,
+                            .interface = pokeys57u::kInterface,
+                            .note = "its HID interface 1; 0 is a keyboard and 2 a joystick"},
+          .simulated = {{pokeys57u::kEncoders, "encoders; the machine's where none is given",
+                         "USB HID", pokeys57u::make_simulated_pokeys57u}},
+          .no_index = "its maker's specification and its maker's own library (PoKeysLibEncoders.c) "
+                      "do not agree on how a PoKeys is told to look for the mark",
+      },
+      {
+          .name = "qsb",
+          .folder = "qsb",
+          .devices = "US Digital QSB-D, QSB-S: one encoder, streamed over a serial port",
+          .configure = configure_qsb,
+          .node = UsbDevice{.name = "US Digital QSB",
+                            .vendor = 0x0403,  // of its FTDI chip, as of many other devices
+                            .product = 0x6001,
+                            .node = UsbNode::tty,
+                            .manufacturer = "US Digital",
+                            .note = "behind its FTDI chip"},
+          .simulated = {{1, "the encoder", "a serial line", make_simulated_qsb}},
+          .no_index = nullptr,
+      },
+      {
+          .name = "replay",
+          .folder = "recording",
+          .devices = "a recording of mdofd (`*.mdofrec`), chunk by chunk, every hash checked; or "
+                     "a probe log, CSV, plain or gzip (`csv/`, thread `csv read`)",
+          .configure = configure_replay,
+      },
+      {
+          .name = "simulator",
+          .folder = "simulator",
+          .devices = "a moving axis with errors, noise and faults; the same seed gives the same "
+                     "bits",
+          .configure = configure_simulator,
+      },
+  };
+  return rows;
 }
 
-std::vector<std::string> known_drivers() {
-  std::vector<std::string> names;
-  for (const Row& row : kDrivers) names.emplace_back(row.name);
-  return names;
+const DriverRow* find_driver(const std::string& name) {
+  for (const DriverRow& row : driver_rows())
+    if (name == row.name) return &row;
+  return nullptr;
 }
 
 Result<DriverSpec> configure_driver(const std::string& driver, TomlTable& table,
                                     const DriverContext& context) {
-  std::string known;
-  for (const Row& row : kDrivers) {
-    if (driver == row.name) {
-      MDOF_TRY(DriverSpec spec, row.configure(table, context));
-      return locked(std::move(spec));
-    }
-    known += std::string(" ") + row.name;
+  if (const DriverRow* row = find_driver(driver)) {
+    MDOF_TRY(DriverSpec spec, row->configure(table, context));
+    MDOF_CHECK(check_index(*row, spec.encoder));
+    return locked(std::move(spec));
   }
+  std::string known;
+  for (const DriverRow& row : driver_rows()) known += std::string(" ") + row.name;
   table.reject("driver", "\"" + driver + "\" is no driver; known are:" + known);
   MDOF_CHECK(table.finish());
   return bad_input("unknown driver " + driver);

@@ -1,57 +1,45 @@
-// Every driver by the name it has in the configuration: one row each in registry.cpp.
+// Every driver by the name that it has in the configuration: one row each in registry.cpp.
 #pragma once
 
-#include <functional>
-#include <memory>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "drivers/driver.h"
-#include "drivers/simulator/machine.h"
+#include "drivers/driver_spec.h"
+#include "drivers/linux_node.h"
+#include "drivers/simulated_wiring.h"
 #include "schema/base/result.h"
 #include "schema/base/toml_reader.h"
-#include "schema/rig/rig.h"
 
 namespace mdof::drivers {
 
-struct DriverContext {
-  std::string name;  // of the device
-  Rig rig;
-  ForwardModel forward;   // for the simulator
-  std::string base_path;  // folder of the configuration, to which file names are relative
-  double settle_s = 0;    // that a stop is given before it counts; 0: not known
+// The simulated twin of a device, as mdof-simulate serves it: a kind of the name of its driver.
+struct SimulatedKind {
+  std::size_t most_inputs;
+  const char* inputs;   // for people: "up to 14 probes, in volts; the encoder always"
+  const char* reached;  // where a program reaches it: "TCP: command, stream"
+  MakeSimulated make;
 };
 
-// What a source that is a file knows of itself once it has been read to its end.
-struct SourceInfo {
-  std::string sha256;
-  std::vector<std::string> warnings;
+// All that mdof knows of a driver outside its folder.
+struct DriverRow {
+  const char* name;     // in the configuration
+  const char* folder;   // of drivers/
+  const char* devices;  // one line: which devices, and through what
+  Result<DriverSpec> (*configure)(TomlTable&, const DriverContext&);
+  std::optional<LinuxNode> node = std::nullopt;           // none: on a network, a file, a script
+  std::optional<SimulatedKind> simulated = std::nullopt;  // none: it needs the kernel, or no device
+  // Why `index_mm` of an encoder is refused; null: the driver tells for sure that its mark was
+  // passed (index_mark.h).
+  const char* no_index = "this device counts nothing and sees no reference mark";
 };
-
-// A driver as configured, ready to be made on the thread that will own it.
-struct DriverSpec {
-  std::string driver, name;
-  bool live = true;      // samples come as time passes; false: as fast as they are taken
-  bool recorded = true;  // its samples go into a recording; false: they come from one
-  bool simulated = false;
-  std::vector<std::string> channels;  // ids it gives; empty: all of the rig
-  EncoderOrigin encoder;              // where it gives one
-  std::string source_path;            // of a replay
-  // The device itself, whatever it is called in the configuration (io/device_lock.h): while a
-  // driver that make() made has it open, nobody else opens it. Empty: its bus sees to that.
-  std::function<std::string()> identity;
-  bool shared = false;  // a device that speaks with several drivers of one program at a time
-  std::function<Result<std::unique_ptr<Driver>>()> make;
-  std::function<SourceInfo(const Driver&)> source_info;  // of the driver that make() made
-};
+const std::vector<DriverRow>& driver_rows();  // by name
+const DriverRow* find_driver(const std::string& name);
 
 // Reads the driver's keys from `table` (whose `driver` and `name` the caller has taken) and
 // finishes it. Errors name file, line and key; for an unknown driver the known ones.
 Result<DriverSpec> configure_driver(const std::string& driver, TomlTable& table,
                                     const DriverContext& context);
-std::vector<std::string> known_drivers();
-
-// The driver that reads a log: a recording (by its magic), else CSV, plain or gzip.
-DriverSpec log_driver(const std::string& name, const std::string& path);
 
 }  // namespace mdof::drivers

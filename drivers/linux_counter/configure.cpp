@@ -1,6 +1,7 @@
 #include "drivers/linux_counter/configure.h"
 
 #include "drivers/linux_counter/linux_counter.h"
+#include "drivers/linux_counter/mark.h"
 
 namespace mdof::drivers {
 
@@ -16,7 +17,13 @@ Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext
   options.rate_hz = table.number("rate_hz", options.rate_hz);
   if (!(options.rate_hz >= 0.1 && options.rate_hz <= 5000))
     table.reject("rate_hz", "must be from 0.1 to 5000");
-  MDOF_TRY(options.channels, read_channels(table, context.rig));
+  MDOF_TRY(options.channels, read_channels(table, context.rig, [&](TomlTable& channel) {
+             if (channel.has("index_mm") && options.chip != kQuad8)
+               channel.reject("index_mm",
+                              "needs chip = \"104-quad-8\": of the kernel's counters only that one "
+                              "is known to load its count at a reference mark; else say where the "
+                              "axis stands (mdof encoder set)");
+           }));
   MDOF_CHECK(table.finish());
   for (const auto& channel : options.channels) MDOF_CHECK(check_um_per_count(channel));
   DriverSpec spec;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <utility>
 
+#include "drivers/linux_counter/mark.h"
 #include "drivers/linux_counter/protocol.h"
 
 namespace mdof::drivers {
@@ -15,15 +18,42 @@ struct Count {
   SysfsAttribute file;
   CountUnwrap unwrap;
   double um_per_count;
+  std::optional<Quad8Mark> mark = std::nullopt;
+  IndexMark::State state = IndexMark::State::off;  // of `mark`
 };
 
-Result<SysfsReading> read_count(Count& count) {
+Result<std::int64_t> counts_now(Count& count) {
   MDOF_TRY(const std::int64_t raw, count.file.read_integer());
   const auto counts = count.unwrap(static_cast<std::uint64_t>(raw));
-  if (!counts)
-    return io_error(count.file.path() + ": " + std::to_string(raw) +
-                    " is beyond the ceiling; was the counter set up anew?");
-  return SysfsReading{static_cast<double>(*counts) * count.um_per_count, Quality::good};
+  if (counts) return *counts;
+  return io_error(count.file.path() + ": " + std::to_string(raw) +
+                  " is beyond the ceiling; was the counter set up anew?");
+}
+
+// The reading with which the mark turns out to be passed has no place yet; the next ones have.
+Result<SysfsReading> read_marked(Count& count, std::int64_t counts) {
+  using State = IndexMark::State;
+  const State before = count.state;
+  MDOF_TRY(count.state, count.mark->take(counts));
+  const bool passed = count.state == State::passed;
+  if (count.state != State::awaited && before != State::passed)
+    return SysfsReading{kNaN, Quality::missing, passed};
+  if (passed) counts = count.mark->from_mark(counts);
+  return SysfsReading{static_cast<double>(counts) * count.um_per_count, Quality::good};
+}
+
+Result<SysfsReading> read_count(Count& count) {
+  MDOF_TRY(const std::int64_t counts, counts_now(count));
+  if (count.mark) return read_marked(count, counts);
+  return SysfsReading{static_cast<double>(counts) * count.um_per_count, Quality::good};
+}
+
+Status await_mark(const std::shared_ptr<Count>& count, const std::string& folder,
+                  const std::string& input, std::uint64_t ceiling) {
+  MDOF_CHECK(check_quad8(folder, input, ceiling));
+  count->mark.emplace(folder + "/" + input, [c = count.get()] { return counts_now(*c); });
+  count->state = IndexMark::State::awaited;
+  return count->mark->arm();
 }
 
 Result<CountFiles> read_files(const std::string& path) {
@@ -59,10 +89,16 @@ Result<SysfsInput> open_count(const LinuxCounterOptions& options, const std::str
   MDOF_TRY(SysfsAttribute file, SysfsAttribute::open(path + "/count", options.read));
   auto count =
       std::make_shared<Count>(Count{std::move(file), CountUnwrap(ceiling), channel.um_per_count});
+  if (channel.index_mm) MDOF_CHECK(await_mark(count, folder, channel.input, ceiling));
   SysfsInput input;
   input.channel = {channel.id, Unit::um};
   input.read = [count] { return read_count(*count); };
   return input;
+}
+
+bool has_mark(const LinuxCounterOptions& options) {
+  return std::any_of(options.channels.begin(), options.channels.end(),
+                     [](const ChannelInput& channel) { return channel.index_mm.has_value(); });
 }
 
 Result<SysfsDevice> open_counter(const LinuxCounterOptions& options) {
@@ -76,9 +112,9 @@ Result<SysfsDevice> open_counter(const LinuxCounterOptions& options) {
     return io_error(folder + "/name: is \"" + chip.value_or("") + "\" where chip is \"" +
                     options.chip + "\"; counters are numbered as they are found: correct device");
   SysfsDevice device;
-  device.datum_lost =
-      "it was away, and whether it went on counting is not known; go to a known place and tell it "
-      "by mdof encoder set";
+  device.datum_lost = std::string("it was away, and whether it went on counting is not known; ") +
+                      (has_mark(options) ? "drive the axis over its reference mark"
+                                         : "go to a known place and tell it by mdof encoder set");
   device.description = "counter " + chip.value_or("without a name") + " at " + folder;
   for (const auto& channel : options.channels) {
     MDOF_TRY(SysfsInput input, open_count(options, folder, channel));

@@ -3,14 +3,11 @@
 #include "drivers/sysfs/attribute.h"
 
 namespace mdof::drivers {
-namespace {
 
 tl::unexpected<Error> to_be_written(const std::string& file, const std::string& why,
                                     const std::string& value) {
   return io_error(file + ": " + why + "; set it (udev rule): echo " + value + " > " + file);
 }
-
-}  // namespace
 
 std::optional<std::int64_t> CountUnwrap::operator()(std::uint64_t raw) {
   if (raw > ceiling_) return std::nullopt;

@@ -25,6 +25,10 @@ class CountUnwrap {
   std::int64_t total_ = 0;
 };
 
+// The error that a file of the device has to be set up.
+tl::unexpected<Error> to_be_written(const std::string& file, const std::string& why,
+                                    const std::string& value);
+
 // What the files beside `count` say; absent ones are nothing.
 struct CountFiles {
   std::optional<std::string> function, count_mode, enable, ceiling, floor;

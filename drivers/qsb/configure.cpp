@@ -37,7 +37,11 @@ Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context)
   if (interval < 1 || interval > 512) table.reject("interval", "must be from 1 to 512 ticks");
   options.interval = static_cast<std::uint32_t>(interval);
   options.serial = table.string("serial", "");
-  MDOF_TRY(const auto channels, read_channels(table, context.rig));
+  MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
+             options.index_inverted = channel.boolean("index_inverted", false);
+             if (options.index_inverted && !channel.has("index_mm"))
+               channel.reject("index_inverted", "is of the reference mark: give index_mm as well");
+           }));
   MDOF_CHECK(table.finish());
   for (const auto& channel : channels) {
     if (channel.input != "count") return no_such_input(channel, {"count"});

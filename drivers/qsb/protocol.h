@@ -13,6 +13,7 @@ enum Register : std::uint8_t {
   kMdr0 = 0x03,  // bits 0-1: 1 x1, 2 x2, 3 x4; the rest 0: free running, index off
   kMdr1 = 0x04,  // 0: counts up, enabled, no triggers
   kStatus = 0x06,
+  kLoad = 0x08,  // DTR: what the index loads
   kThreshold = 0x0B,
   kInterval = 0x0C,  // of the stream, ticks
   kStamp = 0x0D,     // 1: from 0
@@ -22,6 +23,9 @@ enum Register : std::uint8_t {
   kCommand = 0x16,  // 1: stop streaming
 };
 inline constexpr std::uint32_t kPowerWasLost = 0x04;  // of kStatus
+// Of kMdr0: the index loads the count from kLoad, where A and B are alike, which is one count wide.
+inline constexpr std::uint32_t kIndexLoads = 0x10, kIndexSynchronous = 0x40;
+inline constexpr std::uint32_t kIndexInverted = 0x08;  // of kMdr1
 inline constexpr std::uint32_t kEorLf = 1, kEorCr = 2, kEorStamp = 4, kEorSpaces = 8;
 inline constexpr std::uint32_t kFullLines = kEorLf | kEorCr | kEorStamp | kEorSpaces;
 inline constexpr double kTick_ns = 1e9 / 512;  // nominal; the manual contradicts itself

@@ -19,6 +19,11 @@ constexpr std::size_t kLongestLine = 256;
 constexpr const char* kDatumLost =
     "it was reset or without power and counts from 0 again; go to a known place and tell it by "
     "mdof encoder set";
+constexpr const char* kMarkToPass =
+    "it was reset or without power and counts from 0 again; drive the axis over its reference mark";
+constexpr const char* kAtMark =
+    "its index is active wherever the axis goes (then index_inverted of its channel is wrong), or "
+    "the axis stands at the mark: move it on";
 constexpr double kAhead_ns = 2e9;  // that a stamp may be before what the host's clock allows
 
 }  // namespace
@@ -38,7 +43,15 @@ DeviceInfo Qsb::info() const {
   if (power_was_lost_) text += "; has been without power: its count began at 0";
   const double rate_hz = 1e9 / (tick_.ns() * options_.interval);
   return {name_,   "qsb", text,           {{options_.channel.id, Unit::um}},
-          rate_hz, false, clock_.state(), datum_lost_ ? kDatumLost : ""};
+          rate_hz, false, clock_.state(), datum_lost()};
+}
+
+std::string Qsb::datum_lost() const {
+  const bool at_mark = mark_.state() == IndexMark::State::at_mark;
+  const std::chrono::nanoseconds there(monotonic_ns() - at_mark_since_ns_);
+  if (at_mark && there > options_.long_at_mark) return kAtMark;
+  if (!datum_lost_) return "";
+  return options_.channel.index_mm ? kMarkToPass : kDatumLost;
 }
 
 Status Qsb::open() {
@@ -47,7 +60,6 @@ Status Qsb::open() {
   status_ = {};
   clock_.reset();
   tick_.restart();
-  count_.reset();
   stamp_.reset();
   last_stamp_.reset();
   device_ns_ = 0;
@@ -56,7 +68,9 @@ Status Qsb::open() {
   MDOF_CHECK(make_it_answer());
   MDOF_CHECK(check_identity());
   MDOF_CHECK(watch_for_reset());
+  if (anew_) count_.reset();
   MDOF_CHECK(configure());
+  MDOF_CHECK(await_mark());
   counted_ = true;
   last_sample_ns_ = monotonic_ns();
   return stream_->write(qsb_command('S', qsb::kCount), kAnswer);
@@ -77,7 +91,7 @@ Status Qsb::connect() {
 Status Qsb::make_it_answer() {
   for (const bool reset : {false, true}) {
     if (reset && !options_.address) {
-      datum_lost_ = datum_lost_ || counted_;
+      if (counted_) count_from_elsewhere();
       pulse_dtr(*stream_);
       MDOF_TRY(const auto banner, stream_->drain(kBanner / 2, kBanner));
       (void)banner;
@@ -110,18 +124,44 @@ Status Qsb::check_identity() {
 Status Qsb::watch_for_reset() {
   if (!counted_) return {};
   MDOF_TRY(const QsbReply interval, ask('R', qsb::kInterval, std::nullopt));
-  datum_lost_ = datum_lost_ || interval.data != options_.interval;
+  if (interval.data != options_.interval) count_from_elsewhere();
   return {};
+}
+
+void Qsb::count_from_elsewhere() {
+  datum_lost_ = true;
+  anew_ = true;
 }
 
 Status Qsb::configure() {
   const std::pair<std::uint8_t, std::uint32_t> settings[] = {
-      {qsb::kMdr0, options_.counting},     {qsb::kMdr1, 0},  {qsb::kThreshold, 0},
-      {qsb::kInterval, options_.interval}, {qsb::kStamp, 1},
+      {qsb::kMdr0, options_.counting},
+      {qsb::kMdr1, options_.index_inverted ? qsb::kIndexInverted : 0},
+      {qsb::kThreshold, 0},
+      {qsb::kInterval, options_.interval},
+      {qsb::kStamp, 1},
   };
   for (const auto& [reg, value] : settings) MDOF_CHECK(ask('W', reg, value));
   MDOF_TRY(const QsbReply status, ask('R', qsb::kStatus, std::nullopt));
   power_was_lost_ = (status.data & qsb::kPowerWasLost) != 0;
+  return {};
+}
+
+// What it loads at the mark stays the same over open(): it may have been there meanwhile.
+Status Qsb::await_mark() {
+  if (!options_.channel.index_mm) {
+    anew_ = false;
+    return {};
+  }
+  if (anew_) {
+    MDOF_TRY(const QsbReply now, ask('R', qsb::kCount, std::nullopt));
+    mark_.arm(count_(now.data));
+    marks_found_ = marks_passed_;
+    anew_ = false;
+  }
+  if (!mark_.armed()) return {};
+  MDOF_CHECK(ask('W', qsb::kLoad, static_cast<std::uint32_t>(mark_.load())));
+  MDOF_CHECK(ask('W', qsb::kMdr0, options_.counting | qsb::kIndexLoads | qsb::kIndexSynchronous));
   return {};
 }
 
@@ -180,9 +220,13 @@ Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
 }
 
 void Qsb::give_out(SampleBlock& block) {
-  // What was lost was lost before a block.
-  while (!samples_.empty() && (block.scans() == 0 || samples_.front().lost == 0)) {
+  // What was lost was lost before a block, and a block is counted from one place.
+  while (!samples_.empty()) {
     const Sample& sample = samples_.front();
+    const bool at_mark = sample.marks_passed != marks_passed_;
+    if (block.scans() > 0 && (sample.lost > 0 || at_mark)) return;
+    if (at_mark) datum_lost_ = false;
+    marks_passed_ = sample.marks_passed;
     block.lost += sample.lost;
     add_scan(block, clock_.host_ns(sample.device_ns), std::array{sample.um},
              datum_lost_ ? Quality::suspect : Quality::good);
@@ -210,10 +254,13 @@ Status Qsb::take_line(std::string_view line, std::int64_t received_ns) {
     return io_error(place() + ": was reset in mid-stream (\"" + std::string(line.substr(0, 20)) +
                     "\"), so its count began at 0; check its power, and reference the axis anew");
   const auto reply = parse_qsb_line(line);
-  if (reply && reply->type == 's' && reply->reg == qsb::kCount && reply->stamp) {
-    malformed_in_a_row_ = 0;
+  if (reply && reply->type == 's' && reply->reg == qsb::kCount && reply->stamp)
     return take_sample(*reply, received_ns);
-  }
+  if (reply && reply->type == 'w' && reply->reg == qsb::kMdr0) return {};  // the index is off
+  return take_malformed();
+}
+
+Status Qsb::take_malformed() {
   ++malformed_;
   if (++malformed_in_a_row_ <= kMalformedAllowed) return {};
   return io_error(place() + ": " + std::to_string(malformed_in_a_row_) +
@@ -223,20 +270,44 @@ Status Qsb::take_line(std::string_view line, std::int64_t received_ns) {
 Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   const std::int64_t stamp = stamp_(*reply.stamp);
   const std::int64_t step = last_stamp_ ? stamp - *last_stamp_ : 0;
-  if (last_stamp_ && step == 0) return {};  // the same tick again tells nothing new
+  if (last_stamp_ && step == 0) {  // the same tick again tells nothing new
+    malformed_in_a_row_ = 0;
+    return {};
+  }
   const double step_ns = static_cast<double>(step) * tick_.ns();
   const auto passed_ns = static_cast<double>(received_ns - last_sample_ns_);
   if (step < 0 || step_ns > 2 * passed_ns + kAhead_ns)
     return io_error(place() + ": its time stamps jump by " + std::to_string(step) +
                     " ticks; it was reset, or its line is disturbed: reference the axis anew");
+  const std::int64_t count = count_(reply.data);
+  MDOF_TRY(const IndexMark::State mark, watch_mark(count, received_ns));
+  if (mark == IndexMark::State::astray) return take_malformed();
+  malformed_in_a_row_ = 0;
   const auto lines = std::llround(static_cast<double>(step) / options_.interval);
   const std::uint64_t lost = lines > 1 ? static_cast<std::uint64_t>(lines - 1) : 0;
   last_stamp_ = stamp;
   last_sample_ns_ = received_ns;
   device_ns_ += step_ns;
-  const auto counts = static_cast<double>(count_(reply.data));
-  samples_.push_back({std::llround(device_ns_), counts * options_.channel.um_per_count, lost});
+  const std::int64_t from = mark == IndexMark::State::passed ? mark_.from_mark(count) : count;
+  const double um = mark == IndexMark::State::at_mark
+                        ? kNaN
+                        : static_cast<double>(from) * options_.channel.um_per_count;
+  samples_.push_back({std::llround(device_ns_), um, lost, marks_found_});
   return {};
+}
+
+// A count that is astray is a damaged line, and where they all are it counts from elsewhere.
+Result<IndexMark::State> Qsb::watch_mark(std::int64_t count, std::int64_t received_ns) {
+  using State = IndexMark::State;
+  const State before = mark_.state();
+  const State now = mark_.take(count);
+  if (now == State::astray && malformed_in_a_row_ >= kMalformedAllowed) count_from_elsewhere();
+  if (now == State::at_mark && before != now) at_mark_since_ns_ = received_ns;
+  if (now == State::passed && before != now) {
+    ++marks_found_;
+    MDOF_CHECK(stream_->write(qsb_command('W', qsb::kMdr0, options_.counting), kAnswer));
+  }
+  return now;
 }
 
 }  // namespace mdof::drivers

@@ -12,6 +12,7 @@
 #include "drivers/channels.h"
 #include "drivers/clock/device_clock.h"
 #include "drivers/driver.h"
+#include "drivers/index_mark.h"
 #include "drivers/io/byte_stream.h"
 #include "drivers/qsb/protocol.h"
 #include "drivers/qsb/tick_length.h"
@@ -23,16 +24,23 @@ struct QsbOptions {
   std::string port;                 // or
   std::optional<Endpoint> address;  // of a bridge
   SerialSettings line{.baud = 230'400};
-  std::uint32_t counting = 3;               // 1, 2, 3: x1, x2, x4
-  std::uint32_t interval = 1;               // ticks between lines
-  std::string serial;                       // of the device; empty: any
-  ChannelInput channel;                     // input "count"
+  std::uint32_t counting = 3;   // 1, 2, 3: x1, x2, x4
+  std::uint32_t interval = 1;   // ticks between lines
+  std::string serial;           // of the device; empty: any
+  ChannelInput channel;         // input "count"
+  bool index_inverted = false;  // of the signal of its reference mark
+  // At the mark for so long, and it is told that it gets no further.
+  std::chrono::milliseconds long_at_mark{5000};
   std::chrono::milliseconds silence{2000};  // is an error
 };
 
 // Thread-bound. A device that answers is not reset: its count goes on over open(). If it was reset
 // meanwhile its datum is lost: from then on its values are Quality::suspect, until it is
-// trusted again.
+// trusted again, or its reference mark was passed where it has one.
+//
+// The index loads the count with a number of ours (index_mark.h) in the midst of the stream. It is
+// switched off once the mark was passed: what the count loses later shows, and is not put right in
+// silence in the midst of a run.
 class Qsb final : public Driver {
  public:
   static constexpr int kMalformedAllowed = 10;  // in a row
@@ -45,6 +53,7 @@ class Qsb final : public Driver {
   // more than 10 malformed lines in a row, silence.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override { datum_lost_ = false; }
+  int marks_passed() const override { return marks_passed_; }
 
   std::uint64_t malformed_lines() const { return malformed_; }  // since the start
   double tick_ns() const { return tick_.ns(); }
@@ -55,6 +64,7 @@ class Qsb final : public Driver {
     std::int64_t device_ns;
     double um;
     std::uint64_t lost;
+    int marks_passed;
   };
   std::string place() const;
   Status connect();
@@ -62,12 +72,17 @@ class Qsb final : public Driver {
   Status check_identity();
   Status watch_for_reset();
   Status configure();
+  Status await_mark();
+  void count_from_elsewhere();
   Result<QsbReply> ask(char type, std::uint8_t reg, std::optional<std::uint32_t> data);
   Result<std::optional<QsbReply>> one_reply(std::uint8_t reg, std::chrono::milliseconds timeout);
   std::optional<std::string> next_line();
   Status fetch(std::chrono::milliseconds timeout);
   Status take_line(std::string_view line, std::int64_t received_ns);
   Status take_sample(const QsbReply& reply, std::int64_t received_ns);
+  Status take_malformed();
+  Result<IndexMark::State> watch_mark(std::int64_t count, std::int64_t received_ns);
+  std::string datum_lost() const;
   void give_out(SampleBlock& block);
 
   std::string name_;
@@ -86,6 +101,10 @@ class Qsb final : public Driver {
   std::deque<Sample> samples_;  // not yet given out
   Status status_;               // what to say once they are
   std::int64_t last_sample_ns_ = 0;
+  IndexMark mark_{32};
+  bool anew_ = true;  // its count is not that of the last open(), and its mark is to be awaited
+  std::int64_t at_mark_since_ns_ = 0;
+  int marks_found_ = 0, marks_passed_ = 0;  // received, given out
   std::uint64_t malformed_ = 0;
   int malformed_in_a_row_ = 0;
 };

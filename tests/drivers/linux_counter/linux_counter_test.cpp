@@ -10,7 +10,7 @@
 #include "drivers/clock/monotonic.h"
 #include "drivers/linux_counter/configure.h"
 #include "drivers/linux_counter/protocol.h"
-#include "drivers/sysfs/simulated_tree.h"
+#include "drivers/linux_counter/simulated_linux_counter.h"
 #include "tests/drivers/collect.h"
 
 namespace mdof::drivers {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "drivers/qsb/configure.h"
-#include "drivers/qsb/device.h"
+#include "drivers/qsb/simulated_qsb.h"
 #include "tests/drivers/collect.h"
 #include "tests/drivers/served_device.h"
 #include "tests/drivers/served_line.h"
@@ -28,7 +28,7 @@ QsbOptions options_for_test(const ServedLine& served) {
 }
 
 TEST(Qsb, StreamsWithTheDevicesTimes) {
-  QsbDevice device(ramp, {.streams_at_start = true});
+  SimulatedQsb device(ramp, {.faults = {.streams_at_start = true}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   const auto status = driver.open();
@@ -49,7 +49,7 @@ TEST(Qsb, StreamsWithTheDevicesTimes) {
 }
 
 TEST(Qsb, TheCountGoesOnOverAReopen) {
-  QsbDevice device(still);
+  SimulatedQsb device(still, {});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   std::int64_t last_ns = 0;
@@ -65,7 +65,7 @@ TEST(Qsb, TheCountGoesOnOverAReopen) {
 }
 
 TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
-  QsbDevice device(still, {.reset_at = 20});
+  SimulatedQsb device(still, {.faults = {.reset_at = 20}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
@@ -88,7 +88,7 @@ TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
 }
 
 TEST(Qsb, ACutLineIsCountedAndItsScansAreLost) {
-  QsbDevice device(still, {.cut_at = 10});
+  SimulatedQsb device(still, {.faults = {.cut_at = 10}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
@@ -99,7 +99,7 @@ TEST(Qsb, ACutLineIsCountedAndItsScansAreLost) {
 }
 
 TEST(Qsb, AStepOfTheStampsIsLostLines) {
-  QsbDevice device(still, {.jump_at = 10, .jump_ticks = 7});
+  SimulatedQsb device(still, {.faults = {.jump_at = 10, .jump_ticks = 7}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
@@ -111,7 +111,7 @@ TEST(Qsb, AStepOfTheStampsIsLostLines) {
 
 TEST(Qsb, AStampThatCannotBeIsAnError) {
   for (const std::uint32_t jump : {100'000u, 0xFFFFFF00u}) {
-    QsbDevice device(still, {.jump_at = 10, .jump_ticks = jump});
+    SimulatedQsb device(still, {.faults = {.jump_at = 10, .jump_ticks = jump}});
     const ServedLine served(device);
     Qsb driver("scale", options_for_test(served));
     ASSERT_TRUE(driver.open());
@@ -121,11 +121,11 @@ TEST(Qsb, AStampThatCannotBeIsAnError) {
 }
 
 TEST(Qsb, RepliesEAndX) {
-  for (const auto& [faults, text] : {std::pair{QsbDevice::Faults{.refuse = qsb::kInterval},
+  for (const auto& [faults, text] : {std::pair{SimulatedQsb::Faults{.refuse = qsb::kInterval},
                                                "command W0C00000001 was refused (reply e)"},
-                                     std::pair{QsbDevice::Faults{.unsupported = qsb::kMdr0},
+                                     std::pair{SimulatedQsb::Faults{.unsupported = qsb::kMdr0},
                                                "command W0300000003 is not supported (reply x)"}}) {
-    QsbDevice device(still, faults);
+    SimulatedQsb device(still, {.faults = faults});
     const ServedLine served(device);
     const auto status = Qsb("scale", options_for_test(served)).open();
     ASSERT_FALSE(status);
@@ -135,7 +135,7 @@ TEST(Qsb, RepliesEAndX) {
 }
 
 TEST(Qsb, RubbishIsAnErrorAfterTenLines) {
-  QsbDevice device(still, {.rubbish = true});
+  SimulatedQsb device(still, {.faults = {.rubbish = true}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
@@ -143,7 +143,7 @@ TEST(Qsb, RubbishIsAnErrorAfterTenLines) {
 }
 
 TEST(Qsb, SilenceIsAnError) {
-  QsbDevice device(still, {.silent_from = 5});
+  SimulatedQsb device(still, {.faults = {.silent_from = 5}});
   const ServedLine served(device);
   QsbOptions options = options_for_test(served);
   options.silence = std::chrono::milliseconds(300);
@@ -155,7 +155,7 @@ TEST(Qsb, SilenceIsAnError) {
 }
 
 TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
-  QsbDevice device(still);
+  SimulatedQsb device(still, {});
   const ServedLine served(device);
   QsbOptions options = options_for_test(served);
   options.serial = "00002";
@@ -169,7 +169,7 @@ TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
 }
 
 TEST(Qsb, BehindABridge) {
-  QsbDevice device(still);
+  SimulatedQsb device(still, {});
   const ServedDevice served(device);
   QsbOptions options;
   options.address = *parse_endpoint(served.address(), 0);
@@ -181,7 +181,7 @@ TEST(Qsb, BehindABridge) {
 }
 
 TEST(Qsb, ABridgeThatSaysNothing) {
-  QsbDevice device(still, {.mute = true});
+  SimulatedQsb device(still, {.faults = {.mute = true}});
   const ServedDevice served(device);
   QsbOptions options;
   options.address = *parse_endpoint(served.address(), 0);

@@ -4,7 +4,7 @@
 
 #include <regex>
 
-#include "drivers/qsb/device.h"
+#include "drivers/qsb/simulated_qsb.h"
 
 namespace mdof::drivers {
 namespace {
@@ -16,7 +16,7 @@ struct Line {
 };
 
 TEST(QsbVectors, TheSimulatedOneAnswersWhatTmtsProgramAccepts) {
-  QsbDevice device([](std::size_t, std::int64_t) { return 0; });
+  SimulatedQsb device([](std::size_t, std::int64_t) { return 0; }, {});
   device.opened(0, 1, 1'000'000'000);
   const Line lines[] = {
       {"W150000000F", "w 15 0000000F [0-9A-F]{8} !\r\n", "WriteCommand"},
@@ -38,6 +38,33 @@ TEST(QsbVectors, TheSimulatedOneAnswersWhatTmtsProgramAccepts) {
   const std::string stream = device.exchange(0, 1, "", 1'004'000'000);
   EXPECT_TRUE(std::regex_match(stream, std::regex("(s 0E [0-9A-F]{8} [0-9A-F]{8} !\r\n){2}")))
       << stream;
+}
+
+// The QSB hands its registers 03 and 08 on to its counter, an LS7366R. QSB Command List v1.28,
+// MDR0: "Sync Index, Reset on Index, Free Running, X4 mode, W0363".
+// MikroElektronika/mikrosdk_click_v2, clicks/counter/lib_counter/include/counter.h:
+// COUNTER_INDEX_LOAD_CNTR 0x10, COUNTER_INDEX_RESET_CNTR 0x20, COUNTER_4X_QUAD 0x03;
+// counter_write_dtr: DTR goes to the counter by the index.
+TEST(QsbVectors, TheIndexLoadsTheCounter) {
+  constexpr std::uint32_t kSyncResetX4 = 0x63, kReset = 0x20, kLoad = 0x10;
+  EXPECT_EQ(qsb::kIndexLoads, kLoad);
+  EXPECT_EQ(3 | qsb::kIndexSynchronous | qsb::kIndexLoads, kSyncResetX4 - kReset + kLoad);
+  double position = 100;
+  SimulatedQsb device([&](std::size_t, std::int64_t) { return position; }, {});
+  device.set_mark({150});
+  device.opened(0, 1, 1'000'000'000);
+  const auto ask = [&](const std::string& command) {
+    return device.exchange(0, 1, command + "\r\n", 1'000'000'000);
+  };
+  ask("W150000000B");  // no time stamps
+  ask("W08000001F3");  // the example of the command list: 499
+  ask("W0353");
+  EXPECT_EQ(ask("R0E"), "r 0E 00000064 !\r\n");
+  position = 160;
+  EXPECT_EQ(ask("R0E"), "r 0E 000001FD !\r\n");  // 499 + 10
+  ask("W0303");
+  position = 140;
+  EXPECT_EQ(ask("R0E"), "r 0E 000001E9 !\r\n");
 }
 
 // ConnectionStatus.cs: serial number, type and firmware are bits 31-12, 11-8 and 7-0 of

@@ -1,16 +1,20 @@
-// A QSB as it looks from its serial line.
+// A simulated QSB, as a program sees it on a serial line.
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "drivers/qsb/protocol.h"
 #include "drivers/simulated_device.h"
+#include "drivers/simulated_wiring.h"
+#include "schema/sample.h"
 
 namespace mdof::drivers {
 
 // `senses` gives counts, input 0. One client at a time.
-class QsbDevice final : public SimulatedDevice {
+class SimulatedQsb final : public SimulatedDevice {
  public:
   // Lines of the stream count from 0 at each S command; -1: never.
   struct Faults {
@@ -25,26 +29,36 @@ class QsbDevice final : public SimulatedDevice {
     int unsupported = -1;  // register: reply x
     bool mute = false;     // no reply ever
     bool streams_at_start = false;
+    int far_from = -1, fars = 1;  // so many lines from there show a count far away
   };
-  QsbDevice(Senses senses, Faults faults);
-  explicit QsbDevice(Senses senses) : QsbDevice(std::move(senses), Faults()) {}
+  // The reference mark of the encoder: where in counts of `senses`, and whether its signal is low
+  // there and high everywhere else. A rotary encoder has another one a turn further.
+  struct Mark {
+    double at = 0;
+    bool inverted = false;
+    double next_at = kNaN;
+  };
+  struct Options {
+    Faults faults = {};
+  };
+  SimulatedQsb(Senses senses, const Options& options);
+  void set_mark(Mark mark) { mark_ = mark; }  // before it is served
 
   std::vector<Port> ports() const override { return {{"serial", 0}}; }
   void opened(std::size_t port, int client, std::int64_t now_ns) override;
-  void closed(std::size_t, int) override {}
   std::string exchange(std::size_t port, int client, std::string_view received,
                        std::int64_t now_ns) override;
-  bool hangs_up(std::size_t, int) override { return false; }
 
  private:
   std::string execute(std::string_view command, std::int64_t now_ns);
   QsbReply answer(char type, std::uint8_t reg, std::uint32_t data, std::int64_t now_ns);
   void write(std::uint8_t reg, std::uint32_t data, std::int64_t now_ns);
-  std::uint32_t read(std::uint8_t reg, std::int64_t now_ns) const;
+  std::uint32_t read(std::uint8_t reg, std::int64_t now_ns);
+  void watch_mark(double position);
   std::string stream(std::int64_t now_ns);
   std::string stream_line(std::int64_t tick);
   std::int64_t tick_at(std::int64_t now_ns) const;
-  std::uint32_t count_at(std::int64_t t_ns) const;
+  std::uint32_t count_at(std::int64_t t_ns);
   void reset(std::int64_t now_ns);
 
   Senses senses_;
@@ -53,9 +67,14 @@ class QsbDevice final : public SimulatedDevice {
   std::string received_;
   std::int64_t stamp_from_ns_ = 0;
   double count_from_ = 0;
+  std::optional<Mark> mark_;
+  double last_position_ = 0;  // counts, where the axis was last asked for
   bool streaming_ = false;
   std::int64_t next_tick_ = 0;
   int line_ = 0;
 };
+
+// As a plan of mdof-simulate has it. Counts of the encoder, or of the channel that is given.
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_qsb(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

@@ -1,5 +1,6 @@
-#include "drivers/qsb/device.h"
+#include "drivers/qsb/simulated_qsb.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -9,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t kFactoryEor = 0x0B, kNoOutput = 0xFFFF;
 constexpr std::uint32_t kVersionOfTests = 0x00001201;  // serial 00001, QSB-S, firmware 01
+constexpr std::uint32_t kFar = 0x3000'0000;            // no motion, and not where the mark leads
 constexpr const char* kBanner = "QSB-S  0E!\r\n";
 
 std::uint32_t hex(std::string_view text) {
@@ -19,12 +21,13 @@ std::uint32_t hex(std::string_view text) {
 
 }  // namespace
 
-QsbDevice::QsbDevice(Senses senses, Faults faults) : senses_(std::move(senses)), faults_(faults) {
+SimulatedQsb::SimulatedQsb(Senses senses, const Options& options)
+    : senses_(std::move(senses)), faults_(options.faults) {
   registers_[qsb::kEor] = kFactoryEor;
   registers_[qsb::kInterval] = kNoOutput;
 }
 
-void QsbDevice::opened(std::size_t, int, std::int64_t now_ns) {
+void SimulatedQsb::opened(std::size_t, int, std::int64_t now_ns) {
   if (stamp_from_ns_ == 0) stamp_from_ns_ = now_ns;
   if (!std::exchange(faults_.streams_at_start, false)) return;
   registers_[qsb::kInterval] = 1;
@@ -32,7 +35,7 @@ void QsbDevice::opened(std::size_t, int, std::int64_t now_ns) {
   next_tick_ = tick_at(now_ns);
 }
 
-void QsbDevice::reset(std::int64_t now_ns) {
+void SimulatedQsb::reset(std::int64_t now_ns) {
   registers_ = {};
   registers_[qsb::kEor] = kFactoryEor;
   registers_[qsb::kInterval] = kNoOutput;
@@ -42,28 +45,47 @@ void QsbDevice::reset(std::int64_t now_ns) {
   streaming_ = false;
 }
 
-std::int64_t QsbDevice::tick_at(std::int64_t now_ns) const {
+std::int64_t SimulatedQsb::tick_at(std::int64_t now_ns) const {
   return static_cast<std::int64_t>(static_cast<double>(now_ns - stamp_from_ns_) / faults_.tick_ns);
 }
 
-std::uint32_t QsbDevice::count_at(std::int64_t t_ns) const {
-  return static_cast<std::uint32_t>(std::llround(senses_(0, t_ns) - count_from_));
+std::uint32_t SimulatedQsb::count_at(std::int64_t t_ns) {
+  const double position = senses_(0, t_ns);
+  watch_mark(position);
+  return static_cast<std::uint32_t>(std::llround(position - count_from_));
 }
 
-std::uint32_t QsbDevice::read(std::uint8_t reg, std::int64_t now_ns) const {
+// Where its index is configured to load, the count is DTR at the mark; with the other polarity at
+// each place where A and B are alike, every second count, but there.
+void SimulatedQsb::watch_mark(double position) {
+  const double from = std::exchange(last_position_, position);
+  const bool loads = (registers_[qsb::kMdr0] & 0x30) == qsb::kIndexLoads;
+  if (!mark_ || !loads) return;
+  const auto load = static_cast<double>(static_cast<std::int32_t>(registers_[qsb::kLoad]));
+  const bool inverts = (registers_[qsb::kMdr1] & qsb::kIndexInverted) != 0;
+  if (inverts != mark_->inverted)
+    count_from_ = 2 * std::round(position / 2) - load;
+  else
+    for (const double at : {mark_->at, mark_->next_at})
+      if (std::min(from, position) <= at && at <= std::max(from, position)) count_from_ = at - load;
+}
+
+std::uint32_t SimulatedQsb::read(std::uint8_t reg, std::int64_t now_ns) {
   if (reg == qsb::kVersion) return kVersionOfTests;
   if (reg == qsb::kCount) return count_at(now_ns);
   if (reg == qsb::kStamp) return static_cast<std::uint32_t>(tick_at(now_ns));
   return registers_[reg];
 }
 
-void QsbDevice::write(std::uint8_t reg, std::uint32_t data, std::int64_t now_ns) {
+void SimulatedQsb::write(std::uint8_t reg, std::uint32_t data, std::int64_t now_ns) {
+  if (reg == qsb::kMdr0) watch_mark(senses_(0, now_ns));  // by what held until now
   if (reg == qsb::kCommand && data == 1) streaming_ = false;
   if (reg == qsb::kStamp && data == 1) stamp_from_ns_ = now_ns;
   registers_[reg] = data;
 }
 
-QsbReply QsbDevice::answer(char type, std::uint8_t reg, std::uint32_t data, std::int64_t now_ns) {
+QsbReply SimulatedQsb::answer(char type, std::uint8_t reg, std::uint32_t data,
+                              std::int64_t now_ns) {
   const auto stamp = [&] { return static_cast<std::uint32_t>(tick_at(now_ns)); };
   if (reg == faults_.refuse) return {'e', reg, data, stamp()};
   if (reg == faults_.unsupported) return {'x', reg, data, stamp()};
@@ -79,7 +101,7 @@ QsbReply QsbDevice::answer(char type, std::uint8_t reg, std::uint32_t data, std:
   return {type == 'S' ? 's' : 'r', reg, read(reg, now_ns), stamp()};
 }
 
-std::string QsbDevice::execute(std::string_view command, std::int64_t now_ns) {
+std::string SimulatedQsb::execute(std::string_view command, std::int64_t now_ns) {
   if (command.size() < 3 || command.size() > 11 || faults_.mute) return "";
   const char type = command[0];
   const auto reg = static_cast<std::uint8_t>(hex(command.substr(1, 2)));
@@ -89,7 +111,8 @@ std::string QsbDevice::execute(std::string_view command, std::int64_t now_ns) {
   return qsb_line(reply, registers_[qsb::kEor]);
 }
 
-std::string QsbDevice::exchange(std::size_t, int, std::string_view received, std::int64_t now_ns) {
+std::string SimulatedQsb::exchange(std::size_t, int, std::string_view received,
+                                   std::int64_t now_ns) {
   std::string out = stream(now_ns);
   received_ += received;
   for (std::size_t end; (end = received_.find_first_of("\r\n")) != std::string::npos;) {
@@ -99,7 +122,7 @@ std::string QsbDevice::exchange(std::size_t, int, std::string_view received, std
   return out;
 }
 
-std::string QsbDevice::stream(std::int64_t now_ns) {
+std::string SimulatedQsb::stream(std::int64_t now_ns) {
   std::string out;
   while (streaming_ && registers_[qsb::kInterval] != kNoOutput && next_tick_ <= tick_at(now_ns) &&
          line_ != faults_.silent_from) {
@@ -113,16 +136,23 @@ std::string QsbDevice::stream(std::int64_t now_ns) {
   return out;
 }
 
-std::string QsbDevice::stream_line(std::int64_t tick) {
+std::string SimulatedQsb::stream_line(std::int64_t tick) {
   if (faults_.rubbish) return "s 0E ?\xff\x01 !\r\n";
   const std::int64_t t_ns =
       stamp_from_ns_ + std::llround(static_cast<double>(tick) * faults_.tick_ns);
   const std::uint32_t jump =
       faults_.jump_at >= 0 && line_ > faults_.jump_at ? faults_.jump_ticks : 0;
   const auto stamp = static_cast<std::uint32_t>(tick) + jump;
+  const bool far = faults_.far_from >= 0 && line_ > faults_.far_from && faults_.fars > 0;
+  if (far) --faults_.fars;
   const std::string line =
-      qsb_line({'s', qsb::kCount, count_at(t_ns), stamp}, registers_[qsb::kEor]);
+      qsb_line({'s', qsb::kCount, count_at(t_ns) + (far ? kFar : 0), stamp}, registers_[qsb::kEor]);
   return line_ - 1 == faults_.cut_at ? line.substr(0, line.size() / 2) : line;
+}
+
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_qsb(SimulatedWiring& wiring) {
+  return std::make_unique<SimulatedQsb>(wiring.senses({wiring.counts(wiring.first_or_encoder())}),
+                                        SimulatedQsb::Options{});
 }
 
 }  // namespace mdof::drivers

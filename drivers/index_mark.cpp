@@ -1,0 +1,46 @@
+#include "drivers/index_mark.h"
+
+#include <cstdlib>
+
+namespace mdof::drivers {
+namespace {
+
+// A wrong polarity loads once a period, which is four counts at most. A single reading may be
+// damaged.
+constexpr std::int64_t kGoneOn_counts = 16;
+constexpr int kReadings = 3;
+// Shares of a quarter of the range: how far motion is believed without the mark and, between two
+// readings, beyond it; and when to arm anew.
+constexpr std::int64_t kMotion = 2, kBeyondMark = 64, kFar = 4;
+
+}  // namespace
+
+std::uint64_t IndexMark::arm(std::int64_t count) {
+  state_ = State::awaited;
+  armed_ = count;
+  loaded_ = count + quarter_;
+  return load();
+}
+
+std::uint64_t IndexMark::load() const {
+  return static_cast<std::uint64_t>(loaded_) & ((std::uint64_t{1} << bits_) - 1);
+}
+
+bool IndexMark::far_from_armed(std::int64_t count) const {
+  return std::abs(count - armed_) > quarter_ / kFar;
+}
+
+IndexMark::State IndexMark::take(std::int64_t count) {
+  if (!armed()) return state_;
+  if (std::abs(count - armed_) <= quarter_ / kMotion) return state_ = State::awaited;
+  if (std::abs(from_mark(count)) > quarter_ / kBeyondMark) return State::astray;
+  return gone_on(from_mark(count));
+}
+
+IndexMark::State IndexMark::gone_on(std::int64_t from_mark) {
+  if (state_ == State::awaited) readings_at_mark_ = 0;
+  const bool gone = std::abs(from_mark) > kGoneOn_counts;
+  return state_ = gone && ++readings_at_mark_ >= kReadings ? State::passed : State::at_mark;
+}
+
+}  // namespace mdof::drivers

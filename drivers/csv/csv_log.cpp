@@ -16,9 +16,7 @@ DeviceInfo CsvLog::info() const {
   if (!rows_) return info;
   const CsvHeader& header = rows_->header();
   info.channels = header.channels;
-  info.simulated =
-      std::any_of(header.comments.begin(), header.comments.end(),
-                  [](const std::string& text) { return text.starts_with("simulated"); });
+  info.simulated = header.says_simulated();
   return info;
 }
 

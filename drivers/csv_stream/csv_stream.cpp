@@ -34,11 +34,6 @@ std::string seconds(std::int64_t ns) {
   return text.insert(text.size() - 1, ".") + " s";
 }
 
-bool says_simulated(const CsvHeader& header) {
-  return std::any_of(header.comments.begin(), header.comments.end(),
-                     [](const std::string& text) { return text.starts_with("simulated"); });
-}
-
 }  // namespace
 
 CsvStream::CsvStream(std::string name, CsvStreamOptions options)
@@ -48,7 +43,7 @@ DeviceInfo CsvStream::info() const {
   DeviceInfo info{name_, "csv_stream", "CSV rows of " + source_, {}, 0, false, {}};
   if (!protocol_ || !protocol_->header()) return info;
   info.channels = protocol_->header()->channels;
-  info.simulated = says_simulated(*protocol_->header());
+  info.simulated = protocol_->header()->says_simulated();
   return info;
 }
 
@@ -153,7 +148,7 @@ Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {
     MDOF_CHECK(check_silence());
     return ReadState::more;
   }
-  const Quality good = says_simulated(header) ? Quality::simulated : Quality::good;
+  const Quality good = header.says_simulated() ? Quality::simulated : Quality::good;
   // What was lost was lost before a block.
   while (!rows_.empty() && block.scans() < kMostScans &&
          (block.scans() == 0 || rows_.front().lost == 0)) {
@@ -190,7 +185,7 @@ Status CsvStream::fetch(milliseconds timeout) {
 }
 
 tl::unexpected<Error> CsvStream::ended(const Error& why) {
-  if (child_) return io_error(source_ + " " + child_->epitaph());
+  if (child_) return io_error(source_ + " " + child_->how_it_ended());
   if (!options_.fifo.empty()) {
     // Opened anew before the old end is closed: what the next writer has sent by now is not lost.
     if (auto again = open_fifo(options_.fifo)) {

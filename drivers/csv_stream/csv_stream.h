@@ -56,7 +56,7 @@ class CsvStream final : public Driver {
     std::uint64_t lost;
     bool suspect;
   };
-  struct Moment {
+  struct TimePair {
     std::int64_t device_ns, host_ns;
   };
   Status connect();
@@ -83,7 +83,7 @@ class CsvStream final : public Driver {
   std::deque<Row> rows_;        // received, not yet given out
   Status status_;               // what to say once rows_ is empty
   bool in_first_line_ = false;  // of a serial line, which may have begun in the middle of it
-  std::optional<Moment> pace_from_;
+  std::optional<TimePair> pace_from_;
   std::int64_t last_row_ns_ = 0, last_received_ns_ = 0, last_time_ns_ = 0;
 };
 

@@ -183,8 +183,8 @@ Status RecordingLog::check_end() {
                    "restore the file from a copy");
 }
 
-double RecordingLog::progress() const {
-  return chunks_ == 0 ? 1 : static_cast<double>(next_ - 1) / static_cast<double>(chunks_);
+Progress RecordingLog::progress() const {
+  return {static_cast<double>(next_ - 1), static_cast<double>(chunks_), "chunks"};
 }
 
 tl::unexpected<Error> RecordingLog::damaged(const RecordingChunk& chunk, const Error& why) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "drivers/driver.h"
+#include "schema/base/progress.h"
 #include "schema/base/sqlite.h"
 #include "schema/recording/recording.h"
 
@@ -34,7 +35,7 @@ class RecordingLog : public Driver {
   // Of the chain of chunks; proven once read() has said `end`.
   const std::string& sha256() const { return sha256_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
-  double progress() const;  // 0 ... 1: the part of the chunks that were read
+  Progress progress() const;  // in chunks
 
  private:
   Status check_kind();

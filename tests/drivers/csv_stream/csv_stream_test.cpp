@@ -1,30 +1,21 @@
 #include "drivers/csv_stream/csv_stream.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <thread>
 
 #include "drivers/csv_stream/configure.h"
-#include "drivers/csv_stream/device.h"
+#include "drivers/csv_stream/simulated_csv_stream.h"
 #include "tests/drivers/collect.h"
+#include "tests/drivers/csv_stream/csv_stream_options.h"
 #include "tests/drivers/served_device.h"
-#include "tests/drivers/served_line.h"
 
 namespace mdof::drivers {
 namespace {
 
 using std::chrono::milliseconds;
-
-CsvStreamOptions options_for_test() {
-  CsvStreamOptions options;
-  options.expected = {"encoder", "A", "B"};
-  return options;
-}
 
 CsvStreamOptions command(const std::string& script) {
   CsvStreamOptions options = options_for_test();
@@ -44,7 +35,7 @@ CsvStream over_tcp(const ServedDevice& served, milliseconds silence = millisecon
 }
 
 TEST(CsvStream, RowsOfATcpServerWithItsOwnTimes) {
-  CsvStreamDevice device({"encoder_mm", "A_um"}, 1000, true, counts);
+  SimulatedCsvStream device(counts, {.columns = {"encoder_mm", "A_um"}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   const auto status = stream.open();
@@ -64,7 +55,7 @@ TEST(CsvStream, RowsOfATcpServerWithItsOwnTimes) {
 }
 
 TEST(CsvStream, APositionInVoltsNeedsTheScaleOfTheRig) {
-  CsvStreamDevice device({"encoder_V", "A_um"}, 1000, true, counts);
+  SimulatedCsvStream device(counts, {.columns = {"encoder_V", "A_um"}});
   const ServedDevice served(device);
   for (const bool scaled : {false, true}) {
     DriverContext context;
@@ -90,7 +81,9 @@ TEST(CsvStream, APositionInVoltsNeedsTheScaleOfTheRig) {
 }
 
 TEST(CsvStream, BadLinesAreCountedAsLost) {
-  CsvStreamDevice device({"A_um"}, 2000, false, counts, {.bad_line_every = 10});
+  SimulatedCsvStream device(
+      counts,
+      {.columns = {"A_um"}, .rate_hz = 2000, .with_time = false, .faults = {.bad_line_every = 10}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   ASSERT_TRUE(stream.open());
@@ -104,7 +97,7 @@ TEST(CsvStream, BadLinesAreCountedAsLost) {
 }
 
 TEST(CsvStream, ABrokenConnectionIsAnErrorAndComesBack) {
-  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.cut_row = 50});
+  SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.cut_row = 50}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   std::int64_t last_ns = 0;
@@ -121,7 +114,7 @@ TEST(CsvStream, ABrokenConnectionIsAnErrorAndComesBack) {
 }
 
 TEST(CsvStream, ASilentServerIsAnError) {
-  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.silent_from = 5});
+  SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.silent_from = 5}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served, milliseconds(300));
   ASSERT_TRUE(stream.open());
@@ -131,7 +124,7 @@ TEST(CsvStream, ASilentServerIsAnError) {
 }
 
 TEST(CsvStream, AHeaderThatComesAgainStartsTheClockAnew) {
-  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.restart_at = 60});
+  SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.restart_at = 60}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   ASSERT_TRUE(stream.open());
@@ -142,7 +135,7 @@ TEST(CsvStream, AHeaderThatComesAgainStartsTheClockAnew) {
 }
 
 TEST(CsvStream, TimesInMillisecondsAreRefused) {
-  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.time_scale = 1000});
+  SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.time_scale = 1000}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   ASSERT_TRUE(stream.open());
@@ -151,7 +144,7 @@ TEST(CsvStream, TimesInMillisecondsAreRefused) {
 }
 
 TEST(CsvStream, WithoutAHeaderOpenFails) {
-  CsvStreamDevice device({"A_um"}, 1000, true, counts, {.no_header = true});
+  SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.no_header = true}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
   const auto status = stream.open();
@@ -163,7 +156,7 @@ TEST(CsvStream, WithoutAHeaderOpenFails) {
 TEST(CsvStream, NobodyListens) {
   CsvStreamOptions options = options_for_test();
   {
-    CsvStreamDevice device({"A_um"}, 1000, true, counts);
+    SimulatedCsvStream device(counts, {.columns = {"A_um"}});
     options.server = *parse_endpoint(ServedDevice(device).address(), 0);
   }
   CsvStream stream("probe", options);
@@ -249,155 +242,6 @@ TEST(CsvStream, ACommandThatSaysNothing) {
   const auto status = CsvStream("probe", options).open();
   ASSERT_FALSE(status);
   EXPECT_NE(status.error().message.find("no header line within 0.1 s"), std::string::npos);
-}
-
-class CsvStreamFifo : public testing::Test {
- protected:
-  CsvStreamFifo() {
-    std::filesystem::remove(path_);
-    EXPECT_EQ(::mkfifo(path_.c_str(), 0600), 0);
-    options_.fifo = path_;
-  }
-  ~CsvStreamFifo() override { std::filesystem::remove(path_); }
-  std::string path_ = (std::filesystem::temp_directory_path() /
-                       ("mdof_csv_stream_fifo." + std::to_string(::getpid())))
-                          .string();
-  CsvStreamOptions options_ = options_for_test();
-};
-
-TEST_F(CsvStreamFifo, WaitsForItsWriterAndForTheNext) {
-  options_.start = milliseconds(50);
-  CsvStream stream("probe", options_);
-  const auto early = stream.open();
-  ASSERT_FALSE(early);
-  EXPECT_NE(early.error().message.find("nobody has written to it yet"), std::string::npos);
-  for (int round = 0; round < 2; ++round) {
-    std::thread writer([this] {
-      const int fd = ::open(path_.c_str(), O_WRONLY);
-      const std::string text = "A_um\n1\n2\n";
-      EXPECT_EQ(::write(fd, text.data(), text.size()), static_cast<ssize_t>(text.size()));
-      ::close(fd);
-    });
-    bool opened = false;
-    for (int i = 0; i < 200 && !opened; ++i) opened = stream.open().has_value();
-    const Collected all = collect(stream, 10);
-    writer.join();
-    ASSERT_TRUE(opened);
-    EXPECT_EQ(all.scans.size(), 2u);
-    EXPECT_NE(all.error.find("has closed it"), std::string::npos) << all.error;
-  }
-}
-
-TEST_F(CsvStreamFifo, AWriterThatComesBeforeTheReopenIsNotLost) {
-  CsvStream stream("probe", options_);
-  const auto write = [this](const char* text) {
-    const int fd = ::open(path_.c_str(), O_WRONLY);
-    EXPECT_EQ(::write(fd, text, std::strlen(text)), static_cast<ssize_t>(std::strlen(text)));
-    ::close(fd);
-  };
-  std::thread first([&] { write("A_um\n1\n"); });
-  ASSERT_TRUE(stream.open());
-  first.join();
-  EXPECT_NE(collect(stream, 10).error.find("has closed it"), std::string::npos);
-  write("A_um\n2\n3\n");
-  ASSERT_TRUE(stream.open());
-  const Collected all = collect(stream, 10);
-  EXPECT_EQ(all.scans, (std::vector<std::vector<double>>{{2}, {3}}));
-}
-
-TEST_F(CsvStreamFifo, WhatIsNoFifoIsSaid) {
-  std::filesystem::remove(path_);
-  const auto status = CsvStream("probe", options_).open();
-  ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find("mkfifo"), std::string::npos);
-  options_.fifo = "/etc/hostname";
-  EXPECT_FALSE(CsvStream("probe", options_).open());
-}
-
-std::string refusal(const std::string& toml) {
-  auto table = TomlTable::parse(toml, "mdofd.toml");
-  if (!table) return table.error().message;
-  DriverContext context;
-  context.name = "probe";
-  context.rig.probes.resize(1);
-  context.rig.probes[0].id = "A";
-  const auto spec = configure_csv_stream(*table, context);
-  if (!spec) return spec.error().message;
-  return spec->make().has_value() && spec->live ? "accepted" : "not made";
-}
-
-// A gauge that sends rows and nothing else, "\r\n" at their ends, from the middle of one on.
-class BareRows final : public SimulatedDevice {
- public:
-  std::vector<Port> ports() const override { return {{"serial", 0}}; }
-  void opened(std::size_t, int, std::int64_t) override {}
-  void closed(std::size_t, int) override {}
-  std::string exchange(std::size_t, int, std::string_view, std::int64_t) override {
-    const std::string rows = "1.25,-3.5\r\n1.25,-3.5\r\n";
-    return rows.substr(7 * ++turns_ % 11, 7);
-  }
-  bool hangs_up(std::size_t, int) override { return false; }
-
- private:
-  std::size_t turns_ = 0;
-};
-
-CsvStreamOptions over_serial(const std::string& port, const std::string& header) {
-  CsvStreamOptions options = options_for_test();
-  options.port = port;
-  options.header = header;
-  options.start = milliseconds(300);
-  return options;
-}
-
-TEST(CsvStream, ASerialLineThatSendsNoHeader) {
-  BareRows device;
-  const ServedLine line(device);
-  CsvStream stream("gauge", over_serial(line.path(), "encoder_mm,A_um"));
-  const auto status = stream.open();
-  ASSERT_TRUE(status) << status.error().message;
-  EXPECT_EQ(stream.info().description, "CSV rows of serial:" + line.path());
-  const Collected all = collect(stream, 100);
-  ASSERT_EQ(all.error, "");
-  ASSERT_GE(all.scans.size(), 100u);
-  EXPECT_EQ(all.lost, 0u) << "the half line before the first whole one is no loss";
-  for (const auto& scan : all.scans) ASSERT_EQ(scan, (std::vector<double>{1.25, -3.5}));
-  expect_growing(all.time_ns);
-}
-
-TEST(CsvStream, ASerialLineWithoutAHeaderSaysWhatToWrite) {
-  BareRows device;
-  const ServedLine line(device);
-  CsvStream stream("gauge", over_serial(line.path(), ""));
-  const auto status = stream.open();
-  ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find("header = "), std::string::npos) << status.error().message;
-}
-
-TEST(CsvStreamConfiguration, KeysAndTheirErrors) {
-  EXPECT_EQ(refusal("source = \"tcp://127.0.0.1:9000\"\nsilence_s = 10\nstart_s = 5"), "accepted");
-  EXPECT_EQ(refusal("source = \"fifo:/run/probe\"\nbad_lines = 0"), "accepted");
-  EXPECT_EQ(refusal("command = [\"python3\", \"p.py\"]"), "accepted");
-  EXPECT_EQ(refusal("source = \"serial:/dev/ttyUSB0\"\nbaud = 9600\nparity = \"even\"\nstop_bits = "
-                    "2\nheader = \"A_um,encoder_mm\""),
-            "accepted");
-  const std::pair<const char*, const char*> wrong[] = {
-      {"", "source: is missing"},
-      {"source = \"serial:/dev/ttyS0\"\nbaud = 0", "baud: must be a rate"},
-      {"source = \"serial:/dev/ttyS0\"\nparity = \"mark\"", "parity: must be none"},
-      {"source = \"serial:/dev/ttyS0\"\nheader = \"1,2\"", "header"},
-      {"source = \"serial:ttyS0\"", "source: must be"},
-      {"source = \"tcp://127.0.0.1:9000\"\nbaud = 9600", "baud"},
-      {"source = \"udp://x\"", "mdofd.toml:1: source: must be \"tcp://HOST:PORT\""},
-      {"source = \"tcp://host\"", "is no address"},
-      {"command = []", "must name a program"},
-      {"command = [\"a\"]\nsource = \"fifo:b\"", "mdofd.toml:2: source: contradicts command"},
-      {"command = [\"a\"]\nstart_s = 60", "start_s: must be from 0.1 to 5"},
-      {"command = [\"a\"]\nbad_lines = -1", "bad_lines: must be from 0 to 10000"},
-      {"command = [\"a\"]\nsilense_s = 1", "silence_s"},
-  };
-  for (const auto& [toml, message] : wrong)
-    EXPECT_NE(refusal(toml).find(message), std::string::npos) << toml << " -> " << refusal(toml);
 }
 
 }  // namespace

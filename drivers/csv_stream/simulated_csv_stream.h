@@ -1,16 +1,18 @@
-// A script that serves its readings as CSV rows, as it looks from the line.
+// A simulated script that serves its readings as CSV rows.
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "drivers/simulated_device.h"
+#include "drivers/simulated_wiring.h"
 
 namespace mdof::drivers {
 
 // Sends the header to each client, then a row each 1/rate_hz: `senses` gives each column.
-class CsvStreamDevice final : public SimulatedDevice {
+class SimulatedCsvStream final : public SimulatedDevice {
  public:
   // Row numbers count from 0 for each client; -1: never.
   struct Faults {
@@ -21,11 +23,13 @@ class CsvStreamDevice final : public SimulatedDevice {
     int restart_at = -1;     // row: the header comes again, time_s from 0
     double time_scale = 1;   // 1000: milliseconds in time_s
   };
-  // `columns` without time_s, as in the header: "encoder_mm", "A_um".
-  CsvStreamDevice(std::vector<std::string> columns, double rate_hz, bool with_time, Senses senses,
-                  Faults faults);
-  CsvStreamDevice(std::vector<std::string> columns, double rate_hz, bool with_time, Senses senses)
-      : CsvStreamDevice(std::move(columns), rate_hz, with_time, std::move(senses), Faults()) {}
+  struct Options {
+    std::vector<std::string> columns;  // without time_s, as in the header: "encoder_mm", "A_um"
+    double rate_hz = 1000;
+    bool with_time = true;
+    Faults faults = {};
+  };
+  SimulatedCsvStream(Senses senses, Options options);
 
   std::vector<Port> ports() const override { return {{"rows", 9000}}; }
   void opened(std::size_t port, int client, std::int64_t now_ns) override;
@@ -43,12 +47,12 @@ class CsvStreamDevice final : public SimulatedDevice {
   std::string header() const;
   std::string row(Client& client, std::int64_t t_ns) const;
 
-  std::vector<std::string> columns_;
-  double rate_hz_;
-  bool with_time_;
   Senses senses_;
-  Faults faults_;
+  Options options_;
   std::map<int, Client> clients_;
 };
+
+// As a plan of mdof-simulate has it. Rows "time_s,encoder_mm,A_um,..." at rate_hz.
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_csv_stream(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

@@ -1,0 +1,90 @@
+#include "drivers/csv/csv_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/csv/csv_rows.h"
+
+namespace mdof::drivers {
+namespace {
+
+constexpr std::size_t kMostRows = 10'000'000;  // all are in memory at once
+
+std::string stem_of(const std::string& name) {
+  return name.substr(0, name.rfind('_'));
+}
+
+tl::unexpected<Error> no_column(const CsvHeader& header, const std::string& name) {
+  const std::string place = header.source + ":" + std::to_string(header.lines) + ": ";
+  std::string found;
+  for (const std::string& column : header.columns) {
+    if (stem_of(column) == stem_of(name))
+      return bad_input(place + "column " + column + " is read in another unit: convert it and " +
+                       "name it " + name);
+    found += (found.empty() ? "" : ", ") + column;
+  }
+  return bad_input(place + "no column " + name + " among: " + found +
+                   "; add it or rename the one that holds it");
+}
+
+// Channel of each of the columns.
+Result<std::vector<std::size_t>> channels_of(const CsvHeader& header,
+                                             const std::vector<std::string>& names) {
+  std::vector<std::size_t> channels;
+  for (const std::string& name : names) {
+    const auto at =
+        std::find_if(header.channel_columns.begin(), header.channel_columns.end(),
+                     [&](std::size_t column) { return header.columns[column] == name; });
+    if (at == header.channel_columns.end()) return no_column(header, name);
+    channels.push_back(static_cast<std::size_t>(at - header.channel_columns.begin()));
+  }
+  return channels;
+}
+
+Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::size_t>& channels,
+              const std::vector<std::string>& names) {
+  const std::size_t before = table.rows();
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    const std::vector<double>& value = block.value[channels[k]];
+    const auto missing =
+        std::find_if(value.begin(), value.end(), [](double x) { return std::isnan(x); });
+    if (missing != value.end())
+      return bad_input(table.where(before + static_cast<std::size_t>(missing - value.begin())) +
+                       "column " + names[k] +
+                       ": no value (empty or nan); fill it in or take the line out");
+    table.columns[k].insert(table.columns[k].end(), value.begin(), value.end());
+  }
+  if (table.rows() <= kMostRows) return {};
+  return bad_input(table.source + ": more than " + std::to_string(kMostRows) +
+                   " rows; this is no series of targets");
+}
+
+}  // namespace
+
+// No line between the rows is left out.
+std::string CsvTable::where(std::size_t row) const {
+  return source + ":" + std::to_string(header_line + 1 + row) + ": ";
+}
+
+Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& names) {
+  CsvRowsOptions options;
+  options.kind = CsvKind::table;
+  options.limits.bad_lines = 0;
+  options.sha256 = false;
+  MDOF_TRY(const auto rows, CsvRows::open(path, options));
+  const CsvHeader& header = rows->header();
+  CsvTable table;
+  table.source = header.source;
+  table.header_line = header.lines;
+  table.simulated = header.says_simulated();
+  MDOF_TRY(const auto channels, channels_of(header, names));
+  table.columns.resize(names.size());
+  SampleBlock block;
+  for (;;) {
+    MDOF_TRY(const ReadState state, rows->next(block));
+    if (state == ReadState::end) return table;
+    MDOF_CHECK(append(table, block, channels, names));
+  }
+}
+
+}  // namespace mdof::drivers

@@ -1,0 +1,65 @@
+#include "drivers/csv/positioning_csv.h"
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "drivers/csv/csv_table.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::drivers {
+namespace {
+
+enum Column { kTarget, kDirection, kRun, kDeviation };
+constexpr double kMostRuns = 1e6;
+constexpr const char* kWhatDirectionIs =
+    "1 where the target was approached in the + sense (forward), -1 where in the - sense";
+
+// The number of its first line.
+using Seen = std::map<std::tuple<double, int, int>, std::size_t>;
+
+Result<PositioningReading> reading_of(const CsvTable& table, std::size_t row) {
+  const auto at = [&](Column column) { return table.columns[column][row]; };
+  const double direction = at(kDirection), run = at(kRun);
+  if (direction != 1 && direction != -1)
+    return bad_input(table.where(row) + "column direction: " + plain_number(direction) + "; give " +
+                     kWhatDirectionIs);
+  if (run != std::floor(run) || !(std::abs(run) <= kMostRuns))
+    return bad_input(table.where(row) + "column run: " + plain_number(run) +
+                     "; number the runs 1, 2, 3 ...");
+  return PositioningReading{from_mm(at(kTarget)), static_cast<int>(direction),
+                            static_cast<int>(run), from_um(at(kDeviation))};
+}
+
+Status check_new(const CsvTable& table, std::size_t row, const PositioningReading& r, Seen& seen) {
+  const auto [first, is_new] = seen.try_emplace({r.target_m, r.direction, r.run}, row);
+  if (is_new) return {};
+  return bad_input(table.where(row) + "the target, direction and run of line " +
+                   std::to_string(table.header_line + 1 + first->second) +
+                   " again; number the runs 1, 2, 3 ... or take one line out");
+}
+
+// A word where the direction must be: what to write instead.
+Error with_remedy(Error error) {
+  if (error.message.find(": column direction: \"") != std::string::npos)
+    error.message += std::string("; the direction is ") + kWhatDirectionIs;
+  return error;
+}
+
+}  // namespace
+
+Result<PositioningCsv> read_positioning_csv(const std::string& path) {
+  auto table = read_csv_table(path, {"target_mm", "direction", "run", "deviation_um"});
+  if (!table) return tl::unexpected(with_remedy(std::move(table.error())));
+  PositioningCsv csv{table->source, table->simulated, {}};
+  Seen seen;
+  for (std::size_t row = 0; row < table->rows(); ++row) {
+    MDOF_TRY(const PositioningReading reading, reading_of(*table, row));
+    MDOF_CHECK(check_new(*table, row, reading, seen));
+    csv.readings.push_back(reading);
+  }
+  return csv;
+}
+
+}  // namespace mdof::drivers

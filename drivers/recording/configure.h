@@ -1,0 +1,11 @@
+#pragma once
+
+#include "drivers/driver_spec.h"
+#include "schema/base/toml_reader.h"
+
+namespace mdof::drivers {
+
+// Key: file. A recording (by its magic), else a probe log: CSV, plain or gzip.
+Result<DriverSpec> configure_replay(TomlTable& table, const DriverContext& context);
+
+}  // namespace mdof::drivers

@@ -1,0 +1,14 @@
+// Of a stream of the encoder and the probes A and B.
+#pragma once
+
+#include "drivers/csv_stream/csv_stream.h"
+
+namespace mdof::drivers {
+
+inline CsvStreamOptions options_for_test() {
+  CsvStreamOptions options;
+  options.expected = {"encoder", "A", "B"};
+  return options;
+}
+
+}  // namespace mdof::drivers

@@ -1,0 +1,84 @@
+// A measured series out of a CSV file: the columns that are asked for, or an error with its line.
+#include "drivers/csv/csv_table.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace mdof::drivers {
+namespace {
+
+const std::vector<std::string> kSeries = {"position_mm", "deviation_um"};
+
+class CsvTableTest : public testing::Test {
+ protected:
+  CsvTableTest()
+      : path_(std::filesystem::temp_directory_path() /
+              ("mdof_csv_table_test." + std::to_string(::getpid()))) {}
+  ~CsvTableTest() override { std::filesystem::remove(path_); }
+
+  Result<CsvTable> read(const std::string& text) const {
+    std::ofstream(path_, std::ios::binary) << text;
+    return read_csv_table(path_.string(), kSeries);
+  }
+  void expect_error(const std::string& text, const std::vector<std::string>& words) const {
+    const auto table = read(text);
+    ASSERT_FALSE(table) << text;
+    for (const auto& word : words)
+      EXPECT_NE(table.error().message.find(word), std::string::npos) << table.error().message;
+  }
+  std::filesystem::path path_;
+};
+
+TEST_F(CsvTableTest, ReadsItsColumnsAmongOthersInAnyOrder) {
+  const auto table = read(
+                         "# simulated: yes\r\ntime_s,deviation_um,note_C,position_mm\r\n"
+                         "9,1.5,,10\r\n8,-2,20,+5.25\r\n\r\n")
+                         .value();
+  EXPECT_EQ(table.columns[0], (std::vector<double>{10, 5.25}));
+  EXPECT_EQ(table.columns[1], (std::vector<double>{1.5, -2}));
+  EXPECT_TRUE(table.simulated);
+  EXPECT_FALSE(read("position_mm,deviation_um\n1,2\n")->simulated);
+}
+
+TEST_F(CsvTableTest, ReadsMoreThanABlock) {
+  std::string text = "position_mm,deviation_um\n";
+  for (int i = 0; i < 20000; ++i) text += std::to_string(i) + "," + std::to_string(-i) + "\n";
+  const auto table = read(text).value();
+  ASSERT_EQ(table.rows(), 20000u);
+  EXPECT_EQ(table.columns[1][19999], -19999);
+  expect_error(text + "1,nan\n", {":20002: column deviation_um: no value", "fill it in"});
+}
+
+TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
+  const std::string head = "# a\nposition_mm,deviation_um\n1,2\n";
+  expect_error(head + "2,\n", {":4: column deviation_um: no value", "take the line out"});
+  expect_error(head + "nan,3\n", {":4: column position_mm: no value"});
+  expect_error(head + "2,inf\n", {":4: column deviation_um", "not a finite number"});
+  expect_error(head + "2,abc\n", {":4: column deviation_um: \"abc\" is not a number"});
+  expect_error(head + "2\n", {":4: 1 fields where the header has 2"});
+  expect_error(head + "\n3,4\n", {":4: empty line"});
+  expect_error("position_mm;deviation_um\n1;2\n", {"semicolons"});
+  expect_error("1,2\n3,4\n", {":1: a row of numbers", "position_mm,deviation_um"});
+  expect_error("position_mm,deviation_um\n", {"no rows"});
+  expect_error("", {"empty"});
+}
+
+TEST_F(CsvTableTest, SaysWhichColumnOrUnitIsMeant) {
+  expect_error("position_um,deviation_um\n1,2\n",
+               {":1: column position_um is read in another unit", "name it position_mm"});
+  expect_error("x_mm,deviation_um\n1,2\n", {":1: no column position_mm among: x_mm, deviation_um"});
+  expect_error("position_inch,deviation_um\n1,2\n", {":1:", "position_inch", "unknown unit"});
+  expect_error("position_mm,deviation_um,deviation_um\n1,2,3\n", {"there twice"});
+}
+
+TEST_F(CsvTableTest, AFileThatIsNotThereIsAnError) {
+  EXPECT_FALSE(read_csv_table("/nonexistent/x.csv", kSeries));
+}
+
+}  // namespace
+}  // namespace mdof::drivers

@@ -1,6 +1,7 @@
 #include "drivers/labjack/input_keys.h"
 
 #include <array>
+#include <map>
 #include <optional>
 
 #include "drivers/labjack/count_guard.h"
@@ -37,13 +38,17 @@ Result<int> negative_of(const std::string& device, const ChannelInput& channel, 
 }
 
 Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<InputUse>& uses) {
-  std::optional<std::size_t> counter;
+  std::map<std::optional<Axis>, std::string> counters;
   for (std::size_t i = 0; i < uses.size(); ++i) {
-    if (uses[i].ain < 0 && counter)
-      return bad_input(channels[i].where + ": " + channels[*counter].input +
-                       " counts already; mdofd takes one counter of a device, count \"" +
-                       channels[i].id + "\" by another");
-    if (uses[i].ain < 0) counter = i;
+    if (uses[i].ain < 0) {
+      const auto [other, fresh] = counters.emplace(channels[i].further, channels[i].input);
+      if (!fresh)
+        return bad_input(channels[i].where + ": " + other->second +
+                         " counts already; an axis takes one counter of a device: count \"" +
+                         channels[i].id +
+                         "\" by another, or, where it is the encoder of another "
+                         "axis, give it in that axis' [axis.device] with same_as");
+    }
     for (std::size_t other = 0; other < uses.size(); ++other)
       if (uses[i].ain >= 0 && uses[other].negative == uses[i].ain)
         return bad_input(channels[i].where + ": " + channels[i].input +

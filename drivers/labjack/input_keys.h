@@ -29,7 +29,8 @@ struct InputUse {
   int ain = -1;       // -1: it counts
   int negative = -1;  // -1: single-ended
 };
-// Errors: what one input is measured against is an input of its own; a second counter.
+// Errors: what one input is measured against is an input of its own; a second counter of
+// one axis.
 Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<InputUse>& uses);
 
 }  // namespace mdof::drivers::labjack

@@ -32,8 +32,8 @@ double volts(const AinCalibration& c, std::uint16_t raw) {
   return above < 0 ? -above * c.negative_slope : above * c.positive_slope;
 }
 
-Status ScanLine::take(std::span<const std::uint16_t> samples, std::optional<std::uint64_t> dropped,
-                      std::vector<Scan>& scans) {
+Status ScanSplitter::take(std::span<const std::uint16_t> samples,
+                          std::optional<std::uint64_t> dropped, std::vector<Scan>& scans) {
   if (dropped && !gap_) {
     gap_ = dropped;
     candidates_ = (begun_.size() + samples.size() + words_ - 1) / words_;
@@ -47,7 +47,7 @@ Status ScanLine::take(std::span<const std::uint16_t> samples, std::optional<std:
                   " scans and does not mark where: the times after it are not known");
 }
 
-void ScanLine::end_scan(std::vector<Scan>& scans) {
+void ScanSplitter::end_scan(std::vector<Scan>& scans) {
   const bool marks = gap_ && candidates_ > 0 &&
                      std::all_of(begun_.begin(), begun_.end(), [](auto w) { return w == 0xFFFF; });
   if (candidates_ > 0) --candidates_;

@@ -34,9 +34,9 @@ struct Scan {
 };
 
 // Cuts samples into scans, which may run on from one packet to the next, and counts them.
-class ScanLine {
+class ScanSplitter {
  public:
-  explicit ScanLine(std::size_t words_per_scan) : words_(words_per_scan) {}
+  explicit ScanSplitter(std::size_t words_per_scan) : words_(words_per_scan) {}
   // Adds the scans that end in this packet to `scans`. `dropped`: the packet says that so many
   // scans are missing; the scan of 0xFFFF in it marks where and is not handed out. Error: there is
   // none, so that the times of later scans are not known. Scans of which it is not known yet

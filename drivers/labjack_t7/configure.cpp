@@ -118,9 +118,9 @@ Result<Settings> read_labjack_t7(TomlTable& table, const DriverContext& context)
   settings.name = context.name;
   std::vector<labjack::InputKeys> keys;
   std::vector<labjack::InputUse> uses;
-  MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
-             keys.push_back(labjack::read_input_keys(channel));
-           }));
+  const auto more = [&](TomlTable& channel) { keys.push_back(labjack::read_input_keys(channel)); };
+  MDOF_TRY(auto channels, read_channels(table, context.rig, more));
+  MDOF_CHECK(read_further_channels(context.further, more, channels));
   for (std::size_t i = 0; i < channels.size(); ++i) {
     MDOF_TRY(const Input input, input_of(channels[i], keys[i]));
     settings.inputs.push_back(input);
@@ -128,6 +128,7 @@ Result<Settings> read_labjack_t7(TomlTable& table, const DriverContext& context)
   }
   MDOF_CHECK(labjack::check_uses(channels, uses));
   settings.encoder = encoder_origin(channels, counts_at(channels, counters()));
+  settings.further_encoders = further_encoders(channels, context.further, counters());
   read_endpoints(table, settings);
   read_converter(table, settings);
   read_rate(table, settings);
@@ -142,6 +143,7 @@ Result<DriverSpec> configure_labjack_t7(TomlTable& table, const DriverContext& c
   spec.name = context.name;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
   spec.encoder = settings.encoder;
+  spec.further_encoders = settings.further_encoders;
   spec.identity = [at = settings.command] { return identity_of(at); };
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<LabjackT7>(settings);

@@ -29,21 +29,25 @@ std::size_t words_per_scan(const Settings& settings) {
   return scan_list(settings.inputs).size();
 }
 
-// The counter's; none: nothing counts.
-const Input* counter_of(const Settings& settings) {
-  const auto at = std::find_if(settings.inputs.begin(), settings.inputs.end(),
-                               [](const Input& input) { return input.ain < 0; });
-  return at == settings.inputs.end() ? nullptr : &*at;
+bool counts(const Input& input) {
+  return input.ain < 0;
+}
+
+// Of each counter.
+std::string speeds(const Settings& settings) {
+  std::string text;
+  for (const Input& input : settings.inputs)
+    if (counts(input) && input.most_counts_per_s > 0)
+      text += ", " + (input.channel.id == kEncoderChannel ? "" : input.channel.id + " ") +
+              labjack::speed_text(input.most_counts_per_s, input.um_per_count);
+  return text;
 }
 
 std::string describe(const Identity& id, const Settings& settings) {
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(), "LabJack T7 %u, firmware %.4f, at ", id.serial,
                 static_cast<double>(id.firmware));
-  const Input* counter = counter_of(settings);
-  const std::string speed =
-      counter ? labjack::speed_text(counter->most_counts_per_s, counter->um_per_count) : "";
-  return text.data() + settings.command.text() + (speed.empty() ? "" : ", " + speed);
+  return text.data() + settings.command.text() + speeds(settings);
 }
 
 }  // namespace
@@ -55,9 +59,10 @@ LabjackT7::LabjackT7(Settings settings)
       rate_hz_(settings_.rate_hz),
       clock_(1e9 / kCore_Hz),
       buffer_(1 << 14) {
-  for (const Input& input : settings_.inputs) channels_.push_back(input.channel);
-  if (const Input* counter = counter_of(settings_))
-    guard_ = labjack::CountGuard(counter->most_counts_per_s);
+  for (const Input& input : settings_.inputs) {
+    channels_.push_back(input.channel);
+    counters_.emplace_back(input.most_counts_per_s);
+  }
 }
 
 LabjackT7::~LabjackT7() {
@@ -65,15 +70,26 @@ LabjackT7::~LabjackT7() {
 }
 
 DeviceInfo LabjackT7::info() const {
-  return {settings_.name, "labjack_t7",
-          description_,   channels_,
-          rate_hz_,       false,
-          clock_.state(), zero_lost_ ? kZeroLost : guard_.sure() ? "" : labjack::kCountsLost};
+  DeviceInfo info{settings_.name, "labjack_t7", description_,  channels_,
+                  rate_hz_,       false,        clock_.state()};
+  for (std::size_t i = 0; i < counters_.size(); ++i) {
+    const std::string why = counters_[i].why_unsure(kZeroLost);
+    if (channels_[i].id == kEncoderChannel) {
+      info.datum_lost = why;
+    } else if (!why.empty()) {
+      info.further_datum_lost[channels_[i].id] = why;
+    }
+  }
+  return info;
 }
 
 void LabjackT7::trust_count() {
-  zero_lost_ = false;
-  guard_.restart();
+  trust_further_count(kEncoderChannel);
+}
+
+void LabjackT7::trust_further_count(const std::string& channel) {
+  for (std::size_t i = 0; i < counters_.size(); ++i)
+    if (channels_[i].id == channel) counters_[i].trust();
 }
 
 std::string LabjackT7::place() const {
@@ -100,7 +116,7 @@ void LabjackT7::close() {
   handed_out_ = 0;
   broken_ = {};
   clock_.reset();
-  guard_.interrupt();
+  for (auto& counter : counters_) counter.interrupt();
   start_ticks_.reset();
   reopened_ = last_time_ns_ != 0;
 }
@@ -111,16 +127,20 @@ Status LabjackT7::start() {
   description_ = describe(identity, settings_);
   MDOF_CHECK(stop_stream(*registers_));
   MDOF_TRY(calibrations_, set_up_ains(*registers_, settings_));
-  if (const Input* counter = counter_of(settings_)) {
-    MDOF_TRY(const bool went_on, start_counter(*registers_, counter->dio));
-    zero_lost_ = zero_lost_ || (counted_ && !went_on);
-    counted_ = true;
-    if (!went_on) count_.reset();
-  }
+  MDOF_CHECK(take_up_counters());
   MDOF_TRY(rate_hz_, set_up_stream(*registers_, settings_));
   ticks_per_scan_ = kCore_Hz / rate_hz_;
   MDOF_TRY(stream_, connect_tcp(settings_.stream, kConnect));
   return start_clock();
+}
+
+Status LabjackT7::take_up_counters() {
+  for (std::size_t i = 0; i < counters_.size(); ++i) {
+    if (!counts(settings_.inputs[i])) continue;
+    MDOF_TRY(const bool went_on, start_counter(*registers_, settings_.inputs[i].dio));
+    counters_[i].take_up(went_on);
+  }
+  return {};
 }
 
 // Several reads, of which DeviceClock takes the one that came soonest.
@@ -152,7 +172,7 @@ Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
   if (!stream_) return io_error(place() + " is not open; open it before reading");
   if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
-  hand_out(block);
+  fill_block(block);
   return ReadState::more;
 }
 
@@ -203,7 +223,7 @@ std::int64_t LabjackT7::ticks_of(std::uint64_t scan) const {
 }
 
 // A block ends before lost scans; they stand before the next one.
-void LabjackT7::hand_out(SampleBlock& block) {
+void LabjackT7::fill_block(SampleBlock& block) {
   reserve_scans(block, scans_.size() - handed_out_);
   while (handed_out_ < scans_.size()) {
     const Scan& scan = scans_[handed_out_];
@@ -222,7 +242,7 @@ void LabjackT7::append(SampleBlock& block, const Scan& scan) {
   std::size_t word = 0;
   for (std::size_t c = 0; c < settings_.inputs.size(); ++c) {
     const std::uint16_t first = scan.words[word++];
-    if (settings_.inputs[c].ain >= 0) {
+    if (!counts(settings_.inputs[c])) {
       append_ain(block, c, first);
     } else {
       append_count(block, c, u32_of(scan.words[word++], first),
@@ -238,11 +258,11 @@ void LabjackT7::append_ain(SampleBlock& block, std::size_t channel, std::uint16_
 
 void LabjackT7::append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw,
                              double time_s) {
-  const std::int64_t count = count_(raw);
-  const bool sure = guard_.take(count, time_s) && !zero_lost_;
+  labjack::Counter& counter = counters_[channel];
+  const std::int64_t count = counter.take(raw, time_s);
   block.value[channel].push_back(static_cast<double>(count) *
                                  settings_.inputs[channel].um_per_count);
-  block.quality[channel].push_back(sure ? Quality::good : Quality::suspect);
+  block.quality[channel].push_back(counter.sure() ? Quality::good : Quality::suspect);
 }
 
 // Scans that would have come since the last one.

@@ -1,5 +1,5 @@
-// LabJack T7 over Ethernet: amplifier outputs and one quadrature encoder in one hardware-timed
-// scan.
+// LabJack T7 over Ethernet: amplifier outputs and the quadrature encoders of one or more axes in
+// one hardware-timed scan.
 //
 // Port 502 (Modbus TCP) configures and says who it is, port 702 streams. The device counts its
 // scans on CORE_TIMER, 40 MHz: scan k was taken at STREAM_START_TIME_STAMP + k / rate. That count
@@ -18,16 +18,16 @@
 #include "drivers/clock/device_clock.h"
 #include "drivers/driver.h"
 #include "drivers/io/byte_stream.h"
-#include "drivers/labjack/count_guard.h"
+#include "drivers/labjack/counter.h"
 #include "drivers/labjack_t7/registers.h"
 #include "drivers/labjack_t7/settings.h"
 #include "drivers/unwrap.h"
 
 namespace mdof::drivers::labjack_t7 {
 
-// Thread-bound. Channels: Unit::volt of an AIN, Unit::um of the counter.
+// Thread-bound. Channels: Unit::volt of an AIN, Unit::um of a counter.
 //
-// The counter is left running over a re-open, so its zero stays. If it had stopped (the T7 lost
+// A counter is left running over a re-open, so its zero stays. If it had stopped (the T7 lost
 // power), or went faster than it can count, its zero is lost: from then on its values are
 // Quality::suspect, until it is trusted again.
 class LabjackT7 final : public Driver {
@@ -39,17 +39,19 @@ class LabjackT7 final : public Driver {
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override;
+  void trust_further_count(const std::string& channel) override;
 
  private:
   void close();
   Status start();
+  Status take_up_counters();
   Status start_clock();
   Status take_start();
   Status next_scans(std::chrono::milliseconds timeout);
   Status receive(std::chrono::milliseconds timeout);
   Status take_packets(std::int64_t received_ns);
   std::int64_t ticks_of(std::uint64_t scan) const;
-  void hand_out(SampleBlock& block);
+  void fill_block(SampleBlock& block);
   void append(SampleBlock& block, const Scan& scan);
   void append_ain(SampleBlock& block, std::size_t channel, std::uint16_t raw) const;
   void append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw, double time_s);
@@ -76,12 +78,9 @@ class LabjackT7 final : public Driver {
   std::size_t handed_out_ = 0;               // of them
   std::vector<char> buffer_;
 
-  Unwrap count_{32, true};
-  bool counted_ = false;           // the counter has been used since this object was made
-  bool zero_lost_ = false;         // of the counter
-  labjack::CountGuard guard_;      // of the counter
-  std::int64_t last_time_ns_ = 0;  // of the last scan handed out
-  bool reopened_ = false;          // since then
+  std::vector<labjack::Counter> counters_;  // one an input; of an AIN not used
+  std::int64_t last_time_ns_ = 0;           // of the last scan handed out
+  bool reopened_ = false;                   // since then
 };
 
 }  // namespace mdof::drivers::labjack_t7

@@ -151,7 +151,7 @@ class PacketLine {
   Status check(const StreamPacket& packet) const;
 
   std::size_t words_;
-  labjack::ScanLine line_;
+  labjack::ScanSplitter line_;
   std::uint16_t transaction_ = 0;  // expected
 };
 

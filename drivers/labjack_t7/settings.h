@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct Settings {
   std::uint32_t serial = 0;            // 0: any
   std::vector<Input> inputs;
   EncoderOrigin encoder;
+  std::map<std::string, EncoderOrigin> further_encoders;  // of further axes, by channel
 };
 
 // The scan list for these inputs, in their order; a counter takes two entries.

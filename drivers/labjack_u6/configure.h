@@ -1,8 +1,9 @@
 // The table [axis.device] with driver = "labjack_u6" (keys: drivers/README.md).
 #pragma once
 
+#include "drivers/driver_spec.h"
 #include "drivers/labjack_u6/settings.h"
-#include "drivers/registry.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof::drivers {
 

@@ -145,7 +145,7 @@ Result<ReadState> LabjackU6::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
   if (!stream_) return io_error(place() + " is not open; open it before reading");
   if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
-  hand_out(block);
+  fill_block(block);
   return ReadState::more;
 }
 
@@ -197,7 +197,7 @@ Status LabjackU6::take(const usb::InStream::Chunk& chunk) {
 }
 
 // A block ends before lost scans; they stand before the next one.
-void LabjackU6::hand_out(SampleBlock& block) {
+void LabjackU6::fill_block(SampleBlock& block) {
   while (handed_out_ < scans_.size()) {
     const Scan& scan = scans_[handed_out_];
     if (scan.lost > 0 && block.scans() > 0) return;

@@ -44,7 +44,7 @@ class LabjackU6 final : public Driver {
   Status receive(std::chrono::milliseconds timeout);
   Status why_silent();
   Status take(const usb::InStream::Chunk& chunk);
-  void hand_out(SampleBlock& block);
+  void fill_block(SampleBlock& block);
   void append(SampleBlock& block, const Scan& scan);
   std::uint64_t lost_while_closed(std::int64_t time_ns) const;
   std::string place() const;

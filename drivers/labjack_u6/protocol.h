@@ -144,7 +144,7 @@ class PacketLine {
   Status take(const StreamData& packet, std::vector<Scan>& scans);
 
  private:
-  labjack::ScanLine line_;
+  labjack::ScanSplitter line_;
   std::uint8_t counter_ = 0;  // expected
 };
 

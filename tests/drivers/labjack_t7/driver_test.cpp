@@ -1,114 +1,11 @@
-// The driver against the simulated T7 on real sockets.
-#include "drivers/labjack_t7/labjack_t7.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
+// The driver against the simulated T7 on real sockets: what it reads.
 #include <thread>
-#include <tuple>
 
-#include "drivers/labjack_t7/device.h"
+#include "tests/drivers/labjack_t7/driver_fixture.h"
 #include "tests/drivers/modbus/hex.h"
-#include "tests/drivers/served_device.h"
 
-namespace mdof::drivers::labjack_t7 {
+namespace mdof::drivers::labjack_t7::test {
 namespace {
-
-using namespace std::chrono_literals;
-
-constexpr double kRate_Hz = 4000;
-
-// AIN0 rises 1 V a second from zero at the first call, AIN1 is beyond the range, the counter counts
-// nanoseconds / 1000 from -40.
-struct Truth {
-  std::int64_t zero_ns =
-      std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
-  double operator()(std::size_t input, std::int64_t t_ns) const {
-    if (input == 0) return static_cast<double>(t_ns - zero_ns) * 1e-9;
-    if (input == 1) return 20;
-    if (input == 4) return 0.9;
-    if (input == 5) return 0.25;
-    return input == Device::kCounterInput ? std::floor(static_cast<double>(t_ns - zero_ns) / 1000)
-                                          : -1.5;
-  }
-};
-
-std::vector<Input> inputs() {
-  std::vector<Input> all = {{{"A", Unit::volt}, 0, 0},
-                            {{"B", Unit::volt}, 1, 0},
-                            {{"C", Unit::volt}, 2, 0},
-                            {{"encoder", Unit::um}, -1, -0.5}};
-  return all;
-}
-
-class LabjackT7Driver : public testing::Test {
- protected:
-  void serve(const Faults& faults, Device::Options options = {}) {
-    options.faults = faults;
-    options.core_start = core_start;
-    device = std::make_unique<Device>(truth, options);
-    served = std::make_unique<ServedDevice>(*device);
-    settings.name = "daq";
-    settings.command = {"127.0.0.1", served->port(0)};
-    settings.stream = {"127.0.0.1", served->port(1)};
-    settings.rate_hz = kRate_Hz;
-    settings.inputs = inputs();
-    settings.inputs.back().dio = dio;
-    settings.samples_per_packet = quick_packet(kRate_Hz, 5);
-  }
-  LabjackT7& driver() {
-    if (!made) made = std::make_unique<LabjackT7>(settings);
-    return *made;
-  }
-  std::string refusal() {
-    const Status opened = driver().open();
-    return opened ? "opened" : opened.error().message;
-  }
-  // Reads until `scans` have come or an error, which it gives.
-  std::string read(std::size_t scans) {
-    SampleBlock block;
-    const auto until = std::chrono::steady_clock::now() + 20s;
-    while (time_ns.size() < scans && std::chrono::steady_clock::now() < until) {
-      const auto state = driver().read(block, 50ms);
-      if (!state) return state.error().message;
-      if (block.scans() > 0) losses.push_back(block.lost);
-      time_ns.insert(time_ns.end(), block.time_ns.begin(), block.time_ns.end());
-      for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t s = 0; s < block.scans(); ++s) {
-          value[c].push_back(block.value[c][s]);
-          quality[c].push_back(block.quality_at(c, s));
-        }
-    }
-    return time_ns.size() < scans ? "too few scans" : "";
-  }
-  std::uint64_t lost() const {
-    std::uint64_t sum = 0;
-    for (const std::uint64_t n : losses) sum += n;
-    return sum;
-  }
-
-  // CORE_TIMER reads this now, give or take some seconds.
-  void core_reads(std::uint32_t ticks) {
-    core_start = ticks - static_cast<std::uint32_t>(truth.zero_ns / 25);  // 40 MHz, wrapping
-  }
-
-  Truth truth;
-  std::uint32_t core_start = 0xFFF00000;
-  int dio = 0;  // of the encoder
-  std::unique_ptr<Device> device;
-  std::unique_ptr<ServedDevice> served;
-  Settings settings;
-  std::unique_ptr<LabjackT7> made;
-  std::vector<std::int64_t> time_ns;
-  std::vector<double> value[4];
-  std::vector<Quality> quality[4];
-  std::vector<std::uint64_t> losses;
-};
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST_F(LabjackT7Driver, GivesVoltsAndMicrometresAtTheirTimes) {
   serve({});
@@ -145,7 +42,7 @@ TEST_F(LabjackT7Driver, SendsTheVectors) {
 }
 
 TEST_F(LabjackT7Driver, ReadReturnsInTimeWithNothing) {
-  Faults faults;
+  SimulatedLabjackT7::Faults faults;
   faults.silent_at = 0;
   serve(faults);
   ASSERT_EQ(refusal(), "opened");
@@ -154,25 +51,6 @@ TEST_F(LabjackT7Driver, ReadReturnsInTimeWithNothing) {
   ASSERT_TRUE(driver().read(block, 20ms));
   EXPECT_EQ(block.scans(), 0U);
   EXPECT_LT(std::chrono::steady_clock::now() - before, 1s);
-}
-
-TEST_F(LabjackT7Driver, SwappedWordsAreRefused) {
-  Faults faults;
-  faults.swapped_words = true;
-  serve(faults);
-  EXPECT_TRUE(has(refusal(), "0x22330011"));
-}
-
-TEST_F(LabjackT7Driver, OtherDevicesAreRefused) {
-  Device::Options options;
-  options.product = 4;
-  serve({}, options);
-  EXPECT_TRUE(has(refusal(), "PRODUCT_ID is 4"));
-  settings.serial = 1;
-  made.reset();
-  served.reset();
-  serve({});
-  EXPECT_TRUE(has(refusal(), "serial number is 470012345"));
 }
 
 TEST_F(LabjackT7Driver, TheStampOfAStreamIsReadOnceItsFirstScanHasBegun) {
@@ -190,69 +68,6 @@ TEST_F(LabjackT7Driver, TheStampOfAStreamIsReadOnceItsFirstScanHasBegun) {
   }
 }
 
-TEST_F(LabjackT7Driver, AStampOfAnotherStreamIsRefused) {
-  core_reads(1'000'000'000);
-  Faults faults;
-  faults.stale_stamp = true;
-  serve(faults);
-  ASSERT_EQ(refusal(), "opened");
-  const std::string message = read(20);
-  EXPECT_TRUE(has(message, "STREAM_START_TIME_STAMP is 0, of another stream")) << message;
-}
-
-// LabJack's ljm_constants.json: STREAM_START_TIME_STAMP from 1.0214, STREAM_AUTORECOVER_DISABLE
-// from 1.026 on.
-TEST_F(LabjackT7Driver, FirmwareThatLacksWhatIsNeededIsRefused) {
-  for (const auto& [firmware, says] : {std::pair{1.0188F, "1.0188 lacks the time stamp"},
-                                       {1.0213F, "(1.0214)"},
-                                       {1.0214F, "1.0214 lacks streams that recover (1.026)"},
-                                       {1.0259F, "(1.026)"},
-                                       {1.026F, "opened"}}) {
-    made.reset();
-    served.reset();
-    Device::Options options;
-    options.firmware = firmware;
-    serve({}, options);
-    const std::string message = refusal();
-    EXPECT_TRUE(has(message, says)) << message;
-  }
-}
-
-TEST_F(LabjackT7Driver, AT7ProIsRefusedOverItsWifi) {
-  for (const auto& [hardware, wifi_ip, says] :
-       {std::tuple{3U, 0x7F000001U, "over which a T7-Pro cannot stream"},
-        {3U, 0xC0A80105U, "opened"},     // connected by cable
-        {3U, 0U, "opened"},              // its WiFi is off
-        {1U, 0x7F000001U, "opened"}}) {  // it has none
-    made.reset();
-    served.reset();
-    Device::Options options;
-    options.hardware = hardware;
-    options.wifi_ip = wifi_ip;
-    serve({}, options);
-    const std::string message = refusal();
-    EXPECT_TRUE(has(message, says)) << message;
-  }
-}
-
-TEST_F(LabjackT7Driver, ErasedConstantsAreRefused) {
-  Faults faults;
-  faults.erased_flash = true;
-  serve(faults);
-  EXPECT_TRUE(has(refusal(), "calibration"));
-}
-
-TEST_F(LabjackT7Driver, ARefusalIsToldInLabJacksWords) {
-  Faults faults;
-  faults.refused = reg::stream_enable.address;
-  faults.refused_code = 2607;
-  serve(faults);
-  const std::string message = refusal();
-  EXPECT_TRUE(has(message, "STREAM_ENABLE")) << message;
-  EXPECT_TRUE(has(message, "2607, the scan list is invalid")) << message;
-  EXPECT_TRUE(has(message, settings.command.text())) << message;
-}
-
 TEST_F(LabjackT7Driver, AStreamThatRunsIsStopped) {
   serve({});
   ASSERT_EQ(refusal(), "opened");
@@ -264,7 +79,7 @@ TEST_F(LabjackT7Driver, AStreamThatRunsIsStopped) {
 }
 
 TEST_F(LabjackT7Driver, DroppedScansAreCountedAndTheTimeLineGoesOn) {
-  Faults faults;
+  SimulatedLabjackT7::Faults faults;
   faults.recovery_at = 5;
   faults.dropped = 300;
   serve(faults);
@@ -284,7 +99,7 @@ TEST_F(LabjackT7Driver, DroppedScansAreCountedAndTheTimeLineGoesOn) {
 
 TEST_F(LabjackT7Driver, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
   struct Case {
-    Faults faults;
+    SimulatedLabjackT7::Faults faults;
     const char* says;
   };
   std::vector<Case> cases(5);
@@ -362,6 +177,42 @@ TEST_F(LabjackT7Driver, CountsAtAnotherPairOfLines) {
   EXPECT_LT(value[3].back(), value[3].front());
 }
 
+// Of two axes, in one scan: DIO0 counts nanoseconds / 1000, DIO2 a quarter of that.
+TEST_F(LabjackT7Driver, EncodersOfTwoAxesAreCountedAndTrustedEachByItself) {
+  serve({});
+  settings.inputs[2] = {{"encoder_Y", Unit::um}, -1, 2.0};
+  settings.inputs[2].dio = 2;
+  settings.inputs[2].most_counts_per_s = 400'000;
+  settings.inputs[3].most_counts_per_s = 400'000;
+  settings.samples_per_packet = quick_packet(kRate_Hz, 6);
+  ASSERT_EQ(refusal(), "opened");
+  EXPECT_TRUE(
+      has(driver().info().description, ", encoder_Y counts to 800 mm/s, counts to 200 mm/s"))
+      << driver().info().description;
+  ASSERT_EQ(read(400), "");
+  for (std::size_t i = 0; i < time_ns.size(); ++i)
+    ASSERT_NEAR(value[2][i], -value[3][i], 120) << i;  // 2 * 0.25 and -0.5 of the same; 50 us apart
+  EXPECT_EQ(quality[2].back(), Quality::good);
+  EXPECT_EQ(quality[3].back(), Quality::suspect);  // 1,000,000 counts a second
+  EXPECT_TRUE(has(driver().info().datum_lost, "counts may be lost"));
+  EXPECT_TRUE(driver().info().further_datum_lost.empty());
+
+  served->change([&] { device->restart(); });
+  served->cut();
+  EXPECT_NE(read(100'000), "");
+  ASSERT_EQ(refusal(), "opened");
+  ASSERT_EQ(read(time_ns.size() + 20), "");
+  EXPECT_EQ(quality[2].back(), Quality::suspect);
+  EXPECT_TRUE(has(driver().info().further_datum_lost["encoder_Y"], "counts from 0 again"));
+  driver().trust_count();  // of the other axis
+  ASSERT_EQ(read(time_ns.size() + 200), "");
+  EXPECT_EQ(quality[2].back(), Quality::suspect);
+  driver().trust_further_count("encoder_Y");
+  ASSERT_EQ(read(time_ns.size() + 200), "");
+  EXPECT_EQ(quality[2].back(), Quality::good);
+  EXPECT_TRUE(driver().info().further_datum_lost.empty());
+}
+
 TEST_F(LabjackT7Driver, ACountThatWasRestartedIsSuspect) {
   serve({});
   ASSERT_EQ(refusal(), "opened");
@@ -401,12 +252,5 @@ TEST_F(LabjackT7Driver, ACountFasterThanItCanCountIsSuspectFromThenOn) {
   EXPECT_TRUE(has(driver().info().datum_lost, "counts may be lost"));
 }
 
-TEST_F(LabjackT7Driver, NobodyThereIsAnErrorWithTheAddress) {
-  serve({});
-  served.reset();
-  const std::string message = refusal();
-  EXPECT_TRUE(has(message, settings.command.text())) << message;
-}
-
 }  // namespace
-}  // namespace mdof::drivers::labjack_t7
+}  // namespace mdof::drivers::labjack_t7::test

@@ -3,7 +3,7 @@
 // default).
 #include <gtest/gtest.h>
 
-#include "drivers/labjack_t7/device.h"
+#include "drivers/labjack_t7/simulated_labjack_t7.h"
 #include "tests/drivers/vendor_vector.h"
 
 namespace mdof::drivers::labjack_t7 {
@@ -16,7 +16,7 @@ constexpr const char* kMap = "labjack/ljm_constants, LabJack/LJM/ljm_constants.j
 class LabjackT7Vectors : public testing::Test {
  protected:
   std::string ask(const char* hex) { return device.exchange(0, 1, bytes(hex), 0); }
-  Device device{[](std::size_t, std::int64_t) { return 0; }, {}};
+  SimulatedLabjackT7 device{[](std::size_t, std::int64_t) { return 0; }, {}};
 };
 
 TEST_F(LabjackT7Vectors, AddressesAreThoseOfLabjacksMap) {

@@ -2,7 +2,7 @@
 // setChecksum16 and setChecksum8 (LabJackPython, src/LabJackPython.py).
 #include <gtest/gtest.h>
 
-#include "drivers/labjack_u6/device.h"
+#include "drivers/labjack_u6/simulated_labjack_u6.h"
 #include "tests/drivers/vendor_vector.h"
 
 namespace mdof::drivers::labjack_u6 {
@@ -16,7 +16,7 @@ class LabjackU6Vectors : public testing::Test {
     device.out(kCommandOut, command, 0);
     return device.in(kReplyIn, kCommandBytes, 0).bytes;
   }
-  Device device{[](std::size_t, std::int64_t) { return 0; }, {}};
+  SimulatedLabjackU6 device{[](std::size_t, std::int64_t) { return 0; }, {}};
 };
 
 TEST_F(LabjackU6Vectors, TheSimulatedOneAnswersWhatTheVendorAccepts) {

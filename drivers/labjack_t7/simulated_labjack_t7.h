@@ -1,9 +1,9 @@
-// A T7 without one: Modbus TCP on 502 and the stream on 702, with the registers that a stream
-// needs.
+// A simulated T7: Modbus TCP on 502 and the stream on 702, with the registers that a stream needs.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,42 +11,44 @@
 #include "drivers/labjack_t7/modbus_server.h"
 #include "drivers/labjack_t7/protocol.h"
 #include "drivers/simulated_device.h"
+#include "drivers/simulated_wiring.h"
 
 namespace mdof::drivers::labjack_t7 {
 
-// What may go wrong, by the number of a packet of the stream; -1: never.
-struct Faults {
-  bool swapped_words = false;  // a gateway that swaps the words of 32-bit values
-  bool erased_flash = false;   // no calibration constants
-  bool stale_stamp = false;    // STREAM_START_TIME_STAMP stays that of the stream before
-  int refused = -1;            // a write to this register is refused ...
-  int refused_code = 0;        // ... with this LabJack error in LAST_ERR_DETAIL
-  int recovery_at = -1;        // three packets say 2940, then 2941 reports `dropped` scans
-  std::uint16_t dropped = 0;
-  bool unmarked = false;  // 2941 without its scan of 0xFFFF
-  int stop_at = -1;       // this packet has `stop_status` and is the last
-  int stop_status = status::scan_overlap;
-  int skip_at = -1;         // this packet is not sent: a gap in the transaction ids
-  int silent_at = -1;       // from this packet on nothing is sent
-  int hang_up_at = -1;      // the connection breaks before this packet
-  bool no_capture = false;  // the upper word is of the count when it is read (no T7 does that)
-};
-
-// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in volts, input 14 the counts of the pair of lines
-// that counts. Inside a scan the entries of the list are taken 10 us apart.
-class Device final : public SimulatedDevice {
+// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in volts, inputs 14, 15 and 16 the counts of DIO0,
+// DIO2 and DIO6 with the line after it. Inside a scan the entries of the list are taken 10 us
+// apart.
+class SimulatedLabjackT7 final : public SimulatedDevice {
  public:
+  // What may go wrong, by the number of a packet of the stream; -1: never.
+  struct Faults {
+    bool swapped_words = false;  // a gateway that swaps the words of 32-bit values
+    bool erased_flash = false;   // no calibration constants
+    bool stale_stamp = false;    // STREAM_START_TIME_STAMP stays that of the stream before
+    int refused = -1;            // a write to this register is refused ...
+    int refused_code = 0;        // ... with this LabJack error in LAST_ERR_DETAIL
+    int recovery_at = -1;        // three packets say 2940, then 2941 reports `dropped` scans
+    std::uint16_t dropped = 0;
+    bool unmarked = false;  // 2941 without its scan of 0xFFFF
+    int stop_at = -1;       // this packet has `stop_status` and is the last
+    int stop_status = status::scan_overlap;
+    int skip_at = -1;         // this packet is not sent: a gap in the transaction ids
+    int silent_at = -1;       // from this packet on nothing is sent
+    int hang_up_at = -1;      // the connection breaks before this packet
+    bool no_capture = false;  // the upper word is of the count when it is read (no T7 does that)
+  };
   struct Options {
     double clock_ppm = 0;  // its crystal, fast: > 0
     std::uint32_t core_start = 0;
     std::uint32_t serial = 470012345;
     float product = 7, firmware = 1.0304F;
     std::uint32_t hardware = 0, wifi_ip = 0;  // HARDWARE_INSTALLED, WIFI_IP
-    Faults faults;
+    Faults faults = {};
   };
-  static constexpr std::size_t kCounterInput = kAins;
+  static constexpr std::size_t kCounterInput = kAins;  // of the first pair
+  static constexpr std::size_t kInputs = kAins + kQuadratureLines.size();
 
-  Device(Senses senses, const Options& options);
+  SimulatedLabjackT7(Senses senses, const Options& options);
 
   std::vector<Port> ports() const override;
   void opened(std::size_t port, int client, std::int64_t now_ns) override;
@@ -100,5 +102,8 @@ class Device final : public SimulatedDevice {
   std::optional<Stream> stream_;
   std::uint32_t last_stamp_ = 0;  // STREAM_START_TIME_STAMP of the stream before
 };
+
+// As a plan of mdof-simulate has it. Volts at AIN0 ..., and counts of the encoder at DIO0 and DIO1.
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_labjack_t7(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::labjack_t7

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/labjack_t7/device.h"
+#include "drivers/labjack_t7/simulated_labjack_t7.h"
 
 namespace mdof::drivers::labjack_t7 {
 namespace {
@@ -12,7 +12,7 @@ constexpr int kRecoveryPackets = 3;
 
 }  // namespace
 
-std::string Device::stream_packets(std::int64_t now_ns) {
+std::string SimulatedLabjackT7::stream_packets(std::int64_t now_ns) {
   std::string bytes;
   while (stream_ && !stream_->hangs_up) {
     Stream& s = *stream_;
@@ -32,7 +32,7 @@ std::string Device::stream_packets(std::int64_t now_ns) {
   return bytes;
 }
 
-StreamPacket Device::packet_of(Stream& s) {
+StreamPacket SimulatedLabjackT7::packet_of(Stream& s) {
   const Faults& faults = options_.faults;
   StreamPacket packet;
   packet.transaction = static_cast<std::uint16_t>(s.packet);
@@ -52,7 +52,8 @@ StreamPacket Device::packet_of(Stream& s) {
   return packet;
 }
 
-void Device::append_scan(StreamPacket& packet, const Stream& s, std::uint64_t scan) const {
+void SimulatedLabjackT7::append_scan(StreamPacket& packet, const Stream& s,
+                                     std::uint64_t scan) const {
   std::int64_t t_ns = s.start_ns + std::llround(static_cast<double>(scan) * s.period_ns);
   std::uint32_t captured = 0;
   int counted = 0;
@@ -71,7 +72,7 @@ void Device::append_scan(StreamPacket& packet, const Stream& s, std::uint64_t sc
   }
 }
 
-std::uint16_t Device::ain_code(std::size_t ain, std::int64_t t_ns) const {
+std::uint16_t SimulatedLabjackT7::ain_code(std::size_t ain, std::int64_t t_ns) const {
   const auto n = static_cast<int>(ain);
   const auto set = static_cast<double>(stored_f32(reg::ain_range.address + 2 * n));
   const AinCalibration c = calibration(range_index(set).value_or(0));
@@ -83,16 +84,18 @@ std::uint16_t Device::ain_code(std::size_t ain, std::int64_t t_ns) const {
 }
 
 // Of lines that are not set to count, 0.
-std::uint32_t Device::count_at(int line, std::int64_t t_ns) const {
+std::uint32_t SimulatedLabjackT7::count_at(int line, std::int64_t t_ns) const {
   for (const int n : {line, line + 1})
     if (stored(reg::dio_ef_enable.address + 2 * n) != 1 ||
         stored(reg::dio_ef_index.address + 2 * n) != kQuadrature)
       return 0;
-  const std::int64_t count = std::llround(senses_(kCounterInput, t_ns));
+  const auto pair = std::find(kQuadratureLines.begin(), kQuadratureLines.end(), line);
+  const auto input = kCounterInput + static_cast<std::size_t>(pair - kQuadratureLines.begin());
+  const std::int64_t count = std::llround(senses_(input, t_ns));
   return static_cast<std::uint32_t>(count);
 }
 
-std::uint32_t Device::core_at(std::int64_t t_ns) const {
+std::uint32_t SimulatedLabjackT7::core_at(std::int64_t t_ns) const {
   const double ticks =
       static_cast<double>(t_ns) * 1e-9 * kCore_Hz * (1 + options_.clock_ppm * 1e-6);
   return options_.core_start + static_cast<std::uint32_t>(std::llround(ticks));

@@ -1,8 +1,10 @@
-#include "drivers/labjack_t7/device.h"
+#include "drivers/labjack_t7/simulated_labjack_t7.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+
+#include "schema/sample.h"
 
 namespace mdof::drivers::labjack_t7 {
 namespace {
@@ -34,20 +36,20 @@ std::uint32_t bits(float value) {
 std::uint32_t flash_word(std::uint32_t address) {
   const std::uint32_t i = (address - flash_address(0)) / 4;
   if (i >= 4 * kRanges_v.size()) return bits(0);
-  const AinCalibration c = Device::calibration(i / 4);
+  const AinCalibration c = SimulatedLabjackT7::calibration(i / 4);
   const std::array numbers{c.positive_slope, c.negative_slope, c.centre, 0.0};  // the last: unused
   return bits(static_cast<float>(numbers[i % 4]));
 }
 
 }  // namespace
 
-Device::Device(Senses senses, const Options& options)
+SimulatedLabjackT7::SimulatedLabjackT7(Senses senses, const Options& options)
     : senses_(std::move(senses)), options_(options) {
   restart();
 }
 
 // Near nominal, each range in its own way, so that a wrong block shows.
-AinCalibration Device::calibration(std::size_t range) {
+AinCalibration SimulatedLabjackT7::calibration(std::size_t range) {
   AinCalibration c = labjack::nominal_calibration(range);
   const auto by = static_cast<double>(range);
   c.positive_slope *= 1.001 + 0.0002 * by;
@@ -56,17 +58,17 @@ AinCalibration Device::calibration(std::size_t range) {
   return c;
 }
 
-std::optional<int> Device::counter_line(int address) {
+std::optional<int> SimulatedLabjackT7::counter_line(int address) {
   for (const int line : kQuadratureLines)
     if (address == reg::dio_ef_read_a.address + 2 * line) return line;
   return std::nullopt;
 }
 
-std::vector<SimulatedDevice::Port> Device::ports() const {
+std::vector<SimulatedDevice::Port> SimulatedLabjackT7::ports() const {
   return {{"command", 502}, {"stream", 702}};
 }
 
-void Device::restart() {
+void SimulatedLabjackT7::restart() {
   registers_.clear();
   stream_.reset();
   last_stamp_ = 0;
@@ -77,21 +79,21 @@ void Device::restart() {
     registers_[reg::ain_negative_ch.address + n] = kSingleEnded;
 }
 
-void Device::opened(std::size_t port, int client, std::int64_t /*now_ns*/) {
+void SimulatedLabjackT7::opened(std::size_t port, int client, std::int64_t /*now_ns*/) {
   if (port == kStreamPort) reader_ = client;
 }
 
-void Device::closed(std::size_t port, int client) {
+void SimulatedLabjackT7::closed(std::size_t port, int client) {
   if (port == kCommandPort) requests_.erase(client);
   if (port == kStreamPort && reader_ == client) reader_.reset();
 }
 
-bool Device::hangs_up(std::size_t port, int client) {
+bool SimulatedLabjackT7::hangs_up(std::size_t port, int client) {
   return port == kStreamPort && reader_ == client && stream_ && stream_->hangs_up;
 }
 
-std::string Device::exchange(std::size_t port, int client, std::string_view received,
-                             std::int64_t now_ns) {
+std::string SimulatedLabjackT7::exchange(std::size_t port, int client, std::string_view received,
+                                         std::int64_t now_ns) {
   if (port == kStreamPort) return reader_ == client ? stream_packets(now_ns) : "";
   std::string& bytes = requests_[client];
   bytes += received;
@@ -100,7 +102,7 @@ std::string Device::exchange(std::size_t port, int client, std::string_view rece
   return replies;
 }
 
-std::string Device::answer(const ModbusRequest& request, std::int64_t now_ns) {
+std::string SimulatedLabjackT7::answer(const ModbusRequest& request, std::int64_t now_ns) {
   if (request.function != 3 && request.function != 6 && request.function != 16)
     return exception_reply(request, kIllegalFunction);
   if (!request.well_formed) return exception_reply(request, kIllegalValue);
@@ -117,7 +119,7 @@ std::string Device::answer(const ModbusRequest& request, std::int64_t now_ns) {
   return read_reply(request, values);
 }
 
-std::optional<std::uint16_t> Device::read(int address, std::int64_t now_ns) const {
+std::optional<std::uint16_t> SimulatedLabjackT7::read(int address, std::int64_t now_ns) const {
   if (is_16_bit(address)) return registers_.at(address);
   const int first = address & ~1;
   auto value = computed(first, now_ns);
@@ -128,7 +130,7 @@ std::optional<std::uint16_t> Device::read(int address, std::int64_t now_ns) cons
 }
 
 // What is not simply what was written.
-std::optional<std::uint32_t> Device::computed(int address, std::int64_t now_ns) const {
+std::optional<std::uint32_t> SimulatedLabjackT7::computed(int address, std::int64_t now_ns) const {
   const std::size_t ain = static_cast<std::size_t>(address) / 2;
   if (ain < kAins) return bits(static_cast<float>(senses_(ain, now_ns)));
   if (const auto line = counter_line(address)) return count_at(*line, now_ns);
@@ -147,21 +149,21 @@ std::optional<std::uint32_t> Device::computed(int address, std::int64_t now_ns) 
   return flash_word(stored(reg::flash_pointer.address) + static_cast<std::uint32_t>(2 * offset));
 }
 
-std::uint32_t Device::stored(int address) const {
+std::uint32_t SimulatedLabjackT7::stored(int address) const {
   return u32_of(registers_.at(address), registers_.at(address + 1));
 }
 
-float Device::stored_f32(int address) const {
+float SimulatedLabjackT7::stored_f32(int address) const {
   return std::bit_cast<float>(stored(address));
 }
 
-void Device::store(int address, Words words) {
+void SimulatedLabjackT7::store(int address, Words words) {
   registers_[address] = words[0];
   registers_[address + 1] = words[1];
 }
 
 // 0, or the code of an exception.
-int Device::write(const ModbusRequest& request, std::int64_t now_ns) {
+int SimulatedLabjackT7::write(const ModbusRequest& request, std::int64_t now_ns) {
   const int from = request.address, to = from + request.count;
   for (int a = from; a < to; ++a)
     if (!writable(a)) return kIllegalAddress;
@@ -182,7 +184,7 @@ int Device::write(const ModbusRequest& request, std::int64_t now_ns) {
 }
 
 // What is written for all inputs is so for each.
-void Device::spread(int address) {
+void SimulatedLabjackT7::spread(int address) {
   for (int n = 0; n < static_cast<int>(kAins); ++n) {
     if (address == reg::ain_all_range.address)
       store(reg::ain_range.address + 2 * n, words_of(stored(address)));
@@ -191,7 +193,7 @@ void Device::spread(int address) {
   }
 }
 
-int Device::check_stream() const {
+int SimulatedLabjackT7::check_stream() const {
   const std::uint32_t entries = stored(reg::stream_addresses.address);
   const std::uint32_t samples = stored(reg::stream_samples.address);
   const float rate = stored_f32(reg::stream_rate.address);
@@ -209,17 +211,17 @@ int Device::check_stream() const {
 }
 
 // Written when the first scan begins: before, it is that of the stream before.
-std::uint32_t Device::start_stamp(std::int64_t now_ns) const {
+std::uint32_t SimulatedLabjackT7::start_stamp(std::int64_t now_ns) const {
   const bool begun = stream_ && now_ns >= stream_->start_ns && !options_.faults.stale_stamp;
   return begun ? core_at(stream_->start_ns) : last_stamp_;
 }
 
-void Device::end_stream(std::int64_t now_ns) {
+void SimulatedLabjackT7::end_stream(std::int64_t now_ns) {
   last_stamp_ = start_stamp(now_ns);
   stream_.reset();
 }
 
-int Device::start_stream(std::int64_t now_ns) {
+int SimulatedLabjackT7::start_stream(std::int64_t now_ns) {
   if (stream_) return 2605;
   if (const int code = check_stream()) return code;
   Stream stream;
@@ -233,6 +235,23 @@ int Device::start_stream(std::int64_t now_ns) {
   stream.scans_per_packet = std::max<std::size_t>(1, stored(reg::stream_samples.address) / entries);
   stream_ = std::move(stream);
   return 0;
+}
+
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_labjack_t7(SimulatedWiring& wiring) {
+  std::vector<SensedInput> sensed = wiring.volts();
+  sensed.resize(SimulatedLabjackT7::kInputs);
+  const std::string counter = wiring.table().string("counter", "DIO0");
+  const auto pair =
+      std::find_if(kQuadratureLines.begin(), kQuadratureLines.end(),
+                   [&counter](int line) { return counter == "DIO" + std::to_string(line); });
+  if (pair == kQuadratureLines.end())
+    wiring.table().reject("counter", "must be \"DIO0\", \"DIO2\" or \"DIO6\"");
+  else
+    sensed[SimulatedLabjackT7::kCounterInput +
+           static_cast<std::size_t>(pair - kQuadratureLines.begin())] =
+        wiring.counts(kEncoderChannel);
+  return std::make_unique<SimulatedLabjackT7>(wiring.senses(std::move(sensed)),
+                                              SimulatedLabjackT7::Options{});
 }
 
 }  // namespace mdof::drivers::labjack_t7

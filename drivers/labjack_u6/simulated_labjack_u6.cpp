@@ -1,8 +1,10 @@
-#include "drivers/labjack_u6/device.h"
+#include "drivers/labjack_u6/simulated_labjack_u6.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "schema/sample.h"
 
 namespace mdof::drivers::labjack_u6 {
 namespace {
@@ -46,7 +48,7 @@ std::string constants(int block) {
   std::string body(2, '\0');
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t gain = static_cast<std::size_t>(block % 2) * 2 + i / 2;
-    const AinCalibration c = Device::calibration(gain);
+    const AinCalibration c = SimulatedLabjackU6::calibration(gain);
     const double up = i % 2 == 0 ? c.positive_slope : 0;
     const double down = i % 2 == 0 ? c.negative_slope : c.centre;
     append_fixed(body, block < 2 ? up : block < 4 ? down : 0);
@@ -56,20 +58,20 @@ std::string constants(int block) {
 
 }  // namespace
 
-Device::Device(Senses senses, const Faults& faults, std::uint32_t serial)
+SimulatedLabjackU6::SimulatedLabjackU6(Senses senses, const Options& options)
     : senses_(std::move(senses)),
-      faults_(faults),
-      serial_(serial),
-      identity_(identity_of(serial, faults.nameless)),
-      running_(faults.streaming) {
+      faults_(options.faults),
+      serial_(options.serial),
+      identity_(identity_of(serial_, faults_.nameless)),
+      running_(faults_.streaming) {
   if (running_) packets_.push_back(encode({7, 0, 0, 0, std::vector<std::uint16_t>(25)}));
 }
 
-void Device::restart() {
-  *this = Device(std::move(senses_), {}, serial_);
+void SimulatedLabjackU6::restart() {
+  *this = SimulatedLabjackU6(std::move(senses_), {.serial = serial_});
 }
 
-std::string Device::says_who() const {
+std::string SimulatedLabjackU6::says_who() const {
   std::string body(32, '\0');
   body[3] = 15;  // firmware 1.15
   body[4] = 1;
@@ -80,7 +82,7 @@ std::string Device::says_who() const {
 }
 
 // Near nominal, each gain in its own way, so that a wrong block shows.
-AinCalibration Device::calibration(std::size_t gain) {
+AinCalibration SimulatedLabjackU6::calibration(std::size_t gain) {
   AinCalibration c = labjack::nominal_calibration(gain);
   c.positive_slope *= 1.001 + 0.0002 * static_cast<double>(gain);
   c.negative_slope *= 0.999;
@@ -88,12 +90,13 @@ AinCalibration Device::calibration(std::size_t gain) {
   return c;
 }
 
-usb::Reply Device::control(const usb::Setup& /*setup*/, std::string_view /*out*/,
-                           std::int64_t /*now_ns*/) {
+usb::Reply SimulatedLabjackU6::control(const usb::Setup& /*setup*/, std::string_view /*out*/,
+                                       std::int64_t /*now_ns*/) {
   return {usb::Answer::stall, ""};
 }
 
-usb::Reply Device::out(std::uint8_t endpoint, std::string_view bytes, std::int64_t now_ns) {
+usb::Reply SimulatedLabjackU6::out(std::uint8_t endpoint, std::string_view bytes,
+                                   std::int64_t now_ns) {
   if (endpoint != kCommandOut) return {usb::Answer::stall, ""};
   std::string reply = answer(bytes, now_ns);
   if (faults_.wrong_checksum) reply[0] = static_cast<char>(reply[0] ^ 0x55);
@@ -101,7 +104,8 @@ usb::Reply Device::out(std::uint8_t endpoint, std::string_view bytes, std::int64
   return {};
 }
 
-usb::Reply Device::in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t now_ns) {
+usb::Reply SimulatedLabjackU6::in(std::uint8_t endpoint, std::size_t max_bytes,
+                                  std::int64_t now_ns) {
   if (endpoint == kStreamIn) {
     take_scans(now_ns);
     return stream_in(max_bytes);
@@ -114,7 +118,7 @@ usb::Reply Device::in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t
 }
 
 // Whole packets until they fill the transfer; a short one ends it.
-usb::Reply Device::stream_in(std::size_t max_bytes) {
+usb::Reply SimulatedLabjackU6::stream_in(std::size_t max_bytes) {
   std::size_t bytes = 0, packets = 0;
   bool ends = false;
   while (!ends && packets < packets_.size()) {
@@ -132,7 +136,7 @@ usb::Reply Device::stream_in(std::size_t max_bytes) {
   return reply;
 }
 
-std::string Device::answer(std::string_view command, std::int64_t now_ns) {
+std::string SimulatedLabjackU6::answer(std::string_view command, std::int64_t now_ns) {
   constexpr const char* kBad = "\xB8\xB8";
   if (faults_.deaf || command.size() < 2) return kBad;
   if (command.size() == 2) return answer_normal(command, now_ns);
@@ -141,7 +145,7 @@ std::string Device::answer(std::string_view command, std::int64_t now_ns) {
   return answer_extended(command, now_ns);
 }
 
-std::string Device::answer_normal(std::string_view command, std::int64_t now_ns) {
+std::string SimulatedLabjackU6::answer_normal(std::string_view command, std::int64_t now_ns) {
   const std::uint8_t code = byte_at(command, 1);
   if (command[0] != command[1]) return "\xB8\xB8";
   if (command == stream_start()) {
@@ -157,7 +161,7 @@ std::string Device::answer_normal(std::string_view command, std::int64_t now_ns)
   return normal_reply(code, ran ? 0 : kNotRunning);
 }
 
-std::string Device::answer_extended(std::string_view command, std::int64_t now_ns) {
+std::string SimulatedLabjackU6::answer_extended(std::string_view command, std::int64_t now_ns) {
   const std::uint8_t code = byte_at(command, 3);
   if ((code == kConfigIo || code == kStreamConfig) && command.size() < 16) return "\xB8\xB8";
   switch (code) {
@@ -178,7 +182,7 @@ std::string Device::answer_extended(std::string_view command, std::int64_t now_n
   }
 }
 
-std::string Device::configured(std::string_view command) {
+std::string SimulatedLabjackU6::configured(std::string_view command) {
   const auto reply = [](int error) {
     return extended(kStreamConfig, std::string{static_cast<char>(error), '\0'});
   };
@@ -202,14 +206,14 @@ std::string Device::configured(std::string_view command) {
   return reply(0);
 }
 
-std::int64_t Device::time_of(std::uint64_t sample) const {
+std::int64_t SimulatedLabjackU6::time_of(std::uint64_t sample) const {
   const std::uint64_t whole = sample / list_.size();
   const auto scan = static_cast<double>(whole);
   const auto slot = static_cast<std::int64_t>(sample % list_.size());
   return stream_->start_ns + std::llround(scan * 1e9 / rate_hz_) + slot * kSlot_ns;
 }
 
-void Device::take_scans(std::int64_t now_ns) {
+void SimulatedLabjackU6::take_scans(std::int64_t now_ns) {
   while (stream_ && !gone_) {
     const bool gap =
         faults_.recovery_at >= 0 && stream_->packet == faults_.recovery_at + kRecoveryPackets;
@@ -228,7 +232,7 @@ void Device::take_scans(std::int64_t now_ns) {
 
 // The scan of 0xFFFF takes the place of the dropped ones, between two samples of the list's end and
 // start.
-StreamData Device::packet_of(Stream& s) {
+StreamData SimulatedLabjackU6::packet_of(Stream& s) {
   StreamData packet;
   packet.counter = static_cast<std::uint8_t>(s.packet);
   const int recovery = faults_.recovery_at < 0 ? -1 : s.packet - faults_.recovery_at;
@@ -253,7 +257,7 @@ StreamData Device::packet_of(Stream& s) {
   return packet;
 }
 
-std::uint16_t Device::sample(std::uint64_t number) {
+std::uint16_t SimulatedLabjackU6::sample(std::uint64_t number) {
   const std::size_t at = number % list_.size();
   const int entry = list_[at];
   const std::int64_t t_ns = time_of(number);
@@ -268,6 +272,14 @@ std::uint16_t Device::sample(std::uint64_t number) {
   const double v = senses_(ain, t_ns) - (differential ? senses_(ain + 1, t_ns) : 0);
   const double code = std::round(c.centre + v / (v < 0 ? -c.negative_slope : c.positive_slope));
   return static_cast<std::uint16_t>(std::clamp(code, 0.0, 65535.0));
+}
+
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_labjack_u6(SimulatedWiring& wiring) {
+  std::vector<SensedInput> sensed = wiring.volts();
+  sensed.resize(SimulatedLabjackU6::kCounterInput + 1);
+  sensed[SimulatedLabjackU6::kCounterInput] = wiring.counts(kEncoderChannel);
+  return std::make_unique<SimulatedLabjackU6>(wiring.senses(std::move(sensed)),
+                                              SimulatedLabjackU6::Options{});
 }
 
 }  // namespace mdof::drivers::labjack_u6

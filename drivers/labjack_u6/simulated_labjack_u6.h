@@ -1,41 +1,45 @@
-// A U6 without one, as it looks from the USB.
+// A simulated U6, as a program sees it on the USB.
 #pragma once
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/labjack_u6/protocol.h"
-#include "drivers/simulated_device.h"
+#include "drivers/simulated_wiring.h"
 #include "drivers/usb/simulated_usb.h"
 
 namespace mdof::drivers::labjack_u6 {
 
-// What may go wrong; packets of the stream are counted from 0, -1: never.
-struct Faults {
-  bool deaf = false;            // every command is answered B8 B8
-  bool wrong_checksum = false;  // of every reply
-  int recovery_at = -1;         // three packets have error 59, then 60 reports `dropped` scans
-  std::uint16_t dropped = 0;
-  int stop_at = -1;  // this packet has `stop_error` and is the last
-  int stop_error = kScanOverlap;
-  int skip_at = -1;        // this packet is not sent
-  int short_at = -1;       // of this packet only 20 bytes come
-  int unplug_at = -1;      // the device is gone before this packet
-  bool streaming = false;  // a stream runs already at the start (of a host that died)
-  bool nameless = false;   // no serial number in its descriptor
-};
-
 // Senses: inputs 0 ... 13 are AIN0 ... AIN13 in volts, input 14 the counts of timers 0 and 1.
 // Entries of a scan are 10 us apart.
-class Device final : public usb::SimulatedUsb {
+class SimulatedLabjackU6 final : public usb::SimulatedUsb {
  public:
+  // What may go wrong; packets of the stream are counted from 0, -1: never.
+  struct Faults {
+    bool deaf = false;            // every command is answered B8 B8
+    bool wrong_checksum = false;  // of every reply
+    int recovery_at = -1;         // three packets have error 59, then 60 reports `dropped` scans
+    std::uint16_t dropped = 0;
+    int stop_at = -1;  // this packet has `stop_error` and is the last
+    int stop_error = kScanOverlap;
+    int skip_at = -1;        // this packet is not sent
+    int short_at = -1;       // of this packet only 20 bytes come
+    int unplug_at = -1;      // the device is gone before this packet
+    bool streaming = false;  // a stream runs already at the start (of a host that died)
+    bool nameless = false;   // no serial number in its descriptor
+  };
   static constexpr std::size_t kCounterInput = kAins;
   static constexpr std::uint32_t kSerial = 360012345;
 
-  Device(Senses senses, const Faults& faults, std::uint32_t serial = kSerial);
+  struct Options {
+    std::uint32_t serial = kSerial;
+    Faults faults = {};
+  };
+  SimulatedLabjackU6(Senses senses, const Options& options);
 
   const usb::Identity& identity() const override { return identity_; }
   usb::Reply control(const usb::Setup& setup, std::string_view out, std::int64_t now_ns) override;
@@ -80,5 +84,9 @@ class Device final : public usb::SimulatedUsb {
   std::uint32_t captured_ = 0;
   bool running_ = false, gone_ = false;
 };
+
+// As a plan of mdof-simulate has it. Volts at AIN0 ..., and counts of the encoder at timers 0
+// and 1.
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_labjack_u6(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::labjack_u6

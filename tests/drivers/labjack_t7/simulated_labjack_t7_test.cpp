@@ -1,5 +1,5 @@
 // The simulated T7, byte for byte, without sockets.
-#include "drivers/labjack_t7/device.h"
+#include "drivers/labjack_t7/simulated_labjack_t7.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,8 @@ constexpr std::int64_t kMs = 1'000'000;
 double senses(std::size_t input, std::int64_t t_ns) {
   constexpr double kVolts[] = {1.0, -2.5, 0.125, 9.75, -10.0};
   if (input < 5) return kVolts[input];
-  return input == Device::kCounterInput ? -65536.0 + static_cast<double>(t_ns) / 1000 : 0;
+  return input >= SimulatedLabjackT7::kCounterInput ? -65536.0 + static_cast<double>(t_ns) / 1000
+                                                    : 0;
 }
 
 class LabjackT7Device : public testing::Test {
@@ -54,7 +55,7 @@ class LabjackT7Device : public testing::Test {
     return all;
   }
 
-  Device device{senses, {}};
+  SimulatedLabjackT7 device{senses, {}};
   PacketReader reader;
   std::int64_t now = 5'000'000'000;
 };
@@ -96,7 +97,7 @@ TEST_F(LabjackT7Device, TheVectorsStartAStream) {
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[1].transaction, 1);
   EXPECT_EQ(all[1].samples.size(), 7U);
-  EXPECT_NEAR(labjack::volts(Device::calibration(0), all[1].samples[1]), -2.5, 2e-4);
+  EXPECT_NEAR(labjack::volts(SimulatedLabjackT7::calibration(0), all[1].samples[1]), -2.5, 2e-4);
 }
 
 TEST_F(LabjackT7Device, RequestsMayComeInPieces) {
@@ -120,7 +121,7 @@ TEST_F(LabjackT7Device, RefusesWithModbusExceptions) {
 }
 
 TEST_F(LabjackT7Device, SwapsWordsWhenAsked) {
-  Faults faults;
+  SimulatedLabjackT7::Faults faults;
   faults.swapped_words = true;
   device.set_faults(faults);
   EXPECT_EQ(ask("00 02 00 00 00 06 01 03 D7 3C 00 02").substr(9), modbus::bytes("22 33 00 11"));
@@ -143,13 +144,13 @@ TEST_F(LabjackT7Device, OnlyAPairThatIsSetToCountCounts) {
 
 // The counter passes from 0xFFFF to 0x10000 between the two entries of every scan.
 double at_a_boundary(std::size_t input, std::int64_t t_ns) {
-  return input == Device::kCounterInput && t_ns % kMs < 15'000 ? 65535 : 65536;
+  return input == SimulatedLabjackT7::kCounterInput && t_ns % kMs < 15'000 ? 65535 : 65536;
 }
 
 TEST_F(LabjackT7Device, TheUpperWordIsOfTheSameCountAsTheLower) {
   for (const bool captured : {true, false}) {  // false: that this test can fail
-    device = Device(at_a_boundary, {});
-    Faults faults;
+    device = SimulatedLabjackT7(at_a_boundary, {});
+    SimulatedLabjackT7::Faults faults;
     faults.no_capture = !captured;
     device.set_faults(faults);
     start(1000, 3, {0, 3000, 4899});

@@ -1,5 +1,5 @@
 // The simulated U6 set up and streamed as a driver would, without USB.
-#include "drivers/labjack_u6/device.h"
+#include "drivers/labjack_u6/simulated_labjack_u6.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@ constexpr std::size_t kSamples = 25;
 
 // AIN1 is -2.5 V; the counter goes a count a microsecond from -500.
 double senses(std::size_t input, std::int64_t t_ns) {
-  if (input == Device::kCounterInput) return std::floor(static_cast<double>(t_ns) / 1000) - 500;
+  if (input == SimulatedLabjackU6::kCounterInput)
+    return std::floor(static_cast<double>(t_ns) / 1000) - 500;
   return input == 1 ? -2.5 : 20;
 }
 
@@ -44,13 +45,13 @@ class LabjackU6Device : public testing::Test {
     }
     return device.gone() ? "unplugged" : "";
   }
-  std::string stream_with(const Faults& faults) {
+  std::string stream_with(const SimulatedLabjackU6::Faults& faults) {
     device.set_faults(faults);
     start();
     return stream(200);
   }
 
-  Device device{senses, {}};
+  SimulatedLabjackU6 device{senses, {}};
   PacketLine line{7};
   std::vector<Scan> scans;
   std::int64_t now = 0;
@@ -61,15 +62,15 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 TEST_F(LabjackU6Device, SaysWhoItIsAndItsConstants) {
-  EXPECT_EQ(read_config_u6(ask(config_u6())).value().serial, Device::kSerial);
+  EXPECT_EQ(read_config_u6(ask(config_u6())).value().serial, SimulatedLabjackU6::kSerial);
   std::array<CalibrationBlock, 4> blocks{};
   for (int i = 0; i < 4; ++i)
     blocks[static_cast<std::size_t>(i)] = read_calibration_reply(ask(read_calibration(i))).value();
   for (std::size_t gain = 0; gain < 4; ++gain) {
     const AinCalibration c = calibration_of(blocks, gain).value();
-    EXPECT_NEAR(c.positive_slope, Device::calibration(gain).positive_slope, 1e-9);
-    EXPECT_NEAR(c.negative_slope, Device::calibration(gain).negative_slope, 1e-9);
-    EXPECT_NEAR(c.centre, Device::calibration(gain).centre, 1e-9);
+    EXPECT_NEAR(c.positive_slope, SimulatedLabjackU6::calibration(gain).positive_slope, 1e-9);
+    EXPECT_NEAR(c.negative_slope, SimulatedLabjackU6::calibration(gain).negative_slope, 1e-9);
+    EXPECT_NEAR(c.centre, SimulatedLabjackU6::calibration(gain).centre, 1e-9);
   }
   EXPECT_TRUE(read_config_io(ask(config_io(2, 0)), 2, 0));
   EXPECT_TRUE(read_feedback(ask(start_quadrature())));
@@ -88,7 +89,7 @@ TEST_F(LabjackU6Device, StreamsInputsAndTheCounterInOneScan) {
   ASSERT_EQ(stream(200), "");
   ASSERT_GT(scans.size(), 180U);
   for (const Scan& scan : scans) {
-    ASSERT_NEAR(labjack::volts(Device::calibration(0), scan.words[1]), -2.5, 2e-4);
+    ASSERT_NEAR(labjack::volts(SimulatedLabjackU6::calibration(0), scan.words[1]), -2.5, 2e-4);
     ASSERT_TRUE(labjack::at_rail(scan.words[0]));
     const auto raw = static_cast<std::uint32_t>(scan.words[6]) << 16 | scan.words[5];
     ASSERT_EQ(static_cast<std::int32_t>(raw), static_cast<std::int64_t>(scan.index) * 1000 - 450);
@@ -104,13 +105,13 @@ TEST_F(LabjackU6Device, ADifferentialEntryIsAgainstTheNextInputAtItsOwnGain) {
   line = PacketLine(3);
   ASSERT_EQ(stream(200), "");
   ASSERT_GT(scans.size(), 150U);
-  EXPECT_NEAR(labjack::volts(Device::calibration(0), scans[9].words[0]), -2.5, 2e-4);
-  EXPECT_NEAR(labjack::volts(Device::calibration(1), scans[9].words[1]), 0, 2e-5);
+  EXPECT_NEAR(labjack::volts(SimulatedLabjackU6::calibration(0), scans[9].words[0]), -2.5, 2e-4);
+  EXPECT_NEAR(labjack::volts(SimulatedLabjackU6::calibration(1), scans[9].words[1]), 0, 2e-5);
   EXPECT_TRUE(labjack::at_rail(scans[9].words[2]));
 }
 
 TEST_F(LabjackU6Device, DroppedScansKeepTheTimeLine) {
-  Faults faults;
+  SimulatedLabjackU6::Faults faults;
   faults.recovery_at = 4;
   faults.dropped = 60;
   ASSERT_EQ(stream_with(faults), "");
@@ -125,7 +126,7 @@ TEST_F(LabjackU6Device, DroppedScansKeepTheTimeLine) {
 }
 
 TEST_F(LabjackU6Device, AFaultOfTheStreamEndsIt) {
-  Faults stop, skip, cut, unplug;
+  SimulatedLabjackU6::Faults stop, skip, cut, unplug;
   stop.stop_at = skip.skip_at = cut.short_at = unplug.unplug_at = 3;
   EXPECT_TRUE(has(stream_with(stop), "U6 error 55"));
   line = PacketLine(7);
@@ -141,9 +142,9 @@ TEST_F(LabjackU6Device, AFaultOfTheStreamEndsIt) {
 }
 
 TEST_F(LabjackU6Device, AStreamThatRunsAtTheStartIsStopped) {
-  Faults faults;
+  SimulatedLabjackU6::Faults faults;
   faults.streaming = true;
-  device = Device(senses, faults);
+  device = SimulatedLabjackU6(senses, {.faults = faults});
   EXPECT_TRUE(has(read_stream_start(ask(stream_start())).error().message, "48"));
   start();
   EXPECT_EQ(stream(50), "");
@@ -153,7 +154,7 @@ TEST_F(LabjackU6Device, BadChecksumsAreSeenOnBothSides) {
   std::string command = config_u6();
   command[7] = 1;
   EXPECT_EQ(ask(command), modbus::bytes("B8 B8"));
-  Faults faults;
+  SimulatedLabjackU6::Faults faults;
   faults.deaf = true;
   device.set_faults(faults);
   EXPECT_TRUE(has(read_config_u6(ask(config_u6())).error().message, "B8 B8"));
@@ -165,7 +166,7 @@ TEST_F(LabjackU6Device, BadChecksumsAreSeenOnBothSides) {
 }
 
 TEST_F(LabjackU6Device, ATransferEndsWhenItIsFullOrAPacketIsShort) {
-  Faults cut;
+  SimulatedLabjackU6::Faults cut;
   cut.short_at = 5;
   device.set_faults(cut);
   start();

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "schema/base/avx512.h"
+#include "schema/base/compiled_for.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {
@@ -78,14 +78,13 @@ using Displace = bool (*)(double um_per_unit, Window window, std::span<double> v
 bool scale_baseline(double um_per_unit, Window window, std::span<double> values) {
   return scale(um_per_unit, window, values);
 }
-#ifdef MDOF_AVX512
+MDOF_AVX2 bool scale_avx2(double um_per_unit, Window window, std::span<double> values) {
+  return scale(um_per_unit, window, values);
+}
 MDOF_AVX512 bool scale_avx512(double um_per_unit, Window window, std::span<double> values) {
   return scale(um_per_unit, window, values);
 }
-const Displace kScale = has_avx512() ? scale_avx512 : scale_baseline;
-#else
-const Displace kScale = scale_baseline;
-#endif
+const Displace kScale = has_avx512() ? scale_avx512 : has_avx2() ? scale_avx2 : scale_baseline;
 
 bool displace(const Calibration& c, double um_per_unit, Window window, std::span<double> values) {
   if (c.offset_um == 0.0 && c.linearity.empty() && c.polynomial_um.empty() && !c.reads_gap)

@@ -8,16 +8,17 @@ namespace {
 
 constexpr double kMostOffset_mm = 1e6;  // a kilometre of slide
 
-Status check_id(const ChannelInput& channel, const std::vector<ChannelInput>& before,
-                const Rig& rig) {
+Status check_id(const ChannelInput& channel, const Rig& rig) {
   std::vector<std::string> known = {kEncoderChannel};
   for (const Probe& probe : rig.probes) known.push_back(probe.id);
-  if (std::find(known.begin(), known.end(), channel.id) == known.end()) {
-    const std::string nearest = nearest_of(channel.id, known);
-    return bad_input(channel.where + ": \"" + channel.id + "\" is no probe of " + rig.source +
-                     " and not \"" + kEncoderChannel + "\"" +
-                     (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
-  }
+  if (std::find(known.begin(), known.end(), channel.id) != known.end()) return {};
+  const std::string nearest = nearest_of(channel.id, known);
+  return bad_input(channel.where + ": \"" + channel.id + "\" is no probe of " + rig.source +
+                   " and not \"" + kEncoderChannel + "\"" +
+                   (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+}
+
+Status check_once(const ChannelInput& channel, const std::vector<ChannelInput>& before) {
   for (const auto& other : before) {
     if (other.id == channel.id)
       return bad_input(channel.where + ": a second input for \"" + channel.id + "\"");
@@ -26,6 +27,20 @@ Status check_id(const ChannelInput& channel, const std::vector<ChannelInput>& be
                        "\" already");
   }
   return {};
+}
+
+void read_index(TomlTable& table, ChannelInput& channel) {
+  if (!table.has("index_mm")) return;
+  channel.index_mm = table.number("index_mm", 0);
+  channel.index_where = table.where("index_mm");
+  if (channel.id != kEncoderChannel)
+    table.reject("index_mm", "is of the encoder: where the axis is at its reference mark");
+  if (table.has("offset_mm"))
+    table.reject("index_mm",
+                 "contradicts offset_mm: after the reference mark positions are counted from it; "
+                 "give one or the other");
+  if (!(std::abs(*channel.index_mm) <= kMostOffset_mm))
+    table.reject("index_mm", "must be a position of the axis in mm");
 }
 
 void read_offset(TomlTable& table, ChannelInput& channel) {
@@ -37,21 +52,28 @@ void read_offset(TomlTable& table, ChannelInput& channel) {
     table.reject("offset_mm", "must be a position of the axis in mm");
 }
 
+Result<ChannelInput> read_channel(TomlTable& table, const Rig& rig, const ChannelKeys& more) {
+  ChannelInput channel;
+  channel.where = table.where("id");
+  channel.id = table.string("id");
+  channel.input = table.string("input");
+  channel.um_per_count = table.number("um_per_count", 0);
+  if (!std::isfinite(channel.um_per_count)) table.reject("um_per_count", "must be finite");
+  read_offset(table, channel);
+  read_index(table, channel);
+  if (more) more(table);
+  MDOF_CHECK(check_id(channel, rig));
+  return channel;
+}
+
 }  // namespace
 
 Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig,
                                                 const ChannelKeys& more) {
   std::vector<ChannelInput> channels;
   for (TomlTable& table : device.tables("channel")) {
-    ChannelInput channel;
-    channel.where = table.where("id");
-    channel.id = table.string("id");
-    channel.input = table.string("input");
-    channel.um_per_count = table.number("um_per_count", 0);
-    if (!std::isfinite(channel.um_per_count)) table.reject("um_per_count", "must be finite");
-    read_offset(table, channel);
-    if (more) more(table);
-    MDOF_CHECK(check_id(channel, channels, rig));
+    MDOF_TRY(ChannelInput channel, read_channel(table, rig, more));
+    MDOF_CHECK(check_once(channel, channels));
     channels.push_back(std::move(channel));
   }
   if (channels.empty()) {
@@ -61,24 +83,61 @@ Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& ri
   return channels;
 }
 
+std::string further_id(const std::string& id, Axis axis) {
+  return id + "_" + letter(axis);
+}
+
+Status read_further_channels(std::vector<FurtherAxis> axes, const ChannelKeys& more,
+                             std::vector<ChannelInput>& channels) {
+  for (FurtherAxis& axis : axes) {
+    for (TomlTable& table : axis.table.tables("channel")) {
+      MDOF_TRY(ChannelInput channel, read_channel(table, axis.rig, more));
+      channel.id = further_id(channel.id, axis.rig.axis);
+      channel.further = axis.rig.axis;
+      MDOF_CHECK(check_once(channel, channels));
+      channels.push_back(std::move(channel));
+    }
+  }
+  return {};
+}
+
+std::vector<Channel> of_part(std::vector<Channel> channels, const ChannelPart& part) {
+  if (part.empty()) return channels;
+  std::erase_if(channels, [&](const Channel& c) { return !part.contains(c.id); });
+  for (Channel& channel : channels) channel.id = part.at(channel.id);
+  return channels;
+}
+
 std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels) {
   std::vector<std::string> ids;
   for (const auto& channel : channels) ids.push_back(channel.id);
   return ids;
 }
 
-bool counts_at(const std::vector<ChannelInput>& channels,
-               const std::vector<std::string>& counters) {
+bool counts_at(const std::vector<ChannelInput>& channels, const std::vector<std::string>& counters,
+               const std::string& id) {
   return std::any_of(channels.begin(), channels.end(), [&](const ChannelInput& channel) {
-    return channel.id == kEncoderChannel &&
+    return channel.id == id &&
            std::find(counters.begin(), counters.end(), channel.input) != counters.end();
   });
 }
 
-EncoderOrigin encoder_origin(const std::vector<ChannelInput>& channels, bool counts) {
+EncoderOrigin encoder_origin(const std::vector<ChannelInput>& channels, bool counts,
+                             const std::string& id) {
   for (const auto& channel : channels)
-    if (channel.id == kEncoderChannel) return {counts, channel.offset_mm};
+    if (channel.id == id) return {counts, channel.offset_mm, channel.index_mm, channel.index_where};
   return {};
+}
+
+std::map<std::string, EncoderOrigin> further_encoders(const std::vector<ChannelInput>& channels,
+                                                      const std::vector<FurtherAxis>& axes,
+                                                      const std::vector<std::string>& counters) {
+  std::map<std::string, EncoderOrigin> encoders;
+  for (const FurtherAxis& axis : axes) {
+    const std::string id = further_id(kEncoderChannel, axis.rig.axis);
+    encoders[id] = encoder_origin(channels, counts_at(channels, counters, id), id);
+  }
+  return encoders;
 }
 
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,

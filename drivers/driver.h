@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,12 +30,17 @@ struct DeviceInfo {
   std::string datum_lost = {};
   // Of its settings, that a result should carry: what it does to the readings by itself.
   std::vector<std::string> warnings = {};
+  // As datum_lost, of the encoders of further axes (DriverContext::further), by channel.
+  std::map<std::string, std::string> further_datum_lost = {};
 };
 
 // What positions an encoder of a device shows.
 struct EncoderOrigin {
   bool counts = false;              // from where it was switched on, wherever that was
   std::optional<double> offset_mm;  // to be added, by the configuration
+  // Where the axis is at the encoder's reference mark, which the driver is to look for.
+  std::optional<double> index_mm = std::nullopt;
+  std::string index_where = {};  // "mdofd.toml:12: axis.device.channel.index_mm", for messages
 };
 
 enum class ReadState {
@@ -55,6 +61,12 @@ class Driver {
   // Somebody has said where the axis stands: its encoder's count is to be trusted as it is now,
   // whatever DeviceInfo::datum_lost says.
   virtual void trust_count() {}
+  // How often its encoder has passed the reference mark that EncoderOrigin::index_mm is of. It
+  // grows with the block from whose first scan on positions are counted from the mark; what
+  // datum_lost said is over then.
+  virtual int marks_passed() const { return 0; }
+  // The same of the encoder of another axis (DriverContext::further).
+  virtual void trust_further_count(const std::string& /*channel*/) {}
 };
 
 }  // namespace mdof::drivers

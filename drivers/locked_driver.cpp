@@ -26,6 +26,10 @@ class LockedDriver final : public Driver {
   const Driver& device() const { return *driver_; }
 
   void trust_count() override { driver_->trust_count(); }
+  int marks_passed() const override { return driver_->marks_passed(); }
+  void trust_further_count(const std::string& channel) override {
+    driver_->trust_further_count(channel);
+  }
 
   Status open() override {
     if (!lock_) {
@@ -39,7 +43,7 @@ class LockedDriver final : public Driver {
   Result<ReadState> read(SampleBlock& block, milliseconds timeout) override {
     if (const auto now = steady_clock::now(); lock_ && now >= dismiss_at_) {
       dismiss_at_ = now + kDismissEvery;
-      lock_->dismiss();
+      lock_->answer_inquiries();
     }
     return driver_->read(block, timeout);
   }

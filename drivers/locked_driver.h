@@ -1,7 +1,7 @@
 // A driver whose device nobody else opens meanwhile.
 #pragma once
 
-#include "drivers/registry.h"
+#include "drivers/driver_spec.h"
 
 namespace mdof::drivers {
 

@@ -44,9 +44,9 @@ DeviceInfo Capancdt::info() const {
 Status Capancdt::open() {
   session_.reset();
   auto setup = set_up_controller(options_);
-  if (!setup) return lasting(setup.error());
+  if (!setup) return naming_device(setup.error());
   auto data = connect_tcp({options_.command.host, setup->data_port}, kConnect);
-  if (!data) return lasting(data.error());
+  if (!data) return naming_device(data.error());
   const double frame_ns = setup->frame_ns();
   const int averaged = setup->averaged;
   const auto most_lost = static_cast<std::uint64_t>(std::max(16.0, kMostLost_ns / frame_ns));
@@ -58,7 +58,7 @@ Status Capancdt::open() {
       .clock = DeviceClock(frame_ns),
       .rate = RateWatch(frame_ns),
       .waiting = {},
-      .heard = steady_clock::now(),
+      .last_packet_time = steady_clock::now(),
       .newest_frame = std::nullopt,
       .first_ns = std::nullopt,
       .failed = std::nullopt,
@@ -68,12 +68,12 @@ Status Capancdt::open() {
 
 Result<ReadState> Capancdt::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, options_.name, channels_);
-  if (!session_) return lasting({ErrorCode::io, "is not open; open it before reading"});
+  if (!session_) return naming_device({ErrorCode::io, "is not open; open it before reading"});
   Session& s = *session_;
   if ((s.waiting.empty() || !s.warm) && !s.failed)
     if (auto received = receive(timeout); !received) s.failed = std::move(received.error());
-  if (s.warm || s.failed) hand_out(block);
-  if (block.scans() == 0 && s.failed) return lasting(*s.failed);
+  if (s.warm || s.failed) fill_block(block);
+  if (block.scans() == 0 && s.failed) return naming_device(*s.failed);
   return ReadState::more;
 }
 
@@ -92,7 +92,7 @@ Status Capancdt::receive(milliseconds timeout) {
   if (came) {
     const auto now = steady_clock::now();
     auto placed = place_packets(now);
-    MDOF_CHECK(tell_time(to_ns(now), all.value_or(true)));  // for those before an error, too
+    MDOF_CHECK(update_clock(to_ns(now), all.value_or(true)));  // for those before an error, too
     MDOF_CHECK(std::move(placed));
   }
   if (!all) return in_context("the data connection", all.error());
@@ -118,16 +118,16 @@ Status Capancdt::place_packets(steady_clock::time_point received) {
   Session& s = *session_;
   Packet packet;
   while (s.parser.next(packet)) {
-    s.heard = received;
+    s.last_packet_time = received;
     MDOF_CHECK(s.counter.add(std::move(packet), s.waiting));
     packet = {};
   }
   return {};
 }
 
-// Only the newest frame is as old as its way here. Those before may have waited, if this computer
-// was held up, and would have the clock of the device appear to stumble.
-Status Capancdt::tell_time(std::int64_t received_ns, bool all) {
+// The clock is given the newest frame only: earlier frames may have waited in this computer, and
+// the device's clock would seem to jump. Checks the rate of the frames as well.
+Status Capancdt::update_clock(std::int64_t received_ns, bool all) {
   Session& s = *session_;
   if (s.waiting.empty() || (!all && s.newest_frame)) return {};
   const PlacedPacket& last = s.waiting.back();
@@ -147,21 +147,21 @@ Status Capancdt::tell_time(std::int64_t received_ns, bool all) {
 Status Capancdt::check_silence() const {
   const auto frames = nanoseconds(static_cast<std::int64_t>(8 * session_->setup.frame_ns()));
   const auto limit = options_.silence + frames;
-  if (steady_clock::now() - session_->heard < limit) return {};
+  if (steady_clock::now() - session_->last_packet_time < limit) return {};
   return io_error(session_->data.name() + " is connected and silent for " +
                   std::to_string(std::chrono::duration_cast<milliseconds>(limit).count()) +
                   " ms: somebody else holds the data port, or the controller waits for a trigger; "
                   "close the other client, set the trigger to continuous");
 }
 
-tl::unexpected<Error> Capancdt::lasting(const Error& error) const {
+tl::unexpected<Error> Capancdt::naming_device(const Error& error) const {
   const std::string place = options_.command.text();
   const bool named = error.message.find(place) != std::string::npos;
   return in_context("device \"" + options_.name + "\"" + (named ? "" : " at " + place), error);
 }
 
 // A block ends before frames that were lost: they belong to the beginning of the next.
-void Capancdt::hand_out(SampleBlock& block) {
+void Capancdt::fill_block(SampleBlock& block) {
   auto& waiting = session_->waiting;
   if (waiting.empty()) return;
   const auto frames = static_cast<std::size_t>(waiting.front().packet.frames());

@@ -40,7 +40,7 @@ class Capancdt final : public Driver {
   Health health() const;
 
  private:
-  // Of one connection; a new one begins without memory.
+  // Of one connection to the data port; open() begins a new one.
   struct Session {
     Setup setup;
     ByteStream data;
@@ -48,19 +48,20 @@ class Capancdt final : public Driver {
     FrameCounter counter;
     DeviceClock clock;
     RateWatch rate;
-    std::deque<PlacedPacket> waiting;  // placed, not yet handed out
-    std::chrono::steady_clock::time_point heard;
-    std::optional<std::int64_t> newest_frame, first_ns;  // that the clock was told of; and when
-    bool warm = false;                                   // scans may be handed out
-    std::optional<Error> failed;  // to be told when all that came before is handed out
+    std::deque<PlacedPacket> waiting;  // placed, but not yet in a block
+    std::chrono::steady_clock::time_point last_packet_time;
+    std::optional<std::int64_t> newest_frame;  // that the clock knows
+    std::optional<std::int64_t> first_ns;      // when the clock was given its first frame
+    bool warm = false;                         // Options::warm_up has passed
+    std::optional<Error> failed;               // read() returns it after the scans before it
   };
   Status receive(std::chrono::milliseconds timeout);
   Result<bool> receive_all(std::chrono::milliseconds timeout, bool& came);
   Status place_packets(std::chrono::steady_clock::time_point received);
-  Status tell_time(std::int64_t received_ns, bool all);
+  Status update_clock(std::int64_t received_ns, bool all);
   Status check_silence() const;
-  tl::unexpected<Error> lasting(const Error& error) const;
-  void hand_out(SampleBlock& block);
+  tl::unexpected<Error> naming_device(const Error& error) const;
+  void fill_block(SampleBlock& block);
   void append(SampleBlock& block, const PlacedPacket& placed);
   void append_value(SampleBlock& block, std::size_t channel, std::optional<std::int32_t> raw) const;
 

@@ -15,15 +15,15 @@ constexpr std::size_t kMostReceived = 1 << 16;
 
 }  // namespace
 
-CommandPort::CommandPort(ByteStream stream, milliseconds patience)
-    : stream_(std::move(stream)), patience_(patience) {}
+CommandPort::CommandPort(ByteStream stream, milliseconds reply_timeout)
+    : stream_(std::move(stream)), reply_timeout_(reply_timeout) {}
 
 Result<Welcome> CommandPort::welcome() {
   std::string received;
   std::array<char, 1024> bytes;
-  const auto until = steady_clock::now() + patience_;
+  const auto until = steady_clock::now() + reply_timeout_;
   while (steady_clock::now() < until && parse_welcome(received).lines < kWelcomeLines) {
-    MDOF_TRY(const std::size_t n, stream_.read(bytes, patience_ / 2));
+    MDOF_TRY(const std::size_t n, stream_.read(bytes, reply_timeout_ / 2));
     if (n == 0) break;
     received.append(bytes.data(), n);
   }
@@ -56,10 +56,10 @@ Result<Reply> CommandPort::exchange(const std::string& command) {
 Result<std::optional<Reply>> CommandPort::try_once(const std::string& command) {
   MDOF_TRY(const std::size_t old, stream_.drain(milliseconds(0), milliseconds(100)));
   static_cast<void>(old);
-  MDOF_CHECK(stream_.write(command + "\r", patience_));
+  MDOF_CHECK(stream_.write(command + "\r", reply_timeout_));
   std::string received;
   std::array<char, 1024> bytes;
-  const auto until = steady_clock::now() + patience_;
+  const auto until = steady_clock::now() + reply_timeout_;
   while (received.size() < kMostReceived) {
     const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
     MDOF_TRY(const std::size_t n, stream_.read(bytes, std::max(left, milliseconds(0))));

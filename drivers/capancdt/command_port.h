@@ -11,11 +11,11 @@
 
 namespace mdof::drivers::capancdt {
 
-// Thread-bound. Blocks, at most twice `patience` a command.
+// Thread-bound. Blocks, at most twice `reply_timeout` a command.
 class CommandPort {
  public:
-  CommandPort(ByteStream stream, std::chrono::milliseconds patience);
-  // What the controller says of itself when a client comes. Not heard: empty.
+  CommandPort(ByteStream stream, std::chrono::milliseconds reply_timeout);
+  // What the controller says of itself when a client connects; empty: it said nothing.
   Result<Welcome> welcome();
   // The result. Errors: refused (with what was said), no answer after a second try, disconnected.
   Result<std::string> ask(const std::string& command);
@@ -27,7 +27,7 @@ class CommandPort {
   Result<std::optional<Reply>> try_once(const std::string& command);
 
   ByteStream stream_;
-  std::chrono::milliseconds patience_;
+  std::chrono::milliseconds reply_timeout_;
 };
 
 }  // namespace mdof::drivers::capancdt

@@ -127,7 +127,7 @@ Result<DriverSpec> configure_capancdt(TomlTable& table, const DriverContext& con
   spec.name = context.name;
   for (const auto& channel : options.channels) {
     spec.channels.push_back(channel.input.id);
-    if (channel.input.id == kEncoderChannel) spec.encoder.offset_mm = channel.input.offset_mm;
+    if (channel.input.id == kEncoderChannel) spec.encoder = encoder_origin({channel.input}, false);
   }
   spec.identity = [at = options.command] { return identity_of(at); };
   spec.make = [options]() -> Result<std::unique_ptr<Driver>> {

@@ -1,7 +1,7 @@
 // Keys of [axis.device] with driver = "capancdt".
 #pragma once
 
-#include "drivers/registry.h"
+#include "drivers/driver_spec.h"
 #include "schema/base/result.h"
 #include "schema/base/toml_reader.h"
 

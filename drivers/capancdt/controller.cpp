@@ -211,7 +211,7 @@ Status check_filter(double sample_time_us, int averaged_values, double settle_s)
 
 Result<Setup> set_up_controller(const Options& options) {
   MDOF_TRY(auto stream, connect_tcp(options.command, kConnect));
-  CommandPort port(std::move(stream), options.patience);
+  CommandPort port(std::move(stream), options.reply_timeout);
   auto setup = dialogue(port, options);
   if (!setup) return in_context(options.command.text(), setup.error());
   return setup;

@@ -39,10 +39,11 @@ struct Options {
   };
   std::vector<Channel> channels;
   double settle_s = 0;  // no filter may last longer; 0: not known
-  // Not in the configuration; tests are in more of a hurry.
-  std::chrono::milliseconds patience{1000};  // with a reply
-  // The first packet may have been held up, and the clock of the device can only slowly be moved
-  // once a sample has its time: so many come first.
+  // These are not in the configuration; tests shorten them.
+  std::chrono::milliseconds reply_timeout{1000};
+  // The first packet may have been held up on its way, and the clock of the device moves only
+  // slowly once a sample has been given out with its time: no sample is given out before this has
+  // passed.
   std::chrono::milliseconds warm_up{100};
   std::chrono::milliseconds silence{2000};  // of the data port that is an error
 };

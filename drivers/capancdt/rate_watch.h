@@ -14,7 +14,7 @@ class RateWatch {
   explicit RateWatch(double frame_ns) : frame_ns_(frame_ns) {}
 
   // `frames` counted so far, lost ones included, when the newest was received. Gives the measured
-  // time of a frame once it was off by more than a tenth in two stretches running; one alone may
+  // time of a frame once it was off by more than a tenth in two stretches in a row; one alone may
   // be a hold-up of the network or of this computer.
   std::optional<double> add(std::int64_t frames, std::int64_t received_ns) {
     if (!begun_) begin(frames, received_ns);

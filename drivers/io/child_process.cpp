@@ -130,7 +130,7 @@ void ChildProcess::take_errors() {
   }
 }
 
-std::string ChildProcess::epitaph() {
+std::string ChildProcess::how_it_ended() {
   const auto exit = exited(kExit);
   take_errors();
   std::string text = "has closed its standard output, and runs on";

@@ -31,9 +31,9 @@ class ChildProcess {
   // Takes what it has written to its standard error, of which the last line is kept. To be called
   // now and then, or the program stands still once 64 KiB wait.
   void take_errors();
-  // What became of it, once its output has ended: "has exited with status 3; its last line of
+  // How the program ended, once its output has ended: "has exited with status 3; its last line of
   // standard error: ...". Waits for its exit, but not for long.
-  std::string epitaph();
+  std::string how_it_ended();
 
  private:
   ChildProcess(pid_t pid, ByteStream output, ByteStream errors);

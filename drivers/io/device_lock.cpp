@@ -20,7 +20,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr int kAskers = 64;  // who may wait to be dismissed
+constexpr int kAskers = 64;  // that may wait for answer_inquiries()
 constexpr int kKind = SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK;
 
 struct Name {
@@ -99,7 +99,7 @@ Result<DeviceLock> DeviceLock::take(const std::string& identity, bool shared) {
   return io_error(in_use_by(holder));
 }
 
-void DeviceLock::dismiss() const {
+void DeviceLock::answer_inquiries() const {
   for (int asker = 0; fd_ >= 0 && asker >= 0;) {
     asker = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC);
     if (asker >= 0) ::close(asker);

@@ -25,9 +25,9 @@ class DeviceLock {
   DeviceLock(DeviceLock&& other) noexcept;
   DeviceLock& operator=(DeviceLock&& other) noexcept;
 
-  // Lets go of those who have asked who holds it; to be called now and then, or one day nobody can
-  // be told any more.
-  void dismiss() const;
+  // Ends the connections of programs that asked who holds the device. To be called about every
+  // second: once too many wait, further programs are not told.
+  void answer_inquiries() const;
 
  private:
   explicit DeviceLock(int fd) : fd_(fd) {}

@@ -69,14 +69,14 @@ struct Calibration {
   std::vector<std::optional<Polynomial>> to_volts;  // of each input; none: by its range
 };
 
-enum class Stream : std::uint8_t {
+enum class StreamState : std::uint8_t {
   runs,
   overran,  // the kernel's buffer, or the board's: all that came before it has been given
   ended,
 };
 struct Received {
   std::size_t bytes = 0;
-  Stream stream = Stream::runs;
+  StreamState stream = StreamState::runs;
 };
 
 // An open board. Errors say what comedilib says, without the device's name.
@@ -87,8 +87,8 @@ class Board {
   virtual std::string name() const = 0;
   virtual std::vector<Subdevice> subdevices() = 0;
   virtual std::vector<Range> ranges(unsigned subdevice, unsigned channel) = 0;
-  // The greatest code; 0: not known.
-  virtual std::uint32_t most(unsigned subdevice, unsigned channel) = 0;
+  // Of this input; 0: it is not known.
+  virtual std::uint32_t greatest_code(unsigned subdevice, unsigned channel) = 0;
   virtual std::size_t buffer_bytes(unsigned subdevice) = 0;
   // Sets what hardware the file has settings for.
   virtual Calibration calibrate(unsigned subdevice, const std::vector<BoardInput>& inputs) = 0;

@@ -1,8 +1,9 @@
 // The table [axis.device] with driver = "linux_comedi" (keys: drivers/README.md).
 #pragma once
 
+#include "drivers/driver_spec.h"
 #include "drivers/linux_comedi/settings.h"
-#include "drivers/registry.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof::drivers {
 

@@ -133,7 +133,7 @@ class LibraryBoard final : public Board {
   std::string name() const override { return text(comedi_get_board_name(device_.get())); }
   std::vector<Subdevice> subdevices() override;
   std::vector<Range> ranges(unsigned subdevice, unsigned channel) override;
-  std::uint32_t most(unsigned subdevice, unsigned channel) override {
+  std::uint32_t greatest_code(unsigned subdevice, unsigned channel) override {
     return comedi_get_maxdata(device_.get(), subdevice, channel);
   }
   std::size_t buffer_bytes(unsigned subdevice) override {
@@ -264,10 +264,10 @@ Result<Received> LibraryBoard::receive(std::span<char> into, milliseconds timeou
   // them; not every one can.
   if (woken == 0) (void)comedi_poll(device_.get(), subdevice_);
   const ssize_t bytes = ::read(fd, into.data(), into.size());
-  if (bytes > 0) return Received{static_cast<std::size_t>(bytes), Stream::runs};
-  if (bytes == 0) return Received{0, Stream::ended};
+  if (bytes > 0) return Received{static_cast<std::size_t>(bytes), StreamState::runs};
+  if (bytes == 0) return Received{0, StreamState::ended};
   if (errno == EAGAIN || errno == EINTR) return Received{};
-  if (errno == EPIPE) return Received{0, Stream::overran};
+  if (errno == EPIPE) return Received{0, StreamState::overran};
   if (errno == ENODEV) return io_error("the board has gone: unplugged, or its driver was unloaded");
   return io_error(std::string("cannot be read: ") + comedi_strerror(errno));
 }

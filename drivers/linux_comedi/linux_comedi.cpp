@@ -71,7 +71,7 @@ Status LinuxComedi::start() {
   MDOF_TRY(setup_, set_up(*board, settings_));
   rate_hz_ = rate_of(setup_.command);
   clock_ = DeviceClock(1e9 / rate_hz_);
-  line_ = CodeLine(settings_.inputs.size(), setup_.long_samples);
+  line_ = CodeSplitter(settings_.inputs.size(), setup_.long_samples);
   MDOF_CHECK(board->start(setup_.command));
   received_ns_ = monotonic_ns();
   board_ = std::move(board);
@@ -87,11 +87,11 @@ Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
       broken_ = in_context(place(), std::move(received.error()));
   }
   if (!broken_) return tl::unexpected(broken_.error());
-  hand_out(block);
+  fill_block(block);
   return ReadState::more;
 }
 
-// Until scans have come, at most until then.
+// Waits for scans, at most until `until`.
 Status LinuxComedi::receive(Time until) {
   do {
     MDOF_TRY(const Received received, board_->receive(buffer_, left_until(until)));
@@ -108,13 +108,13 @@ void LinuxComedi::take(std::size_t bytes) {
   if (!codes_.empty()) clock_.add(static_cast<std::int64_t>(scans) - 1, received_ns_);
 }
 
-Status LinuxComedi::check(Stream stream) {
-  if (stream == Stream::overran)
+Status LinuxComedi::check(StreamState stream) {
+  if (stream == StreamState::overran)
     return io_error(
         "a buffer has run over, the board's or the kernel's of " + plain_number(setup_.buffer_s) +
         " s: lower rate_hz, find what keeps this computer from reading, or enlarge the kernel's "
         "(comedi_config --read-buffer)");
-  if (stream == Stream::ended)
+  if (stream == StreamState::ended)
     return io_error("the board has ended the command by itself; dmesg may say why");
   const double silent_s = static_cast<double>(monotonic_ns() - received_ns_) * 1e-9;
   const double kept_s = kBoardKeeps / rate_hz_ / static_cast<double>(channels_.size());
@@ -124,7 +124,7 @@ Status LinuxComedi::check(Stream stream) {
   return {};
 }
 
-void LinuxComedi::hand_out(SampleBlock& block) {
+void LinuxComedi::fill_block(SampleBlock& block) {
   const std::size_t scans = codes_.size() / channels_.size();
   for (std::size_t scan = 0; scan < scans; ++scan) append(block, scan);
   codes_.clear();
@@ -140,8 +140,8 @@ void LinuxComedi::append(SampleBlock& block, std::size_t scan) {
     const std::uint32_t code = codes_[scan * channels_.size() + c];
     const Conversion& conversion = setup_.conversions[c];
     block.value[c].push_back(volts(code, conversion.to_volts));
-    block.quality[c].push_back(at_rail(code, conversion.most) ? Quality::over_range
-                                                              : Quality::good);
+    block.quality[c].push_back(at_rail(code, conversion.greatest_code) ? Quality::over_range
+                                                                       : Quality::good);
   }
 }
 

@@ -34,8 +34,8 @@ class LinuxComedi final : public Driver {
   Status start();
   Status receive(Time until);
   void take(std::size_t bytes);
-  Status check(Stream stream);
-  void hand_out(SampleBlock& block);
+  Status check(StreamState stream);
+  void fill_block(SampleBlock& block);
   void append(SampleBlock& block, std::size_t scan);
   std::uint64_t lost_while_closed(std::int64_t time_ns) const;
   std::string place() const;
@@ -46,7 +46,7 @@ class LinuxComedi final : public Driver {
   Setup setup_;
   double rate_hz_;     // true
   DeviceClock clock_;  // ticks are scans
-  CodeLine line_;
+  CodeSplitter line_;
   std::vector<char> buffer_;
   std::vector<std::uint32_t> codes_;  // of scans received and not yet given out
   std::uint64_t first_ = 0;           // the scan that codes_ begins with, since the start

@@ -105,10 +105,10 @@ const char* failed_step(int test) {
              : "unknown";
 }
 
-CodeLine::CodeLine(std::size_t inputs, bool long_samples)
+CodeSplitter::CodeSplitter(std::size_t inputs, bool long_samples)
     : inputs_(inputs), size_(long_samples ? 4 : 2) {}
 
-void CodeLine::take(std::string_view bytes, std::vector<std::uint32_t>& codes) {
+void CodeSplitter::take(std::string_view bytes, std::vector<std::uint32_t>& codes) {
   begun_ += bytes;
   const std::size_t whole = begun_.size() - begun_.size() % (inputs_ * size_);
   for (std::size_t at = 0; at < whole; at += size_) {
@@ -124,8 +124,8 @@ void CodeLine::take(std::string_view bytes, std::vector<std::uint32_t>& codes) {
   begun_.erase(0, whole);
 }
 
-Polynomial nominal(const Range& range, std::uint32_t most) {
-  return {{range.low, (range.high - range.low) / most, 0, 0}, 0};
+Polynomial nominal(const Range& range, std::uint32_t greatest_code) {
+  return {{range.low, (range.high - range.low) / greatest_code, 0, 0}, 0};
 }
 
 double volts(std::uint32_t code, const Polynomial& to_volts) {

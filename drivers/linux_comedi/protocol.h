@@ -35,9 +35,9 @@ double convert_us(const Command& command);
 const char* failed_step(int test);  // what Board::test() says, in comedilib's words
 
 // Cuts what came, of any lengths, into the codes of whole scans.
-class CodeLine {
+class CodeSplitter {
  public:
-  CodeLine(std::size_t inputs, bool long_samples);
+  CodeSplitter(std::size_t inputs, bool long_samples);
   // Adds the codes of the scans that end in it, one scan after the other.
   void take(std::string_view bytes, std::vector<std::uint32_t>& codes);
 
@@ -47,11 +47,11 @@ class CodeLine {
 };
 
 // Of a board without a calibration file.
-Polynomial nominal(const Range& range, std::uint32_t most);
+Polynomial nominal(const Range& range, std::uint32_t greatest_code);
 double volts(std::uint32_t code, const Polynomial& to_volts);
 // At an end of its range: comedi_to_phys makes it NaN.
-inline bool at_rail(std::uint32_t code, std::uint32_t most) {
-  return code == 0 || code >= most;
+inline bool at_rail(std::uint32_t code, std::uint32_t greatest_code) {
+  return code == 0 || code >= greatest_code;
 }
 
 }  // namespace mdof::drivers::linux_comedi

@@ -93,13 +93,13 @@ Status convert(Board& board, const Subdevice& has, Setup& setup) {
   const bool used = calibration.found && calibration.wrong.empty();
   for (std::size_t i = 0; i < command.inputs.size(); ++i) {
     const BoardInput& input = command.inputs[i];
-    const std::uint32_t most = board.most(command.subdevice, input.channel);
-    if (most == 0)
+    const std::uint32_t greatest_code = board.greatest_code(command.subdevice, input.channel);
+    if (greatest_code == 0)
       return io_error(channel_text(input.channel) + ": its driver does not say its greatest code");
     const Range range = board.ranges(command.subdevice, input.channel).at(input.range);
     const bool corrected = used && calibration.to_volts.at(i).has_value();
     setup.conversions.push_back(
-        {corrected ? *calibration.to_volts[i] : nominal(range, most), most});
+        {corrected ? *calibration.to_volts[i] : nominal(range, greatest_code), greatest_code});
     if (used && has.soft_calibrated && !corrected)
       setup.warnings.push_back(uncalibrated(calibration.file + " has nothing for " +
                                             channel_text(input.channel) + " at " + text_of(range)));

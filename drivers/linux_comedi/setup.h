@@ -12,7 +12,7 @@ namespace mdof::drivers::linux_comedi {
 
 struct Conversion {  // of an input
   Polynomial to_volts;
-  std::uint32_t most = 0;  // code
+  std::uint32_t greatest_code = 0;
 };
 
 struct Setup {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "drivers/registry.h"
+#include "drivers/driver_spec.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof::drivers {
 

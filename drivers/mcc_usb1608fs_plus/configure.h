@@ -1,8 +1,9 @@
 // The table [axis.device] with driver = "mcc_usb1608fs_plus" (keys: drivers/README.md).
 #pragma once
 
+#include "drivers/driver_spec.h"
 #include "drivers/mcc_usb1608fs_plus/settings.h"
-#include "drivers/registry.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof::drivers {
 

@@ -71,7 +71,7 @@ void MccUsb1608fsPlus::close() {
   if (handle_ && stream_) (void)handle_->vendor_out(kScanStop, 0, 0, "", kReply);
   stream_.reset();
   handle_.reset();
-  line_ = ScanLine(settings_.inputs.size());
+  line_ = ScanSplitter(settings_.inputs.size());
   words_.clear();
   first_ = sound_ = 0;
   clock_.reset();
@@ -119,7 +119,7 @@ Result<ReadState> MccUsb1608fsPlus::read(SampleBlock& block, milliseconds timeou
   if (!stream_) return io_error(place() + " is not open; open it before reading");
   if (auto received = receive(steady_clock::now() + timeout); !received)
     return in_context(place(), std::move(received.error()));
-  hand_out(block);
+  fill_block(block);
   return ReadState::more;
 }
 
@@ -161,7 +161,7 @@ Status MccUsb1608fsPlus::check_status() {
   return {};
 }
 
-void MccUsb1608fsPlus::hand_out(SampleBlock& block) {
+void MccUsb1608fsPlus::fill_block(SampleBlock& block) {
   const std::size_t n = channels_.size();
   for (std::size_t scan = 0; scan < sound_; ++scan) {
     const std::int64_t time_ns = clock_.host_ns(static_cast<std::int64_t>(first_ + scan));

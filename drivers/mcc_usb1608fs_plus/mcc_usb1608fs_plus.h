@@ -39,7 +39,7 @@ class MccUsb1608fsPlus final : public Driver {
   Status receive(Time until);
   Status take_chunk(Time until);
   Status check_status();
-  void hand_out(SampleBlock& block);
+  void fill_block(SampleBlock& block);
   std::uint64_t lost_while_closed(std::int64_t time_ns) const;
   std::string place() const;
 
@@ -54,7 +54,7 @@ class MccUsb1608fsPlus final : public Driver {
   Calibrations calibrations_;
 
   DeviceClock clock_;  // ticks are scans
-  ScanLine line_;
+  ScanSplitter line_;
   std::vector<std::uint16_t> words_;  // of scans received and not yet given out
   std::uint64_t first_ = 0;           // the scan that words_ begins with, since the start
   std::size_t sound_ = 0;             // scans of words_ before any overrun

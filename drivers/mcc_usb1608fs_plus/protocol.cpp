@@ -73,7 +73,7 @@ std::string status_reply(const DeviceStatus& status) {
   return bytes;
 }
 
-void ScanLine::take(std::string_view bytes, std::vector<std::uint16_t>& words) {
+void ScanSplitter::take(std::string_view bytes, std::vector<std::uint16_t>& words) {
   begun_ += bytes;
   const std::size_t whole = begun_.size() - begun_.size() % (2 * words_);
   for (std::size_t at = 0; at < whole; at += 2)

@@ -71,9 +71,9 @@ Result<DeviceStatus> read_status(std::string_view reply);
 std::string status_reply(const DeviceStatus& status);
 
 // Cuts the samples of transfers, of any lengths, into scans.
-class ScanLine {
+class ScanSplitter {
  public:
-  explicit ScanLine(std::size_t words) : words_(words) {}
+  explicit ScanSplitter(std::size_t words) : words_(words) {}
   // Adds the words of the scans that end in it, one scan after the other.
   void take(std::string_view bytes, std::vector<std::uint16_t>& words);
 

@@ -8,9 +8,9 @@
 #include <cerrno>
 #include <utility>
 
+#include "drivers/long_step.h"
 #include "drivers/modbus/protocol.h"
 #include "drivers/modbus/sentinels.h"
-#include "drivers/progress.h"
 
 namespace mdof::drivers {
 namespace {

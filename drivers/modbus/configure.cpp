@@ -68,7 +68,7 @@ Status read_uses(TomlTable& table, const Rig& rig, ModbusSettings& settings) {
     else if (input.um_per_count != 0)
       return bad_input(input.where + ": um_per_count is for counts, but \"" + input.input +
                        "\" comes in " + suffix(value->unit));
-    if (input.id == kEncoderChannel) settings.encoder = {value->incremental, input.offset_mm};
+    if (input.id == kEncoderChannel) settings.encoder = encoder_origin({input}, value->incremental);
     settings.channels.push_back({input.id, counts ? Unit::um : value->unit});
     settings.uses.push_back({*value, input.um_per_count});
   }

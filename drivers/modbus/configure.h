@@ -1,7 +1,8 @@
 // The keys of a Modbus device; drivers/README.md lists them.
 #pragma once
 
-#include "drivers/registry.h"
+#include "drivers/driver_spec.h"
+#include "schema/base/toml_reader.h"
 
 namespace mdof::drivers {
 

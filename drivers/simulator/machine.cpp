@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "drivers/simulator/raw.h"
+#include "drivers/simulator/raw_reading.h"
 #include "schema/base/random.h"
 #include "schema/units.h"
 

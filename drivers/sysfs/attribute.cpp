@@ -120,10 +120,11 @@ Result<std::optional<std::string>> read_sysfs(const std::string& path) {
 Status write_sysfs(const std::string& path, const std::string& text) {
   const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (fd < 0) return io_error(path + ": " + sysfs_write_error(errno));
-  const ssize_t n = ::write(fd, text.data(), text.size());
+  const std::string line = text + "\n";
+  const ssize_t n = ::write(fd, line.data(), line.size());
   const int error = errno;
   ::close(fd);
-  if (n == static_cast<ssize_t>(text.size())) return {};
+  if (n == static_cast<ssize_t>(line.size())) return {};
   return io_error(path + ": writing " + text + ": " + sysfs_write_error(error));
 }
 

@@ -55,11 +55,16 @@ Status SysfsPoller::open() {
   next_ns_ = monotonic_ns();
   lost_ = 0;
   failures_ = 0;
+  passed_mark_ = false;
   return {};
 }
 
 Result<ReadState> SysfsPoller::read(SampleBlock& block, std::chrono::milliseconds timeout) {
   start_block(block, name_, channels_);
+  if (std::exchange(passed_mark_, false)) {
+    ++marks_passed_;
+    datum_lost_ = false;
+  }
   if (!is_open_) return io_error("device \"" + name_ + "\" is not open; open it before reading");
   const std::int64_t until_ns =
       monotonic_ns() +
@@ -70,8 +75,9 @@ Result<ReadState> SysfsPoller::read(SampleBlock& block, std::chrono::millisecond
     if (next_ns_ > until_ns) break;
     MDOF_CHECK(poll(block));
     schedule_next(monotonic_ns());
-    // What is lost goes before a block.
-  } while (next_ns_ < std::max(full_ns, block.scans() == 0 ? until_ns : 0) && lost_ == 0);
+    // What is lost goes before a block, and a block is counted from one place.
+  } while (next_ns_ < std::max(full_ns, block.scans() == 0 ? until_ns : 0) && lost_ == 0 &&
+           !passed_mark_);
   return ReadState::more;
 }
 
@@ -83,6 +89,7 @@ Status SysfsPoller::poll(SampleBlock& block) {
   for (const auto& input : device_.inputs) {
     const auto reading = input.read();
     if (!reading) return count_failure(reading.error());
+    passed_mark_ = passed_mark_ || reading->passed_mark;
     values.push_back(reading->value);
     own.push_back(reading->quality);
   }

@@ -17,6 +17,7 @@ namespace mdof::drivers {
 struct SysfsReading {
   double value = 0;
   Quality quality = Quality::good;
+  bool passed_mark = false;  // of an encoder: from the next reading on it is counted from its mark
 };
 struct SysfsInput {
   Channel channel;
@@ -47,6 +48,7 @@ class SysfsPoller final : public Driver {
   // Gives what 10 ms bring, at least one scan; takes longer than `timeout` only by one scan.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override { datum_lost_ = false; }
+  int marks_passed() const override { return marks_passed_; }
 
  private:
   Status poll(SampleBlock& block);
@@ -63,6 +65,8 @@ class SysfsPoller final : public Driver {
   std::int64_t next_ns_ = 0;
   std::uint64_t lost_ = 0;
   int failures_ = 0;  // in a row
+  int marks_passed_ = 0;
+  bool passed_mark_ = false;  // with the next block
   std::int64_t last_time_ns_ = 0;
 };
 

@@ -8,25 +8,17 @@
 #include <utility>
 
 namespace mdof::drivers {
-namespace {
 
-struct File {
-  const char* name;
-  std::string text;
-};
+SimulatedTree::SimulatedTree(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-Result<SimulatedTree> make_tree(const std::filesystem::path& folder,
-                                std::initializer_list<File> files) {
+Result<SimulatedTree> SimulatedTree::make(const std::filesystem::path& folder,
+                                          std::initializer_list<File> files) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   const SimulatedTree tree(folder);
   for (const File& file : files) MDOF_CHECK(tree.set(file.name, file.text));
   return tree;
 }
-
-}  // namespace
-
-SimulatedTree::SimulatedTree(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
 // What a shorter text leaves of a longer one is in the lines after the first, which nobody reads.
 Status SimulatedTree::set(const std::string& file, const std::string& text) const {
@@ -60,35 +52,6 @@ SysfsRead SimulatedTree::reads() const {
 void SimulatedTree::fail_reads(int error, int count) {
   faults_->error = error;
   faults_->left = count;
-}
-
-Result<SimulatedTree> make_counter_tree(const std::filesystem::path& sysfs_root,
-                                        std::uint64_t ceiling) {
-  return make_tree(sysfs_root / "bus/counter/devices/counter0",
-                   {{"name", "simulated-counter"},
-                    {"num_counts", "1"},
-                    {"count0/count", "0"},
-                    {"count0/function", "quadrature x4"},
-                    {"count0/count_mode", "normal"},
-                    {"count0/enable", "1"},
-                    {"count0/floor", "0"},
-                    {"count0/ceiling", std::to_string(ceiling)}});
-}
-
-Result<SimulatedTree> make_ad7746_tree(const std::filesystem::path& sysfs_root) {
-  return make_tree(sysfs_root / "bus/iio/devices/iio:device0",
-                   {{"name", "ad7746"},
-                    {"in_capacitance0_raw", "0"},
-                    {"in_capacitance0_offset", "0"},
-                    {"in_capacitance1_raw", "0"},
-                    {"in_capacitance1_offset", "0"},
-                    {"in_capacitance0-capacitance2_raw", "0"},
-                    {"in_capacitance0-capacitance2_zeropoint", "0"},
-                    {"in_capacitance1-capacitance3_raw", "0"},
-                    {"in_capacitance1-capacitance3_zeropoint", "0"},
-                    {"in_capacitance_scale", "0.000000488"},
-                    {"in_capacitance_sampling_frequency", "9"},
-                    {"in_capacitance_sampling_frequency_available", "91 84 50 26 16 13 11 9"}});
 }
 
 }  // namespace mdof::drivers

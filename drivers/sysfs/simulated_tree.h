@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <string>
 
@@ -14,7 +15,14 @@ namespace mdof::drivers {
 
 class SimulatedTree {
  public:
+  struct File {
+    const char* name;
+    std::string text;
+  };
   explicit SimulatedTree(std::filesystem::path folder);
+  // Makes the folder with these files in it.
+  static Result<SimulatedTree> make(const std::filesystem::path& folder,
+                                    std::initializer_list<File> files);
 
   // Makes the file, or replaces its text in one write, as a reader sees it.
   Status set(const std::string& file, const std::string& text) const;
@@ -31,11 +39,5 @@ class SimulatedTree {
   std::filesystem::path folder_;
   std::shared_ptr<Faults> faults_ = std::make_shared<Faults>();
 };
-
-// sysfs_root/bus/counter/devices/counter0 with count0, at 0: quadrature x4, `ceiling`.
-Result<SimulatedTree> make_counter_tree(const std::filesystem::path& sysfs_root,
-                                        std::uint64_t ceiling);
-// sysfs_root/bus/iio/devices/iio:device0, an AD7746 with nothing at its inputs, 9 Hz.
-Result<SimulatedTree> make_ad7746_tree(const std::filesystem::path& sysfs_root);
 
 }  // namespace mdof::drivers

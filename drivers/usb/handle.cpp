@@ -14,13 +14,13 @@ constexpr std::uint8_t kVendorIn = 0xC0, kVendorOut = 0x40;
 constexpr std::size_t kPacket = 64;
 constexpr std::chrono::seconds kToDrain{1};
 
-// Runs the transfer; it has ended when this returns, or has been put away.
+// Runs the transfer. When this returns it has ended, or was cancelled and freed.
 Status run(const Connection& connection, Transfers& one, std::chrono::milliseconds timeout) {
   Transfer& transfer = *one.front();
   MDOF_CHECK(transfer.submit());
-  const auto ended = [&] { return !transfer.flying; };
+  const auto ended = [&] { return !transfer.in_flight; };
   if (!connection.pump(steady_clock::now() + timeout, ended)) {
-    put_away(connection, one);
+    cancel_and_free(connection, one);
     return io_error(text_of(LIBUSB_TRANSFER_TIMED_OUT) + " (" + std::to_string(timeout.count()) +
                     " ms)");
   }
@@ -107,11 +107,11 @@ Status Handle::drain(std::uint8_t endpoint, Timeout quiet) {
     if (!transfer.raw) return io_error(text_of_error(LIBUSB_ERROR_NO_MEM));
     transfer.raw->endpoint = endpoint;
     MDOF_CHECK(transfer.submit());
-    const auto ended = [&] { return !transfer.flying; };
+    const auto ended = [&] { return !transfer.in_flight; };
     const bool came = connection_->pump(steady_clock::now() + quiet, ended);
     if (came && transfer.raw->status != LIBUSB_TRANSFER_COMPLETED)
       return io_error(at_endpoint(endpoint) + ": " + text_of(transfer.raw->status));
-    put_away(*connection_, one);
+    cancel_and_free(*connection_, one);
     if (!came) return {};
   }
   return io_error(at_endpoint(endpoint) +

@@ -36,11 +36,11 @@ InStream& InStream::operator=(InStream&& other) noexcept {
 }
 
 void InStream::end() {
-  if (connection_ && !transfers_.empty()) put_away(*connection_, transfers_);
+  if (connection_ && !transfers_.empty()) cancel_and_free(*connection_, transfers_);
 }
 
 void InStream::cancel() {
-  (void)take_back(*connection_, transfers_);
+  (void)cancel_all(*connection_, transfers_);
 }
 
 Status InStream::submit_given() {
@@ -54,7 +54,7 @@ Result<InStream::Chunk> InStream::next(Deadline deadline) {
   if (!ended_) return tl::unexpected(ended_.error());
   if (ended_ = submit_given(); !ended_) return tl::unexpected(ended_.error());
   const Transfer& oldest = *transfers_[oldest_];
-  if (!connection_->pump(deadline, [&] { return !oldest.flying; })) return Chunk{};
+  if (!connection_->pump(deadline, [&] { return !oldest.in_flight; })) return Chunk{};
   const auto status = oldest.raw->status;
   if (status != LIBUSB_TRANSFER_COMPLETED) {
     stalled_ = status == LIBUSB_TRANSFER_STALL;

@@ -12,7 +12,7 @@ struct Place {
 
 // "the kernel's driver cdc_acm", "the program mdofd (4711)", or "another program".
 std::string owner_of(const Place& place, int interface);
-// "mdofd (4711)": the first program but this one that has `path` open, as far as may be seen.
-std::string program_with(const std::string& path);
+// "mdofd (4711)": another program that has `path` open; "": none that this user may see.
+std::string program_that_opened(const std::string& path);
 
 }  // namespace mdof::drivers::usb

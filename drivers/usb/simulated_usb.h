@@ -1,6 +1,5 @@
-// A USB device as it looks from the bus, without one. Put on a bus by tests (umockdev's usbfs) and
-// by mdof-simulate (the kernel's vhci_hcd), so that libusb, hidapi and the kernel are the real
-// ones.
+// A simulated USB device, as the host sees it. Tests put it on the bus of umockdev, mdof-simulate
+// on that of the kernel (vhci_hcd): libusb, hidapi and the kernel are the real ones.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +7,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "drivers/simulated_device.h"
 
 namespace mdof::drivers::usb {
 
@@ -41,10 +42,10 @@ struct Reply {
   std::string bytes;
 };
 
-// Pure: no clock, no I/O; the time is handed in and never goes backwards. Thread-bound.
-class SimulatedUsb {
+// A simulated device that is on the USB.
+class SimulatedUsb : public SimulatedDevice {
  public:
-  virtual ~SimulatedUsb() = default;
+  SimulatedUsb* on_usb() final { return this; }
   virtual const Identity& identity() const = 0;
   // Class and vendor requests; the standard ones are answered by standard_reply().
   virtual Reply control(const Setup& setup, std::string_view out, std::int64_t now_ns) = 0;

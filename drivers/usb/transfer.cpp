@@ -17,7 +17,7 @@ constexpr microseconds kRest{200};
 
 void LIBUSB_CALL on_end(libusb_transfer* raw) {
   auto* transfer = static_cast<Transfer*>(raw->user_data);
-  transfer->flying = false;
+  transfer->in_flight = false;
   transfer->done_ns = monotonic_ns();
 }
 
@@ -62,7 +62,7 @@ Status Transfer::submit() {
   if (!raw) return io_error("there is no memory for a USB transfer");
   const int code = libusb_submit_transfer(raw);
   if (code != 0) return io_error(text_of_error(code));
-  flying = true;
+  in_flight = true;
   return {};
 }
 
@@ -71,21 +71,21 @@ std::string Transfer::received() const {
   return {begin, static_cast<std::size_t>(raw->actual_length)};
 }
 
-bool take_back(const Connection& connection, const Transfers& transfers) {
+bool cancel_all(const Connection& connection, const Transfers& transfers) {
   // The newest first, so that none of those behind it starts meanwhile.
   for (auto each = transfers.rbegin(); each != transfers.rend(); ++each)
-    if ((*each)->flying) libusb_cancel_transfer((*each)->raw);
-  const auto landed = [&] {
+    if ((*each)->in_flight) libusb_cancel_transfer((*each)->raw);
+  const auto all_ended = [&] {
     return std::none_of(transfers.begin(), transfers.end(),
-                        [](const auto& transfer) { return transfer->flying; });
+                        [](const auto& transfer) { return transfer->in_flight; });
   };
-  return connection.pump(steady_clock::now() + kToCancel, landed);
+  return connection.pump(steady_clock::now() + kToCancel, all_ended);
 }
 
-void put_away(const Connection& connection, Transfers& transfers) {
-  if (!take_back(connection, transfers))
+void cancel_and_free(const Connection& connection, Transfers& transfers) {
+  if (!cancel_all(connection, transfers))
     for (auto& transfer : transfers)
-      if (transfer->flying) (void)transfer.release();
+      if (transfer->in_flight) (void)transfer.release();
   transfers.clear();
 }
 

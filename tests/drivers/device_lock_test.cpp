@@ -82,7 +82,7 @@ TEST(DeviceLock, WhoeverAsksIsAnsweredHoweverManyHaveAsked) {
   auto held = DeviceLock::take(identity);
   ASSERT_TRUE(held);
   for (int i = 0; i < 300; ++i) {
-    if (i % 40 == 0) held->dismiss();
+    if (i % 40 == 0) held->answer_inquiries();
     const auto refused = DeviceLock::take(identity);
     ASSERT_FALSE(refused);
     ASSERT_NE(refused.error().message.find("two devices"), std::string::npos) << i;

@@ -8,7 +8,7 @@
 
 #include "drivers/calibration.h"
 #include "drivers/simulator/motion.h"
-#include "drivers/simulator/raw.h"
+#include "drivers/simulator/raw_reading.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {

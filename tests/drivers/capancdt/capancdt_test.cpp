@@ -33,7 +33,7 @@ TEST(Capancdt, GivesMicrometresOfItsChannels) {
 }
 
 TEST(Capancdt, TimesAreASampleTimeApart) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.sample_time_us = 960;
   device.frames_per_packet = 4;
   Rack rack(device);
@@ -65,7 +65,7 @@ TEST(Capancdt, NothingIsHandedOutBeforeTheClockIsWarm) {
 
 TEST(Capancdt, EitherOrderOfTheSizes) {
   for (const SizeOrder sizes : {SizeOrder::bytes_per_frame_first, SizeOrder::frames_first}) {
-    DeviceOptions device;
+    SimulatedCapancdt::Options device;
     device.faults.sizes = sizes;
     device.frames_per_packet = 3;
     Rack rack(device);
@@ -80,9 +80,10 @@ TEST(Capancdt, EitherOrderOfTheSizes) {
 }
 
 TEST(Capancdt, EveryMeaningOfTheCounterAndEcho) {
+  using Echo = SimulatedCapancdt::Echo;
   constexpr Echo kEchoes[] = {Echo::line, Echo::reply, Echo::mixed, Echo::none};
   for (int unit = 0; unit < kCounterUnits; ++unit) {
-    DeviceOptions device;
+    SimulatedCapancdt::Options device;
     device.faults.counter = static_cast<CounterUnit>(unit);
     device.faults.echo = kEchoes[unit];
     device.faults.lose_every = 10;
@@ -105,7 +106,7 @@ TEST(Capancdt, EveryMeaningOfTheCounterAndEcho) {
 }
 
 TEST(Capancdt, LostFramesBeginABlock) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.faults.lose_every = 8;
   Rack rack(device);
   Capancdt driver(rack.options);
@@ -134,7 +135,7 @@ TEST(Capancdt, LostFramesBeginABlock) {
 }
 
 TEST(Capancdt, DuplicatesAreDropped) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.faults.repeat_every = 3;
   Rack rack(device);
   Capancdt driver(rack.options);
@@ -150,7 +151,7 @@ TEST(Capancdt, DuplicatesAreDropped) {
 }
 
 TEST(Capancdt, AVanishedChannelIsMissing) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.faults.vanishing = 1;
   device.faults.vanish_from = 20;
   device.faults.vanish_packets = 15;
@@ -186,7 +187,7 @@ TEST(Capancdt, EndsOfTheRangeAreOverRange) {
 }
 
 TEST(Capancdt, OfAMathsChannelTheEndsAreNotKnown) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.inputs[2].maths = true;
   Rack rack(device, [](std::size_t, std::int64_t) { return 0.0; });
   Capancdt driver(rack.options);
@@ -198,7 +199,7 @@ TEST(Capancdt, OfAMathsChannelTheEndsAreNotKnown) {
 }
 
 TEST(Capancdt, AfterGarbageValuesAreSuspect) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.faults.garbage_every = 10;
   Rack rack(device);
   Capancdt driver(rack.options);
@@ -214,7 +215,7 @@ TEST(Capancdt, AfterGarbageValuesAreSuspect) {
 }
 
 TEST(Capancdt, BytesInDribs) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.faults.most_bytes = 5;
   Rack rack(device);
   rack.options.sample_time_us = 16384;
@@ -258,7 +259,7 @@ TEST(Capancdt, ReadKeepsToItsTimeout) {
 }
 
 TEST(Capancdt, AResetConnectionIsAnErrorAndOpensAgain) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.faults.reset_connection_at = 30;
   Rack rack(device);
   Capancdt driver(rack.options);
@@ -276,7 +277,7 @@ TEST(Capancdt, AResetConnectionIsAnErrorAndOpensAgain) {
 }
 
 TEST(Capancdt, ACounterThatStartsAnewIsAnError) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.first_counter = 1'000'000;
   device.faults.reset_counter_at = 40;
   Rack rack(device);
@@ -288,7 +289,7 @@ TEST(Capancdt, ACounterThatStartsAnewIsAnError) {
 }
 
 TEST(Capancdt, GarbageAloneIsAnError) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.frames_per_packet = 1000;
   device.faults.rate = 500;
   device.faults.spoil_preamble = true;

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "drivers/capancdt/capancdt.h"
-#include "drivers/capancdt/device.h"
+#include "drivers/capancdt/simulated_capancdt.h"
 #include "tests/drivers/served_device.h"
 
 namespace mdof::drivers::capancdt {
@@ -32,16 +32,16 @@ inline Options options_for(const ServedDevice& served) {
         {{number == 1 ? "A" : "B", text, 0, "rig.toml:7: channel.id"}, number, 0});
   }
   options.sample_time_us = 512;
-  options.patience = 2000ms;
+  options.reply_timeout = 2000ms;
   options.warm_up = 10ms;
   return options;
 }
 
 struct Rack {
-  explicit Rack(const DeviceOptions& as = {}, const Senses& senses = steady) {
-    DeviceOptions with_port = as;
+  explicit Rack(const SimulatedCapancdt::Options& as = {}, const Senses& senses = steady) {
+    SimulatedCapancdt::Options with_port = as;
     with_port.data_port = served.port(1);
-    device = std::make_unique<SimulatedCapancdt>(with_port, senses);
+    device = std::make_unique<SimulatedCapancdt>(senses, with_port);
     served.serve(*device);
     options = options_for(served);
   }

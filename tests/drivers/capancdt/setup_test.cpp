@@ -13,7 +13,7 @@ TEST(CapancdtSetup, IdentityIsChecked) {
 }
 
 TEST(CapancdtSetup, AChannelThatIsNotThere) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.inputs[2].present = false;
   Rack rack(device);
   const std::string absent = error_of(Capancdt(rack.options).open());
@@ -24,7 +24,7 @@ TEST(CapancdtSetup, AChannelThatIsNotThere) {
 }
 
 TEST(CapancdtSetup, RangeFromTheControllerOrTheConfiguration) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.inputs[0].range_um = 500;
   Rack told(device);
   Capancdt driver(told.options);
@@ -43,7 +43,7 @@ TEST(CapancdtSetup, RangeFromTheControllerOrTheConfiguration) {
 }
 
 TEST(CapancdtSetup, SaysWhatTheControllerDoesToTheValues) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   Rack plain(device);
   Capancdt without(plain.options);
   ASSERT_EQ(error_of(without.open()), "");
@@ -72,7 +72,7 @@ TEST(CapancdtSetup, SaysWhatTheControllerDoesToTheValues) {
 
 // 8 values of 131 ms are 1.05 s, longer than a stop is given to settle.
 TEST(CapancdtSetup, AveragingLongerThanAStopSettlesIsRefused) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.sample_time_us = 131072;
   device.averaged_values = 8;
   for (const int kind : {1, 2, 3, 4}) {
@@ -93,7 +93,7 @@ TEST(CapancdtSetup, AveragingLongerThanAStopSettlesIsRefused) {
 }
 
 TEST(CapancdtSetup, SettingsThatMayNotBeChanged) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.sample_time_us = 1024;
   device.trigger = 1;
   Rack triggered(device);
@@ -114,7 +114,7 @@ TEST(CapancdtSetup, SettingsThatMayNotBeChanged) {
 }
 
 TEST(CapancdtSetup, ATriggerIsSetToContinuous) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.trigger = 2;
   Rack rack(device);
   Capancdt driver(rack.options);
@@ -123,10 +123,10 @@ TEST(CapancdtSetup, ATriggerIsSetToContinuous) {
 }
 
 TEST(CapancdtSetup, ADumbControllerIsAnError) {
-  DeviceOptions device;
+  SimulatedCapancdt::Options device;
   device.faults.mute = true;
   Rack rack(device);
-  rack.options.patience = 30ms;
+  rack.options.reply_timeout = 30ms;
   expect_has(error_of(Capancdt(rack.options).open()), "does not answer $VER; is this the command");
   Capancdt driver(rack.options);
   SampleBlock block;

@@ -4,17 +4,17 @@
 
 #include <regex>
 
-#include "drivers/capancdt/device.h"
 #include "drivers/capancdt/replies.h"
+#include "drivers/capancdt/simulated_capancdt.h"
 #include "tests/drivers/vendor_vector.h"
 
 namespace mdof::drivers::capancdt {
 namespace {
 
 SimulatedCapancdt controller() {
-  DeviceOptions options;
-  options.faults.echo = Echo::reply;  // the reply once, as the client reads it
-  return {options, [](std::size_t, std::int64_t) { return 1000; }};
+  SimulatedCapancdt::Options options;
+  options.faults.echo = SimulatedCapancdt::Echo::reply;  // the reply once, as the client reads it
+  return {[](std::size_t, std::int64_t) { return 1000; }, options};
 }
 
 struct Line {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "drivers/pokeys57u/device.h"
+#include "drivers/pokeys57u/simulated_pokeys57u.h"
 #include "tests/drivers/collect.h"
 #include "tests/drivers/hid/hid_bus.h"
 
@@ -70,7 +70,7 @@ class PoKeys57uOnHid : public ::testing::Test {
     }
     EXPECT_GE(good, all.scans.size() / 2);
   }
-  void run_with(const Faults& faults, std::size_t scans = 30) {
+  void run_with(const SimulatedPokeys57u::Faults& faults, std::size_t scans = 30) {
     device.set_faults({});
     ASSERT_NO_FATAL_FAILURE(bus->plug(0, device));
     const Status opened = driver.open();
@@ -79,7 +79,7 @@ class PoKeys57uOnHid : public ::testing::Test {
     got = collect(driver, scans);
   }
 
-  Device device{milliseconds_now, {}};
+  SimulatedPokeys57u device{milliseconds_now, {}};
   PoKeys57u driver{settings_of()};
   Collected got;
   std::optional<HidBus> bus;  // goes first
@@ -164,8 +164,8 @@ TEST_F(PoKeys57uOnHid, SilenceIsAnError) {
 
 TEST_F(PoKeys57uOnHid, CountsWrapAndGoOn) {
   double calls = 0;  // one for each encoder, each time it is asked
-  Device wrapping([&](std::size_t, std::int64_t) { return calls += 1; },
-                  {.count_offset = (std::int64_t{1} << 31) - 1000});
+  SimulatedPokeys57u wrapping([&](std::size_t, std::int64_t) { return calls += 1; },
+                              {.count_offset = (std::int64_t{1} << 31) - 1000});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, wrapping));
   ASSERT_TRUE(driver.open());
   got = collect(driver, 150);
@@ -181,7 +181,7 @@ TEST_F(PoKeys57uOnHid, CountsWrapAndGoOn) {
 }
 
 TEST_F(PoKeys57uOnHid, AnIndexThatSetsTheCountToZeroMakesItSuspect) {
-  Device far(milliseconds_now, {.count_offset = 10'000'000});
+  SimulatedPokeys57u far(milliseconds_now, {.count_offset = 10'000'000});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, far));
   ASSERT_TRUE(driver.open());
   bus->change([&] { far.set_faults({.index_at = 5}); });
@@ -210,7 +210,7 @@ TEST_F(PoKeys57uOnHid, UnpluggedIsAnErrorAndReplugAnOpening) {
   SampleBlock block;
   EXPECT_FALSE(driver.read(block, milliseconds(1)));
   expect_error(settings_of(), "is not plugged in");
-  Device again(milliseconds_now, {});
+  SimulatedPokeys57u again(milliseconds_now, {});
   ASSERT_NO_FATAL_FAILURE(bus->plug(3, again));
   ASSERT_TRUE(driver.open());
   got = collect(driver, 10);
@@ -220,9 +220,9 @@ TEST_F(PoKeys57uOnHid, UnpluggedIsAnErrorAndReplugAnOpening) {
 }
 
 TEST_F(PoKeys57uOnHid, IsFoundByItsSerialNumberHoweverUsbWritesIt) {
-  Device other(still, {.serial = 2, .usb_serial = "2.2"});
-  Device wanted(still, {.serial = 777, .usb_serial = "777.2"});
-  Device old(still, {.serial = 5, .usb_serial = "1.5", .old_board = true});
+  SimulatedPokeys57u other(still, {.serial = 2, .usb_serial = "2.2"});
+  SimulatedPokeys57u wanted(still, {.serial = 777, .usb_serial = "777.2"});
+  SimulatedPokeys57u old(still, {.serial = 5, .usb_serial = "1.5", .old_board = true});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, other));
   ASSERT_NO_FATAL_FAILURE(bus->plug(1, wanted));
   ASSERT_NO_FATAL_FAILURE(bus->plug(2, old));
@@ -253,7 +253,7 @@ TEST_F(PoKeys57uOnHid, ThroughUhidThereIsNoInterfaceNumber) {
 }
 
 TEST_F(PoKeys57uOnHid, TheKeyboardAndTheJoystickAreLeftAlone) {
-  Device keyboard(still, {}), joystick(still, {});
+  SimulatedPokeys57u keyboard(still, {}), joystick(still, {});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, keyboard, 0));
   ASSERT_NO_FATAL_FAILURE(bus->plug(2, joystick, 2));
   EXPECT_EQ(list_hid(kVendor).size(), 2u);
@@ -283,7 +283,7 @@ TEST_F(PoKeys57uOnHid, OneThatGoesWhileItIsLookedForIsNotThere) {
 }
 
 TEST_F(PoKeys57uOnHid, ReadsBothBlocksAndTheAnalogueInputs) {
-  Device all(still, {});
+  SimulatedPokeys57u all(still, {});
   Settings settings = settings_of({counter(0), counter(24), counter(kUltraFast)});
   settings.inputs[1].options = kEnabled | kCounts_x4;
   for (const std::size_t i : {1, 6, 0})

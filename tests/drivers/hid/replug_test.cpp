@@ -14,8 +14,8 @@
 
 #include "daemon/station/acquisition.h"
 #include "drivers/io/hid.h"
-#include "drivers/pokeys57u/device.h"
 #include "drivers/pokeys57u/pokeys57u.h"
+#include "drivers/pokeys57u/simulated_pokeys57u.h"
 #include "schema/base/random.h"
 #include "tests/drivers/hid/hid_bus.h"
 
@@ -57,7 +57,7 @@ double own_growth_KiB(int rounds) {
   long before = 0;
   for (int round = 0; round < kWarmUp + rounds; ++round) {
     if (round == kWarmUp) before = resident_KiB();
-    pokeys57u::Device device([](std::size_t, std::int64_t) { return 0.0; }, {});
+    pokeys57u::SimulatedPokeys57u device([](std::size_t, std::int64_t) { return 0.0; }, {});
     bus.plug(round, device);
     EXPECT_TRUE(HidDevice::open(HidBus::node_of(round)));
     bus.unplug(round);
@@ -145,7 +145,7 @@ Figures replug(int rounds, const Sabotage& sabotage) {
   std::vector<std::string> kept;
   long descriptors_before = 0, resident_before = 0;
   for (int round = 0; round < kWarmUp + rounds; ++round) {
-    pokeys57u::Device device([](std::size_t, std::int64_t) { return 0.0; }, {});
+    pokeys57u::SimulatedPokeys57u device([](std::size_t, std::int64_t) { return 0.0; }, {});
     std::this_thread::sleep_for(away(round));
     const auto plugged = steady_clock::now();
     std::this_thread::sleep_for(sabotage.late);

@@ -57,8 +57,8 @@ std::vector<std::uint64_t> indices(const std::vector<Scan>& scans) {
 using Words = std::vector<std::uint16_t>;
 constexpr std::uint16_t kOnes = 0xFFFF;
 
-TEST(LabjackScanLine, ScansRunOnFromPacketToPacket) {
-  ScanLine line(3);
+TEST(LabjackScanSplitter, ScansRunOnFromPacketToPacket) {
+  ScanSplitter line(3);
   std::vector<Scan> scans;
   for (const Words& packet : {Words{1, 2}, Words{3, 4, 5, 6, 7}, Words{8, 9}})
     ASSERT_TRUE(line.take(packet, std::nullopt, scans));
@@ -66,8 +66,8 @@ TEST(LabjackScanLine, ScansRunOnFromPacketToPacket) {
   EXPECT_EQ(scans[1].words, (Words{4, 5, 6}));
 }
 
-TEST(LabjackScanLine, AMarkMayRunOnToo) {
-  ScanLine line(3);
+TEST(LabjackScanSplitter, AMarkMayRunOnToo) {
+  ScanSplitter line(3);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{1, 2}, std::nullopt, scans));
   ASSERT_TRUE(line.take(Words{3, kOnes}, 50, scans));
@@ -78,16 +78,16 @@ TEST(LabjackScanLine, AMarkMayRunOnToo) {
   EXPECT_EQ(scans[0].lost, 0U);
 }
 
-TEST(LabjackScanLine, AMarkThatDoesNotComeIsAnError) {
-  ScanLine line(2);
+TEST(LabjackScanSplitter, AMarkThatDoesNotComeIsAnError) {
+  ScanSplitter line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{1, 1, kOnes}, 50, scans));
   EXPECT_FALSE(line.take(Words{2, 3, 3}, std::nullopt, scans));
   EXPECT_TRUE(scans.empty());
 }
 
-TEST(LabjackScanLine, AllOnesAreValuesWhereNothingWasDropped) {
-  ScanLine line(2);
+TEST(LabjackScanSplitter, AllOnesAreValuesWhereNothingWasDropped) {
+  ScanSplitter line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{kOnes, kOnes, kOnes, kOnes}, 7, scans));
   ASSERT_TRUE(line.take(Words{kOnes, kOnes}, std::nullopt, scans));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "drivers/registry.h"
+
 namespace mdof::drivers {
 namespace {
 

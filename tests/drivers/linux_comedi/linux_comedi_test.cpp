@@ -83,7 +83,7 @@ TEST_F(ComediBoard, TheNewestScanOfALongReadIsOfNow) {
 
 TEST_F(ComediBoard, LongSamplesAndARangeOfItsOwn) {
   board_->subdevices[1].long_samples = true;
-  board_->most = 16'777'215;
+  board_->greatest_code = 16'777'215;
   board_->code = [](std::uint64_t, unsigned channel) {
     return channel == 0 ? 70'000U : 8'388'608U;
   };

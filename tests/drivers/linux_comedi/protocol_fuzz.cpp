@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool long_samples = (data[0] & 1) != 0;
   const std::size_t inputs = 1 + data[1] % 16, read = 1 + data[2];
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 3, size - 3);
-  CodeLine line(inputs, long_samples);
+  CodeSplitter line(inputs, long_samples);
   std::vector<std::uint32_t> codes;
   for (std::size_t at = 0; at < bytes.size(); at += read) line.take(bytes.substr(at, read), codes);
   const std::size_t scan = inputs * (long_samples ? 4 : 2);

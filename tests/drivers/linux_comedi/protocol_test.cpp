@@ -24,7 +24,7 @@ TEST(ComediCodes, ScansAreCutWhereverReadsEnd) {
     expected.push_back(narrow.back());
   }
   for (const std::size_t size : {1U, 2U, 3U, 7U, 64U, 599U, 2000U}) {
-    CodeLine narrow_line(3, false), wide_line(3, true);
+    CodeSplitter narrow_line(3, false), wide_line(3, true);
     std::vector<std::uint32_t> narrow_codes, wide_codes;
     const std::string narrow_bytes = bytes_of(narrow), wide_bytes = bytes_of(wide);
     for (std::size_t at = 0; at < narrow_bytes.size(); at += size) {

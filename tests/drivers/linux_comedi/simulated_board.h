@@ -23,7 +23,7 @@ struct Simulated {
   std::vector<Subdevice> subdevices = {{false, true, false, false, 1, 4},
                                        {true, true, false, false, 0b101, 8}};
   std::vector<Range> ranges = {{-10, 10}, {-5, 5}, {0, 10}, {0, 20, false}};
-  std::uint32_t most = 65535;
+  std::uint32_t greatest_code = 65535;
   std::size_t buffer_bytes = 65536;
   unsigned scan_sources = kTimer | kFollow, convert_sources = kTimer, stop_sources = kNone | kCount;
   unsigned tick_ns = 1000;           // periods are whole ones of it
@@ -61,7 +61,7 @@ class SimulatedBoard final : public Board {
   std::string name() const override { return of_->name; }
   std::vector<Subdevice> subdevices() override { return of_->subdevices; }
   std::vector<Range> ranges(unsigned, unsigned) override { return of_->ranges; }
-  std::uint32_t most(unsigned, unsigned) override { return of_->most; }
+  std::uint32_t greatest_code(unsigned, unsigned) override { return of_->greatest_code; }
   std::size_t buffer_bytes(unsigned) override { return of_->buffer_bytes; }
   Calibration calibrate(unsigned, const std::vector<BoardInput>&) override {
     return of_->calibration;
@@ -166,10 +166,10 @@ inline Result<Received> SimulatedBoard::receive(std::span<char> into,
     if (bytes > 0) {
       std::memcpy(into.data(), waiting_.data(), bytes);
       waiting_.erase(0, bytes);
-      return Received{bytes, Stream::runs};
+      return Received{bytes, StreamState::runs};
     }
-    if (due(of_->overrun_at)) return Received{0, Stream::overran};
-    if (due(of_->end_at)) return Received{0, Stream::ended};
+    if (due(of_->overrun_at)) return Received{0, StreamState::overran};
+    if (due(of_->end_at)) return Received{0, StreamState::ended};
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   } while (monotonic_ns() < until_ns);
   return Received{};

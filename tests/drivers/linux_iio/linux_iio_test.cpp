@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "drivers/linux_iio/configure.h"
-#include "drivers/sysfs/simulated_tree.h"
+#include "drivers/linux_iio/simulated_linux_iio.h"
 #include "tests/drivers/collect.h"
 
 namespace mdof::drivers {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "drivers/sysfs/simulated_tree.h"
+#include "drivers/linux_iio/simulated_linux_iio.h"
 
 namespace mdof::drivers {
 namespace {

@@ -65,7 +65,7 @@ TEST(Usb1608Protocol, ScansAreCutWhereverTransfersEnd) {
   std::string sent;
   for (int i = 0; i < 1000; ++i) sent += {static_cast<char>(i & 0xFF), static_cast<char>(i >> 8)};
   for (const std::size_t size : {1U, 2U, 3U, 10U, 64U, 999U, 2000U}) {
-    ScanLine line(5);
+    ScanSplitter line(5);
     std::vector<std::uint16_t> words;
     for (std::size_t at = 0; at < sent.size(); at += size) {
       line.take(std::string_view(sent).substr(at, size), words);

@@ -1,7 +1,7 @@
 // What Measurement Computing's own driver sends and reads: mccdaq/uldaq.
 #include <gtest/gtest.h>
 
-#include "drivers/mcc_usb1608fs_plus/device.h"
+#include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
 #include "tests/drivers/vendor_vector.h"
 
 namespace mdof::drivers::mcc_usb1608fs_plus {
@@ -18,7 +18,8 @@ class Usb1608Vectors : public testing::Test {
   std::string ask(std::uint8_t request, std::uint16_t value, std::uint16_t length) {
     return device.control({0xC0, request, value, 0, length}, "", 0).bytes;
   }
-  Device device{[](std::size_t input, std::int64_t) { return input == 2 ? 5.0 : -10.0; }, {}};
+  SimulatedMccUsb1608fsPlus device{
+      [](std::size_t input, std::int64_t) { return input == 2 ? 5.0 : -10.0; }, {}};
 };
 
 // src/usb/Usb1608fsPlus.cpp: setScanRunningBitMask 0x0002, setOverrunBitMask 0x0004; the request is

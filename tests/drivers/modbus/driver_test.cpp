@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "drivers/io/byte_stream.h"
-#include "drivers/modbus/device.h"
+#include "drivers/modbus/simulated_modbus.h"
 #include "drivers/registry.h"
 #include "tests/drivers/served_device.h"
 
@@ -14,7 +14,7 @@ namespace mdof::drivers {
 namespace {
 
 using std::chrono::milliseconds;
-using Kind = ModbusFaults::Kind;
+using Kind = SimulatedModbus::Faults::Kind;
 
 Rig rig() {
   Rig rig;
@@ -69,7 +69,8 @@ SampleBlock one_scan(Driver& driver, int reads = 20) {
 const std::string kPosition = channel("encoder", "position");
 
 TEST(ModbusDriver, AnAdamIsReadInVoltsInOneBlock) {
-  ModbusDevice device(profile_of("adam-6017"), [](std::size_t i, std::int64_t) { return i - 3.5; });
+  SimulatedModbus device([](std::size_t i, std::int64_t) { return i - 3.5; },
+                         {profile_of("adam-6017"), {}});
   ServedDevice served(device);
   auto driver =
       driver_of(toml_of("adam-6017", served.address(), channel("A", "AI0") + channel("B", "AI7")));
@@ -90,11 +91,10 @@ TEST(ModbusDriver, AnAdamIsReadInVoltsInOneBlock) {
 }
 
 TEST(ModbusDriver, AnAdamAtTheEndsOfItsRangeIsOverRange) {
-  ModbusFaults faults;
+  SimulatedModbus::Faults faults;
   faults.words[{modbus::kReadHolding, 0}] = 0;
   faults.words[{modbus::kReadHolding, 1}] = 65535;
-  ModbusDevice device(
-      profile_of("adam-6017"), [](auto, auto) { return 1.0; }, faults);
+  SimulatedModbus device([](auto, auto) { return 1.0; }, {profile_of("adam-6017"), faults});
   ServedDevice served(device);
   auto driver =
       driver_of(toml_of("adam-6017", served.address(),
@@ -109,10 +109,9 @@ TEST(ModbusDriver, AnAdamAtTheEndsOfItsRangeIsOverRange) {
 }
 
 TEST(ModbusDriver, AnAdamInAnotherRangeOrNoAdamIsRefusedAtOpening) {
-  ModbusFaults faults;
+  SimulatedModbus::Faults faults;
   faults.words[{modbus::kReadHolding, 203}] = 0x0142;
-  ModbusDevice device(
-      profile_of("adam-6017"), [](auto, auto) { return 1.0; }, faults);
+  SimulatedModbus device([](auto, auto) { return 1.0; }, {profile_of("adam-6017"), faults});
   ServedDevice served(device);
   auto other = driver_of(toml_of("adam-6017", served.address(), channel("A", "AI2")));
   EXPECT_TRUE(other->open());
@@ -126,8 +125,7 @@ TEST(ModbusDriver, AnAdamInAnotherRangeOrNoAdamIsRefusedAtOpening) {
       << opened.error().message;
 
   faults.words = {{{modbus::kReadHolding, 210}, 0x6018}};
-  ModbusDevice stranger(
-      profile_of("adam-6017"), [](auto, auto) { return 1.0; }, faults);
+  SimulatedModbus stranger([](auto, auto) { return 1.0; }, {profile_of("adam-6017"), faults});
   ServedDevice served_too(stranger);
   auto wrong = driver_of(toml_of("adam-6017", served_too.address(), channel("A", "AI2")));
   const auto refused = wrong->open();
@@ -136,10 +134,9 @@ TEST(ModbusDriver, AnAdamInAnotherRangeOrNoAdamIsRefusedAtOpening) {
 }
 
 TEST(ModbusDriver, ASlowAdamIsReadWithinItsTimeOutAndGivenUpBeyond) {
-  ModbusFaults faults;
+  SimulatedModbus::Faults faults;
   faults.delay_ms = 30;
-  ModbusDevice device(
-      profile_of("adam-6017"), [](auto, auto) { return 1.0; }, faults);
+  SimulatedModbus device([](auto, auto) { return 1.0; }, {profile_of("adam-6017"), faults});
   ServedDevice served(device);
   auto patient = driver_of(toml_of("adam-6017", served.address(), channel("A", "AI0")));
   ASSERT_TRUE(patient->open());
@@ -153,9 +150,8 @@ TEST(ModbusDriver, ASlowAdamIsReadWithinItsTimeOutAndGivenUpBeyond) {
 }
 
 TEST(ModbusDriver, ABrokenConnectionIsAnErrorAndOpenStartsAnew) {
-  ModbusFaults faults{Kind::hang_up, 6};
-  ModbusDevice device(
-      profile_of("pokeys57e"), [](auto, auto) { return 5.0; }, faults);
+  SimulatedModbus::Faults faults{Kind::hang_up, 6};
+  SimulatedModbus device([](auto, auto) { return 5.0; }, {profile_of("pokeys57e"), faults});
   ServedDevice served(device);
   auto driver = driver_of(toml_of("pokeys57e", served.address(),
                                   channel("encoder", "encoder1", "um_per_count = 0.5\n")));
@@ -181,8 +177,8 @@ TEST(ModbusDriver, ABrokenConnectionIsAnErrorAndOpenStartsAnew) {
 
 TEST(ModbusDriver, APoKeysCountsAcrossTheEndsOf32BitsLeastSignificantWordFirst) {
   std::atomic<double> counts = -2;
-  ModbusDevice device(profile_of("pokeys57e"),
-                      [&](std::size_t i, auto) { return i == 2 ? counts.load() : 7; });
+  SimulatedModbus device([&](std::size_t i, auto) { return i == 2 ? counts.load() : 7; },
+                         {profile_of("pokeys57e"), {}});
   ServedDevice served(device);
   auto driver = driver_of(toml_of("pokeys57e", served.address(),
                                   channel("encoder", "encoder3", "um_per_count = -0.5\n")));
@@ -198,7 +194,7 @@ TEST(ModbusDriver, APoKeysCountsAcrossTheEndsOf32BitsLeastSignificantWordFirst) 
 
 // Whether it had power meanwhile is not known; an absolute scale needs no such doubt.
 TEST(ModbusDriver, ACountingEncoderThatWasAwayIsSuspectUntilItIsTrusted) {
-  ModbusDevice device(profile_of("pokeys57e"), [](auto, auto) { return 5.0; });
+  SimulatedModbus device([](auto, auto) { return 5.0; }, {profile_of("pokeys57e"), {}});
   ServedDevice served(device);
   auto driver = driver_of(toml_of("pokeys57e", served.address(),
                                   channel("encoder", "encoder1", "um_per_count = 0.5\n")));
@@ -214,15 +210,14 @@ TEST(ModbusDriver, ACountingEncoderThatWasAwayIsSuspectUntilItIsTrusted) {
 }
 
 struct Smax {
-  explicit Smax(ModbusFaults faults = {}, const std::string& more = "")
-      : device(
-            profile_of("lika-smax"), [this](auto, auto) { return position.load(); },
-            std::move(faults)),
+  explicit Smax(SimulatedModbus::Faults faults = {}, const std::string& more = "")
+      : device([this](auto, auto) { return position.load(); },
+               {profile_of("lika-smax"), std::move(faults)}),
         served(device),
         driver(driver_of(toml_of("lika-smax", served.address(), kPosition,
                                  "poll_ms = 2\nresponse_timeout_ms = 40\n" + more))) {}
   std::atomic<double> position = 1234;
-  ModbusDevice device;
+  SimulatedModbus device;
   ServedDevice served;
   std::unique_ptr<Driver> driver;
 };
@@ -255,7 +250,7 @@ TEST(ModbusDriver, ASmaxsAlarmsAreWhatItsReadingsAreWorth) {
        {Case{0, 0x0001, Quality::suspect}, Case{0, 0x0800, Quality::suspect},
         Case{0, 0x0004, Quality::missing}, Case{0, 0x0009, Quality::missing},
         Case{6, 0x0100, Quality::suspect}, Case{6, 0x0001, Quality::good}}) {
-    ModbusFaults faults;
+    SimulatedModbus::Faults faults;
     faults.words[{modbus::kReadInput, address}] = word;
     Smax smax(faults);
     ASSERT_TRUE(smax.driver->open());
@@ -309,7 +304,7 @@ TEST(ModbusDriver, ASmaxIsReadOverASerialLineUntilItIsUnplugged) {
   ASSERT_EQ(::unlockpt(master.fd()), 0);
   std::array<char, 128> path{};
   ASSERT_EQ(::ptsname_r(master.fd(), path.data(), path.size()), 0);
-  ModbusDevice device(profile_of("lika-smax"), [](auto, auto) { return 77.0; });
+  SimulatedModbus device([](auto, auto) { return 77.0; }, {profile_of("lika-smax"), {}});
   device.opened(0, 1, 0);
   std::atomic<bool> stop = false;
   std::thread serving([&] {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "drivers/modbus/client.h"
-#include "drivers/modbus/device.h"
+#include "drivers/modbus/simulated_modbus.h"
 #include "tests/drivers/served_device.h"
 
 namespace mdof::drivers {
@@ -31,7 +31,7 @@ void wait_for_end_of_input() {
   while (std::getchar() != EOF) continue;
 }
 
-int serve_serial(ModbusDevice& device) {
+int serve_serial(SimulatedModbus& device) {
   ByteStream master(::posix_openpt(O_RDWR | O_NOCTTY), "pty");
   std::array<char, 128> path{};
   if (::grantpt(master.fd()) != 0 || ::unlockpt(master.fd()) != 0 ||
@@ -61,7 +61,8 @@ int serve(const std::string& name) {
   auto profile = modbus::load_profile(name, ".");
   if (!profile) return failed(profile.error());
   const bool tcp = profile->framing == modbus::Framing::tcp;
-  ModbusDevice device(*profile, [](std::size_t i, auto) { return static_cast<double>(i) + 1; });
+  SimulatedModbus device([](std::size_t i, auto) { return static_cast<double>(i) + 1; },
+                         {*profile, {}});
   if (!tcp) return serve_serial(device);
   const ServedDevice served(device);
   std::printf("%d\n", served.port());

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "drivers/modbus/device.h"
 #include "drivers/modbus/protocol.h"
+#include "drivers/modbus/simulated_modbus.h"
 
 namespace mdof::drivers::modbus {
 namespace {
@@ -23,7 +23,7 @@ void answers(Framing framing, std::string_view bytes) {
 void serves(const char* profile, std::string_view bytes) {
   static std::map<std::string, Profile> profiles;
   if (!profiles.contains(profile)) profiles.emplace(profile, *load_profile(profile, ""));
-  ModbusDevice device(profiles.at(profile), [](auto, auto) { return 1.0; });
+  SimulatedModbus device([](auto, auto) { return 1.0; }, {profiles.at(profile), {}});
   device.opened(0, 1, 0);
   (void)device.exchange(0, 1, bytes.substr(0, bytes.size() / 2), 0);
   (void)device.exchange(0, 1, bytes.substr(bytes.size() / 2), 1);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "drivers/pokeys57u/device.h"
+#include "drivers/pokeys57u/simulated_pokeys57u.h"
 
 using namespace mdof::drivers::pokeys57u;
 
@@ -24,8 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     (void)analogue_of(*frame);
     (void)tick_of(*frame);
   }
-  Device device([](std::size_t, std::int64_t) { return 1234.5; }, {});
-  (void)device.out(Device::kOut, bytes, 0);
-  (void)device.in(Device::kIn, kFrameBytes, 10'000'000);
+  SimulatedPokeys57u device([](std::size_t, std::int64_t) { return 1234.5; }, {});
+  (void)device.out(SimulatedPokeys57u::kOut, bytes, 0);
+  (void)device.in(SimulatedPokeys57u::kIn, kFrameBytes, 10'000'000);
   return 0;
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "drivers/pokeys57u/device.h"
+#include "drivers/pokeys57u/simulated_pokeys57u.h"
 #include "tests/drivers/vendor_vector.h"
 
 namespace mdof::drivers::pokeys57u {
@@ -48,9 +48,9 @@ TEST(PoKeys57uVectors, TheSimulatedOneAnswersWhatTheVendorsLibraryAccepts) {
        "c-core-labs/pokeyslib, PoKeysLibEncoders.c, PK_EncoderConfigurationGet"},
   };
   for (const VendorVector& vector : vectors) {
-    Device device(senses, {});
-    device.out(Device::kOut, bytes(padded(vector.request, " 00")), 0);
-    const std::string reply = device.in(Device::kIn, kFrameBytes, 2'000'000).bytes;
+    SimulatedPokeys57u device(senses, {});
+    device.out(SimulatedPokeys57u::kOut, bytes(padded(vector.request, " 00")), 0);
+    const std::string reply = device.in(SimulatedPokeys57u::kIn, kFrameBytes, 2'000'000).bytes;
     EXPECT_EQ(mismatch(reply, padded(vector.reply, "..")), "") << vector;
     ASSERT_EQ(reply.size(), kFrameBytes);
     unsigned sum = 0;

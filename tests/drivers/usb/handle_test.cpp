@@ -97,7 +97,7 @@ TEST_F(UsbHandle, AProgramThatHasAFileOpenIsFound) {
   char path[] = "/tmp/mdof-owner-XXXXXX";
   const int fd = ::mkstemp(path);
   ASSERT_GE(fd, 0);
-  EXPECT_EQ(program_with(path), "");  // this one does not count
+  EXPECT_EQ(program_that_opened(path), "");  // this one does not count
   int ready[2], stop[2];
   ASSERT_EQ(::pipe(ready) | ::pipe(stop), 0);
   const pid_t child = ::fork();
@@ -110,7 +110,8 @@ TEST_F(UsbHandle, AProgramThatHasAFileOpenIsFound) {
   }
   char c = 0;
   ASSERT_EQ(::read(ready[0], &c, 1), 1);
-  EXPECT_TRUE(has(program_with(path), " (" + std::to_string(child) + ")")) << program_with(path);
+  EXPECT_TRUE(has(program_that_opened(path), " (" + std::to_string(child) + ")"))
+      << program_that_opened(path);
   for (const int end : {ready[0], ready[1], stop[0], stop[1], fd}) ::close(end);
   ::unlink(path);
 }

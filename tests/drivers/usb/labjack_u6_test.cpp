@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "drivers/labjack_u6/device.h"
+#include "drivers/labjack_u6/simulated_labjack_u6.h"
 #include "tests/drivers/collect.h"
 #include "tests/drivers/usb/bus.h"
 
@@ -26,18 +26,19 @@ struct Truth {
   std::int64_t zero_ns = monotonic_ns();
   double operator()(std::size_t input, std::int64_t t_ns) const {
     const double age_s = static_cast<double>(t_ns - zero_ns) * 1e-9;
-    if (input == Device::kCounterInput) return std::floor(age_s * 1e6);
+    if (input == SimulatedLabjackU6::kCounterInput) return std::floor(age_s * 1e6);
     return input == 0 ? age_s : input == 1 ? 20 : -1.5;
   }
 };
 
 class UsbLabjackU6 : public testing::Test {
  protected:
-  void plug(const Faults& faults = {}) {
-    device = std::make_unique<Device>(truth, faults);
+  void plug(const SimulatedLabjackU6::Faults& faults = {}) {
+    device =
+        std::make_unique<SimulatedLabjackU6>(truth, SimulatedLabjackU6::Options{.faults = faults});
     number = bus.plug(*device);
   }
-  void again(const Faults& faults) {  // another one in its place
+  void again(const SimulatedLabjackU6::Faults& faults) {  // another one in its place
     made.reset();
     bus.unplug(number);
     plug(faults);
@@ -61,12 +62,12 @@ class UsbLabjackU6 : public testing::Test {
     const Status opened = driver().open();
     return opened ? "opened" : opened.error().message;
   }
-  void change(const Faults& faults) {
+  void change(const SimulatedLabjackU6::Faults& faults) {
     bus.change([&] { device->set_faults(faults); });
   }
 
   Truth truth;
-  std::unique_ptr<Device> device;
+  std::unique_ptr<SimulatedLabjackU6> device;
   std::string serial;
   double rate_hz = kRate_Hz, most_counts_per_s = 0;
   Input third = {{"C", Unit::volt}, 2, 0};
@@ -129,7 +130,7 @@ TEST_F(UsbLabjackU6, ACountFasterThanItCanCountIsSuspectFromThenOn) {
 }
 
 TEST_F(UsbLabjackU6, ReadReturnsInTimeWithNothing) {
-  Faults faults;
+  SimulatedLabjackU6::Faults faults;
   faults.stop_at = 0;
   faults.stop_error = 0;
   plug(faults);
@@ -142,7 +143,7 @@ TEST_F(UsbLabjackU6, ReadReturnsInTimeWithNothing) {
 }
 
 TEST_F(UsbLabjackU6, SilenceIsAnError) {
-  Faults faults;
+  SimulatedLabjackU6::Faults faults;
   faults.stop_at = 0;
   faults.stop_error = 0;
   plug(faults);
@@ -152,7 +153,7 @@ TEST_F(UsbLabjackU6, SilenceIsAnError) {
 
 // Its last packet does not fill a transfer.
 TEST_F(UsbLabjackU6, TheReasonOfSilenceIsFound) {
-  Faults faults;
+  SimulatedLabjackU6::Faults faults;
   faults.stop_at = 8;
   plug(faults);
   rate_hz = 5000;
@@ -163,10 +164,10 @@ TEST_F(UsbLabjackU6, TheReasonOfSilenceIsFound) {
 }
 
 TEST_F(UsbLabjackU6, TheNamedOneOfSeveralIsOpenedThoughItsDescriptorIsNameless) {
-  Faults nameless;
+  SimulatedLabjackU6::Faults nameless;
   nameless.nameless = true;
   plug(nameless);
-  Device other(truth, nameless, 360000002);
+  SimulatedLabjackU6 other(truth, {.serial = 360000002, .faults = nameless});
   const int second = bus.plug(other);
   serial = "360000002";
   ASSERT_EQ(refusal(), "opened");
@@ -185,7 +186,7 @@ TEST_F(UsbLabjackU6, NobodyThereIsAnError) {
 }
 
 TEST_F(UsbLabjackU6, BadChecksumsAreErrors) {
-  Faults faults;
+  SimulatedLabjackU6::Faults faults;
   faults.deaf = true;
   plug(faults);
   EXPECT_TRUE(has(refusal(), "B8 B8")) << refusal();
@@ -198,7 +199,7 @@ TEST_F(UsbLabjackU6, BadChecksumsAreErrors) {
 }
 
 TEST_F(UsbLabjackU6, AStreamThatRunsAtTheStartIsStoppedAndThrownAway) {
-  Faults faults;
+  SimulatedLabjackU6::Faults faults;
   faults.streaming = true;  // and a packet of counter 7 waits
   plug(faults);
   ASSERT_EQ(refusal(), "opened");
@@ -209,7 +210,7 @@ TEST_F(UsbLabjackU6, AStreamThatRunsAtTheStartIsStoppedAndThrownAway) {
 }
 
 TEST_F(UsbLabjackU6, DroppedScansAreCountedAndTheTimeLineGoesOn) {
-  Faults faults;
+  SimulatedLabjackU6::Faults faults;
   faults.recovery_at = 5;
   faults.dropped = 300;
   plug(faults);
@@ -231,7 +232,7 @@ TEST_F(UsbLabjackU6, DroppedScansAreCountedAndTheTimeLineGoesOn) {
 
 TEST_F(UsbLabjackU6, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
   struct Case {
-    Faults faults;
+    SimulatedLabjackU6::Faults faults;
     const char* says;
   };
   std::vector<Case> cases(5);
@@ -274,7 +275,7 @@ TEST_F(UsbLabjackU6, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
 }
 
 TEST_F(UsbLabjackU6, TheCountGoesOnOverABrokenStream) {
-  Faults skip;
+  SimulatedLabjackU6::Faults skip;
   skip.skip_at = 8;
   plug(skip);
   ASSERT_EQ(refusal(), "opened");
@@ -289,7 +290,7 @@ TEST_F(UsbLabjackU6, TheCountGoesOnOverABrokenStream) {
 }
 
 TEST_F(UsbLabjackU6, ACountThatWasRestartedIsSuspect) {
-  Faults unplug;
+  SimulatedLabjackU6::Faults unplug;
   unplug.unplug_at = 8;
   plug(unplug);
   ASSERT_EQ(refusal(), "opened");

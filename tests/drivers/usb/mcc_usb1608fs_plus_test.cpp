@@ -7,7 +7,7 @@
 #include <limits>
 #include <memory>
 
-#include "drivers/mcc_usb1608fs_plus/device.h"
+#include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
 #include "tests/drivers/collect.h"
 #include "tests/drivers/usb/bus.h"
 
@@ -41,8 +41,9 @@ Calibrations odd() {
 
 class Usb1608 : public testing::Test {
  protected:
-  void plug(const Faults& faults = {}) {
-    device = std::make_unique<Device>(truth, faults, "01A2B3C4", odd());
+  void plug(const SimulatedMccUsb1608fsPlus::Faults& faults = {}) {
+    device = std::make_unique<SimulatedMccUsb1608fsPlus>(
+        truth, SimulatedMccUsb1608fsPlus::Options{.calibrations = odd(), .faults = faults});
     number = bus.plug(*device);
   }
   MccUsb1608fsPlus& driver() {
@@ -57,7 +58,7 @@ class Usb1608 : public testing::Test {
     const Status opened = driver().open();
     return opened ? "opened" : opened.error().message;
   }
-  void change(const Faults& faults) {
+  void change(const SimulatedMccUsb1608fsPlus::Faults& faults) {
     bus.change([&] { device->set_faults(faults); });
   }
   // All that was given is sound: CH0 says when each scan was taken.
@@ -70,7 +71,7 @@ class Usb1608 : public testing::Test {
   }
 
   Truth truth;
-  std::unique_ptr<Device> device;
+  std::unique_ptr<SimulatedMccUsb1608fsPlus> device;
   Settings settings{"daq", "", kRate_Hz, kRanges.front(), {}};
   int number = 0;
   usb::Bus bus;
@@ -105,7 +106,7 @@ TEST_F(Usb1608, ASlowScanIsSentAtOnce) {
 }
 
 TEST_F(Usb1608, ReadReturnsInTimeWithNothingAndSilenceIsAnError) {
-  Faults faults;
+  SimulatedMccUsb1608fsPlus::Faults faults;
   faults.silent_at = 0;
   plug(faults);
   ASSERT_EQ(refusal(), "opened");
@@ -125,7 +126,7 @@ TEST_F(Usb1608, AnOverrunIsAnErrorAndNothingBehindItIsGivenOut) {
     ASSERT_EQ(refusal(), "opened");
     const Collected before = collect(driver(), 200);
     ASSERT_EQ(before.error, "");
-    Faults faults;
+    SimulatedMccUsb1608fsPlus::Faults faults;
     faults.overrun_at = 0;
     faults.overrun = 300;
     faults.stalls = stalls;
@@ -149,7 +150,7 @@ TEST_F(Usb1608, AnOverrunIsAnErrorAndNothingBehindItIsGivenOut) {
 
 // The control of expect_sound: a scan that is missing without a word is seen.
 TEST_F(Usb1608, AMissingScanWouldBeSeen) {
-  Faults faults;
+  SimulatedMccUsb1608fsPlus::Faults faults;
   faults.drop_at = 50;
   plug(faults);
   settings.rate_hz = 500;  // a scan is six codes of CH0
@@ -162,7 +163,7 @@ TEST_F(Usb1608, AMissingScanWouldBeSeen) {
 
 TEST_F(Usb1608, ShortPacketsAreJoined) {
   for (const std::size_t size : {1U, 7U, 50U}) {
-    Faults faults;
+    SimulatedMccUsb1608fsPlus::Faults faults;
     faults.short_packets = size;
     made.reset();
     if (number) bus.unplug(number);
@@ -176,7 +177,7 @@ TEST_F(Usb1608, ShortPacketsAreJoined) {
 }
 
 TEST_F(Usb1608, AScanThatRunsAtTheStartIsStoppedAndThrownAway) {
-  Faults faults;
+  SimulatedMccUsb1608fsPlus::Faults faults;
   faults.running = true;
   plug(faults);
   ASSERT_EQ(refusal(), "opened");
@@ -214,7 +215,7 @@ TEST_F(Usb1608, AnUnplugIsAnErrorAndItIsFoundAgain) {
   plug();
   ASSERT_EQ(refusal(), "opened");
   ASSERT_EQ(collect(driver(), 100).error, "");
-  Faults faults;
+  SimulatedMccUsb1608fsPlus::Faults faults;
   faults.unplug_at = 0;
   change(faults);
   const Collected before = collect(driver(), 100'000);

@@ -8,10 +8,10 @@
 #include <memory>
 #include <thread>
 
-#include "drivers/labjack_u6/device.h"
 #include "drivers/labjack_u6/labjack_u6.h"
-#include "drivers/mcc_usb1608fs_plus/device.h"
+#include "drivers/labjack_u6/simulated_labjack_u6.h"
 #include "drivers/mcc_usb1608fs_plus/mcc_usb1608fs_plus.h"
+#include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
 #include "tests/drivers/usb/bus.h"
 
 namespace mdof::drivers {
@@ -75,7 +75,7 @@ struct ScanClock {
 
 class UsbU6Rates : public testing::Test {
  protected:
-  Count run(std::size_t ains, bool counter, const labjack_u6::Faults& faults) {
+  Count run(std::size_t ains, bool counter, const labjack_u6::SimulatedLabjackU6::Faults& faults) {
     using namespace labjack_u6;
     Settings settings;
     settings.name = "daq";
@@ -88,14 +88,14 @@ class UsbU6Rates : public testing::Test {
     rate_hz_ = stream_clock(settings.rate_hz)->rate_hz;
     clock.period_ns = std::llround(1e9 / rate_hz_);
     // Of AIN0 in steps of a code, from the middle of the range on.
-    const AinCalibration c = Device::calibration(0);
-    device = std::make_unique<Device>(
+    const AinCalibration c = SimulatedLabjackU6::calibration(0);
+    device = std::make_unique<SimulatedLabjackU6>(
         [this, c](std::size_t input, std::int64_t t_ns) {
           const double scan = clock.scan(t_ns);
-          if (input == Device::kCounterInput) return scan;
+          if (input == SimulatedLabjackU6::kCounterInput) return scan;
           return labjack::volts(c, static_cast<std::uint16_t>(40'000 + std::fmod(scan, 10'000)));
         },
-        faults);
+        SimulatedLabjackU6::Options{.faults = faults});
     number = bus.plug(*device);
     made = std::make_unique<LabjackU6>(settings);
     const Status opened = made->open();
@@ -117,7 +117,7 @@ class UsbU6Rates : public testing::Test {
   }
 
   ScanClock clock;
-  std::unique_ptr<labjack_u6::Device> device;
+  std::unique_ptr<labjack_u6::SimulatedLabjackU6> device;
   double rate_hz_ = 0;
   int number = 0;
   usb::Bus bus{[this] { return clock(); }};
@@ -137,7 +137,7 @@ TEST_F(UsbU6Rates, OneInputAtFiftyThousand) {
 
 // That a loss can be seen: a packet that never comes ends the run.
 TEST_F(UsbU6Rates, AMissingPacketIsSeen) {
-  labjack_u6::Faults faults;
+  labjack_u6::SimulatedLabjackU6::Faults faults;
   faults.skip_at = 300;
   EXPECT_NE(run(5, true, faults).error.find("packets are missing"), std::string::npos);
 }
@@ -148,7 +148,8 @@ class Usb1608Rates : public testing::Test {
  protected:
   static constexpr std::uint64_t kCodes = 65'000;  // none of them at the end of the range
 
-  Count run(std::size_t inputs, double rate_hz, const mcc_usb1608fs_plus::Faults& faults,
+  Count run(std::size_t inputs, double rate_hz,
+            const mcc_usb1608fs_plus::SimulatedMccUsb1608fsPlus::Faults& faults,
             double seconds = kFor_s) {
     using namespace mcc_usb1608fs_plus;
     Settings settings;
@@ -157,12 +158,12 @@ class Usb1608Rates : public testing::Test {
     clock.period_ns = std::llround(1e9 / rate_hz);
     for (std::size_t i = 0; i < inputs; ++i)
       settings.inputs.push_back({{std::string(1, static_cast<char>('A' + i)), Unit::volt}, i});
-    device = std::make_unique<Device>(
+    device = std::make_unique<SimulatedMccUsb1608fsPlus>(
         [this, inputs](std::size_t input, std::int64_t t_ns) {
           const auto scan = static_cast<std::uint64_t>(clock.scan(t_ns));
           return volts(static_cast<std::uint16_t>(1 + (scan * inputs + input) % kCodes), {}, 10);
         },
-        faults);
+        SimulatedMccUsb1608fsPlus::Options{.faults = faults});
     number = bus.plug(*device);
     made = std::make_unique<MccUsb1608fsPlus>(settings);
     const Status opened = made->open();
@@ -185,7 +186,7 @@ class Usb1608Rates : public testing::Test {
   }
 
   ScanClock clock;
-  std::unique_ptr<mcc_usb1608fs_plus::Device> device;
+  std::unique_ptr<mcc_usb1608fs_plus::SimulatedMccUsb1608fsPlus> device;
   int number = 0;
   usb::Bus bus{[this] { return clock(); }};
   std::unique_ptr<mcc_usb1608fs_plus::MccUsb1608fsPlus> made;
@@ -210,7 +211,7 @@ TEST_F(Usb1608Rates, AHostThatSleepsIsSeen) {
 
 // That a loss can be seen: one scan in 240,000 that is missing without a word.
 TEST_F(Usb1608Rates, AMissingScanIsSeen) {
-  mcc_usb1608fs_plus::Faults faults;
+  mcc_usb1608fs_plus::SimulatedMccUsb1608fsPlus::Faults faults;
   faults.drop_at = 10'000;  // soon: under TSan, on a busy machine, they come slower than the clock
   const Count count = run(5, 80'000, faults);
   EXPECT_EQ(count.error, "");

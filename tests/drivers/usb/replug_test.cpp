@@ -7,10 +7,10 @@
 #include <memory>
 #include <thread>
 
-#include "drivers/labjack_u6/device.h"
 #include "drivers/labjack_u6/labjack_u6.h"
-#include "drivers/mcc_usb1608fs_plus/device.h"
+#include "drivers/labjack_u6/simulated_labjack_u6.h"
 #include "drivers/mcc_usb1608fs_plus/mcc_usb1608fs_plus.h"
+#include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
 #include "tests/drivers/usb/bus.h"
 #include "tests/drivers/usb/counts.h"
 
@@ -120,13 +120,13 @@ std::unique_ptr<Driver> labjack_u6_driver() {
 }
 
 TEST(UsbReplug, LabjackU6) {
-  labjack_u6::Device device(sense, {});
+  labjack_u6::SimulatedLabjackU6 device(sense, {});
   const auto driver = labjack_u6_driver();
   expect_sound(replug(*driver, device, usb::replugs(), [] {}));
 }
 
 TEST(UsbReplug, MccUsb1608fsPlus) {
-  mcc_usb1608fs_plus::Device device(sense, {});
+  mcc_usb1608fs_plus::SimulatedMccUsb1608fsPlus device(sense, {});
   mcc_usb1608fs_plus::Settings settings;
   settings.name = "daq";
   settings.rate_hz = 10'000;
@@ -138,7 +138,7 @@ TEST(UsbReplug, MccUsb1608fsPlus) {
 // That the checks can fail: a descriptor and 64 KiB lost each time are seen, as is a device that
 // does not come again.
 TEST(UsbReplug, ALossWouldBeSeen) {
-  labjack_u6::Device device(sense, {});
+  labjack_u6::SimulatedLabjackU6 device(sense, {});
   const auto driver = labjack_u6_driver();
   std::vector<int> lost;
   std::vector<std::string> kept;

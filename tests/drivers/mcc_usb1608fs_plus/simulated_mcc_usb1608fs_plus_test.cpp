@@ -1,5 +1,5 @@
 // The simulated USB-1608FS-Plus, without USB.
-#include "drivers/mcc_usb1608fs_plus/device.h"
+#include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class Usb1608Device : public testing::Test {
     return tell(kScanStart, scan_start({0, pacer_period(rate_hz), 0x05, options}));
   }
 
-  Device device{volts_of_input, {}};
+  SimulatedMccUsb1608fsPlus device{volts_of_input, {}};
   std::int64_t now = 0;
 };
 
@@ -40,7 +40,7 @@ TEST_F(Usb1608Device, SamplesTheInputsOfItsMask) {
   now = 15 * kMs;
   EXPECT_EQ(device.in(kSamplesIn, 64, now).answer, Answer::not_yet);
   now = 17 * kMs;
-  ScanLine line(2);
+  ScanSplitter line(2);
   std::vector<std::uint16_t> words;
   line.take(device.in(kSamplesIn, 64, now).bytes, words);
   ASSERT_EQ(words.size(), 32U);
@@ -58,7 +58,7 @@ TEST_F(Usb1608Device, StartWhileRunningStalls) {
 }
 
 TEST_F(Usb1608Device, AnOverrunStallsUnlessToldNotTo) {
-  Faults faults;
+  SimulatedMccUsb1608fsPlus::Faults faults;
   faults.overrun_at = 20;
   device.set_faults(faults);
   ASSERT_EQ(start(0).answer, Answer::done);
@@ -85,7 +85,7 @@ TEST_F(Usb1608Device, ImmediateTransfersDoNotWait) {
 }
 
 TEST_F(Usb1608Device, LeavesAtItsTime) {
-  Faults faults;
+  SimulatedMccUsb1608fsPlus::Faults faults;
   faults.unplug_at = 3;
   device.set_faults(faults);
   start(kNoStall);

@@ -1,33 +1,37 @@
-// A USB-1608FS-Plus without one, as it looks from the USB.
+// A simulated USB-1608FS-Plus, as a program sees it on the USB.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "drivers/mcc_usb1608fs_plus/protocol.h"
-#include "drivers/simulated_device.h"
+#include "drivers/simulated_wiring.h"
 #include "drivers/usb/simulated_usb.h"
 
 namespace mdof::drivers::mcc_usb1608fs_plus {
 
-// What may go wrong, at a scan or the next one taken; counted from 0 in each run, -1: never.
-struct Faults {
-  std::int64_t overrun_at = -1;  // here the FIFO overruns: `overrun` scans are not there
-  std::uint64_t overrun = 1000;
-  bool stalls = false;            // at an overrun, though it was told not to
-  std::int64_t drop_at = -1;      // one scan is missing and nothing says so: no device does this
-  std::size_t short_packets = 0;  // each transfer ends after so many bytes
-  std::int64_t silent_at = -1;    // no more scans come, though it says that it runs
-  std::int64_t unplug_at = -1;    // the device is gone before this scan
-  bool running = false;           // a scan runs already at the start (of a host that died)
-};
-
 // Senses: inputs 0 ... 7 are CH0 ... CH7 in volts, all sampled at the time of the scan.
-class Device final : public usb::SimulatedUsb {
+class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
  public:
-  Device(Senses senses, const Faults& faults, const std::string& serial = "01A2B3C4",
-         const Calibrations& calibrations = {});
+  // What may go wrong, at a scan or the next one taken; counted from 0 in each run, -1: never.
+  struct Faults {
+    std::int64_t overrun_at = -1;  // here the FIFO overruns: `overrun` scans are not there
+    std::uint64_t overrun = 1000;
+    bool stalls = false;            // at an overrun, though it was told not to
+    std::int64_t drop_at = -1;      // one scan is missing and nothing says so: no device does this
+    std::size_t short_packets = 0;  // each transfer ends after so many bytes
+    std::int64_t silent_at = -1;    // no more scans come, though it says that it runs
+    std::int64_t unplug_at = -1;    // the device is gone before this scan
+    bool running = false;           // a scan runs already at the start (of a host that died)
+  };
+  struct Options {
+    std::string serial = "01A2B3C4";
+    Calibrations calibrations = {};
+    Faults faults = {};
+  };
+  SimulatedMccUsb1608fsPlus(Senses senses, const Options& options);
 
   const usb::Identity& identity() const override { return identity_; }
   usb::Reply control(const usb::Setup& setup, std::string_view out, std::int64_t now_ns) override;
@@ -64,5 +68,8 @@ class Device final : public usb::SimulatedUsb {
   std::uint64_t runs_ = 0;
   bool overrun_ = false, halted_ = false, gone_ = false;
 };
+
+// As a plan of mdof-simulate has it. Volts at CH0 ... CH7.
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_mcc_usb1608fs_plus(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

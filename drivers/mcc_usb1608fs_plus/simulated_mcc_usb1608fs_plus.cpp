@@ -1,4 +1,4 @@
-#include "drivers/mcc_usb1608fs_plus/device.h"
+#include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,21 +31,21 @@ const usb::Reply kStalled{usb::Answer::stall, ""};
 
 }  // namespace
 
-Device::Device(Senses senses, const Faults& faults, const std::string& serial,
-               const Calibrations& calibrations)
+SimulatedMccUsb1608fsPlus::SimulatedMccUsb1608fsPlus(Senses senses, const Options& options)
     : senses_(std::move(senses)),
-      faults_(faults),
-      identity_(identity_of(serial)),
-      calibrations_(calibrations),
-      memory_(calibration_memory(calibrations)) {
-  if (faults.running) run_ = Run{{0, pacer_period(1000), 1, 0}, 0, 0};
+      faults_(options.faults),
+      identity_(identity_of(options.serial)),
+      calibrations_(options.calibrations),
+      memory_(calibration_memory(calibrations_)) {
+  if (faults_.running) run_ = Run{{0, pacer_period(1000), 1, 0}, 0, 0};
 }
 
-void Device::restart() {
-  *this = Device(std::move(senses_), {}, identity_.serial, calibrations_);
+void SimulatedMccUsb1608fsPlus::restart() {
+  *this = SimulatedMccUsb1608fsPlus(std::move(senses_), {identity_.serial, calibrations_, {}});
 }
 
-usb::Reply Device::control(const usb::Setup& setup, std::string_view out, std::int64_t now_ns) {
+usb::Reply SimulatedMccUsb1608fsPlus::control(const usb::Setup& setup, std::string_view out,
+                                              std::int64_t now_ns) {
   if (setup.in()) return read_request(setup);
   switch (setup.request) {
     case kScanStart:
@@ -65,7 +65,7 @@ usb::Reply Device::control(const usb::Setup& setup, std::string_view out, std::i
   }
 }
 
-usb::Reply Device::read_request(const usb::Setup& setup) const {
+usb::Reply SimulatedMccUsb1608fsPlus::read_request(const usb::Setup& setup) const {
   const auto given = [&](const std::string& bytes) {
     return usb::Reply{usb::Answer::done, bytes.substr(0, setup.length)};
   };
@@ -83,7 +83,7 @@ usb::Reply Device::read_request(const usb::Setup& setup) const {
   }
 }
 
-usb::Reply Device::start(std::string_view out, std::int64_t now_ns) {
+usb::Reply SimulatedMccUsb1608fsPlus::start(std::string_view out, std::int64_t now_ns) {
   const auto setup = read_scan_start(out);
   if (!setup || setup->channels == 0 || setup->period == 0 || run_) return kStalled;
   run_ = Run{*setup, now_ns, 0};
@@ -92,7 +92,8 @@ usb::Reply Device::start(std::string_view out, std::int64_t now_ns) {
   return {};
 }
 
-usb::Reply Device::in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t now_ns) {
+usb::Reply SimulatedMccUsb1608fsPlus::in(std::uint8_t endpoint, std::size_t max_bytes,
+                                         std::int64_t now_ns) {
   if (endpoint != kSamplesIn || halted_) return kStalled;
   take_scans(now_ns);
   const bool immediate = run_ && (run_->setup.options & kImmediate) != 0;
@@ -108,16 +109,16 @@ usb::Reply Device::in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t
   return reply;
 }
 
-usb::Reply Device::out(std::uint8_t /*endpoint*/, std::string_view /*bytes*/,
-                       std::int64_t /*now_ns*/) {
+usb::Reply SimulatedMccUsb1608fsPlus::out(std::uint8_t /*endpoint*/, std::string_view /*bytes*/,
+                                          std::int64_t /*now_ns*/) {
   return kStalled;
 }
 
-void Device::clear_halt(std::uint8_t endpoint) {
+void SimulatedMccUsb1608fsPlus::clear_halt(std::uint8_t endpoint) {
   if (endpoint == kSamplesIn) halted_ = false;
 }
 
-void Device::take_scans(std::int64_t now_ns) {
+void SimulatedMccUsb1608fsPlus::take_scans(std::int64_t now_ns) {
   while (run_ && !gone_) {
     if (meets_fault()) continue;
     const double age_s = static_cast<double>(run_->next + 1) / rate_of(run_->setup.period);
@@ -131,7 +132,7 @@ void Device::take_scans(std::int64_t now_ns) {
 }
 
 // Whether it has changed which scan is next.
-bool Device::meets_fault() {
+bool SimulatedMccUsb1608fsPlus::meets_fault() {
   const auto is_due = [&](std::int64_t scan) {
     return scan >= 0 && static_cast<std::int64_t>(run_->next) >= scan;
   };
@@ -147,7 +148,7 @@ bool Device::meets_fault() {
   return true;
 }
 
-void Device::sample(std::int64_t t_ns) {
+void SimulatedMccUsb1608fsPlus::sample(std::int64_t t_ns) {
   for (std::size_t input = 0; input < kInputs; ++input) {
     if (!(run_->setup.channels >> input & 1)) continue;
     const double range_v = volts_of_code(ranges_[input]);
@@ -158,6 +159,12 @@ void Device::sample(std::int64_t t_ns) {
     fifo_ += static_cast<char>(code & 0xFF);
     fifo_ += static_cast<char>(code >> 8);
   }
+}
+
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_mcc_usb1608fs_plus(
+    SimulatedWiring& wiring) {
+  return std::make_unique<SimulatedMccUsb1608fsPlus>(wiring.senses(wiring.volts()),
+                                                     SimulatedMccUsb1608fsPlus::Options{});
 }
 
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

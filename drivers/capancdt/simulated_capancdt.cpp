@@ -1,4 +1,4 @@
-#include "drivers/capancdt/device.h"
+#include "drivers/capancdt/simulated_capancdt.h"
 
 #include <algorithm>
 #include <array>
@@ -43,8 +43,8 @@ std::optional<int> number(std::string_view text) {
 
 }  // namespace
 
-SimulatedCapancdt::SimulatedCapancdt(DeviceOptions options, Senses senses)
-    : options_(std::move(options)), senses_(std::move(senses)), counter_(options_.first_counter) {}
+SimulatedCapancdt::SimulatedCapancdt(Senses senses, Options options)
+    : senses_(std::move(senses)), options_(std::move(options)), counter_(options_.first_counter) {}
 
 std::vector<SimulatedDevice::Port> SimulatedCapancdt::ports() const {
   return {{"command", kCommandPort}, {"data", options_.data_port}};
@@ -54,7 +54,7 @@ void SimulatedCapancdt::opened(std::size_t port, int client, std::int64_t now_ns
   if (port == kCommandIndex) {
     const std::string greeting =
         "Welcome\r\nDevice: " + options_.name + "\r\nSerial number: " + options_.serial + "\r\n";
-    typists_[client] = {"", greeting, now_ns};
+    command_clients_[client] = {"", greeting, now_ns};
   } else if (!reader_) {
     reader_ = client;
     begin_stream(now_ns);
@@ -62,13 +62,13 @@ void SimulatedCapancdt::opened(std::size_t port, int client, std::int64_t now_ns
 }
 
 void SimulatedCapancdt::closed(std::size_t port, int client) {
-  if (port == kCommandIndex) typists_.erase(client);
+  if (port == kCommandIndex) command_clients_.erase(client);
   if (port == kDataIndex && reader_ == client) reader_.reset();
 }
 
 std::string SimulatedCapancdt::exchange(std::size_t port, int client, std::string_view received,
                                         std::int64_t now_ns) {
-  if (port == kCommandIndex) return converse(typists_[client], received, now_ns);
+  if (port == kCommandIndex) return answer_commands(command_clients_[client], received, now_ns);
   return reader_ == client ? stream(now_ns) : "";
 }
 
@@ -77,17 +77,17 @@ bool SimulatedCapancdt::hangs_up(std::size_t port, int client) {
   return broken_ && out_.empty();
 }
 
-std::string SimulatedCapancdt::converse(Typist& typist, std::string_view received,
-                                        std::int64_t now_ns) {
-  std::string answer = std::exchange(typist.greeting, "");
-  if (now_ns - typist.last_ns > kTypingLimit_ns) typist.typed.clear();
-  if (!received.empty()) typist.last_ns = now_ns;
+std::string SimulatedCapancdt::answer_commands(CommandClient& client, std::string_view received,
+                                               std::int64_t now_ns) {
+  std::string answer = std::exchange(client.greeting, "");
+  if (now_ns - client.last_ns > kTypingLimit_ns) client.typed.clear();
+  if (!received.empty()) client.last_ns = now_ns;
   for (const char c : received) {
     if (c != '\r') {
-      if (c != '\n') typist.typed += c;
+      if (c != '\n') client.typed += c;
       continue;
     }
-    const std::string line = std::exchange(typist.typed, "");
+    const std::string line = std::exchange(client.typed, "");
     const std::size_t begin = line.rfind('$');
     if (begin != std::string::npos && !options_.faults.mute) answer += dialogue(line.substr(begin));
   }
@@ -124,7 +124,7 @@ std::string SimulatedCapancdt::reply(std::string_view command) {
 }
 
 std::string SimulatedCapancdt::query(std::string_view command) const {
-  const DeviceOptions& o = options_;
+  const Options& o = options_;
   if (command == "$STI?") return std::to_string(o.sample_time_us);
   if (command == "$TRG?") return std::to_string(o.trigger);
   if (command == "$AVT?") return std::to_string(o.averaging);
@@ -254,6 +254,19 @@ std::uint32_t SimulatedCapancdt::counted(const Packet& packet) const {
       return 1;
   }
   return frames;
+}
+
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_capancdt(SimulatedWiring& wiring) {
+  SimulatedCapancdt::Options options;
+  options.inputs.assign(wiring.inputs().size(), {});
+  std::vector<SensedInput> sensed;
+  for (std::size_t i = 0; i < wiring.inputs().size(); ++i) {
+    sensed.push_back(wiring.um(wiring.inputs()[i]));
+    const auto probe = wiring.rig().probe_index(wiring.inputs()[i]);
+    options.inputs[i].present = probe.has_value();
+    if (probe) options.inputs[i].range_um = wiring.rig().probes[*probe].range_m * 1e6;
+  }
+  return std::make_unique<SimulatedCapancdt>(wiring.senses(std::move(sensed)), std::move(options));
 }
 
 }  // namespace mdof::drivers::capancdt

@@ -1,7 +1,9 @@
-#include "drivers/pokeys57u/device.h"
+#include "drivers/pokeys57u/simulated_pokeys57u.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "schema/sample.h"
 
 namespace mdof::drivers::pokeys57u {
 namespace {
@@ -47,8 +49,8 @@ std::string interface(int number, int endpoints, int subclass, int protocol,
 
 std::string configuration() {
   std::string all = interface(0, 1, 1, 1, keyboard_report()) + endpoint(0x81, 8);
-  all += interface(1, 2, 0, 0, vendor_report()) + endpoint(Device::kIn, 64) +
-         endpoint(Device::kOut, 64);
+  all += interface(1, 2, 0, 0, vendor_report()) + endpoint(SimulatedPokeys57u::kIn, 64) +
+         endpoint(SimulatedPokeys57u::kOut, 64);
   all += interface(2, 1, 0, 0, joystick_report()) + endpoint(0x83, 3);
   const int size = static_cast<int>(all.size()) + 9;
   return bytes_of({9, 2, size & 0xFF, size >> 8, 3, 1, 0, 0x80, 50}) + all;
@@ -56,7 +58,7 @@ std::string configuration() {
 
 }  // namespace
 
-Device::Device(Senses senses, Options options)
+SimulatedPokeys57u::SimulatedPokeys57u(Senses senses, Options options)
     : senses_(std::move(senses)), options_(std::move(options)) {
   identity_.vendor = kVendor;
   identity_.product = kProduct;
@@ -68,7 +70,8 @@ Device::Device(Senses senses, Options options)
   identity_.hid_reports = {keyboard_report(), vendor_report(), joystick_report()};
 }
 
-usb::Reply Device::control(const usb::Setup& setup, std::string_view out, std::int64_t now_ns) {
+usb::Reply SimulatedPokeys57u::control(const usb::Setup& setup, std::string_view out,
+                                       std::int64_t now_ns) {
   switch (setup.request) {
     case kHidSetReport:  // of a host that does not use the endpoint
       return setup.index == kInterface ? this->out(kOut, out, now_ns) : usb::Reply{};
@@ -80,7 +83,8 @@ usb::Reply Device::control(const usb::Setup& setup, std::string_view out, std::i
   }
 }
 
-usb::Reply Device::in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t now_ns) {
+usb::Reply SimulatedPokeys57u::in(std::uint8_t endpoint, std::size_t max_bytes,
+                                  std::int64_t now_ns) {
   const auto due = std::find_if(sent_.begin(), sent_.end(),
                                 [&](const Sent& sent) { return sent.due_ns <= now_ns; });
   if (gone_ || endpoint != kIn || due == sent_.end()) return {usb::Answer::not_yet, ""};
@@ -89,14 +93,15 @@ usb::Reply Device::in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t
   return reply;
 }
 
-usb::Reply Device::out(std::uint8_t endpoint, std::string_view bytes, std::int64_t now_ns) {
+usb::Reply SimulatedPokeys57u::out(std::uint8_t endpoint, std::string_view bytes,
+                                   std::int64_t now_ns) {
   if (powered_ns_ == INT64_MIN) powered_ns_ = now_ns - options_.uptime_ms * 1'000'000;
   if (const auto asked = unwrap(Way::request, bytes); asked && endpoint == kOut && !gone_)
     take(*asked, now_ns);
   return {};
 }
 
-void Device::take(const Frame& asked, std::int64_t now_ns) {
+void SimulatedPokeys57u::take(const Frame& asked, std::int64_t now_ns) {
   const Faults& f = options_.faults;
   const int number = replies_++;
   const auto within = [number](int from, int count) {
@@ -120,7 +125,7 @@ void Device::take(const Frame& asked, std::int64_t now_ns) {
   sent_.push_back({due_ns, report});
 }
 
-Frame Device::answer(const Frame& asked, std::int64_t now_ns) {
+Frame SimulatedPokeys57u::answer(const Frame& asked, std::int64_t now_ns) {
   Frame reply;
   reply.command = asked.command;
   reply.id = asked.id;
@@ -154,7 +159,7 @@ Frame Device::answer(const Frame& asked, std::int64_t now_ns) {
   return reply;
 }
 
-void Device::tell_what_it_is(Frame& reply) const {
+void SimulatedPokeys57u::tell_what_it_is(Frame& reply) const {
   reply.parameter[2] = 0x32;  // firmware 4.2.19
   reply.parameter[3] = 19;
   if (options_.old_board) {
@@ -169,11 +174,11 @@ void Device::tell_what_it_is(Frame& reply) const {
   reply.data[10] = 28;  // a PoKeys57U
 }
 
-std::int64_t Device::count(std::size_t input, std::int64_t now_ns) const {
+std::int64_t SimulatedPokeys57u::count(std::size_t input, std::int64_t now_ns) const {
   return std::llround(senses_(input, now_ns)) + options_.count_offset;
 }
 
-Counts Device::counts(std::size_t block, std::int64_t now_ns) const {
+Counts SimulatedPokeys57u::counts(std::size_t block, std::int64_t now_ns) const {
   Counts counts{};
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const std::size_t input = block * kCountersPerBlock + i;
@@ -183,8 +188,17 @@ Counts Device::counts(std::size_t block, std::int64_t now_ns) const {
   return counts;
 }
 
-void Device::begin_counts(std::int64_t now_ns) {
+void SimulatedPokeys57u::begin_counts(std::int64_t now_ns) {
   for (std::size_t i = 0; i < kCounters; ++i) zero_[i] = count(i, now_ns);
+}
+
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_pokeys57u(SimulatedWiring& wiring) {
+  SimulatedPokeys57u::Options options;
+  options.serial = static_cast<std::uint32_t>(wiring.table().integer("serial", options.serial));
+  std::vector<SensedInput> sensed;
+  for (const std::string& input : wiring.inputs()) sensed.push_back(wiring.counts(input));
+  if (sensed.empty()) sensed.push_back(wiring.counts(kEncoderChannel));
+  return std::make_unique<SimulatedPokeys57u>(wiring.senses(std::move(sensed)), options);
 }
 
 }  // namespace mdof::drivers::pokeys57u

@@ -1,5 +1,5 @@
 // The simulated controller, without sockets.
-#include "drivers/capancdt/device.h"
+#include "drivers/capancdt/simulated_capancdt.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ std::string asked(SimulatedCapancdt& device, const std::string& text, std::int64
 }
 
 TEST(CapancdtDevice, SpeaksAsTheManualSays) {
-  SimulatedCapancdt device({}, half);
+  SimulatedCapancdt device(half, {});
   device.opened(kCommand, 1, 0);
   EXPECT_EQ(asked(device, ""), "Welcome\r\nDevice: DT6220\r\nSerial number: 1001\r\n");
   EXPECT_EQ(asked(device, "$STI1200\r"), "$STI1200\r$STI1200,1024OK\r\n");
@@ -32,7 +32,7 @@ TEST(CapancdtDevice, SpeaksAsTheManualSays) {
 }
 
 TEST(CapancdtDevice, AHalfTypedCommandIsForgottenAfterTenSeconds) {
-  SimulatedCapancdt device({}, half);
+  SimulatedCapancdt device(half, {});
   device.opened(kCommand, 1, 0);
   asked(device, "$ST");
   EXPECT_EQ(asked(device, "I?\r", 9 * kSecond), "$STI?\r$STI?960OK\r\n");
@@ -41,7 +41,7 @@ TEST(CapancdtDevice, AHalfTypedCommandIsForgottenAfterTenSeconds) {
 }
 
 TEST(CapancdtDevice, StreamsToOneClientOnly) {
-  SimulatedCapancdt device({}, half);
+  SimulatedCapancdt device(half, {});
   device.opened(kData, 1, 0);
   device.opened(kData, 2, 0);
   const std::string bytes = device.exchange(kData, 1, "", 10'000'000);
@@ -53,12 +53,13 @@ TEST(CapancdtDevice, StreamsToOneClientOnly) {
 }
 
 TEST(CapancdtDevice, SendsWhatItsInputsSense) {
-  DeviceOptions options;
+  SimulatedCapancdt::Options options;
   options.frames_per_packet = 2;
   options.inputs[1].present = false;
-  SimulatedCapancdt device(options, [](std::size_t input, std::int64_t t_ns) {
+  const auto ramps = [](std::size_t input, std::int64_t t_ns) {
     return static_cast<double>(input) * 100 + static_cast<double>(t_ns) / 960e3;
-  });
+  };
+  SimulatedCapancdt device(ramps, options);
   device.opened(kData, 1, 0);
   PacketParser parser;
   parser.add(device.exchange(kData, 1, "", 2'000'000));
@@ -71,9 +72,9 @@ TEST(CapancdtDevice, SendsWhatItsInputsSense) {
 }
 
 TEST(CapancdtDevice, TriggeredItIsSilent) {
-  DeviceOptions options;
+  SimulatedCapancdt::Options options;
   options.trigger = 1;
-  SimulatedCapancdt device(options, half);
+  SimulatedCapancdt device(half, options);
   device.opened(kData, 1, 0);
   EXPECT_EQ(device.exchange(kData, 1, "", kSecond), "");
 }

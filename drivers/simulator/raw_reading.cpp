@@ -1,4 +1,4 @@
-#include "drivers/simulator/raw.h"
+#include "drivers/simulator/raw_reading.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,39 +1,39 @@
-// A PoKeys57U as it looks from the USB: a keyboard, the HID interface that is talked to, a
-// joystick.
+// A simulated PoKeys57U, as a program sees it on the USB: a keyboard, the HID interface of the
+// encoders, a joystick.
 #pragma once
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <string>
 
 #include "drivers/pokeys57u/protocol.h"
-#include "drivers/simulated_device.h"
+#include "drivers/simulated_wiring.h"
 #include "drivers/usb/simulated_usb.h"
 
 namespace mdof::drivers::pokeys57u {
 
-// What may go wrong; replies are counted from 0, -1: never.
-struct Faults {
-  int wrong_id_at = -1;      // this reply is preceded by the one before it, with its number
-  int bad_checksum_at = -1;  // of so many replies from this one on
-  int bad_checksums = 1;
-  int late_at = -1;  // this reply comes so much later than the others
-  std::int64_t late_ns = 50'000'000;
-  int mute_at = -1;  // so many requests from this one on are not answered
-  int mutes = 1;
-  int index_at = -1;    // before this reply the index sets all counts to 0
-  int restart_at = -1;  // before this reply it was without power
-  int short_at = -1;    // of this reply 20 bytes come
-  int unplug_at = -1;   // it is gone instead
-  bool deaf_to_options = false;
-};
-
 // Senses: inputs 0 ... 24 are encoders 1 ... 25, 25 the ultra-fast one, in counts; 26 ... 32 the
 // analogue inputs in volts. A request is answered a millisecond later.
-class Device final : public usb::SimulatedUsb {
+class SimulatedPokeys57u final : public usb::SimulatedUsb {
  public:
   static constexpr std::uint8_t kIn = 0x82, kOut = 0x02;
 
+  // What may go wrong; replies are counted from 0, -1: never.
+  struct Faults {
+    int wrong_id_at = -1;      // this reply is preceded by the one before it, with its number
+    int bad_checksum_at = -1;  // of so many replies from this one on
+    int bad_checksums = 1;
+    int late_at = -1;  // this reply comes so much later than the others
+    std::int64_t late_ns = 50'000'000;
+    int mute_at = -1;  // so many requests from this one on are not answered
+    int mutes = 1;
+    int index_at = -1;    // before this reply the index sets all counts to 0
+    int restart_at = -1;  // before this reply it was without power
+    int short_at = -1;    // of this reply 20 bytes come
+    int unplug_at = -1;   // it is gone instead
+    bool deaf_to_options = false;
+  };
   struct Options {
     std::uint32_t serial = 12345;
     std::string usb_serial = {};      // empty: "2." and the number
@@ -42,7 +42,7 @@ class Device final : public usb::SimulatedUsb {
     bool old_board = false;           // tells its number as boards before the PoKeys58 did
     Faults faults = {};
   };
-  Device(Senses senses, Options options);
+  SimulatedPokeys57u(Senses senses, Options options);
 
   const usb::Identity& identity() const override { return identity_; }
   usb::Reply control(const usb::Setup& setup, std::string_view out, std::int64_t now_ns) override;
@@ -81,5 +81,9 @@ class Device final : public usb::SimulatedUsb {
   int replies_ = 0, requests_ = 0;
   bool gone_ = false;
 };
+
+// As a plan of mdof-simulate has it. Counts: of the encoder at the first input, where none is
+// given.
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_pokeys57u(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::pokeys57u

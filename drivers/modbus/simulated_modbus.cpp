@@ -1,4 +1,4 @@
-#include "drivers/modbus/device.h"
+#include "drivers/modbus/simulated_modbus.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,8 +66,10 @@ double raw_of(const Value& value, double sensed) {
 
 }  // namespace
 
-ModbusDevice::ModbusDevice(modbus::Profile profile, Senses senses, ModbusFaults faults)
-    : profile_(std::move(profile)), senses_(std::move(senses)), faults_(std::move(faults)) {
+SimulatedModbus::SimulatedModbus(Senses senses, Options options)
+    : senses_(std::move(senses)),
+      profile_(std::move(options.profile)),
+      faults_(std::move(options.faults)) {
   const auto check = [this](const modbus::Check& wanted) {
     registers_[{wanted.at.function, wanted.at.address}] = wanted.equals;
   };
@@ -82,24 +84,24 @@ ModbusDevice::ModbusDevice(modbus::Profile profile, Senses senses, ModbusFaults 
     for (int i = 0; i < count; ++i) registers_[{from.function, from.address + i}] = 0;
 }
 
-std::vector<SimulatedDevice::Port> ModbusDevice::ports() const {
+std::vector<SimulatedDevice::Port> SimulatedModbus::ports() const {
   return {{"modbus", profile_.framing == Framing::tcp ? profile_.port : 0}};
 }
 
-void ModbusDevice::opened(std::size_t, int client, std::int64_t now_ns) {
+void SimulatedModbus::opened(std::size_t, int client, std::int64_t now_ns) {
   clients_[client] = Client{{}, {}, now_ns, 0, false};
 }
 
-void ModbusDevice::closed(std::size_t, int client) {
+void SimulatedModbus::closed(std::size_t, int client) {
   clients_.erase(client);
 }
 
-bool ModbusDevice::hangs_up(std::size_t, int client) {
+bool SimulatedModbus::hangs_up(std::size_t, int client) {
   return clients_[client].gone;
 }
 
-std::string ModbusDevice::exchange(std::size_t, int id, std::string_view received,
-                                   std::int64_t now_ns) {
+std::string SimulatedModbus::exchange(std::size_t, int id, std::string_view received,
+                                      std::int64_t now_ns) {
   Client& client = clients_[id];
   if (!received.empty()) {
     client.inbox += received;
@@ -113,7 +115,7 @@ std::string ModbusDevice::exchange(std::size_t, int id, std::string_view receive
 }
 
 // Takes whole requests off the inbox until one is for this unit.
-bool ModbusDevice::take_request(Client& client, Frame& request) const {
+bool SimulatedModbus::take_request(Client& client, Frame& request) const {
   for (;;) {
     const std::size_t size = request_size(profile_.framing, client.inbox);
     if (size == 0 || client.inbox.size() < size) return false;
@@ -125,8 +127,8 @@ bool ModbusDevice::take_request(Client& client, Frame& request) const {
   }
 }
 
-void ModbusDevice::answer(Client& client, const Frame& request, std::int64_t now_ns) {
-  using Kind = ModbusFaults::Kind;
+void SimulatedModbus::answer(Client& client, const Frame& request, std::int64_t now_ns) {
+  using Kind = SimulatedModbus::Faults::Kind;
   const bool strikes = ++requests_ % std::max(1, faults_.every) == 0;
   const Kind fault = strikes ? faults_.kind : Kind::none;
   client.reply_at_ns = now_ns + faults_.delay_ms * kMs;
@@ -145,7 +147,7 @@ void ModbusDevice::answer(Client& client, const Frame& request, std::int64_t now
   client.outbox += adu;
 }
 
-std::string ModbusDevice::pdu_for(const std::string& request, std::int64_t now_ns) {
+std::string SimulatedModbus::pdu_for(const std::string& request, std::int64_t now_ns) {
   const auto refuse = [&](int code) {
     return std::string{static_cast<char>(request[0] | modbus::kExceptionBit),
                        static_cast<char>(code)};
@@ -165,7 +167,7 @@ std::string ModbusDevice::pdu_for(const std::string& request, std::int64_t now_n
   return pdu;
 }
 
-void ModbusDevice::sense(std::int64_t now_ns) {
+void SimulatedModbus::sense(std::int64_t now_ns) {
   for (std::size_t i = 0; i < profile_.values.size(); ++i) {
     const Value& value = profile_.values[i];
     int address = value.at.address;
@@ -173,6 +175,23 @@ void ModbusDevice::sense(std::int64_t now_ns) {
       registers_[{value.at.function, address++}] = word;
   }
   for (const auto& [at, word] : faults_.words) registers_[at] = word;
+}
+
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_modbus(SimulatedWiring& wiring) {
+  const auto& inputs = wiring.inputs();
+  MDOF_TRY(auto profile, modbus::load_profile(wiring.table().string("profile"), wiring.folder()));
+  if (inputs.size() > profile.values.size())
+    wiring.table().reject("inputs", "are more than the " + std::to_string(profile.values.size()) +
+                                        " values of the profile");
+  std::vector<SensedInput> sensed;
+  for (std::size_t i = 0; i < std::min(inputs.size(), profile.values.size()); ++i) {
+    const Unit unit = profile.values[i].unit;
+    sensed.push_back(unit == Unit::volt ? wiring.volt(inputs[i])
+                     : unit == Unit::um ? wiring.um(inputs[i])
+                                        : wiring.counts(inputs[i]));
+  }
+  return std::make_unique<SimulatedModbus>(wiring.senses(std::move(sensed)),
+                                           SimulatedModbus::Options{std::move(profile), {}});
 }
 
 }  // namespace mdof::drivers

@@ -1,0 +1,41 @@
+// A simulated AD7746 behind Linux' industrial I/O: its files in sysfs.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+#include "drivers/simulated_device.h"
+#include "drivers/simulated_wiring.h"
+#include "drivers/sysfs/simulated_tree.h"
+#include "schema/base/result.h"
+
+namespace mdof::drivers {
+
+// sysfs_root/bus/iio/devices/iio:device0, an AD7746 with nothing at its inputs, 9 Hz.
+Result<SimulatedTree> make_ad7746_tree(const std::filesystem::path& sysfs_root);
+
+// Senses: inputs 0 and 1, gaps in µm before guarded electrodes. Capacitances are written by turn().
+class SimulatedLinuxIio final : public SimulatedDevice {
+ public:
+  struct Options {
+    std::filesystem::path sysfs_root;
+    double area_mm2 = 0;     // of the electrodes
+    std::size_t inputs = 0;  // that have a probe
+  };
+  // Error: the folder cannot be written.
+  static Result<std::unique_ptr<SimulatedLinuxIio>> make(Senses senses, const Options& options);
+  void turn(std::int64_t now_ns) override;
+
+ private:
+  SimulatedLinuxIio(Senses senses, SimulatedTree tree, Options options)
+      : senses_(std::move(senses)), tree_(std::move(tree)), options_(std::move(options)) {}
+  Senses senses_;
+  SimulatedTree tree_;
+  Options options_;
+};
+
+// As a plan of mdof-simulate has it. Gaps in µm before electrodes of area_mm2.
+Result<std::unique_ptr<SimulatedDevice>> make_simulated_linux_iio(SimulatedWiring& wiring);
+
+}  // namespace mdof::drivers

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "drivers/driver_spec.h"
+#include "schema/base/toml_reader.h"
+
+namespace mdof::drivers {
+
+// Keys: those of options.h.
+Result<DriverSpec> configure_simulator(TomlTable& table, const DriverContext& context);
+
+}  // namespace mdof::drivers

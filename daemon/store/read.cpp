@@ -109,13 +109,13 @@ Result<RunHeader> Store::header_of(Statement& row) {
     MDOF_TRY(header.warnings, texts(row.text(17)));
     MDOF_TRY(header.temperature, temperature(header.id));
   } else if (!open_runs_.contains(header.id) && !WriterLock::open_runs_claimed(file())) {
-    header.state = RunState::aborted;  // as the next writer will put down
+    header.state = RunState::aborted;  // the next writer will store it so
     header.warnings = {"interrupted"};
   }
   return header;
 }
 
-// What its end says that its result rows are; empty: it has not ended.
+// The hash of the result rows that was stored with the run's end; empty: it has not ended.
 Result<std::string> Store::stored_sha256(std::int64_t run) {
   MDOF_TRY(Statement row, connection_.prepare("SELECT result_sha256 FROM run_end WHERE run = ?"));
   MDOF_TRY(const bool found, row.bind(run).step());
@@ -128,7 +128,7 @@ Status Store::check_run(std::int64_t run) {
   return ended.empty() ? Status() : check_link(connection_, Fact::run_end, run);
 }
 
-// In a list a run whose facts are not those that were stored says so; nobody is to build on it.
+// A run whose stored facts no longer match their hashes is listed as failed, with the reason.
 Status Store::mark_damage(RunHeader& header) {
   Status whole = check_run(header.id);
   if (whole) return {};

@@ -26,7 +26,7 @@ void sync_folder(const fs::path& folder) {
   ::close(fd);
 }
 
-// On the disk for good: a power cut would else take a folder that is new, and all that is in it.
+// Flushes the folder above: a power cut would otherwise take a new folder with all that is in it.
 void make_folder(const fs::path& folder) {
   std::error_code ec;
   if (folder.empty() || fs::exists(folder, ec)) return;

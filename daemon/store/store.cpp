@@ -1,6 +1,6 @@
 #include "daemon/store/store.h"
 
-#include "daemon/store/migrate.h"
+#include "daemon/store/file/migrate.h"
 #include "schema/sql/sql.h"
 
 namespace mdof::store {

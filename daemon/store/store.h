@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "daemon/store/file/writer_lock.h"
 #include "daemon/store/study/study_record.h"
-#include "daemon/store/writer_lock.h"
 #include "schema/base/result.h"
 #include "schema/base/sqlite.h"
 #include "schema/compensation_table.h"
@@ -194,7 +194,7 @@ class Store {
   Result<CompensationTable> table_of(sqlite::Statement& row);
   Result<std::vector<std::int64_t>> sources(std::int64_t table);
   Result<std::int64_t> next_generation(const std::string& utc);
-  // deeds.cpp
+  // history.cpp
   Status insert_deed(std::string_view subject, std::int64_t row, const std::optional<Deed>& deed);
   Result<std::vector<Deed>> read_deeds(sqlite::Statement& rows);
   Status add_detail(Deed& deed);

@@ -15,10 +15,10 @@
 #include <string>
 #include <thread>
 
-#include "daemon/bounded_queue.h"
-#include "daemon/store/file_watch.h"
+#include "daemon/store/file/file_watch.h"
 #include "daemon/store/recording_writer.h"
 #include "daemon/store/store.h"
+#include "schema/base/bounded_queue.h"
 #include "schema/base/result.h"
 #include "schema/run.h"
 #include "schema/sample.h"

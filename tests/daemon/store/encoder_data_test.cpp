@@ -2,8 +2,8 @@
 // hashes.
 #include <gtest/gtest.h>
 
+#include "daemon/store/file/migrate.h"
 #include "daemon/store/ledger.h"
-#include "daemon/store/migrate.h"
 #include "daemon/store/store.h"
 #include "tests/daemon/store/fixtures.h"
 

@@ -1,7 +1,7 @@
 // What a store does with files that are not, not yet, or no longer its own.
 #include <fstream>
 
-#include "daemon/store/migrate.h"
+#include "daemon/store/file/migrate.h"
 #include "daemon/store/store.h"
 #include "tests/daemon/store/fixtures.h"
 

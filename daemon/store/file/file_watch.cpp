@@ -1,4 +1,4 @@
-#include "daemon/store/file_watch.h"
+#include "daemon/store/file/file_watch.h"
 
 #include <sys/stat.h>
 

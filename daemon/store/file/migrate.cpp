@@ -1,4 +1,4 @@
-#include "daemon/store/migrate.h"
+#include "daemon/store/file/migrate.h"
 
 #include <fcntl.h>
 #include <unistd.h>

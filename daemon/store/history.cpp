@@ -1,4 +1,4 @@
-// Store: who did what.
+// Store: the history, who did what.
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 

@@ -1,4 +1,4 @@
-#include "daemon/store/writer_lock.h"
+#include "daemon/store/file/writer_lock.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,8 +1,9 @@
 #include "daemon/rpc/method_table.h"
 
+#include <algorithm>
 #include <cassert>
 
-#include "schema/base/json_writer.h"
+#include "schema/base/json_page.h"
 #include "schema/base/toml_reader.h"
 
 namespace mdof::rpc {
@@ -114,18 +115,14 @@ std::string MethodTable::openrpc(std::size_t offset, std::size_t max_bytes) cons
   json.begin_object().field("openrpc", "1.2.6").key("info").begin_object();
   json.field("title", title_).field("version", version_).end_object();
   json.field("x-total", static_cast<std::uint64_t>(methods_.size())).key("methods").begin_array();
-  std::size_t i = 0;
-  std::optional<std::size_t> next;
-  for (const auto& [name, method] : methods_) {
-    if (next || i++ < offset) continue;
-    const std::string text = describe(method);
-    if (i > offset + 1 && json.text().size() + text.size() > max_bytes)
-      next = i - 1;
-    else
-      json.raw(text);
-  }
+  std::vector<const Method*> left;
+  for (const auto& [name, method] : methods_) left.push_back(&method);
+  left.erase(left.begin(),
+             left.begin() + static_cast<std::ptrdiff_t>(std::min(offset, left.size())));
+  const auto text = [](const Method* method) { return describe(*method); };
+  const std::size_t end = offset + append_page(json, left, text, max_bytes);
   json.end_array();
-  if (next) json.field("x-next-offset", static_cast<std::uint64_t>(*next));
+  if (end < methods_.size()) json.field("x-next-offset", static_cast<std::uint64_t>(end));
   return json.end_object().take();
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/rpc/line/socket.h"
+#include "daemon/rpc/net/socket.h"
 #include "schema/base/result.h"
 
 namespace mdof::rpc {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "daemon/rpc/codes.h"
-#include "daemon/rpc/line/peer.h"
 #include "daemon/rpc/line/server_core.h"
 #include "daemon/rpc/message.h"
 
@@ -22,48 +21,26 @@ bool hung_up(int socket) {
 
 }  // namespace
 
-Connection::Connection(ServerCore& server, int socket, bool kept_place)
+Connection::Connection(ServerCore& server, int socket)
     : server_(server),
-      kept_place_(kept_place),
       socket_(*server.loop->context, socket),
-      credentials_(credentials_of(socket)),
-      input_(server.options.max_line_bytes, Dispatcher::kPadding),
-      active_(Clock::now()) {}
+      input_(server.service.options().max_line_bytes, Dispatcher::kPadding) {}
 
-void Connection::start() {
+void Connection::start(std::shared_ptr<Session> session) {
+  session_ = std::move(session);
   wait_readable();
 }
 
-bool Connection::in_group(gid_t group) const {
-  auto& socket = const_cast<asio::posix::stream_descriptor&>(socket_);  // asks for its number only
-  return is_member(socket.native_handle(), group);
+void Connection::turn_away(std::string_view why) {
+  std::string message;
+  append_error(message, "null", kBusy, why);
+  send(message);
+  (void)output_.flush(socket_.native_handle());
+  close();
 }
 
-bool Connection::may_write() const {
-  return credentials_.has_value() || server_.options.tcp_may_write;
-}
-
-Status Connection::subscribe(std::string_view topic, std::chrono::milliseconds interval) {
-  return server_.topics.subscribe(*this, topic, interval);
-}
-
-Status Connection::unsubscribe(std::string_view topic) {
-  return server_.topics.unsubscribe(*this, topic);
-}
-
-// The rule behind all bounds: a request begins only when its largest reply has room.
-bool Connection::has_room() const {
-  const auto& options = server_.options;
-  return output_.unsent() + (open_exchanges_ + 1) * options.max_reply_bytes <=
-         options.max_unsent_bytes;
-}
-
-void Connection::finish(std::string_view line) {
-  --open_exchanges_;
-  active_ = Clock::now();
-  if (state_ != State::open) return;
-  output_.text() += line;
-  wake();
+void Connection::send(std::string_view message) {
+  output_.text().append(message).push_back('\n');
 }
 
 void Connection::wake() {
@@ -83,8 +60,8 @@ void Connection::pump() {
 }
 
 void Connection::run_lines() {
-  std::size_t left = server_.options.requests_per_turn;
-  while (state_ == State::open && left > 0 && has_room()) {
+  std::size_t left = server_.service.options().requests_per_turn;
+  while (state_ == State::open && left > 0 && session_->has_room()) {
     const auto line = input_.next();
     if (!line) return;
     line_since_.reset();
@@ -94,17 +71,15 @@ void Connection::run_lines() {
 
 void Connection::take_line(const LineBuffer::Line& line, std::size_t& left) {
   if (line.too_long)
-    return refuse("a request line may have " + std::to_string(server_.options.max_line_bytes) +
-                  " bytes");
+    return refuse("a request line may have " +
+                  std::to_string(server_.service.options().max_line_bytes) + " bytes");
   if (line.text.empty()) {  // as a line end too many leaves it
     --left;
     return;
   }
-  active_ = Clock::now();
-  const Handled handled =
-      server_.dispatcher.handle(line.text, *this, weak_from_this(), output_.text());
-  open_exchanges_ += handled.open ? 1 : 0;
-  left -= std::min(left, handled.requests);
+  std::string& out = output_.text();  // whole lines
+  left -= std::min(left, session_->handle(line.text, out));
+  if (!out.empty() && out.back() != '\n') out += '\n';
 }
 
 void Connection::flush() {
@@ -119,9 +94,8 @@ void Connection::flush() {
 
 // As long as the client takes it: what is left waits for the socket, or for its time.
 void Connection::send_due() {
-  while (state_ == State::open && output_.unsent() == 0 && !subscriptions.empty()) {
-    const auto next =
-        take_due(*this, Clock::now(), server_.options.max_reply_bytes, output_.text());
+  while (state_ == State::open && output_.unsent() == 0 && session_->has_subscriptions()) {
+    const auto next = session_->send_due(Clock::now());
     if (next) server_.wake_subscribers_at(*next);
     if (output_.unsent() == 0) return;
     flush();
@@ -137,7 +111,8 @@ void Connection::wait() {
       ::shutdown(socket_.native_handle(), SHUT_WR);
     return wait_readable();
   }
-  if (!has_room()) return line_since_.reset();  // the line waits for us, not we for the line
+  if (!session_->has_room())
+    return line_since_.reset();  // the line waits for us, not we for the line
   if (input_.has_line()) return wake();
   if (finished()) return close();
   if (input_.partial() && !line_since_) line_since_ = Clock::now();
@@ -145,7 +120,7 @@ void Connection::wait() {
 }
 
 bool Connection::finished() {
-  return input_ended_ && open_exchanges_ == 0 && output_.unsent() == 0 && subscriptions.empty();
+  return input_ended_ && output_.unsent() == 0 && session_->awaits_nothing();
 }
 
 // Only where no whole line waits: what next() gave has ended, and the space stays where it is.
@@ -183,38 +158,27 @@ void Connection::input_ended() {
   input_ended_ = true;
   if (state_ == State::draining) return close();
   if (!input_.partial()) return;
-  append_error(output_.text(), "null", kParseError, "Parse error",
+  std::string message;
+  append_error(message, "null", kParseError, "Parse error",
                "the last line does not end in a line feed");
-  output_.text() += '\n';
+  send(message);
 }
 
 // Says why, lets the client take it, closes. What it still sends is thrown away meanwhile, for a
 // socket closed with unread bytes would take the answer with it.
 void Connection::refuse(std::string_view why) {
-  append_error(output_.text(), "null", kInvalidRequest, "Invalid Request", why);
-  server_.log(name() + " refused: " + std::string(why));
+  session_->refuse(why);
+  server_.service.log(session_->name() + " refused: " + std::string(why));
   drain();
-}
-
-// The place is another's from then on; a client that comes back to it is told why.
-void Connection::end_idle() {
-  const std::string why = "nothing was asked for " +
-                          std::to_string(server_.options.idle_timeout.count() / 1000) +
-                          " s and nothing is subscribed to: connect again";
-  append_error(output_.text(), "null", kBusy, why);
-  drain();
-  pump();
 }
 
 void Connection::drain() {
-  output_.text() += '\n';
   state_ = State::draining;
   draining_since_ = Clock::now();
-  server_.topics.forget(*this);
 }
 
 void Connection::drop(const std::string& why) {
-  server_.log(name() + " dropped: " + why);
+  server_.service.log(session_->name() + " dropped: " + why);
   close();
 }
 
@@ -223,12 +187,12 @@ void Connection::close() {
   state_ = State::closed;
   std::error_code ignored;
   socket_.close(ignored);
-  server_.topics.forget(*this);
+  session_.reset();
   server_.forget(*this);
 }
 
 void Connection::check_times(Clock::time_point now) {
-  const auto& options = server_.options;
+  const auto& options = server_.service.options();
   if (state_ == State::draining && now - draining_since_ > options.drain_timeout) return close();
   if (state_ != State::open) return;
   if (line_since_ && now - *line_since_ > options.request_timeout) {
@@ -240,14 +204,10 @@ void Connection::check_times(Clock::time_point now) {
     return drop("it took none of " + std::to_string(output_.unsent()) + " unsent bytes for " +
                 std::to_string(options.stall_timeout.count()) + " ms");
   if (input_ended_ && hung_up(socket_.native_handle())) return close();
-  const bool idle = subscriptions.empty() && open_exchanges_ == 0 && output_.unsent() == 0;
-  if (options.idle_timeout.count() > 0 && idle && now - active_ > options.idle_timeout) end_idle();
-}
-
-std::string Connection::name() const {
-  if (!credentials_) return "TCP client";
-  return "client with uid " + std::to_string(credentials_->uid) + ", pid " +
-         std::to_string(credentials_->pid);
+  if (!session_->is_idle(now)) return;
+  session_->end_idle();
+  drain();
+  pump();
 }
 
 }  // namespace mdof::rpc

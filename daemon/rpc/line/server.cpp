@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/rpc/line/listener.h"
 #include "daemon/rpc/line/server_core.h"
+#include "daemon/rpc/net/listener.h"
 
 namespace mdof::rpc {
 namespace {
@@ -33,7 +33,7 @@ void remove(const SocketFile& file) {
 
 }  // namespace
 
-struct Server::Impl {
+struct LineServer::Impl {
   std::shared_ptr<ServerCore> core;
   std::vector<std::shared_ptr<Listener>> listeners;
   std::vector<SocketFile> files;
@@ -41,29 +41,28 @@ struct Server::Impl {
   void listen(Descriptor socket) {
     listeners.push_back(std::make_shared<Listener>(
         *core->loop, std::move(socket), [c = core.get()](int fd) { c->adopt(fd); },
-        [c = core.get()](const std::string& line) { c->log(line); }));
+        [c = core.get()](const std::string& line) { c->service.log(line); }));
     listeners.back()->start();
   }
 };
 
-Server::Server(EventLoop& loop, const MethodTable& table, ServerOptions options)
-    : impl_(std::make_unique<Impl>()) {
-  impl_->core = std::make_shared<ServerCore>(loop.core(), table, std::move(options));
+LineServer::LineServer(EventLoop& loop, Service& service) : impl_(std::make_unique<Impl>()) {
+  impl_->core = std::make_shared<ServerCore>(loop.core(), service);
 }
 
-Server::~Server() {
+LineServer::~LineServer() {
   for (const SocketFile& file : impl_->files) remove(file);
   for (const auto& listener : impl_->listeners) listener->stop();
 }
 
-Status Server::listen_unix(const std::string& path) {
+Status LineServer::listen_unix(const std::string& path) {
   MDOF_TRY(Descriptor socket, listen_on_unix(path));
   impl_->files.push_back(socket_file(path));
   impl_->listen(std::move(socket));
   return {};
 }
 
-Status Server::listen_fd(int fd) {
+Status LineServer::listen_fd(int fd) {
   MDOF_CHECK(check_listening(fd));
   (void)::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) | O_NONBLOCK);
   (void)::fcntl(fd, F_SETFD, FD_CLOEXEC);
@@ -71,27 +70,11 @@ Status Server::listen_fd(int fd) {
   return {};
 }
 
-Result<std::uint16_t> Server::listen_tcp(const std::string& address, std::uint16_t port) {
+Result<std::uint16_t> LineServer::listen_tcp(const std::string& address, std::uint16_t port) {
   MDOF_TRY(Descriptor socket, listen_on_tcp(address, port));
   const std::uint16_t bound = port_of(socket.get());
   impl_->listen(std::move(socket));
   return bound;
-}
-
-void Server::add_topic(Topic topic) {
-  impl_->core->topics.add(std::move(topic));
-}
-
-std::optional<std::chrono::milliseconds> Server::wanted_every(std::string_view topic) const {
-  return impl_->core->topics.wanted_every(topic);
-}
-
-Status Server::publish(std::string_view topic, std::string json) {
-  return impl_->core->topics.publish(topic, std::move(json));
-}
-
-std::size_t Server::connection_count() const {
-  return impl_->core->connections.size();
 }
 
 }  // namespace mdof::rpc

@@ -1,18 +1,15 @@
-// What the connections of a server share. Private header.
+// What the connections of a line server share. Private header.
 #pragma once
 
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "daemon/rpc/dispatcher.h"
-#include "daemon/rpc/line/asio.h"
 #include "daemon/rpc/line/connection.h"
-#include "daemon/rpc/line/event_loop_core.h"
-#include "daemon/rpc/line/server_options.h"
-#include "daemon/rpc/topic_hub.h"
+#include "daemon/rpc/net/asio.h"
+#include "daemon/rpc/net/event_loop_core.h"
+#include "daemon/rpc/session/service.h"
 
 namespace mdof::rpc {
 
@@ -20,25 +17,18 @@ namespace mdof::rpc {
 struct ServerCore : std::enable_shared_from_this<ServerCore> {
   using Clock = std::chrono::steady_clock;
 
-  ServerCore(std::shared_ptr<EventLoop::Core> event_loop, const MethodTable& table,
-             ServerOptions limits);
+  ServerCore(std::shared_ptr<EventLoop::Core> event_loop, Service& shared);
   ~ServerCore();
 
   void adopt(int socket);  // a connected client, or one too many
   void forget(const Connection& connection);
   void wake_subscribers_at(Clock::time_point when);
-  void log(const std::string& line) const;
 
   std::shared_ptr<EventLoop::Core> loop;
-  const ServerOptions options;
-  Dispatcher dispatcher;
-  TopicHub topics;
+  Service& service;
   std::vector<std::shared_ptr<Connection>> connections;
 
  private:
-  enum class Place { none, ordinary, kept };
-  Place place_for(int socket, std::string& why_not) const;
-  void turn_away(int socket, const std::string& why);
   void sweep();
   void wake_subscribers();
 
@@ -46,7 +36,6 @@ struct ServerCore : std::enable_shared_from_this<ServerCore> {
   bool sweeping_ = false;
   asio::steady_timer due_timer_;
   std::optional<Clock::time_point> due_;
-  std::string told_;  // the log, why a client was turned away
 };
 
 }  // namespace mdof::rpc

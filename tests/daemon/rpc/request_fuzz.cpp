@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "daemon/rpc/dispatcher.h"
+#include "daemon/rpc/net/event_loop.h"
+#include "daemon/rpc/session/dispatcher.h"
 #include "schema/base/json_writer.h"
 
 namespace {
@@ -66,7 +67,7 @@ const MethodTable& methods() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static EventLoop& loop = *new EventLoop;
   static const ServerOptions& options = *new ServerOptions;
-  static Dispatcher& dispatcher = *new Dispatcher(loop.core(), methods(), options);
+  static Dispatcher& dispatcher = *new Dispatcher(loop.executor(), methods(), options);
   static simdjson::dom::parser& parser = *new simdjson::dom::parser;
   std::string line(reinterpret_cast<const char*>(data), std::min(size, options.max_line_bytes));
   const std::size_t length = line.size();
@@ -75,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Anybody caller;
   dispatcher.handle(std::string_view(line).substr(0, length), caller, {}, out);
   if (out.empty()) return 0;
-  if (out.size() > options.max_reply_bytes || out.find('\n') != out.size() - 1) std::abort();
+  if (out.size() >= options.max_reply_bytes || out.find('\n') != std::string::npos) std::abort();
   if (parser.parse(out).error()) std::abort();
   return 0;
 }

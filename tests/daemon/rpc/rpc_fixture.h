@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "daemon/rpc/line/server.h"
-#include "daemon/rpc/line/socket.h"
+#include "daemon/rpc/net/socket.h"
 #include "schema/base/json_writer.h"
 
 namespace mdof::rpc::test {
@@ -159,7 +159,8 @@ class TestServer {
       const std::scoped_lock lock(log_mutex_);
       log_ += line + "\n";
     };
-    server = std::make_unique<Server>(loop, table, options);
+    service = std::make_unique<Service>(loop.executor(), table, options);
+    server = std::make_unique<LineServer>(loop, *service);
     const auto status = server->listen_unix(path);
     EXPECT_TRUE(status.has_value()) << status.error().message;
   }
@@ -172,6 +173,7 @@ class TestServer {
     loop.stop();
     if (thread_.joinable()) thread_.join();
     server.reset();
+    service.reset();
   }
 
   // Runs `work` on the loop and gives its result.
@@ -183,7 +185,7 @@ class TestServer {
     return result.get();
   }
   std::size_t connections() {
-    return on_loop([this] { return server->connection_count(); });
+    return on_loop([this] { return service->session_count(); });
   }
   // Waits until so many are left.
   bool connections_become(std::size_t n, std::chrono::milliseconds timeout = 20s) {
@@ -201,7 +203,8 @@ class TestServer {
                      ("mdof-rpc-" + std::to_string(::getpid()) + "-" + std::to_string(++count_));
   MethodTable table{"mdof test", "0.1.0"};
   EventLoop loop;
-  std::unique_ptr<Server> server;
+  std::unique_ptr<Service> service;
+  std::unique_ptr<LineServer> server;
 
  private:
   static inline int count_ = 0;

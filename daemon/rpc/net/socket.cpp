@@ -1,4 +1,4 @@
-#include "daemon/rpc/line/socket.h"
+#include "daemon/rpc/net/socket.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>

@@ -8,6 +8,8 @@
 #include <mutex>
 #include <vector>
 
+#include "daemon/rpc/session/executor.h"
+
 namespace mdof::rpc {
 
 class EventLoop {
@@ -35,6 +37,7 @@ class EventLoop {
   void on_readable(int descriptor, std::function<void()> work);
 
   const std::shared_ptr<Core>& core() const { return core_; }
+  std::shared_ptr<Executor> executor() const;  // this loop, for those who know no loops
 
  private:
   std::shared_ptr<Core> core_;  // shared with those who may post after the loop has gone

@@ -1,4 +1,4 @@
-#include "daemon/rpc/exchange.h"
+#include "daemon/rpc/session/exchange.h"
 
 #include <cassert>
 #include <utility>
@@ -24,19 +24,19 @@ void append_reply(std::string& out, std::string_view id, const Result<std::strin
   if (!result) return append_error(out, id, code_of(result.error().code), result.error().message);
   const std::size_t begin = out.size();
   append_result(out, id, *result);
-  if (out.size() - begin < max_bytes) return;  // less, for the line end
+  if (out.size() - begin < max_bytes) return;  // less, for a line end
   out.resize(begin);
   append_error(out, id, kReplyTooLarge, too_large(result->size(), max_bytes));
 }
 
 Exchange::Exchange(ReplyLimits limits, std::size_t members, bool batch,
-                   std::weak_ptr<LineSink> sink)
+                   std::weak_ptr<ReplySink> sink)
     : limits_(limits), open_(members), batch_(batch), sink_(std::move(sink)) {}
 
 void Exchange::answer(std::string_view id, const Result<std::string>& result) {
   if (!id.empty()) {
     std::string message;
-    append_reply(message, id, result, limits_.max_line_bytes);
+    append_reply(message, id, result, limits_.max_bytes);
     take(id, message);
   }
   member_done();
@@ -54,10 +54,10 @@ void Exchange::answer_error(std::string_view id, int code, std::string_view mess
 
 // Room is kept for a short error for every member that is still open, so that each gets its answer.
 void Exchange::take(std::string_view id, const std::string& message) {
-  constexpr std::size_t kBrackets = 3;  // [ ] and the line end
+  constexpr std::size_t kBrackets = 3;  // [ ] and a line end
   const std::size_t kept = (open_ - 1) * (kReserveBytes + limits_.max_id_bytes) + kBrackets;
   if (!text_.empty()) text_ += ',';
-  if (batch_ && text_.size() + message.size() + kept > limits_.max_line_bytes)
+  if (batch_ && text_.size() + message.size() + kept > limits_.max_bytes)
     append_error(text_, id, kReplyTooLarge, kTooLargeForBatch);
   else
     text_ += message;
@@ -66,9 +66,9 @@ void Exchange::take(std::string_view id, const std::string& message) {
 void Exchange::member_done() {
   assert(open_ > 0);
   if (--open_ > 0 || !sealed_) return;
-  std::string line;
-  append_to(line);
-  if (const auto sink = sink_.lock()) sink->finish(line);
+  std::string reply;
+  append_to(reply);
+  if (const auto sink = sink_.lock()) sink->finish(reply);
 }
 
 bool Exchange::seal(std::string& out) {
@@ -82,7 +82,7 @@ void Exchange::append_to(std::string& out) const {
   if (text_.empty()) return;
   if (batch_) out += '[';
   out += text_;
-  out += batch_ ? "]\n" : "\n";
+  if (batch_) out += ']';
 }
 
 Reply::Reply(std::unique_ptr<Slot> slot) : slot_(std::move(slot)) {}
@@ -95,8 +95,8 @@ Reply& Reply::operator=(Reply&& other) noexcept {
 
 Reply::~Reply() {
   if (!slot_) return;
-  const auto core = slot_->core;
-  core->dispatch([slot = std::move(slot_)] {
+  const auto executor = slot_->executor;
+  executor->dispatch([slot = std::shared_ptr(std::move(slot_))] {
     slot->exchange->answer_error(slot->id, kInternalError, "Internal error",
                                  "the call ended without an answer");
   });
@@ -104,8 +104,8 @@ Reply::~Reply() {
 
 void Reply::operator()(Result<std::string> result) {
   assert(slot_ && "a call is answered once");
-  const auto core = slot_->core;
-  core->dispatch([slot = std::move(slot_), answer = std::move(result)] {
+  const auto executor = slot_->executor;
+  executor->dispatch([slot = std::shared_ptr(std::move(slot_)), answer = std::move(result)] {
     slot->exchange->answer(slot->id, answer);
   });
 }

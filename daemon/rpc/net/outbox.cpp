@@ -1,4 +1,4 @@
-#include "daemon/rpc/line/outbox.h"
+#include "daemon/rpc/net/outbox.h"
 
 #include <sys/socket.h>
 

@@ -1,7 +1,7 @@
 #include <atomic>
 
 #include "daemon/rpc/line/client.h"
-#include "daemon/rpc/subscription.h"
+#include "daemon/rpc/session/subscription.h"
 #include "tests/daemon/rpc/rpc_fixture.h"
 
 namespace mdof::rpc::test {
@@ -27,7 +27,7 @@ TEST(Subscription, TheNewestValueWins) {
   std::string out;
   EXPECT_LE(*subscription.due(), now);
   subscription.take(now, out);
-  EXPECT_EQ(out, message("live.frame", 4, "5") + "\n");
+  EXPECT_EQ(out, message("live.frame", 4, "5"));
   EXPECT_FALSE(subscription.due());
   subscription.offer(value(6), now + 90ms);
   EXPECT_EQ(*subscription.due(), now + 100ms);
@@ -45,13 +45,31 @@ TEST(Subscription, AnOldValueWaitsForANewerOneButNotForEver) {
   EXPECT_LE(*subscription.due(), now + 130ms);  // at once
 }
 
+// Both axes of one device come at the same time, for ever.
+TEST(Subscription, OfEachThingTheNewestValueIsSent) {
+  Subscription subscription(kValue, 100ms, 64);
+  std::string x, y;
+  for (int turn = 0; turn < 10; ++turn) {
+    const Subscription::Time now = Subscription::Time(10s) + turn * 100ms;
+    subscription.offer(value(2 * turn), now, "X");
+    subscription.offer(value(2 * turn + 1), now + 1ms, "Y");
+    ASSERT_LE(*subscription.due(), now + 1ms) << turn;
+    subscription.take(now + 1ms, x);
+    ASSERT_LE(*subscription.due(), now + 1ms) << turn;
+    subscription.take(now + 1ms, y);
+    EXPECT_FALSE(subscription.due());
+  }
+  EXPECT_NE(x.find(message("live.frame", 0, "18")), std::string::npos) << x;
+  EXPECT_NE(y.find(message("live.frame", 0, "19")), std::string::npos) << y;
+}
+
 TEST(Subscription, EventsQueueAndTheOldestGoesWhenFullAndIsCounted) {
   Subscription subscription(kEvent, 0ms, 3);
   for (int i = 1; i <= 5; ++i) subscription.offer(value(i), Subscription::Time(10s));
   std::string out;
   while (subscription.due()) subscription.take(Subscription::Time(10s), out);
-  EXPECT_EQ(out, message("run.event", 2, "3") + "\n" + message("run.event", 0, "4") + "\n" +
-                     message("run.event", 0, "5") + "\n");
+  EXPECT_EQ(out, message("run.event", 2, "3") + message("run.event", 0, "4") +
+                     message("run.event", 0, "5"));
 }
 
 class Subscriptions : public ::testing::Test {
@@ -84,7 +102,7 @@ class Subscriptions : public ::testing::Test {
                          return "true";
                        }});
     for (const Topic& topic : {kValue, kEvent, Topic{"a"}, Topic{"b"}})
-      server_.server->add_topic(topic);
+      server_.service->add_topic(topic);
     server_.start();
   }
   static std::string subscribe(const std::string& topic, int interval_ms) {
@@ -93,12 +111,12 @@ class Subscriptions : public ::testing::Test {
   }
   void publish(const std::string& topic, const std::string& json) {
     server_.on_loop([&] {
-      EXPECT_TRUE(server_.server->publish(topic, json).has_value());
+      EXPECT_TRUE(server_.service->publish(topic, json).has_value());
       return 0;
     });
   }
   bool wanted(const std::string& topic) {
-    return server_.on_loop([&] { return server_.server->wanted_every(topic).has_value(); });
+    return server_.on_loop([&] { return server_.service->wanted_every(topic).has_value(); });
   }
   bool becomes_unwanted(const std::string& topic) {
     for (int i = 0; i < 2000 && wanted(topic); ++i) std::this_thread::sleep_for(5ms);
@@ -111,7 +129,7 @@ TEST_F(Subscriptions, WhatNoLineHoldsIsCounted) {
   RawClient client(server_.path);
   ASSERT_EQ(at(client.ask(subscribe("run.event", 0)), "/result"), "true");
   const auto refused = server_.on_loop(
-      [&] { return server_.server->publish("run.event", std::string(60'000, '1')); });
+      [&] { return server_.service->publish("run.event", std::string(60'000, '1')); });
   EXPECT_FALSE(refused);
   publish("run.event", "2");
   EXPECT_EQ(client.line(), message("run.event", 1, "2"));
@@ -137,7 +155,7 @@ TEST_F(Subscriptions, ValuesComeNoFasterThanAsked) {
 // differ, only many values are fresh enough for all.
 TEST_F(Subscriptions, ValuesAreWantedAtTheIntervalOfAll) {
   const auto every = [&] {
-    return server_.on_loop([&] { return server_.server->wanted_every("live.frame"); });
+    return server_.on_loop([&] { return server_.service->wanted_every("live.frame"); });
   };
   const auto becomes = [&](std::chrono::milliseconds wanted) {
     for (int i = 0; i < 2000 && every() != wanted; ++i) std::this_thread::sleep_for(5ms);
@@ -249,8 +267,8 @@ TEST_F(Subscriptions, ASlowSubscriberIsToldWhatItMissed) {
 
 TEST_F(Subscriptions, AValueTooLargeForALineIsTheCallersError) {
   server_.on_loop([&] {
-    EXPECT_FALSE(server_.server->publish("a", std::string(49152, '1')).has_value());
-    EXPECT_FALSE(server_.server->publish("nothing", "1").has_value());
+    EXPECT_FALSE(server_.service->publish("a", std::string(49152, '1')).has_value());
+    EXPECT_FALSE(server_.service->publish("nothing", "1").has_value());
     return 0;
   });
 }

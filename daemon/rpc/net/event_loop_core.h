@@ -1,16 +1,17 @@
 // What is behind EventLoop. Private header.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <utility>
 
-#include "daemon/rpc/line/asio.h"
-#include "daemon/rpc/line/event_loop.h"
+#include "daemon/rpc/net/asio.h"
+#include "daemon/rpc/net/event_loop.h"
 
 namespace mdof::rpc {
 
-struct EventLoop::Core {
+struct EventLoop::Core final : Executor {
   std::mutex mutex;  // guards `open`, and the context against posts while it goes
   bool open = true;
   std::unique_ptr<asio::io_context> context = std::make_unique<asio::io_context>(1);
@@ -22,13 +23,11 @@ struct EventLoop::Core {
     if (open) asio::post(*context, std::forward<Work>(work));
   }
 
-  // Thread-safe; at once when called on the loop's thread, else as post().
-  template <class Work>
-  void dispatch(Work&& work) {
+  void dispatch(std::function<void()> work) override {
     std::unique_lock lock(mutex);
     if (!open) return;
     if (!context->get_executor().running_in_this_thread())
-      return asio::post(*context, std::forward<Work>(work));
+      return asio::post(*context, std::move(work));
     lock.unlock();
     work();
   }

@@ -1,4 +1,4 @@
-#include "daemon/rpc/topic_hub.h"
+#include "daemon/rpc/session/topic_hub.h"
 
 #include <algorithm>
 #include <cassert>
@@ -47,7 +47,7 @@ Result<TopicHub::Row*> TopicHub::row(std::string_view topic) {
                                                       : "; did you mean " + in_quotes(near) + "?"));
 }
 
-Status TopicHub::publish(std::string_view topic, std::string json) {
+Status TopicHub::publish(std::string_view topic, std::string json, std::string_view of) {
   MDOF_TRY(Row* const found, row(topic));
   const std::size_t line = json.size() + topic.size() + kEnvelopeBytes;
   if (line > options_.max_reply_bytes) {
@@ -60,7 +60,7 @@ Status TopicHub::publish(std::string_view topic, std::string json) {
   const auto value = std::make_shared<const std::string>(std::move(json));
   const auto now = std::chrono::steady_clock::now();
   for (const auto& [who, entry] : found->subscribers) {
-    entry->offer(value, now);
+    entry->offer(value, now, of);
     who->wake();
   }
   return {};
@@ -102,15 +102,20 @@ void TopicHub::forget(Subscriber& who) {
 }
 
 std::optional<Subscription::Time> take_due(Subscriber& who, Subscription::Time now,
-                                           std::size_t max_bytes, std::string& out) {
+                                           std::size_t max_bytes,
+                                           const std::function<void(std::string_view)>& send) {
   std::optional<Subscription::Time> next;
   auto& all = who.subscriptions;
-  const std::size_t begin = out.size();
+  std::size_t sent = 0;
+  std::string message;
   for (std::size_t i = all.size(); i > 0; --i) {
     Subscription& first = all.front();
     while (first.due() && *first.due() <= now) {
-      if (out.size() - begin >= max_bytes) return next;  // and it is the first the next time
-      first.take(now, out);
+      if (sent >= max_bytes) return next;  // and it is the first the next time
+      message.clear();
+      first.take(now, message);
+      send(message);
+      sent += message.size();
     }
     if (const auto due = first.due()) next = std::min(next.value_or(*due), *due);
     all.splice(all.end(), all, all.begin());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <list>
 #include <map>
 #include <optional>
@@ -9,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/rpc/line/server_options.h"
-#include "daemon/rpc/subscription.h"
+#include "daemon/rpc/server_options.h"
+#include "daemon/rpc/session/subscription.h"
 #include "schema/base/result.h"
 
 namespace mdof::rpc {
@@ -31,7 +32,7 @@ class TopicHub {
 
   void add(Topic topic);  // a name twice is a bug
   std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
-  Status publish(std::string_view topic, std::string json);
+  Status publish(std::string_view topic, std::string json, std::string_view of = "");
 
   Status subscribe(Subscriber& who, std::string_view topic, std::chrono::milliseconds interval);
   Status unsubscribe(Subscriber& who, std::string_view topic);
@@ -50,9 +51,10 @@ class TopicHub {
   std::map<std::string, Row, std::less<>> rows_;
 };
 
-// Appends what is due and has room: below `max_bytes` of `out` another message is begun. Gives the
-// time of the next message that waits for nothing but time.
+// Gives `send` what is due and has room, a message a call: below `max_bytes` in all another one is
+// begun. Gives the time of the next message that waits for nothing but time.
 std::optional<Subscription::Time> take_due(Subscriber& who, Subscription::Time now,
-                                           std::size_t max_bytes, std::string& out);
+                                           std::size_t max_bytes,
+                                           const std::function<void(std::string_view)>& send);
 
 }  // namespace mdof::rpc

@@ -7,6 +7,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "daemon/rpc/topic.h"
 
@@ -23,25 +25,33 @@ class Subscription {
 
   const Topic& topic() const { return topic_; }
   std::chrono::milliseconds interval() const { return interval_; }
-  bool awaits_first() const { return next_ == Time{}; }
+  bool awaits_first() const;
   void set_interval(std::chrono::milliseconds interval) { interval_ = interval; }
 
-  // A value takes the place of the one that waits; an event queues, and the oldest goes when full.
-  void offer(Value value, Time now);
+  // A value takes the place of the one that waits, of the same thing: `of` ("X", an axis) has its
+  // own pace, as two that come at the same time would for ever take each other's place. An event
+  // queues, and the oldest goes when full.
+  void offer(Value value, Time now, std::string_view of = "");
   void miss() { ++missed_; }  // one that cannot be sent
   // When the next message may be sent; nothing: none waits. A value that will have grown old by
   // then is held for another interval, for a newer one to take its place.
   std::optional<Time> due() const;
-  // Appends that message with its line end.
+  // Appends that message.
   void take(Time now, std::string& out);
 
  private:
   const Topic& topic_;
   std::chrono::milliseconds interval_;
   std::size_t max_queued_;
-  std::deque<Value> waiting_;
+  struct Line {  // of one thing
+    std::string of;
+    std::deque<Value> waiting = {};
+    Time next{}, offered{};
+  };
+  std::optional<Time> due_of(const Line& line) const;
+
+  std::vector<Line> lines_;
   std::uint64_t missed_ = 0;
-  Time next_{}, offered_{};
 };
 
 }  // namespace mdof::rpc

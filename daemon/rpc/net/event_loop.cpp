@@ -1,8 +1,8 @@
-#include "daemon/rpc/line/event_loop.h"
+#include "daemon/rpc/net/event_loop.h"
 
 #include <utility>
 
-#include "daemon/rpc/line/event_loop_core.h"
+#include "daemon/rpc/net/event_loop_core.h"
 
 namespace mdof::rpc {
 namespace {
@@ -76,6 +76,10 @@ EventLoop::~EventLoop() {
     core_->open = false;
   }
   core_->context.reset();  // outside the lock: what it destroys may try to post
+}
+
+std::shared_ptr<Executor> EventLoop::executor() const {
+  return core_;
 }
 
 void EventLoop::run() {

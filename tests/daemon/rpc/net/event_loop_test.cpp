@@ -1,4 +1,4 @@
-#include "daemon/rpc/line/event_loop.h"
+#include "daemon/rpc/net/event_loop.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

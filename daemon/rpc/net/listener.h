@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "daemon/rpc/line/asio.h"
-#include "daemon/rpc/line/event_loop_core.h"
-#include "daemon/rpc/line/socket.h"
+#include "daemon/rpc/net/asio.h"
+#include "daemon/rpc/net/event_loop_core.h"
+#include "daemon/rpc/net/socket.h"
 
 namespace mdof::rpc {
 

@@ -48,7 +48,8 @@ TEST(Server, RefusesASocketThatAnotherDaemonAnswersOn) {
   TestServer first;
   first.start();
   EventLoop loop;
-  Server second(loop, first.table);
+  Service service(loop.executor(), first.table);
+  LineServer second(loop, service);
   const auto status = second.listen_unix(first.path);
   ASSERT_FALSE(status.has_value());
   EXPECT_EQ(status.error().code, ErrorCode::conflict);
@@ -64,7 +65,8 @@ TEST(Server, ReplacesASocketThatNobodyAnswersOn) {
   ASSERT_TRUE(std::filesystem::exists(path));
   EventLoop loop;
   {
-    Server second(loop, server.table);
+    Service service(loop.executor(), server.table);
+    LineServer second(loop, service);
     EXPECT_EQ(error_of(second.listen_unix(path)), "no error");
   }
   EXPECT_FALSE(std::filesystem::exists(path));

@@ -1,4 +1,4 @@
-#include "daemon/rpc/dispatcher.h"
+#include "daemon/rpc/session/dispatcher.h"
 
 #include <simdjson.h>
 
@@ -15,22 +15,21 @@ namespace mdof::rpc {
 static_assert(Dispatcher::kPadding >= simdjson::SIMDJSON_PADDING);
 
 struct Dispatcher::Parser {
-  Parser(std::shared_ptr<EventLoop::Core> loop, const MethodTable& methods,
-         const ServerOptions& limits)
-      : core(std::move(loop)), table(methods), options(limits) {}
+  Parser(std::shared_ptr<Executor> loop, const MethodTable& methods, const ServerOptions& limits)
+      : executor(std::move(loop)), table(methods), options(limits) {}
 
-  // One line's way through the calls below.
-  struct Line {
+  // One message's way through the calls below.
+  struct Message {
     std::string_view text;
     Caller& caller;
-    std::weak_ptr<LineSink> sink;
+    std::weak_ptr<ReplySink> sink;
     std::string& out;
   };
 
-  Handled handle(const Line& line);
-  Handled handle_single(const Line& line, const simdjson::dom::element& message);
-  Handled handle_batch(const Line& line, const simdjson::dom::array& batch);
-  void call_member(const Line& line, const Request& request,
+  Handled handle(const Message& message);
+  Handled handle_single(const Message& message, const simdjson::dom::element& parsed);
+  Handled handle_batch(const Message& message, const simdjson::dom::array& batch);
+  void call_member(const Message& message, const Request& request,
                    const std::shared_ptr<Exchange>& exchange);
   // The row and its checked parameters (in `values`), or what is wrong with the request.
   struct Refusal {
@@ -41,7 +40,7 @@ struct Dispatcher::Parser {
 
   ReplyLimits limits() const { return {options.max_reply_bytes, options.max_id_bytes}; }
 
-  std::shared_ptr<EventLoop::Core> core;
+  std::shared_ptr<Executor> executor;
   const MethodTable& table;
   const ServerOptions& options;
   simdjson::dom::parser json;
@@ -74,17 +73,16 @@ std::string not_an_approver(const std::string& method, const std::string& group,
 
 }  // namespace
 
-Handled Dispatcher::Parser::handle(const Line& line) {
-  simdjson::dom::element message;
+Handled Dispatcher::Parser::handle(const Message& message) {
+  simdjson::dom::element parsed;
   const auto error =
-      json.parse(line.text.data(), line.text.size(), /*realloc_if_needed=*/false).get(message);
+      json.parse(message.text.data(), message.text.size(), /*realloc_if_needed=*/false).get(parsed);
   if (error) {
-    append_error(line.out, "null", kParseError, "Parse error", reason(error, options));
-    line.out += '\n';
+    append_error(message.out, "null", kParseError, "Parse error", reason(error, options));
     return {};
   }
   simdjson::dom::array batch;
-  return message.get(batch) ? handle_single(line, message) : handle_batch(line, batch);
+  return parsed.get(batch) ? handle_single(message, parsed) : handle_batch(message, batch);
 }
 
 tl::expected<const Method*, Dispatcher::Parser::Refusal> Dispatcher::Parser::prepare(
@@ -109,61 +107,60 @@ tl::expected<const Method*, Dispatcher::Parser::Refusal> Dispatcher::Parser::pre
 }
 
 // The way of nearly every call: no allocation of its own.
-Handled Dispatcher::Parser::handle_single(const Line& line, const simdjson::dom::element& message) {
-  const Request request = read_request(message, {line.text, std::nullopt}, options.max_id_bytes);
-  const auto method = prepare(request, line.caller);
+Handled Dispatcher::Parser::handle_single(const Message& message,
+                                          const simdjson::dom::element& parsed) {
+  const Request request = read_request(parsed, {message.text, std::nullopt}, options.max_id_bytes);
+  const auto method = prepare(request, message.caller);
   const auto* sync = method ? std::get_if<SyncHandler>(&(*method)->handler) : nullptr;
   if (method && sync == nullptr) {
-    auto exchange = std::make_shared<Exchange>(limits(), 1, false, line.sink);
-    call_member(line, request, exchange);
-    return {1, !exchange->seal(line.out)};
+    auto exchange = std::make_shared<Exchange>(limits(), 1, false, message.sink);
+    call_member(message, request, exchange);
+    return {1, !exchange->seal(message.out)};
   }
-  const std::size_t begin = line.out.size();
   if (method) {
-    const Result<std::string> result = (*sync)(Params(values, line.caller));
-    if (!request.id.empty()) append_reply(line.out, request.id, result, options.max_reply_bytes);
+    const Result<std::string> result = (*sync)(Params(values, message.caller));
+    if (!request.id.empty()) append_reply(message.out, request.id, result, options.max_reply_bytes);
   } else if (!request.id.empty()) {
     const Refusal& no = method.error();
-    append_error(line.out, request.id, no.code, no.message, no.data);
+    append_error(message.out, request.id, no.code, no.message, no.data);
   }
-  if (line.out.size() > begin) line.out += '\n';
   return {};
 }
 
-Handled Dispatcher::Parser::handle_batch(const Line& line, const simdjson::dom::array& batch) {
+Handled Dispatcher::Parser::handle_batch(const Message& message,
+                                         const simdjson::dom::array& batch) {
   const std::size_t members = batch.size();
   if (members == 0 || members > options.max_batch) {
-    append_error(line.out, "null", kInvalidRequest, "Invalid Request",
+    append_error(message.out, "null", kInvalidRequest, "Invalid Request",
                  members == 0 ? ""
                               : "a batch may have " + std::to_string(options.max_batch) +
                                     " members: send it in parts");
-    line.out += '\n';
     return {};
   }
-  auto exchange = std::make_shared<Exchange>(limits(), members, true, line.sink);
+  auto exchange = std::make_shared<Exchange>(limits(), members, true, message.sink);
   std::size_t i = 0;
-  for (const simdjson::dom::element message : batch)
-    call_member(line, read_request(message, {line.text, i++}, options.max_id_bytes), exchange);
-  return {members, !exchange->seal(line.out)};
+  for (const simdjson::dom::element member : batch)
+    call_member(message, read_request(member, {message.text, i++}, options.max_id_bytes), exchange);
+  return {members, !exchange->seal(message.out)};
 }
 
-void Dispatcher::Parser::call_member(const Line& line, const Request& request,
+void Dispatcher::Parser::call_member(const Message& message, const Request& request,
                                      const std::shared_ptr<Exchange>& exchange) {
-  const auto method = prepare(request, line.caller);
+  const auto method = prepare(request, message.caller);
   if (!method) {
     const Refusal& no = method.error();
     return exchange->answer_error(request.id, no.code, no.message, no.data);
   }
-  const Params params(values, line.caller);
+  const Params params(values, message.caller);
   if (const auto* sync = std::get_if<SyncHandler>(&(*method)->handler))
     return exchange->answer(request.id, (*sync)(params));
-  auto slot = std::make_unique<Reply::Slot>(Reply::Slot{core, exchange, request.id});
+  auto slot = std::make_unique<Reply::Slot>(Reply::Slot{executor, exchange, request.id});
   std::get<AsyncHandler>((*method)->handler)(params, Reply(std::move(slot)));
 }
 
-Dispatcher::Dispatcher(std::shared_ptr<EventLoop::Core> core, const MethodTable& table,
+Dispatcher::Dispatcher(std::shared_ptr<Executor> executor, const MethodTable& table,
                        const ServerOptions& options)
-    : parser_(std::make_unique<Parser>(std::move(core), table, options)) {
+    : parser_(std::make_unique<Parser>(std::move(executor), table, options)) {
   [[maybe_unused]] const auto error =
       parser_->json.allocate(options.max_line_bytes, options.max_depth);
   assert(!error && "no memory for the parser");
@@ -171,9 +168,9 @@ Dispatcher::Dispatcher(std::shared_ptr<EventLoop::Core> core, const MethodTable&
 
 Dispatcher::~Dispatcher() = default;
 
-Handled Dispatcher::handle(std::string_view line, Caller& caller, std::weak_ptr<LineSink> sink,
+Handled Dispatcher::handle(std::string_view message, Caller& caller, std::weak_ptr<ReplySink> sink,
                            std::string& out) {
-  return parser_->handle({line, caller, std::move(sink), out});
+  return parser_->handle({message, caller, std::move(sink), out});
 }
 
 }  // namespace mdof::rpc

@@ -1,4 +1,4 @@
-#include "daemon/rpc/line/listener.h"
+#include "daemon/rpc/net/listener.h"
 
 #include <netinet/in.h>
 #include <netinet/tcp.h>

@@ -1,0 +1,18 @@
+#include "daemon/rpc/page.h"
+
+namespace mdof::rpc {
+
+Param offset_param() {
+  return {"offset", ParamType::integer, "items to leave out", false, "0", {.least = 0}};
+}
+
+Param count_param(std::int64_t most) {
+  return {"count", ParamType::integer,   "items at the most; fewer come where a line holds no more",
+          false,   std::to_string(most), {.least = 1, .most = static_cast<double>(most)}};
+}
+
+Page page_of(const Params& params, std::int64_t most) {
+  return {params.integer("offset", 0), params.integer("count", most)};
+}
+
+}  // namespace mdof::rpc

@@ -1,0 +1,19 @@
+// The parameters of a method that lists; schema/base/json_page.h fills the page.
+#pragma once
+
+#include <cstdint>
+
+#include "daemon/rpc/method_table.h"
+
+namespace mdof::rpc {
+
+// "offset" and "count": at most `most` items are looked at for a page.
+Param offset_param();
+Param count_param(std::int64_t most);
+
+struct Page {
+  std::int64_t offset = 0, count = 0;
+};
+Page page_of(const Params& params, std::int64_t most);
+
+}  // namespace mdof::rpc

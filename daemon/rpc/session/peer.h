@@ -1,0 +1,25 @@
+// Who is at the other end of a transport, taken down when the client connected.
+#pragma once
+
+#include <sys/types.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "daemon/rpc/caller.h"
+
+namespace mdof::rpc {
+
+struct Peer {
+  std::optional<Credentials> credentials = {};  // nothing where the kernel does not tell: TCP
+  std::vector<gid_t> further_groups = {};       // beside that of the credentials
+
+  bool is_member(gid_t group) const {  // never without credentials
+    const auto& further = further_groups;
+    return credentials && (credentials->gid == group ||
+                           std::find(further.begin(), further.end(), group) != further.end());
+  }
+};
+
+}  // namespace mdof::rpc

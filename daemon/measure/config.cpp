@@ -8,10 +8,12 @@
 #include <set>
 
 #include "daemon/measure/forward_model.h"
-#include "daemon/measure/replay.h"
+#include "daemon/measure/replay/replay.h"
+#include "daemon/measure/same_device.h"
 #include "daemon/measure/slow_channels.h"
 #include "daemon/paths.h"
 #include "drivers/calibration.h"
+#include "drivers/registry.h"
 #include "schema/base/files.h"
 #include "schema/base/toml_reader.h"
 #include "schema/units.h"
@@ -101,7 +103,7 @@ void read_rpc(TomlTable& root, Config& config) {
   config.tcp_port = static_cast<std::uint16_t>(port);
 }
 
-// Whether it says how long a gap is.
+// Whether the configuration says how long a gap is.
 bool read_measure(TomlTable& root, PipelineOptions& m) {
   auto table = root.table("measure");
   if (!table) return false;
@@ -156,13 +158,16 @@ Status check_log(drivers::DriverSpec& device, const Rig& rig) {
 Status check_units(const TomlTable& table, const drivers::DriverSpec& device, const Rig& rig) {
   if (!device.live || device.simulated) return {};
   MDOF_TRY(const auto driver, device.make());
-  if (auto fits = drivers::Calibrator(rig).check(driver->info().channels); !fits)
+  if (auto fits =
+          drivers::Calibrator(rig).check(drivers::of_part(driver->info().channels, device.part));
+      !fits)
     return in_context(table.where("channel"), std::move(fits.error()));
   return {};
 }
 
 Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem::path& base,
-                                        const AxisConfig& axis, double settle_s) {
+                                        const AxisConfig& axis, double settle_s,
+                                        std::vector<AxisTables>& later) {
   const std::string driver = table.string("driver");
   const std::string number = axis.devices.empty() ? "" : std::to_string(axis.devices.size() + 1);
   drivers::DriverContext context;
@@ -170,8 +175,10 @@ Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem:
   context.rig = axis.rig;
   context.base_path = base.string();
   context.settle_s = settle_s;
+  context.further = further_axes(context.name, later);
   MDOF_TRY(context.forward, forward_model(axis.rig));
   MDOF_TRY(auto device, drivers::configure_driver(driver, table, context));
+  MDOF_CHECK(leave_part(device, context.further));
   if (!device.recorded) MDOF_CHECK(check_log(device, axis.rig));
   MDOF_CHECK(check_units(table, device, axis.rig));
   return device;
@@ -227,6 +234,7 @@ Status check_names(TomlTable& table, const AxisConfig& axis, const Config& confi
     for (const auto& device : other.devices) names.insert(device.name);
   }
   for (const auto& device : axis.devices) {
+    if (device.of_other_axis) continue;
     if (!names.insert(device.name).second)
       table.reject("device", "two devices are called \"" + device.name + "\"; name them");
   }
@@ -251,12 +259,33 @@ void take_machine(TomlTable& table, const Chain& machine, Rig& rig) {
   }
 }
 
-Status read_axis(TomlTable& table, const std::filesystem::path& base, Config& config) {
+Result<std::vector<AxisTables>> read_axes(TomlTable& root, const std::filesystem::path& base,
+                                          Model model) {
+  std::vector<AxisTables> axes;
+  for (auto& table : root.tables("axis")) {
+    MDOF_TRY(Rig rig, read_rig(table, base, model));
+    auto devices = device_tables(table);
+    axes.push_back({std::move(table), std::move(rig), std::move(devices)});
+  }
+  return axes;
+}
+
+// `later`: the axes after it.
+Status read_axis(AxisTables tables, const std::filesystem::path& base,
+                 std::vector<AxisTables>& later, Config& config) {
+  TomlTable& table = tables.table;
+  const double settle_s = config.measure.dwell.settle_s;
   AxisConfig axis;
-  MDOF_TRY(axis.rig, read_rig(table, base, config.measure.model));
-  for (auto& device : device_tables(table)) {
-    read_delays(device, axis.rig, config.measure.dwell.settle_s, axis.delays);
-    MDOF_TRY(auto spec, read_device(device, base, axis, config.measure.dwell.settle_s));
+  axis.rig = std::move(tables.rig);
+  for (auto& device : tables.devices) {
+    if (is_same_as(device)) {
+      MDOF_TRY(auto spec, read_same_as(device, config.axes, settle_s, axis));
+      MDOF_CHECK(check_units(device, spec, axis.rig));
+      axis.devices.push_back(std::move(spec));
+      continue;
+    }
+    read_delays(device, axis.rig, settle_s, axis.delays);
+    MDOF_TRY(auto spec, read_device(device, base, axis, settle_s, later));
     axis.devices.push_back(std::move(spec));
   }
   if (const auto settles = check_settling(with_delays(config.measure, axis.rig, axis.delays));
@@ -298,8 +327,11 @@ Result<Config> load_config(const std::filesystem::path& file) {
   config.gap_given = read_measure(root, config.measure);
   const auto base = std::filesystem::absolute(file).parent_path();
   config.machine = read_machine(root);
-  for (auto& axis : root.tables("axis")) {
-    MDOF_CHECK(read_axis(axis, base, config));
+  MDOF_TRY(auto axes, read_axes(root, base, config.measure.model));
+  while (!axes.empty()) {
+    AxisTables next = std::move(axes.front());
+    axes.erase(axes.begin());
+    MDOF_CHECK(read_axis(std::move(next), base, axes, config));
   }
   MDOF_CHECK(root.finish());
   return config;

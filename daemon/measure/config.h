@@ -13,7 +13,7 @@
 #include "daemon/measure/delays.h"
 #include "daemon/measure/pipeline.h"
 #include "daemon/store/store.h"
-#include "drivers/registry.h"
+#include "drivers/driver_spec.h"
 #include "schema/base/result.h"
 
 namespace mdof::daemon {
@@ -29,11 +29,11 @@ struct AxisConfig {
   bool simulated() const;  // any of them is
 };
 
-// [rpc], as far as it says who may come.
+// The keys of [rpc] that say who may connect.
 struct RpcAccess {
   std::size_t connections = 64, connections_of_user = 32;
   std::chrono::seconds idle{600};      // without a subscription; 0: for ever
-  std::optional<gid_t> cnc_group;      // one place is kept for its members
+  std::optional<gid_t> cnc_group;      // one connection is kept for its members
   std::optional<gid_t> approve_group;  // whose members alone may put a table in force
   std::string approvers;               // its name
 };

@@ -20,8 +20,8 @@ using ChannelDelays = std::map<std::string, double>;  // s, by id; absent: 0
 void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDelays& delays);
 
 // Frames are on the encoder's time line: each probe is taken earlier by what it comes later than
-// the encoder. A reading that comes late knows already of what came after its instant: so much is
-// left out at the end of each stop. Delays that are all the same leave the scans as they are.
+// the encoder. A late reading contains motion from after its instant: so much is left out at
+// the end of each stop. Delays that are all the same leave the scans as they are.
 PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const ChannelDelays& delays);
 
 // For a replay: `options` with the delays of `rig` instead of those of `recorded`, which they have

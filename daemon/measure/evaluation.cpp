@@ -5,7 +5,7 @@
 #include "algo/compensation/compensation.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/usable_runs.h"
-#include "daemon/doer.h"
+#include "daemon/history.h"
 #include "daemon/paths.h"
 #include "schema/base/toml_reader.h"
 #include "schema/run_json.h"
@@ -137,7 +137,7 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
   const auto now = store.active(table.axis);
   const bool in_force = now && now->table.id == request.table;
   if (warnings.empty() || in_force || request.despite_warnings)
-    return store.activate(request.table, doer_text(request.deed.by), request.deed.utc,
+    return store.activate(request.table, actor_text(request.deed.by), request.deed.utc,
                           request.deed);
   return fail(ErrorCode::conflict,
               "table " + std::to_string(request.table) + " is made of runs with " +

@@ -52,16 +52,21 @@ void write_by_channel(JsonWriter& json, const char* key,
   json.end_object();
 }
 
-// Of what knows its positions by itself there is nothing to say.
+// In mm; up to a kilometre to the picometre, so that it is the same once read again.
+double offset_mm(const EncoderDatum& datum) {
+  const double whole_mm = to_mm(datum.offset_m);
+  return std::abs(whole_mm) < 1e6 ? std::round(whole_mm * 1e9) / 1e9 : whole_mm;
+}
+
+// An encoder that knows its positions by itself has no datum to write.
 void write_datum(JsonWriter& json, const EncoderDatum& datum) {
   if (datum == EncoderDatum()) return;
   json.key("encoder_datum")
       .begin_object()
       .field("kind", to_string(datum.kind))
-      .field("offset_mm",
-             std::round(to_mm(datum.offset_m) * 1e9) / 1e9)  // the same once read again
+      .field("offset_mm", offset_mm(datum))
       .field("device", datum.device);
-  if (!datum.utc.empty()) json.field("utc", datum.utc).field("by", datum.by);
+  if (!datum.utc.empty() || !datum.by.empty()) json.field("utc", datum.utc).field("by", datum.by);
   json.end_object();
 }
 
@@ -137,7 +142,7 @@ void Pipeline::note_encoder(const SampleBlock& raw) {
     end_stretch();
 }
 
-// One that no stop fits into is of no account, as a single late reading.
+// A stretch too short for a stop, such as a single late reading, is forgotten: it spoils no point.
 void Pipeline::end_stretch() {
   const double length_s = ns_to_s(suspect_.back().end_ns - suspect_.back().begin_ns);
   if (length_s < options_.dwell.min_length_s / 2) suspect_.pop_back();
@@ -207,8 +212,8 @@ const std::vector<MeasuredPoint>& Pipeline::points() {
   return sequence_.points;
 }
 
-// A long run grows by one point at a time: only that one is put in its place and solved. What they
-// all tell together is looked at each time that there are a quarter more, and at the end.
+// A long run grows by one point at a time: only the new point is put in its place and solved. The
+// whole sequence is recognised again whenever it has grown by a quarter, and at the end.
 void Pipeline::take_new_points() {
   const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
   std::vector<Point> fresh(found_.begin() + static_cast<std::ptrdiff_t>(taken_), found_.end());

@@ -42,7 +42,7 @@ class Pipeline {
   // Refuses a rig that cannot see the five errors, or that the model does not fit.
   static Result<Pipeline> create(const Rig& rig, const PipelineOptions& options);
 
-  // The block is used up. Error: it cannot be calibrated, or its time goes backwards. Scans of the
+  // Uses the block up. Error: it cannot be calibrated, or its time goes backwards. Scans of the
   // encoder that are known to be lost for longer than a window of the dwells hide what the axis
   // did.
   Status push(SampleBlock& raw);

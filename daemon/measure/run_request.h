@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "schema/deed.h"
+#include "schema/encoder_datum.h"
 
 namespace mdof::daemon {
 
@@ -15,6 +16,7 @@ namespace mdof::daemon {
 struct CutOffRun {
   std::int64_t id = 0;
   std::filesystem::path recording;
+  EncoderDatum datum = {};  // of its positions
 };
 
 struct RunRequest {

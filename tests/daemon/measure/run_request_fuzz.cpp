@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string>
 
-#include "daemon/measure/request_json.h"
+#include "daemon/measure/replay/request_json.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "daemon/measure/verify_sources.h"
+#include "daemon/measure/replay/verify_sources.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "daemon/measure/replay.h"
+#include "daemon/measure/replay/replay.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -37,7 +37,7 @@ Status check_unit(const std::string& source, const std::vector<Channel>& channel
   return {};
 }
 
-// Volts say no place without a scale.
+// An encoder in volts gives no position unless the rig has its scale.
 Status check_encoder(const std::string& source, const std::vector<Channel>& channels,
                      const Rig& rig) {
   for (const Channel& c : channels) {
@@ -62,7 +62,7 @@ std::string stated_axis(const std::vector<std::string>& comments) {
   return "";
 }
 
-Status read_through(ReplayLog& log, Pipeline& pipeline, const ReplayProgress& progress) {
+Status read_through(ReplayLog& log, Pipeline& pipeline, const ProgressCallback& progress) {
   SampleBlock block;
   for (;;) {
     MDOF_TRY(const ReadState state, log.driver().read(block, kReadTimeout));
@@ -132,10 +132,9 @@ std::vector<std::string> ReplayLog::comments() const {
   return csv_ ? csv_->comments() : std::vector<std::string>();
 }
 
-double ReplayLog::progress() const {
+Progress ReplayLog::progress() const {
   if (recording_) return recording_->progress();
-  const auto total = static_cast<double>(csv_->bytes_total());
-  return total > 0 ? static_cast<double>(csv_->bytes()) / total : 0;
+  return {static_cast<double>(csv_->bytes()), static_cast<double>(csv_->bytes_total()), "B"};
 }
 
 std::string ReplayLog::sha256() const {
@@ -170,7 +169,7 @@ Status check_channels(const std::string& source, const std::vector<Channel>& cha
 }
 
 Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& options,
-                   const ReplayProgress& progress) {
+                   const ProgressCallback& progress) {
   MDOF_CHECK(check_axis(log.path(), log.comments(), rig));
   MDOF_CHECK(check_channels(log.path(), log.driver().info().channels, rig));
   MDOF_TRY(const AskedFor asked, log.asked_for());

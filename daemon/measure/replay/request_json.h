@@ -19,7 +19,9 @@ struct AskedFor {
 // {"note", "warnings", "options": as PipelineOptions::json()}
 std::string request_json(const AskedFor& asked);
 
-// What the text does not say stays as in `base`; an empty text says nothing. Error: it is none.
+// What the text does not say stays as in `base`; an empty text says nothing. Error: it is none, or
+// has a member that cannot be read, is not known or is there twice, which is named: what a run was
+// measured with is understood whole or not at all.
 Result<AskedFor> read_request_json(const std::string& text, const PipelineOptions& base);
 
 // The same of PipelineOptions::json(), which the provenance of a run has.

@@ -1,4 +1,4 @@
-#include "daemon/measure/request_json.h"
+#include "daemon/measure/replay/request_json.h"
 
 #include <gtest/gtest.h>
 
@@ -59,11 +59,29 @@ TEST(RequestJson, TargetsComeBackToTheLastBit) {
   EXPECT_EQ(read_options_json(options.json(), {})->sequence.targets_m, options.sequence.targets_m);
 }
 
+TEST(RequestJson, ADatumComesBackWhole) {
+  const EncoderDatum data[] = {
+      {EncoderDatum::Kind::none, 0, "qsb", "", ""},
+      {EncoderDatum::Kind::set, from_mm(12.5), "t7", "2026-11-23T07:00:00Z", "anna"},
+      {EncoderDatum::Kind::set, from_mm(-1.5e6), "t7", "2026-11-23T07:00:00Z", ""},
+      {EncoderDatum::Kind::configured, 1e303, "t7", "", "anna"},
+      {EncoderDatum::Kind::absolute, 0, "", "", "anna"},
+  };
+  for (const EncoderDatum& datum : data) {
+    PipelineOptions options;
+    options.datum = datum;
+    const auto back = read_options_json(options.json(), {});
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->datum, datum) << options.json();
+  }
+}
+
 TEST(RequestJson, WhatIsNotSaidStaysAsItWas) {
   const PipelineOptions base = asked_options();
   EXPECT_EQ(read_request_json("", base)->options.json(), base.json());
   EXPECT_EQ(read_request_json("{}", base)->options.json(), base.json());
-  const auto back = read_request_json(R"({"options":{"dwell":{"settle_s":0.7},"new":[1]}})", base);
+  const auto back =
+      read_request_json(R"({"note":null,"options":{"dwell":{"settle_s":0.7}}})", base);
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->options.dwell.settle_s, 0.7);
   EXPECT_EQ(back->options.sequence.targets_m, base.sequence.targets_m);
@@ -82,7 +100,23 @@ TEST(RequestJson, WhatCannotBeReadIsNamed) {
       {R"({"options":{"align":{"delay_s":{"A":10.1}}}})", "delay_s"},
       {R"({"options":{"align":{"delay_s":{"A":-10.1}}}})", "delay_s"},
       {R"({"options":{"align":{"delay_s":[1]}}})", "delay_s"},
+      {R"({"options":{"align":{"delay_s":{"A":1,"A":2}}}})", "options.align.delay_s"},
       {R"({"options":{"dwell":7}})", "dwell"},
+      {R"({"options":{"dwell":{"settle_s":-0.1}}})", "options.dwell.settle_s"},
+      {R"({"options":{"dwell":{"max_speed_mm_s":0}}})", "options.dwell.max_speed_mm_s"},
+      {R"({"options":{"dwell":{"max_scans":0}}})", "options.dwell.max_scans"},
+      {R"({"options":{"repeats":4294967297}})", "options.repeats"},
+      {R"({"options":{"repeats":-1}})", "options.repeats"},
+      {R"({"options":{"encoder_datum":7}})", "options.encoder_datum"},
+      {R"({"options":{"encoder_datum":{"kind":"guessed"}}})", "options.encoder_datum.kind"},
+      {R"({"options":{"encoder_datum":{"by":"anna"}}})", "options.encoder_datum.kind"},
+      {R"({"notes":""})", "\"notes\" is not known"},
+      {R"({"options":{"new":[1]}})", "\"options.new\" is not known"},
+      {R"({"options":{"align":{"max_gap":1}}})", "\"options.align.max_gap\" is not known"},
+      {R"({"options":{"dwell":{"settle":1}}})", "\"options.dwell.settle\" is not known"},
+      {R"({"options":{"encoder_datum":{"kind":"set","kindt_mm":12.5}}})",
+       "kindt_mm\" is not known"},
+      {R"({"options":{"repeats":1,"repeats":2}})", "\"options.repeats\" is there twice"},
   };
   for (const auto& [text, says] : cases) {
     const auto back = read_request_json(text, {});

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "daemon/measure/replay.h"
+#include "daemon/measure/replay/replay.h"
 
 namespace mdof::daemon {
 
-struct ReplayOrder {
+struct ReplayRequest {
   std::string log;                   // a file, or "-" for CSV from the standard input
   std::string rig_text, rig_source;  // source empty: the log's own
   std::string model, note;           // model empty: as it was measured
@@ -17,8 +17,8 @@ struct ReplayOrder {
   std::vector<double> targets_mm;
 };
 
-// As mdofd measured what it recorded, but for what the order says. The run has all but its id.
+// As mdofd measured what it recorded, but for what the request says. The run has all but its id.
 // Errors: replay()'s; a CSV log without a rig; an option that is out of its range.
-Result<Run> replay(const ReplayOrder& order, const ReplayProgress& progress = {});
+Result<Run> replay(const ReplayRequest& request, const ProgressCallback& progress = {});
 
 }  // namespace mdof::daemon

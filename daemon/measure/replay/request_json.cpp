@@ -1,8 +1,10 @@
-#include "daemon/measure/request_json.h"
+#include "daemon/measure/replay/request_json.h"
 
 #include <simdjson.h>
 
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include "schema/base/json_writer.h"
 #include "schema/units.h"
@@ -18,8 +20,23 @@ constexpr double kMostDelay_s = 10;  // as delays.cpp takes it
 // that is absent, or null, leaves its place as it is.
 class Members {
  public:
-  explicit Members(element object) : object_(object) {}
-  const Status& status() const { return status_; }
+  // `path`: of the object, with a dot behind it, for messages.
+  explicit Members(element object, std::string path = "")
+      : object_(object), path_(std::move(path)) {}
+
+  // Once all have been taken: one that nobody asked for says what cannot be done, and of two of the
+  // same name one would be dropped. Both are errors.
+  Status done() {
+    std::set<std::string_view> seen;
+    for (const auto member : object_.get_object()) {
+      if (!asked_.contains(member.key))
+        reject(member.key,
+               "is not known to this mdof; use a newer one, or restore it from a backup");
+      else if (!seen.insert(member.key).second)
+        reject(member.key, "is there twice");
+    }
+    return status_;
+  }
 
   template <class T>
   void take(const char* key, T& to) {
@@ -36,6 +53,10 @@ class Members {
     take(key, x);
     if (!std::isnan(x)) to_si = from(x);
   }
+  void take_not_negative(const char* key, double& to_si, double (*from)(double)) {
+    take(key, to_si, from);
+    if (to_si < 0) reject(key);
+  }
   template <class Take>
   void each(const char* key, Take take_item) {
     const auto found = find(key);
@@ -45,7 +66,8 @@ class Members {
     for (const element item : items)
       if (!take_item(item)) return reject(key);
   }
-  std::optional<element> find(const char* key) const {
+  std::optional<element> find(const char* key) {
+    asked_.insert(key);
     element found;
     if (object_[key].get(found) || found.is_null()) return std::nullopt;
     return found;
@@ -56,12 +78,14 @@ class Members {
     reject(key);
     return std::nullopt;
   }
-  void reject(const char* key) {
-    if (status_) status_ = bad_input(std::string("its \"") + key + "\" cannot be read");
+  void reject(std::string_view key, const char* why = "cannot be read") {
+    if (status_) status_ = bad_input("its \"" + path_ + std::string(key) + "\" " + why);
   }
 
  private:
   element object_;
+  std::string path_;
+  std::set<std::string_view> asked_;
   Status status_;
 };
 
@@ -78,37 +102,40 @@ void read_by_channel(Members& members, const char* key, std::map<std::string, do
   to.clear();
   for (const auto member : channels) {
     double x = 0;
-    if (member.value.get(x) || !good(x)) members.reject(key);
-    to[std::string(member.key)] = x;
+    const bool is_number = !member.value.get(x);
+    const bool is_new = to.emplace(member.key, x).second;
+    if (!is_number || !is_new || !good(x)) members.reject(key);
   }
 }
 
 Status read_align(element object, algo::AlignOptions& align) {
-  Members members(object);
-  members.take("lag_bound_s", align.lag_bound_s, seconds);
-  members.take("max_gap_s", align.max_gap_s, seconds);
+  Members members(object, "options.align.");
+  members.take_not_negative("lag_bound_s", align.lag_bound_s, seconds);
+  members.take_not_negative("max_gap_s", align.max_gap_s, seconds);
   read_by_channel(members, "interval_s", align.interval_s, [](double s) { return s > 0; });
   read_by_channel(members, "delay_s", align.delay_s,
                   [](double s) { return std::abs(s) <= kMostDelay_s; });
-  return members.status();
+  return members.done();
 }
 
 Status read_dwell(element object, algo::DwellOptions& dwell) {
-  Members members(object);
-  members.take("tolerance_um", dwell.tolerance_m, from_um);
-  members.take("window_s", dwell.window_s, seconds);
-  members.take("settle_s", dwell.settle_s, seconds);
-  members.take("min_length_s", dwell.min_length_s, seconds);
-  members.take("leave_s", dwell.leave_s, seconds);
-  members.take("approach_um", dwell.approach_m, from_um);
+  Members members(object, "options.dwell.");
+  members.take_not_negative("tolerance_um", dwell.tolerance_m, from_um);
+  members.take_not_negative("window_s", dwell.window_s, seconds);
+  members.take_not_negative("settle_s", dwell.settle_s, seconds);
+  members.take_not_negative("min_length_s", dwell.min_length_s, seconds);
+  members.take_not_negative("leave_s", dwell.leave_s, seconds);
+  members.take_not_negative("approach_um", dwell.approach_m, from_um);
   members.take("max_speed_mm_s", dwell.max_speed_m_s, from_mm);
+  if (!(dwell.max_speed_m_s > 0)) members.reject("max_speed_mm_s");
   std::uint64_t max_scans = dwell.max_scans;
   members.take("max_scans", max_scans);
+  if (max_scans == 0) members.reject("max_scans");
   dwell.max_scans = max_scans;
-  return members.status();
+  return members.done();
 }
 
-Status read_targets(Members& members, PipelineOptions& options) {
+void read_targets(Members& members, PipelineOptions& options) {
   if (members.find("targets_mm")) options.sequence.targets_m.clear();
   members.each("targets_mm", [&](element item) {
     double target_mm = 0;
@@ -116,37 +143,39 @@ Status read_targets(Members& members, PipelineOptions& options) {
     options.sequence.targets_m.push_back(from_mm(target_mm));
     return true;
   });
-  members.take("target_window_mm", options.sequence.target_window_m, from_mm);
+  members.take_not_negative("target_window_mm", options.sequence.target_window_m, from_mm);
   // Runs of older versions do not say it: until stopped.
   std::int64_t repeats = options.repeats;
   members.take("repeats", repeats);
+  if (repeats < 0 || repeats > std::numeric_limits<int>::max()) members.reject("repeats");
   options.repeats = static_cast<int>(repeats);
-  return members.status();
 }
 
+// Its kind is never left out: without it the rest would be that of an absolute encoder.
 Status read_datum(element object, EncoderDatum& datum) {
-  Members members(object);
+  Members members(object, "options.encoder_datum.");
   datum = {};
-  std::string kind = to_string(datum.kind);
+  std::string kind;
   members.take("kind", kind);
   if (!datum_kind_from(kind, datum.kind)) members.reject("kind");
   members.take("offset_mm", datum.offset_m, from_mm);
   members.take("device", datum.device);
   members.take("utc", datum.utc);
   members.take("by", datum.by);
-  return members.status();
+  return members.done();
 }
 
 Result<PipelineOptions> read_options(element object, PipelineOptions options) {
-  Members members(object);
+  Members members(object, "options.");
   std::string model = to_string(options.model);
   members.take("model", model);
   if (!model_from(model, options.model)) members.reject("model");
   if (const auto align = members.object("align")) MDOF_CHECK(read_align(*align, options.align));
   if (const auto dwell = members.object("dwell")) MDOF_CHECK(read_dwell(*dwell, options.dwell));
-  MDOF_CHECK(read_targets(members, options));
+  read_targets(members, options);
   if (const auto datum = members.object("encoder_datum"))
     MDOF_CHECK(read_datum(*datum, options.datum));
+  MDOF_CHECK(members.done());
   return options;
 }
 
@@ -184,7 +213,7 @@ Result<AskedFor> read_request_json(const std::string& text, const PipelineOption
   if (const auto options = members.object("options")) {
     MDOF_TRY(asked.options, read_options(*options, base));
   }
-  MDOF_CHECK(members.status());
+  MDOF_CHECK(members.done());
   return asked;
 }
 

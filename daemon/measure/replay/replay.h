@@ -1,16 +1,16 @@
 // A recorded log -> a run with its full provenance: what `mdof replay` does.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "daemon/measure/pipeline.h"
-#include "daemon/measure/request_json.h"
+#include "daemon/measure/replay/request_json.h"
 #include "drivers/csv/csv_log.h"
 #include "drivers/recording/recording_log.h"
+#include "schema/base/progress.h"
 #include "schema/base/result.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
@@ -34,7 +34,7 @@ class ReplayLog {
   // asked of it. Defaults for a CSV log.
   Result<AskedFor> asked_for() const;
   std::vector<std::string> comments() const;  // of a CSV log
-  double progress() const;                    // 0 ... 1; 0 where it is not known (a pipe)
+  Progress progress() const;                  // in bytes of a CSV log, in chunks of a recording
   // After the end of the log:
   std::string sha256() const;
   std::vector<std::string> warnings() const;
@@ -55,13 +55,10 @@ Status check_axis(const std::string& source, const std::vector<std::string>& com
 Status check_channels(const std::string& source, const std::vector<Channel>& channels,
                       const Rig& rig);
 
-// Called after every block; false: the log is given up, which is an error.
-using ReplayProgress = std::function<bool(double share)>;
-
 // Reads the log to its end through the pipeline. The run has everything but its id, and a starting
 // time only if the log has one. Errors: a rig that does not fit the log, the driver's and the
-// pipeline's.
+// pipeline's; `progress`, called after every block, gave it up.
 Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& options,
-                   const ReplayProgress& progress = {});
+                   const ProgressCallback& progress = {});
 
 }  // namespace mdof::daemon

@@ -1,0 +1,85 @@
+#include "daemon/measure/replay/replay_request.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/measure/config.h"
+#include "daemon/measure/delays.h"
+#include "daemon/paths.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+// What comes over the RPC was not checked by the command line.
+Status check_options(const ReplayRequest& request) {
+  const auto wrong = [](const char* key, const char* range) {
+    return fail(ErrorCode::usage, std::string(key) + " must be " + range);
+  };
+  const auto below = [](const std::optional<double>& x, double least) {
+    return x && !(*x >= least && std::isfinite(*x));
+  };
+  if (below(request.tolerance_um, 0)) return wrong("tolerance_um", "0 or more");
+  if (below(request.settle_s, 0)) return wrong("settle_s", "0 or more");
+  constexpr double kShortest_s = 1e-9;
+  if (below(request.min_length_s, kShortest_s)) return wrong("min_length_s", "more than 0");
+  if (below(request.max_gap_s, kShortest_s)) return wrong("max_gap_s", "more than 0");
+  if (below(request.lag_bound_s, kShortest_s)) return wrong("lag_bound_s", "more than 0");
+  Model model{};
+  if (!request.model.empty() && !model_from(request.model, model))
+    return wrong("model", "simplified, exact or rigid");
+  return {};
+}
+
+Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog& log) {
+  MDOF_CHECK(check_options(request));
+  MDOF_TRY(const auto asked, log.asked_for());
+  PipelineOptions options = asked.options;
+  if (!request.model.empty()) model_from(request.model, options.model);
+  if (request.tolerance_um) options.dwell.tolerance_m = from_um(*request.tolerance_um);
+  options.dwell.settle_s = request.settle_s.value_or(options.dwell.settle_s);
+  options.dwell.min_length_s = request.min_length_s.value_or(options.dwell.min_length_s);
+  options.align.lag_bound_s = request.lag_bound_s.value_or(options.align.lag_bound_s);
+  options.align.max_gap_s = request.max_gap_s.value_or(options.align.max_gap_s);
+  if (!request.targets_mm.empty()) options.sequence.targets_m.clear();
+  for (const double t : request.targets_mm) options.sequence.targets_m.push_back(from_mm(t));
+  std::sort(options.sequence.targets_m.begin(), options.sequence.targets_m.end());
+  return options;
+}
+
+// With the delays of a rig that is given instead of the recorded one, or beside a CSV log.
+Result<PipelineOptions> delayed(PipelineOptions options, const ReplayRequest& request,
+                                const ReplayLog& log, const Rig& rig) {
+  const std::string recorded = log.rig_text();
+  Rig before;
+  if (!recorded.empty()) {
+    MDOF_TRY(before, parse_rig(recorded, request.log + " (its rig)"));
+  }
+  options = with_delays_of(rig, before, std::move(options));
+  if (const auto settles = check_settling(options); !settles)
+    return fail(ErrorCode::usage, settles.error().message);
+  return options;
+}
+
+Result<Rig> rig_of(const ReplayRequest& request, const ReplayLog& log) {
+  if (!request.rig_source.empty()) return parse_rig(request.rig_text, request.rig_source);
+  const std::string text = log.rig_text();
+  if (!text.empty()) return parse_rig(text, request.log + " (its rig)");
+  return fail(ErrorCode::usage,
+              request.log + ": is a CSV log, which has no rig in it; give one with --rig RIG.toml");
+}
+
+}  // namespace
+
+Result<Run> replay(const ReplayRequest& request, const ProgressCallback& progress) {
+  MDOF_TRY(ReplayLog log, ReplayLog::open(request.log));
+  MDOF_TRY(const Rig rig, rig_of(request, log));
+  MDOF_TRY(auto asked, options_of(request, log));
+  MDOF_TRY(const auto options, delayed(std::move(asked), request, log, rig));
+  MDOF_TRY(Run run, replay(log, rig, options, progress));
+  if (run.header.started_utc.empty()) run.header.started_utc = utc_now();
+  if (!request.note.empty()) run.header.note = request.note;
+  return run;
+}
+
+}  // namespace mdof::daemon

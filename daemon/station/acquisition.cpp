@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "daemon/paths.h"
-#include "drivers/progress.h"
+#include "drivers/long_step.h"
 
 namespace mdof::daemon {
 namespace {
@@ -97,14 +97,14 @@ void Acquisition::fail(const std::string& error) {
 }
 
 // What holds now is in the status, too, for those who come later.
-void Acquisition::tell(Trouble::Kind kind, const std::string& text) {
-  const Trouble trouble{kind, spec_.name, text, utc_now()};
+void Acquisition::tell(Trouble::Kind kind, const std::string& text, const std::string& channel) {
+  const Trouble trouble{kind, spec_.name, text, utc_now(), channel};
   {
     const std::lock_guard lock(status_mutex_);
     auto& standing = status_.standing;
     const bool back = kind == Trouble::Kind::back;
     std::erase_if(standing, [&](const Trouble& t) {
-      return t.kind == kind || (back && t.kind != Trouble::Kind::suspect);
+      return (t.kind == kind && t.channel == channel) || (back && t.kind != Trouble::Kind::suspect);
     });
     if (!back) standing.push_back(trouble);
   }
@@ -116,7 +116,9 @@ void Acquisition::acquire(std::uint64_t pass) {
   backoff_ = kFirstBackoff;
   last_ns_.reset();
   lost_since_.reset();
-  datum_lost_ = clock_in_doubt_ = false;
+  datum_lost_.clear();
+  clock_in_doubt_ = false;
+  marks_passed_ = 0;
   clock_steps_ = 0;
   {
     const std::lock_guard lock(status_mutex_);
@@ -161,11 +163,41 @@ bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
   return read_until_trouble(driver, pass);
 }
 
-void Acquisition::trust_count() {
+void Acquisition::trust_count_of(const std::string& encoder) {
   const std::lock_guard lock(status_mutex_);
-  std::erase_if(status_.standing,
-                [](const Trouble& t) { return t.kind == Trouble::Kind::suspect; });
-  trust_ = true;
+  forget_suspicion(encoder);
+  trusted_.insert(encoder);
+}
+
+void Acquisition::forget_suspicion(const std::string& encoder) {
+  std::erase_if(status_.standing, [&](const Trouble& t) {
+    return t.kind == Trouble::Kind::suspect && t.channel == encoder;
+  });
+}
+
+// Told before the block that is counted from the mark.
+void Acquisition::watch_mark(const drivers::Driver& driver) {
+  const int marks = driver.marks_passed();
+  if (std::exchange(marks_passed_, marks) == marks) return;
+  datum_lost_.erase(kEncoderChannel);
+  {
+    const std::lock_guard lock(status_mutex_);
+    forget_suspicion(kEncoderChannel);
+  }
+  next_refresh_ = steady_clock::now();
+  if (sink_.mark) sink_.mark(spec_.name);
+}
+
+void Acquisition::trust_counts(drivers::Driver& driver) {
+  std::set<std::string> trusted;
+  {
+    const std::lock_guard lock(status_mutex_);
+    trusted.swap(trusted_);
+  }
+  for (const std::string& encoder : trusted) {
+    encoder == kEncoderChannel ? driver.trust_count() : driver.trust_further_count(encoder);
+    datum_lost_.erase(encoder);
+  }
 }
 
 // What the device says of itself grows with time: its clock.
@@ -181,10 +213,15 @@ void Acquisition::refresh_info(const drivers::Driver& driver) {
 
 // A datum that is lost stays lost: told once.
 void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
-  if (info.datum_lost.empty() || datum_lost_) return;
-  datum_lost_ = true;
-  tell(Trouble::Kind::suspect, "the encoder's datum is lost and no stop can be placed any more: " +
-                                   info.datum_lost + " and measure anew");
+  std::map<std::string, std::string> lost = info.further_datum_lost;
+  lost[kEncoderChannel] = info.datum_lost;
+  for (const auto& [encoder, why] : lost) {
+    if (why.empty() || !datum_lost_.insert(encoder).second) continue;
+    tell(Trouble::Kind::suspect,
+         "the encoder's datum is lost and no stop can be placed any more: " + why +
+             " and measure anew",
+         encoder);
+  }
 }
 
 // While it is in doubt when samples were taken, no place belongs to them: they are suspect, in the
@@ -217,10 +254,7 @@ void Acquisition::tell_clock(const drivers::ClockState& clock) {
 bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
   while (acquiring_) {
     turn_ = steady_clock::now();
-    if (trust_.exchange(false)) {
-      driver.trust_count();
-      datum_lost_ = false;
-    }
+    trust_counts(driver);
     SampleBlock block;
     const auto state = driver.read(block, kReadTimeout);
     if (!state) {
@@ -229,6 +263,7 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
     }
     if (block.scans() > 0) {
       backoff_ = kFirstBackoff;  // it works; to be opened alone is no proof of that
+      watch_mark(driver);
       if (steady_clock::now() > next_refresh_) refresh_info(driver);
       note_loss(block);
       watch_clock(driver, block);

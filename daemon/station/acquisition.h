@@ -9,59 +9,36 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 
+#include "daemon/station/device/device_reader.h"
 #include "daemon/station/trouble.h"
-#include "drivers/registry.h"
+#include "drivers/driver_spec.h"
 #include "schema/sample.h"
 
 namespace mdof::daemon {
 
-struct DeviceStatus {
-  std::string state = "closed";  // "open", "closed", "failed: reopening", "ended"
-  std::string error;             // of the failure that holds; "": it is well
-  std::string last_error;        // of the last one that is mended, and when that was
-  std::string mended_utc;
-  std::vector<Trouble> standing;  // what holds now
-  drivers::DeviceInfo info;
-  double measured_hz = 0;      // scans a second since it was opened; 0: not known yet
-  std::uint64_t scans = 0;     // since the start
-  std::uint64_t lost = 0;      // scans that are known to have been lost
-  std::uint64_t dropped = 0;   // blocks the measuring thread had no room for
-  std::uint64_t reopened = 0;  // times
-};
-
-// Calls from the station's threads, one at a time, but for status(), healthy(), cease(), wake()
-// and trust_count().
-class Acquisition {
+class Acquisition final : public DeviceReader {
  public:
-  // Both on the acquiring thread. `pass` counts the readings of a source that is read once a run.
-  struct Sink {
-    // True: taken over. False: there was no room within `wait`, the block is untouched.
-    std::function<bool(SampleBlock& block, std::uint64_t pass, std::chrono::milliseconds wait)>
-        samples;
-    // The source has come to its end, or, with a reason, to one it will not recover from.
-    std::function<void(std::uint64_t pass, const std::string& reason, const drivers::SourceInfo&)>
-        ended;
-    std::function<void(const Trouble&)> trouble;  // may be none
-  };
+  using Sink = DeviceSink;
 
   Acquisition(drivers::DriverSpec spec, Sink sink);
-  ~Acquisition();  // stops
+  ~Acquisition() override;
 
-  void start();
-  void stop();                          // joins: at most a read's time-out and an open later
-  void cease() { acquiring_ = false; }  // without waiting for it
-  // Somebody has said where the axis stands: the datum is no longer lost.
-  void trust_count();
-  void wake() { woken_ = true; }  // a device was plugged in: the pause under way ends
+  void start() override;
+  void stop() override;  // joins: at most a read's time-out and an open later
+  void cease() override { acquiring_ = false; }
+  void trust_count() override { trust_count_of(kEncoderChannel); }
+  // Of this channel of the device.
+  void trust_count_of(const std::string& encoder);
+  void wake() override { woken_ = true; }
 
-  std::uint64_t pass() const { return pass_; }
-  const drivers::DriverSpec& spec() const { return spec_; }
-  DeviceStatus status() const;
-  // Came round within `limit`, or has nothing to do.
-  bool healthy(std::chrono::steady_clock::duration limit) const;
+  std::uint64_t pass() const override { return pass_; }
+  const drivers::DriverSpec& spec() const override { return spec_; }
+  DeviceStatus status() const override;
+  bool healthy(std::chrono::steady_clock::duration limit) const override;
 
  private:
   void acquire(std::uint64_t pass);
@@ -77,16 +54,20 @@ class Acquisition {
   bool mend(const SampleBlock& block);
   void watch_rate(std::uint64_t scans, std::uint64_t lost);
   void watch_datum(const drivers::DeviceInfo& info);
+  void watch_mark(const drivers::Driver& driver);
+  void forget_suspicion(const std::string& encoder);  // with status_mutex_ locked
   void watch_clock(const drivers::Driver& driver, SampleBlock& block);
   void tell_clock(const drivers::ClockState& clock);
-  void tell(Trouble::Kind kind, const std::string& text);
+  void tell(Trouble::Kind kind, const std::string& text, const std::string& channel = "");
+  void trust_counts(drivers::Driver& driver);
 
   const drivers::DriverSpec spec_;
   const Sink sink_;
-  std::atomic<bool> acquiring_{false}, woken_{false}, trust_{false};
+  std::atomic<bool> acquiring_{false}, woken_{false};
   std::atomic<std::chrono::steady_clock::time_point> turn_;
   mutable std::mutex status_mutex_;
-  DeviceStatus status_;  // guarded by status_mutex_
+  DeviceStatus status_;            // guarded by status_mutex_
+  std::set<std::string> trusted_;  // encoders, not told to the driver yet; guarded by status_mutex_
 
   // Acquiring thread only.
   std::chrono::milliseconds backoff_{0};
@@ -97,7 +78,8 @@ class Acquisition {
   std::chrono::steady_clock::time_point next_refresh_;
   std::uint64_t dropped_scans_ = 0;  // to be told with the next block
   std::optional<std::chrono::steady_clock::time_point> lost_since_;
-  bool datum_lost_ = false;
+  std::set<std::string> datum_lost_;  // of these encoders
+  int marks_passed_ = 0;
   bool clock_in_doubt_ = false;
   std::uint64_t clock_steps_ = 0;
   std::chrono::steady_clock::time_point window_end_;  // of watch_rate()

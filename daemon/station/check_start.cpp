@@ -71,7 +71,7 @@ Status check_identities(const Config& config) {
   std::map<std::string, std::string> names;
   for (const auto& axis : config.axes) {
     for (const auto& device : axis.devices) {
-      if (!device.identity || device.shared) continue;
+      if (!device.identity || device.shared || device.of_other_axis) continue;
       const auto [other, fresh] = names.emplace(device.identity(), device.name);
       if (fresh) continue;
       return bad_input(config.source + ": the devices \"" + other->second + "\" and \"" +

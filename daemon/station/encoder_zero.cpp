@@ -15,6 +15,10 @@ constexpr int kDigits = 9;        // nanometres of a metre
 constexpr double kRest_m = 5e-6;  // an axis that holds its place may tremble so far
 constexpr std::int64_t kRest_ns = 200'000'000, kStale_ns = 1'000'000'000;
 
+constexpr const char* kDriveOver =
+    "drive the axis over its reference mark once, and its positions are the machine's; until "
+    "then: ";
+
 // Of what was said and does not hold any more.
 std::string lost_note(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
   std::string note = "set to " + plain_number(to_mm(said.position_m), kDigits) + " mm on " +
@@ -42,6 +46,7 @@ EncoderZero::EncoderZero(const std::vector<drivers::DriverSpec>& devices,
       datum_.kind = EncoderDatum::Kind::none;
       datum_.device = device.name;
     }
+    if (device.encoder.index_mm) index_m_ = from_mm(*device.encoder.index_mm);
     if (!device.encoder.offset_mm) continue;
     datum_ = {EncoderDatum::Kind::configured, from_mm(*device.encoder.offset_mm), device.name, "",
               ""};
@@ -55,6 +60,9 @@ EncoderDatum EncoderZero::datum() const {
 
 EncoderState EncoderZero::state() const {
   const std::lock_guard lock(mutex_);
+  if (datum_.kind == EncoderDatum::Kind::index) return {datum_, datum_text(datum_)};
+  if (index_m_ && datum_.kind == EncoderDatum::Kind::none)
+    return {datum_, kDriveOver + datum_note(datum_.kind, datum_.device)};
   if (!last_) return {datum_, datum_note(datum_.kind, datum_.device)};
   if (datum_.kind != EncoderDatum::Kind::set)
     return {datum_, lost_note(*last_, since_start_, datum_)};
@@ -137,8 +145,8 @@ Result<EncoderDatum> EncoderZero::put(const DatumSetting& setting, const std::st
   if (!std::exchange(found_, false))
     return fail(ErrorCode::conflict,
                 "device \"" + setting.device +
-                    "\" was without power just now, so what its encoder showed does not hold any "
-                    "more: say again where the axis stands");
+                    "\" was without power or passed its reference mark just now, so what its "
+                    "encoder showed does not hold any more: say again where the axis stands");
   datum_ = {EncoderDatum::Kind::set, setting.offset_m, setting.device, setting.utc, by};
   last_ = setting;
   since_start_ = true;
@@ -150,9 +158,19 @@ void EncoderZero::lose(const std::string& device) {
   const std::lock_guard lock(mutex_);
   if (device != device_ || datum_.kind == EncoderDatum::Kind::absolute) return;
   found_ = false;
+  if (datum_.kind == EncoderDatum::Kind::index) datum_.offset_m = 0;  // of counts from the mark
   datum_.kind = EncoderDatum::Kind::none;
   datum_.device = device;
   datum_.utc = datum_.by = "";
+}
+
+bool EncoderZero::pass_mark(const std::string& device, const std::string& utc) {
+  const std::lock_guard lock(mutex_);
+  if (!index_m_ || (!device_.empty() && device != device_)) return false;
+  datum_ = {EncoderDatum::Kind::index, *index_m_, device, utc, ""};
+  found_ = false;
+  count_ = 0;  // what it showed at rest was counted from elsewhere
+  return true;
 }
 
 }  // namespace mdof::daemon

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/registry.h"
+#include "drivers/driver_spec.h"
 #include "schema/base/result.h"
 #include "schema/encoder_datum.h"
 #include "schema/sample.h"
@@ -40,6 +40,9 @@ class EncoderZero {
   Result<EncoderDatum> put(const DatumSetting& setting, const std::string& by);
   // Its device counts from elsewhere now.
   void lose(const std::string& device);
+  // Its device counts from its reference mark from now on, whatever held before. False: it is not
+  // the one that gives the encoder, or not asked to look for a mark.
+  bool pass_mark(const std::string& device, const std::string& utc);
 
   EncoderDatum datum() const;
   EncoderState state() const;
@@ -52,8 +55,9 @@ class EncoderZero {
 
   const std::optional<double> um_per_V_;
   mutable std::mutex mutex_;
-  EncoderDatum datum_;  // guarded by mutex_
-  std::string device_;  // guarded by mutex_
+  EncoderDatum datum_;             // guarded by mutex_
+  std::string device_;             // guarded by mutex_
+  std::optional<double> index_m_;  // where the axis is at its encoder's reference mark
   // What was said last, before this program or since. Guarded by mutex_.
   std::optional<DatumSetting> last_;
   bool since_start_ = false;

@@ -21,6 +21,7 @@ struct Station::OpenRun {
   std::chrono::steady_clock::time_point recorded;  // when the last were
   std::uint64_t blocks_not_recorded = 0;           // the store's queue was full
   TroubleLog troubles = {};                        // of the devices, since it began
+  EncoderDatum datum = {};                         // of its positions
 };
 
 // What a run that goes on from another begins with.

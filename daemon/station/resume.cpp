@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "daemon/measure/request_json.h"
+#include "daemon/measure/replay/request_json.h"
 #include "drivers/recording/recording_log.h"
 
 namespace mdof::daemon {
@@ -60,7 +60,7 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   request.note = header.note;
   request.targets_m = options->sequence.targets_m;
   request.repeats = options->repeats;
-  request.resumes = CutOffRun{run, header.provenance.recording_path};
+  request.resumes = CutOffRun{run, header.provenance.recording_path, options->datum};
   for (const std::string& warning : header.warnings)  // of a run that had gone on before
     if (warning.starts_with(kGoesOn)) request.warnings.push_back(warning);
   request.warnings.push_back(
@@ -68,6 +68,20 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
       ", which ended early: whether the encoder kept its zero and the machine its temperature in "
       "between is not known");
   return request;
+}
+
+Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now) {
+  using Kind = EncoderDatum::Kind;
+  const EncoderDatum& of_run = cut_off.datum;
+  if (of_run.kind != Kind::index && now.kind != Kind::index) return {};
+  if (of_run.kind == now.kind && of_run.offset_m == now.offset_m) return {};
+  if (now.kind != Kind::index)
+    return refused(cut_off.id,
+                   "its positions are counted from the reference mark of the encoder, and those of "
+                   "the axis are not now: drive it over the mark first, or start a new run");
+  return refused(cut_off.id,
+                 "since it ended the axis went over its reference mark, and its positions are "
+                 "counted from elsewhere than those of the run; start a new run");
 }
 
 Result<std::int64_t> record_again(const CutOffRun& cut_off, const Storekeeper& keeper, NewRun& run,

@@ -23,6 +23,10 @@ namespace mdof::daemon {
 Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
                                      const AxisConfig& axis);
 
+// Error (conflict): the positions of one are counted from the encoder's reference mark and those of
+// the other, `now`, are not. One run has one datum.
+Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now);
+
 // Reads the recording of `cut_off` into `pipeline` and, block by block, into `run.begun`, which it
 // makes. Gives the time of the last scan. Errors: as of a recording that is read or written; io
 // where `wanted` has become false. Takes as long as a replay.

@@ -1,7 +1,8 @@
 #include "daemon/station/run_events.h"
 
-#include "daemon/page.h"
-#include "schema/base/json_writer.h"
+#include <span>
+
+#include "schema/base/json_page.h"
 #include "schema/run_json.h"
 
 namespace mdof::daemon {
@@ -19,11 +20,11 @@ std::string points_json(std::int64_t run, const MovingAxis& moving,
       .field("offset", static_cast<std::uint64_t>(first_row + next))
       .field("reference", to_string(Reference::fixture));
   json.key("points").begin_array();
-  for (bool first = true; next < points.size(); ++next, first = false) {
+  next += append_page(json, std::span(points).subspan(next), [&](const MeasuredPoint& point) {
     JsonWriter item;
-    write_point(item, moving, points[next]);
-    if (!add_to_page(json, first, item.take())) break;
-  }
+    write_point(item, moving, point);
+    return item.take();
+  });
   json.end_array().end_object();
   return json.take();
 }

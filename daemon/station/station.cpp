@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "daemon/measure/request_json.h"
+#include "daemon/measure/replay/request_json.h"
 #include "daemon/measure/slow_channels.h"
 #include "daemon/paths.h"
 #include "daemon/station/live_json.h"
@@ -31,7 +31,7 @@ std::string file_stamp(std::string utc) {
 
 Station::Station(AxisConfig config, PipelineOptions options, std::string configuration,
                  std::filesystem::path recordings, Storekeeper& keeper, StationEvents events,
-                 std::optional<DatumSetting> before)
+                 std::optional<DatumSetting> before, SharedDevices* shared)
     : config_(std::move(config)),
       options_(std::move(options)),
       configuration_(std::move(configuration)),
@@ -41,8 +41,10 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
       measure_turn_(steady_clock::now()),
       zero_(config_.devices, config_.live() ? std::move(before) : std::nullopt,
             config_.rig.encoder_um_per_V) {
+  SharedDevices alone;
   for (const auto& device : config_.devices)
-    acquisitions_.push_back(std::make_unique<Acquisition>(device, sink()));
+    acquisitions_.push_back(device.part.empty() ? std::make_unique<Acquisition>(device, sink())
+                                                : (shared ? *shared : alone).part(device, sink()));
   measure_thread_ = std::thread([this] { measure(); });
   if (!config_.live()) return;
   for (auto& acquisition : acquisitions_) acquisition->start();
@@ -65,8 +67,8 @@ Station::~Station() {
 }
 
 // What the devices' threads do with their samples.
-Acquisition::Sink Station::sink() {
-  Acquisition::Sink sink;
+DeviceSink Station::sink() {
+  DeviceSink sink;
   sink.samples = [this](SampleBlock& block, std::uint64_t pass, milliseconds wait) {
     Item item;
     item.pass = pass;
@@ -92,6 +94,12 @@ Acquisition::Sink Station::sink() {
     Item item;
     item.kind = Item::Kind::trouble;
     item.trouble = std::make_shared<const Trouble>(trouble);
+    shared_->queue.push_always(std::move(item));
+  };
+  sink.mark = [this](const std::string& device) {
+    Item item;
+    item.kind = Item::Kind::mark;
+    item.device = device;
     shared_->queue.push_always(std::move(item));
   };
   return sink;
@@ -155,6 +163,10 @@ NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& o
 }
 
 void Station::start_run(const RunRequest& request, const RunDone& done) {
+  if (request.resumes) {
+    const Status same = check_same_datum(*request.resumes, zero_.datum());
+    if (!same) return done(tl::unexpected(same.error()));
+  }
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1)) {
     return done(fail(ErrorCode::conflict, std::string("a run of axis ") + letter(config_.rig.axis) +

@@ -1,4 +1,5 @@
-// One axis at work: its devices, each with its thread (acquisition.h), and its thread "measure-X".
+// One axis at work: its devices, each with its thread (acquisition.h; device/, where other
+// axes have it too), and its thread "measure-X".
 //
 //   devices -> queue      measure: queue -> recording (store thread) -> pipeline -> points
 //
@@ -15,13 +16,14 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/bounded_queue.h"
 #include "daemon/measure/config.h"
 #include "daemon/measure/pipeline.h"
 #include "daemon/measure/run_request.h"
-#include "daemon/station/acquisition.h"
+#include "daemon/station/device/device_reader.h"
+#include "daemon/station/device/shared_device.h"
 #include "daemon/station/encoder_zero.h"
 #include "daemon/storekeeper/storekeeper.h"
+#include "schema/base/bounded_queue.h"
 
 namespace mdof::daemon {
 
@@ -41,9 +43,10 @@ using RunDone = std::function<void(Result<std::int64_t>)>;
 class Station {
  public:
   // `before`: where the axis stood when somebody said so last, before this program began.
+  // `shared`: where other stations look for the devices that this axis has together with theirs.
   Station(AxisConfig config, PipelineOptions options, std::string configuration,
           std::filesystem::path recordings, Storekeeper& keeper, StationEvents events,
-          std::optional<DatumSetting> before = std::nullopt);
+          std::optional<DatumSetting> before = std::nullopt, SharedDevices* shared = nullptr);
   ~Station();  // an open run ends as aborted
   // Asks the devices to stop and waits for none, so that those of all stations stop together.
   void begin_stopping();
@@ -83,7 +86,8 @@ class Station {
       storage_failed,
       trouble,
       datum,
-      datum_stored
+      datum_stored,
+      mark
     } kind = Kind::samples;
     SampleBlock block;
     std::int64_t run = 0;
@@ -97,6 +101,7 @@ class Station {
     std::uint64_t pass = 0;  // of a source that is read once a run
     RunDone done;
     std::shared_ptr<const Trouble> trouble;
+    std::string device;            // of Kind::mark
     double position_m = 0;         // of Kind::datum
     Result<DatumSetting> setting;  // of Kind::datum_stored
     DatumDone datum_done;
@@ -112,7 +117,7 @@ class Station {
   };
   static constexpr std::size_t kQueuedBlocks = 1024;
 
-  Acquisition::Sink sink();
+  DeviceSink sink();
   NewRun describe_run(const RunRequest& request, const PipelineOptions& options) const;
   PipelineOptions options_for(const RunRequest& request) const;
   PipelineOptions with_devices(PipelineOptions options) const;
@@ -136,6 +141,8 @@ class Station {
   void take_datum(const Item& item);
   void store_datum(const DatumSetting& setting, const Item& item);
   void put_datum(const Item& item);
+  void take_mark(const std::string& device);
+  void end_unless_from_mark();
   void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
               RunDone done, const std::optional<Deed>& deed = std::nullopt);
   const Pipeline* pipeline() const;
@@ -160,7 +167,7 @@ class Station {
   std::chrono::steady_clock::time_point last_live_{};
   std::int64_t newest_ns_ = 0;  // of the newest instant, and when it came
   std::chrono::steady_clock::time_point newest_since_{};
-  std::vector<std::unique_ptr<Acquisition>> acquisitions_;
+  std::vector<std::unique_ptr<DeviceReader>> acquisitions_;
   std::thread measure_thread_;
   std::atomic<bool> resuming_{false};
   std::thread resume_thread_;

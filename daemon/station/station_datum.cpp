@@ -1,6 +1,7 @@
 // Station: somebody says where the axis stands. Found by the measuring thread, stored, and only
-// then in force; meanwhile no run can begin.
-#include "daemon/doer.h"
+// then in force; meanwhile no run can begin. Or the axis goes over the encoder's reference mark.
+#include "daemon/history.h"
+#include "daemon/paths.h"
 #include "daemon/station/open_run.h"
 #include "daemon/station/station.h"
 
@@ -55,7 +56,7 @@ void Station::store_datum(const DatumSetting& setting, const Item& asked) {
 
 // The live view begins afresh, as the axis does not jump.
 void Station::put_datum(const Item& item) {
-  const auto set = item.setting ? zero_.put(*item.setting, doer_text(item.deed->by))
+  const auto set = item.setting ? zero_.put(*item.setting, actor_text(item.deed->by))
                                 : Result<EncoderDatum>(tl::unexpected(item.setting.error()));
   if (set) {
     view_.reset();
@@ -64,6 +65,26 @@ void Station::put_datum(const Item& item) {
   }
   shared_->run = 0;
   item.datum_done(set);
+}
+
+// The axis does not jump: the live view begins afresh. A run cannot go on, as what it has measured
+// was counted from elsewhere, by how much is not known to better than the way between two readings.
+void Station::take_mark(const std::string& device) {
+  if (!zero_.pass_mark(device, utc_now())) return;
+  view_.reset();
+  if (open_) end_unless_from_mark();
+}
+
+// One that was counted from the mark before its device lost power goes on.
+void Station::end_unless_from_mark() {
+  if (zero_.datum().kind != EncoderDatum::Kind::index ||
+      open_->datum.kind == EncoderDatum::Kind::index)
+    return;
+  finish(
+      RunState::aborted,
+      "the axis went over its reference mark: positions are the machine's from there on, and what "
+      "this run has was counted from elsewhere, so that it ended there; start it again",
+      {}, {});
 }
 
 }  // namespace mdof::daemon

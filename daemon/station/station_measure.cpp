@@ -135,7 +135,7 @@ void Station::measure() {
       measure_turn_ = steady_clock::now();
     }
     note_newest();
-    show_live();  // once all that has come is in it; that nothing came is news too
+    show_live();  // once it has all samples that came; where none came, it shows that they stopped
   }
   if (open_) finish(RunState::aborted, "the daemon was stopped", {}, {});
 }
@@ -166,6 +166,8 @@ void Station::handle(Item& item) {
       return take_datum(item);
     case Item::Kind::datum_stored:
       return put_datum(item);
+    case Item::Kind::mark:
+      return take_mark(item.device);
   }
 }
 
@@ -185,10 +187,13 @@ void Station::attach(Item& item) {
   if (item.beginning) continues.emplace(item.beginning->end_ns);
   open_ = std::make_unique<OpenRun>(
       OpenRun{item.run, item.request, std::move(*pipeline), {}, std::move(continues), {}, {}, 0});
+  open_->datum = item.options->datum;
   shared_->run = item.run;
   shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
   item.done(item.run);
   if (!config_.live()) acquisitions_.front()->start();
+  // Between the question and now the mark may have been passed.
+  end_unless_from_mark();
 }
 
 void Station::take_samples(SampleBlock& block) {

@@ -27,6 +27,7 @@ struct Trouble {
   std::string device;  // "": no single one
   std::string text;    // what happened and what to do, without the device's name
   std::string utc;
+  std::string channel = {};  // of the device, where it is of that alone: an encoder; "": of all
 };
 
 const char* to_string(Trouble::Kind kind);

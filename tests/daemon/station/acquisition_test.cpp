@@ -1,6 +1,6 @@
 // A device that fails, comes back, and loses samples: what of that is told.
 #include "daemon/station/acquisition.h"
-#include "drivers/progress.h"
+#include "drivers/long_step.h"
 
 #include <gtest/gtest.h>
 

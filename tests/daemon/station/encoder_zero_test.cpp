@@ -126,5 +126,65 @@ TEST(EncoderZero, WhatThePowerTookIsToldOtherwise) {
       << zero.state().note;
 }
 
+drivers::DriverSpec with_mark() {
+  auto device = counting();
+  device.encoder.index_mm = 12.5;
+  return device;
+}
+
+TEST(EncoderZero, FromTheMarkOnPositionsAreTheMachines) {
+  EncoderZero zero({with_mark()});
+  EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
+  EXPECT_TRUE(begins_with(zero.state().note, "drive the axis over its reference mark once"));
+  SampleBlock block = resting_at(3);
+  zero.apply(block);
+  EXPECT_EQ(block.value[0][0], 3);
+  EXPECT_FALSE(zero.pass_mark("probes", "now"));
+  EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
+  ASSERT_TRUE(zero.pass_mark("t7", "2026-11-23T07:00:00Z"));
+  block = resting_at(3);
+  zero.apply(block);
+  EXPECT_NEAR(block.value[0][0], 15.5, 1e-9);
+  EXPECT_EQ(zero.datum(),
+            (EncoderDatum{EncoderDatum::Kind::index, 0.0125, "t7", "2026-11-23T07:00:00Z", ""}));
+  EXPECT_EQ(zero.state().note, "index at 12.5 mm, passed on 2026-11-23T07:00:00Z");
+}
+
+TEST(EncoderZero, WhoDoesNotLookForAMarkHasPassedNone) {
+  EncoderZero zero({counting()});
+  EXPECT_FALSE(zero.pass_mark("t7", "now"));
+  EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
+}
+
+TEST(EncoderZero, TheMarkGoesWithThePowerAndComesAgain) {
+  EncoderZero zero({with_mark()}, said(0.5));
+  ASSERT_TRUE(zero.pass_mark("t7", "now"));
+  zero.lose("t7");
+  EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
+  EXPECT_EQ(zero.datum().offset_m, 0);
+  EXPECT_TRUE(begins_with(zero.state().note, "drive the axis over its reference mark"));
+  ASSERT_TRUE(zero.pass_mark("t7", "later"));
+  EXPECT_EQ(zero.state().note, "index at 12.5 mm, passed on later");
+}
+
+TEST(EncoderZero, WhatWasFoundBeforeTheMarkIsNotPut) {
+  EncoderZero zero({with_mark()});
+  SampleBlock block = resting_at(3);
+  zero.apply(block);
+  const auto found = zero.find(mdof::Axis::y, 0.1, "now");
+  ASSERT_TRUE(found);
+  ASSERT_TRUE(zero.pass_mark("t7", "now"));
+  EXPECT_FALSE(zero.put(*found, "me"));
+  EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::index);
+  // Nor is what it showed at rest before.
+  EXPECT_FALSE(zero.find(mdof::Axis::y, 0.1, "now"));
+  // Said after the mark it holds, from what the mark gave.
+  block = resting_at(3);
+  zero.apply(block);
+  ASSERT_TRUE(zero.put(zero.find(mdof::Axis::y, 0.1, "now").value(), "me"));
+  EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::set);
+  EXPECT_NEAR(zero.datum().offset_m, 0.097, 1e-12);
+}
+
 }  // namespace
 }  // namespace mdof::daemon

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/doer.h"
+#include "daemon/history.h"
 #include "daemon/station/station.h"
 #include "tests/daemon/measure/test_axis.h"
 
@@ -29,7 +29,29 @@ class Feed {
   void give(SampleBlock block) {
     const std::lock_guard lock(mutex_);
     blocks_.push_back(std::move(block));
+    ++given_;
     changed_.notify_all();
+  }
+  // The encoder is counted from its reference mark in what is given from now on.
+  void pass_mark() {
+    const std::lock_guard lock(mutex_);
+    mark_before_.push_back(given_);
+  }
+  int marks_passed() {
+    const std::lock_guard lock(mutex_);
+    return static_cast<int>(std::count_if(mark_before_.begin(), mark_before_.end(),
+                                          [this](std::size_t block) { return block < read_; }));
+  }
+  // It was away and counts from 0 again.
+  void lose_datum() {
+    const std::lock_guard lock(mutex_);
+    lost_ = mark_before_.size() + 1;
+    gone_once_ = true;
+    changed_.notify_all();
+  }
+  std::string datum_lost() {
+    const std::lock_guard lock(mutex_);
+    return lost_ > mark_before_.size() ? "it counts from 0 again; drive it over its mark" : "";
   }
   // The device answers no more, neither to a read nor when it is opened, until it is back.
   void go() { set_gone(true); }
@@ -53,12 +75,14 @@ class Feed {
   Result<drivers::ReadState> read(SampleBlock& block) {
     std::unique_lock lock(mutex_);
     block = SampleBlock();
+    if (std::exchange(gone_once_, false)) return io_error("10.0.0.9: connection lost");
     changed_.wait_for(lock, std::chrono::milliseconds(5),
                       [this] { return gone_ || ended_ || !blocks_.empty(); });
     if (gone_ && blocks_.empty()) return io_error("10.0.0.9: connection lost");
     if (blocks_.empty()) return ended_ ? drivers::ReadState::end : drivers::ReadState::more;
     block = std::move(blocks_.front());
     blocks_.pop_front();
+    ++read_;
     changed_.notify_all();
     return drivers::ReadState::more;
   }
@@ -72,7 +96,10 @@ class Feed {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<SampleBlock> blocks_;
-  bool gone_ = false, ended_ = false;
+  bool gone_ = false, ended_ = false, gone_once_ = false;
+  std::size_t lost_ = 0;              // more than the marks: its datum is lost
+  std::size_t given_ = 0, read_ = 0;  // blocks
+  std::vector<std::size_t> mark_before_;
 };
 
 class FedDriver final : public drivers::Driver {
@@ -84,9 +111,11 @@ class FedDriver final : public drivers::Driver {
     info.name = name_;
     info.driver = "fed";
     info.rate_hz = 1000;
+    info.datum_lost = feed_->datum_lost();
     return info;
   }
   Status open() override { return feed_->open(); }
+  int marks_passed() const override { return feed_->marks_passed(); }
   Result<drivers::ReadState> read(SampleBlock& block, std::chrono::milliseconds) override {
     return feed_->read(block);
   }
@@ -182,9 +211,12 @@ class FedStation : public ::testing::Test {
                   options, {[](std::int64_t, std::int64_t) {}, [](std::int64_t, const Error&) {}})
                   .value();
   }
-  void make_station(bool live = true) {
+  // `index_mm`: the encoder has a reference mark there.
+  void make_station(bool live = true, std::optional<double> index_mm = std::nullopt) {
     feed_ = std::make_shared<Feed>();
-    station_ = std::make_unique<Station>(AxisConfig{five_probe_rig(), {fed_by(feed_, live)}},
+    auto spec = fed_by(feed_, live);
+    spec.encoder.index_mm = index_mm;
+    station_ = std::make_unique<Station>(AxisConfig{five_probe_rig(), {std::move(spec)}},
                                          PipelineOptions(), "# mdofd.toml of a test\n",
                                          folder_ / "recordings", *keeper_, events_.sink());
   }

@@ -1,7 +1,7 @@
 // A run as its user has it: begun, measured, ended, and what ends it otherwise.
 #include "daemon/station/station.h"
 
-#include "daemon/measure/replay.h"
+#include "daemon/measure/replay/replay.h"
 #include "daemon/station/resume.h"
 #include "tests/daemon/station/fed_station.h"
 

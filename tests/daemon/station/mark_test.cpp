@@ -1,0 +1,144 @@
+// An encoder with a reference mark: before the axis has passed it, after it, in the midst of a run.
+#include "daemon/measure/replay/request_json.h"
+#include "daemon/station/resume.h"
+#include "tests/daemon/station/fed_station.h"
+
+namespace mdof::daemon {
+namespace {
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+constexpr double kMark_mm = 12.5;
+
+class StationMark : public FedStation {
+ protected:
+  StationMark() { axis_.pass_both_ways({0, 5, 10}); }
+  void SetUp() override {
+    FedStation::SetUp();
+    make_station(true, kMark_mm);
+  }
+  // The first scan after the mark, and the station knows.
+  void pass_mark(std::size_t scan = 0) {
+    feed_->pass_mark();
+    give(axis_, scan, scan + 100);
+    wait_for([this] { return kind() == EncoderDatum::Kind::index; });
+  }
+  void wait_for(const std::function<bool()>& condition) {
+    for (int i = 0; i < 2000 && !condition(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_TRUE(condition());
+  }
+  EncoderDatum::Kind kind() { return station_->encoder().datum.kind; }
+  static EncoderDatum datum_of(const mdof::Run& run) {
+    return read_options_json(run.header.provenance.options_json, {}).value().datum;
+  }
+  mdof::Run measured() {
+    const auto id = start();
+    EXPECT_TRUE(id) << id.error().message;
+    give(axis_);
+    const auto ended = stop();
+    EXPECT_TRUE(ended) << ended.error().message;
+    return stored(ended.value_or(0));
+  }
+  std::string why_not_resumed(std::int64_t run) {
+    auto reader = store::Store::open(folder_ / "mdof.db", store::Access::read_only).value();
+    const auto request = request_to_resume(reader, run, station_->config());
+    if (!request) return "no request: " + request.error().message;
+    const auto id = start(*request);
+    return id ? "goes on" : id.error().message;
+  }
+  TestAxis axis_;
+};
+
+TEST_F(StationMark, ARunBeforeTheMarkSaysSoAndOneAfterItIsInItsPlace) {
+  mdof::Run run = measured();
+  EXPECT_EQ(datum_of(run).kind, EncoderDatum::Kind::none);
+  ASSERT_EQ(run.header.notes.size(), 1u);
+  EXPECT_SAYS(run.header.notes[0], "has no datum");
+  EXPECT_NEAR(run.points[1].point.position_m, 0.005, 1e-6);
+
+  pass_mark();
+  EXPECT_SAYS(station_->encoder().note, "index at 12.5 mm, passed on 2");
+  run = measured();
+  EXPECT_EQ(run.header.state, RunState::complete) << warnings(run);
+  EXPECT_EQ(run.header.notes, std::vector<std::string>());
+  const EncoderDatum datum = datum_of(run);
+  EXPECT_EQ(datum.kind, EncoderDatum::Kind::index);
+  EXPECT_EQ(datum.device, "daq");
+  EXPECT_EQ(datum_text(datum).substr(0, 16), "index at 12.5 mm");
+  ASSERT_EQ(run.points.size(), 6u);
+  EXPECT_NEAR(run.points[1].point.position_m, 0.0175, 1e-6);
+}
+
+// The new program has not seen it.
+TEST_F(StationMark, AfterARestartItIsToBePassedAgain) {
+  pass_mark();
+  make_station(true, kMark_mm);
+  EXPECT_EQ(kind(), EncoderDatum::Kind::none);
+  EXPECT_SAYS(station_->encoder().note, "drive the axis over its reference mark");
+}
+
+TEST_F(StationMark, ARunInWhichItIsPassedEndsThere) {
+  const auto id = start();
+  ASSERT_TRUE(id);
+  give(axis_, 0, 1500);
+  feed_->pass_mark();
+  give(axis_, 1500);
+  wait_for([this] { return station_->run() == 0; });
+  const mdof::Run run = stored(*id);
+  EXPECT_EQ(run.header.state, RunState::aborted);
+  EXPECT_SAYS(warnings(run), "went over its reference mark");
+  EXPECT_EQ(datum_of(run).kind, EncoderDatum::Kind::none);
+  for (const auto& p : run.points) EXPECT_LT(p.point.position_m, 0.0101);
+  EXPECT_LE(run.header.scans, 1500u);
+  // Two places do not make one run.
+  EXPECT_SAYS(why_not_resumed(*id), "start a new run");
+  EXPECT_EQ(measured().header.state, RunState::complete);
+}
+
+TEST_F(StationMark, PassedBetweenTheQuestionAndTheFirstScanTheRunEndsToo) {
+  std::promise<void> go_on;
+  ASSERT_TRUE(keeper_->post([&](store::Store&) { go_on.get_future().wait(); }));
+  std::promise<Result<std::int64_t>> begun;
+  station_->start_run({}, [&](const auto& id) { begun.set_value(id); });
+  pass_mark();
+  go_on.set_value();
+  const auto id = begun.get_future().get();
+  ASSERT_TRUE(id);
+  wait_for([this] { return station_->run() == 0; });
+  const mdof::Run run = stored(*id);
+  EXPECT_EQ(datum_of(run).kind, EncoderDatum::Kind::none);
+  EXPECT_EQ(run.header.state, RunState::aborted);
+}
+
+TEST_F(StationMark, ARunFromTheMarkGoesOnOnlyFromTheMark) {
+  pass_mark();
+  const auto id = start();
+  give(axis_, 0, 2500);
+  ASSERT_TRUE(stop(true));
+  make_station(true, kMark_mm);
+  EXPECT_SAYS(why_not_resumed(*id), "drive it over the mark first");
+  pass_mark();
+  EXPECT_EQ(why_not_resumed(*id), "goes on");
+}
+
+TEST_F(StationMark, AfterPowerWasLostTheSameMarkIsTheSameDatum) {
+  pass_mark();
+  const auto id = start();
+  give(axis_, 0, 500);
+  feed_->lose_datum();
+  EXPECT_SAYS(events_.wait_for_trouble({"datum is lost"}), "suspect");
+  wait_for([this] { return kind() == EncoderDatum::Kind::none; });
+  pass_mark(600);
+  EXPECT_EQ(station_->encoder().datum.offset_m, 1e-3 * kMark_mm);
+  wait_for([this] { return station_->devices()[0].standing.empty(); });
+  EXPECT_EQ(station_->run(), *id);
+  // And it is told once more when it is lost once more.
+  feed_->lose_datum();
+  wait_for([this] { return kind() == EncoderDatum::Kind::none; });
+  const auto ended = stop(true);
+  EXPECT_TRUE(ended) << ended.error().message;
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -1,12 +1,14 @@
 // compensation.build, activate, deactivate, status, grid, at.
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "algo/compensation/compensation.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
-#include "daemon/page.h"
 #include "daemon/paths.h"
-#include "schema/base/json_writer.h"
+#include "daemon/rpc/page.h"
+#include "schema/base/json_page.h"
 #include "schema/rig/correction.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -14,6 +16,8 @@
 namespace mdof::daemon {
 namespace {
 
+using rpc::count_param;
+using rpc::offset_param;
 using rpc::Params;
 using rpc::ParamType;
 using rpc::Reply;
@@ -59,8 +63,8 @@ void build(Methods& m, const Params& params, Reply reply) {
       });
 }
 
-// On the disk first, then in force for everybody at once on the main thread, then the answer, which
-// is `reply_members` with the generation.
+// Stores the change first, then puts it in force for everybody at once on the main thread, then
+// answers `reply_members` with the generation.
 void change_what_is_in_force(Methods& m, Reply reply, std::string reply_members,
                              std::function<Result<store::Activation>(store::Store&)> change) {
   if (const std::string lost = m.keeper.fault(); !lost.empty()) return reply(io_error(lost));
@@ -95,7 +99,7 @@ void deactivate(Methods& m, const Params& params, Reply reply) {
   change_what_is_in_force(
       m, std::move(reply), std::string("\"axis\":\"") + letter(*axis) + "\"",
       [axis = *axis, deed = deed_of(params, "compensation.deactivate")](store::Store& store) {
-        return store.deactivate(axis, doer_text(deed.by), deed.utc, deed);
+        return store.deactivate(axis, actor_text(deed.by), deed.utc, deed);
       });
 }
 
@@ -127,11 +131,14 @@ Result<std::string> grid(const Methods& m, const Params& params) {
   write_table_members(json, active->table);
   json.field("generation", active->generation).field("offset", offset).key("points").begin_array();
   const auto total = static_cast<std::int64_t>(active->table.position_m.size());
-  for (std::int64_t i = offset; i < std::min(total, offset + count); ++i) {
+  std::vector<std::int64_t> rows(
+      static_cast<std::size_t>(std::clamp<std::int64_t>(total - offset, 0, count)));
+  std::iota(rows.begin(), rows.end(), offset);
+  append_page(json, rows, [&](std::int64_t i) {
     JsonWriter row;
     write_table_row(row, active->table, static_cast<std::size_t>(i));
-    if (!add_to_page(json, i == offset, row.take())) break;
-  }
+    return row.take();
+  });
   json.end_array().end_object();
   return json.take();
 }

@@ -1,23 +1,25 @@
 // history.list.
 #include "daemon/methods/methods.h"
-#include "daemon/page.h"
+#include "daemon/rpc/page.h"
+#include "schema/base/json_page.h"
 
 namespace mdof::daemon {
 namespace {
 
+using rpc::count_param;
+using rpc::offset_param;
 using rpc::Params;
 
 constexpr std::int64_t kMaxDeedsPage = 200;
 
 Result<std::string> list_history(Methods& m, const Params& params) {
-  const Page page = page_of(params, kMaxDeedsPage);
+  const rpc::Page page = page_of(params, kMaxDeedsPage);
   MDOF_TRY(const auto deeds, m.reader.list_deeds(page.offset, page.count));
   MDOF_TRY(const auto total, m.reader.count_deeds());
   JsonWriter json;
   json.begin_object().field("total", total).field("offset", page.offset).key("history");
   json.begin_array();
-  for (const Deed& deed : deeds)
-    if (!add_to_page(json, &deed == &deeds.front(), deed_json(deed))) break;
+  append_page(json, deeds, deed_json);
   json.end_array().end_object();
   return json.take();
 }

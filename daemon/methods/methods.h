@@ -1,4 +1,4 @@
-// The methods of mdof on the RPC: one row each, grouped by what they are about.
+// The methods of mdof on the RPC: one row each, in a file a noun; methods.inc lists the nouns.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "daemon/doer.h"
+#include "daemon/history.h"
 #include "daemon/methods/replayer.h"
-#include "daemon/rpc/line/event_loop.h"
 #include "daemon/rpc/method_table.h"
+#include "daemon/rpc/net/event_loop.h"
 #include "daemon/station/station.h"
 #include "daemon/store/store.h"
 #include "daemon/storekeeper/storekeeper.h"
@@ -38,14 +38,17 @@ struct Methods {
   Replayer* replayer = nullptr;  // none: run.replay is refused
 };
 
-void add_server_methods(rpc::MethodTable& table, Methods& m);   // server.info device.list live.*
-void add_run_methods(rpc::MethodTable& table, Methods& m);      // run.* squareness.fit
-void add_encoder_methods(rpc::MethodTable& table, Methods& m);  // encoder.set
-void add_replay_methods(rpc::MethodTable& table, Methods& m);   // run.replay
-void add_compensation_methods(rpc::MethodTable& table, Methods& m);  // compensation.*
-void add_history_methods(rpc::MethodTable& table, Methods& m);       // history.list
+#define METHODS(noun) void add_##noun##_methods(rpc::MethodTable& table, Methods& m);
+#include "daemon/methods/methods.inc"
+#undef METHODS
 
-// Shared by the groups.
+inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
+#define METHODS(noun) add_##noun##_methods(table, m);
+#include "daemon/methods/methods.inc"
+#undef METHODS
+}
+
+// Shared by the nouns.
 Deed deed_of(const rpc::Params& params, std::string name);  // by the caller, now
 Result<Axis> axis_param(const rpc::Params& params);
 Result<Reference> reference_param(const rpc::Params& params);  // not given: the fixture

@@ -45,29 +45,29 @@ std::optional<double> optional_number(const Params& params, const char* name) {
   return params.has(name) ? std::optional(params.number(name)) : std::nullopt;
 }
 
-Result<ReplayOrder> read_order(const Params& params) {
-  ReplayOrder order;
-  order.log = params.string("path");
-  MDOF_CHECK(check_log(params, order.log));
-  order.rig_text = params.string("rig");
-  if (params.has("rig")) order.rig_source = params.string("rig_source", "rig");
-  order.model = params.string("model");
-  order.note = params.string("note");
-  order.tolerance_um = optional_number(params, "tolerance_um");
-  order.settle_s = optional_number(params, "settle_s");
-  order.min_length_s = optional_number(params, "min_length_s");
-  order.max_gap_s = optional_number(params, "max_gap_s");
-  order.lag_bound_s = optional_number(params, "lag_bound_s");
-  MDOF_TRY(order.targets_mm, params.numbers("targets_mm"));
-  return order;
+Result<ReplayRequest> read_replay_request(const Params& params) {
+  ReplayRequest request;
+  request.log = params.string("path");
+  MDOF_CHECK(check_log(params, request.log));
+  request.rig_text = params.string("rig");
+  if (params.has("rig")) request.rig_source = params.string("rig_source", "rig");
+  request.model = params.string("model");
+  request.note = params.string("note");
+  request.tolerance_um = optional_number(params, "tolerance_um");
+  request.settle_s = optional_number(params, "settle_s");
+  request.min_length_s = optional_number(params, "min_length_s");
+  request.max_gap_s = optional_number(params, "max_gap_s");
+  request.lag_bound_s = optional_number(params, "lag_bound_s");
+  MDOF_TRY(request.targets_mm, params.numbers("targets_mm"));
+  return request;
 }
 
 void replay_log(Methods& m, const Params& params, Reply reply) {
-  auto order = read_order(params);
-  if (!order) return reply(tl::unexpected(order.error()));
+  auto request = read_replay_request(params);
+  if (!request) return reply(tl::unexpected(request.error()));
   if (!m.replayer) return reply(io_error("this daemon replays no logs"));
   auto shared = std::make_shared<Reply>(std::move(reply));
-  m.replayer->start(std::move(*order), deed_of(params, "run.replay"),
+  m.replayer->start(std::move(*request), deed_of(params, "run.replay"),
                     [shared](const Result<std::int64_t>& id) {
                       if (!id) return (*shared)(tl::unexpected(id.error()));
                       JsonWriter json;

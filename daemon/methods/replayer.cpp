@@ -17,19 +17,20 @@ Replayer::~Replayer() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Replayer::start(ReplayOrder order, const Deed& deed, Done done) {
+void Replayer::start(ReplayRequest request, const Deed& deed, Done done) {
   if (busy_.exchange(true))
     return done(
         fail(ErrorCode::conflict, "another log is being replayed; try again when it is done"));
   if (thread_.joinable()) thread_.join();  // it has done its work, or is about to have
-  thread_ = std::thread(
-      [this, order = std::move(order), deed, done = std::move(done)] { work(order, deed, done); });
+  thread_ = std::thread([this, request = std::move(request), deed, done = std::move(done)] {
+    work(request, deed, done);
+  });
 }
 
-void Replayer::work(const ReplayOrder& order, const Deed& deed, const Done& done) {
+void Replayer::work(const ReplayRequest& request, const Deed& deed, const Done& done) {
   // Linux: of this thread alone.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
-  auto run = replay(order, [this](double) { return !stopping_; });
+  auto run = replay(request, [this](const Progress&) { return !stopping_; });
   busy_ = false;  // before the answer: who has it may ask for the next
   if (!run) return done(tl::unexpected(run.error()));
   const auto shared = std::make_shared<Run>(std::move(*run));

@@ -6,7 +6,7 @@
 #include <functional>
 #include <thread>
 
-#include "daemon/measure/replay_order.h"
+#include "daemon/measure/replay/replay_request.h"
 #include "daemon/storekeeper/storekeeper.h"
 
 namespace mdof::daemon {
@@ -20,10 +20,10 @@ class Replayer {
   // `done`: the id of the stored run, or why there is none; on another thread, or at once with
   // `conflict` while a log is under way.
   using Done = std::function<void(Result<std::int64_t>)>;
-  void start(ReplayOrder order, const Deed& deed, Done done);
+  void start(ReplayRequest request, const Deed& deed, Done done);
 
  private:
-  void work(const ReplayOrder& order, const Deed& deed, const Done& done);
+  void work(const ReplayRequest& request, const Deed& deed, const Done& done);
 
   Storekeeper& keeper_;
   std::atomic<bool> busy_{false}, stopping_{false};

@@ -1,10 +1,11 @@
-// run.start, run.resume, run.stop, run.list, run.get, run.points, squareness.fit.
+// run.start, run.resume, run.stop, run.list, run.get, run.points.
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
-#include "daemon/page.h"
 #include "daemon/paths.h"
+#include "daemon/rpc/page.h"
+#include "daemon/run_item.h"
 #include "daemon/station/resume.h"
-#include "schema/base/json_writer.h"
+#include "schema/base/json_page.h"
 #include "schema/plausibility_json.h"
 #include "schema/run_json.h"
 #include "schema/targets.h"
@@ -13,6 +14,8 @@
 namespace mdof::daemon {
 namespace {
 
+using rpc::count_param;
+using rpc::offset_param;
 using rpc::Params;
 using rpc::ParamType;
 using rpc::Reply;
@@ -110,7 +113,7 @@ std::vector<std::string> standing_trouble(const Station& station) {
   return warnings;
 }
 
-// What devices do to their readings by themselves.
+// What devices are set to do to their readings, such as filters.
 std::vector<std::string> settings_of_devices(const Station& station) {
   std::vector<std::string> warnings;
   for (const auto& device : station.devices())
@@ -119,13 +122,33 @@ std::vector<std::string> settings_of_devices(const Station& station) {
   return warnings;
 }
 
-void begin_run(Station& station, RunRequest request, Reply reply) {
+// The probes of a device that several axes have are at one of them at a time.
+Status check_probes_free(const Methods& m, const Station& station) {
+  for (const auto& other : m.stations) {
+    const std::int64_t run = other->run();
+    if (other.get() == &station || run == 0) continue;
+    const std::string device = same_probes(station.config(), other->config());
+    if (device.empty()) continue;
+    return fail(ErrorCode::conflict,
+                "the probes of device \"" + device + "\" are at axis " +
+                    letter(other->config().rig.axis) + ", " +
+                    (run > 0 ? "of which run " + std::to_string(run) +
+                                   " is under way; stop it with run.stop first"
+                             : "of which a run is about to begin or where it stands is being "
+                               "stored; try again"));
+  }
+  return {};
+}
+
+void begin_run(const Methods& m, Station& station, RunRequest request, Reply reply) {
+  if (auto free = check_probes_free(m, station); !free) return reply(tl::unexpected(free.error()));
   for (auto& warning : standing_trouble(station)) request.warnings.push_back(std::move(warning));
   for (auto& warning : unsettled_clocks(station)) request.warnings.push_back(std::move(warning));
   for (auto& warning : settings_of_devices(station)) request.warnings.push_back(std::move(warning));
   EncoderState encoder = station.encoder();
-  if (encoder.datum.kind != EncoderDatum::Kind::set && !encoder.note.empty())
-    request.notes.push_back(std::move(encoder.note));
+  const bool known = encoder.datum.kind == EncoderDatum::Kind::set ||
+                     encoder.datum.kind == EncoderDatum::Kind::index;
+  if (!known && !encoder.note.empty()) request.notes.push_back(std::move(encoder.note));
   auto done = answer_with_run(std::move(reply), station.config().rig.axis, request);
   station.start_run(request, done);
 }
@@ -138,7 +161,7 @@ void start_run(Methods& m, const Params& params, Reply reply) {
   auto request = read_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
   request->deed = deed_of(params, "run.start");
-  begin_run(**station, *request, std::move(reply));
+  begin_run(m, **station, *request, std::move(reply));
 }
 
 void resume_run(Methods& m, const Params& params, Reply reply) {
@@ -150,7 +173,7 @@ void resume_run(Methods& m, const Params& params, Reply reply) {
   auto request = request_to_resume(m.reader, run, (*station)->config());
   if (!request) return reply(tl::unexpected(request.error()));
   request->deed = deed_of(params, "run.resume");
-  begin_run(**station, *request, std::move(reply));
+  begin_run(m, **station, *request, std::move(reply));
 }
 
 void stop_run(Methods& m, const Params& params, Reply reply) {
@@ -173,7 +196,7 @@ void explain(const Methods& m, RunHeader& header) {
 }
 
 Result<std::string> list_runs(Methods& m, const Params& params) {
-  const Page page = page_of(params, kMaxRunsPage);
+  const rpc::Page page = page_of(params, kMaxRunsPage);
   std::optional<Axis> axis;
   if (params.has("axis")) {
     MDOF_TRY(axis, axis_param(params));
@@ -183,8 +206,7 @@ Result<std::string> list_runs(Methods& m, const Params& params) {
   MDOF_TRY(const auto total, m.reader.count_runs(axis));
   JsonWriter json;
   json.begin_object().field("total", total).field("offset", page.offset).key("runs").begin_array();
-  for (const auto& header : headers)
-    if (!add_to_page(json, &header == &headers.front(), header_item(header))) break;
+  append_page(json, headers, header_item);
   json.end_array().end_object();
   return json.take();
 }
@@ -223,7 +245,7 @@ Result<std::string> get_run(Methods& m, const Params& params) {
 }
 
 Result<std::string> run_points(Methods& m, const Params& params) {
-  const Page page = page_of(params, kMaxPointsPage);
+  const rpc::Page page = page_of(params, kMaxPointsPage);
   const std::int64_t id = params.integer("run");
   MDOF_TRY(const Reference reference, reference_param(params));
   MDOF_TRY(const auto total, m.reader.count_points(id));
@@ -236,27 +258,13 @@ Result<std::string> run_points(Methods& m, const Params& params) {
       .field("offset", page.offset);
   write_reference(json, run.header.stated);
   json.key("points").begin_array();
-  for (const auto& p : run.points) {
+  append_page(json, run.points, [&](const MeasuredPoint& point) {
     JsonWriter item;
-    write_point(item, run.header.moving(), p);
-    if (!add_to_page(json, &p == &run.points.front(), item.take())) break;
-  }
+    write_point(item, run.header.moving(), point);
+    return item.take();
+  });
   json.end_array().end_object();
   return json.take();
-}
-
-void squareness(Methods& m, const Params& params, Reply reply) {
-  SquarenessRequest request{
-      params.integer("run_x"), params.integer("run_y"), {}, params.boolean("partial", false)};
-  if (params.has("artefact_angle_error_urad"))
-    request.given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
-  if (params.has("u_artefact_urad"))
-    request.given.u_rad = from_urad(params.number("u_artefact_urad"));
-  request.deed = deed_of(params, "squareness.fit");
-  answer_from_store(m, std::move(reply), [request](store::Store& store) -> Result<std::string> {
-    MDOF_TRY(const FittedSquareness fitted, fit_squareness(store, request));
-    return with_warnings(squareness_json(fitted.squareness), fitted.warnings);
-  });
 }
 
 }  // namespace
@@ -342,28 +350,6 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .result = "total, points: position_mm, five errors in um and urad, u, flags",
              .example = R"({"run": 1, "offset": 0, "count": 20})",
              .handler = [&m](const Params& p) { return run_points(m, p); }});
-  table.add(
-      {.name = "squareness.fit",
-       .summary = "Squareness EC0Y of a run along X and one along Y, stored with its "
-                  "standard uncertainty.",
-       .params = {{"run_x", ParamType::integer, "id of the run along X", true},
-                  {"run_y", ParamType::integer, "id of the run along Y", true},
-                  {"artefact_angle_error_urad", ParamType::number,
-                   "of the square: the material encloses 90 deg + this at the corner of its two "
-                   "faces; from the rigs if not given",
-                   false},
-                  {"u_artefact_urad",
-                   ParamType::number,
-                   "its standard uncertainty; from the rigs if not given",
-                   false,
-                   {},
-                   {.least = 0}},
-                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
-       .result = "EC0Y_urad, u_EC0Y_urad, form_urad (how crooked the axes are) and both slopes, at "
-                 "the fixture; warnings",
-       .example = R"({"run_x": 1, "run_y": 2})",
-       .writes = true,
-       .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});
 }
 
 }  // namespace mdof::daemon

@@ -94,7 +94,7 @@ Result<std::string> subscribe(const Params& params) {
 Deed deed_of(const Params& params, std::string name) {
   const auto who = params.caller().credentials();
   if (!who) return deed_now(std::move(name), {-1, -1, -1, "tcp"});
-  return deed_now(std::move(name), doer_of(who->uid, who->gid, who->pid));
+  return deed_now(std::move(name), actor_of(who->uid, who->gid, who->pid));
 }
 
 Result<Axis> axis_param(const Params& params) {
@@ -171,7 +171,7 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
              .result =
                  "identity of the daemon; axes with their devices, the run under way and what "
                  "the positions of the encoder are counted from: datum (absolute, none, "
-                 "configured, set), offset_mm, note",
+                 "configured, set, index), offset_mm, note",
              .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add({.name = "device.list",
              .summary = "Every device with its axis, state, last error, channels and counts.",

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "daemon/methods/methods.h"
-#include "daemon/rpc/dispatcher.h"
-#include "daemon/rpc/line/event_loop_core.h"
+#include "daemon/rpc/net/event_loop_core.h"
+#include "daemon/rpc/session/dispatcher.h"
 
 namespace mdof::daemon {
 
@@ -55,13 +55,8 @@ class MethodsBench {
                 active, (folder / "mdof.db").string(),
                 "now",  std::chrono::steady_clock::now()},
         table("mdofd", "1") {
-    add_server_methods(table, methods);
-    add_run_methods(table, methods);
-    add_encoder_methods(table, methods);
-    add_replay_methods(table, methods);
-    add_compensation_methods(table, methods);
-    add_history_methods(table, methods);
-    dispatcher = std::make_unique<rpc::Dispatcher>(loop.core(), table, options);
+    add_all_methods(table, methods);
+    dispatcher = std::make_unique<rpc::Dispatcher>(loop.executor(), table, options);
   }
   ~MethodsBench() {
     replayer.reset();
@@ -69,16 +64,16 @@ class MethodsBench {
     keeper.reset();
   }
 
-  // The reply to one line, without its line end; empty: there is none to give.
-  std::string call(std::string_view line) {
-    std::string padded(line), out;
+  // The reply to one message; empty: there is none to give.
+  std::string call(std::string_view message) {
+    std::string padded(message), out;
     padded.append(rpc::Dispatcher::kPadding, '}');
     const auto sink = std::make_shared<Sink>();
     const bool open =
-        dispatcher->handle(std::string_view(padded).substr(0, line.size()), caller, sink, out).open;
-    while (open && !sink->line) turn();
-    if (open) out = *sink->line;
-    if (!out.empty() && out.back() == '\n') out.pop_back();
+        dispatcher->handle(std::string_view(padded).substr(0, message.size()), caller, sink, out)
+            .open;
+    while (open && !sink->reply) turn();
+    if (open) out = *sink->reply;
     return out;
   }
   // By name, with its parameters as JSON.
@@ -99,9 +94,9 @@ class MethodsBench {
   std::unique_ptr<rpc::Dispatcher> dispatcher;
 
  private:
-  struct Sink final : rpc::LineSink {
-    void finish(std::string_view text) override { line = text; }
-    std::optional<std::string> line;
+  struct Sink final : rpc::ReplySink {
+    void finish(std::string_view text) override { reply = text; }
+    std::optional<std::string> reply;
   };
   // What other threads have posted, or a while of waiting for it.
   void turn() {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "daemon/store/writer_lock.h"
+#include "daemon/store/file/writer_lock.h"
 #include "drivers/registry.h"
 #include "schema/rig/rig.h"
 #include "schema/units.h"

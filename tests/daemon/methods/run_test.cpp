@@ -53,6 +53,29 @@ TEST_F(RunMethods, ARunIsStartedWithWhatWasAskedForAndStopped) {
   EXPECT_EQ(call("history.list").at("/result/history/1/deed"), "\"run.resume\"");
 }
 
+// A fixture goes from axis to axis with its probes.
+TEST_F(RunMethods, TheProbesOfADeviceMeasureOneAxisAtATime) {
+  feed_ = std::make_shared<Feed>();
+  SharedDevices devices;
+  for (const char axis : {'X', 'Y'}) {
+    drivers::DriverSpec spec = fed_by(feed_);
+    for (const char* id : TestAxis::kProbes) spec.part[id] = id;
+    spec.part[axis == 'X' ? "encoder" : "encoder_Y"] = "encoder";
+    bench_->stations.push_back(std::make_unique<Station>(
+        AxisConfig{five_probe_rig(axis), {spec}}, PipelineOptions(), "", folder_ / "recordings",
+        *bench_->keeper, events_.sink(), std::nullopt, &devices));
+  }
+  ASSERT_EQ(call("run.start", R"({"axis":"X"})").at("/result/run"), "1");
+  const Answer refused = call("run.start", R"({"axis":"Y"})");
+  EXPECT_EQ(refused.code(), rpc::kChanged) << refused.text();
+  EXPECT_TEXT(refused.message(), "device \\\"daq\\\" are at axis X, of which run 1 is under way");
+  EXPECT_EQ(bench_->stations[1]->run(), 0);
+  ASSERT_EQ(call("run.stop", R"({"run":1})").at("/result/run"), "1");
+  EXPECT_EQ(call("run.start", R"({"axis":"Y"})").at("/result/run"), "2");
+  EXPECT_EQ(call("run.resume", R"({"run":1})").code(), rpc::kChanged);
+  EXPECT_EQ(call("run.stop", R"({"run":2})").at("/result/run"), "2");
+}
+
 TEST_F(RunMethods, TargetsByIntervalAreWhatAListWouldBe) {
   add_axis();
   const Answer even = call("run.start", R"({"axis":"X","from_mm":-1,"to_mm":2,"interval_mm":1.5})");

@@ -1,0 +1,55 @@
+// squareness.fit.
+#include "daemon/measure/evaluation.h"
+#include "daemon/methods/methods.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+using rpc::Params;
+using rpc::ParamType;
+using rpc::Reply;
+
+void squareness(Methods& m, const Params& params, Reply reply) {
+  SquarenessRequest request{
+      params.integer("run_x"), params.integer("run_y"), {}, params.boolean("partial", false)};
+  if (params.has("artefact_angle_error_urad"))
+    request.given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
+  if (params.has("u_artefact_urad"))
+    request.given.u_rad = from_urad(params.number("u_artefact_urad"));
+  request.deed = deed_of(params, "squareness.fit");
+  answer_from_store(m, std::move(reply), [request](store::Store& store) -> Result<std::string> {
+    MDOF_TRY(const FittedSquareness fitted, fit_squareness(store, request));
+    return with_warnings(squareness_json(fitted.squareness), fitted.warnings);
+  });
+}
+
+}  // namespace
+
+void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
+  table.add(
+      {.name = "squareness.fit",
+       .summary = "Squareness EC0Y of a run along X and one along Y, stored with its "
+                  "standard uncertainty.",
+       .params = {{"run_x", ParamType::integer, "id of the run along X", true},
+                  {"run_y", ParamType::integer, "id of the run along Y", true},
+                  {"artefact_angle_error_urad", ParamType::number,
+                   "of the square: the material encloses 90 deg + this at the corner of its two "
+                   "faces; from the rigs if not given",
+                   false},
+                  {"u_artefact_urad",
+                   ParamType::number,
+                   "its standard uncertainty; from the rigs if not given",
+                   false,
+                   {},
+                   {.least = 0}},
+                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
+       .result = "EC0Y_urad, u_EC0Y_urad, form_urad (how crooked the axes are) and both slopes, at "
+                 "the fixture; warnings",
+       .example = R"({"run_x": 1, "run_y": 2})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});
+}
+
+}  // namespace mdof::daemon

@@ -65,7 +65,7 @@ struct App::Parts {
   explicit Parts(Config c)
       : config(std::move(c)),
         table("mdofd", kVersion),
-        server(loop, table, server_options(config.access)) {}
+        service(loop.executor(), table, server_options(config.access)) {}
 
   Config config;
   std::optional<Hotplug> hotplug;
@@ -74,11 +74,13 @@ struct App::Parts {
   std::unique_ptr<store::Store> reader;
   ActiveTables active;
   JournalLimit journal;
+  SharedDevices shared_devices;
   std::vector<std::unique_ptr<Station>> stations;
   std::unique_ptr<Replayer> replayer;
   std::unique_ptr<Methods> methods;
   rpc::MethodTable table;
-  rpc::Server server;
+  rpc::Service service;
+  rpc::LineServer server{loop, service};
 
   ~Parts() {
     for (auto& station : stations) station->begin_stopping();
@@ -90,7 +92,7 @@ struct App::Parts {
   void read_anew();
   void start_stations();
   std::optional<DatumSetting> last_datum(Axis axis);
-  void tell(const char* topic, const std::string& json);
+  void tell(const char* topic, const std::string& json, std::string_view of = "");
   void to_journal(Axis axis, const Trouble& trouble);
   void heed_signals();
   Status listen();
@@ -132,7 +134,7 @@ Status App::Parts::open_store() {
   return {};
 }
 
-// A database that could not be written was perhaps opened as one that does not change.
+// While the database could not be written, it may have been opened as one that never changes.
 void App::Parts::read_anew() {
   auto opened = store::Store::open(config.database, store::Access::read_only);
   if (opened) *reader = std::move(*opened);
@@ -140,9 +142,6 @@ void App::Parts::read_anew() {
 
 void App::Parts::start_stations() {
   StationEvents events;
-  events.live = [this](std::string json) {
-    loop.post([this, json = std::move(json)] { tell(kLiveTopic, json); });
-  };
   events.run_event = [this](std::string json) {
     loop.post([this, json = std::move(json)] { tell(kRunTopic, json); });
   };
@@ -153,9 +152,12 @@ void App::Parts::start_stations() {
     });
   };
   for (auto& axis : config.axes) {
+    events.live = [this, of = std::string(1, letter(axis.rig.axis))](std::string json) {
+      loop.post([this, of, json = std::move(json)] { tell(kLiveTopic, json, of); });
+    };
     stations.push_back(std::make_unique<Station>(axis, config.measure, config.text,
                                                  config.recordings, *keeper, events,
-                                                 last_datum(axis.rig.axis)));
+                                                 last_datum(axis.rig.axis), &shared_devices));
   }
 }
 
@@ -168,9 +170,9 @@ std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
   return std::nullopt;
 }
 
-// What cannot be sent is not lost in silence: clients see it counted, and the journal has it.
-void App::Parts::tell(const char* topic, const std::string& json) {
-  const Status told = server.publish(topic, json);
+// A message that cannot be sent is counted, which clients see, and the journal says why.
+void App::Parts::tell(const char* topic, const std::string& json, std::string_view of) {
+  const Status told = service.publish(topic, json, of);
   if (told) return;
   const auto now = std::chrono::steady_clock::now();
   if (const auto text = journal.admit(std::string("publish ") + topic, told.error().message, now))
@@ -185,8 +187,8 @@ void App::Parts::to_journal(Axis axis, const Trouble& trouble) {
 }
 
 Status App::Parts::listen() {
-  server.add_topic({.name = kLiveTopic});
-  server.add_topic(
+  service.add_topic({.name = kLiveTopic});
+  service.add_topic(
       {.name = kRunTopic, .event = true, .min_interval = std::chrono::milliseconds(0)});
   replayer = std::make_unique<Replayer>(*keeper);
   methods = std::make_unique<Methods>(Methods{loop, *keeper, *reader, stations, active,
@@ -194,12 +196,7 @@ Status App::Parts::listen() {
                                               std::chrono::steady_clock::now()});
   methods->replayer = replayer.get();
   MDOF_TRY(methods->generation, reader->generation());
-  add_server_methods(table, *methods);
-  add_run_methods(table, *methods);
-  add_encoder_methods(table, *methods);
-  add_replay_methods(table, *methods);
-  add_compensation_methods(table, *methods);
-  add_history_methods(table, *methods);
+  add_all_methods(table, *methods);
   MDOF_TRY(const auto handed_over, systemd::take_listen_sockets());
   for (const int fd : handed_over) MDOF_CHECK(server.listen_fd(fd));
   if (handed_over.empty()) {
@@ -216,7 +213,7 @@ Status App::Parts::listen() {
 // The watchdog is fed by the work: this loop turned, and every thread came round in time.
 void App::Parts::watch() {
   loop.call_every(std::chrono::milliseconds(50), [this] {
-    const auto wanted = server.wanted_every(kLiveTopic);
+    const auto wanted = service.wanted_every(kLiveTopic);
     for (auto& station : stations) station->watch(wanted);
   });
   if (const auto interval = systemd::watchdog_interval()) {
@@ -252,7 +249,7 @@ void App::Parts::heed_signals() {
   });
 }
 
-// Without it devices are asked for again after the pause alone.
+// Where udev cannot be watched, a lost device is opened again only after its pause.
 void App::Parts::watch_hotplug() {
   auto watched = Hotplug::watch();
   if (!watched) {

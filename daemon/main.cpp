@@ -9,6 +9,7 @@
 #include "daemon/app.h"
 #include "daemon/station/check_start.h"
 #include "daemon/version.h"
+#include "schema/base/instruction_set.h"
 
 namespace {
 
@@ -23,6 +24,7 @@ int run(const std::string& config_file, bool check_only) {
     std::fprintf(stderr, "mdofd: %s", mdof::daemon::first_configuration(config_file).c_str());
     return 3;
   }
+  if (auto set = mdof::check_instruction_set(); !set) return failed(set.error());
   auto config = mdof::daemon::load_config(config_file);
   if (!config) return failed(config.error());
   if (check_only) {

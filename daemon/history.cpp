@@ -1,4 +1,4 @@
-#include "daemon/doer.h"
+#include "daemon/history.h"
 
 #include <pwd.h>
 #include <unistd.h>
@@ -21,21 +21,21 @@ std::string name_of_user(uid_t uid) {
 
 }  // namespace
 
-Doer doer_of(std::int64_t uid, std::int64_t gid, std::int64_t pid) {
+Actor actor_of(std::int64_t uid, std::int64_t gid, std::int64_t pid) {
   return {uid, gid, pid, name_of_user(static_cast<uid_t>(uid))};
 }
 
-Doer this_process() {
-  return doer_of(::getuid(), ::getgid(), ::getpid());
+Actor this_process() {
+  return actor_of(::getuid(), ::getgid(), ::getpid());
 }
 
-Deed deed_now(std::string name, Doer by) {
+Deed deed_now(std::string name, Actor by) {
   return {.name = std::move(name), .by = std::move(by), .utc = utc_now()};
 }
 
-std::string doer_text(const Doer& doer) {
-  return "uid " + std::to_string(doer.uid) + (doer.user.empty() ? "" : " (" + doer.user + ")") +
-         " gid " + std::to_string(doer.gid) + " pid " + std::to_string(doer.pid);
+std::string actor_text(const Actor& actor) {
+  return "uid " + std::to_string(actor.uid) + (actor.user.empty() ? "" : " (" + actor.user + ")") +
+         " gid " + std::to_string(actor.gid) + " pid " + std::to_string(actor.pid);
 }
 
 std::string deed_json(const Deed& deed) {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "daemon/doer.h"
+#include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
 #include "schema/run_json.h"
 

@@ -30,10 +30,11 @@ period_mm = 8
 
 class Setup:
     def __init__(self, rig, plan, devices, straightness_um, angle_urad, measure="", targets=(0, 2, 4.1, 6.2),
-                 dwell_s=0.35, speed_mm_s=100, usb=False, comedi=False):
+                 dwell_s=0.35, speed_mm_s=100, usb=False, comedi=False, position_um=None):
         self.rig = os.path.join(DATA, "devices", rig)
         self.plan, self.devices, self.measure = plan, devices, measure
         self.straightness_um, self.angle_urad = straightness_um, angle_urad
+        self.position_um = position_um  # how near the positions are to the targets, where they are the machine's own
         self.usb = usb  # needs the kernel's vhci_hcd, and root: in tests/vm
         self.comedi = comedi  # needs comedi_by_rows.cpp in the place of comedilib
         self.targets, self.dwell_s, self.speed_mm_s = list(targets), dwell_s, speed_mm_s
@@ -139,6 +140,13 @@ sample_time_us = 960
                       straightness_um=0.03, angle_urad=2),
     "labjack_t7": Setup("rig_volts_X.toml", T7_PLAN, T7 + channels(
         encoder=("DIO0", "um_per_count = 0.01", FAST), **AINS), straightness_um=0.03, angle_urad=2),
+    # The position as a voltage: half a code of the converter is 0.16 µm.
+    "position_in_volts": Setup("rig_position_volts_X.toml", """
+[[device]]
+name = "t7"
+kind = "labjack_t7"
+inputs = ["A", "B", "C", "D", "E", "encoder"]
+""", T7 + channels(encoder="AIN5", **AINS), straightness_um=0.03, angle_urad=2, position_um=0.2),
     "csv_stream": Setup("rig_X.toml", """
 [[device]]
 name = "script"

@@ -46,14 +46,15 @@ def shown_at_zero_mm(daemon, setup):
     return min(s for s in set(stops) if stops.count(s) > 0.02 * len(stops)) - setup.targets[0]
 
 
-def measured(daemon, client, targets):
+def measured(daemon, client, targets, axis="X", meanwhile=lambda run: None):
     """The id of a run that is complete, each target once, both ways."""
     watcher = Client(daemon.socket, timeout_s=120)
     watcher.call("live.subscribe", interval_ms=20)
     # A run that begins at the very end of a stop holds that stop, too, with too few readings to be solved.
-    while watcher.next_note()["params"]["value"].get("still", True):
+    while not (value := watcher.next_note()["params"]["value"]).get("axis") == axis or value.get("still", True):
         pass
-    run = client.call("run.start", axis="X", targets_mm=targets, repeats=1)["run"]
+    run = client.call("run.start", axis=axis, targets_mm=targets, repeats=1)["run"]
+    meanwhile(run)
     limit = time.monotonic() + 120
     while True:
         value = watcher.next_note()["params"]["value"]
@@ -109,6 +110,10 @@ def check(options, name):
             assert error < bound, f"{name}: {key} is off by {error} (bound {bound})"
         assert {(p["target"], p["direction"]) for p in points} >= {
             (t + 1, d) for t in range(len(setup.targets)) for d in (1, -1)}
+        if setup.position_um:
+            off_um = max(abs(p["position_mm"] - setup.targets[p["target"] - 1]) for p in points) * 1e3
+            assert off_um < setup.position_um, f"{name}: a position is off by {off_um} µm"
+            worst["position_um"] = off_um
         if options.keep:
             keep(options.keep, name, recording, again)
         return f"{name}: {len(points)} points, worst " + ", ".join(f"{k} {v:.3g}" for k, v in worst.items())

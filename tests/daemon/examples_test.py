@@ -10,12 +10,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from device_setups import Setup, Simulators, worst_errors  # noqa: E402
 from each_device_test import measured, replayed, wait_until_all_flow  # noqa: E402
-from mdofd import Daemon  # noqa: E402
+from mdofd import Client, Daemon, RpcError  # noqa: E402
 
 MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "daemon" / "examples"
@@ -48,6 +49,17 @@ profile = "pokeys57e"
 inputs = ["encoder"]
 um_per_count = 0.5
 """
+
+
+# The fixture at Y, and the encoder of Y; the same errors in the axis' frame.
+T7_AT_Y = T7.replace('kind = ', 'counter = "DIO2"\nports = [{}, {}]\nkind = ')
+
+
+def slope(points, wave):
+    """Of the least-squares line through what the axis does at the places of these points, in µrad."""
+    at = [p["position_mm"] for p in points]
+    mean = sum(at) / len(at)
+    return 1e3 * sum((x - mean) * wave(x) for x in at) / sum((x - mean) ** 2 for x in at)
 
 
 class Examples(unittest.TestCase):
@@ -99,6 +111,90 @@ class Examples(unittest.TestCase):
         self.right("lion-precision-t7", T7,
                    [("192.168.1.207", "t7 command",
                      lambda of: "\nstream_port = " + of["t7 stream"].rsplit(":", 1)[1])], 0.03, 2)
+
+    def test_five_lion_precision_and_the_encoders_of_two_axes_on_a_t7(self):
+        at, text = self.taken("lion-precision-t7-xy")
+
+        def plan(axis, t7):
+            setup = Setup(os.path.join(at, f"rig_{axis}.toml"), t7, "", 0, 0, targets=TARGETS, dwell_s=0.5, speed_mm_s=25)
+            if axis == "Y":  # EXY is -δy, EAY is -εy of the axis' frame
+                setup.plan_text = lambda of=setup.plan_text(): of.replace('"EYX"', '"EXY"').replace('"EBX"', '"EAY"')
+            return Simulators(SIMULATE, setup, at)
+
+        t7 = plan("X", T7)
+        self.addCleanup(lambda: t7.kill())
+        command, stream = (t7.addresses[f"t7 {port}"] for port in ("command", "stream"))
+        port = stream.rsplit(":", 1)[1]
+        self.assertEqual(text.count('"192.168.1.207"'), 1)
+        daemon = Daemon(os.path.abspath(MDOFD), at, text.replace('"192.168.1.207"', f'"{command}"\nstream_port = {port}'),
+                        relative=True)
+        client = daemon.start(timeout_s=60)
+        self.addCleanup(daemon.process.kill)
+
+        def trouble():
+            return {d["axis"]: " ".join(d["trouble"]) for d in client.call("device.list")["devices"]}
+
+        def wait(condition):
+            end = time.monotonic() + 60
+            while not condition():
+                self.assertLess(time.monotonic(), end, client.call("device.list"))
+                time.sleep(0.02)
+
+        def live(axis):
+            watcher = Client(daemon.socket)
+            watcher.call("live.subscribe", interval_ms=100, events=False)
+            while (value := watcher.next_note()["params"]["value"])["axis"] != axis:
+                pass
+            watcher.socket.close()
+            return value
+
+        def refused(run):
+            with self.assertRaisesRegex(RpcError, f'device "t7" are at axis X, of which run {run} is under way') as no:
+                client.call("run.start", axis="Y")
+            self.assertEqual(no.exception.code, -32001)
+
+        wait_until_all_flow(client)
+        x = measured(daemon, client, TARGETS, "X", refused)
+        self.assertEqual((live("Y")["encoder_mm"], live("Y")["still"]), (0, True))  # each line its own count
+        points = {"X": client.points(x["run"])}
+        for key, error in worst_errors(points["X"]).items():
+            self.assertLess(error, 0.03 if key.endswith("_um") else 2, (key, x["warnings"]))
+
+        t7.kill()  # the fixture is moved, with the T7 switched off
+        wait(lambda: all("lost" in text for text in trouble().values()))
+        t7 = plan("Y", T7_AT_Y.format(command.rsplit(":", 1)[1], port))
+        wait(lambda: all("datum is lost" in text and "lost:" not in text for text in trouble().values()))
+
+        def set_at_rest():
+            shown = live("Y")
+            if not shown["still"]:
+                return False
+            try:
+                client.call("encoder.set", axis="Y", position_mm=shown["encoder_mm"])
+            except RpcError as error:
+                self.assertIn("moves", str(error))
+                return False
+            return True
+
+        wait(set_at_rest)
+        wait(lambda: trouble()["Y"] == "")
+        self.assertIn("datum is lost", trouble()["X"])  # of which nobody has said where it stands
+        y = measured(daemon, client, TARGETS, "Y")
+        points["Y"] = client.points(y["run"])
+        as_x = [{"position_mm": p["position_mm"], "EYX_um": p["EXY_um"], "EZX_um": -p["EZY_um"], "EAX_urad": p["EBY_urad"],
+                 "EBX_urad": p["EAY_urad"], "ECX_urad": p["ECY_urad"]} for p in points["Y"]]
+        for key, error in worst_errors(as_x).items():
+            self.assertLess(error, 0.03 if key.endswith("_um") else 2, (key, y["warnings"]))
+
+        fit = client.call("squareness.fit", run_x=x["run"], run_y=y["run"])
+        wave = lambda d: 2 * math.sin(2 * math.pi * d / 10)  # noqa: E731
+        expected = -slope(points["X"], wave) - slope(points["Y"], wave)
+        self.assertAlmostEqual(fit["EC0Y_urad"], expected, delta=5)  # 0.03 µm over 6 mm
+        daemon.stop()
+        for header, axis in ((x, "X"), (y, "Y")):
+            self.assertEqual(len(points[axis]), 2 * len(TARGETS))
+            again = replayed(MDOF, os.path.join(at, header["recording"]["path"]))
+            self.assertEqual(again["points"], points[axis])
 
     def test_two_capancdt_and_an_encoder_on_a_pokeys(self):
         data = lambda name: lambda of: f"\ndata_port = " + of[f"{name} data"].rsplit(":", 1)[1]  # noqa: E731

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "drivers/simulated_device.h"
-#include "drivers/usb/simulated_usb.h"
 #include "schema/base/result.h"
 #include "schema/base/toml_reader.h"
 #include "schema/rig/rig.h"
@@ -21,15 +20,10 @@ struct Wiring {
   std::filesystem::path folder;  // of the plan
 };
 
-// One of them.
-struct Made {
-  std::unique_ptr<drivers::SimulatedDevice> device;
-  std::unique_ptr<drivers::usb::SimulatedUsb> usb;
-};
-
 // A device of this kind from the keys that are its own; `inputs` are channels of the rig or "".
 // Errors name file, line and key.
-Result<Made> make_device(const std::string& kind, const Wiring& wiring,
-                         const std::vector<std::string>& inputs, TomlTable& table);
+Result<std::unique_ptr<drivers::SimulatedDevice>> make_device(
+    const std::string& kind, const Wiring& wiring, const std::vector<std::string>& inputs,
+    TomlTable& table);
 
 }  // namespace mdof::simulate

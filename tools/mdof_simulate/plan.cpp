@@ -24,9 +24,7 @@ Result<Served> read_device(TomlTable& table, const Wiring& wiring) {
   const std::string bus = table.string("bus", "usb");
   served.uhid = bus == "uhid";
   if (!served.uhid && bus != "usb") table.reject("bus", "must be \"usb\" or \"uhid\"");
-  MDOF_TRY(Made made, make_device(kind, wiring, inputs, table));
-  served.device = std::move(made.device);
-  served.usb = std::move(made.usb);
+  MDOF_TRY(served.device, make_device(kind, wiring, inputs, table));
   return served;
 }
 

@@ -27,9 +27,11 @@ double SensedMachine::raw_um(std::size_t channel, std::int64_t t_ns) {
   return scan_.value[channel].back() * (channels_[channel].unit == Unit::mm ? 1e3 : 1);
 }
 
-drivers::Senses senses(std::shared_ptr<SensedMachine> machine, std::vector<Input> inputs) {
+drivers::Senses senses(std::shared_ptr<SensedMachine> machine,
+                       std::vector<drivers::SensedInput> inputs) {
   std::vector<std::size_t> channels;
-  for (const Input& input : inputs) channels.push_back(machine->channel_of(input.channel));
+  for (const drivers::SensedInput& input : inputs)
+    channels.push_back(machine->channel_of(input.channel));
   return [machine = std::move(machine), inputs = std::move(inputs), channels = std::move(channels)](
              std::size_t input, std::int64_t t_ns) {
     if (input >= inputs.size() || channels[input] == SIZE_MAX) return 0.0;

@@ -6,18 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "drivers/simulated_device.h"
+#include "drivers/simulated_wiring.h"
 #include "drivers/simulator/machine.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::simulate {
-
-// What a channel of the rig looks like at a device's input.
-struct Input {
-  std::string channel;  // of the rig, or "encoder"; "": nothing is connected
-  double per_unit = 1;  // input = raw µm (of the encoder: µm of travel) * per_unit + offset
-  double offset = 0;    // µm/V become V with per_unit = 1 / um_per_V
-};
 
 // Thread-bound, as all devices are served by one thread.
 class SensedMachine {
@@ -36,7 +29,8 @@ class SensedMachine {
   std::int64_t at_ns_ = -1;
 };
 
-// `ppm`: the device's clock is fast by so much; its times are turned into those of the machine.
-drivers::Senses senses(std::shared_ptr<SensedMachine> machine, std::vector<Input> inputs);
+// What a device with these inputs senses of the machine.
+drivers::Senses senses(std::shared_ptr<SensedMachine> machine,
+                       std::vector<drivers::SensedInput> inputs);
 
 }  // namespace mdof::simulate

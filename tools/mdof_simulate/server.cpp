@@ -168,13 +168,13 @@ void Server::Parts::tell(std::size_t device, std::size_t port, const std::string
 }
 
 void Server::Parts::turn_devices() {
-  for (Served& served : devices)
-    if (served.device) served.device->turn(device_ns(served));
+  for (Served& served : devices) served.device->turn(device_ns(served));
 }
 
 Status Server::Parts::plug(std::size_t device) {
   Served& served = devices[device];
-  MDOF_TRY(auto port, served.uhid ? plug_into_uhid(*served.usb) : plug_into_vhci(*served.usb));
+  auto& usb = *served.device->on_usb();
+  MDOF_TRY(auto port, served.uhid ? plug_into_uhid(usb) : plug_into_vhci(usb));
   addresses += served.name + " " + port->place() + "\n";
   plugged.push_back({device, std::move(port)});
   return {};
@@ -256,7 +256,7 @@ Result<Server> Server::listen(std::vector<Served> devices, const std::string& ho
   parts->host = host;
   parts->devices = std::move(devices);
   for (std::size_t d = 0; d < parts->devices.size(); ++d) {
-    const Status ready = parts->devices[d].usb ? parts->plug(d) : parts->open_ports(d);
+    const Status ready = parts->devices[d].device->on_usb() ? parts->plug(d) : parts->open_ports(d);
     if (!ready) return in_context("device \"" + parts->devices[d].name + "\"", ready.error());
   }
   return Server(std::move(parts));

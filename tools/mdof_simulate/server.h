@@ -9,16 +9,14 @@
 #include <vector>
 
 #include "drivers/simulated_device.h"
-#include "drivers/usb/simulated_usb.h"
 #include "schema/base/result.h"
 
 namespace mdof::simulate {
 
 struct Served {
   std::string name;
-  std::unique_ptr<drivers::SimulatedDevice> device;  // or
-  std::unique_ptr<drivers::usb::SimulatedUsb> usb;
-  bool uhid = false;           // of usb: through uhid instead of vhci_hcd
+  std::unique_ptr<drivers::SimulatedDevice> device;
+  bool uhid = false;           // on the USB: through uhid instead of vhci_hcd
   std::vector<int> tcp_ports;  // one for each of the device's TCP ports; 0: a free one
   double clock_ppm = 0;        // the device's clock is fast by so much
   double jitter_ms = 0;        // what it sends is held back by 0 to this

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/registry.h"
+#include "drivers/driver_spec.h"
 #include "schema/base/result.h"
 
 namespace mdof::tools {
@@ -27,7 +27,7 @@ struct DeviceFinding {
 
 using StopAsked = std::function<bool()>;
 
-// Reads for so long, or until asked to stop. What goes wrong is in `error`.
+// Reads for `for_s` seconds, or until asked to stop. A failure is in `error`.
 DeviceFinding probe_device(const drivers::DriverSpec& device, double for_s, const StopAsked& stop);
 std::string finding_text(const DeviceFinding& finding);
 std::string finding_json(const DeviceFinding& finding);

@@ -1,10 +1,17 @@
 #include "tools/mdof/checks/doctor_checks.h"
 
+#include <glob.h>
+#include <grp.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
+#include <charconv>
 #include <fstream>
+#include <set>
+#include <sstream>
+
+#include "drivers/registry.h"
 
 namespace mdof::tools {
 namespace {
@@ -21,19 +28,18 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-struct Known {
-  const char *vendor, *product, *name;  // product "": any
-};
-constexpr std::array kKnown = {
-    Known{"0cd5", "", "LabJack"},
-    Known{"09db", "00ea", "MCC USB-1608FS-Plus"},
-    Known{"1dc3", "", "PoKeys"},
-};
+// 0: there is no such file.
+unsigned hex_in(const fs::path& file) {
+  const std::string text = first_line(file);
+  unsigned number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number, 16);
+  return number;
+}
 
-const Known* known(const std::string& vendor, const std::string& product) {
-  for (const Known& k : kKnown)
-    if (vendor == k.vendor && (*k.product == '\0' || product == k.product)) return &k;
-  return nullptr;
+bool is_it(const drivers::UsbDevice& usb, const fs::path& device) {
+  return hex_in(device / "idVendor") == usb.vendor &&
+         (!usb.product || hex_in(device / "idProduct") == *usb.product) &&
+         (*usb.manufacturer == '\0' || first_line(device / "manufacturer") == usb.manufacturer);
 }
 
 // "/dev/bus/usb/001/007" of a device's folder in /sys.
@@ -45,9 +51,93 @@ fs::path usb_node(const Machine& machine, const fs::path& device) {
          three(first_line(device / "devnum"));
 }
 
+// "/dev/hidraw0", "/dev/ttyUSB0": what Linux has made of a device, the first by name; "": nothing.
+fs::path node_below(const Machine& machine, const fs::path& device, const drivers::UsbDevice& usb) {
+  const bool hidraw = usb.node == drivers::UsbNode::hidraw;
+  const std::string interface = ":1." + std::to_string(usb.interface) + "/";
+  std::set<fs::path> nodes;
+  std::error_code ec;
+  const auto options = fs::directory_options::skip_permission_denied;
+  for (const auto& entry : fs::recursive_directory_iterator(device, options, ec)) {
+    const fs::path& path = entry.path();
+    const bool of_interface = !hidraw || path.string().find(interface) != std::string::npos;
+    if (of_interface && path.parent_path().filename() == (hidraw ? "hidraw" : "tty"))
+      nodes.insert(machine.at("dev") / path.filename());
+  }
+  return nodes.empty() ? fs::path() : *nodes.begin();
+}
+
+bool may_write(const fs::path& file, std::optional<gid_t> group) {
+  struct stat is {};
+  if (!group) return ::access(file.c_str(), W_OK) == 0;
+  if (::stat(file.c_str(), &is) != 0) return false;
+  return (is.st_mode & S_IWOTH) != 0 || (is.st_gid == *group && (is.st_mode & S_IWGRP) != 0);
+}
+
 void sort_by_text(std::vector<Diagnosis>& all) {
   std::sort(all.begin(), all.end(),
             [](const Diagnosis& a, const Diagnosis& b) { return a.what < b.what; });
+}
+
+Diagnosis check_usb_device(const Machine& machine, const fs::path& device,
+                           const drivers::UsbDevice& usb) {
+  const std::string what =
+      std::string("USB: ") + usb.name + ", serial " + first_line(device / "serial");
+  const fs::path node = usb.node == drivers::UsbNode::bus ? usb_node(machine, device)
+                                                          : node_below(machine, device, usb);
+  if (node.empty())
+    return {Level::bad,
+            what + ": Linux shows no " +
+                (usb.node == drivers::UsbNode::tty ? "serial port" : "/dev/hidraw") + " of it",
+            "plug it in again; sudo dmesg says what the kernel did with it"};
+  if (::access(node.c_str(), R_OK | W_OK) == 0) return {Level::good, what, ""};
+  return {Level::bad, what + ": no permission for " + node.string(),
+          "install the udev rules (above) and plug it in again, or add yourself to the "
+          "group: sudo usermod -aG mdof $USER, then log in anew"};
+}
+
+Diagnosis check_class_device(const Machine& machine, const std::string& device,
+                             const drivers::ClassDevice& of) {
+  const std::string what = std::string(of.name) + ": ", node = "/dev/" + device;
+  if (::access((machine.at("dev") / device).c_str(), R_OK | W_OK) == 0)
+    return {Level::good, what + node, ""};
+  return {Level::bad, what + "no permission for " + node, of.remedy};
+}
+
+// What the shell patterns of a row stand for in the folder of a device.
+std::vector<fs::path> files_of(const drivers::SysfsFile& of, const fs::path& device) {
+  std::vector<fs::path> files;
+  std::istringstream patterns(of.files);
+  for (std::string pattern; patterns >> pattern;) {
+    glob_t found{};
+    if (::glob((device / pattern).c_str(), 0, nullptr, &found) == 0)
+      files.insert(files.end(), found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    ::globfree(&found);
+  }
+  return files;
+}
+
+// Nothing: another device, or one that has no such files.
+std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const drivers::SysfsFile& of,
+                                            std::optional<gid_t> service) {
+  const std::string name = first_line(device / "name"), names = std::string("|") + of.devices + "|";
+  const auto files = files_of(of, device);
+  if (name.empty() || names.find("|" + name + "|") == std::string::npos || files.empty())
+    return std::nullopt;
+  const std::string what =
+      std::string(of.name) + ": " + device.filename().string() + " (" + name + ")";
+  const auto closed = std::find_if(files.begin(), files.end(), [service](const fs::path& file) {
+    return !may_write(file, service);
+  });
+  if (closed == files.end()) return Diagnosis{Level::good, what, ""};
+  return Diagnosis{
+      Level::doubtful,
+      what + ": " + (service ? "the group mdof" : "this user") + " may not write " +
+          closed->string() + ", which " + of.key + " of mdofd.toml needs",
+      std::string("install the udev rules (60-mdof.rules, above), which give it to the group mdof; "
+                  "where the device was there before them: sudo udevadm control --reload && sudo "
+                  "udevadm trigger --action=add --subsystem-match=") +
+          of.subsystem};
 }
 
 }  // namespace
@@ -93,41 +183,47 @@ Diagnosis check_storage(const daemon::Config& config) {
 
 std::vector<Diagnosis> check_usb(const Machine& machine) {
   std::vector<Diagnosis> all;
-  std::error_code ec;
-  for (const auto& entry : fs::directory_iterator(machine.at("sys/bus/usb/devices"), ec)) {
-    const fs::path& device = entry.path();
-    const Known* k = known(first_line(device / "idVendor"), first_line(device / "idProduct"));
-    if (!k) continue;
-    const fs::path node = usb_node(machine, device);
-    const std::string what =
-        std::string("USB: ") + k->name + ", serial " + first_line(device / "serial");
-    if (::access(node.c_str(), R_OK | W_OK) == 0) {
-      all.push_back({Level::good, what, ""});
-    } else {
-      all.push_back({Level::bad, what + ": no permission for " + node.string(),
-                     "install the udev rules (above) and plug it in again, or add yourself to the "
-                     "group: sudo usermod -aG mdof $USER, then log in anew"});
+  for (const drivers::DriverRow& row : drivers::driver_rows()) {
+    const auto* usb = row.node ? std::get_if<drivers::UsbDevice>(&*row.node) : nullptr;
+    if (!usb) continue;
+    std::error_code ec;
+    for (const auto& entry : fs::directory_iterator(machine.at("sys/bus/usb/devices"), ec))
+      if (is_it(*usb, entry.path())) all.push_back(check_usb_device(machine, entry.path(), *usb));
+  }
+  sort_by_text(all);
+  return all;
+}
+
+std::vector<Diagnosis> check_class_devices(const Machine& machine) {
+  std::vector<Diagnosis> all;
+  for (const drivers::DriverRow& row : drivers::driver_rows()) {
+    const auto* of = row.node ? std::get_if<drivers::ClassDevice>(&*row.node) : nullptr;
+    if (!of) continue;
+    std::error_code ec;
+    for (const auto& entry : fs::directory_iterator(machine.at("sys/class") / of->subsystem, ec)) {
+      const std::string device = entry.path().filename().string();
+      if (device.find('_') == std::string::npos)  // comedi0_subd0 is a part of comedi0
+        all.push_back(check_class_device(machine, device, *of));
     }
   }
   sort_by_text(all);
   return all;
 }
 
-std::vector<Diagnosis> check_comedi(const Machine& machine) {
+std::optional<gid_t> service_group() {
+  const struct group* entry = ::getgrnam("mdof");
+  return entry ? std::optional<gid_t>(entry->gr_gid) : std::nullopt;
+}
+
+std::vector<Diagnosis> check_sysfs_files(const Machine& machine, std::optional<gid_t> service) {
   std::vector<Diagnosis> all;
-  std::error_code ec;
-  for (const auto& entry : fs::directory_iterator(machine.at("sys/class/comedi"), ec)) {
-    const std::string board = entry.path().filename().string();
-    if (board.find('_') != std::string::npos) continue;  // comedi0_subd0 is a part of comedi0
-    const fs::path node = machine.at("dev") / board;
-    if (::access(node.c_str(), R_OK | W_OK) == 0) {
-      all.push_back({Level::good, "Comedi board: /dev/" + board, ""});
-    } else {
-      all.push_back(
-          {Level::bad, "Comedi board: no permission for /dev/" + board,
-           "sudo usermod -aG iocard $USER, then log in anew; the rules of libcomedi0 give "
-           "boards to that group"});
-    }
+  for (const drivers::DriverRow& row : drivers::driver_rows()) {
+    const auto* of = row.node ? std::get_if<drivers::SysfsFile>(&*row.node) : nullptr;
+    if (!of) continue;
+    std::error_code ec;
+    const fs::path devices = machine.at("sys/bus") / of->subsystem / "devices";
+    for (const auto& entry : fs::directory_iterator(devices, ec))
+      if (const auto found = check_sysfs_device(entry.path(), *of, service)) all.push_back(*found);
   }
   sort_by_text(all);
   return all;

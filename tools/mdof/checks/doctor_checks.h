@@ -1,7 +1,10 @@
 // What may be wrong with this machine as a measuring PC, and what to do about it.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +30,19 @@ Diagnosis check_clock(const Machine& machine);
 Diagnosis check_udev_rules(const Machine& machine, bool wanted);
 // Room and right to write where the database and the recordings go.
 Diagnosis check_storage(const daemon::Config& config);
-// USB devices known to mdof that are plugged in, and whether this user may open their nodes.
+// USB devices of the drivers' rows that are plugged in, and whether this user may open the node
+// that the driver opens.
 std::vector<Diagnosis> check_usb(const Machine& machine);
-// Boards of Linux Comedi that the kernel has, and whether this user may open them.
-std::vector<Diagnosis> check_comedi(const Machine& machine);
+// Devices of classes of the kernel in the drivers' rows (boards of Linux Comedi), and whether this
+// user may open them.
+std::vector<Diagnosis> check_class_devices(const Machine& machine);
+
+// Files of devices in sysfs in the drivers' rows (the rate of a capacitance converter, what a
+// counter loads), which mdofd writes where its configuration asks for it: whether the group of its
+// service (none: this user) may write them.
+std::vector<Diagnosis> check_sysfs_files(const Machine& machine, std::optional<gid_t> service);
+// The group that the packaged service is in; none: it is not installed.
+std::optional<gid_t> service_group();
 
 const char* to_string(Diagnosis::Level level);  // "ok", "doubtful", "WRONG"
 

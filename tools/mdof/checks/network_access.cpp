@@ -140,7 +140,7 @@ std::vector<Diagnosis> check_network(const Machine& machine, const daemon::Confi
     for (const auto& device : axis.devices) {
       const std::string address = address_of(device);
       const auto one = parsed(address);
-      if (!one || may_reach(words, *one)) continue;
+      if (device.of_other_axis || !one || may_reach(words, *one)) continue;
       all.push_back({Level::bad,
                      "network: the service mdofd may not reach " + address + " (device " +
                          device.name + "): its IPAddressDeny=any holds",

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
 
 #include "schema/base/number/number.h"
 #include "tools/mdof/output.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr std::size_t kMostOfAKey = 16;  // ,"EYX_um":
 constexpr std::size_t kMostOfARow = 5 * (kDouble17Size + kMostOfAKey) + 8;
 constexpr std::size_t kAtOnce = 8;
+constexpr std::size_t kBlocks = 4;
 constexpr int kPipeBytes = 1 << 20;
 
 char* append(char* out, std::string_view text) {
@@ -31,7 +33,8 @@ double in_key_unit(const ErrorName& name, const SolvedRows& rows, std::size_t ro
 }  // namespace
 
 ErrorRows::ErrorRows(RowForm form, const MovingAxis& moving, Model model)
-    : form_(form), names_(error_names(moving.axis)) {
+    : form_(form), names_(error_names(moving.axis)), filled_(kBlocks), free_(kBlocks) {
+  for (std::size_t i = 0; i < kBlocks; ++i) free_.try_push({});
   for (ErrorName& name : names_) name.sign *= moving.sides.error_sign();
   for (std::size_t k = 0; k < 5; ++k) {
     json_keys_[k] = std::string(k == 0 ? "{\"" : ",\"") + names_[k].key + "\":";
@@ -48,28 +51,43 @@ ErrorRows::ErrorRows(RowForm form, const MovingAxis& moving, Model model)
 }
 
 ErrorRows::~ErrorRows() {
-  blocks_.stop();
+  std::deque<SolvedRows> rest;
+  filled_.pop_all(rest, {});
+  filled_.close();
   if (thread_.joinable()) thread_.join();
 }
 
+SolvedRows* ErrorRows::next() {
+  auto block = free_.pop();
+  if (!block) return nullptr;
+  filling_ = std::move(*block);
+  return &filling_;
+}
+
+void ErrorRows::put() {
+  filled_.push(std::move(filling_));
+}
+
 Status ErrorRows::finish() {
-  blocks_.finish();
+  filled_.close();
   thread_.join();
   return status_;
 }
 
 void ErrorRows::work() {
   status_ = write_all();
-  blocks_.stop();
+  std::deque<SolvedRows> rest;
+  free_.pop_all(rest, {});
+  free_.close();
 }
 
 Status ErrorRows::write_all() {
   MDOF_CHECK(write_out(head_));
-  while (const SolvedRows* const rows = blocks_.begin_read()) {
+  while (auto rows = filled_.pop()) {
     text_.resize(std::max(text_.size(), rows->size() * kMostOfARow));
     char* const begin = text_.data();
     char* const end = form_ == RowForm::csv ? append_csv(*rows, begin) : append_json(*rows, begin);
-    blocks_.end_read();
+    free_.try_push(std::move(*rows));
     MDOF_CHECK(write_out({begin, static_cast<std::size_t>(end - begin)}));
   }
   return form_ == RowForm::json ? write_out("]}\n") : Status();

@@ -7,10 +7,10 @@
 #include <thread>
 
 #include "schema/axis.h"
+#include "schema/base/bounded_queue.h"
 #include "schema/base/result.h"
 #include "schema/point.h"
 #include "tools/mdof/stored/frame_solver.h"
-#include "tools/mdof/stored/hand_over.h"
 
 namespace mdof::tools {
 
@@ -27,8 +27,8 @@ class ErrorRows {
   ~ErrorRows();  // ends without the rest
 
   // The next block to fill; nullptr: nothing can be written any more, finish() knows why.
-  SolvedRows* next() { return blocks_.begin_write(); }
-  void put() { blocks_.end_write(); }
+  SolvedRows* next();
+  void put();  // to be written
   // Writes what is left; error: the standard output refused.
   Status finish();
 
@@ -46,9 +46,10 @@ class ErrorRows {
   std::string head_;
   bool first_row_ = true;
   std::vector<char> text_;
-  HandOver<SolvedRows, 4> blocks_;
-  Status status_;       // of the thread, once it has ended
-  std::thread thread_;  // last: starts when all else is there
+  SolvedRows filling_;
+  BoundedQueue<SolvedRows> filled_, free_;  // a block that is written is free again
+  Status status_;                           // of the thread, once it has ended
+  std::thread thread_;                      // last: starts when all else is there
 };
 
 }  // namespace mdof::tools

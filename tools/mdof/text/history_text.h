@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/doer.h"
+#include "daemon/history.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -14,7 +14,7 @@ inline std::string history_text(const std::vector<Deed>& deeds, std::size_t widt
   std::string text = deeds.empty() ? "" : "\nhistory\n";
   for (const Deed& deed : deeds)
     text += wrapped(deed.utc + " run " + std::to_string(deed.row) + ": " + deed.name + " by " +
-                        daemon::doer_text(deed.by),
+                        daemon::actor_text(deed.by),
                     width, 2) +
             "\n";
   return text;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "daemon/measure/replay/request_json.h"
 #include "schema/axis.h"
 #include "tools/mdof/text/plausibility_text.h"
 #include "tools/mdof/text/text_table.h"
@@ -24,6 +25,12 @@ std::string temperature_text(const Temperature& read) {
   std::snprintf(text.data(), text.size(), "%.2f °C (%.2f to %.2f)", read.mean_C, read.min_C,
                 read.max_C);
   return text.data();
+}
+
+// What its positions are counted from; "": the device knows, or the notes say that nobody does.
+std::string datum_of(const RunHeader& h) {
+  const auto options = daemon::read_options_json(h.provenance.options_json, {});
+  return options ? datum_text(options->datum) : "";
 }
 
 // The scans of a CSV log have no number: whether some are lost is not known.
@@ -98,6 +105,7 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   if (h.supersedes) out += labelled("supersedes", "run " + std::to_string(*h.supersedes), width);
   out += labelled(from.recording_kind, from.recording_path, width);
   out += labelled("scans", std::to_string(h.scans) + ", " + lost_of(h), width);
+  if (const auto datum = datum_of(h); !datum.empty()) out += labelled("datum", datum, width);
   if (h.temperature) out += labelled("at", temperature_text(*h.temperature), width);
   out += labelled("software", from.software_version, width);
   for (const auto& warning : summarised(h.warnings, all_warnings))
@@ -144,6 +152,16 @@ std::string straightness_text(const std::vector<StraightnessFigure>& figures, st
                in_mm(f.valley_position_m)});
   }
   return "straightness, peak to valley about each reference line\n" + table.text(width);
+}
+
+std::string minimum_zone_text(const std::vector<StraightnessLines>& lines, std::size_t width) {
+  TextTable table({"error", "approach", "minimum zone/µm", "slope/µrad"}, 2);
+  for (const auto& of : lines) {
+    const ReferenceLine& line = of.lines.minimum_zone;
+    table.add(
+        {of.error_key.substr(0, 3), of.approach, in_um(line.zone_m), in_urad(line.slope_rad)});
+  }
+  return "straightness about the line from which it deviates least\n" + table.text(width);
 }
 
 std::string angles_text(const std::vector<AngleFigure>& figures, std::size_t width) {

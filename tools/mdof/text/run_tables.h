@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "schema/iso230/reference_lines.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
 
@@ -25,6 +26,7 @@ std::string head_text(const RunHeader& header, const std::string& result_sha256,
                       bool all_warnings = false);
 std::string points_text(const Run& run, std::size_t width);  // five errors ± u, samples, flags
 std::string straightness_text(const std::vector<StraightnessFigure>& figures, std::size_t width);
+std::string minimum_zone_text(const std::vector<StraightnessLines>& lines, std::size_t width);
 std::string angles_text(const std::vector<AngleFigure>& figures, std::size_t width);
 
 std::string arrow(int direction);                 // "+", "-", "?"

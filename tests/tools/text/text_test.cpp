@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "schema/sample.h"
-#include "tools/mdof/commands/live_view.h"
+#include "tools/mdof/commands/measure/live_view.h"
 #include "tools/mdof/text/json_text.h"
 #include "tools/mdof/text/text_table.h"
 

@@ -1,7 +1,7 @@
-#include "tools/mdof/text/table_csv.h"
+#include "tools/mdof/csv/table_csv.h"
 
 #include "schema/units.h"
-#include "tools/mdof/text/csv_text.h"
+#include "tools/mdof/csv/csv_text.h"
 
 namespace mdof::tools {
 

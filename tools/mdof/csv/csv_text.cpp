@@ -1,4 +1,4 @@
-#include "tools/mdof/text/csv_text.h"
+#include "tools/mdof/csv/csv_text.h"
 
 #include <cmath>
 

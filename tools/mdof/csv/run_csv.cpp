@@ -1,16 +1,16 @@
-#include "tools/mdof/text/run_csv.h"
+#include "tools/mdof/csv/run_csv.h"
 
 #include <cmath>
 
 #include "schema/sample.h"
 #include "schema/units.h"
-#include "tools/mdof/text/csv_text.h"
+#include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {
 
-// Without noise nothing is known of the uncertainty.
+// Points without noise have no uncertainty: the cell stays empty.
 double known_u(double variance) {
   return variance > 0 ? to_key_unit(std::sqrt(variance)) : kNaN;
 }

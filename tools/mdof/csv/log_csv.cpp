@@ -1,4 +1,4 @@
-#include "tools/mdof/text/log_csv.h"
+#include "tools/mdof/csv/log_csv.h"
 
 #include <cmath>
 #include <cstdio>

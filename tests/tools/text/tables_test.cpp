@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "schema/sample.h"
+#include "tools/mdof/csv/csv_text.h"
+#include "tools/mdof/csv/log_csv.h"
+#include "tools/mdof/csv/run_csv.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/csv_text.h"
-#include "tools/mdof/text/log_csv.h"
-#include "tools/mdof/text/run_csv.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 #include "tools/mdof/text/warnings.h"

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/version.h"
+#include "schema/base/instruction_set.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/exit_code.h"
 #include "tools/mdof/output.h"
@@ -32,28 +33,7 @@ constexpr const char* kExamples =
 void declare(CLI::App& app, Action& chosen) {
   app.set_version_flag("--version", daemon::kVersion);
   app.set_help_flag("-h,--help", "Print this help and end");
-  add_solve(app, chosen);
-  add_replay(app, chosen);
-  add_runs(app, chosen);
-  add_show(app, chosen);
-  add_history(app, chosen);
-  add_analyse(app, chosen);
-  add_squareness(app, chosen);
-  add_compensation(app, chosen);
-  add_sensitivity(app, chosen);
-  add_studies(app, chosen);
-  add_study(app, chosen);
-  add_verify(app, chosen);
-  add_export(app, chosen);
-  add_record(app, chosen);
-  add_stop(app, chosen);
-  add_encoder(app, chosen);
-  add_device(app, chosen);
-  add_doctor(app, chosen);
-  add_setup(app, chosen);
-  add_status(app, chosen);
-  add_live(app, chosen);
-  add_selftest(app, chosen);
+  declare_commands(app, chosen);
   app.footer(kExamples);  // last: a command has examples of its own
 }
 
@@ -73,7 +53,8 @@ int run(int argc, char** argv) {
     say("mdof: which command? See mdof --help");
     return kUsage;
   }
-  const Status done = chosen();
+  Status done = check_instruction_set();
+  if (done) done = chosen();
   if (done) return kOk;
   say("mdof: " + done.error().message);
   return exit_code_of(done.error().code);

@@ -36,6 +36,10 @@ void add_socket_option(CLI::App& command, std::string& socket) {
       ->type_name("PATH");
 }
 
+void add_only_axis_option(CLI::App& command, std::string& axis) {
+  command.add_option("--axis", axis, "Only of this axis")->check(CLI::IsMember({"X", "Y", "Z"}));
+}
+
 void add_model_option(CLI::App& command, std::string& model) {
   command.add_option("--model", model, "simplified, exact or rigid")
       ->check(CLI::IsMember({"simplified", "exact", "rigid"}))

@@ -14,8 +14,9 @@ void add_json_flag(CLI::App& command, bool& json);
 void add_csv_and_json_flags(CLI::App& command, bool& csv, bool& json);  // one or the other
 void add_all_warnings_flag(CLI::App& command, bool& all);
 void add_database_option(CLI::App& command, std::string& database);
-void add_socket_option(CLI::App& command, std::string& socket);  // sets the default
-void add_model_option(CLI::App& command, std::string& model);    // one of the three names
+void add_socket_option(CLI::App& command, std::string& socket);   // sets the default
+void add_only_axis_option(CLI::App& command, std::string& axis);  // X, Y or Z
+void add_model_option(CLI::App& command, std::string& model);     // one of the three names
 // One of the names of schema/rig/reference.h.
 CLI::Option* add_reference_option(CLI::App& command, std::string& reference);
 

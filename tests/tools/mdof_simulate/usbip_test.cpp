@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "drivers/pokeys57u/device.h"
+#include "drivers/pokeys57u/simulated_pokeys57u.h"
 #include "tests/drivers/modbus/hex.h"
 
 namespace mdof::simulate {
@@ -67,9 +67,9 @@ class UsbIpTest : public ::testing::Test {
   std::vector<Got> ask(const std::string& bytes, std::int64_t now_ns = 0, bool in = true) {
     return parse(usbip.exchange(bytes, now_ns), in);
   }
-  family::Device device{
+  family::SimulatedPokeys57u device{
       [](std::size_t input, std::int64_t) { return 100.0 + static_cast<double>(input); },
-      family::Device::Options{}};
+      family::SimulatedPokeys57u::Options{}};
   UsbIp usbip{device};
 };
 

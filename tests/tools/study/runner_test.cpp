@@ -74,8 +74,8 @@ std::string bytes_of(StudyWork& work) {
 }
 
 std::string run_through(const algo::Experiment& experiment, const RunnerOptions& options) {
-  Ranks ranks = Ranks::join().value();
-  StudyRunner runner = StudyRunner::create(experiment, options, ranks).value();
+  Processes processes = Processes::join().value();
+  StudyRunner runner = StudyRunner::create(experiment, options, processes).value();
   StudyWork work = work_of(experiment, options);
   EXPECT_EQ(runner.run(work), StudyState::complete);
   return bytes_of(work);
@@ -84,8 +84,8 @@ std::string run_through(const algo::Experiment& experiment, const RunnerOptions&
 // Interrupted once, stored, read back, continued with another number of threads.
 std::string run_interrupted(Noise& experiment, RunnerOptions options,
                             std::optional<std::uint64_t> after = std::nullopt) {
-  Ranks ranks = Ranks::join().value();
-  StudyRunner runner = StudyRunner::create(experiment, options, ranks).value();
+  Processes processes = Processes::join().value();
+  StudyRunner runner = StudyRunner::create(experiment, options, processes).value();
   StudyWork work = work_of(experiment, options);
   {
     const Interrupt interrupt;
@@ -97,7 +97,7 @@ std::string run_interrupted(Noise& experiment, RunnerOptions options,
   EXPECT_TRUE(back);
   options.threads = 3;
   const Interrupt none;
-  StudyRunner again = StudyRunner::create(experiment, options, ranks).value();
+  StudyRunner again = StudyRunner::create(experiment, options, processes).value();
   EXPECT_EQ(again.run(*back), StudyState::complete);
   return bytes_of(*back);
 }
@@ -149,8 +149,8 @@ TEST(StudyRunner, TheAdaptiveRuleEndsAtItsLimit) {
   RunnerOptions options = adaptive(2);
   options.adaptive->absolute = {{"A_um", 1e-9}, {"B_um", 1e-9}};
   options.trials = 100000;
-  Ranks ranks = Ranks::join().value();
-  StudyRunner runner = StudyRunner::create(noise, options, ranks).value();
+  Processes processes = Processes::join().value();
+  StudyRunner runner = StudyRunner::create(noise, options, processes).value();
   StudyWork work = work_of(noise, options);
   EXPECT_EQ(runner.run(work), StudyState::complete);
   EXPECT_NE(runner.not_settled().find("within the trials allowed"), std::string::npos);
@@ -175,8 +175,8 @@ class HalfSolved final : public algo::Experiment {
 
 TEST(StudyRunner, TheAdaptiveRuleEndsWhereAnOutputIsNeverSolved) {
   const HalfSolved half;
-  Ranks ranks = Ranks::join().value();
-  StudyRunner runner = StudyRunner::create(half, adaptive(2), ranks).value();
+  Processes processes = Processes::join().value();
+  StudyRunner runner = StudyRunner::create(half, adaptive(2), processes).value();
   StudyWork work = work_of(half, adaptive(2));
   EXPECT_EQ(runner.run(work), StudyState::complete);
   EXPECT_NE(runner.not_settled().find("fewer than two of B_um"), std::string::npos)

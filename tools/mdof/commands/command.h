@@ -1,8 +1,9 @@
-// The commands of mdof, one file each. add_X() declares the command and its options; when it is the
-// one that was called, `chosen` becomes what it does.
+// The commands of mdof. Each is one file in a folder beside this one, with one row: how it is
+// called, what its help says, and its options. commands.inc lists them.
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "schema/base/result.h"
 
@@ -14,27 +15,16 @@ namespace mdof::tools {
 
 using Action = std::function<Status()>;
 
-void add_solve(CLI::App& app, Action& chosen);
-void add_replay(CLI::App& app, Action& chosen);
-void add_runs(CLI::App& app, Action& chosen);
-void add_history(CLI::App& app, Action& chosen);
-void add_show(CLI::App& app, Action& chosen);
-void add_analyse(CLI::App& app, Action& chosen);
-void add_squareness(CLI::App& app, Action& chosen);
-void add_compensation(CLI::App& app, Action& chosen);
-void add_sensitivity(CLI::App& app, Action& chosen);
-void add_studies(CLI::App& app, Action& chosen);
-void add_study(CLI::App& app, Action& chosen);
-void add_verify(CLI::App& app, Action& chosen);
-void add_record(CLI::App& app, Action& chosen);
-void add_stop(CLI::App& app, Action& chosen);
-void add_export(CLI::App& app, Action& chosen);
-void add_encoder(CLI::App& app, Action& chosen);
-void add_device(CLI::App& app, Action& chosen);
-void add_setup(CLI::App& app, Action& chosen);
-void add_doctor(CLI::App& app, Action& chosen);
-void add_status(CLI::App& app, Action& chosen);
-void add_live(CLI::App& app, Action& chosen);
-void add_selftest(CLI::App& app, Action& chosen);
+struct Command {
+  const char* name;     // "replay"; "device probe" is the command `probe` of the group `device`
+  const char* summary;  // its line in the help, without a full stop
+  const char* footer;   // at the end of its own help: notes, and "Example:\n  mdof replay ..."
+  Action (*declare)(CLI::App& command);  // adds its options; the action runs once they are read
+};
+
+std::vector<Command> all_commands();  // in the order of the help
+
+// When one of the commands is called, `chosen` becomes what it does.
+void declare_commands(CLI::App& app, Action& chosen);
 
 }  // namespace mdof::tools

@@ -1,7 +1,7 @@
 #include "tools/mdof/stored/database.h"
 
 #include "daemon/paths.h"
-#include "daemon/store/writer_lock.h"
+#include "daemon/store/file/writer_lock.h"
 
 namespace mdof::tools {
 

@@ -11,7 +11,7 @@
 #include "algo/sensitivity/comparison.h"
 #include "algo/sensitivity/indices.h"
 #include "tools/mdof/interrupt.h"
-#include "tools/mdof/progress.h"
+#include "tools/mdof/progress_bar.h"
 #include "tools/mdof/study/running/run_experiment.h"
 #include "tools/mdof/study/running/workers.h"
 
@@ -35,15 +35,14 @@ std::optional<Sums> sum_blocks(const char* what, unsigned threads, std::uint64_t
                                Add add) {
   std::vector<std::optional<Sums>> parts(threads);
   std::atomic<std::uint64_t> finished = 0;
-  Progress progress(what, "blocks");
+  ProgressBar bar(what);
   const auto work = [&](unsigned worker, std::size_t block) {
     if (!parts[worker]) parts[worker].emplace(make());
     add(*parts[worker], block);
     ++finished;
   };
   const auto tick = [&] {
-    progress.show(static_cast<double>(finished) / static_cast<double>(blocks),
-                  static_cast<double>(blocks));
+    bar.show({static_cast<double>(finished), static_cast<double>(blocks), "blocks"});
     return !Interrupt::requested();
   };
   if (in_parallel(threads, blocks, work, tick) < blocks) return std::nullopt;

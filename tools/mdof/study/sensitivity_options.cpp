@@ -167,11 +167,6 @@ void declare_options(CLI::App& command, SensitivityCommand& o) {
   declare_trials(command, o);
   declare_results(command, o);
   declare_preset(command, o);
-  command.footer(
-      "Examples:\n"
-      "  mdof sensitivity --preset simulation-2 --radius-um 5 --plot plots\n"
-      "  mdof sensitivity --plan plan.toml --adaptive --digits 2 --db studies.db\n"
-      "  mpirun -n 8 mdof sensitivity --preset simulation-1 --trials 1e11 --json");
 }
 
 Status check_usage(SensitivityCommand& command) {

@@ -23,27 +23,27 @@ std::uint64_t rounded_up(std::uint64_t a, std::uint64_t b) {
 }  // namespace
 
 Result<StudyRunner> StudyRunner::create(const algo::Experiment& experiment, RunnerOptions options,
-                                        Ranks& ranks) {
+                                        Processes& processes) {
   if (!options.adaptive) {
     const std::uint64_t unit =
         options.slow ? algo::block_trials(experiment, 1) : algo::block_trials(experiment);
-    return StudyRunner(experiment, std::move(options), unit, ranks);
+    return StudyRunner(experiment, std::move(options), unit, processes);
   }
   MDOF_TRY(const std::uint64_t unit, algo::adaptive_block_trials(experiment, options.coverage));
   MDOF_TRY(auto rule, algo::AdaptiveRule::create(experiment.outputs(), *options.adaptive));
-  StudyRunner runner(experiment, std::move(options), unit, ranks);
+  StudyRunner runner(experiment, std::move(options), unit, processes);
   runner.rule_ = std::move(rule);
   return runner;
 }
 
 StudyRunner::StudyRunner(const algo::Experiment& experiment, RunnerOptions options,
-                         std::uint64_t unit_trials, Ranks& ranks)
+                         std::uint64_t unit_trials, Processes& processes)
     : experiment_(&experiment),
       options_(std::move(options)),
-      ranks_(&ranks),
+      processes_(&processes),
       unit_trials_(unit_trials) {
   if (options_.slow) {
-    const bool alone = ranks.size() == 1;  // several processes end a round together
+    const bool alone = processes.size() == 1;  // several processes end a round together
     divided_ = std::make_unique<DividedTrials>(
         experiment, options_.threads, [alone] { return !alone || !Interrupt::requested(); });
     experiment_ = divided_.get();
@@ -60,15 +60,15 @@ StudyState StudyRunner::run(StudyWork& state) {
     Round round = plan();
     if (round.begin == round.end) break;
     work(round, state);
-    stop_ = ranks_->any(Interrupt::requested());
+    stop_ = processes_->any(Interrupt::requested());
     if (!round.collect) continue;
     collect(state);
     note_convergence(state);
     checkpoint(state);
   }
   collect(state);
-  progress_.reset();
-  const bool complete = ranks_->broadcast_number(done_ == total_ || rule_ended()) == 1;
+  bar_.reset();
+  const bool complete = processes_->broadcast_number(done_ == total_ || rule_ended()) == 1;
   return complete ? StudyState::complete : StudyState::interrupted;
 }
 
@@ -78,9 +78,9 @@ void StudyRunner::resume(const StudyWork& state) {
   elapsed_before_s_ = state.elapsed_s;
   if (rule_)
     for (const auto& block : state.rule) rule_->add(block);
-  done_ = ranks_->broadcast_number(rounded_up(state.trials, unit_trials_));
-  if (ranks_->first())
-    progress_ = std::make_unique<Progress>("study", "trials", static_cast<double>(state.trials));
+  done_ = processes_->broadcast_number(rounded_up(state.trials, unit_trials_));
+  if (processes_->first())
+    bar_ = std::make_unique<ProgressBar>("study", static_cast<double>(state.trials));
 }
 
 // What comes next is the decision of rank 0. The rounds end at 1, 2, 4, 8 ... units, where the
@@ -93,8 +93,8 @@ StudyRunner::Round StudyRunner::plan() {
   }
   round.collect =
       std::has_single_bit(round.end) || round.end == total_ || Clock::now() > next_checkpoint_;
-  round.end = ranks_->broadcast_number(round.end);
-  round.collect = ranks_->broadcast_number(round.collect ? 1 : 0) == 1;
+  round.end = processes_->broadcast_number(round.end);
+  round.collect = processes_->broadcast_number(round.collect ? 1 : 0) == 1;
   return round;
 }
 
@@ -116,7 +116,7 @@ std::string StudyRunner::not_settled() const {
 // Of slow trials a unit each, as one that is cut short is lost. The adaptive rule may settle within
 // a round, and the trials after that are lost.
 std::uint64_t StudyRunner::longest_round() const {
-  const auto size = static_cast<std::uint64_t>(ranks_->size());
+  const auto size = static_cast<std::uint64_t>(processes_->size());
   if (divided_) return size;
   const auto in_time = std::max(size, static_cast<std::uint64_t>(units_per_s_ * kRound_s));
   return rule_ ? std::min(in_time, std::max(options_.threads * size, done_ / 8)) : in_time;
@@ -143,14 +143,15 @@ void StudyRunner::work(Round& round, StudyWork& state) {
   done_ = round.end;
 }
 
-// Units of this rank go into the parts, and each one's figures to its place. Gives the end of what
-// was done by all ranks: that of the round, or before it where a process that is alone was stopped.
+// Units of this process go into the parts, and each one's figures to its place. Gives the end of
+// what was done by all processes: that of the round, or before it where a process that is alone was
+// stopped.
 std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures* figures,
                                       StudyWork& state) {
   const std::uint64_t at_once = figures ? 1 : units_at_once(round);
   const std::uint64_t pieces = rounded_up(round.end - round.begin, at_once);
-  const auto size = static_cast<std::uint64_t>(ranks_->size());
-  const auto rank = static_cast<std::uint64_t>(ranks_->rank());
+  const auto size = static_cast<std::uint64_t>(processes_->size());
+  const auto rank = static_cast<std::uint64_t>(processes_->rank());
   const std::uint64_t mine = pieces > rank ? rounded_up(pieces - rank, size) : 0;
   std::atomic<std::uint64_t> finished = 0;
   const double run_before = units_run();
@@ -184,17 +185,17 @@ std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures*
 
 // Long enough to keep the histograms in the cache, short enough for each thread to get several.
 std::uint64_t StudyRunner::units_at_once(const Round& round) const {
-  const auto workers = options_.threads * static_cast<std::uint64_t>(ranks_->size());
+  const auto workers = options_.threads * static_cast<std::uint64_t>(processes_->size());
   const std::uint64_t most = algo::kBlocksAtOnce * algo::block_trials(*experiment_) / unit_trials_;
   return std::clamp((round.end - round.begin) / (4 * workers), std::uint64_t{1},
                     std::max(std::uint64_t{1}, most));
 }
 
-// Feeds the rule on rank 0 with the units of all ranks in their order, until it settles. Gives the
-// unit before which it did, or the end of the round.
+// Feeds the rule on rank 0 with the units of all processes in their order, until it settles. Gives
+// the unit before which it did, or the end of the round.
 std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyWork& state) {
   gather(figures);
-  if (!ranks_->first()) return ranks_->broadcast_number(0);
+  if (!processes_->first()) return processes_->broadcast_number(0);
   std::uint64_t unit = round.begin;
   while (unit < round.end && !rule_ended()) {
     auto& of_unit = figures[unit++ - round.begin];
@@ -205,24 +206,24 @@ std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyW
   for (const auto& output : rule_->progress())
     ratio = std::max(ratio, output.worst / output.tolerance);
   expected_units_ = std::isfinite(ratio) ? static_cast<double>(unit) * ratio * ratio : 0;
-  return ranks_->broadcast_number(unit);
+  return processes_->broadcast_number(unit);
 }
 
-// Units go round the ranks, as in work_share().
+// Units go round the processes, as in work_share().
 void StudyRunner::gather(Figures& figures) const {
-  const auto size = static_cast<std::size_t>(ranks_->size());
+  const auto size = static_cast<std::size_t>(processes_->size());
   const auto each = [&](int rank, const auto& visit) {
     for (auto i = static_cast<std::size_t>(rank); i < figures.size(); i += size) visit(figures[i]);
   };
   const std::size_t bytes = experiment_->outputs().size() * sizeof(algo::BlockFigures);
-  if (!ranks_->first()) {
+  if (!processes_->first()) {
     std::string mine;
-    each(ranks_->rank(),
+    each(processes_->rank(),
          [&](const auto& unit) { mine.append(reinterpret_cast<const char*>(unit.data()), bytes); });
-    return ranks_->send(0, mine);
+    return processes_->send(0, mine);
   }
-  for (int from = 1; from < ranks_->size(); ++from) {
-    const std::string theirs = ranks_->receive(from);
+  for (int from = 1; from < processes_->size(); ++from) {
+    const std::string theirs = processes_->receive(from);
     const char* next = theirs.data();
     each(from, [&](auto& unit) {
       unit.resize(experiment_->outputs().size());
@@ -232,17 +233,18 @@ void StudyRunner::gather(Figures& figures) const {
   }
 }
 
-// Merges the statistics of all ranks into those of rank 0, by a binary tree.
+// Merges the statistics of all processes into those of rank 0, by a binary tree.
 void StudyRunner::collect(StudyWork& state) {
-  const int rank = ranks_->rank(), size = ranks_->size();
+  const int rank = processes_->rank(), size = processes_->size();
   for (int step = 1; step < size; step *= 2) {
     if (rank % (2 * step) != 0) {
-      ranks_->send(rank - step, state.statistics.serialise());
+      processes_->send(rank - step, state.statistics.serialise());
       state.statistics = algo::StudyStatistics(*experiment_, state.scale);
       break;
     }
     if (rank + step >= size) continue;
-    const auto theirs = algo::StudyStatistics::parse(ranks_->receive(rank + step), *experiment_);
+    const auto theirs =
+        algo::StudyStatistics::parse(processes_->receive(rank + step), *experiment_);
     assert(theirs);  // the same program wrote it
     state.statistics.merge(*theirs);
   }
@@ -252,12 +254,12 @@ void StudyRunner::collect(StudyWork& state) {
 }
 
 void StudyRunner::note_convergence(StudyWork& state) const {
-  if (!ranks_->first() || !std::has_single_bit(done_)) return;
+  if (!processes_->first() || !std::has_single_bit(done_)) return;
   add_convergence(state, options_.coverage);
 }
 
 void StudyRunner::checkpoint(StudyWork& state) {
-  if (!ranks_->first() || Clock::now() < next_checkpoint_) return;
+  if (!processes_->first() || Clock::now() < next_checkpoint_) return;
   if (options_.checkpoint) options_.checkpoint(state);
   next_checkpoint_ = Clock::now() + kCheckpoint;
 }
@@ -269,9 +271,10 @@ std::uint64_t StudyRunner::trials_before(std::uint64_t unit) const {
 }
 
 void StudyRunner::show_progress(double units) {
-  if (!progress_ || expected_units_ <= 0) return;
-  const double share = std::min(0.999, units / expected_units_);
-  progress_->show(share, expected_units_ * static_cast<double>(unit_trials_));
+  if (!bar_ || expected_units_ <= 0) return;
+  const double unit_trials = static_cast<double>(unit_trials_);
+  const double done_units = std::min(units, 0.999 * expected_units_);  // the rule may want more
+  bar_->show({done_units * unit_trials, expected_units_ * unit_trials, "trials"});
 }
 
 double StudyRunner::units_run() const {

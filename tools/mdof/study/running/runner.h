@@ -1,9 +1,9 @@
 // Runs the trials of a study: on threads, on the processes of MPI, until all are done, the adaptive
 // rule has settled, or somebody interrupts. The figures do not depend on any of that.
 //
-//   rank 0 plans a round of blocks ─▶ every rank works off its share, each thread with statistics
-//   of its own ─▶ merged in the rank ─▶ now and then merged in rank 0, which keeps the convergence,
-//   the checkpoints and the adaptive rule
+//   rank 0 plans a round of blocks ─▶ every process works off its share, each thread with
+//   statistics of its own ─▶ merged in it ─▶ now and then merged in rank 0, which keeps the
+//   convergence, the checkpoints and the adaptive rule
 #pragma once
 
 #include <chrono>
@@ -16,10 +16,10 @@
 #include "algo/sensitivity/adaptive.h"
 #include "algo/sensitivity/experiment.h"
 #include "schema/base/result.h"
-#include "tools/mdof/progress.h"
+#include "tools/mdof/progress_bar.h"
 #include "tools/mdof/study/running/checkpoint.h"
 #include "tools/mdof/study/running/divided_trials.h"
-#include "tools/mdof/study/running/ranks.h"
+#include "tools/mdof/study/running/processes.h"
 
 namespace mdof::tools {
 
@@ -37,7 +37,7 @@ class StudyRunner {
  public:
   // Error: tolerances or a coverage that the adaptive rule refuses.
   static Result<StudyRunner> create(const algo::Experiment& experiment, RunnerOptions options,
-                                    Ranks& ranks);
+                                    Processes& processes);
   // Goes on from `state`, which on rank 0 then holds all trials; on the others it is used up.
   StudyState run(StudyWork& state);
   // What kept the adaptive rule from settling, in words; "": nothing, or there is no rule.
@@ -53,7 +53,7 @@ class StudyRunner {
   };
 
   StudyRunner(const algo::Experiment& experiment, RunnerOptions options, std::uint64_t unit_trials,
-              Ranks& ranks);
+              Processes& processes);
   void resume(const StudyWork& state);
   Round plan();
   bool rule_ended() const;
@@ -73,17 +73,17 @@ class StudyRunner {
   std::unique_ptr<DividedTrials> divided_;  // of slow trials
   const algo::Experiment* experiment_;
   RunnerOptions options_;
-  Ranks* ranks_;
+  Processes* processes_;
   std::optional<algo::AdaptiveRule> rule_;
   std::uint64_t unit_trials_;           // of a block, or of a block of the rule
   std::optional<std::uint64_t> total_;  // units; none: no limit
   std::uint64_t done_ = 0;              // units
   double expected_units_ = 0;           // for the progress; 0: nobody knows
-  double units_per_s_ = 0;              // of the last round, all ranks
+  double units_per_s_ = 0;              // of the last round, all processes
   bool stop_ = false;
   double elapsed_before_s_ = 0;
   Clock::time_point begin_, next_checkpoint_;
-  std::unique_ptr<Progress> progress_;
+  std::unique_ptr<ProgressBar> bar_;
 };
 
 }  // namespace mdof::tools

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+
+#include "tools/mdof/commands/command.h"
+
+namespace mdof::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "device probe": device_probe; "iso230-2" would be iso230_2
+std::string file_name_of(std::string command) {
+  for (char& c : command)
+    if (c == ' ' || c == '-') c = '_';
+  return command;
+}
+
+// The commands that the files in the folders define: {device_probe: device_probe.cpp}.
+std::map<std::string, std::string> defined_commands() {
+  const fs::path root = fs::path(MDOF_TEST_DATA).parent_path().parent_path();
+  const std::regex definition("Command (\\w+)_command\\(\\)");
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "tools/mdof/commands")) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream in(entry.path());
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    for (std::sregex_iterator found(text.begin(), text.end(), definition), end; found != end;
+         ++found)
+      files[(*found)[1]] = entry.path().filename();
+  }
+  return files;
+}
+
+TEST(Commands, EachFileHasItsRowAndEachRowTheFileOfItsName) {
+  std::map<std::string, std::string> rows;
+  for (const Command& row : all_commands())
+    rows[file_name_of(row.name)] = file_name_of(row.name) + ".cpp";
+  EXPECT_EQ(rows, defined_commands());
+}
+
+TEST(Commands, EachIsCalledByItsName) {
+  for (const Command& row : all_commands()) {
+    CLI::App app("", "mdof");
+    Action chosen;
+    declare_commands(app, chosen);
+    EXPECT_THROW(app.parse(std::string(row.name) + " --help"), CLI::CallForHelp) << row.name;
+    EXPECT_NE(app.help().find(row.summary), std::string::npos) << row.name;
+  }
+}
+
+TEST(Commands, EachShowsHowItIsCalled) {
+  for (const Command& row : all_commands()) {
+    EXPECT_NE(std::string(row.footer).find(std::string("mdof ") + row.name), std::string::npos)
+        << row.name;
+    EXPECT_NE(row.summary[0], '\0') << row.name;
+    EXPECT_NE(std::string(row.summary).back(), '.') << row.name;
+  }
+}
+
+TEST(Commands, OneThatIsCalledIsChosen) {
+  CLI::App app("", "mdof");
+  Action chosen;
+  declare_commands(app, chosen);
+  app.parse("setup network not-an-address");
+  ASSERT_TRUE(chosen);
+  const Status done = chosen();
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("not-an-address"), std::string::npos);
+}
+
+TEST(Commands, AGroupAsksForOneOfItsCommands) {
+  CLI::App app("", "mdof");
+  Action chosen;
+  declare_commands(app, chosen);
+  EXPECT_THROW(app.parse("device"), CLI::RequiredError);
+}
+
+}  // namespace
+}  // namespace mdof::tools

@@ -1,0 +1,70 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cassert>
+
+#include "tools/mdof/commands/command.h"
+
+namespace mdof::tools {
+
+#define COMMAND(name) Command name##_command();
+#include "tools/mdof/commands/commands.inc"
+#undef COMMAND
+
+namespace {
+
+// What several commands begin with. In the help it stands where the first of them does.
+struct Group {
+  std::string_view name;
+  const char *summary, *footer;
+};
+constexpr Group kGroups[] = {
+    {"compensation", "Build, show and activate compensation tables", ""},
+    {"encoder", "Where an axis stands whose encoder counts", ""},
+    {"device", "The devices: list, probe, monitor",
+     "Examples:\n"
+     "  mdof device list\n"
+     "  mdof device probe capa-1 --config mdofd.toml\n"
+     "probe and monitor open the device themselves: stop mdofd first."},
+    {"setup", "Set up the service on this machine", ""},
+};
+
+CLI::App* made_before(CLI::App& app, std::string_view name) {
+  const auto found =
+      app.get_subcommands([name](const CLI::App* sub) { return sub->get_name() == name; });
+  return found.empty() ? nullptr : found.front();
+}
+
+CLI::App* group_of(CLI::App& app, const std::string& name) {
+  if (auto* group = made_before(app, name)) return group;
+  const auto row = std::find_if(std::begin(kGroups), std::end(kGroups),
+                                [&name](const Group& g) { return g.name == name; });
+  assert(row != std::end(kGroups) && "a group of commands needs its row");
+  auto* group = app.add_subcommand(name, row->summary)->require_subcommand(1);
+  return group->footer(row->footer);
+}
+
+CLI::App* add_command(CLI::App& app, const Command& row) {
+  const std::string name = row.name;
+  const std::size_t space = name.find(' ');
+  if (space == std::string::npos) return app.add_subcommand(name, row.summary);
+  return group_of(app, name.substr(0, space))->add_subcommand(name.substr(space + 1), row.summary);
+}
+
+}  // namespace
+
+std::vector<Command> all_commands() {
+  return {
+#define COMMAND(name) name##_command(),
+#include "tools/mdof/commands/commands.inc"
+#undef COMMAND
+  };
+}
+
+void declare_commands(CLI::App& app, Action& chosen) {
+  for (const Command& row : all_commands()) {
+    auto* command = add_command(app, row)->footer(row.footer);
+    command->callback([action = row.declare(*command), &chosen] { chosen = action; });
+  }
+}
+
+}  // namespace mdof::tools

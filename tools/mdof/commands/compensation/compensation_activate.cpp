@@ -1,0 +1,60 @@
+// mdof compensation activate: puts a table in force on its axis.
+#include <CLI/CLI.hpp>
+
+#include "daemon/history.h"
+#include "daemon/measure/evaluation.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/database_writer.h"
+
+namespace mdof::tools {
+namespace {
+
+struct ActivateCommand {
+  std::string database, socket;
+  std::int64_t table = 0;
+  bool despite_warnings = false, json = false;
+};
+
+Result<std::string> activated(const ActivateCommand& command) {
+  const std::string table = "\"table\":" + std::to_string(command.table);
+  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
+  const std::string despite = command.despite_warnings ? ",\"despite_warnings\":true" : "";
+  if (mdofd) return mdofd->call("compensation.activate", "{" + table + despite + "}");
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  const Deed deed = daemon::deed_now("compensation.activate", daemon::this_process());
+  MDOF_TRY(const auto done,
+           daemon::activate_table(store, {command.table, command.despite_warnings, deed}));
+  return store::activation_json(table, done);
+}
+
+Status activate(const ActivateCommand& command) {
+  MDOF_TRY(const std::string reply, activated(command));
+  const std::string table = "table " + std::to_string(command.table);
+  return print_activation(reply, table + " is in force", table + " is already in force",
+                          command.json);
+}
+
+Action declare_activate(CLI::App& command) {
+  const auto o = std::make_shared<ActivateCommand>();
+  add_database_option(command, o->database);
+  command.add_option("TABLE", o->table, "Number of the table")->required()->type_name("");
+  command.add_flag("--despite-warnings", o->despite_warnings,
+                   "Also a table whose runs carry warnings");
+  add_socket_option(command, o->socket);
+  add_json_flag(command, o->json);
+  return [o] { return activate(*o); };
+}
+
+}  // namespace
+
+Command compensation_activate_command() {
+  return {.name = "compensation activate",
+          .summary = "Put a table in force on its axis",
+          .footer = "Example:\n  mdof compensation activate 1",
+          .declare = declare_activate};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,112 @@
+// mdof compensation build: the mean errors of runs of one axis as a table, stored.
+#include <CLI/CLI.hpp>
+
+#include "daemon/history.h"
+#include "daemon/measure/evaluation.h"
+#include "schema/run_json.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/database_writer.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/text/compensation_text.h"
+#include "tools/mdof/text/warnings.h"
+
+namespace mdof::tools {
+namespace {
+
+struct BuildCommand {
+  std::string database, socket, axis, reference;  // empty: the rig's tool point, else the fixture
+  std::vector<std::string> words;                 // runs as they were given
+  std::vector<std::int64_t> runs;
+  bool keep_slope = false, partial = false, json = false, all_warnings = false;
+};
+
+Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  daemon::TableRequest request{command.runs,
+                               command.keep_slope,
+                               command.partial,
+                               {},
+                               daemon::deed_now("compensation.build", daemon::this_process())};
+  if (!command.reference.empty())
+    reference_from(command.reference, request.reference.emplace());  // the option takes no other
+  return daemon::build_table(store, request);
+}
+
+// mdofd has the database: it builds and stores. What it stored is read and shown like a table of
+// this program's.
+Result<daemon::BuiltTable> build_there(rpc::Client& mdofd, const BuildCommand& command) {
+  JsonWriter params;
+  params.begin_object().key("runs").begin_array();
+  for (const std::int64_t id : command.runs) params.value(id);
+  params.end_array();
+  if (command.keep_slope) params.field("keep_slope", true);
+  if (!command.reference.empty()) params.field("reference", command.reference);
+  if (command.partial) params.field("partial", true);
+  params.end_object();
+  MDOF_TRY(const std::string reply, mdofd.call("compensation.build", params.text()));
+  simdjson::dom::parser parser;
+  const auto json = parser.parse(simdjson::padded_string(reply));
+  daemon::BuiltTable built;
+  built.warnings = texts(json, "warnings");
+  built.notes = texts(json, "notes");
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(built.table, store.table(integer(json, "table").value_or(0)));
+  return built;
+}
+
+Status choose_runs(BuildCommand& command) {
+  for (const auto& word : command.words) {
+    MDOF_TRY(const auto run, run_number(command.database, word, axis_from(command.axis)));
+    command.runs.push_back(run);
+  }
+  return {};
+}
+
+Status build(const BuildCommand& asked) {
+  BuildCommand command = asked;
+  MDOF_CHECK(choose_runs(command));
+  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
+  MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
+  const auto& [table, warnings, notes] = built;
+  for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
+  for (const auto& note : notes) say("note: " + note);
+  MDOF_CHECK(command.json ? write_line(with_texts(with_warnings(table_document(table, 0), warnings),
+                                                  "notes", notes))
+                          : write_out(table_text(table, 0)));
+  say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id) +
+      (warnings.empty() && notes.empty() ? "" : " --despite-warnings"));
+  return {};
+}
+
+Action declare_build(CLI::App& command) {
+  const auto o = std::make_shared<BuildCommand>();
+  add_database_option(command, o->database);
+  add_run_arguments(command, o->words, "Runs of one axis, the same targets; or latest");
+  add_axis_of_latest(command, o->axis);
+  command.add_flag("--keep-slope", o->keep_slope,
+                   "Straightness as measured, not about its least-squares line");
+  command.add_flag("--partial", o->partial, "Take partial runs as well");
+  add_reference_option(command, o->reference)
+      ->description("fixture, carriage or tool [default: the rig's tool point, else the fixture]");
+  add_socket_option(command, o->socket);
+  add_json_flag(command, o->json);
+  add_all_warnings_flag(command, o->all_warnings);
+  return [o] { return build(*o); };
+}
+
+}  // namespace
+
+Command compensation_build_command() {
+  return {
+      .name = "compensation build",
+      .summary = "Mean errors of runs of one axis as a table",
+      .footer =
+          "Examples:\n  mdof compensation build 1 3 5\n  mdof compensation build latest --axis X",
+      .declare = declare_build};
+}
+
+}  // namespace mdof::tools

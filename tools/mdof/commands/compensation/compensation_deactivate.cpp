@@ -1,0 +1,57 @@
+// mdof compensation deactivate: takes the table of an axis out of force.
+#include <CLI/CLI.hpp>
+
+#include "daemon/history.h"
+#include "schema/axis.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/database_writer.h"
+
+namespace mdof::tools {
+namespace {
+
+struct DeactivateCommand {
+  std::string database, socket, axis;
+  bool json = false;
+};
+
+Result<std::string> deactivated(const DeactivateCommand& command) {
+  const std::string axis = "\"axis\":\"" + command.axis + "\"";
+  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
+  if (mdofd) return mdofd->call("compensation.deactivate", "{" + axis + "}");
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  const Deed deed = daemon::deed_now("compensation.deactivate", daemon::this_process());
+  MDOF_TRY(const auto done,
+           store.deactivate(*axis_from(command.axis), daemon::actor_text(deed.by), deed.utc, deed));
+  return store::activation_json(axis, done);
+}
+
+Status deactivate(const DeactivateCommand& command) {
+  MDOF_TRY(const std::string reply, deactivated(command));
+  return print_activation(reply, "axis " + command.axis + " is no longer compensated",
+                          "axis " + command.axis + ": no table was in force", command.json);
+}
+
+Action declare_deactivate(CLI::App& command) {
+  const auto o = std::make_shared<DeactivateCommand>();
+  add_database_option(command, o->database);
+  command.add_option("--axis", o->axis, "Of the machine")
+      ->required()
+      ->check(CLI::IsMember({"X", "Y", "Z"}));
+  add_socket_option(command, o->socket);
+  add_json_flag(command, o->json);
+  return [o] { return deactivate(*o); };
+}
+
+}  // namespace
+
+Command compensation_deactivate_command() {
+  return {.name = "compensation deactivate",
+          .summary = "Take the table of an axis out of force",
+          .footer = "Example:\n  mdof compensation deactivate --axis X",
+          .declare = declare_deactivate};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,69 @@
+// mdof compensation show: a table, by default the one in force.
+#include <CLI/CLI.hpp>
+
+#include "schema/axis.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/csv/table_csv.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/text/compensation_text.h"
+
+namespace mdof::tools {
+namespace {
+
+struct ShowTableCommand {
+  std::string database, axis;
+  std::int64_t table = 0;  // 0: chosen here
+  bool csv = false, json = false;
+};
+
+// The one asked for; else the one in force; else the newest.
+Result<CompensationTable> choose_table(store::Store& store, const ShowTableCommand& command) {
+  if (command.table != 0) return store.table(command.table);
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    if (!command.axis.empty() && axis_from(command.axis) != axis) continue;
+    auto active = store.active(axis);
+    if (active) return std::move(active->table);
+    if (active.error().code != ErrorCode::not_found) return tl::unexpected(active.error());
+  }
+  MDOF_TRY(auto newest, store.list_tables(0, 1, axis_from(command.axis)));
+  if (!newest.empty()) return std::move(newest.front());
+  return fail(ErrorCode::not_found, store.file().string() + ": has no compensation table" +
+                                        (command.axis.empty() ? "" : " of " + command.axis) +
+                                        "; build one with mdof compensation build RUN");
+}
+
+Status show(const ShowTableCommand& command) {
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const CompensationTable table, choose_table(store, command));
+  MDOF_TRY(const std::int64_t generation, generation_of(store, table));
+  if (generation == 0)
+    warn("table " + std::to_string(table.id) + " of axis " + letter(table.axis) +
+         " is not in force");
+  if (command.csv && table.simulated) warn("simulated data: no machine was measured");
+  if (command.csv) return write_out(table_csv(table));
+  return command.json ? write_line(table_document(table, generation))
+                      : write_out(table_text(table, generation));
+}
+
+Action declare_show(CLI::App& command) {
+  const auto o = std::make_shared<ShowTableCommand>();
+  add_database_option(command, o->database);
+  command.add_option("TABLE", o->table, "Number of the table")->type_name("");
+  add_only_axis_option(command, o->axis);
+  add_csv_and_json_flags(command, o->csv, o->json);
+  return [o] { return show(*o); };
+}
+
+}  // namespace
+
+Command compensation_show_command() {
+  return {.name = "compensation show",
+          .summary = "Show a table [default: the one in force, else the newest]",
+          .footer = "Example:\n  mdof compensation show --axis X --csv > table_X.csv",
+          .declare = declare_show};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,24 @@
+#include "tools/mdof/commands/compensation/in_force.h"
+
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/json_read.h"
+
+namespace mdof::tools {
+
+Result<std::int64_t> generation_of(store::Store& store, const CompensationTable& table) {
+  const auto active = store.active(table.axis);
+  if (active) return active->table.id == table.id ? active->generation : 0;
+  if (active.error().code == ErrorCode::not_found) return 0;
+  return tl::unexpected(active.error());
+}
+
+Status print_activation(const std::string& reply, const std::string& done,
+                        const std::string& already, bool json) {
+  if (json) return write_line(reply);
+  simdjson::dom::parser parser;
+  const auto members = parser.parse(simdjson::padded_string(reply));
+  return write_line((flag(members, "changed") ? done : already) + ", generation " +
+                    std::to_string(integer(members, "generation").value_or(0)));
+}
+
+}  // namespace mdof::tools

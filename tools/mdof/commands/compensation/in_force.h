@@ -1,0 +1,16 @@
+// What of the compensation tables is in force, and what a change of that says.
+#pragma once
+
+#include "daemon/store/store.h"
+
+namespace mdof::tools {
+
+// The generation of a table that is in force, else 0.
+Result<std::int64_t> generation_of(store::Store& store, const CompensationTable& table);
+
+// What came of an activation, from the JSON that mdofd and store::activation_json() give alike:
+// that JSON, or `done` or, where nothing changed, `already`, with the generation.
+Status print_activation(const std::string& reply, const std::string& done,
+                        const std::string& already, bool json);
+
+}  // namespace mdof::tools

@@ -1,0 +1,56 @@
+// mdof encoder set: tells mdofd where an axis stands whose encoder counts from anywhere.
+#include <CLI/CLI.hpp>
+
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/daemon_call.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct EncoderCommand {
+  std::string socket, axis;
+  double position_mm = 0;
+  bool json = false;
+};
+
+Status set(const EncoderCommand& command) {
+  JsonWriter params;
+  params.begin_object()
+      .field("axis", command.axis)
+      .field("position_mm", command.position_mm)
+      .end_object();
+  MDOF_TRY(const std::string reply, call_daemon(command.socket, "encoder.set", params.text()));
+  if (command.json) return write_line(reply);
+  simdjson::dom::parser parser;
+  const auto done = parser.parse(simdjson::padded_string(reply));
+  return write_line("axis " + command.axis + " stands at " + fixed(command.position_mm, 4) +
+                    " mm now; device \"" + text(done, "device") + "\" counts from " +
+                    fixed(number(done, "offset_mm"), 4) + " mm");
+}
+
+Action declare_encoder_set(CLI::App& command) {
+  const auto o = std::make_shared<EncoderCommand>();
+  command.add_option("AXIS", o->axis, "Of the machine, at rest")
+      ->required()
+      ->check(CLI::IsMember({"X", "Y", "Z"}));
+  command.add_option("POSITION_MM", o->position_mm, "By the machine's coordinates")->required();
+  add_socket_option(command, o->socket);
+  add_json_flag(command, o->json);
+  return [o] { return set(*o); };
+}
+
+}  // namespace
+
+Command encoder_set_command() {
+  return {.name = "encoder set",
+          .summary = "Say where the axis stands now",
+          .footer = "Example:\n  mdof encoder set X 12.5",
+          .declare = declare_encoder_set};
+}
+
+}  // namespace mdof::tools

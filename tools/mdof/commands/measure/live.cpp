@@ -1,0 +1,138 @@
+// mdof live: the probes against their ranges, as mdofd sees them now.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "daemon/rpc/line/client.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/measure/live_view.h"
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::milliseconds kTurn{100};  // within which Ctrl-C is seen
+
+struct LiveCommand {
+  std::string socket, axis;
+  std::int64_t count = 0, interval_ms = 200;
+  bool json = false, ndjson = false;
+};
+
+// mdofd sends no value of an axis that it does not have: the command would wait for ever.
+Status check_axis(rpc::Client& client, const std::string& axis) {
+  MDOF_TRY(const std::string info, client.call("server.info"));
+  simdjson::dom::parser parser;
+  simdjson::dom::array axes;
+  if (parser.parse(simdjson::padded_string(info))["axes"].get_array().get(axes)) return {};
+  std::vector<std::string> names;
+  for (const auto known : axes) names.push_back(text(known, "axis"));
+  if (names.empty())
+    return fail(ErrorCode::not_found,
+                "live: mdofd measures no axis; its configuration needs an [[axis]]");
+  if (axis.empty() || std::find(names.begin(), names.end(), axis) != names.end()) return {};
+  return fail(ErrorCode::not_found,
+              "live: mdofd does not measure axis " + axis + "; there is " + joined(names));
+}
+
+Result<rpc::Client> subscribe(const LiveCommand& command) {
+  MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
+  MDOF_CHECK(check_axis(client, command.axis));
+  JsonWriter params;
+  params.begin_object().field("interval_ms", command.interval_ms).end_object();
+  MDOF_CHECK(client.call("live.subscribe", params.text()));
+  return client;
+}
+
+// Trouble is printed when it comes; a screen shows it with the next update.
+Status tell(const std::string& notification, const LiveCommand& command) {
+  const auto trouble = read_trouble(notification);
+  if (!trouble || (!command.axis.empty() && trouble->axis != command.axis)) return {};
+  if (command.ndjson) return write_line(trouble->json);
+  if (!out_is_terminal() || !messages_are_on_terminal())
+    say(wrapped(trouble->line, terminal_columns(), 2));
+  return {};
+}
+
+// The next update of the axis asked for.
+Result<LiveUpdate> next_update(rpc::Client& client, const LiveCommand& command) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (std::chrono::steady_clock::now() < end && !Interrupt::requested()) {
+    const auto line = client.next_notification(kTurn);
+    if (!line && !client.connected()) return tl::unexpected(line.error());
+    if (!line) continue;
+    const auto update = read_update(*line);
+    if (update && (command.axis.empty() || update->axis == command.axis)) return *update;
+    if (!update) MDOF_CHECK(tell(*line, command));
+  }
+  return io_error("mdofd sends no readings" +
+                  (command.axis.empty() ? std::string() : " of the axis " + command.axis) +
+                  "; see mdof device list for the state of its devices");
+}
+
+// A document has an end: one update unless a count is given.
+Status print_document(rpc::Client& client, const LiveCommand& command) {
+  JsonWriter json;
+  json.begin_object().key("updates").begin_array();
+  for (std::int64_t i = 0; i < std::max<std::int64_t>(command.count, 1); ++i) {
+    MDOF_TRY(const LiveUpdate update, next_update(client, command));
+    json.raw(update.json);
+  }
+  json.end_array().end_object();
+  return write_line(json.text());
+}
+
+// Lines as they come: JSON objects or text, or a screen that is drawn anew.
+Status print_updates(rpc::Client& client, const LiveCommand& command) {
+  const Interrupt interrupt;
+  LiveScreen screen(out_is_terminal(), terminal_columns());
+  for (std::int64_t i = 0; command.count == 0 || i < command.count; ++i) {
+    const auto update = next_update(client, command);
+    if (Interrupt::requested()) return {};
+    if (!update) return tl::unexpected(update.error());
+    MDOF_CHECK(command.ndjson ? write_line(update->json) : write_out(screen.next(*update)));
+  }
+  return {};
+}
+
+Status live(const LiveCommand& command) {
+  MDOF_TRY(rpc::Client client, subscribe(command));
+  return command.json ? print_document(client, command) : print_updates(client, command);
+}
+
+Action declare_live(CLI::App& command) {
+  const auto o = std::make_shared<LiveCommand>();
+  command.add_option("--axis", o->axis, "Only this axis")->check(CLI::IsMember({"X", "Y", "Z"}));
+  command.add_option("--count", o->count, "End after so many updates [default: never]")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--interval-ms", o->interval_ms, "Between two updates")
+      ->check(CLI::Range(20, 60000))
+      ->capture_default_str();
+  add_socket_option(command, o->socket);
+  add_json_flag(command, o->json);
+  command
+      .add_flag("--ndjson", o->ndjson,
+                "Print a JSON object a line: updates, and what goes wrong (type \"trouble\")")
+      ->excludes("--json");
+  return [o] { return live(*o); };
+}
+
+}  // namespace
+
+Command live_command() {
+  return {.name = "live",
+          .summary = "Watch the probes against their ranges",
+          .footer =
+              "Examples:\n"
+              "  mdof live --axis X\n"
+              "  mdof live --ndjson --interval-ms 20 > readings.ndjson",
+          .declare = declare_live};
+}
+
+}  // namespace mdof::tools

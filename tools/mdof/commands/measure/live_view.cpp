@@ -1,0 +1,157 @@
+#include "tools/mdof/commands/measure/live_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+using simdjson::dom::array;
+using simdjson::dom::element;
+using simdjson::dom::object;
+
+constexpr std::size_t kFewestBar = 11, kMostBar = 81;
+constexpr std::size_t kBesideBar = 43;  // columns for the rest of a probe's line
+
+void read_probes(const element& value, LiveUpdate& update) {
+  array probes;
+  if (value.at_key("probes").get_array().get(probes)) return;
+  for (const element p : probes)
+    update.probes.push_back(
+        {text(p, "id"), text(p, "quality"), number(p, "um"), number(p, "range_um")});
+}
+
+void read_errors(const element& value, LiveUpdate& update) {
+  object errors;
+  if (value.at_key("errors").get_object().get(errors)) return;
+  for (const auto [key, x] : errors) {
+    double known;
+    if (!x.get_double().get(known)) update.errors.emplace_back(key, known);
+  }
+}
+
+std::string head_line(const LiveUpdate& u) {
+  std::string line =
+      u.axis + " at " + fixed(u.encoder_mm, 4) + " mm, " + (u.still ? "at rest" : "moving");
+  if (u.run) line += ", run " + std::to_string(*u.run);
+  return line + (u.simulated ? ", SIMULATED" : "") + (u.stale ? ", STALE: no new values" : "");
+}
+
+// Each of them stays whole.
+std::string packed(const std::vector<std::string>& parts, std::size_t columns) {
+  std::string out, line;
+  for (const auto& part : parts) {
+    if (!line.empty() && text_width(line) + 2 + text_width(part) > columns) {
+      out += line + "\n";
+      line = "  " + part;
+    } else {
+      line += (line.empty() ? "" : "  ") + part;
+    }
+  }
+  return out + line + "\n";
+}
+
+std::vector<std::string> errors_of(const LiveUpdate& u) {
+  std::vector<std::string> words;
+  for (const auto& [key, x] : u.errors) {
+    const bool angle = key.ends_with("_urad");
+    words.push_back(key.substr(0, key.find('_')) + " " + fixed(x, angle ? 3 : 4) +
+                    (angle ? " µrad" : " µm"));
+  }
+  if (words.empty()) words.emplace_back("errors not solved");
+  return words;
+}
+
+std::string trouble_of(const LiveUpdate& u, std::size_t columns) {
+  std::string lines;
+  for (const auto& line : u.trouble) lines += wrapped(line, columns, 2) + "\n";
+  return lines;
+}
+
+std::string log_entry(const LiveUpdate& u, std::size_t columns) {
+  std::vector<std::string> parts = {wrapped(head_line(u), columns, 2)};
+  for (const auto& p : u.probes)
+    parts.push_back(p.id + " " + fixed(p.um, 3) + " µm" +
+                    (p.quality == "good" || p.quality == "simulated" ? "" : " " + p.quality));
+  return packed(parts, columns);
+}
+
+std::size_t bar_width(std::size_t columns) {
+  const std::size_t room = columns > kBesideBar ? columns - kBesideBar : 0;
+  return std::clamp(room, kFewestBar, kMostBar) / 2 * 2 - 1;  // odd: it has a middle
+}
+
+std::string block(const LiveUpdate& u, std::size_t columns) {
+  const std::size_t width = bar_width(columns);
+  TextTable table({"probe", "reading/µm", "-range/2 ... +range/2", "range/µm", "quality"});
+  for (const auto& p : u.probes)
+    table.add({p.id, fixed(p.um, 3), range_bar(p.um, p.range_um, width), fixed(p.range_um, 0),
+               p.quality});
+  return wrapped(head_line(u), columns, 2) + "\n" + table.text() + packed(errors_of(u), columns) +
+         trouble_of(u, columns) + "\n";
+}
+
+}  // namespace
+
+std::optional<LiveUpdate> read_update(std::string_view notification) {
+  simdjson::dom::parser parser;
+  element root, value;
+  if (parser.parse(simdjson::padded_string(notification)).get(root)) return std::nullopt;
+  if (text(root, "method") != "live.update") return std::nullopt;
+  if (root["params"]["value"].get(value)) return std::nullopt;
+  LiveUpdate update;
+  update.json = simdjson::to_string(value);
+  update.axis = text(value, "axis");
+  update.encoder_mm = number(value, "encoder_mm");
+  update.still = flag(value, "still");
+  update.simulated = flag(value, "simulated");
+  update.stale = flag(value, "stale");
+  update.run = integer(value, "run");
+  update.trouble = texts(value, "trouble");
+  read_probes(value, update);
+  read_errors(value, update);
+  return update;
+}
+
+std::optional<TroubleEvent> read_trouble(std::string_view notification) {
+  simdjson::dom::parser parser;
+  element root, value;
+  if (parser.parse(simdjson::padded_string(notification)).get(root)) return std::nullopt;
+  if (text(root, "method") != "run.event" || root["params"]["value"].get(value))
+    return std::nullopt;
+  if (text(value, "type") != "trouble") return std::nullopt;
+  const std::string device = text(value, "device");
+  const std::string line = text(value, "utc") + " axis " + text(value, "axis") + ": " +
+                           (device.empty() ? "" : "device \"" + device + "\": ") +
+                           text(value, "kind") + ": " + text(value, "text");
+  return TroubleEvent{text(value, "axis"), line, simdjson::to_string(value)};
+}
+
+std::string range_bar(double um, double range_um, std::size_t width) {
+  std::string bar(width, '.');
+  bar[width / 2] = '+';
+  if (!std::isfinite(um) || !(range_um > 0)) return "|" + std::string(width, ' ') + "|";
+  const double share = um / range_um + 0.5;
+  if (share <= 0) return "<" + bar + "|";
+  if (share >= 1) return "|" + bar + ">";
+  bar[std::min(static_cast<std::size_t>(share * static_cast<double>(width)), width - 1)] = '#';
+  return "|" + bar + "|";
+}
+
+std::string LiveScreen::next(const LiveUpdate& update) {
+  if (!terminal_) return log_entry(update, columns_);
+  blocks_[update.axis] = block(update, columns_);
+  std::string all;
+  for (const auto& [axis, lines] : blocks_) all += lines;
+  const std::string up = lines_ > 0 ? "\x1b[" + std::to_string(lines_) + "A" : "";
+  lines_ = static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n'));
+  std::string drawn = up;
+  for (const char c : all) drawn += c == '\n' ? std::string("\x1b[K\n") : std::string(1, c);
+  return drawn;
+}
+
+}  // namespace mdof::tools

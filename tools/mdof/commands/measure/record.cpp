@@ -1,0 +1,227 @@
+// mdof record: a run of an axis from its start to its end, watched: point k of n, what is awaited.
+// The daemon measures; this command asks and shows. It may end or be killed without harm to the run
+// unless it was asked to stop it.
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "daemon/rpc/line/client.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/measure/live_view.h"
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/stored/stored_run.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/json_text.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+using simdjson::dom::element;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kTurn{200};
+constexpr milliseconds kEndPatience{30000};  // a long run is evaluated within this
+
+struct RecordCommand {
+  std::string socket, axis, note;
+  std::vector<double> targets_mm;
+  std::optional<double> from_mm, to_mm, interval_mm, jitter_mm, scale_period_um, for_s;
+  std::int64_t repeats = 0, seed = 1, resume = 0;
+  bool json = false;
+};
+
+std::string start_params(const RecordCommand& c) {
+  JsonWriter json;
+  json.begin_object().field("axis", c.axis).field("note", c.note);
+  if (c.repeats > 0) json.field("repeats", c.repeats);
+  if (!c.targets_mm.empty()) {
+    json.key("targets_mm").begin_array();
+    for (const double target_mm : c.targets_mm) json.value(target_mm);
+    json.end_array();
+  }
+  const auto number = [&](const char* key, const std::optional<double>& value) {
+    if (value) json.field(key, *value);
+  };
+  number("from_mm", c.from_mm);
+  number("to_mm", c.to_mm);
+  number("interval_mm", c.interval_mm);
+  number("jitter_mm", c.jitter_mm);
+  number("scale_period_um", c.scale_period_um);
+  if (c.jitter_mm) json.field("seed", c.seed);
+  json.end_object();
+  return json.take();
+}
+
+Result<std::string> begin(rpc::Client& client, const RecordCommand& c) {
+  if (c.resume == 0) return client.call("run.start", start_params(c));
+  JsonWriter params;
+  params.begin_object().field("run", c.resume).end_object();
+  return client.call("run.resume", params.text());
+}
+
+void warn_wrapped(std::string_view words) {
+  say(wrapped("warning: " + std::string(words), terminal_columns(), 2));
+}
+
+void show_notes(const auto& reply) {
+  simdjson::dom::array notes;
+  if (reply.at_key("notes").get_array().get(notes)) return;
+  for (const element note : notes) {
+    std::string_view words;
+    if (!note.get_string().get(words))
+      say(wrapped("note: " + std::string(words), terminal_columns(), 2));
+  }
+}
+
+void show_warnings(const auto& reply) {
+  simdjson::dom::array warnings;
+  if (reply.at_key("warnings").get_array().get(warnings)) return;
+  for (const element warning : warnings) {
+    std::string_view words;
+    if (!warning.get_string().get(words)) warn_wrapped(words);
+  }
+}
+
+// "point 3 of 26, next 15.000 mm"; a run without targets or repeats knows less. Of those asked for
+// only solved ones count, each once; further ones are told of.
+std::string progress_line(const auto& event) {
+  const std::int64_t all = integer(event, "points").value_or(0);
+  const std::int64_t points = integer(event, "done").value_or(all);
+  const auto of = integer(event, "of");
+  std::string line = "point " + std::to_string(points);
+  if (of) line += " of " + std::to_string(*of);
+  if (all > points)
+    line += ", and " + std::to_string(all - points) + " not solved or more than asked for";
+  const double awaited_mm = number(event, "awaited_mm");
+  return points == of || std::isnan(awaited_mm) ? line
+                                                : line + ", next " + fixed(awaited_mm, 3) + " mm";
+}
+
+// Shows the event; gives the run to read where it says that the axis has ended its run.
+std::optional<std::int64_t> take_event(std::string_view notification, std::int64_t run,
+                                       const std::string& axis) {
+  simdjson::dom::parser parser;
+  const auto event = parser.parse(simdjson::padded_string(notification))["params"]["value"];
+  if (text(event, "axis") != axis) return std::nullopt;
+  if (const auto trouble = read_trouble(notification)) warn_wrapped(trouble->line);
+  const std::string type = text(event, "type");
+  if (type == "progress" && integer(event, "run") == run) say(progress_line(event));
+  return type == "ended" ? integer(event, "run") : std::nullopt;
+}
+
+Status ask_to_stop(rpc::Client& client, std::int64_t run) {
+  JsonWriter params;
+  params.begin_object().field("run", run).end_object();
+  const auto stopped = client.call("run.stop", params.text());
+  // The run may have ended by itself meanwhile: its event is on the way.
+  if (stopped || stopped.error().code == ErrorCode::not_found) return {};
+  return tl::unexpected(stopped.error());
+}
+
+// Until the run has ended; gives the run to read.
+Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordCommand& command) {
+  const auto begin = steady_clock::now();
+  std::optional<steady_clock::time_point> stopped;
+  for (;;) {
+    const auto notification = client.next_notification(kTurn);
+    if (notification) {
+      if (const auto ended = take_event(*notification, run, command.axis)) return *ended;
+    }
+    const auto now = steady_clock::now();
+    const bool over = command.for_s && now - begin > std::chrono::duration<double>(*command.for_s);
+    if (!stopped && (over || Interrupt::requested())) {
+      MDOF_CHECK(ask_to_stop(client, run));
+      stopped = now;
+    }
+    if (stopped && now - *stopped > kEndPatience)
+      return io_error("mdofd does not say that run " + std::to_string(run) +
+                      " has ended; see mdof status");
+    if (!client.connected())
+      return in_context("run " + std::to_string(run) + " is left to mdofd", notification.error());
+  }
+}
+
+// The run as `mdof show` prints it; an error where it is not what was asked for.
+Status print_result(rpc::Client& client, std::int64_t run, const std::string& result,
+                    bool as_json) {
+  MDOF_CHECK(as_json ? write_line(result)
+                     : write_out(stored_run_text(client, run).value_or(readable(result))));
+  simdjson::dom::parser parser;
+  const std::string state = text(parser.parse(simdjson::padded_string(result)), "state");
+  if (state == "complete") return {};
+  const std::string id = std::to_string(run);
+  return fail(ErrorCode::check,
+              "run " + id + " is " + state +
+                  (state == "partial" ? ": its warnings say what is missing; go on with it: mdof "
+                                        "record --resume " +
+                                            id
+                                      : "; its warnings say why"));
+}
+
+Status record(RecordCommand command) {
+  if (command.axis.empty() && command.resume == 0)
+    return fail(ErrorCode::usage, "record: --axis says what to measure; or --resume RUN");
+  MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
+  MDOF_CHECK(client.call("live.subscribe", R"({"interval_ms":60000,"events":true})"));
+  MDOF_TRY(const std::string reply, begin(client, command));
+  simdjson::dom::parser parser;
+  const auto started = parser.parse(simdjson::padded_string(reply));
+  const std::int64_t run = integer(started, "run").value_or(0);
+  command.axis = text(started, "axis");
+  show_warnings(started);
+  show_notes(started);
+  say("run " + std::to_string(run) + " of axis " + command.axis +
+      " is measuring; Ctrl-C ends and evaluates it");
+  const Interrupt interrupt;
+  MDOF_TRY(const std::int64_t id, follow(client, run, command));
+  JsonWriter params;
+  params.begin_object().field("run", id).end_object();
+  MDOF_TRY(const std::string result, client.call("run.get", params.text()));
+  return print_result(client, id, result, command.json);
+}
+
+Action declare_record(CLI::App& command) {
+  const auto o = std::make_shared<RecordCommand>();
+  auto* axis = command.add_option("--axis", o->axis, "Of the machine")
+                   ->check(CLI::IsMember({"X", "Y", "Z"}));
+  command.add_option("--targets-mm", o->targets_mm, "Targets, ascending")->delimiter(',');
+  command.add_option("--from-mm", o->from_mm, "Instead: first target");
+  command.add_option("--to-mm", o->to_mm, "No target beyond this");
+  command.add_option("--interval-mm", o->interval_mm, "Between two targets");
+  command.add_option("--jitter-mm", o->jitter_mm, "Each target is moved by up to this");
+  command.add_option("--seed", o->seed, "Of the jitter")->capture_default_str();
+  command.add_option("--scale-period-um", o->scale_period_um,
+                     "Signal period of the scale: warns where the intervals hide its error");
+  command.add_option("--resume", o->resume, "Goes on with this run, which ended early")
+      ->check(CLI::PositiveNumber)
+      ->excludes(axis);
+  command.add_option("--repeats", o->repeats, "Ends by itself after so many, both ways")
+      ->check(CLI::Range(1, 10000));
+  command.add_option("--for-s", o->for_s, "Ends after so many seconds")->check(CLI::PositiveNumber);
+  command.add_option("--note", o->note, "For people");
+  add_socket_option(command, o->socket);
+  add_json_flag(command, o->json);
+  return [o] { return record(*o); };
+}
+
+}  // namespace
+
+Command record_command() {
+  return {.name = "record",
+          .summary = "Measure a run with mdofd and watch it",
+          .footer =
+              "Without targets they are recognised from the dwells, or all is recorded freely.\n"
+              "Examples:\n"
+              "  mdof record --axis X --from-mm 0 --to-mm 60 --interval-mm 5 --jitter-mm 0.5 "
+              "--repeats 5\n"
+              "  mdof record --axis X --for-s 60 --note \"warm-up\"\n"
+              "  mdof record --resume 12",
+          .declare = declare_record};
+}
+
+}  // namespace mdof::tools

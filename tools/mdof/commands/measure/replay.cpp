@@ -1,0 +1,175 @@
+// mdof replay LOG: a recorded log becomes a stored run.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+
+#include "algo/model/restate.h"
+#include "daemon/history.h"
+#include "daemon/measure/evaluation.h"
+#include "daemon/measure/replay/replay_request.h"
+#include "schema/base/files.h"
+#include "schema/run_json.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/progress_bar.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/database_writer.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/warnings.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::chrono::hours kPatience{24};  // mdofd says nothing before a log is done
+
+struct ReplayCommand {
+  std::string reference = "fixture";
+  std::string log, rig, database, socket, model, note;  // model: empty where not given
+  std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
+  std::vector<double> targets_mm;
+  bool json = false, keep_out = false, all_warnings = false;
+};
+
+Result<daemon::ReplayRequest> request_of(const ReplayCommand& c) {
+  daemon::ReplayRequest request;
+  request.log = c.log;
+  request.rig_source = c.rig;
+  if (!c.rig.empty()) {
+    MDOF_TRY(request.rig_text, read_text_file(c.rig));
+  }
+  request.model = c.model;
+  request.note = c.note;
+  request.tolerance_um = c.tolerance_um;
+  request.settle_s = c.settle_s;
+  request.min_length_s = c.min_length_s;
+  request.lag_bound_s = c.lag_bound_s;
+  request.max_gap_s = c.max_gap_s;
+  request.targets_mm = c.targets_mm;
+  return request;
+}
+
+Result<Run> replay_here(const daemon::ReplayRequest& request) {
+  ProgressBar bar("replay");
+  return daemon::replay(request, [&](const Progress& progress) {
+    bar.show(progress);
+    return true;
+  });
+}
+
+std::string params_of(const daemon::ReplayRequest& request, const std::string& path) {
+  JsonWriter json;
+  json.begin_object().field("path", path).field("note", request.note);
+  if (!request.rig_source.empty())
+    json.field("rig", request.rig_text).field("rig_source", request.rig_source);
+  if (!request.model.empty()) json.field("model", request.model);
+  const auto number = [&](const char* key, const std::optional<double>& value) {
+    if (value) json.field(key, *value);
+  };
+  number("tolerance_um", request.tolerance_um);
+  number("settle_s", request.settle_s);
+  number("min_length_s", request.min_length_s);
+  number("max_gap_s", request.max_gap_s);
+  number("lag_bound_s", request.lag_bound_s);
+  json.key("targets_mm").begin_array();
+  for (const double target_mm : request.targets_mm) json.value(target_mm);
+  json.end_array().end_object();
+  return json.take();
+}
+
+// mdofd has the database: it reads the log, computes and stores.
+Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command,
+                         const daemon::ReplayRequest& request) {
+  if (request.log == "-")
+    return fail(ErrorCode::conflict,
+                "mdofd holds the database and cannot read the standard input of this program; "
+                "write the log to a file, or name another database with --db");
+  std::error_code ec;
+  const std::string path = std::filesystem::absolute(request.log, ec);
+  const auto reply = mdofd.call("run.replay", params_of(request, path), kPatience);
+  if (!reply) return in_context("mdofd", reply.error());
+  simdjson::dom::parser parser;
+  const auto id = integer(parser.parse(simdjson::padded_string(*reply)), "run");
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  return store.run(id.value_or(0));
+}
+
+Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
+  Reference reference{};
+  reference_from(command.reference, reference);  // the option takes no other
+  MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
+  return stated_at(rig, reference);
+}
+
+Result<Run> replay_and_store(const ReplayCommand& command, const daemon::ReplayRequest& request) {
+  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
+  if (mdofd) return replay_there(*mdofd, command, request);
+  MDOF_TRY(Run run, replay_here(request));
+  MDOF_CHECK(asked_reference(command, run));  // what cannot be shown is not stored
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(run.header.id,
+           store.add_run(run, daemon::deed_now("run.replay", daemon::this_process())));
+  return run;
+}
+
+Status replay(const ReplayCommand& command) {
+  MDOF_TRY(const auto request, request_of(command));
+  MDOF_TRY(Run run, command.keep_out ? replay_here(request) : replay_and_store(command, request));
+  MDOF_TRY(const StatedAt at, asked_reference(command, run));
+  run = algo::restate(std::move(run), at);  // what is stored is stated at the fixture
+  for (const auto& warning : summarised(run.header.warnings, command.all_warnings)) warn(warning);
+  if (command.json) return write_line(run_json(run));
+  run.header.warnings.clear();  // said already
+  return write_out(show_text(run, "", terminal_columns()) + "\n" +
+                   figures_text(run, terminal_columns()));
+}
+
+Action declare_replay(CLI::App& command) {
+  const auto o = std::make_shared<ReplayCommand>();
+  command.add_option("LOG", o->log, "Probe log (CSV, CSV.gz, - for standard input) or .mdofrec")
+      ->required()
+      ->type_name("");
+  command.add_option("--rig", o->rig, "Fixture; a recording has its own")->type_name("RIG.toml");
+  add_database_option(command, o->database);
+  add_socket_option(command, o->socket);
+  add_model_option(command, o->model);
+  add_reference_option(command, o->reference)->capture_default_str();
+  command.add_option("--note", o->note, "Kept with the run; at most 1024 bytes")
+      ->type_name("TEXT")
+      ->check([](const std::string& note) {
+        return std::string(note.size() <= 1024 ? "" : "a note has at most 1024 bytes");
+      });
+  command.add_flag("--no-store", o->keep_out, "Only show the result");
+  command
+      .add_option("--targets-mm", o->targets_mm,
+                  "Nominal positions [default: as recorded, else recognised]")
+      ->delimiter(',');
+  command.add_option("--tolerance-um", o->tolerance_um, "Encoder at rest; 0: by itself")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--settle-s", o->settle_s, "Left out at the start of a stop [0.1]")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--min-length-s", o->min_length_s, "Averaged of a stop at least [0.1]")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--max-gap-s", o->max_gap_s, "No interpolation into a longer gap [0.05]")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--lag-bound-s", o->lag_bound_s, "A probe silent for longer is given up [3]")
+      ->check(CLI::PositiveNumber);
+  add_all_warnings_flag(command, o->all_warnings);
+  add_json_flag(command, o->json);
+  return [o] { return replay(*o); };
+}
+
+}  // namespace
+
+Command replay_command() {
+  return {.name = "replay",
+          .summary = "Turn a recorded log into a stored run",
+          .footer =
+              "A recording is measured as its run was asked for; an option changes that.\n"
+              "Example:\n  mdof replay log_X.csv.gz --rig rig_X.toml --json > run.json",
+          .declare = declare_replay};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,101 @@
+// mdof solve FRAMES.csv: positions and readings in, five errors a row out.
+//
+//   csv read -> here: parse, calibrate and solve -> write rows            (threads; bounded memory)
+#include <CLI/CLI.hpp>
+
+#include "daemon/measure/replay/replay.h"
+#include "drivers/csv/csv_rows.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/frame_solver.h"
+#include "tools/mdof/text/error_rows.h"
+
+namespace mdof::tools {
+namespace {
+
+struct SolveCommand {
+  std::string frames, rig, model = "rigid";
+  bool csv = false, json = false;
+};
+
+// One row out for one row in: none may be skipped.
+drivers::CsvRowsOptions reading_options() {
+  drivers::CsvRowsOptions options;
+  options.kind = CsvKind::frames;
+  options.limits.bad_lines = 0;
+  options.sha256 = false;
+  return options;
+}
+
+Status solve_rows(drivers::CsvRows& frames, FrameSolver& solver, ErrorRows& out) {
+  SampleBlock block;
+  for (;;) {
+    MDOF_TRY(const drivers::ReadState state, frames.next(block));
+    if (state == drivers::ReadState::end) return {};
+    SolvedRows* const rows = out.next();
+    if (!rows) return {};  // finish() says why
+    MDOF_CHECK(solver.solve(block, *rows));
+    out.put();
+  }
+}
+
+void warn_of_missing(const drivers::CsvRows& frames, const FrameSolver& solver) {
+  for (const std::string& column : frames.warnings()) warn(column);
+  if (solver.without_reading() == 0) return;
+  warn(std::to_string(solver.without_reading()) + " of " + std::to_string(solver.rows()) +
+       " rows lack a probe that their errors need: these are empty");
+}
+
+Status judge(const FrameSolver& solver) {
+  if (solver.over_range() > 0) {
+    warn(std::to_string(solver.over_range()) + " of " + std::to_string(solver.rows()) +
+         " rows have a probe at the end of its range; their errors may be wrong");
+  }
+  if (solver.unsolved() == 0) return {};
+  return fail(ErrorCode::check, std::to_string(solver.unsolved()) + " of " +
+                                    std::to_string(solver.rows()) + " rows are not solved, first " +
+                                    solver.why_unsolved());
+}
+
+Status solve(const SolveCommand& command) {
+  Model model{};
+  model_from(command.model, model);
+  MDOF_TRY(const Rig rig, load_rig(command.rig));
+  MDOF_TRY(const auto frames, drivers::CsvRows::open(command.frames, reading_options()));
+  const CsvHeader& header = frames->header();
+  MDOF_CHECK(daemon::check_axis(header.source, header.comments, rig));
+  MDOF_CHECK(daemon::check_channels(header.source, header.channels, rig));
+  MDOF_TRY(FrameSolver solver, FrameSolver::create(rig, model, header.channels));
+  ErrorRows out(command.json ? RowForm::json : RowForm::csv, rig.moving(), model);
+  MDOF_CHECK(solve_rows(*frames, solver, out));
+  MDOF_CHECK(out.finish());
+  warn_of_missing(*frames, solver);
+  return judge(solver);
+}
+
+Action declare_solve(CLI::App& command) {
+  const auto o = std::make_shared<SolveCommand>();
+  command
+      .add_option("FRAMES", o->frames,
+                  "CSV, CSV.gz, or - for standard input: encoder_mm and probes")
+      ->required()
+      ->type_name("");
+  command.add_option("--rig", o->rig, "Fixture")->required()->type_name("RIG.toml");
+  add_model_option(command, o->model);
+  auto* csv = command.add_flag("--csv", o->csv, "Write CSV, as without it");
+  command.add_flag("--json", o->json, "Write one JSON document")->excludes(csv);
+  return [o] { return solve(*o); };
+}
+
+}  // namespace
+
+Command solve_command() {
+  return {
+      .name = "solve",
+      .summary = "Solve each row of a frames file for five errors",
+      .footer = "Example:\n  mdof solve frames_X.csv --rig rig_X.toml --model exact > errors.csv",
+      .declare = declare_solve};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,72 @@
+// mdof analyse RUN: the figures of a stored run.
+#include <CLI/CLI.hpp>
+
+#include "algo/iso230/straightness.h"
+#include "schema/iso230/iso230_json.h"
+#include "schema/run_json.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/results/chosen_run.h"
+#include "tools/mdof/csv/run_csv.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
+
+namespace mdof::tools {
+namespace {
+
+// Made on reading: what is stored, and its hash, is as it was.
+std::vector<StraightnessLines> lines_of(const Run& run) {
+  return algo::straightness_lines(run.header.moving(), run.points);
+}
+
+std::string analysis_json(const Run& run) {
+  JsonWriter json;
+  json.begin_object()
+      .field("run", run.header.id)
+      .field("axis", std::string_view(std::string(1, letter(run.header.axis))))
+      .field("model", run.header.provenance.model)
+      .field("simulated", run.header.simulated);
+  write_reference(json, run.header.stated);
+  json.key("straightness");
+  write_straightness(json, run.straightness);
+  json.key("straightness_lines");
+  write_straightness_lines(json, lines_of(run));
+  json.key("angles");
+  write_angles(json, run.angles);
+  json.end_object();
+  return json.take();
+}
+
+Status analyse(const ChosenRun& choice) {
+  MDOF_TRY(store::Store store, open_to_read(choice.database));
+  MDOF_TRY(const Run run, load_run(store, choice));
+  if (choice.csv) {
+    warn_of(run, choice.all_warnings);
+    return write_out(figures_csv(run));
+  }
+  if (choice.json) return write_line(analysis_json(run));
+  const std::size_t width = terminal_columns();
+  return write_out(head_text(run.header, "", width, choice.all_warnings) + "\n" +
+                   figures_text(run, width) + "\n" + minimum_zone_text(lines_of(run), width));
+}
+
+Action declare_analyse(CLI::App& command) {
+  const auto choice = std::make_shared<ChosenRun>();
+  add_chosen_run(command, *choice);
+  return [choice] { return analyse(*choice); };
+}
+
+}  // namespace
+
+Command analyse_command() {
+  return {.name = "analyse",
+          .summary = "Show straightness by each reference line, and angles",
+          .footer =
+              "Examples:\n"
+              "  mdof analyse latest\n"
+              "  mdof analyse 12 --csv > figures.csv",
+          .declare = declare_analyse};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,34 @@
+#include "tools/mdof/commands/results/chosen_run.h"
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/measure/evaluation.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/text/warnings.h"
+
+namespace mdof::tools {
+
+void add_chosen_run(CLI::App& command, ChosenRun& choice) {
+  add_run_argument(command, "RUN", choice.run, "Number of the run, see mdof runs; or latest");
+  add_axis_of_latest(command, choice.axis);
+  add_reference_option(command, choice.reference)->capture_default_str();
+  add_database_option(command, choice.database);
+  add_all_warnings_flag(command, choice.all_warnings);
+  add_csv_and_json_flags(command, choice.csv, choice.json);
+}
+
+Result<Run> load_run(store::Store& store, const ChosenRun& choice) {
+  Reference reference{};
+  reference_from(choice.reference, reference);  // the option takes no other
+  MDOF_TRY(const auto id, run_number(store, choice.run, axis_from(choice.axis)));
+  return daemon::run_stated_at(store, id, reference);
+}
+
+void warn_of(const Run& run, bool all) {
+  if (run.header.simulated) warn("simulated data: no machine was measured");
+  for (const auto& warning : summarised(run.header.warnings, all)) warn(warning);
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,26 @@
+// The stored run that a command shows.
+#pragma once
+
+#include "daemon/store/store.h"
+#include "schema/run.h"
+
+namespace CLI {
+class App;
+}
+
+namespace mdof::tools {
+
+struct ChosenRun {
+  std::string database, run, axis, reference = "fixture";
+  bool csv = false, json = false, all_warnings = false;
+};
+
+void add_chosen_run(CLI::App& command, ChosenRun& choice);
+
+// With its errors stated at the reference that was chosen.
+Result<Run> load_run(store::Store& store, const ChosenRun& choice);
+
+// Beside a table of bare numbers: what people must know of them.
+void warn_of(const Run& run, bool all);
+
+}  // namespace mdof::tools

@@ -1,0 +1,166 @@
+// mdof iso230-2 FILE.csv, mdof iso230-2 --run RUN: the parameters of ISO 230-2, of positioning
+// readings in a file or of the errors of a stored run.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "algo/iso230/positioning.h"
+#include "algo/iso230/positioning_uncertainty.h"
+#include "daemon/measure/evaluation.h"
+#include "drivers/csv/positioning_csv.h"
+#include "schema/iso230/iso230_json.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/stored/run_positioning.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/positioning_text.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+#include "tools/mdof/text/warnings.h"
+
+namespace mdof::tools {
+namespace {
+
+struct Iso230Command {
+  std::string file, run, axis, database, reference = "fixture";
+  RunPositioningRequest of_run;
+  double scale_period_mm = 0;
+  std::optional<double> device_limit_um, drift_um;
+  bool json = false, all_warnings = false;
+};
+
+void warn_all(const std::vector<std::string>& warnings, bool all) {
+  for (const auto& warning : summarised(warnings, all)) warn(warning);
+}
+
+// None: neither contribution is declared.
+std::optional<PositioningUncertainty> uncertainty_of(const Iso230Command& command) {
+  if (!command.device_limit_um && !command.drift_um) return std::nullopt;
+  return algo::positioning_uncertainty({from_um(command.device_limit_um.value_or(kNoFigure)),
+                                        from_um(command.drift_um.value_or(kNoFigure))});
+}
+
+std::string uncertainty_text(const std::optional<PositioningUncertainty>& U) {
+  if (!U) return "uncertainty: not declared (--device-limit-um, --drift-um)\n";
+  return "U (k = 2): " + in_um(U->E_M_A) + " µm of E, M and A, " + in_um(U->B) +
+         " µm of B\n"
+         "from device and drift; not temperature of the machine and alignment\n";
+}
+
+Status iso230_of_file(const Iso230Command& command) {
+  MDOF_TRY(const auto csv, drivers::read_positioning_csv(command.file));
+  auto figures = algo::positioning(csv.readings);
+  if (!figures) return in_context(csv.source, std::move(figures.error()));
+  const auto warnings = algo::plan_warnings(*figures, from_mm(command.scale_period_mm));
+  warn_all(warnings, command.all_warnings);
+  const auto U = uncertainty_of(command);
+  if (!command.json) {
+    const PositioningColumn column{"deviation", false, std::move(*figures)};
+    return write_out(simulated_notice(csv.simulated) + parameters_text({column}) + "\n" +
+                     targets_text(column, terminal_columns()) + "\n" + uncertainty_text(U));
+  }
+  JsonWriter json;
+  json.begin_object().field("simulated", csv.simulated);
+  write_positioning(json, *figures, false);
+  json.key("uncertainty");
+  U ? write_positioning_uncertainty(json, *U) : static_cast<void>(json.null());
+  json.end_object();
+  return write_line(with_warnings(json.take(), warnings));
+}
+
+Status iso230_of_run(const Iso230Command& command) {
+  Reference reference{};
+  reference_from(command.reference, reference);  // the option takes no other
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
+  MDOF_TRY(const Run run, daemon::run_stated_at(store, id, reference));
+  MDOF_TRY(const RunPositioning found,
+           run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
+  warn_all(found.warnings, command.all_warnings);
+  return command.json ? write_line(run_positioning_json(run, found))
+                      : write_out(run_positioning_text(run, found, terminal_columns()));
+}
+
+// The command line takes nan and inf for numbers.
+Status check_finite(const Iso230Command& command) {
+  const std::pair<const char*, double> numbers[] = {
+      {"--scale-period-mm", command.scale_period_mm},
+      {"--device-limit-um", command.device_limit_um.value_or(0)},
+      {"--drift-um", command.drift_um.value_or(0)}};
+  for (const auto& [option, number] : numbers)
+    if (!std::isfinite(number))
+      return fail(ErrorCode::usage, std::string(option) + " must be a finite number");
+  return {};
+}
+
+Status iso230(const Iso230Command& command) {
+  MDOF_CHECK(check_finite(command));
+  if (!command.file.empty()) return iso230_of_file(command);
+  if (!command.run.empty()) return iso230_of_run(command);
+  return fail(ErrorCode::usage, "of what? Give a FILE.csv, or --run RUN of a stored run");
+}
+
+Action declare_iso230_2(CLI::App& command) {
+  const auto o = std::make_shared<Iso230Command>();
+  auto* file = command
+                   .add_option("FILE", o->file,
+                               "CSV, CSV.gz, or - for standard input: target_mm, direction (1 or "
+                               "-1), run, deviation_um")
+                   ->type_name("");
+  auto* run = command.add_option("--run", o->run, "Errors of this stored run, or latest")
+                  ->type_name("RUN")
+                  ->check(run_word_error)
+                  ->excludes(file);
+  command
+      .add_option("--error", o->of_run.errors,
+                  "Of the run this error, such as EYX [default: all five]")
+      ->type_name("NAME")
+      ->needs(run);
+  add_axis_of_latest(command, o->axis);
+  command.get_option("--axis")->needs(run);
+  add_reference_option(command, o->reference)->capture_default_str()->needs(run);
+  command
+      .add_flag("--keep-slope", o->of_run.keep_slope,
+                "Leave the slope of a straightness error in it, which is how the target lies")
+      ->needs(run);
+  command.add_flag("--partial", o->of_run.partial, "Take a partial run as well")->needs(run);
+  command
+      .add_option("--scale-period-mm", o->scale_period_mm,
+                  "Warn where all intervals are whole periods of the scale")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option(
+          "--device-limit-um", o->device_limit_um,
+          "Limit (±) of the measuring device's error over the travel, for U by ISO/TR 230-9")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(run);
+  command
+      .add_option("--drift-um", o->drift_um,
+                  "E_VE: range of the readings of the axis at rest, over as long as the test took")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(run);
+  add_database_option(command, o->database);
+  add_json_flag(command, o->json);
+  add_all_warnings_flag(command, o->all_warnings);
+  return [o] { return iso230(*o); };
+}
+
+}  // namespace
+
+Command iso230_2_command() {
+  return {.name = "iso230-2",
+          .summary = "Show the parameters of ISO 230-2 of a file or a run",
+          .footer =
+              "Examples:\n"
+              "  mdof iso230-2 positioning_X.csv --device-limit-um 0.8 --drift-um 1.5\n"
+              "  mdof iso230-2 --run 12 --error EYX",
+          .declare = declare_iso230_2};
+}
+
+}  // namespace mdof::tools

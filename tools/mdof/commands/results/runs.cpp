@@ -1,0 +1,73 @@
+// mdof runs: what is stored.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "schema/run_json.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/list_page.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct RunsCommand {
+  std::string database, axis;
+  ListPage page;
+  bool json = false;
+};
+
+std::string runs_json(const std::vector<RunHeader>& runs, std::int64_t total) {
+  JsonWriter json;
+  json.begin_object().field("total", total).key("runs").begin_array();
+  for (const auto& header : runs) {
+    json.begin_object();
+    write_header_members(json, header);
+    json.end_object();
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string runs_text(const std::vector<RunHeader>& runs, std::int64_t total) {
+  TextTable table({"run", "axis", "state", "started", "model", "scans", "data", "log", "note"});
+  for (const auto& h : runs) {
+    const auto& from = h.provenance;
+    table.add({std::to_string(h.id), std::string(1, letter(h.axis)), to_string(h.state),
+               h.started_utc, from.model, std::to_string(h.scans),
+               h.simulated ? "SIMULATED" : "measured",
+               std::filesystem::path(from.recording_path).filename().string(), h.note});
+  }
+  return table.text(terminal_columns()) + left_out(runs.size(), total, "runs");
+}
+
+Status list_runs(const RunsCommand& command) {
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  const auto axis = axis_from(command.axis);
+  MDOF_TRY(const auto runs, store.list_runs(command.page.offset, command.page.count, axis));
+  MDOF_TRY(const auto total, store.count_runs(axis));
+  return command.json ? write_line(runs_json(runs, total)) : write_out(runs_text(runs, total));
+}
+
+Action declare_runs(CLI::App& command) {
+  const auto o = std::make_shared<RunsCommand>();
+  add_database_option(command, o->database);
+  add_only_axis_option(command, o->axis);
+  add_page_options(command, o->page);
+  add_json_flag(command, o->json);
+  return [o] { return list_runs(*o); };
+}
+
+}  // namespace
+
+Command runs_command() {
+  return {.name = "runs",
+          .summary = "List the stored runs, newest first",
+          .footer = "Example:\n  mdof runs --axis X --count 10",
+          .declare = declare_runs};
+}
+
+}  // namespace mdof::tools

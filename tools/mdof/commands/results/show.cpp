@@ -1,0 +1,65 @@
+// mdof show RUN: a stored run, whole.
+#include <CLI/CLI.hpp>
+
+#include "algo/iso230/straightness.h"
+#include "daemon/history.h"
+#include "schema/iso230/iso230_json.h"
+#include "schema/run_json.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/results/chosen_run.h"
+#include "tools/mdof/csv/run_csv.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/history_text.h"
+#include "tools/mdof/text/run_tables.h"
+
+namespace mdof::tools {
+namespace {
+
+// run_json() with three members more. The lines are made on reading: what is stored, and its hash,
+// is as it was.
+std::string with_lines_hash_and_history(const Run& run, const std::string& sha256,
+                                        const std::vector<Deed>& deeds) {
+  std::string json = run_json(run);
+  json.pop_back();
+  JsonWriter lines, history;
+  write_straightness_lines(lines, algo::straightness_lines(run.header.moving(), run.points));
+  daemon::write_deeds(history, deeds);
+  return json + ",\"straightness_lines\":" + lines.take() + ",\"result_sha256\":\"" + sha256 +
+         "\",\"history\":" + history.take() + "}";
+}
+
+Status show(const ChosenRun& choice) {
+  MDOF_TRY(store::Store store, open_to_read(choice.database));
+  MDOF_TRY(const Run run, load_run(store, choice));
+  if (choice.csv) {
+    warn_of(run, choice.all_warnings);
+    return write_out(points_csv(run));
+  }
+  MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
+  MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
+  if (choice.json) return write_line(with_lines_hash_and_history(run, sha256, deeds));
+  const std::size_t width = terminal_columns();
+  return write_out(show_text(run, sha256, width, choice.all_warnings) + history_text(deeds, width));
+}
+
+Action declare_show(CLI::App& command) {
+  const auto choice = std::make_shared<ChosenRun>();
+  add_chosen_run(command, *choice);
+  return [choice] { return show(*choice); };
+}
+
+}  // namespace
+
+Command show_command() {
+  return {.name = "show",
+          .summary = "Show the points of a run with uncertainty and flags",
+          .footer =
+              "Examples:\n"
+              "  mdof show 12\n"
+              "  mdof show latest --axis X --csv > points_X.csv",
+          .declare = declare_show};
+}
+
+}  // namespace mdof::tools

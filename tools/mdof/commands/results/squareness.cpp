@@ -1,0 +1,143 @@
+// mdof squareness RUN_X RUN_Y: the angle between two axes, with its standard uncertainty.
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "algo/iso230/squareness_lines.h"
+#include "daemon/history.h"
+#include "daemon/measure/evaluation.h"
+#include "schema/iso230/iso230_json.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/database_writer.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+#include "tools/mdof/text/warnings.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::int64_t kNewest = 1000;  // of these one is what mdofd has just stored
+
+struct SquarenessCommand {
+  std::string database, socket, word_x, word_y;
+  std::int64_t run_x = 0, run_y = 0;
+  std::optional<double> artefact_urad, u_artefact_urad;
+  bool partial = false, json = false, all_warnings = false;
+};
+
+Result<daemon::FittedSquareness> fit(const SquarenessCommand& command) {
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  daemon::SquarenessRequest request{command.run_x,
+                                    command.run_y,
+                                    {},
+                                    command.partial,
+                                    daemon::deed_now("squareness.fit", daemon::this_process())};
+  if (command.artefact_urad) request.given.angle_error_rad = from_urad(*command.artefact_urad);
+  if (command.u_artefact_urad) request.given.u_rad = from_urad(*command.u_artefact_urad);
+  return daemon::fit_squareness(store, request);
+}
+
+std::vector<std::string> line_row(const std::string& label, const SquarenessLines& lines,
+                                  double SquarenessLine::*value, const std::string& least_squares) {
+  return {label, least_squares, in_urad(lines.end_point.*value),
+          in_urad(lines.minimum_zone.*value)};
+}
+
+std::string squareness_text(const Squareness& s, const SquarenessLines& lines) {
+  TextTable table({"slope/µrad", "least squares", "end points", "minimum zone"});
+  table.add(line_row("EYX, run " + std::to_string(s.run_x), lines, &SquarenessLine::slope_EYX_rad,
+                     with_u(in_urad(s.slope_EYX_rad), in_urad(s.u_slope_EYX_rad))));
+  table.add(line_row("EXY, run " + std::to_string(s.run_y), lines, &SquarenessLine::slope_EXY_rad,
+                     with_u(in_urad(s.slope_EXY_rad), in_urad(s.u_slope_EXY_rad))));
+  const std::string artefact = in_urad(s.artefact.corner * s.artefact.angle_error_rad);
+  table.add({"artefact", with_u(artefact, in_urad(s.artefact.u_rad)), artefact, artefact});
+  table.add(line_row("EC0Y", lines, &SquarenessLine::EC0Y_rad, in_urad(s.EC0Y_rad)));
+  return simulated_notice(s.simulated) + table.text() +
+         "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), in_urad(s.u_EC0Y_rad)) +
+         " µrad; the angle from +X to +Y is 90° + EC0Y\n"
+         "form " +
+         in_urad(s.form_rad) +
+         " µrad: how crooked the axes are\n"
+         "± one standard uncertainty: noise and repeatability of the slopes, and the\n"
+         "artefact; not mounting, calibration and drift. Slopes at the fixture.\n";
+}
+
+// Made on reading: stored is the fit by least squares.
+Result<SquarenessLines> lines_of_squareness(const std::string& database, const Squareness& s) {
+  MDOF_TRY(store::Store store, open_to_read(database));
+  MDOF_TRY(const Run x, store.run(s.run_x));
+  MDOF_TRY(const Run y, store.run(s.run_y));
+  return algo::squareness_lines(x, y, s);
+}
+
+std::string with_lines(std::string json, const SquarenessLines& lines) {
+  JsonWriter writer;
+  write_squareness_lines(writer, lines);
+  json.pop_back();
+  return json + ",\"lines\":" + writer.take() + "}";
+}
+
+// mdofd has the database: it fits and stores. What it stored is read like that of this program, so
+// that both say the same.
+Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessCommand& command) {
+  JsonWriter params;
+  params.begin_object().field("run_x", command.run_x).field("run_y", command.run_y);
+  if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
+  if (command.u_artefact_urad) params.field("u_artefact_urad", *command.u_artefact_urad);
+  if (command.partial) params.field("partial", true);
+  params.end_object();
+  MDOF_TRY(const std::string reply, mdofd.call("squareness.fit", params.text()));
+  simdjson::dom::parser parser;
+  const auto json = parser.parse(simdjson::padded_string(reply));
+  const auto id = integer(json, "squareness");
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const auto newest, store.list_squareness(0, kNewest));
+  for (const auto& s : newest)
+    if (s.id == id) return daemon::FittedSquareness{s, texts(json, "warnings")};
+  return io_error("mdofd stored a squareness that its database does not have: " + reply);
+}
+
+Status squareness(SquarenessCommand command) {
+  MDOF_TRY(command.run_x, run_number(command.database, command.word_x, Axis::x));
+  MDOF_TRY(command.run_y, run_number(command.database, command.word_y, Axis::y));
+  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
+  MDOF_TRY(const auto fitted, mdofd ? fit_there(*mdofd, command) : fit(command));
+  const auto& [s, warnings] = fitted;
+  for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
+  MDOF_TRY(const SquarenessLines lines, lines_of_squareness(command.database, s));
+  return command.json ? write_line(with_lines(with_warnings(squareness_json(s), warnings), lines))
+                      : write_out(squareness_text(s, lines));
+}
+
+Action declare_squareness(CLI::App& command) {
+  const auto o = std::make_shared<SquarenessCommand>();
+  add_run_argument(command, "RUN_X", o->word_x, "Run along X, or latest");
+  add_run_argument(command, "RUN_Y", o->word_y, "Run along Y, same square; or latest");
+  command.add_option("--artefact-urad", o->artefact_urad,
+                     "Angle error of the square [default: of the rigs]");
+  command.add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
+      ->check(CLI::NonNegativeNumber);
+  command.add_flag("--partial", o->partial, "Take partial runs as well");
+  add_database_option(command, o->database);
+  add_socket_option(command, o->socket);
+  add_json_flag(command, o->json);
+  add_all_warnings_flag(command, o->all_warnings);
+  return [o] { return squareness(*o); };
+}
+
+}  // namespace
+
+Command squareness_command() {
+  return {.name = "squareness",
+          .summary = "Angle between two axes from a run along each",
+          .footer = "Example:\n  mdof squareness 1 2 --artefact-urad -1.3 --u-artefact-urad 0.4",
+          .declare = declare_squareness};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,93 @@
+// mdof straightness FILE.csv: a series measured by anything, about each reference line.
+#include <CLI/CLI.hpp>
+
+#include "algo/iso230/reference_lines.h"
+#include "drivers/csv/csv_table.h"
+#include "schema/iso230/iso230_json.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct StraightnessCommand {
+  std::string file;
+  bool json = false;
+};
+
+std::vector<double> converted(std::vector<double> values, double (*convert)(double)) {
+  for (double& v : values) v = convert(v);
+  return values;
+}
+
+Result<ReferenceLines> lines_of(const drivers::CsvTable& series) {
+  auto lines = algo::reference_lines(converted(series.columns[0], from_mm),
+                                     converted(series.columns[1], from_um));
+  if (!lines) return in_context(series.source, std::move(lines.error()));
+  return lines;
+}
+
+std::string straightness_json(const ReferenceLines& lines, bool simulated) {
+  JsonWriter json;
+  json.begin_object()
+      .field("readings", static_cast<std::uint64_t>(lines.readings))
+      .field("positions", static_cast<std::uint64_t>(lines.positions))
+      .field("first_mm", to_mm(lines.first_m))
+      .field("last_mm", to_mm(lines.last_m))
+      .field("simulated", simulated);
+  write_reference_lines(json, lines);
+  json.end_object();
+  return json.take();
+}
+
+std::string straightness_table(const ReferenceLines& lines) {
+  TextTable table({"line", "slope/(µm/m)", "at 0/µm", "zone/µm", "residual/µm"});
+  const auto add = [&](const char* name, const ReferenceLine& line) {
+    table.add({name, in_urad(line.slope_rad), in_um(line.intercept_m), in_um(line.zone_m),
+               in_um(line.residual_m)});
+  };
+  add("end points", lines.end_point);
+  add("least squares", lines.least_squares);
+  add("minimum zone", lines.minimum_zone);
+  return std::to_string(lines.readings) + " readings at " + std::to_string(lines.positions) +
+         " positions from " + in_mm(lines.first_m) + " to " + in_mm(lines.last_m) + " mm\n" +
+         table.text() + "zone: peak to valley about the line; residual: root mean square\n";
+}
+
+Status straightness(const StraightnessCommand& command) {
+  MDOF_TRY(const auto series,
+           drivers::read_csv_table(command.file, {"position_mm", "deviation_um"}));
+  MDOF_TRY(const ReferenceLines lines, lines_of(series));
+  if (lines.positions < lines.readings)
+    warn(
+        "several readings at one position: all count, and the end-point line goes through the "
+        "means of those at the ends");
+  if (command.json) return write_line(straightness_json(lines, series.simulated));
+  return write_out(simulated_notice(series.simulated) + straightness_table(lines));
+}
+
+Action declare_straightness(CLI::App& command) {
+  const auto o = std::make_shared<StraightnessCommand>();
+  command
+      .add_option("FILE", o->file,
+                  "CSV, CSV.gz, or - for standard input: position_mm, deviation_um")
+      ->required()
+      ->type_name("");
+  add_json_flag(command, o->json);
+  return [o] { return straightness(*o); };
+}
+
+}  // namespace
+
+Command straightness_command() {
+  return {.name = "straightness",
+          .summary = "Straightness of a series in a file by each reference line",
+          .footer = "Example:\n  mdof straightness deviations.csv --json",
+          .declare = declare_straightness};
+}
+
+}  // namespace mdof::tools

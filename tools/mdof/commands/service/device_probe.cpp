@@ -1,0 +1,58 @@
+// mdof device probe: what a device says, at what rate and with what noise; opened by this program.
+#include <CLI/CLI.hpp>
+
+#include "schema/base/json_writer.h"
+#include "tools/mdof/checks/device_probe.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/service/opened_devices.h"
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+
+namespace mdof::tools {
+namespace {
+
+struct ProbeCommand {
+  DeviceChoice choice;
+  double for_s = 2;
+  bool json = false;
+};
+
+// Every device in turn; one that fails does not keep the others from being asked.
+Status probe(const ProbeCommand& command) {
+  MDOF_TRY(const auto devices, chosen_devices(command.choice, "device probe"));
+  const Interrupt interrupt;
+  Status worst;
+  JsonWriter json;
+  json.begin_object().key("devices").begin_array();
+  for (const auto& device : devices) {
+    const auto finding = probe_device(device, command.for_s, Interrupt::requested);
+    json.raw(finding_json(finding));
+    if (!command.json) MDOF_CHECK(write_out(finding_text(finding)));
+    if (!finding.error.empty()) worst = io_error(finding.name + ": " + finding.error);
+  }
+  json.end_array().end_object();
+  if (command.json) MDOF_CHECK(write_line(json.text()));
+  return worst;
+}
+
+Action declare_probe(CLI::App& command) {
+  const auto o = std::make_shared<ProbeCommand>();
+  add_device_choice(command, o->choice);
+  command.add_option("--for-s", o->for_s, "Seconds to read")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  add_json_flag(command, o->json);
+  return [o] { return probe(*o); };
+}
+
+}  // namespace
+
+Command device_probe_command() {
+  return {.name = "device probe",
+          .summary = "Open a device: identity, rate, noise, clock",
+          .footer = "Example:\n  mdof device probe --config mdofd.toml",
+          .declare = declare_probe};
+}
+
+}  // namespace mdof::tools

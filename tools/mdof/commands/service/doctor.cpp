@@ -1,0 +1,182 @@
+// mdof doctor: what is wrong with this machine, its configuration and its devices, and the remedy.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <set>
+
+#include "daemon/rpc/line/client.h"
+#include "drivers/registry.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/checks/device_probe.h"
+#include "tools/mdof/checks/doctor_checks.h"
+#include "tools/mdof/checks/network_access.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/configured_daemon.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+using Level = Diagnosis::Level;
+
+constexpr double kProbe_s = 0.5;
+
+struct DoctorCommand {
+  std::string socket, config;
+  bool json = false;
+};
+
+bool on_usb(const drivers::DriverSpec& device) {
+  const drivers::DriverRow* row = drivers::find_driver(device.driver);
+  return row && row->node && std::holds_alternative<drivers::UsbDevice>(*row->node);
+}
+
+Diagnosis diagnose(const drivers::DriverSpec& device) {
+  const DeviceFinding found = probe_device(device, kProbe_s, Interrupt::requested);
+  const std::string what = "device " + device.name + " (" + device.driver + ")";
+  if (!found.error.empty()) return {Level::bad, what + ": " + found.error, ""};
+  for (const auto& channel : found.channels) {
+    if (channel.values == 0)
+      return {Level::bad,
+              what + ": channel " + channel.id + " gives no usable value, all are " + channel.worst,
+              "look at the sensor and its wiring: mdof device monitor " + device.name};
+  }
+  return {
+      found.lost > 0 ? Level::doubtful : Level::good,
+      what + ": " + std::to_string(found.scans) + " scans, " + std::to_string(found.lost) + " lost",
+      found.lost > 0 ? "lower its rate, or find what keeps this machine busy" : ""};
+}
+
+// As mdofd says of one of its devices.
+Diagnosis as_told(const simdjson::dom::element& device) {
+  const std::string state = text(device, "state"), error = text(device, "error");
+  std::string what =
+      "device " + text(device, "device") + " (" + text(device, "driver") + "): " + state;
+  if (!error.empty()) return {Level::bad, what + ": " + error, ""};
+  what += ", " + std::to_string(integer(device, "scans").value_or(0)) + " scans, " +
+          std::to_string(integer(device, "scans_lost").value_or(0)) + " lost";
+  const std::string trouble = joined(texts(device, "trouble"), "; ");
+  return {trouble.empty() ? Level::good : Level::bad, what, trouble};
+}
+
+// A running mdofd holds its devices: it is asked.
+std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::string& socket) {
+  std::vector<Diagnosis> all = {
+      {Level::good, "mdofd is running (" + socket + ") and holds the devices", ""}};
+  auto client = rpc::Client::connect(socket);
+  const auto list = client ? client->call("device.list") : tl::unexpected(client.error());
+  simdjson::dom::parser parser;
+  simdjson::dom::array devices;
+  if (!list || parser.parse(simdjson::padded_string(*list))["devices"].get_array().get(devices)) {
+    all.push_back({Level::bad, "mdofd does not say how its devices are", "mdof device list"});
+    return all;
+  }
+  std::set<std::string> known;
+  for (const auto device : devices) {
+    known.insert(text(device, "device"));
+    all.push_back(as_told(device));
+  }
+  for (const auto& axis : config.axes)
+    for (const auto& device : axis.devices)
+      if (!known.contains(device.name))
+        all.push_back({Level::doubtful, "device " + device.name + ": mdofd does not have it",
+                       "it runs with another configuration: restart it with this one"});
+  return all;
+}
+
+std::vector<Diagnosis> try_devices(const daemon::Config& config) {
+  std::vector<Diagnosis> all = {{Level::good, "mdofd is not running: devices are tried here", ""}};
+  const Interrupt interrupt;
+  for (const auto& axis : config.axes)
+    for (const auto& device : axis.devices)
+      if (device.live && !device.of_other_axis) all.push_back(diagnose(device));
+  return all;
+}
+
+std::vector<Diagnosis> check_devices(const daemon::Config& config, const std::string& socket) {
+  const auto runs = daemon_runs(socket);
+  if (!runs)
+    return {
+        {Level::bad, "devices: not tried, as mdofd may hold them: " + runs.error().message, ""}};
+  return *runs ? ask_daemon(config, socket) : try_devices(config);
+}
+
+std::vector<Diagnosis> examine(const DoctorCommand& command) {
+  const Machine machine;
+  std::vector<Diagnosis> all = {check_clock(machine)};
+  const auto add = [&](std::vector<Diagnosis> more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  const auto config = daemon::load_config(command.config);
+  bool usb = false;
+  if (config) {
+    for (const auto& axis : config->axes)
+      for (const auto& device : axis.devices) usb = usb || on_usb(device);
+  }
+  all.push_back(check_udev_rules(machine, usb));
+  add(check_usb(machine));
+  add(check_class_devices(machine));
+  add(check_sysfs_files(machine, service_group()));
+  if (!config) {
+    all.push_back({Level::bad, "configuration: " + config.error().message,
+                   "mdofd --check-config --config " + command.config});
+    return all;
+  }
+  all.push_back({Level::good, "configuration: " + command.config, ""});
+  all.push_back(check_storage(*config));
+  add(check_network(machine, *config));
+  add(check_devices(*config, configured_socket(*config, command.socket)));
+  return all;
+}
+
+Status print(const std::vector<Diagnosis>& all, bool as_json) {
+  JsonWriter json;
+  std::string text;
+  json.begin_object().key("findings").begin_array();
+  for (const auto& d : all) {
+    json.begin_object()
+        .field("level", to_string(d.level))
+        .field("what", d.what)
+        .field("remedy", d.remedy)
+        .end_object();
+    text += std::string(to_string(d.level)) + "  " + d.what + "\n";
+    if (!d.remedy.empty()) text += "      " + d.remedy + "\n";
+  }
+  json.end_array().end_object();
+  return as_json ? write_line(json.text()) : write_out(text);
+}
+
+Status doctor(const DoctorCommand& command) {
+  const auto all = examine(command);
+  MDOF_CHECK(print(all, command.json));
+  const auto bad = std::count_if(all.begin(), all.end(),
+                                 [](const Diagnosis& d) { return d.level == Level::bad; });
+  if (bad == 0) return {};
+  return fail(ErrorCode::check,
+              std::to_string(bad) + (bad == 1 ? " thing is" : " things are") + " wrong");
+}
+
+Action declare_doctor(CLI::App& command) {
+  const auto o = std::make_shared<DoctorCommand>();
+  o->config = "/etc/mdof/mdofd.toml";
+  command.add_option("--config", o->config, "Configuration of mdofd")
+      ->capture_default_str()
+      ->type_name("FILE");
+  add_configured_socket_option(command, o->socket);
+  add_json_flag(command, o->json);
+  return [o] { return doctor(*o); };
+}
+
+}  // namespace
+
+Command doctor_command() {
+  return {.name = "doctor",
+          .summary = "Find what is wrong here, and the remedy",
+          .footer = "Example:\n  mdof doctor --config mdofd.toml",
+          .declare = declare_doctor};
+}
+
+}  // namespace mdof::tools

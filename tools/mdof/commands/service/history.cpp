@@ -1,0 +1,62 @@
+// mdof history: who did what.
+#include <CLI/CLI.hpp>
+
+#include "daemon/history.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/list_page.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct HistoryCommand {
+  std::string database;
+  ListPage page;
+  bool json = false;
+};
+
+std::string deeds_json(const std::vector<Deed>& deeds, std::int64_t total) {
+  JsonWriter json;
+  json.begin_object().field("total", total).key("history");
+  daemon::write_deeds(json, deeds);
+  json.end_object();
+  return json.take();
+}
+
+std::string deeds_text(const std::vector<Deed>& deeds, std::int64_t total) {
+  TextTable table({"when", "what", "of", "id", "by", "detail"});
+  for (const Deed& deed : deeds)
+    table.add({deed.utc, deed.name, deed.subject, std::to_string(deed.row),
+               daemon::actor_text(deed.by), deed.detail});
+  return table.text(terminal_columns()) + left_out(deeds.size(), total, "deeds");
+}
+
+Status list_history(const HistoryCommand& command) {
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const auto deeds, store.list_deeds(command.page.offset, command.page.count));
+  MDOF_TRY(const auto total, store.count_deeds());
+  return command.json ? write_line(deeds_json(deeds, total)) : write_out(deeds_text(deeds, total));
+}
+
+Action declare_history(CLI::App& command) {
+  const auto o = std::make_shared<HistoryCommand>();
+  add_database_option(command, o->database);
+  add_page_options(command, o->page);
+  add_json_flag(command, o->json);
+  return [o] { return list_history(*o); };
+}
+
+}  // namespace
+
+Command history_command() {
+  return {.name = "history",
+          .summary = "Who started, stopped, built, activated and set an encoder, newest first",
+          .footer = "Example:\n  mdof history --count 10",
+          .declare = declare_history};
+}
+
+}  // namespace mdof::tools

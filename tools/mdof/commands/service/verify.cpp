@@ -1,0 +1,105 @@
+// mdof verify: are the database, with the recordings and logs of its runs, or one recording, what
+// was once written?
+#include <CLI/CLI.hpp>
+
+#include "daemon/measure/replay/verify_sources.h"
+#include "drivers/recording/recording_log.h"
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+
+namespace mdof::tools {
+namespace {
+
+struct VerifyCommand {
+  std::string database, recording;
+  bool json = false;
+};
+
+// What was found wrong, and what cannot be checked; a file that cannot be judged is an error.
+using daemon::SourceCheck;
+
+void add(const std::vector<std::string>& more, std::vector<std::string>& to) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+// The database itself, then the files that its runs were made from.
+Status verify_database(const std::string& option, SourceCheck& check) {
+  MDOF_TRY(store::Store store, open_to_read(option));
+  MDOF_TRY(const auto findings, store.verify());
+  add(findings, check.findings);
+  const auto sources = daemon::verify_sources(store);
+  // A database that is damaged has said so above, and may not tell its files.
+  if (!sources) return findings.empty() ? Status(tl::unexpected(sources.error())) : Status();
+  add(sources->findings, check.findings);
+  add(sources->notes, check.notes);
+  return {};
+}
+
+Status verify_recording(const std::string& file, SourceCheck& check) {
+  drivers::RecordingLog log("recording", file);
+  MDOF_CHECK(log.open());
+  for (const auto& warning : log.warnings()) warn(warning);
+  SampleBlock block;
+  for (;;) {
+    const auto state = log.read(block, {});
+    if (!state && state.error().code != ErrorCode::bad_input) return tl::unexpected(state.error());
+    if (!state) check.findings.push_back(state.error().message);
+    if (!state || *state == drivers::ReadState::end) return {};
+  }
+}
+
+void write_texts(JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
+  json.key(key).begin_array();
+  for (const auto& text : texts) json.value(text);
+  json.end_array();
+}
+
+std::string verify_json(const SourceCheck& check) {
+  JsonWriter json;
+  json.begin_object().field("sound", check.findings.empty());
+  write_texts(json, "findings", check.findings);
+  write_texts(json, "notes", check.notes);
+  json.end_object();
+  return json.take();
+}
+
+Status verify(const VerifyCommand& command) {
+  SourceCheck check;
+  if (!command.recording.empty()) MDOF_CHECK(verify_recording(command.recording, check));
+  if (command.recording.empty() || !command.database.empty())
+    MDOF_CHECK(verify_database(command.database, check));
+  if (command.json) MDOF_CHECK(write_line(verify_json(check)));
+  for (const auto& note : check.notes) say("note: " + note);
+  for (const auto& finding : check.findings) say(finding);
+  if (!check.findings.empty())
+    return fail(ErrorCode::check, "verify: " + std::to_string(check.findings.size()) +
+                                      " finding(s); restore what is named above from a copy");
+  return command.json ? Status() : write_line("sound: every checksum and reference holds");
+}
+
+Action declare_verify(CLI::App& command) {
+  const auto o = std::make_shared<VerifyCommand>();
+  add_database_option(command, o->database);
+  command
+      .add_option("--recording", o->recording, "Check this recording instead (or, with --db, too)")
+      ->type_name("FILE.mdofrec");
+  add_json_flag(command, o->json);
+  return [o] { return verify(*o); };
+}
+
+}  // namespace
+
+Command verify_command() {
+  return {.name = "verify",
+          .summary = "Check every hash of the database and of the recordings and logs of its runs",
+          .footer =
+              "Examples:\n"
+              "  mdof verify\n"
+              "  mdof verify --recording run-12.mdofrec",
+          .declare = declare_verify};
+}
+
+}  // namespace mdof::tools

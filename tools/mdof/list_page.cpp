@@ -1,0 +1,20 @@
+#include "tools/mdof/list_page.h"
+
+#include <CLI/CLI.hpp>
+
+namespace mdof::tools {
+
+void add_page_options(CLI::App& command, ListPage& page) {
+  command.add_option("--offset", page.offset, "Leave out so many")->check(CLI::NonNegativeNumber);
+  command.add_option("--count", page.count, "At most")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+std::string left_out(std::size_t shown, std::int64_t total, const char* of_what) {
+  if (static_cast<std::int64_t>(shown) >= total) return "";
+  return std::to_string(shown) + " of " + std::to_string(total) + " " + of_what +
+         "; --offset, --count\n";
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,77 @@
+#include "tools/mdof/stored/database_writer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/json_read.h"
+
+namespace mdof::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Whether this descriptor of a process has the writer's lock, as the kernel tells it.
+bool locks(const fs::path& fdinfo) {
+  std::ifstream lines(fdinfo);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("OFDLCK") != std::string::npos && line.find("WRITE") != std::string::npos)
+      return true;
+  return false;
+}
+
+bool holds(const fs::path& process, const fs::path& database) {
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(process / "fd", ec)) {
+    std::error_code ignored;
+    if (fs::equivalent(entry.path(), database, ignored) &&
+        locks(process / "fdinfo" / entry.path().filename()))
+      return true;
+  }
+  return false;
+}
+
+// "mdofd (process 1234)"; of another user's processes nothing is seen.
+std::string writer_of(const fs::path& database) {
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator("/proc", ec)) {
+    const std::string id = entry.path().filename();
+    const bool number =
+        std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (!number || !holds(entry.path(), database)) continue;
+    std::string name;
+    std::getline(std::ifstream(entry.path() / "comm"), name);
+    return name + " (process " + id + ")";
+  }
+  return "another program (mdofd?)";
+}
+
+tl::unexpected<Error> held(const fs::path& database, const std::string& but) {
+  return fail(ErrorCode::conflict,
+              database.string() + ": is being written by " + writer_of(database) + ", and " + but);
+}
+
+}  // namespace
+
+Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database,
+                                                     const std::string& socket) {
+  MDOF_TRY(const bool busy, somebody_writes(database));
+  if (!busy) return std::nullopt;
+  MDOF_TRY(const fs::path file, database_path(database));
+  auto client = rpc::Client::connect(socket);
+  if (!client)
+    return held(file, "no mdofd answers at " + socket +
+                          "; wait for it to end, or give the socket of the mdofd that holds the "
+                          "database with --socket");
+  MDOF_TRY(const std::string info, client->call("server.info"));
+  simdjson::dom::parser parser;
+  const std::string theirs = text(parser.parse(simdjson::padded_string(info)), "database");
+  std::error_code ec;
+  if (fs::equivalent(theirs, file, ec) && !ec) return std::optional(std::move(*client));
+  return held(file, "the mdofd at " + socket + " holds " + theirs +
+                        "; give the socket of the one that holds it with --socket");
+}
+
+}  // namespace mdof::tools

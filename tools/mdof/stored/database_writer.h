@@ -1,0 +1,19 @@
+// Who writes the database that a command means, and how the command gets its work done.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "daemon/rpc/line/client.h"
+#include "schema/base/result.h"
+
+namespace mdof::tools {
+
+// A connection to the mdofd that holds the database, which is then asked to write; nothing where
+// nobody holds it: the command writes itself. Error (conflict), before anything was sent to it: the
+// mdofd at `socket` holds another database, or none is there and some other program writes.
+// `database` and `socket` are what the options gave.
+Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database,
+                                                     const std::string& socket);
+
+}  // namespace mdof::tools

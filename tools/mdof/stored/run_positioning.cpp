@@ -1,0 +1,105 @@
+#include "tools/mdof/stored/run_positioning.h"
+
+#include <algorithm>
+
+#include "algo/iso230/positioning.h"
+#include "algo/iso230/run_readings.h"
+#include "algo/sequence/usable_runs.h"
+#include "schema/iso230/iso230_json.h"
+#include "schema/run_json.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+template <class T>
+void add_new(std::vector<T>& to, const std::vector<T>& more) {
+  for (const T& one : more)
+    if (std::find(to.begin(), to.end(), one) == to.end()) to.push_back(one);
+}
+
+// Its place in error_names().
+Result<std::size_t> place_of_error(const std::string& asked, Axis axis) {
+  std::string known;
+  for (std::size_t k = 0; k < 5; ++k) {
+    if (asked == error_names(axis)[k].name) return k;
+    known += std::string(" ") + error_names(axis)[k].name;
+  }
+  return fail(ErrorCode::usage,
+              "--error " + asked + ": the run of axis " + letter(axis) + " has" + known);
+}
+
+Result<std::vector<std::size_t>> chosen_errors(const std::vector<std::string>& asked, Axis axis) {
+  if (asked.empty()) return std::vector<std::size_t>{0, 1, 2, 3, 4};
+  std::vector<std::size_t> chosen;
+  for (const auto& name : asked) {
+    MDOF_TRY(const std::size_t k, place_of_error(name, axis));
+    add_new(chosen, {k});
+  }
+  return chosen;
+}
+
+Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositioning& found) {
+  const auto series = algo::readings_of_run(run, k, found.keep_slope);
+  auto figures = algo::positioning(series.readings);
+  if (!figures)
+    return in_context("run " + std::to_string(run.header.id), std::move(figures.error()));
+  add_new(found.warnings, algo::plan_warnings(*figures, scale_period_m));
+  if (series.left_out > 0)
+    add_new(found.warnings,
+            {std::to_string(series.left_out) + " of " + std::to_string(run.points.size()) +
+             " points are left out: not solved, or their approach is unknown"});
+  const ErrorName& name = error_names(run.header.axis)[k];
+  found.columns.push_back({name.name, name.angle, std::move(*figures)});
+  return {};
+}
+
+}  // namespace
+
+Result<RunPositioning> run_positioning(const Run& run, const RunPositioningRequest& request,
+                                       double scale_period_m) {
+  MDOF_CHECK(algo::check_usable({&run}, request.partial, "ISO 230-2 figures"));
+  MDOF_TRY(const auto chosen, chosen_errors(request.errors, run.header.axis));
+  RunPositioning found;
+  found.keep_slope = request.keep_slope;
+  found.warnings = algo::inherited_warnings({&run});
+  for (const std::size_t k : chosen) MDOF_CHECK(add_error(run, k, scale_period_m, found));
+  return found;
+}
+
+std::string run_positioning_json(const Run& run, const RunPositioning& found) {
+  JsonWriter json;
+  json.begin_object()
+      .field("run", run.header.id)
+      .field("axis", std::string(1, letter(run.header.axis)))
+      .field("model", run.header.provenance.model);
+  write_reference(json, run.header.stated);
+  json.field("straightness_reference", found.keep_slope ? "as measured" : "least squares line")
+      .field("simulated", run.header.simulated)
+      .key("cycle");
+  run.plausibility ? json.value(run.plausibility->cycle) : json.null();
+  json.key("errors").begin_object();
+  for (const auto& column : found.columns) {
+    json.key(column.name + (column.angle ? "_urad" : "_um")).begin_object();
+    write_positioning(json, column.figures, column.angle);
+    json.end_object();
+  }
+  json.end_object().end_object();
+  return with_warnings(json.take(), found.warnings);
+}
+
+std::string run_positioning_text(const Run& run, const RunPositioning& found, std::size_t width) {
+  std::string text = simulated_notice(run.header.simulated) + parameters_text(found.columns);
+  if (found.columns.size() == 1) text += "\n" + targets_text(found.columns[0], width);
+  const std::string cycle = run.plausibility ? "; cycle: " + run.plausibility->cycle : "";
+  return text + stated_text(run.header.stated) +
+         wrapped(std::string("straightness: ") +
+                     (found.keep_slope ? "as measured, slope and all"
+                                       : "about the least-squares line of both approaches' mean") +
+                     cycle,
+                 width) +
+         "\n";
+}
+
+}  // namespace mdof::tools

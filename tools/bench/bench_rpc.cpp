@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "daemon/methods/methods.h"
-#include "daemon/rpc/line/event_loop_core.h"
 #include "daemon/rpc/line/server.h"
-#include "daemon/rpc/line/socket.h"
+#include "daemon/rpc/net/event_loop_core.h"
+#include "daemon/rpc/net/socket.h"
 
 namespace {
 
@@ -93,7 +93,8 @@ struct Bench {
   daemon::ActiveTables active = table_in_force();
   daemon::Methods methods{loop, *keeper, reader, stations, active, "", "", Clock::now()};
   MethodTable table{"bench", "1"};
-  Server server{loop, table};
+  Service service{loop.executor(), table};
+  LineServer server{loop, service};
   Descriptor rpc, echo;
   std::string reply;
   std::thread thread;

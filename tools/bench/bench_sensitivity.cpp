@@ -14,7 +14,7 @@
 
 namespace {
 
-using mdof::algo::InstructionSet;
+using mdof::InstructionSet;
 constexpr int kRounds = 25;
 constexpr std::size_t kBatch = 512;
 
@@ -51,8 +51,7 @@ double draw_all(std::uint64_t trials, std::uint64_t pairs, InstructionSet set) {
 void bench(const char* name, const mdof::algo::SimulationOptions& options, std::uint64_t pairs,
            std::uint64_t trials, InstructionSet set) {
   const auto experiment = mdof::algo::make_simulation(options, set).value();
-  std::printf("%s, %s, %.0f trials\n", name, mdof::algo::to_string(set),
-              static_cast<double>(trials));
+  std::printf("%s, %s, %.0f trials\n", name, mdof::to_string(set), static_cast<double>(trials));
   double sum = 0;
   print("  random numbers alone", best_ns(trials, [&] { sum += draw_all(trials, pairs, set); }));
   static std::array<std::array<double, kBatch>, 5> columns;
@@ -85,9 +84,9 @@ void bench(const char* name, const mdof::algo::SimulationOptions& options, std::
 
 int main(int argc, char** argv) {
   const std::uint64_t trials = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 4'000'000;
-  InstructionSet set = mdof::algo::best_instruction_set();
-  for (const InstructionSet one : mdof::algo::available_instruction_sets()) {
-    if (argc > 2 && std::strcmp(argv[2], mdof::algo::to_string(one)) == 0) set = one;
+  InstructionSet set = mdof::best_instruction_set();
+  for (const InstructionSet one : mdof::available_instruction_sets()) {
+    if (argc > 2 && std::strcmp(argv[2], mdof::to_string(one)) == 0) set = one;
   }
   bench("simulation I", mdof::algo::simulation_1_defaults(), 3, trials, set);
   bench("simulation II", mdof::algo::simulation_2_defaults(), 6, trials, set);

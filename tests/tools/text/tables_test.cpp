@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "schema/run_json.h"
 #include "schema/sample.h"
 #include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/csv/log_csv.h"
@@ -141,6 +142,16 @@ TEST(RunCsv, HasUnitsInItsHeaderAndNothingWhereNothingIsKnown) {
                       "u_ECX_urad,samples,flags,reason\n1,0,1,0,-123.45678"));
   EXPECT_NE(csv.find(",0.099999999999999992,,0.099999999999999992,0,"), std::string::npos) << csv;
   EXPECT_NE(points_csv(one_point(false, "why")).find(",,,,,,,,,,0,saturated:A"), std::string::npos);
+}
+
+// The names are of the body that moves: where that is the fixture they have the other sign, as in
+// the JSON.
+TEST(RunCsv, SaysTheErrorsOfTheBodyThatMoves) {
+  Run run = one_point(true, "");
+  EXPECT_NE(points_csv(run).find(",-123.4567,"), std::string::npos) << points_csv(run);
+  run.header.sides.fixture_moves = true;
+  EXPECT_NE(points_csv(run).find(",123.4567,"), std::string::npos) << points_csv(run);
+  EXPECT_NE(run_json(run).find("\"EYX_um\":123.4567,"), std::string::npos);
 }
 
 TEST(LogCsv, IsALogWithTimesToTheNanosecond) {

@@ -15,9 +15,9 @@ double known_u(double variance) {
   return variance > 0 ? to_key_unit(std::sqrt(variance)) : kNaN;
 }
 
-void add_point(CsvText& csv, Axis axis, const MeasuredPoint& p) {
-  const Errors5 named = named_from_local(axis, p.errors.local);
-  const Covariance5 cov = named_from_local(axis, p.errors.covariance);
+void add_point(CsvText& csv, const MovingAxis& moving, const MeasuredPoint& p) {
+  const Errors5 named = named_from_local(moving, p.errors.local);
+  const Covariance5 cov = named_from_local(moving.axis, p.errors.covariance);
   const bool valid = p.errors.valid;
   csv.cell(static_cast<long long>(p.target)).cell(to_mm(p.target_m));
   csv.cell(static_cast<long long>(p.run)).cell(static_cast<long long>(p.point.direction));
@@ -36,7 +36,7 @@ std::string points_csv(const Run& run) {
   for (const auto& name : error_names(run.header.axis)) csv.cell(std::string_view(name.key));
   for (const auto& name : error_names(run.header.axis)) csv.cell("u_" + std::string(name.key));
   csv.cells({"samples", "flags", "reason"}).end_row();
-  for (const auto& point : run.points) add_point(csv, run.header.axis, point);
+  for (const auto& point : run.points) add_point(csv, run.header.moving(), point);
   return csv.take();
 }
 

@@ -124,12 +124,18 @@ void TomlTable::missing(std::string_view key, const char* form) {
 }
 
 bool TomlTable::has(std::string_view key) {
+  node_->asked.emplace(key);
   return node_->table->contains(key);
 }
 
 bool TomlTable::is_array(std::string_view key) {
   const auto* node = node_->table->get(key);
   return node && node->is_array();
+}
+
+bool TomlTable::is_table(std::string_view key) {
+  const auto* node = node_->table->get(key);
+  return node && node->is_table();
 }
 
 std::string TomlTable::string(std::string_view key, const std::optional<std::string>& fallback) {

@@ -21,8 +21,9 @@ class TomlTable {
   // `source_name` is what messages call the document.
   static Result<TomlTable> parse(std::string_view text, const std::string& source_name);
 
-  bool has(std::string_view key);
+  bool has(std::string_view key);       // who asks knows the key: it is not an unknown one
   bool is_array(std::string_view key);  // [[key]], or key = [...]
+  bool is_table(std::string_view key);  // [key], or key = {...}
   std::string string(std::string_view key,
                      const std::optional<std::string>& fallback = std::nullopt);
   double number(std::string_view key, std::optional<double> fallback = std::nullopt);

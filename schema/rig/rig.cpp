@@ -109,6 +109,10 @@ Probe read_probe(TomlTable& table) {
                  "must be from 0 to 10000000: by how much later than the encoder's its readings "
                  "come, by its amplifier's filter");
   probe.delay_s = delay_us / 1e6;
+  probe.uncertainty = {read_uncertainty(table, "u_calibration_um", from_um(1)),
+                       read_uncertainty(table, "u_sensitivity_ppm", 1e-6),
+                       read_uncertainty3(table, "u_position_mm", from_mm(1)),
+                       read_uncertainty(table, "u_direction_mrad", 1e-3)};
   return probe;
 }
 
@@ -144,6 +148,10 @@ TargetPlane read_plane(TomlTable& table) {
                                             : read_direction(table, "normal");
   if (table.has("offset_mm")) plane.offset_m = from_mm(table.number("offset_mm"));
   plane.flatness = read_flatness(table);
+  plane.u_flatness = read_uncertainty(table, "u_flatness_um", from_um(1));
+  plane.flatness_length_m = from_mm(table.number("flatness_length_mm", 30));
+  if (!(plane.flatness_length_m > 0))
+    table.reject("flatness_length_mm", "must be the length of the longest wave, in mm, above 0");
   return plane;
 }
 
@@ -162,12 +170,24 @@ Sides read_sides(TomlTable& table) {
 void read_encoder(TomlTable& table, Rig& rig) {
   auto encoder = table.table("encoder");
   if (!encoder) return;
+  rig.uncertainty.encoder = read_uncertainty(*encoder, "u_um", from_um(1));
+  if (!encoder->has("um_per_V") && rig.uncertainty.encoder.declared()) return;
   const double um_per_V = encoder->number("um_per_V");
   if (!(std::abs(um_per_V) > 0 && std::isfinite(um_per_V)))
     encoder->reject("um_per_V",
                     "must be the micrometres along the axis for a volt of its encoder, negative "
                     "where the volts fall as its position grows, and not 0");
   rig.encoder_um_per_V = um_per_V;
+}
+
+void read_installation_and_drift(TomlTable& table, Rig& rig) {
+  if (auto installation = table.table("installation")) {
+    rig.uncertainty.installation_angle = read_uncertainty3(*installation, "u_angle_mrad", 1e-3);
+    rig.uncertainty.installation_offset =
+        read_uncertainty3(*installation, "u_offset_mm", from_mm(1));
+  }
+  if (auto drift = table.table("drift"))
+    rig.uncertainty.drift = read_uncertainty(*drift, "u_um_per_h", from_um(1) / 3600);
 }
 
 void read_artefact(TomlTable& table, Rig& rig) {
@@ -231,6 +251,22 @@ std::optional<std::size_t> Rig::probe_index(std::string_view id) const {
   return std::nullopt;
 }
 
+bool Rig::declares_uncertainty() const {
+  const auto any = [](const DeclaredUncertainty3& three) {
+    return three.u[0] > 0 || three.u[1] > 0 || three.u[2] > 0;
+  };
+  const auto of_probe = [&](const Probe& probe) {
+    const ProbeUncertainty& u = probe.uncertainty;
+    return u.calibration.declared() || u.sensitivity.declared() || any(u.position) ||
+           u.direction.declared();
+  };
+  return std::any_of(probes.begin(), probes.end(), of_probe) ||
+         std::any_of(planes.begin(), planes.end(),
+                     [](const TargetPlane& plane) { return plane.u_flatness.declared(); }) ||
+         uncertainty.encoder.declared() || any(uncertainty.installation_angle) ||
+         any(uncertainty.installation_offset) || uncertainty.drift.declared();
+}
+
 Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name) {
   MDOF_TRY(auto table, TomlTable::parse(toml_text, source_name));
   Rig rig;
@@ -250,6 +286,7 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
   }
   read_artefact(table, rig);
   read_encoder(table, rig);
+  read_installation_and_drift(table, rig);
   rig.machine = read_machine(table);
   check_machine(table, rig);
   for (auto& probe : table.tables("probe")) rig.probes.push_back(read_probe(probe));

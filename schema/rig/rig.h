@@ -12,6 +12,7 @@
 #include "schema/axis.h"
 #include "schema/base/result.h"
 #include "schema/rig/chain.h"
+#include "schema/rig/uncertainty.h"
 
 namespace mdof {
 
@@ -43,6 +44,7 @@ struct Probe {
   Calibration calibration;
   // By how much its readings come later than the encoder's: its amplifier's filter.
   double delay_s = 0;
+  ProbeUncertainty uncertainty = {};
 };
 
 // Known flatness of a target plane: height above the plane on a grid, bilinear between, ends held.
@@ -60,6 +62,9 @@ struct TargetPlane {
   Vec3 normal{};
   std::optional<double> offset_m;  // default: where the probes' positions lie
   HeightMap flatness;
+  // Standard uncertainty of its height beside the map, and the longest wave that it is made of.
+  DeclaredUncertainty u_flatness = {};
+  double flatness_length_m = 0.03;
 };
 
 struct Rig {
@@ -77,12 +82,15 @@ struct Rig {
   // X and Y look at; with its standard uncertainty.
   std::optional<double> artefact_angle_error_rad;
   double u_artefact_angle_rad = 0;
+  RigUncertainty uncertainty;
   std::string text;    // the TOML itself: provenance
   std::string source;  // file name, for messages
 
   MovingAxis moving() const { return {axis, sides}; }
 
   std::optional<std::size_t> probe_index(std::string_view id) const;
+  // Whether anything beside the artefact's angle is declared: else u is noise only.
+  bool declares_uncertainty() const;
 };
 
 // What results measured on this day (YYYY-MM-DD..., UTC) have to say of the probes' calibrations.

@@ -23,6 +23,15 @@ inline Rig rig_x(double l_mm = 10, double h_mm = 15, double z_mm = 20) {
   return parse_rig(rig_x_toml(l_mm, h_mm, z_mm), "rig_X.toml").value();
 }
 
+// The same with `keys` in the table of one probe, and `end` behind all.
+inline Rig rig_x_with(const std::string& probe, const std::string& keys,
+                      const std::string& end = "") {
+  std::string toml = rig_x_toml();
+  if (!probe.empty())
+    toml.insert(toml.find('\n', toml.find("id = \"" + probe + "\"")) + 1, keys + "\n");
+  return parse_rig(toml + end, "rig_X.toml").value();
+}
+
 // Seven probes in general positions and directions, no two alike.
 inline Rig rig_oblique() {
   return parse_rig(R"(

@@ -1,0 +1,53 @@
+// Standard uncertainties that a rig declares (GUM 4.3, type B; DESIGN §6). All are optional: what
+// is not declared is 0 here and named as missing where a result is stated.
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+#include "schema/axis.h"
+#include "schema/base/toml_reader.h"
+
+namespace mdof {
+
+// Of what is not known within its uncertainty, JCGM 101 6.4.
+enum class UncertaintyShape { normal, rectangular, triangular, u_shaped };
+const char* to_string(UncertaintyShape shape);
+
+struct DeclaredUncertainty {
+  double u = 0;  // standard uncertainty, SI; 0: not declared
+  UncertaintyShape shape = UncertaintyShape::normal;
+  double freedom = std::numeric_limits<double>::infinity();  // degrees of freedom, GUM G.4
+  bool declared() const { return u > 0; }
+};
+// Of three components along the machine's axes, each independent of the others.
+struct DeclaredUncertainty3 {
+  Vec3 u{};
+  UncertaintyShape shape = UncertaintyShape::normal;
+  double freedom = std::numeric_limits<double>::infinity();
+  DeclaredUncertainty component(std::size_t k) const { return {u[k], shape, freedom}; }
+};
+
+struct ProbeUncertainty {
+  DeclaredUncertainty calibration;  // of the zero of its readings, the same all along a run; m
+  DeclaredUncertainty sensitivity;  // of their scale; 1
+  DeclaredUncertainty3 position;    // m
+  DeclaredUncertainty direction;    // about each of two axes across its direction; rad
+};
+
+struct RigUncertainty {
+  DeclaredUncertainty encoder;               // from target to target; m
+  DeclaredUncertainty3 installation_angle;   // of the whole fixture about the machine's axes; rad
+  DeclaredUncertainty3 installation_offset;  // m
+  DeclaredUncertainty drift;                 // of each probe, in proportion to time; m/s
+};
+
+// A number is the standard uncertainty of a normal distribution. Else an inline table:
+//   u_calibration_um = { u = 0.05, distribution = "rectangular", dof = 8 }
+//   u_calibration_um = { half_width = 0.1, distribution = "rectangular" }   the limits ±0.1
+// `to_si`: from the unit of the key. Absent: not declared. What is wrong is recorded in the table.
+DeclaredUncertainty read_uncertainty(TomlTable& table, std::string_view key, double to_si);
+// The same with three numbers, or one for all three.
+DeclaredUncertainty3 read_uncertainty3(TomlTable& table, std::string_view key, double to_si);
+
+}  // namespace mdof

@@ -1,0 +1,99 @@
+#include "schema/rig/uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "schema/rig/rig.h"
+#include "tests/algo/rigs.h"
+
+namespace mdof {
+namespace {
+
+// The default rig with `keys` in the table of probe A and `end` behind it.
+Result<Rig> rig(const std::string& keys, const std::string& end = "") {
+  std::string toml = test::rig_x_toml();
+  toml.insert(toml.find('\n', toml.find("id = \"A\"")) + 1, keys + "\n");
+  return parse_rig(toml + end, "rig.toml");
+}
+
+std::string refusal(const std::string& keys, const std::string& end = "") {
+  const auto parsed = rig(keys, end);
+  EXPECT_FALSE(parsed) << keys << end;
+  return parsed ? "" : parsed.error().message;
+}
+
+TEST(RigUncertainty, EachKeyIsReadInItsUnit) {
+  const auto parsed = rig(
+      "u_calibration_um = 0.05\nu_sensitivity_ppm = 200\nu_position_mm = [0.1, 0.2, 0.3]\n"
+      "u_direction_mrad = 2",
+      "[encoder]\nu_um = 0.4\n[installation]\nu_angle_mrad = [1, 2, 3]\nu_offset_mm = 0.05\n"
+      "[drift]\nu_um_per_h = 0.36\n"
+      "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\nu_flatness_um = 0.03\nflatness_length_mm = 12\n"
+      "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\n");
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  const ProbeUncertainty& a = parsed->probes[0].uncertainty;
+  EXPECT_DOUBLE_EQ(a.calibration.u, 0.05e-6);
+  EXPECT_DOUBLE_EQ(a.sensitivity.u, 200e-6);
+  EXPECT_DOUBLE_EQ(a.position.u[1], 0.2e-3);
+  EXPECT_DOUBLE_EQ(a.direction.u, 2e-3);
+  EXPECT_EQ(a.direction.shape, UncertaintyShape::normal);
+  EXPECT_TRUE(std::isinf(a.direction.freedom));
+  EXPECT_FALSE(parsed->probes[1].uncertainty.calibration.declared());
+  EXPECT_DOUBLE_EQ(parsed->uncertainty.encoder.u, 0.4e-6);
+  EXPECT_FALSE(parsed->encoder_um_per_V);
+  EXPECT_DOUBLE_EQ(parsed->uncertainty.installation_angle.u[2], 3e-3);
+  EXPECT_DOUBLE_EQ(parsed->uncertainty.installation_offset.u[2], 0.05e-3);
+  EXPECT_DOUBLE_EQ(parsed->uncertainty.drift.u, 1e-10);
+  EXPECT_DOUBLE_EQ(parsed->planes[0].u_flatness.u, 0.03e-6);
+  EXPECT_DOUBLE_EQ(parsed->planes[0].flatness_length_m, 0.012);
+  EXPECT_DOUBLE_EQ(parsed->planes[1].flatness_length_m, 0.030);
+  EXPECT_TRUE(parsed->declares_uncertainty());
+  EXPECT_FALSE(rig("")->declares_uncertainty());
+}
+
+// GUM 4.3.7 and 4.3.9: u = a/√3 and a/√6; the arcsine has a/√2.
+TEST(RigUncertainty, LimitsBecomeAStandardUncertainty) {
+  const auto u = [](const std::string& table) {
+    return rig("u_calibration_um = " + table)->probes[0].uncertainty.calibration;
+  };
+  EXPECT_NEAR(u("{ half_width = 0.3, distribution = \"rectangular\" }").u, 0.3e-6 / 1.7320508,
+              1e-13);
+  EXPECT_NEAR(u("{ half_width = 0.3, distribution = \"triangular\" }").u, 0.3e-6 / 2.4494897,
+              1e-13);
+  EXPECT_NEAR(u("{ half_width = 0.3, distribution = \"u-shaped\" }").u, 0.3e-6 / 1.4142136, 1e-13);
+  const auto with_freedom = u("{ u = 0.3, dof = 8, distribution = \"rectangular\" }");
+  EXPECT_DOUBLE_EQ(with_freedom.u, 0.3e-6);
+  EXPECT_EQ(with_freedom.shape, UncertaintyShape::rectangular);
+  EXPECT_EQ(with_freedom.freedom, 8);
+  const auto three = rig("u_position_mm = { u = [1, 2, 3], distribution = \"triangular\" }");
+  EXPECT_DOUBLE_EQ(three->probes[0].uncertainty.position.component(2).u, 3e-3);
+}
+
+TEST(RigUncertainty, WhatCannotBeIsRefusedWithItsPlace) {
+  const struct {
+    const char *keys, *says;
+  } cases[] = {
+      {"u_calibration_um = -0.1", "rig.toml:5: probe[1].u_calibration_um"},
+      {"u_calibration_um = nan", "finite number"},
+      {"u_calibration_um = inf", "finite number"},
+      {"u_calibration_um = [1, 2]", "one number"},
+      {"u_position_mm = [1, 2]", "three numbers"},
+      {"u_calibration_um = { half_width = 1 }", "normal distribution has no limits"},
+      {"u_calibration_um = { u = 1, half_width = 1, distribution = \"rectangular\" }", "either u"},
+      {"u_calibration_um = { distribution = \"rectangular\" }", "either u"},
+      {"u_calibration_um = { u = 1, distribution = \"square\" }", "none of \"normal\""},
+      {"u_calibration_um = { u = 1, dof = 0 }", "degree of freedom"},
+      {"u_calibration_um = { u = 1, half = 2 }", "half"},
+      {"u_calibration_mm = 1", "u_calibration_um"},
+  };
+  for (const auto& c : cases)
+    EXPECT_NE(refusal(c.keys).find(c.says), std::string::npos) << c.keys << ": " << refusal(c.keys);
+  EXPECT_NE(refusal("", "[encoder]\n").find("um_per_V"), std::string::npos);
+  EXPECT_NE(refusal("", "[drift]\nu_um = 1\n").find("u_um_per_h"), std::string::npos);
+  EXPECT_NE(refusal("", "[[plane]]\nnormal = \"+Z\"\nflatness_length_mm = 0\n").find("above 0"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof

@@ -140,6 +140,7 @@ Result<Fixture> make_fixture(const Rig& rig) {
     if (plane) {
       p.n_C = local_vector(rig.axis, plane->normal);
       p.flatness = plane->flatness;
+      p.plane = static_cast<std::size_t>(plane - rig.planes.data());
     }
     p.plane_offset_m = p.n_C.dot(p.p_MP);
     if (plane && plane->offset_m) MDOF_CHECK(check_on_plane(rig, p, *plane));

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +14,12 @@ namespace mdof::algo {
 // A probe's line in M and the target plane in C it looks at.
 struct FixtureProbe {
   std::string id;
-  Eigen::Vector3d p_MP;       // point of the line on the nominal surface; m, local frame
-  Eigen::Vector3d u_M;        // unit direction along which displacement counts positive
-  Eigen::Vector3d n_C;        // unit normal of the target plane
-  double plane_offset_m = 0;  // n · p = offset
-  HeightMap flatness;         // of that plane; empty: flat
+  Eigen::Vector3d p_MP;              // point of the line on the nominal surface; m, local frame
+  Eigen::Vector3d u_M;               // unit direction along which displacement counts positive
+  Eigen::Vector3d n_C;               // unit normal of the target plane
+  double plane_offset_m = 0;         // n · p = offset
+  HeightMap flatness;                // of that plane; empty: flat
+  std::optional<std::size_t> plane;  // place of that plane in the rig; none: the rig has no planes
 };
 
 struct Fixture {

@@ -1,0 +1,281 @@
+#include "algo/uncertainty/contributors.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "algo/model/small_rotation.h"
+#include "algo/model/solver.h"
+#include "algo/sensitivity/plan/mounting.h"
+#include "algo/uncertainty/point_sensitivity.h"
+#include "schema/base/random.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kWaves = 4, kDirections = 8;
+constexpr std::size_t kMostEncoderParts = 256;  // more targets: neighbours share one
+constexpr auto kFixture = static_cast<std::size_t>(Part::fixture);
+constexpr std::array<char, 3> kAxisLetters = {'x', 'y', 'z'};
+
+// Angles are small: turns of half a circle and more never come.
+constexpr double kQuarterTurn = 0.25;
+
+// What all contributors of a run share.
+struct Basis {
+  Rig rig;
+  Solver solver;
+  Run run;
+  std::vector<PointSensitivity> points;
+
+  std::size_t probes() const { return rig.probes.size(); }
+  Eigen::Vector3d local(const Vec3& machine) const {
+    const Vec3 l = to_local(rig.axis, machine);
+    return {l[0], l[1], l[2]};
+  }
+};
+using SharedBasis = std::shared_ptr<const Basis>;
+
+Vec3 along_axis(std::size_t component, double value) {
+  Vec3 v{};
+  v[component] = value;
+  return v;
+}
+
+// `change_m(point, probe)`: what is added to that probe's reading.
+template <class Change>
+PointShifts by_readings(const Basis& basis, Change change_m) {
+  PointShifts shifts(basis.points.size());
+  for (std::size_t j = 0; j < shifts.size(); ++j) {
+    const PointSensitivity& point = basis.points[j];
+    if (!point.valid) continue;
+    for (std::size_t k = 0; k < basis.probes(); ++k)
+      for (std::size_t e = 0; e < kErrorCount; ++e)
+        if (point.by_probe[k][e] != 0) shifts[j][e] += point.by_probe[k][e] * change_m(j, k);
+  }
+  return shifts;
+}
+
+template <class Change>
+PointShifts by_one_probe(const Basis& basis, std::size_t probe, Change change_m) {
+  return by_readings(basis,
+                     [&](std::size_t j, std::size_t k) { return k == probe ? change_m(j) : 0.0; });
+}
+
+Mounting nothing_off(const Basis& basis) {
+  Mounting mounting;
+  mounting.probe.resize(basis.probes());
+  return mounting;
+}
+
+// Readings of a fixture that is mounted so, of every point; empty: an angle is too large.
+std::vector<std::vector<double>> readings_of(const Basis& basis, const Mounting& mounting) {
+  const Forward forward =
+      basis.solver.model() == Model::rigid ? Forward::rigid : Forward::small_angle;
+  MountedFixture fixture(basis.solver.fixture(), forward, 1);
+  if (!fixture.mount(mounting)) return {};
+  std::vector<std::vector<double>> readings(basis.points.size());
+  for (std::size_t j = 0; j < readings.size(); ++j) {
+    readings[j].resize(basis.probes());
+    const PointSensitivity& point = basis.points[j];
+    if (point.valid && !fixture.read(point.travel_m, point.carriage, 0, true, readings[j]))
+      return {};
+  }
+  return readings;
+}
+
+// Half of what `set(mounting, +1)` and `set(mounting, -1)` differ by.
+template <class Set>
+PointShifts by_mounting(const Basis& basis, Set set) {
+  Mounting plus = nothing_off(basis), minus = plus;
+  set(plus, 1.0);
+  set(minus, -1.0);
+  const auto above = readings_of(basis, plus), below = readings_of(basis, minus);
+  return by_readings(basis,
+                     [&](std::size_t j, std::size_t k) { return (above[j][k] - below[j][k]) / 2; });
+}
+
+double middle_s(const MeasuredPoint& p) {
+  return (ns_to_s(p.point.begin_ns) + ns_to_s(p.point.end_ns)) / 2;
+}
+
+// A wave of the surface that each probe of the plane meets. The square of the parts of all waves,
+// directions and both phases is u² at every place.
+PointShifts of_wave(const Basis& basis, std::size_t plane, std::size_t wave, double direction_turns,
+                    double phase_turns) {
+  const TargetPlane& surface = basis.rig.planes[plane];
+  double norm = 0;
+  for (std::size_t w = 1; w <= kWaves; ++w) norm += std::pow(static_cast<double>(w), -4);
+  const double k2 = static_cast<double>(wave * wave);
+  const double height_m = surface.u_flatness.u / (k2 * std::sqrt(norm * kDirections));
+  const double along = sine_of_turns(direction_turns + kQuarterTurn);
+  const double across = sine_of_turns(direction_turns);
+  return by_readings(basis, [&](std::size_t j, std::size_t k) {
+    const FixtureProbe& probe = basis.solver.fixture().probes[k];
+    if (probe.plane != plane) return 0.0;
+    const double first = probe.p_MP.x() - basis.points[j].travel_m;
+    const double second =
+        std::abs(probe.n_C.z()) > std::abs(probe.n_C.y()) ? probe.p_MP.y() : probe.p_MP.z();
+    const double waves = (first * along + second * across) * static_cast<double>(wave);
+    return height_m / probe.n_C.dot(probe.u_M) *
+           sine_of_turns(waves / surface.flatness_length_m + phase_turns);
+  });
+}
+
+std::vector<PointShifts> of_flatness(const Basis& basis, std::size_t plane) {
+  std::vector<PointShifts> parts;
+  for (std::size_t wave = 1; wave <= kWaves; ++wave)
+    for (std::size_t d = 0; d < kDirections; ++d)
+      for (const double phase : {0.0, kQuarterTurn})
+        parts.push_back(
+            of_wave(basis, plane, wave, static_cast<double>(d) / (2.0 * kDirections), phase));
+  return parts;
+}
+
+std::vector<PointShifts> of_encoder(const Basis& basis) {
+  std::map<int, std::size_t> part_of;  // by target
+  for (const auto& p : basis.run.points) part_of.emplace(p.target, 0);
+  const std::size_t each = (part_of.size() + kMostEncoderParts - 1) / kMostEncoderParts;
+  std::size_t n = 0;
+  for (auto& [target, part] : part_of) part = n++ / each;
+  std::vector<PointShifts> parts((n + each - 1) / each, PointShifts(basis.points.size()));
+  const double u = basis.rig.uncertainty.encoder.u;
+  for (std::size_t j = 0; j < basis.points.size(); ++j)
+    for (std::size_t e = 0; e < kErrorCount; ++e)
+      parts[part_of[basis.run.points[j].target]][j][e] = u * basis.points[j].by_travel[e];
+  return parts;
+}
+
+class List {
+ public:
+  explicit List(SharedBasis basis) : basis_(std::move(basis)) {
+    for (std::size_t k = 0; k < basis_->probes(); ++k) add_probe(k);
+    add_installation();
+    add_drift();
+    for (std::size_t i = 0; i < basis_->rig.planes.size(); ++i) add_plane(i);
+    add("encoder", "u_um", basis_->rig.uncertainty.encoder, 1e6, "µm",
+        [](const Basis& b) { return of_encoder(b); });
+  }
+  std::vector<Contributor> take() { return std::move(list_); }
+
+ private:
+  // `parts(basis)`: as Contributor::parts.
+  template <class Parts>
+  void add(std::string name, std::string key, const DeclaredUncertainty& declared, double to_unit,
+           std::string unit, Parts parts) {
+    if (!declared.declared()) return;
+    list_.push_back({std::move(name), std::move(key), declared, to_unit, std::move(unit),
+                     [basis = basis_, parts] { return parts(*basis); }});
+  }
+
+  void add_probe(std::size_t k) {
+    const Probe& probe = basis_->rig.probes[k];
+    const std::string name = "probe " + probe.id + ": ";
+    const ProbeUncertainty& u = probe.uncertainty;
+    add(name + "calibration", "u_calibration_um", u.calibration, 1e6, "µm",
+        [k, size = u.calibration.u](const Basis& b) {
+          return std::vector<PointShifts>{by_one_probe(b, k, [&](std::size_t) { return size; })};
+        });
+    add(name + "sensitivity", "u_sensitivity_ppm", u.sensitivity, 1e6, "ppm",
+        [k, size = u.sensitivity.u](const Basis& b) {
+          return std::vector<PointShifts>{by_one_probe(
+              b, k, [&](std::size_t j) { return size * b.run.points[j].point.probe_m[k]; })};
+        });
+    for (std::size_t c = 0; c < 3; ++c)
+      add(name + "position " + kAxisLetters[c], "u_position_mm", u.position.component(c), 1e3, "mm",
+          [k, c, size = u.position.u[c]](const Basis& b) {
+            return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
+              mounting.probe[k].shift = b.local(along_axis(c, sign * size));
+            })};
+          });
+    add(name + "direction", "u_direction_mrad", u.direction, 1e3, "mrad",
+        [k, size = u.direction.u](const Basis& b) {
+          const auto about = [&](double turns) {
+            return by_mounting(b, [&](Mounting& mounting, double sign) {
+              mounting.probe[k].tilt_rad = sign * size;
+              mounting.probe[k].tilt_turns = turns;
+            });
+          };
+          return std::vector<PointShifts>{about(0), about(kQuarterTurn)};
+        });
+  }
+
+  void add_installation() {
+    const RigUncertainty& u = basis_->rig.uncertainty;
+    for (std::size_t c = 0; c < 3; ++c)
+      add(std::string("installation: angle about ") + kAxisLetters[c], "u_angle_mrad",
+          u.installation_angle.component(c), 1e3, "mrad",
+          [c, size = u.installation_angle.u[c]](const Basis& b) {
+            return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
+              mounting.part[kFixture].turn = b.local(along_axis(c, sign * size));
+            })};
+          });
+    for (std::size_t c = 0; c < 3; ++c)
+      add(std::string("installation: offset ") + kAxisLetters[c], "u_offset_mm",
+          u.installation_offset.component(c), 1e3, "mm",
+          [c, size = u.installation_offset.u[c]](const Basis& b) {
+            return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
+              mounting.part[kFixture].shift = b.local(along_axis(c, sign * size));
+            })};
+          });
+  }
+
+  // From the first point on.
+  void add_drift() {
+    const DeclaredUncertainty& u = basis_->rig.uncertainty.drift;
+    for (std::size_t k = 0; k < basis_->probes(); ++k)
+      add("probe " + basis_->rig.probes[k].id + ": drift", "u_um_per_h", u, 3600e6, "µm/h",
+          [k, size = u.u](const Basis& b) {
+            const double start_s = middle_s(b.run.points.front());
+            return std::vector<PointShifts>{by_one_probe(
+                b, k, [&](std::size_t j) { return size * (middle_s(b.run.points[j]) - start_s); })};
+          });
+  }
+
+  void add_plane(std::size_t i) {
+    const TargetPlane& plane = basis_->rig.planes[i];
+    const std::string name =
+        plane.id.empty() ? "plane " + std::to_string(i + 1) : "plane " + plane.id;
+    add(name + ": flatness", "u_flatness_um", plane.u_flatness, 1e6, "µm",
+        [i](const Basis& b) { return of_flatness(b, i); });
+  }
+
+  SharedBasis basis_;
+  std::vector<Contributor> list_;
+};
+
+// Before anything is made of it: angles that the models do not take.
+Status check_angles(const Basis& basis) {
+  const auto fits = [](double u_rad) { return u_rad <= kSmallAngleMax_rad / 2; };
+  bool small = true;
+  for (const Probe& probe : basis.rig.probes) small = small && fits(probe.uncertainty.direction.u);
+  for (const double u : basis.rig.uncertainty.installation_angle.u) small = small && fits(u);
+  if (small) return {};
+  return bad_input(
+      basis.rig.source +
+      ": a declared u_direction_mrad or u_angle_mrad is over 125 mrad, where the model "
+      "ends; give it in mrad");
+}
+
+}  // namespace
+
+Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
+  Model model = Model::rigid;
+  model_from(run.header.provenance.model, model);
+  MDOF_TRY(Solver solver, Solver::create(rig, model));
+  auto points = point_sensitivities(solver, run);
+  const auto basis =
+      std::make_shared<const Basis>(Basis{rig, std::move(solver), run, std::move(points)});
+  MDOF_CHECK(check_angles(*basis));
+  return List(basis).take();
+}
+
+void shift_points(Run& run, const PointShifts& shifts, double factor) {
+  for (std::size_t j = 0; j < shifts.size(); ++j)
+    for (std::size_t e = 0; e < kErrorCount; ++e)
+      run.points[j].errors.local[e] += factor * shifts[j][e];
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,43 @@
+// What a rig declares not to know (schema/rig/uncertainty.h), and by how much each of it changes
+// the errors of a run: GUM 5.1.3, the sensitivities by differences of the model itself.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
+#include "schema/run.h"
+
+namespace mdof::algo {
+
+// Change of the errors of each point of the run: local frame, stated where the run is; 0 for a
+// point without errors.
+using PointShifts = std::vector<Errors5>;
+
+// One line of a budget. Contributors are independent of each other. What one does is common to all
+// points of the run, and so cancels where a figure takes differences of points.
+struct Contributor {
+  std::string name;  // "probe A: sensitivity"
+  std::string key;   // as the rig declares it: "u_sensitivity_ppm"
+  DeclaredUncertainty declared;
+  double to_unit = 1;  // from SI to the unit in which it is shown
+  std::string unit;    // "ppm"
+  // The shifts by one standard uncertainty of it, as independent parts whose squares add: one part,
+  // but two for a direction (two axes across it), one a target for the encoder, and the waves of a
+  // flatness.
+  std::function<std::vector<PointShifts>()> parts;
+};
+
+// Of what `rig` declares, in its order; the run is of that rig. What moves or turns a probe counts
+// by what it changes after the zero at d = 0 without errors (DESIGN §3, simulation II): the zero
+// itself is calibration's. A flatness is a random field of waves of the lengths L, L/2, L/3, L/4
+// (weights 1/k², as in a sensitivity study) in eight directions, the same for all visits of a
+// place. Error: a rig that cannot see all five errors, an angle beyond what the models take.
+Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run);
+
+// The run with `factor` times these shifts added to its errors; figures are not made anew.
+void shift_points(Run& run, const PointShifts& shifts, double factor);
+
+}  // namespace mdof::algo

@@ -1,0 +1,67 @@
+#include "algo/uncertainty/point_sensitivity.h"
+
+#include <cmath>
+
+#include "algo/model/restate.h"
+
+namespace mdof::algo {
+namespace {
+
+// Steps of the central differences: small beside what an error of 1 mrad bends (1e-6 of them),
+// large beside rounding (1e-16 of 0.1 m).
+constexpr double kReadingStep_m = 1e-7, kTravelStep_m = 1e-5;
+
+class Differences {
+ public:
+  Differences(const Solver& solver, const Run& run, const MeasuredPoint& p)
+      : solver_(solver), run_(run), p_(p) {}
+
+  PointSensitivity take() {
+    PointSensitivity s;
+    s.by_probe.resize(p_.point.probe_m.size());
+    s.travel_m = run_.header.sides.target_travel_m(p_.point.position_m);
+    const AxisErrors carriage = solver_.solve(s.travel_m, p_.point.probe_m, p_.point.probe_u_m);
+    s.valid = p_.errors.valid && carriage.valid;
+    if (!s.valid) return s;
+    s.carriage = carriage.local;
+    for (std::size_t k = 0; k < s.by_probe.size(); ++k)
+      if (std::isfinite(p_.point.probe_m[k])) s.by_probe[k] = by_reading(s.travel_m, k);
+    s.by_travel = slope(solved(s.travel_m + kTravelStep_m, p_.point.probe_m),
+                        solved(s.travel_m - kTravelStep_m, p_.point.probe_m), kTravelStep_m);
+    return s;
+  }
+
+ private:
+  Errors5 solved(double travel_m, const std::vector<double>& readings_m) const {
+    const AxisErrors errors = solver_.solve(travel_m, readings_m, p_.point.probe_u_m);
+    return restate(errors, solver_.model(), run_.header.axis, travel_m, kAtCarriage,
+                   run_.header.stated)
+        .local;
+  }
+  static Errors5 slope(const Errors5& above, const Errors5& below, double step) {
+    Errors5 out{};
+    for (std::size_t e = 0; e < out.size(); ++e) out[e] = (above[e] - below[e]) / (2 * step);
+    return out;
+  }
+  Errors5 by_reading(double travel_m, std::size_t probe) const {
+    std::vector<double> above = p_.point.probe_m, below = above;
+    above[probe] += kReadingStep_m;
+    below[probe] -= kReadingStep_m;
+    return slope(solved(travel_m, above), solved(travel_m, below), kReadingStep_m);
+  }
+
+  const Solver& solver_;
+  const Run& run_;
+  const MeasuredPoint& p_;
+};
+
+}  // namespace
+
+std::vector<PointSensitivity> point_sensitivities(const Solver& solver, const Run& run) {
+  std::vector<PointSensitivity> all;
+  all.reserve(run.points.size());
+  for (const MeasuredPoint& p : run.points) all.push_back(Differences(solver, run, p).take());
+  return all;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,25 @@
+// By how much the errors of each point of a run change with what its probes and its encoder say.
+#pragma once
+
+#include <vector>
+
+#include "algo/model/solver.h"
+#include "schema/run.h"
+
+namespace mdof::algo {
+
+struct PointSensitivity {
+  bool valid = false;   // false: a point without errors; the rest is then 0
+  double travel_m = 0;  // of the target
+  Errors5 carriage{};   // local
+  // Change of the errors, local frame and stated where the run is: by 1 m of each probe's reading
+  // (0 for a lost probe), and by 1 m of the travel.
+  std::vector<Errors5> by_probe;
+  Errors5 by_travel{};
+};
+
+// One a point of the run, by differences of the solver itself. The solver is of the run's rig and
+// model.
+std::vector<PointSensitivity> point_sensitivities(const Solver& solver, const Run& run);
+
+}  // namespace mdof::algo

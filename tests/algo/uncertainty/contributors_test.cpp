@@ -1,0 +1,164 @@
+// What a declared uncertainty does to the errors, by the seed's own formulas (Eq. 8-12): with l =
+// 10 mm, l'' = 20 mm: EAX = (B - C)/2l, EBX = ((B + C)/2 - A)/l, ECX = (E - D)/l, at the fixture
+// EZX = (B + C)/2, EYX = D + EAX l''.
+#include "algo/uncertainty/contributors.h"
+
+#include <gtest/gtest.h>
+
+#include "schema/units.h"
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kL_m = 0.010, kUp_m = 0.020;
+
+using test::rig_x_with;
+
+std::vector<Contributor> of(const Rig& rig, const Run& run) {
+  auto found = contributors(rig, run);
+  EXPECT_TRUE(found) << found.error().message;
+  return found.value_or(std::vector<Contributor>{});
+}
+
+void expect_shift(const Errors5& shift, const Errors5& expected, double tolerance = 1e-12) {
+  for (std::size_t e = 0; e < 5; ++e) EXPECT_NEAR(shift[e], expected[e], tolerance) << e;
+}
+
+TEST(Contributors, NothingDeclaredIsNone) {
+  const Rig rig = rig_x_with("", "");
+  EXPECT_FALSE(rig.declares_uncertainty());
+  EXPECT_TRUE(of(rig, SyntheticRun{.rig = rig}.measure()).empty());
+}
+
+TEST(Contributors, ACalibrationIsTheSameAtEachPoint) {
+  const double u = 0.1e-6;
+  const struct {
+    const char* probe;
+    Errors5 shift;
+  } cases[] = {{"A", {0, 0, 0, -u / kL_m, 0}},
+               {"B", {u / 2 / kL_m * kUp_m, u / 2, u / 2 / kL_m, u / 2 / kL_m, 0}},
+               {"C", {-u / 2 / kL_m * kUp_m, u / 2, -u / 2 / kL_m, u / 2 / kL_m, 0}},
+               {"D", {u, 0, 0, 0, -u / kL_m}},
+               {"E", {0, 0, 0, 0, u / kL_m}}};
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.probe);
+    const Rig rig = rig_x_with(c.probe, "u_calibration_um = 0.1");
+    EXPECT_TRUE(rig.declares_uncertainty());
+    const auto all = of(rig, SyntheticRun{.rig = rig, .model = Model::simplified}.measure());
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].name, "probe " + std::string(c.probe) + ": calibration");
+    EXPECT_DOUBLE_EQ(all[0].declared.u * all[0].to_unit, 0.1);
+    const auto parts = all[0].parts();
+    ASSERT_EQ(parts.size(), 1u);
+    for (const Errors5& shift : parts[0]) expect_shift(shift, c.shift);
+  }
+}
+
+// The target rises by 20 µm/mm: probe B reads that, and its scale error grows with it.
+TEST(Contributors, ASensitivityGoesWithTheReading) {
+  const Rig rig = rig_x_with("B", "u_sensitivity_ppm = 1000");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.truth = [](double d) { return Errors5{0, 0.02 * d, 0, 0, 0}; };
+  const auto run = synthetic.measure();
+  const auto parts = of(rig, run)[0].parts();
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const double u = 1e-3 * 0.02 * run.points[j].target_m;
+    expect_shift(parts[0][j], {u, u / 2, u / 2 / kL_m, u / 2 / kL_m, 0});
+  }
+}
+
+// Probe E 1 mm further along x reads l + 1 mm times the yaw: the yaw is found a tenth too large,
+// and δy at D is as it is.
+TEST(Contributors, APositionGoesWithTheAngle) {
+  const Rig rig = rig_x_with("E", "u_position_mm = [1, 0, 0]");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact};
+  synthetic.truth = [](double d) { return Errors5{0, 0, 0, 0, 0.01 * d}; };
+  const auto run = synthetic.measure();
+  const auto all = of(rig, run);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].name, "probe E: position x");
+  const auto parts = all[0].parts();
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const double yaw = 0.01 * run.points[j].target_m;
+    expect_shift(parts[0][j], {0, 0, 0, 0, 0.1 * yaw}, 1e-9);
+  }
+}
+
+// 0.36 µm/h is 0.1 nm/s.
+TEST(Contributors, ADriftGrowsWithTimeFromTheFirstPoint) {
+  const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 0.36\n");
+  const auto run = SyntheticRun{.rig = rig, .model = Model::simplified}.measure();
+  const auto all = of(rig, run);
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_EQ(all[3].name, "probe D: drift");
+  EXPECT_NEAR(all[3].declared.u * all[3].to_unit, 0.36, 1e-12);
+  const auto parts = all[3].parts();
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const double u = 1e-10 * 10 * static_cast<double>(j);
+    expect_shift(parts[0][j], {u, 0, 0, 0, -u / kL_m});
+  }
+}
+
+// A fixture that is rolled by 1 mrad (about X for an X axis) reads a rise as a side step.
+TEST(Contributors, AnInstallationAngleMixesTheErrors) {
+  const Rig rig = rig_x_with("", "", "[installation]\nu_angle_mrad = [1, 0, 0]\n");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact};
+  synthetic.truth = [](double d) { return Errors5{0, 1e-3 * d, 0, 0, 0}; };
+  const auto run = synthetic.measure();
+  const auto parts = of(rig, run)[0].parts();
+  // Probes on a plane that stays level: their places move by 1 mrad, in a plane that only rises.
+  for (std::size_t j = 0; j < run.points.size(); ++j)
+    for (std::size_t e = 0; e < 5; ++e) EXPECT_NEAR(parts[0][j][e], 0, 2e-10) << j << " " << e;
+}
+
+// Waves of all directions and phases: the same u at each place where one probe looks.
+TEST(Contributors, AFlatnessHasItsUncertaintyEverywhere) {
+  const Rig rig = rig_x_with("", "",
+                             "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
+                             "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.05\n");
+  const auto run = SyntheticRun{.rig = rig, .model = Model::exact}.measure();
+  const auto all = of(rig, run);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].name, "plane side: flatness");
+  const auto parts = all[0].parts();
+  EXPECT_EQ(parts.size(), 64u);
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    double square = 0, top = 0;
+    for (const auto& part : parts) {
+      square += part[j][kDy] * part[j][kDy];
+      top += std::abs(part[j][kDz]) + std::abs(part[j][kEx]);
+    }
+    EXPECT_NEAR(std::sqrt(square), 0.05e-6, 1e-12) << j;  // EYX at the fixture is what D reads
+    EXPECT_NEAR(top, 0, 1e-12);
+  }
+  // The visits of one place meet the same height.
+  const std::size_t targets = 9;
+  for (const auto& part : parts) EXPECT_EQ(part[0], part[2 * targets]);
+}
+
+// The carriage's δy = D + roll l'' + d yaw: 1 µm of travel is 1 µm times the yaw.
+TEST(Contributors, TheEncoderCountsForEachTargetAlone) {
+  const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .stated = kAtCarriage};
+  synthetic.truth = [](double) { return Errors5{0, 0, 0, 0, 1e-3}; };
+  const auto run = synthetic.measure();
+  const auto parts = of(rig, run)[0].parts();
+  ASSERT_EQ(parts.size(), 9u);
+  for (std::size_t j = 0; j < run.points.size(); ++j)
+    for (std::size_t t = 0; t < parts.size(); ++t) {
+      const bool here = run.points[j].target == static_cast<int>(t) + 1;
+      EXPECT_NEAR(parts[t][j][kDy], here ? 1e-9 : 0, 2e-12);
+    }
+}
+
+TEST(Contributors, ADirectionThatCannotBeIsRefused) {
+  const Rig rig = rig_x_with("D", "u_direction_mrad = 300");
+  const auto found = contributors(rig, SyntheticRun{.rig = rig}.measure());
+  ASSERT_FALSE(found);
+  EXPECT_NE(found.error().message.find("u_direction_mrad"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof::algo

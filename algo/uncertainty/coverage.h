@@ -1,0 +1,20 @@
+// From a combined standard uncertainty to an interval: GUM annex G.
+#pragma once
+
+#include <span>
+
+namespace mdof::algo {
+
+// Effective degrees of freedom, Welch-Satterthwaite (GUM G.2b): u⁴ / Σ (u_i⁴ / ν_i) with u² = Σ
+// u_i². Infinite where nothing has a finite one, or u is 0.
+struct UncertaintyPart {
+  double u = 0, freedom = 0;
+};
+double effective_freedom(std::span<const UncertaintyPart> parts);
+
+// k such that ±k u covers 95 % of Student's t with so many degrees of freedom (GUM G.3.2 and table
+// G.2, which truncates them to the next lower integer; here they stay as they are).
+// Infinite: 1.960.
+double coverage_factor(double freedom);
+
+}  // namespace mdof::algo

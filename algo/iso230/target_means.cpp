@@ -160,7 +160,10 @@ std::vector<TargetMean> target_means(const MovingAxis& moving,
     for (std::size_t k = 0; k < 5; ++k)
       means[target].u[k] = std::max({means[target].u[k], drifting.u[k], std::abs(u_level[k])});
   std::vector<TargetMean> ascending;
-  for (const auto& [target, mean] : means) ascending.push_back(mean);
+  for (auto& [target, mean] : means) {
+    mean.target = target;
+    ascending.push_back(mean);
+  }
   return ascending;
 }
 

@@ -13,6 +13,7 @@ enum class Approach { forward, reverse, both };
 const char* to_string(Approach approach);  // "forward", "reverse", "mean"
 
 struct TargetMean {
+  int target = 0;         // as MeasuredPoint::target
   double position_m = 0;  // mean of the encoder
   Errors5 named{};  // of the moving body: mean over the runs, in the order of error_names(); m, rad
   Errors5 u{};      // standard uncertainty of that mean, see below

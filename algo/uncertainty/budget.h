@@ -1,0 +1,70 @@
+// The uncertainty budget of the figures of a run: each figure is made again of the mean errors with
+// each contributor's shift added and taken off. So what is common to all points stays apart from
+// what is not, without a formula for each figure.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "algo/uncertainty/contributors.h"
+#include "algo/uncertainty/figures.h"
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
+#include "schema/run.h"
+#include "schema/squareness.h"
+#include "schema/uncertainty/budget.h"
+
+namespace mdof::algo {
+
+struct TrialsRequest {
+  std::uint64_t trials = 0;  // 0: none
+  std::uint64_t seed = 1;
+};
+
+class RunBudgets {
+ public:
+  // Of the run as it is stated. Error: as contributors().
+  static Result<RunBudgets> create(const Rig& rig, const Run& run);
+
+  const MeanErrors& means() const { return means_; }
+  // First order (GUM 5). The part of noise and repeatability is the larger of what the targets' own
+  // u do to the figure, one independent of the other, and of the scatter of the figure of each run
+  // alone, s/√n. A figure that is NaN has no budget: all of it is NaN.
+  Budget of(const Figure& figure) const;
+  // JCGM 101: the figure of many trials, in each of which all contributors are drawn from their
+  // distributions, and what is random from Student's t. Any other `stream` is independent.
+  std::vector<double> draw(const Figure& figure, const TrialsRequest& request,
+                           std::uint32_t stream = 0) const;
+
+ private:
+  struct Random {
+    double u = 0, freedom = 0;
+  };
+  using MeanShifts = std::vector<Errors5>;  // named, by target
+  struct Shifted {
+    Contributor contributor;
+    std::vector<MeanShifts> parts;
+  };
+  void add(const Contributor& contributor, const Run& run);
+  MeanErrors moved(const MeanShifts& shifts, double factor) const;
+  double half_difference(const Figure& figure, const MeanShifts& shifts) const;
+  BudgetLine line(const Figure& figure, const Shifted& shifted) const;
+  Random random_of_targets(const Figure& figure) const;
+  Random random_of_runs(const Figure& figure) const;
+  Random random_of(const Figure& figure) const;
+
+  MeanErrors means_;
+  std::vector<MeanErrors> runs_;  // of each run of the sequence alone
+  std::vector<Shifted> shifted_;
+};
+
+// Of at least two trials.
+BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed);
+
+// EC0Y = -slope(EXY) - slope(EYX) + α (DESIGN §3), of budgets of the two runs at the fixture. What
+// the rigs declare is taken as independent between the two runs.
+Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
+                                 const Run& run_y, const SquareArtefact& artefact,
+                                 const TrialsRequest& request = {});
+
+}  // namespace mdof::algo

@@ -1,0 +1,165 @@
+#include "algo/uncertainty/budget.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+using test::rig_x_with;
+
+constexpr double kFixture_m = 0.010;  // l of the default fixture
+
+Budget budget(const RunBudgets& budgets, const std::string& figure) {
+  for (const Figure& f : figures_of_run(Axis::x))
+    if (f.name == figure) return budgets.of(f);
+  ADD_FAILURE() << figure;
+  return {};
+}
+
+double contribution(const Budget& b, const std::string& name) {
+  for (const BudgetLine& line : b.lines)
+    if (line.name == name) return line.contribution;
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+// A common offset cancels in straightness, slope and range; at a target it stays.
+TEST(Budget, ACommonOffsetCancelsWhereDifferencesAreTaken) {
+  const Rig rig = rig_x_with("D", "u_calibration_um = 0.1");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact};
+  synthetic.truth = [](double d) { return Errors5{1e-6 * std::sin(200 * d), 0, 0, 0, 0}; };
+  const auto budgets = RunBudgets::create(rig, synthetic.measure()).value();
+  for (const char* figure :
+       {"EYX_straightness_um", "EYX_slope_urad", "ECX_range_urad", "EZX_straightness_um"})
+    EXPECT_NEAR(budget(budgets, figure).u, 0, 1e-13) << figure;
+  const Budget at = budgets.of(error_figure(Axis::x, 0, 5));
+  EXPECT_EQ(at.figure, "EYX_um");
+  EXPECT_NEAR(at.u, 0.1e-6, 1e-12);
+  EXPECT_NEAR(at.U, 0.1959964e-6, 1e-12);
+  EXPECT_NEAR(at.lines[0].share, 1, 1e-12);
+  EXPECT_NEAR(budgets.of(error_figure(Axis::x, 4, 5)).u, 0.1e-6 / kFixture_m, 1e-9);
+}
+
+// One way, a point every 10 s and 5 mm: 1 nm/s of D is 10 nm in 5 mm, 2 µrad. There and back it
+// goes out of the slope but for what the second way begins with.
+TEST(Budget, ADriftIsASlopeOfARunThatGoesOneWay) {
+  const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 3.6\n");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
+  auto run = synthetic.measure();
+  const double both = contribution(budget(RunBudgets::create(rig, run).value(), "EYX_slope_urad"),
+                                   "probe D: drift");
+  EXPECT_NEAR(both, 0, 1e-10);
+  run.points.resize(9);
+  const Budget slope = budget(RunBudgets::create(rig, run).value(), "EYX_slope_urad");
+  EXPECT_NEAR(contribution(slope, "probe D: drift"), 2e-6, 1e-10);
+  EXPECT_NEAR(contribution(slope, "probe E: drift"), 0, 1e-10);
+}
+
+// Known by hand: the slope through m means of u each is u/√Sxx.
+TEST(Budget, NoiseOfIndependentTargets) {
+  const Rig rig = rig_x_with("", "");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
+  synthetic.u_reading_m = 10e-9;
+  const auto run = synthetic.measure();
+  const Budget slope = budget(RunBudgets::create(rig, run).value(), "EYX_slope_urad");
+  EXPECT_TRUE(slope.noise_only);
+  ASSERT_EQ(slope.lines.size(), 1u);
+  // EYX = D + 2 (B - C)/2: u² = (1 + 1/2 · 4 ...) by hand: D 1, B and C (l''/2l = 1) each.
+  const double u_mean = 10e-9 * std::sqrt(3.0) / std::sqrt(2.0);  // of both approaches
+  const double sxx = 25e-6 * 60;                                  // Σ (i - 4)² = 60
+  EXPECT_NEAR(slope.u, u_mean / std::sqrt(sxx), 1e-12);
+  EXPECT_EQ(slope.u, slope.u_random);
+}
+
+// The scatter of whole runs' slopes is what a target's own scatter cannot show.
+TEST(Budget, RunsThatTiltDifferentlyScatter) {
+  const Rig rig = rig_x_with("", "");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 5};
+  const double tilt[] = {1e-6, -2e-6, 3e-6, 0, -2e-6};  // sd 2.1213 urad, mean 0
+  synthetic.added = [&](std::size_t k, double d, double, double time_s) {
+    const auto run = static_cast<std::size_t>((time_s - 5) / 180);
+    return k == 3 || k == 4 ? tilt[run] * d : 0.0;
+  };
+  const Budget slope =
+      budget(RunBudgets::create(rig, synthetic.measure()).value(), "EYX_slope_urad");
+  EXPECT_NEAR(slope.u, std::sqrt((1 + 4 + 9 + 4) / 4.0 / 5) * 1e-6, 1e-10);
+  EXPECT_EQ(slope.freedom, 4);
+  EXPECT_NEAR(slope.coverage_factor, 2.776, 0.001);
+}
+
+TEST(Budget, LinesAreInOrderAndSharesAddToOne) {
+  const Rig rig =
+      rig_x_with("D", "u_calibration_um = 0.03\nu_sensitivity_ppm = 2000\nu_direction_mrad = 3",
+                 "[installation]\nu_angle_mrad = [2, 2, 2]\n");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact};
+  synthetic.truth = [](double d) { return Errors5{2e-4 * d, 1e-4 * d, 1e-3 * d, 0, 2e-3 * d}; };
+  synthetic.u_reading_m = 5e-9;
+  const auto budgets = RunBudgets::create(rig, synthetic.measure()).value();
+  const Budget at = budgets.of(error_figure(Axis::x, 0, 9));
+  double shares = 0;
+  for (std::size_t i = 0; i < at.lines.size(); ++i) {
+    shares += at.lines[i].share;
+    EXPECT_LE(at.lines[i].share, at.lines[i > 0 ? i - 1 : 0].share);
+  }
+  EXPECT_NEAR(shares, 1, 1e-12);
+  EXPECT_FALSE(at.noise_only);
+  // First order and Monte Carlo agree where the model is nearly linear.
+  const BudgetTrials trials =
+      summary_of(budgets.draw(error_figure(Axis::x, 0, 9), {.trials = 20000, .seed = 3}), 3);
+  EXPECT_NEAR(trials.u / at.u, 1, 0.02);
+  EXPECT_NEAR((trials.high - trials.low) / 2 / at.U, 1, 0.03);
+}
+
+// JCGM 101 9.2.3: the sum of four rectangular quantities of u 1: 95 % within ±3.88, where k u is
+// 3.92.
+TEST(Budget, TrialsHaveTheDeclaredDistributions) {
+  const std::string flat = "u_calibration_um = { u = 1, distribution = \"rectangular\" }";
+  const Rig one = rig_x_with("D", flat);
+  const auto of_one = RunBudgets::create(one, SyntheticRun{.rig = one}.measure()).value();
+  const Figure error = error_figure(Axis::x, 0, 1);
+  const BudgetTrials trials = summary_of(of_one.draw(error, {.trials = 50000, .seed = 1}), 1);
+  EXPECT_NEAR(trials.u, 1e-6, 0.01e-6);
+  EXPECT_NEAR(trials.high, 0.95 * std::sqrt(3.0) * 1e-6, 0.01e-6);
+}
+
+TEST(Budget, SquarenessHasBothRunsAndTheSquare) {
+  const Rig x = rig_x_with("", "", "[drift]\nu_um_per_h = 3.6\n");
+  std::string toml = test::rig_x_toml();
+  toml.replace(toml.find("\"X\""), 3, "\"Y\"");
+  const auto at = [&](const char* from, const char* to) {
+    toml.replace(toml.find(from), std::string(from).size(), to);
+  };
+  // The default fixture for Y: local x is +Y, local y is -X.
+  at("position_mm = [10.000000, 0.000000, 0.000000]", "position_mm = [0, 10, 0]");
+  at("position_mm = [0.000000, 10.000000, 0.000000]", "position_mm = [-10, 0, 0]");
+  at("position_mm = [0.000000, -10.000000, 0.000000]", "position_mm = [10, 0, 0]");
+  at("position_mm = [0.000000, 15.000000, 20.000000]", "position_mm = [-15, 0, 20]");
+  at("position_mm = [10.000000, 15.000000, 20.000000]", "position_mm = [-15, 10, 20]");
+  for (int i = 0; i < 2; ++i) at("measures = \"+Y\"", "measures = \"-X\"");
+  const Rig y = parse_rig(toml, "rig_Y.toml").value();
+  SyntheticRun along_x{.rig = x, .runs = 1}, along_y{.rig = y, .runs = 3};
+  along_x.truth = [](double d) { return Errors5{3e-6 * d, 0, 0, 0, 0}; };
+  along_y.truth = [](double d) { return Errors5{-5e-6 * d, 0, 0, 0, 0}; };
+  auto one_way = along_x.measure();
+  one_way.points.resize(9);
+  const SquareArtefact square{.angle_error_rad = 2e-6, .u_rad = 0.4e-6, .corner = -1};
+  const Budget b =
+      squareness_budget(x, one_way, y, along_y.measure(), square, {.trials = 20000}).value();
+  // EXY = -δy of the Y axis: slope +5; EC0Y = -5 - 3 - 2.
+  EXPECT_NEAR(b.value, -10e-6, 1e-10);
+  EXPECT_NEAR(contribution(b, "X, probe D: drift"), -2e-6, 1e-10);
+  EXPECT_NEAR(contribution(b, "angle of the square"), -0.4e-6, 1e-15);
+  EXPECT_FALSE(b.noise_only);
+  ASSERT_TRUE(b.trials);
+  EXPECT_NEAR(b.trials->u / b.u, 1, 0.02);
+  EXPECT_NEAR((b.trials->low + b.trials->high) / 2, b.value, 0.1e-6);
+}
+
+}  // namespace
+}  // namespace mdof::algo

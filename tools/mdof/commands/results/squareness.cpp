@@ -65,7 +65,8 @@ std::string squareness_text(const Squareness& s, const SquarenessLines& lines) {
          in_urad(s.form_rad) +
          " µrad: how crooked the axes are\n"
          "± one standard uncertainty: noise and repeatability of the slopes, and the\n"
-         "artefact; not mounting, calibration and drift. Slopes at the fixture.\n";
+         "artefact; not mounting, calibration and drift (mdof budget has those). Slopes at\n"
+         "the fixture.\n";
 }
 
 // Made on reading: stored is the fit by least squares.

@@ -1,0 +1,63 @@
+#include "schema/uncertainty/budget_json.h"
+
+#include <cmath>
+
+#include "schema/axis.h"
+
+namespace mdof {
+namespace {
+
+void write_line(JsonWriter& json, const BudgetLine& line) {
+  json.begin_object().field("contributor", line.name).key("key");
+  line.key.empty() ? json.null() : json.value(line.key);
+  json.key("value");
+  line.key.empty() ? json.null() : json.value(line.value);
+  json.key("unit");
+  line.key.empty() ? json.null() : json.value(line.unit);
+  json.field("distribution", line.distribution).key("sensitivity");
+  line.key.empty() ? json.null() : json.value(to_key_unit(line.contribution) / line.value);
+  json.field("contribution", to_key_unit(line.contribution))
+      .field("share", line.share)
+      .field("dof", line.freedom)
+      .end_object();
+}
+
+void write_trials(JsonWriter& json, const BudgetTrials& trials) {
+  json.key("trials")
+      .begin_object()
+      .field("trials", trials.trials)
+      .field("seed", trials.seed)
+      .field("u", to_key_unit(trials.u))
+      .field("low", to_key_unit(trials.low))
+      .field("high", to_key_unit(trials.high))
+      .end_object();
+}
+
+}  // namespace
+
+void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
+                   const std::optional<double>& tolerance) {
+  json.begin_object();
+  for (const Budget& budget : budgets) {
+    json.key(budget.figure)
+        .begin_object()
+        .field("value", to_key_unit(budget.value))
+        .field("u", to_key_unit(budget.u))
+        .field("u_random", to_key_unit(budget.u_random))
+        .field("nu_eff", budget.freedom)
+        .field("k", budget.coverage_factor)
+        .field("U", to_key_unit(budget.U))
+        .field("noise_only", budget.noise_only);
+    if (tolerance)
+      json.field("tolerance", to_key_unit(*tolerance))
+          .field("conformity", to_string(conformity(budget, *tolerance)));
+    json.key("contributors").begin_array();
+    for (const BudgetLine& line : budget.lines) write_line(json, line);
+    json.end_array();
+    if (budget.trials) write_trials(json, *budget.trials);
+    json.end_object();
+  }
+  json.end_object();
+}
+
+}  // namespace mdof

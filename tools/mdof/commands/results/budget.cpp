@@ -1,0 +1,152 @@
+// mdof budget RUN, mdof budget RUN_X RUN_Y: where the uncertainty of a figure comes from.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
+
+#include "daemon/measure/budgets.h"
+#include "schema/run_json.h"
+#include "schema/uncertainty/budget_json.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/budget_text.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+#include "tools/mdof/text/warnings.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::uint64_t kMostTrials = 1'000'000;
+
+struct BudgetCommand {
+  std::string database, run, run_y, axis, figure, reference = "fixture";
+  std::optional<double> at_mm, tolerance, artefact_urad, u_artefact_urad;
+  algo::TrialsRequest trials;
+  bool partial = false, csv = false, json = false, all_warnings = false;
+};
+
+// The command line takes nan and inf for numbers.
+Status check_numbers(const BudgetCommand& command) {
+  if (command.at_mm && !std::isfinite(*command.at_mm))
+    return fail(ErrorCode::usage, "--at must be a position in mm");
+  if (command.tolerance && !(*command.tolerance >= 0 && std::isfinite(*command.tolerance)))
+    return fail(ErrorCode::usage, "--tolerance must be a finite number and not negative");
+  if (command.tolerance && command.run_y.empty() && command.figure.empty())
+    return fail(ErrorCode::usage, "--tolerance is for one figure: say which with --figure");
+  if (!command.run_y.empty() && (!command.figure.empty() || command.at_mm))
+    return fail(ErrorCode::usage,
+                "of two runs the budget is that of EC0Y; leave out --figure and --at, or one run");
+  return {};
+}
+
+Result<daemon::FoundBudgets> of_one_run(store::Store& store, const BudgetCommand& command) {
+  daemon::RunBudgetsRequest request;
+  MDOF_TRY(request.run, run_number(store, command.run, axis_from(command.axis)));
+  reference_from(command.reference, request.reference);  // the option takes no other
+  request.figure = command.figure;
+  if (command.at_mm) request.at_m = from_mm(*command.at_mm);
+  request.trials = command.trials;
+  return daemon::run_budgets(store, request);
+}
+
+Result<daemon::FoundBudgets> of_two_runs(store::Store& store, const BudgetCommand& command) {
+  daemon::SquarenessRequest request;
+  MDOF_TRY(request.run_x, run_number(store, command.run, Axis::x));
+  MDOF_TRY(request.run_y, run_number(store, command.run_y, Axis::y));
+  if (command.artefact_urad) request.given.angle_error_rad = from_urad(*command.artefact_urad);
+  if (command.u_artefact_urad) request.given.u_rad = from_urad(*command.u_artefact_urad);
+  request.partial = command.partial;
+  return daemon::squareness_budgets(store, request, command.trials);
+}
+
+std::string json_of(const daemon::FoundBudgets& found, const std::optional<double>& tolerance) {
+  JsonWriter json;
+  json.begin_object();
+  write_reference(json, found.stated);
+  json.key("at_mm");
+  found.at_m ? json.value(to_mm(*found.at_m)) : json.null();
+  json.field("coverage", 0.95).field("simulated", found.simulated).key("figures");
+  write_budgets(json, found.budgets, tolerance);
+  json.end_object();
+  return with_warnings(json.take(), found.warnings);
+}
+
+std::string text_of(const daemon::FoundBudgets& found, const std::optional<double>& tolerance) {
+  std::string head = simulated_notice(found.simulated);
+  if (found.at_m) head += "errors at " + in_mm(*found.at_m) + " mm\n";
+  return head + (found.budgets.size() == 1
+                     ? budget_text(found.budgets.front(), tolerance, terminal_columns())
+                     : budgets_text(found.budgets) + "One figure whole: --figure " +
+                           found.budgets.front().figure + "\n");
+}
+
+Status budget(const BudgetCommand& command) {
+  MDOF_CHECK(check_numbers(command));
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const auto found,
+           command.run_y.empty() ? of_one_run(store, command) : of_two_runs(store, command));
+  for (const auto& warning : summarised(found.warnings, command.all_warnings)) warn(warning);
+  if (const std::string text = noise_only_text(found.budgets); !text.empty()) warn(text);
+  const auto tolerance =
+      command.tolerance ? std::optional(from_um(*command.tolerance)) : std::nullopt;
+  MDOF_CHECK(command.csv    ? write_out(budgets_csv(found.budgets))
+             : command.json ? write_line(json_of(found, tolerance))
+                            : write_out(text_of(found, tolerance)));
+  if (!tolerance) return {};
+  const Conformity decision = conformity(found.budgets.front(), *tolerance);
+  if (decision == Conformity::conform) return {};
+  return fail(ErrorCode::check,
+              found.budgets.front().figure + " is " + to_string(decision) + " with its tolerance");
+}
+
+Action declare_budget(CLI::App& command) {
+  const auto o = std::make_shared<BudgetCommand>();
+  add_run_argument(command, "RUN", o->run, "A run, or latest; of two the one along X");
+  command.add_option("RUN_Y", o->run_y, "The run along Y: the budget of EC0Y")
+      ->type_name("")
+      ->check(run_word_error);
+  add_axis_of_latest(command, o->axis);
+  command.add_option("--figure", o->figure, "One figure whole, such as EYX_straightness_um")
+      ->type_name("NAME");
+  command.add_option("--at", o->at_mm, "Of the five errors at the target nearest to this position")
+      ->type_name("MM");
+  command.add_option("--tolerance", o->tolerance,
+                     "Most that the figure may be, in its unit: conform, not conform or undecided "
+                     "(ISO 14253-1)");
+  command
+      .add_option("--trials", o->trials.trials,
+                  "Draw so many Monte Carlo trials beside the budget (JCGM 101)")
+      ->check(CLI::Range(std::uint64_t{2}, kMostTrials));
+  command.add_option("--seed", o->trials.seed, "Of the trials")->capture_default_str();
+  add_reference_option(command, o->reference)->capture_default_str();
+  command.add_option("--artefact-urad", o->artefact_urad,
+                     "Angle error of the square [default: of the rigs]");
+  command.add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
+      ->check(CLI::NonNegativeNumber);
+  command.add_flag("--partial", o->partial, "Take partial runs as well");
+  add_database_option(command, o->database);
+  add_all_warnings_flag(command, o->all_warnings);
+  add_csv_and_json_flags(command, o->csv, o->json);
+  return [o] { return budget(*o); };
+}
+
+}  // namespace
+
+Command budget_command() {
+  return {.name = "budget",
+          .summary = "Show where the uncertainty of a run's figures comes from",
+          .footer =
+              "Examples:\n"
+              "  mdof budget 3\n"
+              "  mdof budget 3 --figure EYX_straightness_um --tolerance 0.5\n"
+              "  mdof budget 3 --at 30 --json\n"
+              "  mdof budget 1 2 --trials 10000",
+          .declare = declare_budget};
+}
+
+}  // namespace mdof::tools

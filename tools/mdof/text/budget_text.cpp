@@ -1,0 +1,140 @@
+#include "tools/mdof/text/budget_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/axis.h"
+#include "schema/sample.h"
+#include "tools/mdof/csv/csv_text.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr double kLeastShare = 0.001;  // lines below are summed into one
+
+bool in_micrometres(const Budget& budget) {
+  return budget.figure.ends_with("_um");
+}
+
+std::string unit_of(const Budget& budget) {
+  return in_micrometres(budget) ? "µm" : "µrad";
+}
+
+std::string shown(const Budget& budget, double si) {
+  return in_micrometres(budget) ? in_um(si) : in_urad(si);
+}
+
+std::string significant(double x) {
+  if (x == 0 || !std::isfinite(x)) return fixed(x, 0);
+  const int digits = 2 - static_cast<int>(std::floor(std::log10(std::abs(x))));
+  return fixed(x, std::clamp(digits, 0, 9));
+}
+
+std::string freedom_text(double freedom) {
+  return freedom < 1000 ? fixed(freedom, 0) : "many";
+}
+
+std::string percent(double share) {
+  return fixed(100 * share, 1) + " %";
+}
+
+std::string head_of(const Budget& b) {
+  return b.figure.substr(0, b.figure.rfind('_')) + " = " + shown(b, b.value) + " ± " +
+         shown(b, b.U) + " " + unit_of(b) + " (U, k = " + fixed(b.coverage_factor, 2) +
+         " for 95 %, effective degrees of freedom: " + freedom_text(b.freedom) + ")\n";
+}
+
+// The largest one without which U would be smaller, and by how much.
+std::string improve_text(const Budget& b) {
+  if (b.lines.empty() || b.u == 0) return "";
+  const BudgetLine& first = b.lines.front();
+  const double without = b.U * std::sqrt(std::max(0.0, 1 - first.share));
+  return "Improve first: " + first.name + ", " + percent(first.share) +
+         " of u²; without it U would be " + shown(b, without) + " " + unit_of(b) + ".\n";
+}
+
+std::string conformity_text(const Budget& b, double tolerance) {
+  return "Tolerance " + shown(b, tolerance) + " " + unit_of(b) + ": " +
+         to_string(conformity(b, tolerance)) + " (ISO 14253-1, with U)\n";
+}
+
+std::string trials_text(const Budget& b) {
+  const BudgetTrials& t = *b.trials;
+  return "Monte Carlo, " + std::to_string(t.trials) + " trials, seed " + std::to_string(t.seed) +
+         ": u " + shown(b, t.u) + ", 95 % of the values from " + shown(b, t.low) + " to " +
+         shown(b, t.high) + " " + unit_of(b) + "\n";
+}
+
+}  // namespace
+
+std::string noise_only_text(const std::vector<Budget>& budgets) {
+  const bool none =
+      std::all_of(budgets.begin(), budgets.end(), [](const Budget& b) { return b.noise_only; });
+  if (!none) return "";
+  return "noise only: the rig declares no uncertainties (u_calibration_um, u_sensitivity_ppm, "
+         "u_position_mm ... of its probes, [installation], [drift]), so that U is too small by all "
+         "that they would add";
+}
+
+std::string budgets_text(const std::vector<Budget>& budgets) {
+  TextTable table(
+      {"figure", "value", "U", "unit", "k", "u random", "largest contributor", "share"});
+  for (const Budget& b : budgets) {
+    const BudgetLine& first = b.lines.front();
+    table.add({b.figure.substr(0, b.figure.rfind('_')), shown(b, b.value), shown(b, b.U),
+               unit_of(b), fixed(b.coverage_factor, 2), shown(b, b.u_random), first.name,
+               percent(first.share)});
+  }
+  return table.text() + "U: expanded uncertainty, 95 %\n";
+}
+
+std::string budget_text(const Budget& b, const std::optional<double>& tolerance,
+                        std::size_t width) {
+  TextTable table({"contributor", "u", "unit", "distribution", "sensitivity",
+                   "contribution/" + unit_of(b), "share", "degrees of freedom"});
+  double rest = 0;
+  std::size_t left_out = 0;
+  for (const BudgetLine& line : b.lines) {
+    if (line.share < kLeastShare && &line != &b.lines.front()) {
+      rest += line.contribution * line.contribution;
+      ++left_out;
+      continue;
+    }
+    const bool seen = line.key.empty();
+    table.add({line.name, seen ? "" : significant(line.value), line.unit, line.distribution,
+               seen ? "" : significant(to_key_unit(line.contribution) / line.value),
+               shown(b, line.contribution), percent(line.share), freedom_text(line.freedom)});
+  }
+  if (left_out > 0)
+    table.add({std::to_string(left_out) + " more", "", "", "", "", shown(b, std::sqrt(rest)),
+               percent(b.u > 0 ? rest / (b.u * b.u) : 0), ""});
+  std::string text = head_of(b) + "\n" + table.text(width) + "combined u " + shown(b, b.u) + " " +
+                     unit_of(b) + "\n" + improve_text(b);
+  if (b.trials) text += trials_text(b);
+  if (tolerance) text += conformity_text(b, *tolerance);
+  return text;
+}
+
+std::string budgets_csv(const std::vector<Budget>& budgets) {
+  CsvText csv;
+  csv.cells({"figure", "value", "u", "u_random", "nu_eff", "k", "U", "contributor", "key",
+             "contributor_u", "unit", "distribution", "sensitivity", "contribution", "share",
+             "dof"});
+  csv.end_row();
+  for (const Budget& b : budgets) {
+    for (const BudgetLine& line : b.lines) {
+      const bool seen = line.key.empty();
+      const double contribution = to_key_unit(line.contribution);
+      csv.cell(std::string_view(b.figure)).cell(to_key_unit(b.value)).cell(to_key_unit(b.u));
+      csv.cell(to_key_unit(b.u_random)).cell(b.freedom).cell(b.coverage_factor);
+      csv.cell(to_key_unit(b.U)).cells({line.name, line.key});
+      csv.cell(seen ? kNaN : line.value).cells({line.unit, line.distribution});
+      csv.cell(seen ? kNaN : contribution / line.value).cell(contribution).cell(line.share);
+      csv.cell(line.freedom).end_row();
+    }
+  }
+  return csv.take();
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,23 @@
+// Uncertainty budgets as tables for people and as CSV.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schema/uncertainty/budget.h"
+
+namespace mdof::tools {
+
+// One row a figure: value, U, k, what is random, and the largest contributor.
+std::string budgets_text(const std::vector<Budget>& budgets);
+// One figure whole, with a sentence that says what to improve first.
+std::string budget_text(const Budget& budget, const std::optional<double>& tolerance,
+                        std::size_t width);
+// One row a figure and contributor.
+std::string budgets_csv(const std::vector<Budget>& budgets);
+
+// Beside budgets of a rig that declares nothing; "": it does.
+std::string noise_only_text(const std::vector<Budget>& budgets);
+
+}  // namespace mdof::tools

@@ -33,7 +33,7 @@ if(MOLD)
   target_link_options(mdof_options INTERFACE -fuse-ld=mold)
 endif()
 
-# For tests that compute nothing: they compile longer than they run.
+# For what computes nothing (most tests, the command line): it compiles longer than it runs.
 add_library(mdof_cold INTERFACE)
 if(MDOF_SANITIZE)
   target_compile_options(mdof_cold INTERFACE -O0)

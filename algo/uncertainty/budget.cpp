@@ -16,6 +16,7 @@
 namespace mdof::algo {
 namespace {
 
+constexpr std::uint64_t kTrialsOfU = 2000;  // U is then right to 2 %
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -82,6 +83,15 @@ void complete(Budget& budget) {
   budget.freedom = effective_freedom(parts);
   budget.coverage_factor = coverage_factor(budget.freedom);
   budget.U = budget.coverage_factor * budget.u;
+}
+
+// From `value`, by 95 % of the trials.
+double distance_kept(std::vector<double> trials, double value) {
+  for (double& trial : trials) trial = std::abs(trial - value);
+  const auto at =
+      trials.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(trials.size()));
+  std::nth_element(trials.begin(), at, trials.end());
+  return *at;
 }
 
 }  // namespace
@@ -182,6 +192,10 @@ Budget RunBudgets::of(const Figure& figure) const {
   budget.lines.push_back(noise);
   for (const Shifted& shifted : shifted_) budget.lines.push_back(line(figure, shifted));
   complete(budget);
+  if (!figure.is_range || !(budget.u > 0)) return budget;
+  budget.U = distance_kept(draw(figure, {kTrialsOfU, 1}), budget.value);
+  budget.coverage_factor = budget.U / budget.u;
+  budget.U_by_trials = true;
   return budget;
 }
 

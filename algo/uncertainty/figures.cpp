@@ -26,11 +26,13 @@ std::string name_of(Axis axis, std::size_t named, const char* figure) {
 }  // namespace
 
 Figure straightness_figure(Axis axis, std::size_t named) {
-  return {name_of(axis, named, "_straightness"), [named](const MeanErrors& means) {
+  return {name_of(axis, named, "_straightness"),
+          [named](const MeanErrors& means) {
             const Series series(means, named);
             if (!series.has_line()) return kNaN;
             return deviations_from(series.line(), series.travel_m, series.error).peak_to_valley;
-          }};
+          },
+          true};
 }
 
 Figure slope_figure(Axis axis, std::size_t named) {
@@ -41,12 +43,14 @@ Figure slope_figure(Axis axis, std::size_t named) {
 }
 
 Figure range_figure(Axis axis, std::size_t named) {
-  return {name_of(axis, named, "_range"), [named](const MeanErrors& means) {
+  return {name_of(axis, named, "_range"),
+          [named](const MeanErrors& means) {
             const auto values = column(means.targets, named);
             if (values.size() < 2) return kNaN;
             const auto [least, most] = std::minmax_element(values.begin(), values.end());
             return *most - *least;
-          }};
+          },
+          true};
 }
 
 Figure error_figure(Axis axis, std::size_t named, int target) {

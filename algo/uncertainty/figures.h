@@ -18,6 +18,8 @@ struct MeanErrors {
 struct Figure {
   std::string name;                             // with its unit: "EYX_straightness_um"
   std::function<double(const MeanErrors&)> of;  // SI; NaN where these targets do not have it
+  // Between a highest and a lowest: noise makes it larger, and first order does not see that.
+  bool is_range = false;
 };
 
 // `named`: place in error_names(axis).

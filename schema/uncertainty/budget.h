@@ -37,6 +37,7 @@ struct Budget {
   double freedom = 0;          // effective degrees of freedom, Welch-Satterthwaite (GUM G.4.1)
   double coverage_factor = 0;  // k for 95 %, Student's t
   double U = 0;                // k u
+  bool U_by_trials = false;    // U is that of Monte Carlo, and k = U / u
   bool noise_only = false;     // the rig declares nothing: U is too small by all that it leaves out
   std::vector<BudgetLine> lines;  // the largest first
   std::optional<BudgetTrials> trials;

@@ -47,6 +47,7 @@ void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
         .field("nu_eff", budget.freedom)
         .field("k", budget.coverage_factor)
         .field("U", to_key_unit(budget.U))
+        .field("U_by", budget.U_by_trials ? "Monte Carlo" : "GUM")
         .field("noise_only", budget.noise_only);
     if (tolerance)
       json.field("tolerance", to_key_unit(*tolerance))

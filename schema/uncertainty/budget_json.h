@@ -9,7 +9,7 @@
 
 namespace mdof {
 
-// {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "noise_only",
+// {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by", "noise_only",
 //   "contributors": [{"contributor", "key", "value", "unit", "distribution", "sensitivity",
 //   "contribution", "share", "dof"}]}}, values in the unit of the figure's name. Infinite degrees
 //   of

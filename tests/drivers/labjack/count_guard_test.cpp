@@ -59,5 +59,18 @@ TEST(LabjackCountGuard, SaysTheSpeedThatTheResolutionAllows) {
   EXPECT_EQ(speed_text(0, 0.05), "");
 }
 
+// Two counts of slack beside the speed: a step of an edge that trembles is no loss. What was lost
+// and found again is forgotten.
+TEST(LabjackCountGuard, AllowsAnEdgeToTrembleAndForgetsWhatWasFound) {
+  CountGuard guard(10);
+  EXPECT_TRUE(guard.take(0, 0));
+  EXPECT_TRUE(guard.take(2, 0.001));
+  EXPECT_FALSE(guard.take(3, 0.002));
+  EXPECT_FALSE(guard.sure());
+  guard.restart();
+  EXPECT_TRUE(guard.sure());
+  EXPECT_TRUE(guard.take(1000, 0.003));
+}
+
 }  // namespace
 }  // namespace mdof::drivers::labjack

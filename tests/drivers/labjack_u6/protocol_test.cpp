@@ -106,6 +106,13 @@ TEST(LabjackU6Protocol, BadRepliesAreRefused) {
   EXPECT_FALSE(read_feedback(bytes("0B F8 01 11 00 00 00 00")));
 }
 
+// The vendor's calculateChecksum8 (exodriver, examples/U6/u6.c) adds the carry twice: FF + FF + 01
+// is 1FF, then 1 + FF = 100, then 1 + 0.
+TEST(LabjackU6Protocol, AChecksumAddsItsCarryTwice) {
+  EXPECT_EQ(checksum8(bytes("FF FF 01")), 1);
+  EXPECT_EQ(checksum8(bytes("FF FF")), 0xFF);
+}
+
 TEST(LabjackU6Protocol, IdentityIsRead) {
   std::string body = zeros(32);
   body[3] = 15;
@@ -185,6 +192,18 @@ TEST(LabjackU6Protocol, AChangedByteOrAShortReadIsRefused) {
     EXPECT_FALSE(decode(changed, 25)) << i;
     EXPECT_FALSE(decode(good.substr(0, i), 25)) << i;
   }
+}
+
+// All checksums right, another command or kind.
+TEST(LabjackU6Protocol, WhatAnswersSomethingElseIsRefused) {
+  const std::string body = zeros(4), reply = extended(0x0A, body);
+  EXPECT_TRUE(extended_body(reply, 0x0A, reply.size()));
+  EXPECT_FALSE(extended_body(reply, 0x0B, reply.size()));
+  std::string packet = encode(ramp());
+  ASSERT_TRUE(decode(packet, 25));
+  packet[1] = static_cast<char>(packet[1] - 1);
+  packet[0] = static_cast<char>(checksum8(packet.substr(1, 5)));
+  EXPECT_FALSE(decode(packet, 25));
 }
 
 TEST(LabjackU6PacketLine, RunsOnAndWraps) {

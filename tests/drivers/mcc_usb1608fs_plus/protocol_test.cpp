@@ -16,6 +16,7 @@ TEST(Usb1608Protocol, ScanStartIsTheVectors) {
   const std::string at_1kHz = bytes("00 00 00 00 3F 9C 00 00 1F 80");
   const std::string at_10kHz = bytes("00 00 00 00 9F 0F 00 00 1F 80");
   EXPECT_EQ(scan_start({0, pacer_period(1000), 0x1F, kNoStall}), at_1kHz);
+  EXPECT_EQ(ScanSetup{}.scans, 0U);  // until stopped
   EXPECT_EQ(scan_start({0, pacer_period(10'000), 0x1F, kNoStall}), at_10kHz);
   const auto read = read_scan_start(at_1kHz);
   ASSERT_TRUE(read);

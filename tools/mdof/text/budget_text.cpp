@@ -41,7 +41,8 @@ std::string percent(double share) {
 
 std::string head_of(const Budget& b) {
   return b.figure.substr(0, b.figure.rfind('_')) + " = " + shown(b, b.value) + " ± " +
-         shown(b, b.U) + " " + unit_of(b) + " (U, k = " + fixed(b.coverage_factor, 2) +
+         shown(b, b.U) + " " + unit_of(b) + " (U" + (b.U_by_trials ? " by Monte Carlo" : "") +
+         ", k = " + fixed(b.coverage_factor, 2) +
          " for 95 %, effective degrees of freedom: " + freedom_text(b.freedom) + ")\n";
 }
 

@@ -1,4 +1,4 @@
-// Squareness of two axes (DESIGN §3, seed Fig. 6).
+// Squareness of two axes (DESIGN §3, Fig. 6 of the paper).
 #pragma once
 
 #include <optional>

@@ -1,11 +1,11 @@
-// The seed's small-angle models (DESIGN §3): exact outputs (Eq. 2-7), the simplified solution
+// The paper's small-angle models (DESIGN §3): exact outputs (Eq. 2-7), the simplified solution
 // (Eq. 8-12) and the exact solution. Local frame of the axis; m and rad.
 //
 // A fixture of three top probes (along ±z, on z = 0) and two side probes (along ±y, on y = h).
 // Both output formulas are linear in the probe's own position,
 //   Δz = c + q y - p x,   Δy (1 + εy²) = ... + x (εz - εx εy) - z (εx + εy εz),
 // so any three top probes not in a line give p, q, c, and any two side probes apart along x give
-// the side slope r: the seed's l, l', l'' are one case of it.
+// the side slope r: the paper's l, l', l'' are one case of it.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct SmallAngleFixture {
   // p, q, c = Σ weight · (A, B, C)
   std::array<double, 3> p_weight, q_weight, c_weight;
   double side_per_m;  // 1 / (xE - xD)
-  double side_rise;   // (zE - zD) / (xE - xD); 0 in the seed's fixture
+  double side_rise;   // (zE - zD) / (xE - xD); 0 in the paper's fixture
   double x_D, z_D;
   double h;                         // y of the side plane
   std::array<double, 5> x, across;  // x, and y (top) or z (side), of each probe

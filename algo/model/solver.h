@@ -15,7 +15,7 @@ namespace mdof::algo {
 class Solver {
  public:
   // Refuses a rig whose probes cannot see all five errors (naming them) or, for the small-angle
-  // models, one that is not of the seed's kind.
+  // models, one that is not of the paper's kind.
   static Result<Solver> create(const Rig& rig, Model model);
 
   // `readings_m`: displacement of each probe in the order of the rig, NaN where it is lost.

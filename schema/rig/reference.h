@@ -11,8 +11,8 @@ namespace mdof {
 
 enum class Reference {
   fixture,   // P = origin of M: does not depend on where the encoder is zero. The default
-  carriage,  // P = origin of C, which travels with the target: parameters of the seed's HTM (Eq.
-             // 2-12)
+  carriage,  // P = origin of C, which travels with the target: parameters of the paper's transform
+             // (Eq. 2-12)
   tool,      // P = tool_point_mm of the rig
 };
 const char* to_string(Reference reference);

@@ -30,7 +30,7 @@ void install(FixtureProbe& probe, const PartDeviation& part) {
   probe.u_M = R * probe.u_M;
 }
 
-// The seed's transform T (Eq. 1) has the upper left matrix A = 1 + [ε]×. Its cofactors over its
+// The paper's transform T (Eq. 1) has the upper left matrix A = 1 + [ε]×. Its cofactors over its
 // determinant are A⁻ᵀ, by which normals go from C to M.
 Eigen::Matrix3d small_angle_normals(const Errors5& e) {
   const double x = e[kEx], y = e[kEy], z = e[kEz];

@@ -16,7 +16,7 @@
 namespace mdof::algo {
 namespace {
 
-// Random errors of the size of the seed's simulations: ±1 mrad, ±50 µm, d 0 … 60 mm.
+// Random errors of the size of the paper's simulations: ±1 mrad, ±50 µm, d 0 … 60 mm.
 struct Draw {
   explicit Draw(unsigned seed, double angle_rad = 1e-3) : rng(seed), angle(angle_rad) {}
   double uniform(double half) { return std::uniform_real_distribution<>(-half, half)(rng); }
@@ -32,7 +32,7 @@ SmallAngleFixture small(const Rig& rig) {
   return make_small_angle_fixture(make_fixture(rig).value()).value();
 }
 
-// The seed's own definition: P0 = T⁻¹ P1, the probe's line meets the target where P0 lies on it.
+// The paper's own definition: P0 = T⁻¹ P1, the probe's line meets the target where P0 lies on it.
 double output_by_inverse(const Errors5& e, double d, double x, double y_or_z, bool top, double h) {
   Eigen::Matrix4d T;
   T << 1, -e[kEz], e[kEy], d, e[kEz], 1, -e[kEx], e[kDy], -e[kEy], e[kEx], 1, e[kDz], 0, 0, 0, 1;
@@ -84,7 +84,8 @@ TEST(ExactModel, HoldsFarBeyondTheUsualAngles) {
   }
 }
 
-// §3: ε̂x = εx - p εz, ε̂y = εy + q εz, and ε̂z = (εz - εx εy)/(1 + εy²); δ̂ follow term by term.
+// algo/README.md: ε̂x = εx - p εz, ε̂y = εy + q εz, and ε̂z = (εz - εx εy)/(1 + εy²); δ̂ follow term by
+// term.
 TEST(SimplifiedModel, DiffersFromTruthByTheTermsItLeavesOut) {
   const auto f = small(test::rig_x());
   Draw draw(4);

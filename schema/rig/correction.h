@@ -1,9 +1,14 @@
 // The sign of a correction from the machine's chain (DESIGN §3, "Sides and signs").
 //
-// E is the error of the body that moves. The error of the tool against the work is -E for an axis
-// that carries the work and +E for one that carries the tool. A command c of axis k moves (X Y Z)
-// or turns (A B C) the tool against the work by s_k c, s_k = -travel for an axis that carries the
-// work, +travel for one that carries the tool. The correction makes the sum zero: c = ∓E / s_k.
+// E is an error of the body that the measured axis moves, c the correction: what is added to the
+// command of the axis k that the error's name has in second place (corrected_by()).
+//
+//   the measured axis carries   error of the tool against the work   the sum is zero
+//   the work                    -E                                   -E + s_k c = 0, c = +E / s_k
+//   the tool                    +E                                   +E + s_k c = 0, c = -E / s_k
+//
+// s_k is how far c moves (X Y Z) or turns (A B C) the tool against the work: -travel where the axis
+// k carries the work, +travel where it carries the tool. As s_k is +1 or -1, 1 / s_k is s_k.
 #pragma once
 
 #include <array>

@@ -23,8 +23,9 @@ struct Squareness {
   double EC0Y_rad = 0;
   // Standard uncertainty: noise and repeatability of both slopes, and the artefact.
   double u_EC0Y_rad = 0;
-  // How crooked the axes are: standard deviation of the two slopes by what the lines leave. It says
-  // how well one angle describes such axes, not how well it is known.
+  // How crooked the axes are: √(s_X² + s_Y²), s the standard deviation of a fitted slope that
+  // follows from the residuals of its line. It says how well one angle describes such axes, not how
+  // well it is known.
   double form_rad = 0;
   // Over the travel of the moving body along + of M.
   double slope_EYX_rad = 0, u_slope_EYX_rad = 0;

@@ -10,7 +10,8 @@ struct PositioningConditions {
   // travel: a rectangular distribution, standard uncertainty a/√3.
   double device_limit_m = kNoFigure;
   // E_VE: from the lowest to the highest reading of the axis at rest over as long as the test
-  // takes; U(k = 2) = 0.6 E_VE° (° recalled, not checked against the text of the report).
+  // takes; U(k = 2) = 0.6 E_VE. The factor 0.6 is recalled, not checked against the text of the
+  // report.
   double drift_range_m = kNoFigure;
 };
 

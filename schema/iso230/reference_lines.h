@@ -6,11 +6,12 @@
 
 namespace mdof {
 
+// What a reading differs from the line by is taken along the deviation, not square to the line.
 struct ReferenceLine {
   double slope_rad = 0;    // m/m
   double intercept_m = 0;  // of the line at position 0
-  double zone_m = 0;       // peak to valley of the deviations from it, along the deviation
-  double residual_m = 0;   // root mean square of these
+  double zone_m = 0;       // peak to valley of the readings about this line
+  double residual_m = 0;   // root mean square of the readings about this line
 };
 
 struct ReferenceLines {

@@ -107,7 +107,8 @@ Result<std::unique_ptr<ScalableExperiment>> PlanExperiment::create(const StudyPl
   return std::unique_ptr<ScalableExperiment>(std::move(e));
 }
 
-// The error of EC0Y = -slope(EXY) - slope(EYX) - artefact (DESIGN §3). The slopes are measured
+// The error of EC0Y = -slope(EXY) - slope(EYX) + corner * artefact (schema/squareness.h), with
+// corner = -1: that of a fixture which is turned from X to Y with the axis. The slopes are measured
 // against the true artefact and corrected by the stated angle, so its error adds to that of EC0Y.
 double PlanExperiment::squareness_error(const AxisReadings& x, const AxisReadings& y, std::size_t j,
                                         Series& series) const {

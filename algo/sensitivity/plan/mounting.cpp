@@ -30,8 +30,8 @@ void install(FixtureProbe& probe, const PartDeviation& part) {
   probe.u_M = R * probe.u_M;
 }
 
-// The paper's transform T (Eq. 1) has the upper left matrix A = 1 + [ε]×. Its cofactors over its
-// determinant are A⁻ᵀ, by which normals go from C to M.
+// A⁻ᵀ, by which normals go from C to M: A = 1 + [ε]× is the upper left 3 × 3 part of the paper's
+// transform T (Eq. 1), and A⁻ᵀ is the matrix of the cofactors of A over the determinant of A.
 Eigen::Matrix3d small_angle_normals(const Errors5& e) {
   const double x = e[kEx], y = e[kEy], z = e[kEz];
   Eigen::Matrix3d cofactors;

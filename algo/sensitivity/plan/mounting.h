@@ -15,19 +15,23 @@ namespace mdof::algo {
 
 struct ProbeDeviation {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  double circle_m = 0, circle_turns = 0;  // across the direction, seed Eq. 13-15
+  // Moved by circle_m across its direction, to the side at circle_turns (the paper's Eq. 13-15).
+  double circle_m = 0, circle_turns = 0;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-  double tilt_rad = 0, tilt_turns = 0;
+  double tilt_rad = 0, tilt_turns = 0;  // by tilt_rad to the side at tilt_turns
   double gain = 1, zero_m = 0, drift_m = 0;
 };
 struct PartDeviation {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
 };
-// Height = highest to lowest/2 · Σ weight sin(2π (c·direction k/length + phase)) of waves k = 1 ...
+// The height of the plane at its point c is flatness_m / 2 · Σ w_k sin 2π(k c·e_k / L + phase_k) of
+// the waves k = 1 ... kFlatnessWaves. L is the longest wave (flatness_length_m); the w_k sum to 1,
+// so that no two heights differ by more than flatness_m.
 struct PlaneDeviation {
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   double map_scale = 1, flatness_m = 0;
-  std::array<double, kFlatnessWaves> along{}, across{}, phase_turns{};  // cosines of the direction
+  std::array<double, kFlatnessWaves> along{}, across{};  // e_k: direction of wave k in the plane
+  std::array<double, kFlatnessWaves> phase_turns{};
 };
 struct Mounting {
   std::vector<ProbeDeviation> probe;
@@ -36,7 +40,8 @@ struct Mounting {
   double fixture_expansion = 0, target_expansion = 0;  // share of each length, at the reading
 };
 
-// Where a trial is in its course: from the zero (0) to the end of drift and warming (1).
+// The fixture of one trial at a time. `course` says how far the trial is: 0 when the probes are
+// zeroed, 1 when all of the drift and the warming has come.
 class MountedFixture {
  public:
   MountedFixture(const Fixture& nominal, Forward forward, double flatness_length_m);

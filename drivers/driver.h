@@ -18,7 +18,7 @@ namespace mdof::drivers {
 
 struct DeviceInfo {
   std::string name;                 // from the configuration, unique
-  std::string driver;               // "simulator", "csv", "recording"
+  std::string driver;               // of registry.cpp: "qsb"; of "replay": "csv" or "recording"
   std::string description;          // one line for people
   std::vector<Channel> channels;    // empty until open() where the device has to be asked
   double rate_hz = 0;               // scans a second; 0: not known

@@ -1,4 +1,5 @@
-// Which pairs of tolerances keep a limit: for each value of the one the largest of the other.
+// The plot of an allocation's frontier: for each value of the first tolerance the largest of the
+// second with which the two together still keep the limit.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -39,7 +39,7 @@ struct SensitivityCommand {
 
 void declare_options(CLI::App& command, SensitivityCommand& o);
 
-// What the options must not be together; sets the form.
+// Errors: options that exclude one another, or a number out of its range. Sets command.form.
 Status check_usage(SensitivityCommand& command);
 // The study they describe; reads the plan's file.
 Result<StudyRequest> request_of(const SensitivityCommand& command);

@@ -12,19 +12,20 @@
 
 namespace mdof::tools {
 
-// Of the trials 0 ... trials - 1, none left out.
+// What has come of the trials 0 ... trials - 1, none left out.
 struct StudyWork {
   std::uint64_t trials = 0;
   double elapsed_s = 0;
   algo::StudyScale scale;  // of the statistics
   algo::StudyStatistics statistics;
   std::vector<Convergence> convergence;
-  std::vector<std::vector<algo::BlockFigures>> rule;  // what the adaptive rule was fed
+  // The blocks that the adaptive rule was fed, in their order; of each the figures by output.
+  std::vector<std::vector<algo::BlockFigures>> rule;
 };
-// No trials yet.
+// That of a study before its first trial.
 StudyWork empty_work(const algo::Experiment& experiment, const algo::StudyScale& scale);
 
-// Puts down how the figures stand after so many trials.
+// Adds the figures as they stand after state.trials to state.convergence.
 void add_convergence(StudyWork& state, double coverage);
 
 // The same bytes for the same trials, elapsed_s aside.

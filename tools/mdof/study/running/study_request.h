@@ -28,7 +28,7 @@ Result<StudySettings> parse_settings(const std::string& toml);
 Status add_tolerance(const std::string& key_value, algo::AdaptiveTolerance& tolerance);
 
 struct StudyRequest {
-  std::string plan_toml;  // a plan, or a preset's options (study_preset.h)
+  std::string plan_toml;  // a plan, or a preset's options (tools/mdof/study/preset.h)
   std::string source;     // file of the plan, to which its paths are relative; "": a preset
   StudySettings settings;
 };

@@ -39,8 +39,8 @@ Result<Start> load_module() {
 
 }  // namespace
 
-// At exit without leave(), after an error of one process: the others wait for it in vain.
-void Processes::Leave::operator()(const MdofMpi* mpi) const {
+// Destroyed without leave(), after an error of this process: the others wait for it in vain.
+void Processes::AbortAll::operator()(const MdofMpi* mpi) const {
   mpi->abort(kDeviceOrIo);
 }
 

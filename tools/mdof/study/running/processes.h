@@ -37,10 +37,11 @@ class Processes {
   void leave();
 
  private:
-  struct Leave {
+  // What becomes of MPI where leave() was never called.
+  struct AbortAll {
     void operator()(const MdofMpi* mpi) const;
   };
-  std::unique_ptr<const MdofMpi, Leave> mpi_;  // null: alone
+  std::unique_ptr<const MdofMpi, AbortAll> mpi_;  // null: alone
 };
 
 }  // namespace mdof::tools

@@ -25,23 +25,24 @@ std::uint64_t rounded_up(std::uint64_t a, std::uint64_t b) {
 Result<StudyRunner> StudyRunner::create(const algo::Experiment& experiment, RunnerOptions options,
                                         Processes& processes) {
   if (!options.adaptive) {
-    const std::uint64_t unit =
+    const std::uint64_t batch_trials =
         options.slow ? algo::block_trials(experiment, 1) : algo::block_trials(experiment);
-    return StudyRunner(experiment, std::move(options), unit, processes);
+    return StudyRunner(experiment, std::move(options), batch_trials, processes);
   }
-  MDOF_TRY(const std::uint64_t unit, algo::adaptive_block_trials(experiment, options.coverage));
+  MDOF_TRY(const std::uint64_t batch_trials,
+           algo::adaptive_block_trials(experiment, options.coverage));
   MDOF_TRY(auto rule, algo::AdaptiveRule::create(experiment.outputs(), *options.adaptive));
-  StudyRunner runner(experiment, std::move(options), unit, processes);
+  StudyRunner runner(experiment, std::move(options), batch_trials, processes);
   runner.rule_ = std::move(rule);
   return runner;
 }
 
 StudyRunner::StudyRunner(const algo::Experiment& experiment, RunnerOptions options,
-                         std::uint64_t unit_trials, Processes& processes)
+                         std::uint64_t batch_trials, Processes& processes)
     : experiment_(&experiment),
       options_(std::move(options)),
       processes_(&processes),
-      unit_trials_(unit_trials) {
+      batch_trials_(batch_trials) {
   if (options_.slow) {
     const bool alone = processes.size() == 1;  // several processes end a round together
     divided_ = std::make_unique<DividedTrials>(
@@ -50,14 +51,14 @@ StudyRunner::StudyRunner(const algo::Experiment& experiment, RunnerOptions optio
     options_.threads = 1;
   }
   if (!options_.trials) return;
-  total_ = rounded_up(*options_.trials, unit_trials_);
-  expected_units_ = static_cast<double>(*options_.trials) / static_cast<double>(unit_trials_);
+  total_ = rounded_up(*options_.trials, batch_trials_);
+  expected_batches_ = static_cast<double>(*options_.trials) / static_cast<double>(batch_trials_);
 }
 
 StudyState StudyRunner::run(StudyWork& state) {
   resume(state);
   for (;;) {
-    Round round = plan();
+    Round round = next_round();
     if (round.begin == round.end) break;
     work(round, state);
     stop_ = processes_->any(Interrupt::requested());
@@ -78,14 +79,14 @@ void StudyRunner::resume(const StudyWork& state) {
   elapsed_before_s_ = state.elapsed_s;
   if (rule_)
     for (const auto& block : state.rule) rule_->add(block);
-  done_ = processes_->broadcast_number(rounded_up(state.trials, unit_trials_));
+  done_ = processes_->broadcast_number(rounded_up(state.trials, batch_trials_));
   if (processes_->first())
     bar_ = std::make_unique<ProgressBar>("study", static_cast<double>(state.trials));
 }
 
-// What comes next is the decision of rank 0. The rounds end at 1, 2, 4, 8 ... units, where the
+// What comes next is the decision of rank 0. The rounds end at 1, 2, 4, 8 ... batches, where the
 // convergence is noted, and where else time asks for it.
-StudyRunner::Round StudyRunner::plan() {
+StudyRunner::Round StudyRunner::next_round() {
   Round round{done_, done_, false};
   if (!stop_ && done_ != total_ && !rule_ended()) {
     round.end = std::min(std::bit_ceil(done_ + 1), done_ + longest_round());
@@ -108,17 +109,17 @@ std::string StudyRunner::not_settled() const {
   const std::string what = "the adaptive rule has not settled";
   const auto hopeless = rule_->hopeless_output();
   if (!hopeless) return what + " within the trials allowed";
-  return what + ": a block of " + std::to_string(unit_trials_) + " trials gave fewer than two of " +
-         experiment_->outputs()[*hopeless] +
+  return what + ": a block of " + std::to_string(batch_trials_) +
+         " trials gave fewer than two of " + experiment_->outputs()[*hopeless] +
          "; with --trials N and no adaptive rule the others are found all the same";
 }
 
-// Of slow trials a unit each, as one that is cut short is lost. The adaptive rule may settle within
-// a round, and the trials after that are lost.
+// Of slow trials a batch for each process, as one that is cut short is lost. The adaptive rule may
+// settle within a round, and the trials after that are lost.
 std::uint64_t StudyRunner::longest_round() const {
   const auto size = static_cast<std::uint64_t>(processes_->size());
   if (divided_) return size;
-  const auto in_time = std::max(size, static_cast<std::uint64_t>(units_per_s_ * kRound_s));
+  const auto in_time = std::max(size, static_cast<std::uint64_t>(batches_per_s_ * kRound_s));
   return rule_ ? std::min(in_time, std::max(options_.threads * size, done_ / 8)) : in_time;
 }
 
@@ -139,22 +140,22 @@ void StudyRunner::work(Round& round, StudyWork& state) {
   for (const auto& part : parts)
     if (part) state.statistics.merge(*part);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  units_per_s_ = static_cast<double>(round.end - round.begin) / std::max(seconds, 1e-6);
+  batches_per_s_ = static_cast<double>(round.end - round.begin) / std::max(seconds, 1e-6);
   done_ = round.end;
 }
 
-// Units of this process go into the parts, and each one's figures to its place. Gives the end of
+// Batches of this process go into the parts, and each one's figures to its place. Gives the end of
 // what was done by all processes: that of the round, or before it where a process that is alone was
 // stopped.
 std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures* figures,
                                       StudyWork& state) {
-  const std::uint64_t at_once = figures ? 1 : units_at_once(round);
+  const std::uint64_t at_once = figures ? 1 : batches_at_once(round);
   const std::uint64_t pieces = rounded_up(round.end - round.begin, at_once);
   const auto size = static_cast<std::uint64_t>(processes_->size());
   const auto rank = static_cast<std::uint64_t>(processes_->rank());
   const std::uint64_t mine = pieces > rank ? rounded_up(pieces - rank, size) : 0;
   std::atomic<std::uint64_t> finished = 0;
-  const double run_before = units_run();
+  const double run_before = batches_run();
   const auto piece = [&](unsigned worker, std::size_t i) {
     const std::uint64_t first = round.begin + (rank + i * size) * at_once;
     const std::uint64_t first_trial = trials_before(first);
@@ -170,9 +171,9 @@ std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures*
     ++finished;
   };
   const auto tick = [&] {
-    const double units =
-        divided_ ? units_run() - run_before : static_cast<double>(finished * at_once);
-    show_progress(static_cast<double>(round.begin) + units * static_cast<double>(size));
+    const double batches =
+        divided_ ? batches_run() - run_before : static_cast<double>(finished * at_once);
+    show_progress(static_cast<double>(round.begin) + batches * static_cast<double>(size));
     return size > 1 || !Interrupt::requested();
   };
   const std::uint64_t done = in_parallel(options_.threads, mine, piece, tick);
@@ -184,32 +185,32 @@ std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures*
 }
 
 // Long enough to keep the histograms in the cache, short enough for each thread to get several.
-std::uint64_t StudyRunner::units_at_once(const Round& round) const {
+std::uint64_t StudyRunner::batches_at_once(const Round& round) const {
   const auto workers = options_.threads * static_cast<std::uint64_t>(processes_->size());
-  const std::uint64_t most = algo::kBlocksAtOnce * algo::block_trials(*experiment_) / unit_trials_;
+  const std::uint64_t most = algo::kBlocksAtOnce * algo::block_trials(*experiment_) / batch_trials_;
   return std::clamp((round.end - round.begin) / (4 * workers), std::uint64_t{1},
                     std::max(std::uint64_t{1}, most));
 }
 
-// Feeds the rule on rank 0 with the units of all processes in their order, until it settles. Gives
-// the unit before which it did, or the end of the round.
+// Feeds the rule on rank 0 with the batches of all processes in their order, until it settles.
+// Gives the batch before which it did, or the end of the round.
 std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyWork& state) {
   gather(figures);
   if (!processes_->first()) return processes_->broadcast_number(0);
-  std::uint64_t unit = round.begin;
-  while (unit < round.end && !rule_ended()) {
-    auto& of_unit = figures[unit++ - round.begin];
-    rule_->add(of_unit);
-    state.rule.push_back(std::move(of_unit));
+  std::uint64_t batch = round.begin;
+  while (batch < round.end && !rule_ended()) {
+    auto& of_batch = figures[batch++ - round.begin];
+    rule_->add(of_batch);
+    state.rule.push_back(std::move(of_batch));
   }
   double ratio = 0;  // what s has to fall by; it falls with the root of the number of blocks
   for (const auto& output : rule_->progress())
     ratio = std::max(ratio, output.worst / output.tolerance);
-  expected_units_ = std::isfinite(ratio) ? static_cast<double>(unit) * ratio * ratio : 0;
-  return processes_->broadcast_number(unit);
+  expected_batches_ = std::isfinite(ratio) ? static_cast<double>(batch) * ratio * ratio : 0;
+  return processes_->broadcast_number(batch);
 }
 
-// Units go round the processes, as in work_share().
+// Batches go round the processes, as in work_share().
 void StudyRunner::gather(Figures& figures) const {
   const auto size = static_cast<std::size_t>(processes_->size());
   const auto each = [&](int rank, const auto& visit) {
@@ -218,16 +219,17 @@ void StudyRunner::gather(Figures& figures) const {
   const std::size_t bytes = experiment_->outputs().size() * sizeof(algo::BlockFigures);
   if (!processes_->first()) {
     std::string mine;
-    each(processes_->rank(),
-         [&](const auto& unit) { mine.append(reinterpret_cast<const char*>(unit.data()), bytes); });
+    each(processes_->rank(), [&](const auto& batch) {
+      mine.append(reinterpret_cast<const char*>(batch.data()), bytes);
+    });
     return processes_->send(0, mine);
   }
   for (int from = 1; from < processes_->size(); ++from) {
     const std::string theirs = processes_->receive(from);
     const char* next = theirs.data();
-    each(from, [&](auto& unit) {
-      unit.resize(experiment_->outputs().size());
-      std::memcpy(unit.data(), next, bytes);
+    each(from, [&](auto& batch) {
+      batch.resize(experiment_->outputs().size());
+      std::memcpy(batch.data(), next, bytes);
       next += bytes;
     });
   }
@@ -264,21 +266,22 @@ void StudyRunner::checkpoint(StudyWork& state) {
   next_checkpoint_ = Clock::now() + kCheckpoint;
 }
 
-// The last unit of a fixed number of trials is shorter; those of the rule are all alike.
-std::uint64_t StudyRunner::trials_before(std::uint64_t unit) const {
-  const std::uint64_t trials = unit * unit_trials_;
+// The last batch of a fixed number of trials is shorter; those of the rule are all alike.
+std::uint64_t StudyRunner::trials_before(std::uint64_t batch) const {
+  const std::uint64_t trials = batch * batch_trials_;
   return options_.trials && !options_.adaptive ? std::min(trials, *options_.trials) : trials;
 }
 
-void StudyRunner::show_progress(double units) {
-  if (!bar_ || expected_units_ <= 0) return;
-  const double unit_trials = static_cast<double>(unit_trials_);
-  const double done_units = std::min(units, 0.999 * expected_units_);  // the rule may want more
-  bar_->show({done_units * unit_trials, expected_units_ * unit_trials, "trials"});
+void StudyRunner::show_progress(double batches) {
+  if (!bar_ || expected_batches_ <= 0) return;
+  const double batch_trials = static_cast<double>(batch_trials_);
+  const double done_batches =
+      std::min(batches, 0.999 * expected_batches_);  // the rule may want more
+  bar_->show({done_batches * batch_trials, expected_batches_ * batch_trials, "trials"});
 }
 
-double StudyRunner::units_run() const {
-  return divided_ ? static_cast<double>(divided_->trials_run()) / static_cast<double>(unit_trials_)
+double StudyRunner::batches_run() const {
+  return divided_ ? static_cast<double>(divided_->trials_run()) / static_cast<double>(batch_trials_)
                   : 0;
 }
 

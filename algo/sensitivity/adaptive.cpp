@@ -65,7 +65,7 @@ void AdaptiveRule::add(const std::vector<BlockFigures>& block) {
   for (std::size_t k = 0; k < block.size(); ++k) {
     Output& o = outputs_[k];
     const BlockFigures& f = block[k];
-    if (f.n < 2) o.hopeless = true;
+    if (f.n < 2) o.never_settles = true;
     o.mean.add(f.mean, first);
     o.u.add(f.u, first);
     o.low.add(f.low, first);
@@ -83,7 +83,7 @@ std::vector<AdaptiveRule::Progress> AdaptiveRule::progress() const {
     if (blocks_ == 0) continue;
     const double u = std::sqrt(o.square_sum / static_cast<double>(blocks_));
     p.tolerance = o.absolute > 0 ? o.absolute : tolerance_of(u, digits_);
-    if (blocks_ < 2 || o.hopeless) continue;
+    if (blocks_ < 2 || o.never_settles) continue;
     p.worst = std::max({o.mean.twice_s(blocks_), o.u.twice_s(blocks_), o.low.twice_s(blocks_),
                         o.high.twice_s(blocks_)});
     p.constant = u == 0 && p.worst == 0;
@@ -91,9 +91,9 @@ std::vector<AdaptiveRule::Progress> AdaptiveRule::progress() const {
   return progress;
 }
 
-std::optional<std::size_t> AdaptiveRule::hopeless_output() const {
+std::optional<std::size_t> AdaptiveRule::output_that_never_settles() const {
   for (std::size_t k = 0; k < outputs_.size(); ++k)
-    if (outputs_[k].hopeless) return k;
+    if (outputs_[k].never_settles) return k;
   return std::nullopt;
 }
 

@@ -46,7 +46,7 @@ class AdaptiveRule {
   // At least two blocks, and every 2 s (§7.9.4 j) below its tolerance.
   bool settled() const;
   // The first output that a block gave fewer than two values of: it never settles.
-  std::optional<std::size_t> hopeless_output() const;
+  std::optional<std::size_t> output_that_never_settles() const;
   std::uint64_t blocks() const { return blocks_; }
 
   struct Progress {
@@ -68,8 +68,8 @@ class AdaptiveRule {
   struct Output {
     double absolute = 0;  // 0: by digits
     Spread mean, u, low, high;
-    double square_sum = 0;  // Σ u²
-    bool hopeless = false;  // a block without two solved trials
+    double square_sum = 0;       // Σ u²
+    bool never_settles = false;  // a block without two solved trials
   };
   std::vector<Output> outputs_;
   int digits_ = 2;

@@ -19,10 +19,10 @@ constexpr std::size_t kFrontierPoints = 8;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // The trials within the limit, for any scales of the quantities.
-class Within {
+class TrialsWithinLimit {
  public:
-  Within(const ScalableExperiment& experiment, const PlannedAllocation& planned, std::size_t output,
-         const ForEach& for_each)
+  TrialsWithinLimit(const ScalableExperiment& experiment, const PlannedAllocation& planned,
+                    std::size_t output, const ForEach& for_each)
       : experiment_(experiment), planned_(planned), output_(output), for_each_(for_each) {}
 
   std::uint64_t count(const std::vector<double>& scale) const {
@@ -46,11 +46,12 @@ class Within {
   const ForEach& for_each_;
 };
 
-// The count as a function of one factor upon some quantities, the others at `base`. Remembers: the
-// three searches of one tolerance meet at the same places.
-class Line {
+// Searches the largest factor upon some quantities, the others at `base`, by that count. Remembers
+// it: the three searches of one tolerance meet at the same factors.
+class FactorSearch {
  public:
-  Line(const Within& within, std::vector<double> base, std::vector<std::size_t> which)
+  FactorSearch(const TrialsWithinLimit& within, std::vector<double> base,
+               std::vector<std::size_t> which)
       : within_(within), base_(std::move(base)), which_(std::move(which)) {}
 
   // The largest factor with at least `needed` trials within; 0: none, infinite: any.
@@ -86,16 +87,16 @@ class Line {
     return known_[factor] = within_.count(scale);
   }
 
-  const Within& within_;
+  const TrialsWithinLimit& within_;
   std::vector<double> base_;
   std::vector<std::size_t> which_;
   std::map<double, std::uint64_t> known_;
 };
 
 // Counts of trials within that the limit asks for, and those of its order-statistic bounds.
-struct Needed {
+struct CountsNeeded {
   std::uint64_t nominal, more, fewer;
-  Needed(std::uint64_t trials, double p) {
+  CountsNeeded(std::uint64_t trials, double p) {
     const auto n = static_cast<double>(trials);
     const double spread = kTwoSided95 * std::sqrt(n * p * (1 - p));
     nominal = static_cast<std::uint64_t>(std::ceil(n * p));
@@ -111,20 +112,20 @@ double times(double factor, double size) {
 
 using Frontier = std::vector<std::vector<AllocatedTolerance>>;
 
-Frontier frontier(const ScalableExperiment& experiment, const Within& within, const Needed& needed,
-                  std::size_t first, std::size_t second) {
+Frontier frontier(const ScalableExperiment& experiment, const TrialsWithinLimit& within,
+                  const CountsNeeded& needed, std::size_t first, std::size_t second) {
   const auto& names = experiment.quantities();
   const auto& sizes = experiment.sizes();
   std::vector<double> base(names.size(), 1.0);
   base[second] = 0;
-  const double most = Line(within, base, {first}).largest(needed.nominal);
+  const double most = FactorSearch(within, base, {first}).largest(needed.nominal);
   Frontier pairs;
   if (!std::isfinite(most) || most == 0) return pairs;
   base[second] = 1;
   for (std::size_t i = 0; i < kFrontierPoints; ++i) {
     const double factor = most * static_cast<double>(i) / static_cast<double>(kFrontierPoints - 1);
     base[first] = factor;
-    const double other = Line(within, base, {second}).largest(needed.nominal);
+    const double other = FactorSearch(within, base, {second}).largest(needed.nominal);
     pairs.push_back({{names[first], times(factor, sizes[first]), kUnknown, kUnknown},
                      {names[second], times(other, sizes[second]), kUnknown, kUnknown}});
   }
@@ -153,20 +154,20 @@ Result<Allocation> allocate(const ScalableExperiment& experiment, const PlannedA
     MDOF_TRY(const std::size_t at, place_of(name, experiment.quantities(), planned));
     which.push_back(at);
   }
-  const Within within(experiment, planned, output, for_each);
-  const Needed needed(planned.trials, planned.probability);
+  const TrialsWithinLimit within(experiment, planned, output, for_each);
+  const CountsNeeded needed(planned.trials, planned.probability);
   const std::vector<double> as_planned(experiment.quantities().size(), 1.0);
   Allocation result{planned.output, planned.limit, planned.probability, 0, {}, 0, {}};
   result.reached =
       static_cast<double>(within.count(as_planned)) / static_cast<double>(planned.trials);
   for (const std::size_t q : which) {
-    Line line(within, as_planned, {q});
+    FactorSearch search(within, as_planned, {q});
     const double size = experiment.sizes()[q];
-    result.alone.push_back({experiment.quantities()[q], times(line.largest(needed.nominal), size),
-                            times(line.largest(needed.more), size),
-                            times(line.largest(needed.fewer), size)});
+    result.alone.push_back({experiment.quantities()[q], times(search.largest(needed.nominal), size),
+                            times(search.largest(needed.more), size),
+                            times(search.largest(needed.fewer), size)});
   }
-  result.common_factor = Line(within, as_planned, which).largest(needed.nominal);
+  result.common_factor = FactorSearch(within, as_planned, which).largest(needed.nominal);
   if (which.size() >= 2) result.frontier = frontier(experiment, within, needed, which[0], which[1]);
   return result;
 }

@@ -60,7 +60,7 @@ OutputScale scale_for(std::vector<double> values) {
 
 void OutputHistogram::add(std::span<const double> x, const std::uint64_t* index,
                           const OutputScale& scale) {
-  if (recent_n_ + x.size() > most_recent_) flush();
+  if (recent_n_ + x.size() > recent_capacity_) flush();
   recent_n_ += x.size();
   std::uint32_t* const counts = recent_.data();
 #pragma GCC unroll 8

@@ -29,9 +29,10 @@ OutputScale scale_for(std::vector<double> values);
 // in the top bits of its double. Positive keys are above the core, negative ones below.
 class OutputHistogram {
  public:
-  // `most_recent`: how many trials the small counters take before they are moved to large ones.
-  explicit OutputHistogram(std::uint64_t most_recent = std::numeric_limits<std::uint32_t>::max())
-      : most_recent_(most_recent), recent_(kCoreBins + 2) {}
+  // `recent_capacity`: how many trials the small counters take before they are moved to large ones.
+  explicit OutputHistogram(
+      std::uint64_t recent_capacity = std::numeric_limits<std::uint32_t>::max())
+      : recent_capacity_(recent_capacity), recent_(kCoreBins + 2) {}
 
   // A cell: indices from Kernels::scan; x is looked at only for what lies outside the core.
   void add(std::span<const double> x, const std::uint64_t* index, const OutputScale& scale);
@@ -50,7 +51,7 @@ class OutputHistogram {
   void flush();
   std::uint64_t& total_at(std::size_t bin);
 
-  std::uint64_t most_recent_;
+  std::uint64_t recent_capacity_;
   std::vector<std::uint32_t> recent_;   // one below, core, one above; small, to stay in the cache
   std::uint64_t recent_n_ = 0;          // flushed before a counter could overflow
   std::vector<std::uint64_t> flushed_;  // empty until then

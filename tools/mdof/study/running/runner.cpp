@@ -101,16 +101,16 @@ StudyRunner::Round StudyRunner::next_round() {
 
 // Also where it can never settle: more trials would not help.
 bool StudyRunner::rule_ended() const {
-  return rule_ && (rule_->settled() || rule_->hopeless_output());
+  return rule_ && (rule_->settled() || rule_->output_that_never_settles());
 }
 
 std::string StudyRunner::not_settled() const {
   if (!rule_ || rule_->settled()) return "";
   const std::string what = "the adaptive rule has not settled";
-  const auto hopeless = rule_->hopeless_output();
-  if (!hopeless) return what + " within the trials allowed";
+  const auto output = rule_->output_that_never_settles();
+  if (!output) return what + " within the trials allowed";
   return what + ": a block of " + std::to_string(batch_trials_) +
-         " trials gave fewer than two of " + experiment_->outputs()[*hopeless] +
+         " trials gave fewer than two of " + experiment_->outputs()[*output] +
          "; with --trials N and no adaptive rule the others are found all the same";
 }
 

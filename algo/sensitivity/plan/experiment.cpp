@@ -8,7 +8,7 @@
 
 #include "algo/iso230/line_fit.h"
 #include "algo/sensitivity/plan/axis.h"
-#include "algo/sensitivity/plan/base.h"
+#include "algo/sensitivity/plan/experiment_base.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -67,13 +67,14 @@ double slope_error(const Series& s) {
          least_squares_line(s.travel_m, s.truth).slope;
 }
 
-class PlanExperiment final : public PlanBase {
+class PlanExperiment final : public PlanExperimentBase {
  public:
   static Result<std::unique_ptr<ScalableExperiment>> create(const StudyPlan& plan, const Rig& rig);
   std::vector<std::pair<std::string, double>> inputs(std::uint64_t trial) const override;
 
  private:
-  explicit PlanExperiment(const StudyPlan& plan) : PlanBase(plan), planned_(plan.outputs) {}
+  explicit PlanExperiment(const StudyPlan& plan)
+      : PlanExperimentBase(plan), planned_(plan.outputs) {}
   void run_all(const DrawRequest& request, std::span<double* const> out) const override;
   void run_chunk(const DrawRequest& request, std::span<double* const> out) const;
   double value(const PlannedOutput& output, const AxisReadings& x, const AxisReadings& y,

@@ -9,7 +9,7 @@
 #include "algo/iso230/line_fit.h"
 #include "algo/model/restate.h"
 #include "algo/sensitivity/plan/axis.h"
-#include "algo/sensitivity/plan/base.h"
+#include "algo/sensitivity/plan/experiment_base.h"
 #include "daemon/measure/pipeline.h"
 #include "drivers/simulator/simulator.h"
 #include "schema/units.h"
@@ -171,7 +171,7 @@ double straightness_of(const StudyPlan& plan, const Run& run, const RunTrial& tr
   return found - algo::deviations_from(line, x, y).peak_to_valley;
 }
 
-class RunExperiment final : public algo::PlanBase {
+class RunExperiment final : public algo::PlanExperimentBase {
  public:
   static Result<std::unique_ptr<algo::ScalableExperiment>> create(const StudyPlan& plan) {
     std::unique_ptr<RunExperiment> e(new RunExperiment(plan));
@@ -193,7 +193,7 @@ class RunExperiment final : public algo::PlanBase {
   }
 
  private:
-  explicit RunExperiment(const StudyPlan& plan) : PlanBase(plan), plan_(plan) {}
+  explicit RunExperiment(const StudyPlan& plan) : PlanExperimentBase(plan), plan_(plan) {}
 
   void run_all(const algo::DrawRequest& request, std::span<double* const> out) const override {
     for (std::size_t j = 0; j < request.n; ++j) {

@@ -9,9 +9,9 @@
 
 namespace mdof::algo {
 
-class PlanBase : public ScalableExperiment {
+class PlanExperimentBase : public ScalableExperiment {
  public:
-  explicit PlanBase(const StudyPlan& plan) {
+  explicit PlanExperimentBase(const StudyPlan& plan) {
     for (const auto& output : plan.outputs) outputs_.push_back(output.key);
     for (const auto& quantity : plan.quantities) {
       quantities_.push_back(quantity.name);

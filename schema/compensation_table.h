@@ -31,7 +31,7 @@ struct CompensationTable {
   std::array<std::vector<double>, 5> u_forward, u_reverse;  // standard uncertainty
   // Built when tables did not say at which point they hold (at the carriage, in fact), nor which
   // way a correction goes: not to be served.
-  bool of_schema_2 = false;
+  bool without_stated_point = false;
   std::string created_utc;
   std::string sha256;  // of the canonical JSON of the above
 };

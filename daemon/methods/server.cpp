@@ -139,7 +139,7 @@ Result<ActiveTables> load_active(store::Store& store) {
                    active.error().message.c_str());
       continue;
     }
-    if (active && active->table.of_schema_2) {
+    if (active && active->table.without_stated_point) {
       std::fprintf(stderr,
                    "compensation table %lld of axis %c was built before tables said at which point "
                    "they hold and which way a correction goes; it is not served: build it again "

@@ -7,7 +7,7 @@
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
 #include "daemon/paths.h"
-#include "daemon/rpc/page.h"
+#include "daemon/rpc/list_page.h"
 #include "schema/base/json_page.h"
 #include "schema/rig/correction.h"
 #include "schema/run_json.h"
@@ -121,7 +121,7 @@ std::string status(const Methods& m) {
 
 Result<std::string> grid(const Methods& m, const Params& params) {
   MDOF_TRY(const auto* active, active_table(m, params));
-  const auto [offset, count] = page_of(params, kMaxGridPage);
+  const auto [offset, count] = list_page_of(params, kMaxGridPage);
   if (params.has("generation") && params.integer("generation") != active->generation) {
     return fail(ErrorCode::conflict, "generation changed to " + std::to_string(active->generation) +
                                          "; read the grid again from offset 0");

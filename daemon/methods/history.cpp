@@ -1,6 +1,6 @@
 // history.list.
 #include "daemon/methods/methods.h"
-#include "daemon/rpc/page.h"
+#include "daemon/rpc/list_page.h"
 #include "schema/base/json_page.h"
 
 namespace mdof::daemon {
@@ -13,7 +13,7 @@ using rpc::Params;
 constexpr std::int64_t kMaxDeedsPage = 200;
 
 Result<std::string> list_history(Methods& m, const Params& params) {
-  const rpc::Page page = page_of(params, kMaxDeedsPage);
+  const rpc::ListPage page = list_page_of(params, kMaxDeedsPage);
   MDOF_TRY(const auto deeds, m.reader.list_deeds(page.offset, page.count));
   MDOF_TRY(const auto total, m.reader.count_deeds());
   JsonWriter json;

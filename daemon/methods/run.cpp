@@ -2,7 +2,7 @@
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
 #include "daemon/paths.h"
-#include "daemon/rpc/page.h"
+#include "daemon/rpc/list_page.h"
 #include "daemon/run_item.h"
 #include "daemon/station/resume.h"
 #include "schema/base/json_page.h"
@@ -196,7 +196,7 @@ void explain(const Methods& m, RunHeader& header) {
 }
 
 Result<std::string> list_runs(Methods& m, const Params& params) {
-  const rpc::Page page = page_of(params, kMaxRunsPage);
+  const rpc::ListPage page = list_page_of(params, kMaxRunsPage);
   std::optional<Axis> axis;
   if (params.has("axis")) {
     MDOF_TRY(axis, axis_param(params));
@@ -245,7 +245,7 @@ Result<std::string> get_run(Methods& m, const Params& params) {
 }
 
 Result<std::string> run_points(Methods& m, const Params& params) {
-  const rpc::Page page = page_of(params, kMaxPointsPage);
+  const rpc::ListPage page = list_page_of(params, kMaxPointsPage);
   const std::int64_t id = params.integer("run");
   MDOF_TRY(const Reference reference, reference_param(params));
   MDOF_TRY(const auto total, m.reader.count_points(id));

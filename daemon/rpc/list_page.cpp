@@ -1,4 +1,4 @@
-#include "daemon/rpc/page.h"
+#include "daemon/rpc/list_page.h"
 
 namespace mdof::rpc {
 
@@ -11,7 +11,7 @@ Param count_param(std::int64_t most) {
           false,   std::to_string(most), {.least = 1, .most = static_cast<double>(most)}};
 }
 
-Page page_of(const Params& params, std::int64_t most) {
+ListPage list_page_of(const Params& params, std::int64_t most) {
   return {params.integer("offset", 0), params.integer("count", most)};
 }
 

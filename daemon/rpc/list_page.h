@@ -11,9 +11,9 @@ namespace mdof::rpc {
 Param offset_param();
 Param count_param(std::int64_t most);
 
-struct Page {
+struct ListPage {
   std::int64_t offset = 0, count = 0;
 };
-Page page_of(const Params& params, std::int64_t most);
+ListPage list_page_of(const Params& params, std::int64_t most);
 
 }  // namespace mdof::rpc

@@ -35,21 +35,22 @@ std::vector<const Convergence*> drawn(const StudyResult& result) {
   return all;
 }
 
-double settled(const Convergence& c, const Figure& figure) {
+double final_value(const Convergence& c, const Figure& figure) {
   return c.points.back().*figure.value;
 }
 
 Range range_of(const Convergence& c) {
   Range range;
   for (const Figure& figure : kFigures)
-    for (const ConvergencePoint& p : c.points) range.include(p.*figure.value - settled(c, figure));
+    for (const ConvergencePoint& p : c.points)
+      range.include(p.*figure.value - final_value(c, figure));
   return padded(range, 0.06);
 }
 
 void draw_figure(Svg& svg, const Panel& panel, const Convergence& c, const Figure& figure) {
   std::vector<Place> places;
   for (const ConvergencePoint& p : c.points) {
-    const double difference = p.*figure.value - settled(c, figure);
+    const double difference = p.*figure.value - final_value(c, figure);
     if (std::isfinite(difference))
       places.push_back(panel.at(static_cast<double>(p.trials), difference));
   }

@@ -25,7 +25,8 @@ constexpr std::array<Colour, 17> kColours = {{
     {"halo", "stroke", "#ffffff", "#0d1117"},
 }};
 
-// What does not depend on light or dark.
+// What does not depend on light or dark. dash and dot are kinds of line; what Svg::dot draws has a
+// class of colour alone, such as ink-dot.
 constexpr const char* kShapes =
     ".mdof text{font-family:system-ui,'DejaVu Sans',Arial,sans-serif;font-size:12px}"
     ".mdof .title{font-size:17px;font-weight:600}"

@@ -34,7 +34,6 @@ set(MDOF_COMPILED_ALONE
   drivers/usb/simulated_usb.cpp
   schema/base/number/number_columns_vector.cpp
   schema/base/number/number_digits.cpp
-  schema/recording/probe_log.cpp
   tests/algo/sensitivity/indices_test.cpp
   tests/algo/sensitivity/plan_test.cpp
   tests/algo/sensitivity/presets_test.cpp

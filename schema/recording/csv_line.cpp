@@ -5,17 +5,12 @@
 
 #include "schema/base/number/number.h"
 #include "schema/base/number/seconds.h"
+#include "schema/base/trimmed.h"
 
 namespace mdof {
 namespace {
 
 using State = CsvLine::State;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> fields;

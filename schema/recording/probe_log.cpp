@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "schema/base/trimmed.h"
+
 namespace mdof {
 namespace {
 
@@ -11,12 +13,6 @@ constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 constexpr const char* kTimeColumn = "time_s";
 constexpr const char* kEncoderColumn = "encoder_mm";
 constexpr std::string_view kTimeName = "time";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::vector<std::string> split(std::string_view line, char separator) {
   std::vector<std::string> fields;

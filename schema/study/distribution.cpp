@@ -6,6 +6,7 @@
 
 #include "schema/base/files.h"
 #include "schema/base/number/number.h"
+#include "schema/base/trimmed.h"
 
 namespace mdof {
 namespace {
@@ -108,12 +109,6 @@ void read_shape(TomlTable& table, Distribution& d) {
     case Kind::empirical:
       break;
   }
-}
-
-std::string_view trimmed(std::string_view line) {
-  const auto begin = line.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return line.substr(begin, line.find_last_not_of(" \t\r") - begin + 1);
 }
 
 bool read_number(std::string_view text, double& x) {

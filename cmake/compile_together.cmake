@@ -6,8 +6,6 @@ set(MDOF_COMPILE_TOGETHER "$ENV{MDOF_COMPILE_TOGETHER}" CACHE STRING
     "Compile the files of a folder together (ON, OFF; default: of the environment, else under sanitizers)")
 set(MDOF_COMPILED_ALONE
   algo/iso230/target_means.cpp
-  algo/plausibility/encoder_jump.cpp
-  algo/plausibility/plausibility_visits.cpp
   algo/points/robust_mean.cpp
   algo/sensitivity/plan/experiment.cpp
   algo/sensitivity/statistics/moments.cpp

@@ -1,11 +1,10 @@
 // Does each quantity look as if it were in the unit that it is said to be in?
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "algo/plausibility/plausibility.h"
+#include "algo/plausibility/sentences.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -22,14 +21,6 @@ constexpr double kNoisiest = 2.5e-3;    // sd in parts of the range
 constexpr double kNoisiest_m = 1e-6;
 constexpr double kOneOfThousand = 1e-3;
 constexpr double kOffZero = 0.1;  // of the range, of a gap whose offset is not given
-
-using Texts = std::vector<std::string>;
-
-std::string text(const char* format, double x) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, x);
-  return buffer.data();
-}
 
 std::string joined(const Texts& words) {
   std::string out;
@@ -86,7 +77,7 @@ void judge_probes(const Rig& rig, const Plausibility& figures, Texts& out) {
                 ": reads the gap and has no offset_um, so the whole gap counts as displacement; "
                 "give the gap at the nominal surface in the rig (" +
                 gap.front() + " reads about " +
-                text("%.3g um)", -0.5 * to_um(first->min_m + first->max_m)));
+                with_number("%.3g um)", -0.5 * to_um(first->min_m + first->max_m)));
 }
 
 void judge_fixture(const Rig& rig, Texts& out) {
@@ -99,15 +90,15 @@ void judge_fixture(const Rig& rig, Texts& out) {
     }
   }
   if (std::max(size_m, origin_m) > kLargestFixture_m)
-    out.push_back("the fixture reaches " + text("%.4g m", std::max(size_m, origin_m)) +
+    out.push_back("the fixture reaches " + with_number("%.4g m", std::max(size_m, origin_m)) +
                   ": position_mm in the rig seems to be in um");
   if (size_m < kSmallestFixture_m)
-    out.push_back("the probes are only " + text("%.4g mm", to_mm(size_m)) +
+    out.push_back("the probes are only " + with_number("%.4g mm", to_mm(size_m)) +
                   " apart: position_mm in the rig seems to be in m");
 }
 
 void judge_time(const Plausibility& figures, Texts& out) {
-  const std::string rate = text("%.4g Hz", figures.rate_hz);
+  const std::string rate = with_number("%.4g Hz", figures.rate_hz);
   if (figures.rate_hz < kSlowest_hz)
     out.push_back("the log has " + rate + ": time_s seems to be in ms or us, not in s");
   if (figures.rate_hz > kFastest_hz)
@@ -118,9 +109,9 @@ void judge_time(const Plausibility& figures, Texts& out) {
 
 std::string encoder_unit_doubt(double travel_m) {
   if (travel_m > kLongestAxis_m)
-    return "the axis travels " + text("%.4g m", travel_m) + ": encoder_mm seems to be in um";
+    return "the axis travels " + with_number("%.4g m", travel_m) + ": encoder_mm seems to be in um";
   if (travel_m < kShortestAxis_m)
-    return "the axis travels only " + text("%.4g mm", to_mm(travel_m)) +
+    return "the axis travels only " + with_number("%.4g mm", to_mm(travel_m)) +
            ": encoder_mm seems to be in m";
   return "";
 }

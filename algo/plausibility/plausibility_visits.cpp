@@ -1,13 +1,12 @@
 // What is wrong with the visits of a run: holes, doubles, targets found late, stops without a
 // point.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <string>
 
 #include "algo/plausibility/plausibility.h"
+#include "algo/plausibility/sentences.h"
 #include "algo/points/ranges_text.h"
 #include "algo/sequence/shifted_targets.h"
 #include "algo/sequence/uneven_visits.h"
@@ -18,14 +17,6 @@ namespace {
 
 constexpr std::size_t kMostNamed = 6;     // sentences of one kind; more are put together
 constexpr double kWorthATravel_m = 1e-3;  // over which there should be more than one stop
-
-using Texts = std::vector<std::string>;
-
-std::string text(const char* format, double x) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, x);
-  return buffer.data();
-}
 
 std::string plural(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
@@ -87,7 +78,9 @@ class Holes {
 
   std::string name(int target) const {
     return "target " + std::to_string(target) + " (" +
-           text("%.4f mm", to_mm(sequence_.targets_m[static_cast<std::size_t>(target) - 1])) + ")";
+           with_number("%.4f mm",
+                       to_mm(sequence_.targets_m[static_cast<std::size_t>(target) - 1])) +
+           ")";
   }
   void never_visited(Texts& out) const {
     std::vector<int> never;
@@ -193,14 +186,14 @@ void tell_lost_stops(const RunToJudge& run, Texts& out) {
   }
   std::string why;
   if (brief > 0)
-    why = plural(brief, "stop") + " too short (up to " + text("%.3f s", longest_s) + ", needed " +
-          text("%.3f s", run.least_dwell_s) + ")";
+    why = plural(brief, "stop") + " too short (up to " + with_number("%.3f s", longest_s) +
+          ", needed " + with_number("%.3f s", run.least_dwell_s) + ")";
   if (brief < lost.size()) {
     why += why.empty() ? "" : ", ";
     why += plural(lost.size() - brief, "stop") + " creeping";
   }
   out.push_back(plural(lost.size(), "visit") + " of targets gave no point: " + why + "; first at " +
-                text("%.4f mm", to_mm(lost.front().position_m)) +
+                with_number("%.4f mm", to_mm(lost.front().position_m)) +
                 "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um");
 }
 
@@ -210,11 +203,11 @@ void tell_single_place(const RunToJudge& run, Texts& out) {
   const double travel_m = run.dwells.encoder_max_m - run.dwells.encoder_min_m;
   if (places.size() != 1 || travel_m < kWorthATravel_m) return;
   out.push_back("stops were found at one place only (" +
-                text("%.4f mm", to_mm(run.sequence.points.front().target_m)) + ") although " +
-                text("the axis travels %.3f mm: ", to_mm(travel_m)) +
+                with_number("%.4f mm", to_mm(run.sequence.points.front().target_m)) +
+                ") although " + with_number("the axis travels %.3f mm: ", to_mm(travel_m)) +
                 plural(run.dwells.passed_over.size(), "other stop") +
-                " were too short or crept, needed are " + text("%.3f s", run.least_dwell_s) +
-                text(" within %.3g um", to_um(run.dwells.tolerance_m)) +
+                " were too short or crept, needed are " + with_number("%.3f s", run.least_dwell_s) +
+                with_number(" within %.3g um", to_um(run.dwells.tolerance_m)) +
                 "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um");
 }
 
@@ -232,8 +225,8 @@ void tell_shifted_targets(const RunToJudge& run, Texts& out) {
   if (!shifted) return;
   const std::int64_t begin_ns = run.sequence.points.front().point.begin_ns;
   out.push_back(
-      text("%.3f s after the first stop began ", ns_to_s(shifted->time_ns - begin_ns)) +
-      text("all targets lie %+.4f mm further: ", to_mm(shifted->shift_m)) +
+      with_number("%.3f s after the first stop began ", ns_to_s(shifted->time_ns - begin_ns)) +
+      with_number("all targets lie %+.4f mm further: ", to_mm(shifted->shift_m)) +
       "the encoder's count jumped, its datum was set anew, or the axis was sent elsewhere; "
       "positions before and after do not belong together, measure again");
 }

@@ -7,8 +7,6 @@ set(MDOF_COMPILE_TOGETHER "$ENV{MDOF_COMPILE_TOGETHER}" CACHE STRING
 set(MDOF_COMPILED_ALONE
   algo/iso230/target_means.cpp
   algo/points/robust_mean.cpp
-  algo/sensitivity/plan/experiment.cpp
-  algo/sensitivity/statistics/moments.cpp
   algo/sequence/sequence.cpp
   algo/sequence/sequence_cycle.cpp
   algo/sequence/sequence_odd_stops.cpp

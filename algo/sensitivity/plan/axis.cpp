@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "schema/base/random.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
-
-constexpr double kNotSolved = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Vector3d machine_axis(Axis axis, std::size_t which) {
   Vec3 unit{};

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,12 @@
 
 namespace mdof::algo {
 
+inline constexpr double kNotSolved = std::numeric_limits<double>::quiet_NaN();
+
 // Trials of one request, [reading][error][trial] and [reading][trial]. Reading 0 is the point.
 struct AxisReadings {
   std::size_t n = 0, probes = 0;
-  std::vector<double> truth, estimate;      // local; NaN where not solved
+  std::vector<double> truth, estimate;      // local; kNotSolved where it is not
   std::vector<double> travel_m, encoder_m;  // true and shown
   std::vector<double> probe_m;              // [reading][probe][trial]
   std::vector<double> square_rad;           // [trial]: error of the artefact's angle

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "algo/iso230/line_fit.h"
@@ -14,7 +13,6 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kNotSolved = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kChunk = 128;  // trials at once: their columns stay in the cache
 
 // The named error of one reading, estimated or true, in SI.

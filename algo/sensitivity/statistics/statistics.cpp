@@ -8,6 +8,7 @@
 
 #include "algo/sensitivity/statistics/intervals.h"
 #include "algo/sensitivity/statistics/statistics_parts.h"
+#include "schema/sample.h"
 
 namespace mdof::algo {
 namespace {
@@ -64,7 +65,6 @@ void add_cell(const Kernels& kernels, const OutputScale& scale, double* x, std::
 
 OutputSummary summarise(const Accumulator& sums, const OutputScale& scale, const std::string& key,
                         const SummaryRequest& request, bool with_histogram) {
-  constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
   const OrderedTrials order(sums.histogram, scale, sums.min, sums.max);
   const Moments m = moments_of(sums.powers, order, scale);
   OutputSummary s;
@@ -77,9 +77,9 @@ OutputSummary summarise(const Accumulator& sums, const OutputScale& scale, const
   s.sd_se = m.sd_se;
   s.coverage = request.coverage;
   if (sums.n == 0) {
-    s.min = s.max = kNotKnown;
-    s.symmetric = s.shortest = {kNotKnown, kNotKnown};
-    for (const double p : request.quantiles) s.quantiles.push_back({p, kNotKnown});
+    s.min = s.max = kNaN;
+    s.symmetric = s.shortest = {kNaN, kNaN};
+    for (const double p : request.quantiles) s.quantiles.push_back({p, kNaN});
     return s;
   }
   s.min = sums.min;

@@ -5,12 +5,6 @@
 set(MDOF_COMPILE_TOGETHER "$ENV{MDOF_COMPILE_TOGETHER}" CACHE STRING
     "Compile the files of a folder together (ON, OFF; default: of the environment, else under sanitizers)")
 set(MDOF_COMPILED_ALONE
-  algo/iso230/target_means.cpp
-  algo/points/robust_mean.cpp
-  algo/sequence/sequence.cpp
-  algo/sequence/sequence_cycle.cpp
-  algo/sequence/sequence_odd_stops.cpp
-  algo/sequence/usable_runs.cpp
   daemon/measure/replay/replay.cpp
   daemon/methods/run.cpp
   daemon/rpc/session/topic_hub.cpp

@@ -71,15 +71,15 @@ Errors5 scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoin
   return u;
 }
 
-using ByTarget = std::map<int, TargetMean>;
+using MeansByTarget = std::map<int, TargetMean>;
 
-ByTarget one_way(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
-                 int direction) {
+MeansByTarget one_way(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                      int direction) {
   std::map<int, std::vector<const MeasuredPoint*>> groups;
   for (const auto& p : points) {
     if (p.errors.valid && p.point.direction == direction) groups[p.target].push_back(&p);
   }
-  ByTarget means;
+  MeansByTarget means;
   for (const auto& [target, group] : groups) means[target] = mean_of(moving, group);
   return means;
 }
@@ -90,7 +90,7 @@ struct Reversal {
   Errors5 u{};  // of one target's reversal taken to be the mean; of one target alone: all of it
 };
 
-Reversal mean_reversal(const ByTarget& forward, const ByTarget& reverse) {
+Reversal mean_reversal(const MeansByTarget& forward, const MeansByTarget& reverse) {
   std::vector<Errors5> at_targets;
   for (const auto& [target, f] : forward) {
     const auto r = reverse.find(target);
@@ -119,10 +119,10 @@ TargetMean with_reversal(TargetMean one_sided, const Reversal& reversal, int dir
   return one_sided;
 }
 
-ByTarget both_ways(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
-  const ByTarget forward = one_way(moving, points, 1), reverse = one_way(moving, points, -1);
+MeansByTarget both_ways(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
+  const MeansByTarget forward = one_way(moving, points, 1), reverse = one_way(moving, points, -1);
   const Reversal reversal = mean_reversal(forward, reverse);
-  ByTarget means;
+  MeansByTarget means;
   for (const auto& [target, f] : forward) {
     const auto r = reverse.find(target);
     means[target] = r != reverse.end() ? mean_of(f, r->second) : with_reversal(f, reversal, 1);
@@ -136,8 +136,8 @@ ByTarget both_ways(const MovingAxis& moving, const std::vector<MeasuredPoint>& p
   return means;
 }
 
-ByTarget means_of(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
-                  Approach approach) {
+MeansByTarget means_of(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                       Approach approach) {
   return approach == Approach::both
              ? both_ways(moving, points)
              : one_way(moving, points, approach == Approach::forward ? 1 : -1);
@@ -155,7 +155,7 @@ std::vector<TargetMean> target_means(const MovingAxis& moving,
                                      const std::vector<MeasuredPoint>& points, Approach approach) {
   const WithoutDrift without = without_drift_of_runs(points);
   const Errors5 u_level = named_from_local(moving, without.u_level);
-  ByTarget means = means_of(moving, without.points, approach);
+  MeansByTarget means = means_of(moving, without.points, approach);
   for (const auto& [target, drifting] : means_of(moving, points, approach))
     for (std::size_t k = 0; k < 5; ++k)
       means[target].u[k] = std::max({means[target].u[k], drifting.u[k], std::abs(u_level[k])});

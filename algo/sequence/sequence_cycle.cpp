@@ -12,24 +12,24 @@ constexpr double kMostOutOfOrder = 0.15;  // of the visits, in a cycle that stil
 constexpr double kAlwaysForgiven = 3;     // one target repeated, in a run of any length
 constexpr double kLeastAtOnce = 1.5;      // visits without leaving a target, of a pilgrim cycle
 
-using Runs = std::vector<int>;
+using RunNumbers = std::vector<int>;
 
-Runs runs_by_passes(const std::vector<Visit>& visits, int targets) {
+RunNumbers runs_by_passes(const std::vector<Visit>& visits, int targets) {
   Passes passes(targets);
-  Runs runs;
+  RunNumbers runs;
   for (const Visit& v : visits) runs.push_back(passes.next(v));
   return runs;
 }
 
-Runs runs_by_visits(const std::vector<Visit>& visits) {
+RunNumbers runs_by_visits(const std::vector<Visit>& visits) {
   std::map<std::pair<int, int>, int> count;
-  Runs runs;
+  RunNumbers runs;
   for (const Visit& v : visits) runs.push_back(++count[{v.target, v.direction}]);
   return runs;
 }
 
 // Visits that do not go on in the direction of their pass, or that another pass interrupts.
-int out_of_order(const std::vector<Visit>& visits, const Runs& runs) {
+int out_of_order(const std::vector<Visit>& visits, const RunNumbers& runs) {
   std::map<std::pair<int, int>, int> last;  // target of each pass, by direction and run
   int count = 0;
   for (std::size_t i = 0; i < visits.size(); ++i) {
@@ -44,7 +44,7 @@ int out_of_order(const std::vector<Visit>& visits, const Runs& runs) {
 }
 
 // A pass goes over the targets: it has at least half of them, in the mean.
-bool go_over_the_targets(const std::vector<Visit>& visits, const Runs& runs, int targets) {
+bool go_over_the_targets(const std::vector<Visit>& visits, const RunNumbers& runs, int targets) {
   std::set<std::pair<int, int>> passes;
   for (std::size_t i = 0; i < visits.size(); ++i) passes.insert({visits[i].direction, runs[i]});
   return 2 * visits.size() >= passes.size() * static_cast<std::size_t>(targets);
@@ -91,7 +91,7 @@ Cycle by_turns(const std::vector<Visit>& visits, int targets) {
 }
 
 // Every target is visited about as often from either side as the others.
-bool is_balanced(const std::vector<Visit>& visits, const Runs& runs, int targets) {
+bool is_balanced(const std::vector<Visit>& visits, const RunNumbers& runs, int targets) {
   if (visits.empty()) return false;
   const int most = *std::max_element(runs.begin(), runs.end());
   return few(2 * targets * most - static_cast<int>(visits.size()), visits.size());
@@ -160,9 +160,9 @@ void Passes::turn(int heading, int target) {
 }
 
 CycleFound recognise_cycle(const std::vector<Visit>& visits, int targets) {
-  Runs by_visits = runs_by_visits(visits);
+  RunNumbers by_visits = runs_by_visits(visits);
   if (is_pilgrim(visits, targets)) return {Cycle::pilgrim, false, std::move(by_visits)};
-  Runs passes = runs_by_passes(visits, targets);
+  RunNumbers passes = runs_by_passes(visits, targets);
   const int wrong = out_of_order(visits, passes);
   const bool ordered = wrong <= kAlwaysForgiven || few(wrong, visits.size());
   if (ordered && go_over_the_targets(visits, passes, targets))

@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kFewest = 3;
+constexpr std::size_t kFewestTargets = 3;
 constexpr double kAlike_m = 50e-6;
 constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
@@ -40,7 +40,7 @@ std::pair<Places, Places> parted(const Sequence& sequence, const std::vector<std
 // What takes `before` to `after`, where one distance does for all that both have.
 std::optional<double> shift_between(const Places& before, const Places& after) {
   const std::size_t n = std::min(before.size(), after.size());
-  if (n < kFewest) return {};
+  if (n < kFewestTargets) return {};
   for (std::size_t i = 0; i + n <= before.size(); ++i) {
     for (std::size_t j = 0; j + n <= after.size(); ++j) {
       const double shift = after[j] - before[i];

@@ -11,11 +11,6 @@ set(MDOF_COMPILED_ALONE
   daemon/station/resume.cpp
   daemon/store/study/study_read.cpp
   daemon/store/write.cpp
-  drivers/capancdt/controller.cpp
-  drivers/labjack_t7/registers.cpp
-  drivers/labjack_t7/stream.cpp
-  drivers/labjack_u6/protocol.cpp
-  drivers/labjack_u6/simulated_labjack_u6.cpp
   drivers/mcc_usb1608fs_plus/protocol.cpp
   drivers/qsb/qsb.cpp
   drivers/registry.cpp

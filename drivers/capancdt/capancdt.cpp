@@ -13,7 +13,6 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kConnect{3000};
 constexpr std::size_t kBlockScans = 4096;        // at most, in one read, but for one packet more
 constexpr std::size_t kReadBytes = 1 << 16;      // at a time
 constexpr int kReads = 16;                       // before they are looked at

@@ -10,7 +10,6 @@
 namespace mdof::drivers::capancdt {
 namespace {
 
-constexpr std::chrono::milliseconds kConnect{3000};
 constexpr int kMostSample_us = 10'000'000;
 constexpr double kSameRange = 1e-3;  // of the range: the controller rounds
 

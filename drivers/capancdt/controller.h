@@ -1,6 +1,7 @@
 // What a controller is and how it is set up, through its command port.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "schema/base/result.h"
 
 namespace mdof::drivers::capancdt {
+
+inline constexpr std::chrono::milliseconds kConnect{3000};  // to either port, at most
 
 // As the controller is after set-up.
 struct Setup {

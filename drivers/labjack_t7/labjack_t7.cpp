@@ -13,7 +13,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kConnect{2000};
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr int kClockReads = 5;
 constexpr double kEnable_s = 2;  // to write STREAM_ENABLE, at most

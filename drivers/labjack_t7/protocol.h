@@ -17,6 +17,7 @@ namespace mdof::drivers::labjack_t7 {
 
 inline constexpr int kAins = 14;          // AIN0 ... AIN13
 inline constexpr double kCore_Hz = 40e6;  // of CORE_TIMER
+inline constexpr std::uint8_t kUnit = 1;  // of a request, and in a packet of the stream
 
 struct Register {
   int address;

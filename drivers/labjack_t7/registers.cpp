@@ -8,8 +8,7 @@
 namespace mdof::drivers::labjack_t7 {
 namespace {
 
-constexpr std::chrono::milliseconds kConnect{2000}, kReply{500};
-constexpr int kUnit = 1;
+constexpr std::chrono::milliseconds kReply{500};
 
 }  // namespace
 

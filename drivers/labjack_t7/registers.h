@@ -2,6 +2,7 @@
 // refuses.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <span>
 
@@ -11,6 +12,8 @@
 #include "schema/base/result.h"
 
 namespace mdof::drivers::labjack_t7 {
+
+inline constexpr std::chrono::milliseconds kConnect{2000};  // to either port, at most
 
 // Thread-bound. Errors name the register; a refusal carries the text of LAST_ERR_DETAIL. After one
 // the connection may be of no more use.

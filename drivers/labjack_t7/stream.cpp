@@ -10,7 +10,7 @@ using modbus::word_at;
 
 constexpr std::size_t kHeader = 16;
 constexpr std::size_t kLengthFrom = 6;  // the length counts from the unit id on
-constexpr std::uint8_t kUnit = 1, kFunction = 76, kType = 16;
+constexpr std::uint8_t kFunction = 76, kType = 16;
 
 std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
   return static_cast<std::uint8_t>(bytes[i]);

@@ -13,9 +13,6 @@ constexpr int kProVersion = 12;
 constexpr int kGainBits = 4, kDifferential = 0x80;
 constexpr char kConfigureTimer0 = 0x2B, kConfigureTimer1 = 0x2D, kQuadrature = 8;
 
-std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
-  return static_cast<std::uint8_t>(bytes[i]);
-}
 std::uint32_t u32_at(std::string_view bytes, std::size_t i) {
   return byte_at(bytes, i) | static_cast<std::uint32_t>(byte_at(bytes, i + 1)) << 8 |
          static_cast<std::uint32_t>(byte_at(bytes, i + 2)) << 16 |

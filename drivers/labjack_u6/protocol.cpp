@@ -9,9 +9,6 @@ namespace {
 constexpr std::uint8_t kExtended = 0xF8, kData = 0xF9, kStreamData = 0xC0;
 constexpr std::size_t kHead = 6, kNormalReply = 4;
 
-std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
-  return static_cast<std::uint8_t>(bytes[i]);
-}
 std::uint16_t word_at(std::string_view bytes, std::size_t i) {
   return static_cast<std::uint16_t>(byte_at(bytes, i) | byte_at(bytes, i + 1) << 8);
 }

@@ -47,6 +47,9 @@ std::string error_text(int code);
 
 // --- Frames --------------------------------------------------------------------------------------
 
+inline std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
+  return static_cast<std::uint8_t>(bytes[i]);
+}
 std::uint8_t checksum8(std::string_view bytes);
 std::uint16_t checksum16(std::string_view bytes);
 // `body` from byte 6 on, of even length.

@@ -14,10 +14,6 @@ constexpr int kRecoveryPackets = 3;
 constexpr std::size_t kFewBytes = 20;
 constexpr int kBadConfiguration = 49;
 
-std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
-  return static_cast<std::uint8_t>(bytes[i]);
-}
-
 std::string normal_reply(std::uint8_t command, int error) {
   std::string reply{static_cast<char>(command + 1), static_cast<char>(error), 0};
   return static_cast<char>(checksum8(reply)) + reply;

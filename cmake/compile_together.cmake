@@ -11,12 +11,6 @@ set(MDOF_COMPILED_ALONE
   daemon/station/resume.cpp
   daemon/store/study/study_read.cpp
   daemon/store/write.cpp
-  drivers/mcc_usb1608fs_plus/protocol.cpp
-  drivers/qsb/qsb.cpp
-  drivers/registry.cpp
-  drivers/simulator/options.cpp
-  drivers/simulator/raw_reading.cpp
-  drivers/usb/simulated_usb.cpp
   schema/base/number/number_columns_vector.cpp
   schema/base/number/number_digits.cpp
   tests/algo/sensitivity/indices_test.cpp

@@ -8,7 +8,7 @@ namespace mdof::drivers::mcc_usb1608fs_plus {
 namespace {
 
 constexpr std::size_t kScanStartBytes = 10;
-constexpr unsigned kRunning = 2, kOverrun = 4;
+constexpr unsigned kRunningBit = 2, kOverrunBit = 4;
 
 std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
   std::uint32_t value = 0;
@@ -64,12 +64,12 @@ std::string config(std::uint8_t code) {
 Result<DeviceStatus> read_status(std::string_view reply) {
   if (reply.size() != 2) return io_error("the device's status was cut short");
   const std::uint32_t bits = number_at(reply, 0, 2);
-  return DeviceStatus{(bits & kRunning) != 0, (bits & kOverrun) != 0};
+  return DeviceStatus{(bits & kRunningBit) != 0, (bits & kOverrunBit) != 0};
 }
 
 std::string status_reply(const DeviceStatus& status) {
   std::string bytes;
-  append(bytes, (status.running ? kRunning : 0) | (status.overrun ? kOverrun : 0), 2);
+  append(bytes, (status.running ? kRunningBit : 0) | (status.overrun ? kOverrunBit : 0), 2);
   return bytes;
 }
 

@@ -13,7 +13,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kConnect{2000}, kAnswer{300}, kBanner{1000};
+constexpr milliseconds kConnect{2000}, kAnswer{300}, kBannerWait{1000};
 constexpr milliseconds kQuiet{50}, kDrain{500};
 constexpr std::size_t kLongestLine = 256;
 constexpr const char* kDatumLost =
@@ -93,7 +93,7 @@ Status Qsb::make_it_answer() {
     if (reset && !options_.address) {
       if (counted_) count_from_elsewhere();
       pulse_dtr(*stream_);
-      MDOF_TRY(const auto banner, stream_->drain(kBanner / 2, kBanner));
+      MDOF_TRY(const auto banner, stream_->drain(kBannerWait / 2, kBannerWait));
       (void)banner;
     }
     // What was left of a line before is ended by an empty one.

@@ -23,9 +23,9 @@ enum Descriptor : std::uint8_t {
   kHid = 0x21,
   kHidReport = 0x22,
 };
-constexpr std::uint8_t kTypeMask = 0x60;    // standard, class or vendor
-constexpr std::uint8_t kToEndpoint = 0x02;  // of the request type
-constexpr std::uint16_t kEnglish_US = 0x0409;
+constexpr std::uint8_t kTypeMask = 0x60;           // standard, class or vendor
+constexpr std::uint8_t kToEndpoint = 0x02;         // of the request type
+constexpr std::uint16_t kStringLanguage = 0x0409;  // English (US)
 
 std::string bytes_of(std::initializer_list<int> values) {
   std::string bytes;
@@ -40,7 +40,7 @@ int high(std::uint16_t word) {
 }
 
 std::string string_descriptor(const Identity& identity, std::uint8_t index) {
-  if (index == 0) return bytes_of({4, kString, low(kEnglish_US), high(kEnglish_US)});
+  if (index == 0) return bytes_of({4, kString, low(kStringLanguage), high(kStringLanguage)});
   const std::string* const texts[] = {&identity.manufacturer, &identity.product_name,
                                       &identity.serial};
   if (index > std::size(texts)) return "";

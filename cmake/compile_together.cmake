@@ -5,12 +5,6 @@
 set(MDOF_COMPILE_TOGETHER "$ENV{MDOF_COMPILE_TOGETHER}" CACHE STRING
     "Compile the files of a folder together (ON, OFF; default: of the environment, else under sanitizers)")
 set(MDOF_COMPILED_ALONE
-  daemon/measure/replay/replay.cpp
-  daemon/methods/run.cpp
-  daemon/rpc/session/topic_hub.cpp
-  daemon/station/resume.cpp
-  daemon/store/study/study_read.cpp
-  daemon/store/write.cpp
   schema/base/number/number_columns_vector.cpp
   schema/base/number/number_digits.cpp
   tests/algo/sensitivity/indices_test.cpp

@@ -37,7 +37,7 @@ Result<const store::ActiveTable*> active_table(const Methods& m, const Params& p
                   "; build one from runs with compensation.build and activate it");
 }
 
-Result<TableRequest> read_request(const Params& params) {
+Result<TableRequest> read_table_request(const Params& params) {
   TableRequest request;
   MDOF_TRY(request.runs, params.integers("runs"));
   request.keep_slope = params.boolean("keep_slope", false);
@@ -49,7 +49,7 @@ Result<TableRequest> read_request(const Params& params) {
 }
 
 void build(Methods& m, const Params& params, Reply reply) {
-  auto request = read_request(params);
+  auto request = read_table_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
   request->deed = deed_of(params, "compensation.build");
   answer_from_store(

@@ -66,7 +66,7 @@ Result<std::vector<double>> read_targets(const Params& params) {
   return spaced_targets_mm(spacing);
 }
 
-Result<RunRequest> read_request(const Params& params) {
+Result<RunRequest> read_run_request(const Params& params) {
   RunRequest request;
   request.note = params.string("note");
   request.repeats = static_cast<int>(params.integer("repeats", 0));
@@ -158,7 +158,7 @@ void start_run(Methods& m, const Params& params, Reply reply) {
   if (!axis) return reply(tl::unexpected(axis.error()));
   const auto station = station_of(m, *axis);
   if (!station) return reply(tl::unexpected(station.error()));
-  auto request = read_request(params);
+  auto request = read_run_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
   request->deed = deed_of(params, "run.start");
   begin_run(m, **station, *request, std::move(reply));

@@ -8,7 +8,7 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::chrono::milliseconds kReadTimeout{1000};
+constexpr std::chrono::milliseconds kLogTimeout{1000};
 // Between the parts: longer than the devices of an axis lie apart.
 constexpr std::int64_t kPause_ns = 5'000'000'000;
 constexpr int kBlocksPerCommit = 64;
@@ -35,7 +35,7 @@ Result<std::int64_t> copy(drivers::RecordingLog& log, store::RecordingWriter& wr
   std::int64_t end_ns = std::numeric_limits<std::int64_t>::min();
   SampleBlock block;
   for (int blocks = 1; wanted; ++blocks) {
-    MDOF_TRY(const auto state, log.read(block, kReadTimeout));
+    MDOF_TRY(const auto state, log.read(block, kLogTimeout));
     if (block.scans() > 0) {
       end_ns = std::max(end_ns, block.time_ns.back());
       MDOF_CHECK(writer.append(block));

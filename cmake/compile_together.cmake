@@ -23,12 +23,6 @@ set(MDOF_COMPILED_ALONE
   tools/mdof/commands/measure/record.cpp
   tools/mdof/commands/measure/replay.cpp
   tools/mdof/commands/service/status.cpp
-  tools/mdof/plot/bins.cpp
-  tools/mdof/plot/convergence.cpp
-  tools/mdof/plot/frontier.cpp
-  tools/mdof/plot/histogram.cpp
-  tools/mdof/plot/indices.cpp
-  tools/mdof/plot/panel.cpp
   tools/mdof/progress_bar.cpp
   tools/mdof/study/running/processes.cpp
   tools/mdof_simulate/usbip.cpp

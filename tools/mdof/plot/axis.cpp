@@ -15,12 +15,12 @@ constexpr double kLabelGap = 14, kTickDistance = 28;  // px
 constexpr int kMostTicks = 10;
 constexpr double kLog2Of10 = 3.321928094887362, kLog10Of2 = 0.3010299956639812;
 
-struct Step {
+struct TickStep {
   double multiple = 1;  // 1, 2 or 5
   int exponent = 0;
 };
 
-Step round_up(double step) {
+TickStep round_up(double step) {
   const int exponent = decimal_exponent(step);
   const double mantissa = step / power_of_ten(exponent);
   for (const double multiple : {1.0, 2.0, 5.0})
@@ -45,7 +45,7 @@ Axis with_ticks(const Range& range, int count) {
   axis.low = range.low;
   axis.high = range.high;
   axis.exponent = common_exponent(std::max(std::abs(range.low), std::abs(range.high)));
-  const Step step = round_up(range.span() / count);
+  const TickStep step = round_up(range.span() / count);
   const double width = decimal(step.multiple, step.exponent);
   const int shift = step.exponent - axis.exponent;
   const double last = std::floor(range.high / width + 1e-9);
@@ -116,7 +116,7 @@ double widest_label(const Axis& axis) {
 }
 
 double round_step(double step) {
-  const Step rounded = round_up(step);
+  const TickStep rounded = round_up(step);
   return decimal(rounded.multiple, rounded.exponent);
 }
 

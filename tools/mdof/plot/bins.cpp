@@ -14,7 +14,6 @@
 namespace mdof::tools::plot {
 namespace {
 
-constexpr double kPanelPx = 170;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Extremes further out than so many intervals are cut off, or nothing else could be seen.
 constexpr double kFarthest = 4;
@@ -122,7 +121,7 @@ std::string bins_svg(const StudyResult& result) {
     x.include(bin.to);
   }
   for (const BinnedOutput& out : outputs) y.push_back(out.y);
-  const Sheet sheet(kHeadPx + 24, y, kPanelPx);
+  const Sheet sheet(kHeadPx + 24, y, kOutputPx);
   const bool cut = std::any_of(outputs.begin(), outputs.end(), [](const auto& o) { return o.cut; });
   const std::string title = titled(result, "errors against " + split_key(result.binned_key).name);
   Svg svg(kWidthPx, sheet.bottom() + (cut ? 24 : 4), title, in_words(result, outputs));

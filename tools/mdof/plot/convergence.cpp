@@ -13,7 +13,6 @@
 namespace mdof::tools::plot {
 namespace {
 
-constexpr double kPanelPx = 170;
 constexpr std::size_t kMostDots = 40;
 
 struct Figure {
@@ -82,7 +81,7 @@ std::string convergence_svg(const StudyResult& result) {
       if (p.trials > 0) x.include(static_cast<double>(p.trials));
     words += " " + last_values(*c) + ".";
   }
-  const Sheet sheet(kHeadPx + 24, y, kPanelPx);
+  const Sheet sheet(kHeadPx + 24, y, kOutputPx);
   const std::string title = titled(result, "difference from the last value");
   Svg svg(kWidthPx, sheet.bottom() + 4, title, words);
   draw_head(svg, title, study_line(result));

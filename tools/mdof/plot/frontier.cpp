@@ -12,7 +12,7 @@
 namespace mdof::tools::plot {
 namespace {
 
-constexpr double kPanelPx = 220;
+constexpr double kFrontierPx = 220;
 
 struct Point {
   double first = 0;
@@ -137,7 +137,7 @@ std::string frontier_svg(const StudyResult& result) {
   const std::vector<Frontier> all = frontiers(result);
   std::vector<Range> y;
   for (const Frontier& f : all) y.push_back(second_range(f));
-  const Sheet sheet(kHeadPx + 24, y, kPanelPx);
+  const Sheet sheet(kHeadPx + 24, y, kFrontierPx);
   const std::string title = titled(result, "tolerances that keep a limit");
   const bool some_left_out = leaves_some_out(result);
   Svg svg(kWidthPx, sheet.bottom() + (some_left_out ? 24 : 4), title, in_words(result, all));

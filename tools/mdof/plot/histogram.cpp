@@ -12,7 +12,7 @@
 namespace mdof::tools::plot {
 namespace {
 
-constexpr double kRowPx = 22, kPanelPx = 250, kLeftPx = 132;
+constexpr double kIntervalPx = 22, kBarsPx = 250, kLeftPx = 132;
 
 // An interval drawn above the bars: its name at the left, its figures at the right.
 struct Row {
@@ -88,7 +88,7 @@ void draw_rows(Svg& svg, const Panel& panel, const OutputSummary& o) {
       draw_guide(svg, panel, row.guide, row.low, y);
       draw_guide(svg, panel, row.guide, row.high, y);
     }
-    y += kRowPx;
+    y += kIntervalPx;
   }
 }
 
@@ -124,9 +124,9 @@ Panel panel_of(const OutputSummary& o, const std::vector<Step>& bars) {
   for (const Step& bar : bars) y.include(bar.high * 1.05);
   if (y.high == 0) y.include(1);
   Panel panel;
-  panel.corner = {kLeftPx + kMarginPx, kHeadPx + 3 * kRowPx + 40};
+  panel.corner = {kLeftPx + kMarginPx, kHeadPx + 3 * kIntervalPx + 40};
   panel.width = kWidthPx - panel.corner.x - kMarginPx - 12 - right;
-  panel.height = kPanelPx;
+  panel.height = kBarsPx;
   panel.x = horizontal_axis(drawn_x(o, bars), panel.width);
   panel.y = vertical_axis(y, panel.height);
   return panel;

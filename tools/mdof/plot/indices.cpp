@@ -12,7 +12,7 @@
 namespace mdof::tools::plot {
 namespace {
 
-constexpr double kRowPx = 30, kBarPx = 9, kAbovePx = 40, kBelowPx = 52;
+constexpr double kCausePx = 30, kBarPx = 9, kAboveCausesPx = 40, kBelowCausesPx = 52;
 constexpr double kFiguresPx = 128;  // a column of figures at the right
 constexpr std::size_t kMostCauses = 20, kLongestName = 36;
 
@@ -21,7 +21,7 @@ std::size_t shown(const OutputIndices& output) {
 }
 
 double height_of(const OutputIndices& output) {
-  return kAbovePx + kRowPx * static_cast<double>(shown(output)) + kBelowPx;
+  return kAboveCausesPx + kCausePx * static_cast<double>(shown(output)) + kBelowCausesPx;
 }
 
 std::string with_se(double index, double se) {
@@ -66,12 +66,12 @@ void draw_cause(Svg& svg, const Panel& panel, const CauseIndex& cause, double to
   const std::string total = with_se(cause.total, cause.total_se);
   const double right = panel.corner.x + panel.width + kFiguresPx;
   svg.begin_group(cause.cause + ": first order " + first + ", total " + total);
-  svg.text("text", {panel.corner.x - 8, top + kRowPx / 2 + 4}, Anchor::end,
+  svg.text("text", {panel.corner.x - 8, top + kCausePx / 2 + 4}, Anchor::end,
            shortened(cause.cause, kLongestName));
-  draw_bar(svg, panel, "blue-dot", top + kRowPx / 2 - kBarPx - 1, cause.first, cause.first_se);
-  draw_bar(svg, panel, "wide", top + kRowPx / 2 + 1, cause.total, cause.total_se);
-  svg.text("text tick", {right, top + kRowPx / 2 - 2}, Anchor::end, first);
-  svg.text("quiet tick", {right, top + kRowPx / 2 + 10}, Anchor::end, total);
+  draw_bar(svg, panel, "blue-dot", top + kCausePx / 2 - kBarPx - 1, cause.first, cause.first_se);
+  draw_bar(svg, panel, "wide", top + kCausePx / 2 + 1, cause.total, cause.total_se);
+  svg.text("text tick", {right, top + kCausePx / 2 - 2}, Anchor::end, first);
+  svg.text("quiet tick", {right, top + kCausePx / 2 + 10}, Anchor::end, total);
   svg.end_group();
 }
 
@@ -99,11 +99,11 @@ std::string left_out(const OutputIndices& output) {
 }
 
 void draw_output(Svg& svg, Panel panel, const OutputIndices& output, double top) {
-  panel.corner.y = top + kAbovePx;
-  panel.height = height_of(output) - kAbovePx - kBelowPx;
+  panel.corner.y = top + kAboveCausesPx;
+  panel.height = height_of(output) - kAboveCausesPx - kBelowCausesPx;
   draw_axis(svg, panel, split_key(output.key).name);
   for (std::size_t i = 0; i < shown(output); ++i)
-    draw_cause(svg, panel, output.causes[i], panel.corner.y + kRowPx * static_cast<double>(i));
+    draw_cause(svg, panel, output.causes[i], panel.corner.y + kCausePx * static_cast<double>(i));
   svg.text("quiet", {kMarginPx, panel.corner.y + panel.height + 33}, Anchor::start,
            left_out(output));
 }

@@ -10,8 +10,8 @@
 namespace mdof::tools::plot {
 namespace {
 
-constexpr double kSignPx = 26, kItemGapPx = 22, kRowPx = 20;  // of a legend
-constexpr double kAbovePx = 34, kBelowPx = 48, kGapPx = 28;   // around a panel
+constexpr double kSignPx = 26, kItemGapPx = 22, kLegendRowPx = 20;  // of a legend
+constexpr double kAbovePx = 34, kBelowPx = 48, kGapPx = 28;         // around a panel
 
 constexpr double kBold = 1.12;  // how much wider bold letters are
 
@@ -66,7 +66,7 @@ double draw_legend(Svg& svg, double top, std::span<const LegendItem> items) {
   for (const LegendItem& item : items) {
     const double width = kSignPx + text_width(item.text, kTextPx);
     if (place.x > kMarginPx && place.x + width > kWidthPx - kMarginPx)
-      place = {kMarginPx, place.y + kRowPx};
+      place = {kMarginPx, place.y + kLegendRowPx};
     draw_sign(svg, item, place);
     svg.text("text", {place.x + kSignPx, place.y}, Anchor::start, item.text);
     place.x += width + kItemGapPx;

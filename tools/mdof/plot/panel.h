@@ -48,6 +48,8 @@ void draw_axes(Svg& svg, const Panel& panel, std::string_view x_key);
 // The title of y, set level, above the upper left corner.
 void draw_y_title(Svg& svg, const Panel& panel, std::string_view y_key);
 
+inline constexpr double kOutputPx = 170;  // height of a panel where every output has one
+
 // Panels of one size, two side by side where there are several; their left edges leave room for
 // the widest label of all.
 class Sheet {

@@ -20,12 +20,6 @@ set(MDOF_COMPILED_ALONE
   tests/drivers/simulator_options_test.cpp
   tests/schema/base/number_columns_test.cpp
   tests/schema/base/number_test.cpp
-  tools/mdof/commands/measure/record.cpp
-  tools/mdof/commands/measure/replay.cpp
-  tools/mdof/commands/service/status.cpp
-  tools/mdof/progress_bar.cpp
-  tools/mdof/study/running/processes.cpp
-  tools/mdof_simulate/usbip.cpp
 )
 foreach(file ${MDOF_COMPILED_ALONE})
   if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${file})

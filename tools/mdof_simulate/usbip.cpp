@@ -14,9 +14,9 @@ using drivers::usb::Setup;
 enum Command : std::uint32_t { kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4 };
 constexpr std::size_t kHeader = 48;
 // Offsets within it.
-constexpr std::size_t kCommand = 0, kNumber = 4, kDirection = 12, kEndpoint = 16;
-constexpr std::size_t kLength = 24, kPackets = 32, kSetup = 40;  // of kSubmit
-constexpr std::size_t kOther = 20;                               // of kUnlink: the number
+constexpr std::size_t kCommandAt = 0, kNumberAt = 4, kDirectionAt = 12, kEndpointAt = 16;
+constexpr std::size_t kLengthAt = 24, kPacketsAt = 32, kSetupAt = 40;  // of kSubmit
+constexpr std::size_t kOtherAt = 20;                                   // of kUnlink: the number
 constexpr std::uint32_t kNotIsochronous = 0xFFFFFFFF;
 constexpr std::uint32_t kMostBytes = 1 << 20;
 // Linux's numbers, whatever this is compiled on.
@@ -57,7 +57,7 @@ std::string UsbIp::exchange(std::string_view received, std::int64_t now_ns) {
 // False: more must come before there is a whole one.
 bool UsbIp::take_command(std::int64_t now_ns) {
   if (received_.size() < kHeader) return false;
-  switch (word_at(received_, kCommand)) {
+  switch (word_at(received_, kCommandAt)) {
     case kSubmit:
       return take_submit();
     case kUnlink:
@@ -72,12 +72,12 @@ bool UsbIp::take_command(std::int64_t now_ns) {
 
 bool UsbIp::take_submit() {
   Transfer transfer;
-  transfer.number = word_at(received_, kNumber);
-  transfer.in = word_at(received_, kDirection) == 1;
-  transfer.endpoint = static_cast<std::uint8_t>(word_at(received_, kEndpoint) & 0xF);
-  transfer.length = word_at(received_, kLength);
-  transfer.setup = setup_at(received_, kSetup);
-  const std::uint32_t packets = word_at(received_, kPackets);
+  transfer.number = word_at(received_, kNumberAt);
+  transfer.in = word_at(received_, kDirectionAt) == 1;
+  transfer.endpoint = static_cast<std::uint8_t>(word_at(received_, kEndpointAt) & 0xF);
+  transfer.length = word_at(received_, kLengthAt);
+  transfer.setup = setup_at(received_, kSetupAt);
+  const std::uint32_t packets = word_at(received_, kPacketsAt);
   broken_ = transfer.length > kMostBytes || (packets != 0 && packets != kNotIsochronous);
   const std::size_t data = transfer.in ? 0 : transfer.length;
   if (broken_ || received_.size() < kHeader + data) return false;
@@ -88,7 +88,7 @@ bool UsbIp::take_submit() {
 }
 
 void UsbIp::take_unlink() {
-  const std::uint32_t number = word_at(received_, kNumber), other = word_at(received_, kOther);
+  const std::uint32_t number = word_at(received_, kNumberAt), other = word_at(received_, kOtherAt);
   received_.erase(0, kHeader);
   const auto found =
       std::find_if(waiting_.begin(), waiting_.end(),

@@ -24,7 +24,7 @@ using simdjson::dom::element;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kTurn{200};
+constexpr milliseconds kEventWait{200};      // Ctrl-C is seen within this
 constexpr milliseconds kEndPatience{30000};  // a long run is evaluated within this
 
 struct RecordCommand {
@@ -128,7 +128,7 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
   const auto begin = steady_clock::now();
   std::optional<steady_clock::time_point> stopped;
   for (;;) {
-    const auto notification = client.next_notification(kTurn);
+    const auto notification = client.next_notification(kEventWait);
     if (notification) {
       if (const auto ended = take_event(*notification, run, command.axis)) return *ended;
     }

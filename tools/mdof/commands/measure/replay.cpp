@@ -23,7 +23,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::chrono::hours kPatience{24};  // mdofd says nothing before a log is done
+constexpr std::chrono::hours kReplayPatience{24};  // mdofd says nothing before a log is done
 
 struct ReplayCommand {
   std::string reference = "fixture";
@@ -88,7 +88,7 @@ Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command,
                 "write the log to a file, or name another database with --db");
   std::error_code ec;
   const std::string path = std::filesystem::absolute(request.log, ec);
-  const auto reply = mdofd.call("run.replay", params_of(request, path), kPatience);
+  const auto reply = mdofd.call("run.replay", params_of(request, path), kReplayPatience);
   if (!reply) return in_context("mdofd", reply.error());
   simdjson::dom::parser parser;
   const auto id = integer(parser.parse(simdjson::padded_string(*reply)), "run");

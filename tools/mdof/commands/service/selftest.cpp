@@ -11,7 +11,7 @@
 namespace mdof::tools {
 namespace {
 
-std::string number(double x) {
+std::string figure_text(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", x);
   return text;
@@ -37,7 +37,7 @@ std::string checks_json(const std::vector<SelfCheck>& checks) {
 std::string checks_text(const std::vector<SelfCheck>& checks) {
   TextTable table({"check", "figure", "bound", "unit", "result"});
   for (const auto& c : checks) {
-    table.add({c.what, number(c.figure), number(c.bound), c.unit,
+    table.add({c.what, figure_text(c.figure), figure_text(c.bound), c.unit,
                c.passed() ? "ok" : "FAILED " + c.problem});
   }
   return table.text();

@@ -1,25 +1,13 @@
 # The files of a folder are compiled together (tests in four parts), as most of the time of a build from nothing goes
 # to headers (tests/CAMPAIGNS.md has the figures). So under sanitizers, in tools/quickstart and .ci/run; who edits one
 # file builds faster without. Names of the anonymous namespaces of a folder must then differ; a file with a name that
-# stands elsewhere too ("redefinition", "ambiguous") gets another name for it, or a line here.
+# stands elsewhere too ("redefinition", "ambiguous") gets another name for it, or shares what is the same by a header.
+# Alone is what Highway includes again for each instruction set, and what cannot be together for another such reason.
 set(MDOF_COMPILE_TOGETHER "$ENV{MDOF_COMPILE_TOGETHER}" CACHE STRING
     "Compile the files of a folder together (ON, OFF; default: of the environment, else under sanitizers)")
 set(MDOF_COMPILED_ALONE
   schema/base/number/number_columns_vector.cpp
   schema/base/number/number_digits.cpp
-  tests/algo/sensitivity/indices_test.cpp
-  tests/algo/sensitivity/plan_test.cpp
-  tests/algo/sensitivity/presets_test.cpp
-  tests/algo/sensitivity/statistics_test.cpp
-  tests/daemon/measure/config_test.cpp
-  tests/daemon/rpc/line/server_test.cpp
-  tests/daemon/station/resume_test.cpp
-  tests/daemon/station/unrecorded_test.cpp
-  tests/daemon/storekeeper/storekeeper_test.cpp
-  tests/drivers/modbus/driver_test.cpp
-  tests/drivers/simulator_options_test.cpp
-  tests/schema/base/number_columns_test.cpp
-  tests/schema/base/number_test.cpp
 )
 foreach(file ${MDOF_COMPILED_ALONE})
   if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${file})

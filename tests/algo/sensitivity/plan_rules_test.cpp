@@ -8,21 +8,18 @@
 #include <vector>
 
 #include "algo/sensitivity/plan/experiment.h"
+#include "tests/algo/sensitivity/plan_text.h"
 
 namespace mdof::algo {
 namespace {
 
-std::unique_ptr<ScalableExperiment> experiment_of(const std::string& text) {
+std::unique_ptr<ScalableExperiment> experiment_with(const std::string& text) {
   const auto plan = parse_study_plan("name = \"t\"\nrig = \"../five-probe/rig_X.toml\"\n" + text,
                                      MDOF_TEST_DATA "/sensitivity/plan.toml");
   EXPECT_TRUE(plan) << (plan ? "" : plan.error().message);
   auto experiment = make_plan_experiment(plan.value());
   EXPECT_TRUE(experiment) << (experiment ? "" : experiment.error().message);
   return std::move(*experiment);
-}
-
-std::string quantity(const std::string& name, const std::string& distribution) {
-  return "[[quantity]]\nname = \"" + name + "\"\n" + distribution + "\n";
 }
 
 // The first output of trials 0 ... n - 1.
@@ -47,8 +44,8 @@ TEST(PlanRules, AnglesBeyondTheModelAreNotSolved) {
     for (const char* const angle : {"EAX_urad", "EBX_urad", "ECX_urad"}) {
       for (const auto& [value, solved] : {std::pair("240000", true), std::pair("260000", false)}) {
         const auto e =
-            experiment_of("model = \"rigid\"\nforward = \"" + std::string(forward) +
-                          "\"\n[truth]\ntravel_mm = [30]\n" + angle + " = [" + value + "]\n");
+            experiment_with("model = \"rigid\"\nforward = \"" + std::string(forward) +
+                            "\"\n[truth]\ntravel_mm = [30]\n" + angle + " = [" + value + "]\n");
         EXPECT_EQ(std::isfinite(first_output(*e, 1)[0]), solved) << forward << " " << angle;
       }
     }
@@ -58,10 +55,10 @@ TEST(PlanRules, AnglesBeyondTheModelAreNotSolved) {
 // Of constant size, but each in a direction that is drawn.
 TEST(PlanRules, ATiltAndACircleVaryByTheirDirection) {
   const auto e =
-      experiment_of("[truth]\ntravel_mm = [30]\n" +
-                    quantity("probe.A.tilt_mrad", "distribution = \"constant\"\nvalue = 1") +
-                    quantity("probe.E.position_um", "distribution = \"constant\"\nvalue = 10") +
-                    quantity("probe.B.x_um", "distribution = \"constant\"\nvalue = 10"));
+      experiment_with("[truth]\ntravel_mm = [30]\n" +
+                      quantity("probe.A.tilt_mrad", "distribution = \"constant\"\nvalue = 1") +
+                      quantity("probe.E.position_um", "distribution = \"constant\"\nvalue = 10") +
+                      quantity("probe.B.x_um", "distribution = \"constant\"\nvalue = 10"));
   EXPECT_EQ(e->causes(), (std::vector<std::string>{"probe.A.tilt_mrad", "probe.E.position_um"}));
   EXPECT_EQ(drawn(*e, "probe.A.tilt_mrad"), 1);
   EXPECT_GT(drawn(*e, "probe.A.tilt_mrad direction/turns"), 0);
@@ -74,8 +71,8 @@ TEST(PlanRules, ACorrelatedCircleHasItsOwnDirection) {
       "[truth]\ntravel_mm = [30]\n" +
       quantity("probe.D.position_um", "distribution = \"normal\"\nsd = 10") +
       quantity("probe.E.position_um", "distribution = \"normal\"\nsd = 10");
-  const auto apart = experiment_of(circles);
-  const auto together = experiment_of(
+  const auto apart = experiment_with(circles);
+  const auto together = experiment_with(
       circles +
       "[[correlation]]\nquantities = [\"probe.D.position_um\", \"probe.E.position_um\"]\n"
       "matrix = [[1, 0.5], [0.5, 1]]\n");
@@ -99,8 +96,8 @@ TEST(PlanRules, TheEncodersNoiseIsDrawnAnewAtEachPosition) {
     return sum / static_cast<double>(x.size());
   };
   const auto noisy =
-      experiment_of(head + quantity("encoder.noise_nm", "distribution = \"normal\"\nsd = 1e6"));
-  const auto quiet = experiment_of(head);
+      experiment_with(head + quantity("encoder.noise_nm", "distribution = \"normal\"\nsd = 1e6"));
+  const auto quiet = experiment_with(head);
   EXPECT_GT(mean(first_output(*noisy, 200)), 0.3);
   EXPECT_LT(mean(first_output(*quiet, 200)), 1e-3);
 }

@@ -9,6 +9,7 @@
 
 #include "algo/model/small_angle.h"
 #include "algo/sensitivity/plan/mounting.h"
+#include "tests/algo/sensitivity/plan_text.h"
 
 namespace mdof::algo {
 namespace {
@@ -79,9 +80,6 @@ std::string still(const std::string& rest, const std::string& head = "") {
          "\n[truth]\ntravel_mm = [30]\n" + rest;
 }
 
-std::string quantity(const std::string& name, const std::string& distribution) {
-  return "[[quantity]]\nname = \"" + name + "\"\n" + distribution + "\n";
-}
 std::string normal(const std::string& name, double sd) {
   return quantity(name, "distribution = \"normal\"\nsd = " + std::to_string(sd));
 }

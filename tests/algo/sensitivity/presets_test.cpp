@@ -21,7 +21,8 @@ namespace {
 
 using Columns = std::vector<std::vector<double>>;
 
-Columns run(const Experiment& experiment, std::uint64_t first, std::uint64_t step, std::size_t n) {
+Columns columns_of(const Experiment& experiment, std::uint64_t first, std::uint64_t step,
+                   std::size_t n) {
   Columns columns(5, std::vector<double>(n));
   std::array<double*, 5> out{};
   for (std::size_t k = 0; k < 5; ++k) out[k] = columns[k].data();
@@ -159,7 +160,7 @@ TEST(Simulation2, EveryTrialIsThatOfTheScalarModels) {
   const SmallAngleFixture nominal =
       make_small_angle_fixture(make_fixture(test::rig_x()).value()).value();
   const auto experiment = make_simulation(o).value();
-  const Columns columns = run(*experiment, 0, 1, 200);
+  const Columns columns = columns_of(*experiment, 0, 1, 200);
   for (std::size_t i = 0; i < 200; ++i) {
     const SimulationTrial t = simulation_trial(o, i).value();
     const double travel_m = from_mm(t.travel_mm);
@@ -198,13 +199,13 @@ TEST(Simulations, DrawWhatTheAddressesSay) {
 TEST(Simulations, ATrialAloneIsThatOfTheBatchWhateverTheStep) {
   for (const auto& options : {simulation_1_defaults(), simulation_2_defaults()}) {
     const auto experiment = make_simulation(options).value();
-    const Columns all = run(*experiment, 0, 1, 1000);
+    const Columns all = columns_of(*experiment, 0, 1, 1000);
     for (const std::size_t i : {0u, 1u, 19u, 20u, 777u, 999u}) {
       const SimulationTrial alone = simulation_trial(options, i).value();
       for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(alone.error[k], all[k][i]);
     }
     for (const std::uint64_t step : {3u, 20u, 40u}) {
-      const Columns some = run(*experiment, 5, step, 21);
+      const Columns some = columns_of(*experiment, 5, step, 21);
       for (std::size_t j = 0; j < 21; ++j) {
         for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(some[k][j], all[k][5 + step * j]);
       }
@@ -216,7 +217,7 @@ TEST(Simulations, ATrialAloneIsThatOfTheBatchWhateverTheStep) {
 TEST(Simulations, HaveTheStoredBits) {
   for (const InstructionSet set : available_instruction_sets()) {
     const auto hash = [set](const SimulationOptions& options) {
-      return hash_of(run(*make_simulation(options, set).value(), 0, 1, 100'000));
+      return hash_of(columns_of(*make_simulation(options, set).value(), 0, 1, 100'000));
     };
     EXPECT_EQ(hash(simulation_1_defaults()),
               "310d08fae93b7849bcfb896b8a59979e894651bbe34f97738a3d3bfbb9bf65dc")

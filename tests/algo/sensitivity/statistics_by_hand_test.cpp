@@ -33,7 +33,7 @@ class Given : public Experiment {
   BinnedQuantity binned_;
 };
 
-StudyStatistics study(const Experiment& e, std::uint64_t trials) {
+StudyStatistics small_study(const Experiment& e, std::uint64_t trials) {
   StudyStatistics s(e, pilot_scale(e, trials));
   s.add_block(e, 0, trials);
   return s;
@@ -43,7 +43,7 @@ StudyStatistics study(const Experiment& e, std::uint64_t trials) {
 // 16 + 16 + 1 + 1 + 1 + 81 + 2401 = 2598.
 TEST(StatisticsByHand, OfEightTrials) {
   const Given e({1, 2, 2, 3, 3, 3, 7, 11});
-  const OutputSummary s = study(e, 8).overall().at(0);
+  const OutputSummary s = small_study(e, 8).overall().at(0);
   const double variance = 78 / 7.0, of_variance = (2598 / 8.0 - 5 / 7.0 * variance * variance) / 8;
   EXPECT_EQ(s.n, 8u);
   EXPECT_NEAR(s.mean, 4, 1e-12);
@@ -55,25 +55,25 @@ TEST(StatisticsByHand, OfEightTrials) {
 }
 
 TEST(StatisticsByHand, OfTwoTrialsAndOfOne) {
-  const OutputSummary two = study(Given({1, 3}), 2).overall().at(0);
+  const OutputSummary two = small_study(Given({1, 3}), 2).overall().at(0);
   EXPECT_NEAR(two.mean, 2, 1e-12);
   EXPECT_NEAR(two.sd, std::sqrt(2), 1e-9);
   EXPECT_NEAR(two.mean_se, 1, 1e-9);
-  const OutputSummary one = study(Given({3}), 1).overall().at(0);
+  const OutputSummary one = small_study(Given({3}), 1).overall().at(0);
   EXPECT_EQ(one.mean, 3);
   EXPECT_TRUE(std::isnan(one.sd) && std::isnan(one.mean_se) && std::isnan(one.sd_se));
 }
 
 TEST(StatisticsByHand, TheQuantilesAskedForByDefault) {
   std::vector<double> asked;
-  const OutputSummary s = study(Given({1, 3}), 2).overall().at(0);
+  const OutputSummary s = small_study(Given({1, 3}), 2).overall().at(0);
   for (const Quantile& q : s.quantiles) asked.push_back(q.p);
   EXPECT_EQ(asked, (std::vector<double>{0.025, 0.25, 0.5, 0.75, 0.975}));
 }
 
 // Each bin ends where the next begins, and the last at the end itself: 0.1 + 3 × 0.2 is more.
 TEST(StatisticsByHand, TheBinsMeet) {
-  const auto bins = study(Given({1, 2, 3}, {"travel_mm", 0.1, 0.7, 3}), 7).bins();
+  const auto bins = small_study(Given({1, 2, 3}, {"travel_mm", 0.1, 0.7, 3}), 7).bins();
   ASSERT_EQ(bins.size(), 3u);
   EXPECT_EQ(bins[0].from, 0.1);
   EXPECT_NEAR(bins[1].from, 0.3, 1e-15);
@@ -84,7 +84,7 @@ TEST(StatisticsByHand, TheBinsMeet) {
   EXPECT_EQ(bins[0].outputs[0].n, 3u);
   EXPECT_EQ(bins[1].outputs[0].n, 2u);
   EXPECT_EQ(bins[2].outputs[0].n, 2u);
-  EXPECT_TRUE(study(Given({1, 2, 3}), 7).bins().empty());
+  EXPECT_TRUE(small_study(Given({1, 2, 3}), 7).bins().empty());
 }
 
 TEST(StatisticsByHand, ABlockIsTheLeastMultiple) {
@@ -142,7 +142,7 @@ TEST(StatisticsByHand, OfAnyNumberByEveryInstructionSet) {
 
 TEST(StatisticsByHand, TrialsThatWereNotSolvedAreKept) {
   const Given e({1, std::nan(""), 3, std::nan(""), 5});
-  const auto read = StudyStatistics::parse(study(e, 5).serialise(), e);
+  const auto read = StudyStatistics::parse(small_study(e, 5).serialise(), e);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->trials(), 5u);
   EXPECT_EQ(read->overall().at(0).n, 3u);
@@ -153,7 +153,7 @@ TEST(StatisticsByHand, TrialsThatWereNotSolvedAreKept) {
 // Its end is marked by no count in no bin; bytes that end with no count in one bin are damaged.
 TEST(StatisticsByHand, TheEndOfAHistogramIsLookedAt) {
   const Given e({1, 3});
-  std::string bytes = study(e, 2).serialise();
+  std::string bytes = small_study(e, 2).serialise();
   ASSERT_TRUE(StudyStatistics::parse(bytes, e));
   ASSERT_EQ(bytes.substr(bytes.size() - 3), std::string(3, '\0'));
   bytes.pop_back();

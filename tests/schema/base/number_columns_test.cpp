@@ -104,7 +104,7 @@ void expect_as_from_chars(const Rows& rows) {
   }
 }
 
-class Random {
+class RandomFields {
  public:
   std::uint64_t below(std::uint64_t n) { return engine_() % n; }
   std::string digits(std::uint64_t n) {
@@ -129,17 +129,17 @@ std::vector<std::string> many(std::size_t n, const auto& make) {
 }
 
 TEST(NumberColumns, ReadsShortNumbersAsFromChars) {
-  Random random;
+  RandomFields random;
   expect_as_from_chars(Rows(many(40'003, [&] { return random.number(5, 8); })));
 }
 
 TEST(NumberColumns, ReadsLongNumbersAsFromChars) {
-  Random random;
+  RandomFields random;
   expect_as_from_chars(Rows(many(40'003, [&] { return random.number(8, 22); })));
 }
 
 TEST(NumberColumns, MixesShortAndLong) {
-  Random random;
+  RandomFields random;
   const auto make = [&] { return random.below(20) ? random.number(3, 6) : random.number(9, 17); };
   expect_as_from_chars(Rows(many(40'003, make)));
 }
@@ -164,7 +164,7 @@ TEST(NumberColumns, RoundsHalvesToEven) {
 }
 
 // A cell as files have them, or as somebody who means ill writes them; without a stop in it.
-std::string hostile_cell(Random& random) {
+std::string hostile_cell(RandomFields& random) {
   switch (random.below(16)) {
     case 0:
       return random.number(1, 17) + "e-" +
@@ -193,7 +193,7 @@ std::string hostile_cell(Random& random) {
 }
 
 TEST(NumberColumns, ReadsAMillionHostileCellsAsFromChars) {
-  Random random;
+  RandomFields random;
   for (int round = 0; round < 100; ++round) {
     const auto cell = [&] {
       return random.below(24) > static_cast<std::uint64_t>(round % 25) ? random.number(3, 6)
@@ -206,7 +206,7 @@ TEST(NumberColumns, ReadsAMillionHostileCellsAsFromChars) {
 
 // Shortest text of any double: all exponents, denormals, 1 to 17 digits.
 TEST(NumberColumns, ReadsDoublesOfAnyBitsBack) {
-  Random random;
+  RandomFields random;
   const auto cell = [&] {
     const auto x = std::bit_cast<double>(random.below(~std::uint64_t{0}));
     std::array<char, 400> text{};
@@ -275,7 +275,7 @@ TEST(NumberColumns, StopsBeforeWhatIsNoNumber) {
 }
 
 TEST(NumberColumns, ReadsTimesToTheNanosecond) {
-  Random random;
+  RandomFields random;
   expect_as_baseline(Rows(many(20'003, [&] { return random.number(9, 9); })));
   const Rows rows({"0.000250", "1.000000001", "-3.5", "9199999998.999999999", "0", "12.", "7.25",
                    "1e-3", "0.1234567894", "0.1234567895", "99.5", "4", "5", "6", "7", "8"});
@@ -288,7 +288,7 @@ TEST(NumberColumns, ReadsTimesToTheNanosecond) {
 }
 
 TEST(NumberColumns, FindsAllStops) {
-  Random random;
+  RandomFields random;
   for (int length = 0; length < 400; ++length) {
     std::string text;
     while (text.size() < static_cast<std::size_t>(length))

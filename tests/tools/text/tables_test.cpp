@@ -147,7 +147,7 @@ TEST(RunCsv, HasUnitsInItsHeaderAndNothingWhereNothingIsKnown) {
 // The names are of the body that moves: where that is the fixture they have the other sign, as in
 // the JSON.
 TEST(RunCsv, SaysTheErrorsOfTheBodyThatMoves) {
-  Run run = one_point(true, "");
+  auto run = one_point(true, "");
   EXPECT_NE(points_csv(run).find(",-123.4567,"), std::string::npos) << points_csv(run);
   run.header.sides.fixture_moves = true;
   EXPECT_NE(points_csv(run).find(",123.4567,"), std::string::npos) << points_csv(run);

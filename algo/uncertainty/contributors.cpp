@@ -1,5 +1,7 @@
 #include "algo/uncertainty/contributors.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -246,17 +248,33 @@ class List {
   std::vector<Contributor> list_;
 };
 
-// Before anything is made of it: angles that the models do not take.
-Status check_angles(const Basis& basis) {
+bool is_small(const Errors5& e) {
+  const double most = std::max({std::abs(e[kEx]), std::abs(e[kEy]), std::abs(e[kEz])});
+  return most < kSmallAngleMax_rad;
+}
+
+// What the mounted fixture does not take is refused before it is asked.
+Status check_run(const Basis& basis) {
+  const std::string run = "run " + std::to_string(basis.run.header.id);
+  if (basis.run.points.empty())
+    return bad_input(run + " has no points, so that there is nothing to budget");
+  for (std::size_t j = 0; j < basis.points.size(); ++j)
+    if (basis.points[j].valid && !is_small(basis.points[j].carriage))
+      return bad_input(run + ": at target " + std::to_string(basis.run.points[j].target) +
+                       " an angle is over 250 mrad, where the model of a mounting ends, so that no "
+                       "budget can be made; is the rig right?");
+  return {};
+}
+
+Status check_angles(const Rig& rig) {
   const auto fits = [](double u_rad) { return u_rad <= kSmallAngleMax_rad / 2; };
   bool small = true;
-  for (const Probe& probe : basis.rig.probes) small = small && fits(probe.uncertainty.direction.u);
-  for (const double u : basis.rig.uncertainty.installation_angle.u) small = small && fits(u);
+  for (const Probe& probe : rig.probes) small = small && fits(probe.uncertainty.direction.u);
+  for (const double u : rig.uncertainty.installation_angle.u) small = small && fits(u);
   if (small) return {};
-  return bad_input(
-      basis.rig.source +
-      ": a declared u_direction_mrad or u_angle_mrad is over 125 mrad, where the model "
-      "ends; give it in mrad");
+  return bad_input(rig.source +
+                   ": a declared u_direction_mrad or u_angle_mrad is over 125 mrad, where the "
+                   "model ends; give it in mrad");
 }
 
 }  // namespace
@@ -268,7 +286,8 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   auto points = point_sensitivities(solver, run);
   const auto basis =
       std::make_shared<const Basis>(Basis{rig, std::move(solver), run, std::move(points)});
-  MDOF_CHECK(check_angles(*basis));
+  MDOF_CHECK(check_run(*basis));
+  MDOF_CHECK(check_angles(basis->rig));
   return List(basis).take();
 }
 

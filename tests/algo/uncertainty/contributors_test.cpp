@@ -160,5 +160,21 @@ TEST(Contributors, ADirectionThatCannotBeIsRefused) {
   EXPECT_NE(found.error().message.find("u_direction_mrad"), std::string::npos);
 }
 
+TEST(Contributors, ARunWithoutPointsOrWithAnglesThatCannotBeIsRefused) {
+  const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n[drift]\nu_um_per_h = 1\n");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact};
+  auto run = synthetic.measure();
+  EXPECT_TRUE(contributors(rig, run));
+  for (double& reading : run.points[3].point.probe_m) reading = 0;
+  run.points[3].point.probe_m[4] = 3e-3;  // of E, 10 mm from D: 300 mrad of yaw
+  const auto turned = contributors(rig, run);
+  ASSERT_FALSE(turned);
+  EXPECT_NE(turned.error().message.find("at target 4"), std::string::npos);
+  run.points.clear();
+  const auto empty = contributors(rig, run);
+  ASSERT_FALSE(empty);
+  EXPECT_NE(empty.error().message.find("no points"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mdof::algo

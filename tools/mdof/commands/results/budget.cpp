@@ -41,6 +41,12 @@ Status check_numbers(const BudgetCommand& command) {
   if (!command.run_y.empty() && (!command.figure.empty() || command.at_mm))
     return fail(ErrorCode::usage,
                 "of two runs the budget is that of EC0Y; leave out --figure and --at, or one run");
+  if (!command.run_y.empty() && command.reference != "fixture")
+    return fail(ErrorCode::usage, "EC0Y is stated at the fixture; leave out --reference");
+  if (!command.figure.empty() && command.at_mm)
+    return fail(ErrorCode::usage,
+                "--at has the five errors at a target, and --figure one figure of the whole run; "
+                "leave out one of them");
   return {};
 }
 

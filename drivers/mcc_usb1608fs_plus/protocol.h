@@ -18,7 +18,7 @@ namespace mdof::drivers::mcc_usb1608fs_plus {
 inline constexpr std::uint16_t kVendor = 0x09DB, kProduct = 0x00EA;
 inline constexpr std::uint8_t kSamplesIn = 0x81;
 inline constexpr std::size_t kInputs = 8;
-inline constexpr std::size_t kPacket = 64, kFifoSamples = 32768;
+inline constexpr std::size_t kPacket = 64;
 inline constexpr double kMostRate_Hz = 100'000, kMostSamples_Hz = 400'000;
 
 enum Request : std::uint8_t {

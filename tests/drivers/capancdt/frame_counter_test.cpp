@@ -100,6 +100,19 @@ TEST(CapancdtFrameCounter, DropsWhatCameBefore) {
   EXPECT_EQ(placed.size(), 6u);
 }
 
+// Each sent twice, for ever: that is no jump back.
+TEST(CapancdtFrameCounter, DuplicatesAreCountedInARowOnly) {
+  Source source{CounterUnit::frame, 2, 2, 1, 1000};
+  FrameCounter counter(1, kMostLost);
+  std::deque<PlacedPacket> placed;
+  for (int i = 0; i < 200; ++i) {
+    const Packet packet = source.next();
+    ASSERT_TRUE(counter.add(packet, placed)) << i;
+    ASSERT_TRUE(counter.add(packet, placed)) << i;
+  }
+  EXPECT_EQ(counter.duplicates(), 200u);
+}
+
 // 21 values in a packet: one sent twice a little later counts back by 42.
 TEST(CapancdtFrameCounter, DropsLargePacketsThatCameBefore) {
   Source source{CounterUnit::value, 3, 7, 1, 1000};

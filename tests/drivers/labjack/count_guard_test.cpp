@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "drivers/labjack/counter.h"
+
 namespace mdof::drivers::labjack {
 namespace {
 
@@ -70,6 +72,19 @@ TEST(LabjackCountGuard, AllowsAnEdgeToTrembleAndForgetsWhatWasFound) {
   guard.restart();
   EXPECT_TRUE(guard.sure());
   EXPECT_TRUE(guard.take(1000, 0.003));
+}
+
+// A device that began anew counts from there, and not on from the count before, 16 below a turn of
+// its 32 bits.
+TEST(LabjackCounter, ADeviceThatBeganAnewCountsFromThere) {
+  Counter counter;
+  counter.take_up(false);
+  EXPECT_EQ(counter.take(0xFFFF'FFF0, 0), counter.take(0xFFFF'FFF0, 0.1));
+  counter.take_up(true);
+  EXPECT_EQ(counter.take(5, 0.2) - counter.take(0xFFFF'FFF0, 0.3), 21);
+  counter.take_up(false);
+  EXPECT_EQ(counter.take(5, 0.4), 5);
+  EXPECT_FALSE(counter.sure());
 }
 
 }  // namespace

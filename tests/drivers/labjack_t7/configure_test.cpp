@@ -164,6 +164,9 @@ TEST(LabjackT7Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
   EXPECT_EQ(s->inputs[0].range_v, 0);
   EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "AIN5")), "AIN2 against AIN3"));
   EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN3", "AIN2")), "use AIN2 with negative"));
+  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN5", "AIN6")), "AIN5 is none"));
+  EXPECT_TRUE(has(refusal(a, "[[channel]]\nid = \"A\"\ninput = \"AIN3\"\n" + pair("AIN2", "AIN3")),
+                  "AIN3 is the negative input of \"C\""));
   EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "GND")), "AIN2 against AIN3"));
   EXPECT_TRUE(
       has(refusal(a, kChannels + pair("AIN12", "AIN13")), "AIN13 is the negative input of \"C\""));

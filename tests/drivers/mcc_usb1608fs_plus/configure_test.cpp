@@ -81,6 +81,8 @@ TEST(Usb1608Settings, AQuarterOfASecondWaits) {
     EXPECT_EQ(transfers.bytes % 64, 0U);
     EXPECT_GE(static_cast<double>(transfers.bytes * transfers.transfers) / 2 / samples_hz, 0.249);
   }
+  // No more than 64, where a packet is a transfer: a sixth of a second of 399 packets.
+  EXPECT_EQ(mcc_usb1608fs_plus::transfers_for(399.0 * 32).transfers, 64U);
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ TEST(PoKeys57uProtocol, AnalogueInputsAreBigEndianTheTickLittle) {
   set_analogue(reply, {0x0123, 0, 4095, 0, 0, 0, 0x0ABC});
   EXPECT_EQ(wrap(Way::reply, reply).substr(8, 14),
             bytes("01 23 00 00 0F FF 00 00 00 00 00 00 0A BC"));
+  EXPECT_EQ(analogue_of(reply)[0], 0x0123);
   EXPECT_EQ(analogue_of(reply)[6], 0x0ABC);
   set_tick(reply, 0x01020304);
   EXPECT_EQ(wrap(Way::reply, reply).substr(2, 4), bytes("04 03 02 01"));
@@ -132,6 +133,16 @@ TEST(PoKeys57uProtocol, WhereAllNumbersAreOwedTheOldestIsUsed) {
   const std::uint8_t first = ids.next(0);
   for (int i = 1; i < 256; ++i) EXPECT_NE(ids.next(i), first);
   EXPECT_EQ(ids.next(300), first);
+}
+
+TEST(PoKeys57uProtocol, TheOldestNeedNotBeTheNext) {
+  RequestIds ids;
+  const std::uint8_t first = ids.next(0);
+  for (int i = 1; i < 256; ++i) ids.next(i);
+  const auto again = static_cast<std::uint8_t>(first + 5);
+  ids.answered(again);
+  EXPECT_EQ(ids.next(300), again);
+  EXPECT_EQ(ids.next(301), first);
 }
 
 // What is put into a frame stays within its place: encoder 13 ends at byte 59, input 7 at 21, the

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "drivers/qsb/tick_length.h"
@@ -102,6 +103,18 @@ TEST(TickLength, IsMeasuredByTheLastQuarterOfASpan) {
     tick.add(ticks, at_ns + (late ? 9'000'000 : 0));
   }
   EXPECT_NEAR(tick.ns() / static_cast<double>(kTrue_ns), 1, 1e-3);
+}
+
+// Ticks of 1050 ns, and only the first packet of the beginning comes at once: the others, 8 ms
+// late, must not be taken for the quickest.
+TEST(QsbTickLength, GoesByTheQuickestPacket) {
+  TickLength tick(1000);
+  for (int ms = 0; ms <= 600; ++ms) {
+    const std::int64_t ticks = 1'000'000 + std::llround(ms * 1e6 / 1050);
+    const int late_ms = ms > 0 && ms < 200 ? 8 : 0;
+    tick.add(ticks, (ms + late_ms) * std::int64_t{1'000'000});
+  }
+  EXPECT_NEAR(tick.ns(), 1050, 1);
 }
 
 }  // namespace

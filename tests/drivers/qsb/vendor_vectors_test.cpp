@@ -74,6 +74,7 @@ TEST(QsbVectors, TheVersionIsReadAsTmtReadsIt) {
   EXPECT_EQ(id.serial, "0BEEF");
   EXPECT_EQ(id.model, "QSB-D");
   EXPECT_EQ(id.firmware, 0x12);
+  EXPECT_EQ(qsb::kPowerWasLost, 1U << 2);
   EXPECT_EQ(qsb_identity(0x0BEEF212).model, "QSB-S");
   EXPECT_EQ(qsb_identity(0x0BEEF312).model, "QSB");  // a type that is not known
 }

@@ -74,16 +74,17 @@ TEST(LabjackCountGuard, AllowsAnEdgeToTrembleAndForgetsWhatWasFound) {
   EXPECT_TRUE(guard.take(1000, 0.003));
 }
 
-// A device that began anew counts from there, and not on from the count before, 16 below a turn of
-// its 32 bits.
+// A count goes on over the middle of its 32 bits; of a device that began anew the same bits are
+// below zero, as they are of a first count.
 TEST(LabjackCounter, ADeviceThatBeganAnewCountsFromThere) {
   Counter counter;
   counter.take_up(false);
-  EXPECT_EQ(counter.take(0xFFFF'FFF0, 0), counter.take(0xFFFF'FFF0, 0.1));
+  (void)counter.take(0x7FFF'FFFF, 0);
+  EXPECT_EQ(counter.take(0x8000'0010, 0.1), 0x8000'0010LL);
   counter.take_up(true);
-  EXPECT_EQ(counter.take(5, 0.2) - counter.take(0xFFFF'FFF0, 0.3), 21);
+  EXPECT_EQ(counter.take(0x8000'0011, 0.2), 0x8000'0011LL);
   counter.take_up(false);
-  EXPECT_EQ(counter.take(5, 0.4), 5);
+  EXPECT_EQ(counter.take(0x8000'0010, 0.3), 0x8000'0010LL - 0x1'0000'0000LL);
   EXPECT_FALSE(counter.sure());
 }
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "algo/model/restate.h"
@@ -17,6 +16,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::uint64_t kTrialsOfU = 2000;  // U is then right to 2 %
+constexpr double kMostFreedom = 10000;      // of Student's t; normal beyond
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -59,7 +59,7 @@ Distribution of_one_u(const DeclaredUncertainty& declared) {
     case UncertaintyShape::normal:
       d.kind = Distribution::Kind::normal;
       d.spread = 1;
-      if (std::isfinite(declared.freedom)) {
+      if (declared.freedom <= kMostFreedom) {
         d.kind = Distribution::Kind::t;
         d.dof = declared.freedom;
       }
@@ -85,8 +85,8 @@ void complete(Budget& budget) {
   budget.U = budget.coverage_factor * budget.u;
 }
 
-// From `value`, by 95 % of the trials.
-double distance_kept(std::vector<double> trials, double value) {
+// The distance from `value` within which 95 % of the trials lie.
+double distance_of_95_percent(std::vector<double> trials, double value) {
   for (double& trial : trials) trial = std::abs(trial - value);
   const auto at =
       trials.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(trials.size()));
@@ -99,6 +99,7 @@ double distance_kept(std::vector<double> trials, double value) {
 Result<RunBudgets> RunBudgets::create(const Rig& rig, const Run& run) {
   MDOF_TRY(const auto declared, contributors(rig, run));
   RunBudgets budgets;
+  budgets.not_declared_ = rig.undeclared_uncertainties();
   budgets.means_ = means_of(run, run.points);
   budgets.runs_ = means_of_each_run(run);
   for (const Contributor& contributor : declared) budgets.add(contributor, run);
@@ -108,9 +109,9 @@ Result<RunBudgets> RunBudgets::create(const Rig& rig, const Run& run) {
 void RunBudgets::add(const Contributor& contributor, const Run& run) {
   Shifted shifted{contributor, {}};
   for (const PointShifts& shifts : contributor.parts()) {
-    Run moved = run;
-    shift_points(moved, shifts, 1);
-    const MeanErrors means = means_of(moved, moved.points);
+    std::vector<MeasuredPoint> points = run.points;
+    shift(points, shifts);
+    const MeanErrors means = means_of(run, points);
     MeanShifts& of_means = shifted.parts.emplace_back(means_.targets.size());
     for (std::size_t i = 0; i < of_means.size(); ++i)
       for (std::size_t k = 0; k < kErrorCount; ++k)
@@ -184,6 +185,7 @@ Budget RunBudgets::of(const Figure& figure) const {
   const Random random = random_of(figure);
   budget.u_random = random.u;
   budget.noise_only = shifted_.empty();
+  budget.not_declared = not_declared_;
   BudgetLine noise;
   noise.name = "noise and repeatability";
   noise.distribution = "normal";
@@ -193,7 +195,7 @@ Budget RunBudgets::of(const Figure& figure) const {
   for (const Shifted& shifted : shifted_) budget.lines.push_back(line(figure, shifted));
   complete(budget);
   if (!figure.is_range || !(budget.u > 0)) return budget;
-  budget.U = distance_kept(draw(figure, {kTrialsOfU, 1}), budget.value);
+  budget.U = distance_of_95_percent(draw(figure, {kTrialsOfU, 1}), budget.value);
   budget.coverage_factor = budget.U / budget.u;
   budget.U_by_trials = true;
   return budget;
@@ -202,8 +204,7 @@ Budget RunBudgets::of(const Figure& figure) const {
 std::vector<double> RunBudgets::draw(const Figure& figure, const TrialsRequest& request,
                                      std::uint32_t stream) const {
   const Random random = random_of(figure);
-  const QuantileFunction noise(
-      of_one_u({1, UncertaintyShape::normal, std::min(random.freedom, 10000.0)}));
+  const QuantileFunction noise(of_one_u({1, UncertaintyShape::normal, random.freedom}));
   const QuantileFunction normal(of_one_u({1, UncertaintyShape::normal, kInfinite}));
   std::vector<QuantileFunction> alone;
   for (const Shifted& s : shifted_) alone.emplace_back(of_one_u(s.contributor.declared));
@@ -245,7 +246,9 @@ BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed) {
 
 namespace {
 
-void add_lines(Budget& budget, const Budget& of_run, const std::string& name) {
+void add_run(Budget& budget, const Budget& of_run, const std::string& name) {
+  for (const std::string& key : of_run.not_declared)
+    budget.not_declared.push_back(name + " " + key);
   for (BudgetLine line : of_run.lines) {
     line.name = name + ", " + line.name;
     line.contribution = -line.contribution;
@@ -278,9 +281,12 @@ Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& 
   budget.value = -y.value - x.value + artefact.corner * artefact.angle_error_rad;
   budget.u_random = std::hypot(x.u_random, y.u_random);
   budget.noise_only = x.noise_only && y.noise_only && artefact.u_rad == 0;
-  add_lines(budget, x, "X");
-  add_lines(budget, y, "Y");
-  if (artefact.u_rad > 0) budget.lines.push_back(artefact_line(artefact));
+  add_run(budget, x, "X");
+  add_run(budget, y, "Y");
+  if (artefact.u_rad > 0)
+    budget.lines.push_back(artefact_line(artefact));
+  else
+    budget.not_declared.emplace_back("u_artefact_angle_urad");
   complete(budget);
   if (request.trials < 2) return budget;
   std::vector<double> values = along_x.draw(slope_x, request, 0);

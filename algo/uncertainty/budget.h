@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "algo/uncertainty/contributors.h"
@@ -29,9 +30,9 @@ class RunBudgets {
   const MeanErrors& means() const { return means_; }
   // First order (GUM 5). The part of noise and repeatability is the larger of what the targets' own
   // u do to the figure, one independent of the other, and of the scatter of the figure of each run
-  // alone, s/√n. U is k u, but that of a range is the distance that 95 % of trials keep from the
-  // value (JCGM 101): each trial adds to the measured figure what the measured one has over the
-  // truth already. A figure that is NaN has no budget: all of it is NaN.
+  // alone, s/√n. U is k u. Of a range it is the distance from the value within which 95 % of the
+  // trials lie (JCGM 101): noise makes the range of a trial larger than the measured one, as it
+  // made the measured one larger than the true one. A figure that is NaN has a budget of NaN.
   Budget of(const Figure& figure) const;
   // JCGM 101: the figure of many trials, in each of which all contributors are drawn from their
   // distributions, and what is random from Student's t. Any other `stream` is independent.
@@ -58,6 +59,7 @@ class RunBudgets {
   MeanErrors means_;
   std::vector<MeanErrors> runs_;  // of each run of the sequence alone
   std::vector<Shifted> shifted_;
+  std::vector<std::string> not_declared_;
 };
 
 // Of at least two trials.

@@ -17,7 +17,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kWaves = 4, kDirections = 8;
+constexpr std::size_t kDirections = 8;
 constexpr std::size_t kMostEncoderParts = 256;  // more targets: neighbours share one
 constexpr auto kFixture = static_cast<std::size_t>(Part::fixture);
 constexpr std::array<char, 3> kAxisLetters = {'x', 'y', 'z'};
@@ -109,7 +109,7 @@ PointShifts of_wave(const Basis& basis, std::size_t plane, std::size_t wave, dou
                     double phase_turns) {
   const TargetPlane& surface = basis.rig.planes[plane];
   double norm = 0;
-  for (std::size_t w = 1; w <= kWaves; ++w) norm += std::pow(static_cast<double>(w), -4);
+  for (std::size_t w = 1; w <= kFlatnessWaves; ++w) norm += std::pow(static_cast<double>(w), -4);
   const double k2 = static_cast<double>(wave * wave);
   const double height_m = surface.u_flatness.u / (k2 * std::sqrt(norm * kDirections));
   const double along = sine_of_turns(direction_turns + kQuarterTurn);
@@ -128,7 +128,7 @@ PointShifts of_wave(const Basis& basis, std::size_t plane, std::size_t wave, dou
 
 std::vector<PointShifts> of_flatness(const Basis& basis, std::size_t plane) {
   std::vector<PointShifts> parts;
-  for (std::size_t wave = 1; wave <= kWaves; ++wave)
+  for (std::size_t wave = 1; wave <= kFlatnessWaves; ++wave)
     for (std::size_t d = 0; d < kDirections; ++d)
       for (const double phase : {0.0, kQuarterTurn})
         parts.push_back(
@@ -291,10 +291,9 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   return List(basis).take();
 }
 
-void shift_points(Run& run, const PointShifts& shifts, double factor) {
+void shift(std::vector<MeasuredPoint>& points, const PointShifts& shifts) {
   for (std::size_t j = 0; j < shifts.size(); ++j)
-    for (std::size_t e = 0; e < kErrorCount; ++e)
-      run.points[j].errors.local[e] += factor * shifts[j][e];
+    for (std::size_t e = 0; e < kErrorCount; ++e) points[j].errors.local[e] += shifts[j][e];
 }
 
 }  // namespace mdof::algo

@@ -37,7 +37,7 @@ struct Contributor {
 // place. Error: a rig that cannot see all five errors, an angle beyond what the models take.
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run);
 
-// The run with `factor` times these shifts added to its errors; figures are not made anew.
-void shift_points(Run& run, const PointShifts& shifts, double factor);
+// Adds them to the errors of these points.
+void shift(std::vector<MeasuredPoint>& points, const PointShifts& shifts);
 
 }  // namespace mdof::algo

@@ -22,6 +22,7 @@ struct TomlTable::Node {
   const toml::table* table = nullptr;
   std::string path;  // "probe[2]."
   std::set<std::string, std::less<>> asked;
+  std::set<std::string, std::less<>> looked_for;  // by has(): for hints, not yet read
   std::vector<std::shared_ptr<Node>> children;
   std::map<const toml::table*, std::shared_ptr<Node>> child_of;
 
@@ -124,7 +125,7 @@ void TomlTable::missing(std::string_view key, const char* form) {
 }
 
 bool TomlTable::has(std::string_view key) {
-  node_->asked.emplace(key);
+  node_->looked_for.emplace(key);
   return node_->table->contains(key);
 }
 
@@ -297,7 +298,8 @@ Status TomlTable::finish() {
     open.pop_back();
     for (const auto& [key, value] : *node->table) {
       if (node->asked.contains(key.str())) continue;
-      const std::vector<std::string> known(node->asked.begin(), node->asked.end());
+      std::vector<std::string> known(node->asked.begin(), node->asked.end());
+      known.insert(known.end(), node->looked_for.begin(), node->looked_for.end());
       const std::string near = nearest_of(key.str(), known);
       std::string why = "unknown key";
       if (!near.empty()) {

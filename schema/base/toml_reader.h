@@ -21,7 +21,8 @@ class TomlTable {
   // `source_name` is what messages call the document.
   static Result<TomlTable> parse(std::string_view text, const std::string& source_name);
 
-  bool has(std::string_view key);       // who asks knows the key: it is not an unknown one
+  // A key that is only looked for is a hint to who misspelt it; to be known it must be read.
+  bool has(std::string_view key);
   bool is_array(std::string_view key);  // [[key]], or key = [...]
   bool is_table(std::string_view key);  // [key], or key = {...}
   std::string string(std::string_view key,

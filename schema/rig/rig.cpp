@@ -251,20 +251,32 @@ std::optional<std::size_t> Rig::probe_index(std::string_view id) const {
   return std::nullopt;
 }
 
-bool Rig::declares_uncertainty() const {
+std::vector<std::string> Rig::undeclared_uncertainties() const {
+  std::vector<std::string> keys;
+  const auto note = [&](bool declared, const char* key) {
+    if (!declared) keys.emplace_back(key);
+  };
   const auto any = [](const DeclaredUncertainty3& three) {
     return three.u[0] > 0 || three.u[1] > 0 || three.u[2] > 0;
   };
-  const auto of_probe = [&](const Probe& probe) {
-    const ProbeUncertainty& u = probe.uncertainty;
-    return u.calibration.declared() || u.sensitivity.declared() || any(u.position) ||
-           u.direction.declared();
+  const auto each = [&](auto declared) {
+    return std::all_of(probes.begin(), probes.end(),
+                       [&](const Probe& probe) { return declared(probe.uncertainty); });
   };
-  return std::any_of(probes.begin(), probes.end(), of_probe) ||
-         std::any_of(planes.begin(), planes.end(),
-                     [](const TargetPlane& plane) { return plane.u_flatness.declared(); }) ||
-         uncertainty.encoder.declared() || any(uncertainty.installation_angle) ||
-         any(uncertainty.installation_offset) || uncertainty.drift.declared();
+  const bool flatness =
+      !planes.empty() && std::all_of(planes.begin(), planes.end(), [](const TargetPlane& plane) {
+        return plane.u_flatness.declared();
+      });
+  note(each([](const auto& u) { return u.calibration.declared(); }), "u_calibration_um");
+  note(each([](const auto& u) { return u.sensitivity.declared(); }), "u_sensitivity_ppm");
+  note(each([&](const auto& u) { return any(u.position); }), "u_position_mm");
+  note(each([](const auto& u) { return u.direction.declared(); }), "u_direction_mrad");
+  note(flatness, "u_flatness_um");
+  note(uncertainty.encoder.declared(), "[encoder] u_um");
+  note(any(uncertainty.installation_angle), "u_angle_mrad");
+  note(any(uncertainty.installation_offset), "u_offset_mm");
+  note(uncertainty.drift.declared(), "u_um_per_h");
+  return keys;
 }
 
 Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name) {

@@ -89,8 +89,9 @@ struct Rig {
   MovingAxis moving() const { return {axis, sides}; }
 
   std::optional<std::size_t> probe_index(std::string_view id) const;
-  // Whether anything beside the artefact's angle is declared: else u is noise only.
-  bool declares_uncertainty() const;
+  // Keys of uncertainty.h that are not declared, or 0, for a part that the rig has: what a budget
+  // leaves out.
+  std::vector<std::string> undeclared_uncertainties() const;
 };
 
 // What results measured on this day (YYYY-MM-DD..., UTC) have to say of the probes' calibrations.

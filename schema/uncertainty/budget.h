@@ -38,7 +38,9 @@ struct Budget {
   double coverage_factor = 0;  // k for 95 %, Student's t
   double U = 0;                // k u
   bool U_by_trials = false;    // U is that of Monte Carlo, and k = U / u
-  bool noise_only = false;     // the rig declares nothing: U is too small by all that it leaves out
+  bool noise_only = false;     // the rig declares nothing
+  // Keys of the rig that are not declared: U is too small by what they would add.
+  std::vector<std::string> not_declared;
   std::vector<BudgetLine> lines;  // the largest first
   std::optional<BudgetTrials> trials;
 };

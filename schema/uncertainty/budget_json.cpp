@@ -49,6 +49,9 @@ void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
         .field("U", to_key_unit(budget.U))
         .field("U_by", budget.U_by_trials ? "Monte Carlo" : "GUM")
         .field("noise_only", budget.noise_only);
+    json.key("not_declared").begin_array();
+    for (const std::string& key : budget.not_declared) json.value(key);
+    json.end_array();
     if (tolerance)
       json.field("tolerance", to_key_unit(*tolerance))
           .field("conformity", to_string(conformity(budget, *tolerance)));

@@ -10,6 +10,7 @@
 namespace mdof {
 
 // {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by", "noise_only",
+// "not_declared",
 //   "contributors": [{"contributor", "key", "value", "unit", "distribution", "sensitivity",
 //   "contribution", "share", "dof"}]}}, values in the unit of the figure's name. Infinite degrees
 //   of

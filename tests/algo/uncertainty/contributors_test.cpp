@@ -28,7 +28,6 @@ void expect_shift(const Errors5& shift, const Errors5& expected, double toleranc
 
 TEST(Contributors, NothingDeclaredIsNone) {
   const Rig rig = rig_x_with("", "");
-  EXPECT_FALSE(rig.declares_uncertainty());
   EXPECT_TRUE(of(rig, SyntheticRun{.rig = rig}.measure()).empty());
 }
 
@@ -45,7 +44,6 @@ TEST(Contributors, ACalibrationIsTheSameAtEachPoint) {
   for (const auto& c : cases) {
     SCOPED_TRACE(c.probe);
     const Rig rig = rig_x_with(c.probe, "u_calibration_um = 0.1");
-    EXPECT_TRUE(rig.declares_uncertainty());
     const auto all = of(rig, SyntheticRun{.rig = rig, .model = Model::simplified}.measure());
     ASSERT_EQ(all.size(), 1u);
     EXPECT_EQ(all[0].name, "probe " + std::string(c.probe) + ": calibration");

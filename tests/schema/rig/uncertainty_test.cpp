@@ -48,8 +48,11 @@ TEST(RigUncertainty, EachKeyIsReadInItsUnit) {
   EXPECT_DOUBLE_EQ(parsed->planes[0].u_flatness.u, 0.03e-6);
   EXPECT_DOUBLE_EQ(parsed->planes[0].flatness_length_m, 0.012);
   EXPECT_DOUBLE_EQ(parsed->planes[1].flatness_length_m, 0.030);
-  EXPECT_TRUE(parsed->declares_uncertainty());
-  EXPECT_FALSE(rig("")->declares_uncertainty());
+  // One plane and the other probes lack theirs.
+  EXPECT_EQ(parsed->undeclared_uncertainties(),
+            (std::vector<std::string>{"u_calibration_um", "u_sensitivity_ppm", "u_position_mm",
+                                      "u_direction_mrad", "u_flatness_um"}));
+  EXPECT_EQ(rig("")->undeclared_uncertainties().size(), 9u);
 }
 
 // GUM 4.3.7 and 4.3.9: u = a/√3 and a/√6; the arcsine has a/√2.
@@ -93,6 +96,19 @@ TEST(RigUncertainty, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_NE(refusal("", "[drift]\nu_um = 1\n").find("u_um_per_h"), std::string::npos);
   EXPECT_NE(refusal("", "[[plane]]\nnormal = \"+Z\"\nflatness_length_mm = 0\n").find("above 0"),
             std::string::npos);
+}
+
+// To look for a key is not to read it: a key that nobody reads is refused, and one that is only
+// looked for is the hint to who misspelt it.
+TEST(TomlTable, AKeyThatIsOnlyLookedForIsNotKnown) {
+  auto there = TomlTable::parse("drift = 1\n", "f.toml").value();
+  EXPECT_TRUE(there.has("drift"));
+  const Status unread = there.finish();
+  ASSERT_FALSE(unread);
+  EXPECT_NE(unread.error().message.find("drift: unknown key"), std::string::npos);
+  auto misspelt = TomlTable::parse("drifd = 1\n", "f.toml").value();
+  EXPECT_FALSE(misspelt.has("drift"));
+  EXPECT_NE(misspelt.finish().error().message.find("did you mean \"drift\""), std::string::npos);
 }
 
 }  // namespace

@@ -69,13 +69,12 @@ std::string trials_text(const Budget& b) {
 
 }  // namespace
 
-std::string noise_only_text(const std::vector<Budget>& budgets) {
-  const bool none =
-      std::all_of(budgets.begin(), budgets.end(), [](const Budget& b) { return b.noise_only; });
-  if (!none) return "";
-  return "noise only: the rig declares no uncertainties (u_calibration_um, u_sensitivity_ppm, "
-         "u_position_mm ... of its probes, [installation], [drift]), so that U is too small by all "
-         "that they would add";
+std::string not_declared_text(const std::vector<Budget>& budgets) {
+  const Budget& first = budgets.front();  // all are of the same rigs
+  if (first.not_declared.empty()) return "";
+  return std::string(first.noise_only ? "noise only: the rig declares no uncertainties"
+                                      : "the rig does not declare all uncertainties") +
+         ", so that U is too small by what these would add: " + joined(first.not_declared);
 }
 
 std::string budgets_text(const std::vector<Budget>& budgets) {

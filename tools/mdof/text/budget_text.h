@@ -17,7 +17,7 @@ std::string budget_text(const Budget& budget, const std::optional<double>& toler
 // One row a figure and contributor.
 std::string budgets_csv(const std::vector<Budget>& budgets);
 
-// Beside budgets of a rig that declares nothing; "": it does.
-std::string noise_only_text(const std::vector<Budget>& budgets);
+// What these budgets leave out, as the rig does not declare it; "": nothing.
+std::string not_declared_text(const std::vector<Budget>& budgets);
 
 }  // namespace mdof::tools

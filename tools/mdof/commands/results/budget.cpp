@@ -97,7 +97,7 @@ Status budget(const BudgetCommand& command) {
   MDOF_TRY(const auto found,
            command.run_y.empty() ? of_one_run(store, command) : of_two_runs(store, command));
   for (const auto& warning : summarised(found.warnings, command.all_warnings)) warn(warning);
-  if (const std::string text = noise_only_text(found.budgets); !text.empty()) warn(text);
+  if (const std::string text = not_declared_text(found.budgets); !text.empty()) warn(text);
   const auto tolerance =
       command.tolerance ? std::optional(from_um(*command.tolerance)) : std::nullopt;
   MDOF_CHECK(command.csv    ? write_out(budgets_csv(found.budgets))

@@ -251,32 +251,57 @@ std::optional<std::size_t> Rig::probe_index(std::string_view id) const {
   return std::nullopt;
 }
 
-std::vector<std::string> Rig::undeclared_uncertainties() const {
-  std::vector<std::string> keys;
-  const auto note = [&](bool declared, const char* key) {
-    if (!declared) keys.emplace_back(key);
-  };
+namespace {
+
+// Of a key of uncertainty.h: is it declared wherever the rig could have it, and is it anywhere?
+struct DeclaredKey {
+  const char* key;
+  bool everywhere, somewhere;
+};
+
+template <class Items, class Declared>
+DeclaredKey declared_key(const char* key, const Items& items, Declared declared) {
+  return {key, !items.empty() && std::all_of(items.begin(), items.end(), declared),
+          std::any_of(items.begin(), items.end(), declared)};
+}
+
+DeclaredKey declared_key(const char* key, bool declared) {
+  return {key, declared, declared};
+}
+
+std::vector<DeclaredKey> declared_keys(const Rig& rig) {
   const auto any = [](const DeclaredUncertainty3& three) {
     return three.u[0] > 0 || three.u[1] > 0 || three.u[2] > 0;
   };
-  const auto each = [&](auto declared) {
-    return std::all_of(probes.begin(), probes.end(),
-                       [&](const Probe& probe) { return declared(probe.uncertainty); });
+  const auto of_probes = [&](const char* key, auto declared) {
+    return declared_key(key, rig.probes,
+                        [&](const Probe& probe) { return declared(probe.uncertainty); });
   };
-  const bool flatness =
-      !planes.empty() && std::all_of(planes.begin(), planes.end(), [](const TargetPlane& plane) {
-        return plane.u_flatness.declared();
-      });
-  note(each([](const auto& u) { return u.calibration.declared(); }), "u_calibration_um");
-  note(each([](const auto& u) { return u.sensitivity.declared(); }), "u_sensitivity_ppm");
-  note(each([&](const auto& u) { return any(u.position); }), "u_position_mm");
-  note(each([](const auto& u) { return u.direction.declared(); }), "u_direction_mrad");
-  note(flatness, "u_flatness_um");
-  note(uncertainty.encoder.declared(), "[encoder] u_um");
-  note(any(uncertainty.installation_angle), "u_angle_mrad");
-  note(any(uncertainty.installation_offset), "u_offset_mm");
-  note(uncertainty.drift.declared(), "u_um_per_h");
+  const RigUncertainty& u = rig.uncertainty;
+  return {of_probes("u_calibration_um", [](const auto& p) { return p.calibration.declared(); }),
+          of_probes("u_sensitivity_ppm", [](const auto& p) { return p.sensitivity.declared(); }),
+          of_probes("u_position_mm", [&](const auto& p) { return any(p.position); }),
+          of_probes("u_direction_mrad", [](const auto& p) { return p.direction.declared(); }),
+          declared_key("u_flatness_um", rig.planes,
+                       [](const TargetPlane& plane) { return plane.u_flatness.declared(); }),
+          declared_key("[encoder] u_um", u.encoder.declared()),
+          declared_key("u_angle_mrad", any(u.installation_angle)),
+          declared_key("u_offset_mm", any(u.installation_offset)),
+          declared_key("u_um_per_h", u.drift.declared())};
+}
+
+}  // namespace
+
+std::vector<std::string> Rig::undeclared_uncertainties() const {
+  std::vector<std::string> keys;
+  for (const DeclaredKey& of : declared_keys(*this))
+    if (!of.everywhere) keys.emplace_back(of.key);
   return keys;
+}
+
+bool Rig::declares_uncertainty() const {
+  const auto keys = declared_keys(*this);
+  return std::any_of(keys.begin(), keys.end(), [](const auto& of) { return of.somewhere; });
 }
 
 Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name) {

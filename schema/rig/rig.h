@@ -92,6 +92,7 @@ struct Rig {
   // Keys of uncertainty.h that are not declared, or 0, for a part that the rig has: what a budget
   // leaves out.
   std::vector<std::string> undeclared_uncertainties() const;
+  bool declares_uncertainty() const;  // any of them, of any part
 };
 
 // What results measured on this day (YYYY-MM-DD..., UTC) have to say of the probes' calibrations.

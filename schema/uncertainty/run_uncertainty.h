@@ -1,0 +1,39 @@
+// What is not known of the five errors of each point of a run: GUM 5 and annex G.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/axis.h"
+#include "schema/base/json_writer.h"
+
+namespace mdof {
+
+// In the order of error_names(); m, rad. NaN: not known, as of a point without errors.
+struct ErrorsUncertainty {
+  Errors5 u{};                // combined standard uncertainty
+  Errors5 u_random{};         // of it: the point's own noise
+  Errors5 freedom{};          // effective degrees of freedom, may be infinite
+  Errors5 coverage_factor{};  // k for 95 %, Student's t
+  Errors5 U{};                // k u
+};
+
+struct RunUncertainty {
+  std::vector<ErrorsUncertainty> points;  // one a point of the run
+  // Nothing but noise is in it: the rig declares nothing, or `why` what it declares could not be
+  // reckoned.
+  bool noise_only = true;
+  std::string why;
+  std::vector<std::string> not_declared;  // keys of the rig: u is too small by what they would add
+};
+
+// "u_covers" and "u_not_declared" of an open object.
+void write_covers(JsonWriter& json, const RunUncertainty& uncertainty);
+// One sentence for people, without a full stop.
+std::string covers_text(const RunUncertainty& uncertainty);
+
+// The members "u", "u_random", "U", "k" and "nu_eff" of an open object, each with the five keys.
+// What is not known is null, and so are infinitely many degrees of freedom.
+void write_uncertainty(JsonWriter& json, Axis axis, const ErrorsUncertainty& uncertainty);
+
+}  // namespace mdof

@@ -1,0 +1,117 @@
+// The uncertainty of each point's errors, by the same formulas as
+// tests/algo/uncertainty/contributors_test.
+#include "algo/uncertainty/run_uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/uncertainty/coverage.h"
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+using test::rig_x_with;
+
+constexpr double kL_m = 0.010, kUp_m = 0.020;
+enum { kEYX, kEZX, kEAX, kEBX, kECX };
+
+Run measured(const Rig& rig, double u_reading_m) {
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.u_reading_m = u_reading_m;
+  return synthetic.measure();
+}
+
+Run without_points() {
+  return {};
+}
+
+TEST(RunUncertainty, OfARigThatDeclaresNothingIsTheNoise) {
+  const Rig rig = rig_x_with("", "");
+  const auto u = run_uncertainty(rig, measured(rig, 10e-9));
+  EXPECT_TRUE(u.noise_only);
+  EXPECT_EQ(covers_text(u), "noise only: the rig declares no uncertainties");
+  EXPECT_EQ(u.not_declared.size(), 9u);
+  ASSERT_EQ(u.points.size(), 54u);
+  for (const auto& point : u.points) {
+    EXPECT_EQ(point.u, point.u_random);
+    EXPECT_NEAR(point.u[kECX], 10e-9 * std::sqrt(2) / kL_m, 1e-12);            // (E - D)/l
+    EXPECT_NEAR(point.freedom[kECX], 99, 1e-9);                                // 100 scans
+    EXPECT_NEAR(point.U[kECX], 1.984 * point.u[kECX], 0.001 * point.u[kECX]);  // GUM table G.2
+  }
+}
+
+// EYX = D + l'' (B - C)/2l, and the squares of zero and noise add. Degrees of freedom by G.2b.
+TEST(RunUncertainty, WhatIsDeclaredAddsToTheNoise) {
+  const double zero = 30e-9, noise = 10e-9;
+  const Rig rig = rig_x_with("B", "u_calibration_um = { u = 0.03, dof = 4 }");
+  const auto found = run_uncertainty(rig, measured(rig, noise));
+  EXPECT_FALSE(found.noise_only);
+  EXPECT_EQ(covers_text(found), "noise and what the rig declares");
+  const auto& point = found.points[7];
+  const double share = kUp_m / kL_m / 2;
+  const double random2 = noise * noise * (1 + 2 * share * share);
+  const double declared2 = zero * zero * share * share;
+  EXPECT_NEAR(point.u_random[kEYX], std::sqrt(random2), 1e-13);
+  EXPECT_NEAR(point.u[kEYX], std::sqrt(random2 + declared2), 1e-13);
+  const double freedom = (random2 + declared2) * (random2 + declared2) /
+                         (random2 * random2 / 99 + declared2 * declared2 / 4);
+  EXPECT_NEAR(point.freedom[kEYX], freedom, 1e-4);
+  EXPECT_NEAR(point.U[kEYX], coverage_factor(freedom) * point.u[kEYX], 1e-13);
+  EXPECT_EQ(point.u[kECX], point.u_random[kECX]);  // E - D: B is not in it
+}
+
+// The two directions of a probe are one contributor with four degrees of freedom, not two.
+TEST(RunUncertainty, PartsOfOneContributorShareItsFreedom) {
+  const Rig rig = rig_x_with("D", "u_direction_mrad = { u = 2, dof = 4 }");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact};
+  synthetic.truth = [](double d) { return Errors5{0, 1e-3 * d, 0, 0, 2e-3 * d}; };
+  const auto found = run_uncertainty(rig, synthetic.measure());
+  const auto& last = found.points[8];
+  EXPECT_GT(last.u[kEYX], 0);
+  EXPECT_NEAR(last.freedom[kEYX], 4, 1e-9);
+  EXPECT_NEAR(last.U[kEYX], 2.776 * last.u[kEYX], 1e-3 * last.u[kEYX]);  // GUM table G.2
+}
+
+TEST(RunUncertainty, APointWithoutErrorsHasNone) {
+  const Rig rig = rig_x_with("B", "u_calibration_um = 0.03");
+  auto run = measured(rig, 10e-9);
+  run.points[3].errors.valid = false;
+  const auto found = run_uncertainty(rig, run);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_TRUE(std::isnan(found.points[3].u[k]));
+    EXPECT_TRUE(std::isnan(found.points[3].U[k]));
+    EXPECT_TRUE(std::isfinite(found.points[4].u[k]));
+  }
+}
+
+TEST(RunUncertainty, WhatCannotBeReckonedIsSaidAndTheNoiseStays) {
+  const Rig rig = rig_x_with("D", "u_direction_mrad = 300");
+  const auto found = run_uncertainty(rig, measured(rig, 10e-9));
+  EXPECT_TRUE(found.noise_only);
+  EXPECT_NE(covers_text(found).find("u_direction_mrad"), std::string::npos);
+  EXPECT_GT(found.points[0].u[kEYX], 0);
+}
+
+TEST(RunUncertainty, OfSomePointsWithTheFirstIsThatOfTheWhole) {
+  const Rig rig =
+      rig_x_with("B", "u_sensitivity_ppm = 500", "[drift]\nu_um_per_h = 1\n[encoder]\nu_um = 1\n");
+  const auto run = measured(rig, 10e-9);
+  const auto whole = run_uncertainty(rig, run);
+  auto page = run;
+  page.points.erase(page.points.begin() + 1, page.points.begin() + 40);
+  const auto some = run_uncertainty(rig, page);
+  for (std::size_t j = 1; j < some.points.size(); ++j)
+    for (std::size_t k = 0; k < 5; ++k)
+      EXPECT_DOUBLE_EQ(some.points[j].u[k], whole.points[j + 39].u[k]) << j << " " << k;
+}
+
+TEST(RunUncertainty, OfNoPointsIsNone) {
+  const Rig rig = rig_x_with("B", "u_sensitivity_ppm = 500");
+  EXPECT_TRUE(run_uncertainty(rig, without_points()).points.empty());
+}
+
+}  // namespace
+}  // namespace mdof::algo

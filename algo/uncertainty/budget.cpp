@@ -106,12 +106,19 @@ Result<RunBudgets> RunBudgets::create(const Rig& rig, const Run& run) {
   return budgets;
 }
 
+std::size_t RunBudgets::cost() const {
+  std::size_t parts = 1;
+  for (const Shifted& shifted : shifted_) parts += shifted.parts.size();
+  return parts * means_.targets.size();
+}
+
 void RunBudgets::add(const Contributor& contributor, const Run& run) {
   Shifted shifted{contributor, {}};
+  std::vector<MeasuredPoint> points = run.points;
   for (const PointShifts& shifts : contributor.parts()) {
-    std::vector<MeasuredPoint> points = run.points;
     shift(points, shifts);
     const MeanErrors means = means_of(run, points);
+    for (std::size_t j = 0; j < points.size(); ++j) points[j].errors = run.points[j].errors;
     MeanShifts& of_means = shifted.parts.emplace_back(means_.targets.size());
     for (std::size_t i = 0; i < of_means.size(); ++i)
       for (std::size_t k = 0; k < kErrorCount; ++k)

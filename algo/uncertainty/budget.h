@@ -28,6 +28,8 @@ class RunBudgets {
   static Result<RunBudgets> create(const Rig& rig, const Run& run);
 
   const MeanErrors& means() const { return means_; }
+  // Targets times independent parts of contributors: the time of a figure grows with it.
+  std::size_t cost() const;
   // First order (GUM 5). The part of noise and repeatability is the larger of what the targets' own
   // u do to the figure, one independent of the other, and of the scatter of the figure of each run
   // alone, s/√n. U is k u. Of a range it is the distance from the value within which 95 % of the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,12 +29,24 @@ struct CompensationTable {
   std::vector<double> position_m;  // strictly increasing
   // [named error in the order of error_names()][position]; NaN: no value there
   std::array<std::vector<double>, 5> forward, reverse;
-  std::array<std::vector<double>, 5> u_forward, u_reverse;  // standard uncertainty
+  // Standard uncertainty by noise and repeatability.
+  std::array<std::vector<double>, 5> u_forward, u_reverse;
+  // By what the rigs declare: common to both approaches, the larger of the two. Empty: they declare
+  // nothing, or the table is older than this.
+  std::array<std::vector<double>, 5> u_declared;
   // Built when tables did not say at which point they hold (at the carriage, in fact), nor which
   // way a correction goes: not to be served.
   bool without_stated_point = false;
   std::string created_utc;
   std::string sha256;  // of the canonical JSON of the above
+
+  bool has_declared() const { return !u_declared.front().empty(); }
+  // Combined standard uncertainty of a named error at a position, of an approach.
+  double u_of(const std::array<std::vector<double>, 5>& u_random, std::size_t named,
+              std::size_t row) const {
+    return has_declared() ? std::hypot(u_random[named][row], u_declared[named][row])
+                          : u_random[named][row];
+  }
 };
 
 }  // namespace mdof

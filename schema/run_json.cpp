@@ -7,6 +7,7 @@
 #include "schema/figures_json.h"
 #include "schema/plausibility_json.h"
 #include "schema/rig/correction.h"
+#include "schema/uncertainty/budget_json.h"
 #include "schema/units.h"
 
 namespace mdof {
@@ -37,17 +38,24 @@ void write_strings(JsonWriter& json, const char* key, const std::vector<std::str
   json.end_array();
 }
 
-void write_side(JsonWriter& json, Axis axis, const std::array<std::vector<double>, 5>& values,
+void write_side(JsonWriter& json, const CompensationTable& t,
+                const std::array<std::vector<double>, 5>& values,
                 const std::array<std::vector<double>, 5>& u, std::size_t row) {
+  const auto write_five = [&](auto value) {
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      json.field(error_names(t.axis)[k].key, to_key_unit(value(k)));
+  };
   json.begin_object();
-  for (std::size_t k = 0; k < 5; ++k) {
-    json.field(error_names(axis)[k].key, to_key_unit(values[k][row]));
-  }
+  write_five([&](std::size_t k) { return values[k][row]; });
   json.key("u").begin_object();
-  for (std::size_t k = 0; k < 5; ++k) {
-    json.field(error_names(axis)[k].key, to_key_unit(u[k][row]));
+  write_five([&](std::size_t k) { return t.u_of(u, k, row); });
+  json.end_object();
+  if (t.has_declared()) {
+    json.key("u_random").begin_object();
+    write_five([&](std::size_t k) { return u[k][row]; });
+    json.end_object();
   }
-  json.end_object().end_object();
+  json.end_object();
 }
 
 // -0 is noise of a subtraction: people and scripts read 0.
@@ -84,7 +92,8 @@ void write_reference(JsonWriter& json, const StatedAt& at) {
   json.end_array();
 }
 
-void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& p) {
+void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& p,
+                 const ErrorsUncertainty& uncertainty) {
   const Axis axis = moving.axis;
   json.begin_object()
       .field("target", p.target)
@@ -93,17 +102,11 @@ void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint
       .field("direction", p.point.direction)
       .field("position_mm", plain(to_mm(p.point.position_m)));
   const Errors5 named = named_from_local(moving, p.errors.local);
-  const Covariance5 cov = named_from_local(axis, p.errors.covariance);
   for (std::size_t k = 0; k < 5; ++k) {
     json.key(error_names(axis)[k].key);
     p.errors.valid ? json.value(plain(to_key_unit(named[k]))) : json.null();
   }
-  json.key("u").begin_object();
-  for (std::size_t k = 0; k < 5; ++k) {
-    json.key(error_names(axis)[k].key);
-    p.errors.valid ? json.value(known_u(to_key_unit(std::sqrt(cov[6 * k])))) : json.null();
-  }
-  json.end_object();
+  write_uncertainty(json, axis, uncertainty);
   const bool judged = p.errors.valid && redundant(p);
   json.field("residual_um", judged ? to_um(p.errors.residual_m) : std::nan(""))
       .field("samples", p.point.samples);
@@ -178,35 +181,43 @@ void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures) {
   });
 }
 
-std::string run_json(const Run& run) {
+std::string run_json(const Run& run, const RunUncertainty& uncertainty,
+                     const std::vector<Budget>& figures) {
   JsonWriter json;
   json.begin_object();
   write_header_members(json, run.header);
+  write_covers(json, uncertainty);
   json.key("points").begin_array();
-  for (const auto& p : run.points) write_point(json, run.header.moving(), p);
+  for (std::size_t j = 0; j < run.points.size(); ++j)
+    write_point(json, run.header.moving(), run.points[j], uncertainty.points[j]);
   json.end_array();
   json.key("straightness");
   write_straightness(json, run.straightness);
   json.key("angles");
   write_angles(json, run.angles);
+  json.key("uncertainty");
+  write_stated(json, figures);
   json.key("plausibility");
   run.plausibility ? write_plausibility(json, *run.plausibility) : static_cast<void>(json.null());
   json.end_object();
   return json.take();
 }
 
-std::string squareness_json(const Squareness& s) {
+std::string squareness_json(const Squareness& s, const Budget& budget) {
   JsonWriter json;
   json.begin_object()
       .field("squareness", s.id)
       .field("run_x", s.run_x)
       .field("run_y", s.run_y)
       .field("EC0Y_urad", to_urad(s.EC0Y_rad))
-      .field("u_EC0Y_urad", to_urad(s.u_EC0Y_rad))
-      .field("u_covers",
-             "noise and repeatability of both slopes, and the artefact; not mounting, calibration "
-             "and drift")
-      .field("form_urad", to_urad(s.form_rad))
+      .field("u_EC0Y_urad", to_urad(budget.u))
+      .field("u_random_EC0Y_urad", to_urad(budget.u_random))
+      .field("U_EC0Y_urad", to_urad(budget.U))
+      .field("k", budget.coverage_factor)
+      .field("nu_eff", budget.freedom)
+      .field("u_covers", covers_text(budget));
+  write_strings(json, "u_not_declared", budget.not_declared);
+  json.field("form_urad", to_urad(s.form_rad))
       .field("reference", to_string(Reference::fixture))
       .field("slope_EYX_urad", to_urad(s.slope_EYX_rad))
       .field("u_slope_EYX_urad", to_urad(s.u_slope_EYX_rad))
@@ -242,13 +253,15 @@ std::string with_texts(std::string json, const std::string& name,
 void write_table_row(JsonWriter& json, const CompensationTable& t, std::size_t row) {
   json.begin_object().field("position_mm", to_mm(t.position_m[row]));
   json.key("forward");
-  write_side(json, t.axis, t.forward, t.u_forward, row);
+  write_side(json, t, t.forward, t.u_forward, row);
   json.key("reverse");
-  write_side(json, t.axis, t.reverse, t.u_reverse, row);
+  write_side(json, t, t.reverse, t.u_reverse, row);
   json.end_object();
 }
 
-void write_table_members(JsonWriter& json, const CompensationTable& t) {
+namespace {
+
+void write_hashed_members(JsonWriter& json, const CompensationTable& t) {
   const std::string axis(1, letter(t.axis));
   json.field("table", t.id).field("axis", axis).field("simulated", t.simulated);
   json.key("runs").begin_array();
@@ -270,10 +283,18 @@ void write_table_members(JsonWriter& json, const CompensationTable& t) {
       .field("sha256", t.sha256);
 }
 
+}  // namespace
+
+void write_table_members(JsonWriter& json, const CompensationTable& t) {
+  write_hashed_members(json, t);
+  json.field("u_covers", t.has_declared() ? "noise, repeatability and what the rigs declare"
+                                          : "noise and repeatability only");
+}
+
 std::string table_json(const CompensationTable& t) {
   JsonWriter json;
   json.begin_object();
-  write_table_members(json, t);
+  write_hashed_members(json, t);
   json.key("points").begin_array();
   for (std::size_t i = 0; i < t.position_m.size(); ++i) write_table_row(json, t, i);
   json.end_array().end_object();

@@ -5,12 +5,15 @@
 #include "schema/compensation_table.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
+#include "schema/uncertainty/budget.h"
+#include "schema/uncertainty/run_uncertainty.h"
 
 namespace mdof {
 
-// {"target", "target_mm", "run", "direction", "position_mm", five errors, "u": {...}, "samples",
-//  "flags"}; an unsolved point has null errors and its "reason".
-void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& point);
+// {"target", "target_mm", "run", "direction", "position_mm", five errors, "u": {...}, "u_random",
+//  "U", "k", "nu_eff", "samples", "flags"}; an unsolved point has null errors and its "reason".
+void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& point,
+                 const ErrorsUncertainty& uncertainty);
 
 // "reference" and "reference_mm" (null for the carriage) of an open object.
 void write_reference(JsonWriter& json, const StatedAt& at);
@@ -18,14 +21,16 @@ void write_reference(JsonWriter& json, const StatedAt& at);
 // Identity, state and provenance, without points; the members of an open object.
 void write_header_members(JsonWriter& json, const RunHeader& header);
 
-// The whole run as `mdof replay --json` prints it (DESIGN §6).
-std::string run_json(const Run& run);
+// The whole run as `mdof replay --json` prints it (DESIGN §6); `figures` as "uncertainty".
+std::string run_json(const Run& run, const RunUncertainty& uncertainty,
+                     const std::vector<Budget>& figures);
 
 // {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}
 void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures);
 void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 
-std::string squareness_json(const Squareness& squareness);
+// `budget`: of EC0Y.
+std::string squareness_json(const Squareness& squareness, const Budget& budget);
 
 // A JSON object with one member more, a list of texts: `name`, or "warnings".
 std::string with_texts(std::string json, const std::string& name,
@@ -36,7 +41,7 @@ std::string with_warnings(std::string json, const std::vector<std::string>& warn
 void write_table_row(JsonWriter& json, const CompensationTable& table, std::size_t row);
 // What holds for the whole table; the members of an open object.
 void write_table_members(JsonWriter& json, const CompensationTable& table);
-// The whole table: members, then "points".
+// What of the table is hashed: its members but "u_covers", then "points".
 std::string table_json(const CompensationTable& table);
 // SHA-256 of table_json() before the table has an id, a hash and a date: of what it says.
 std::string table_sha256(CompensationTable table);

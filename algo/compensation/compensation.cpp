@@ -207,6 +207,9 @@ TableValue table_at(const CompensationTable& table, double position_m, TableSide
   const auto at = [&](const std::vector<double>& y) {
     return interpolate(x, y, position_m, place);
   };
+  const auto declared = [&](std::size_t k) {
+    return table.has_declared() ? at(table.u_declared[k]) : 0.0;
+  };
   for (std::size_t k = 0; k < 5; ++k) {
     const bool forward = side != TableSide::reverse, reverse = side != TableSide::forward;
     const double f = forward ? at(table.forward[k]) : kNaN;
@@ -214,11 +217,12 @@ TableValue table_at(const CompensationTable& table, double position_m, TableSide
     if (std::isfinite(f) && std::isfinite(r)) {
       const double u_f = at(table.u_forward[k]), u_r = at(table.u_reverse[k]);
       value.error[k] = 0.5 * (f + r);
-      value.u[k] = 0.5 * std::sqrt(u_f * u_f + u_r * u_r);
+      value.u[k] = std::hypot(0.5 * std::sqrt(u_f * u_f + u_r * u_r), declared(k));
     } else {
       const bool take_forward = forward && (std::isfinite(f) || !reverse);
       value.error[k] = take_forward ? f : r;
-      value.u[k] = at(take_forward ? table.u_forward[k] : table.u_reverse[k]);
+      value.u[k] =
+          std::hypot(at(take_forward ? table.u_forward[k] : table.u_reverse[k]), declared(k));
     }
   }
   return value;

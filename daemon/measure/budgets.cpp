@@ -3,10 +3,13 @@
 #include <cmath>
 
 #include "algo/sequence/usable_runs.h"
+#include "algo/uncertainty/run_uncertainty.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
+
+constexpr std::size_t kMostCost = 20'000;  // a second; 11 targets and all declared: 2,000
 
 // The target whose mean position is nearest.
 Result<algo::TargetMean> target_near(const algo::RunBudgets& run, double at_m) {
@@ -18,8 +21,8 @@ Result<algo::TargetMean> target_near(const algo::RunBudgets& run, double at_m) {
   return bad_input("the run has no target with errors, so that there is nothing to budget");
 }
 
-Result<std::vector<algo::Figure>> chosen_figures(Axis axis, const std::string& name) {
-  std::vector<algo::Figure> all = algo::figures_of_run(axis);
+Result<std::vector<algo::Figure>> chosen_figures(std::vector<algo::Figure> all,
+                                                 const std::string& name) {
   if (name.empty()) return all;
   std::string names;
   for (algo::Figure& figure : all) {
@@ -32,17 +35,39 @@ Result<std::vector<algo::Figure>> chosen_figures(Axis axis, const std::string& n
 
 }  // namespace
 
+RunUncertainty uncertainty_of(const Run& run) {
+  const auto rig = rig_of(run.header);
+  if (rig) return algo::run_uncertainty(*rig, run);
+  Rig nothing_declared;
+  nothing_declared.axis = run.header.axis;
+  RunUncertainty noise = algo::run_uncertainty(nothing_declared, run);
+  noise.why = rig.error().message;
+  return noise;
+}
+
+std::vector<Budget> figure_budgets(const Run& run) {
+  std::vector<Budget> budgets;
+  const auto rig = rig_of(run.header);
+  const auto of_run = rig ? algo::RunBudgets::create(*rig, run) : tl::unexpected(rig.error());
+  if (!of_run || of_run->cost() > kMostCost) return budgets;
+  for (const algo::Figure& figure : algo::figures_of_run(run.header.axis))
+    if (Budget budget = of_run->of(figure); std::isfinite(budget.value))
+      budgets.push_back(std::move(budget));
+  return budgets;
+}
+
 Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& request) {
   MDOF_TRY(const Run run, run_stated_at(store, request.run, request.reference));
   MDOF_TRY(const Rig rig, rig_of(run.header));
   MDOF_TRY(const auto of_run, algo::RunBudgets::create(rig, run));
   FoundBudgets found{run.header.stated, {}, {}, run.header.warnings, run.header.simulated};
-  MDOF_TRY(auto figures, chosen_figures(run.header.axis, request.figure));
+  std::vector<algo::Figure> all = algo::figures_of_run(run.header.axis);
   if (request.at_m) {
     MDOF_TRY(const auto target, target_near(of_run, *request.at_m));
     found.at_m = target.position_m;
-    figures = algo::errors_at_target(run.header.axis, target.target);
+    all = algo::errors_at_target(run.header.axis, target.target);
   }
+  MDOF_TRY(const auto figures, chosen_figures(std::move(all), request.figure));
   for (const algo::Figure& figure : figures) {
     Budget budget = of_run.of(figure);
     if (!std::isfinite(budget.value)) {

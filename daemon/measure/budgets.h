@@ -12,14 +12,23 @@
 #include "schema/base/result.h"
 #include "schema/run.h"
 #include "schema/uncertainty/budget.h"
+#include "schema/uncertainty/run_uncertainty.h"
 
 namespace mdof::daemon {
+
+// Of the points of a run as it states them, with the run's own rig. Of some of its points alone:
+// its first must be among them.
+RunUncertainty uncertainty_of(const Run& run);
+
+// Of the figures that the run has; empty where they cannot be made or would take long (a thousand
+// targets): mdof budget RUN tells why, or makes them.
+std::vector<Budget> figure_budgets(const Run& run);
 
 struct RunBudgetsRequest {
   std::int64_t run = 0;
   Reference reference = Reference::fixture;
   std::string figure;          // only this one, "EYX_straightness_um"; empty: all
-  std::optional<double> at_m;  // instead: the errors at the target that is nearest to this position
+  std::optional<double> at_m;  // of the errors ("EYX_um") at the target nearest to this position
   algo::TrialsRequest trials;
 };
 struct FoundBudgets {

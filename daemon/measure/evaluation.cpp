@@ -1,10 +1,14 @@
 #include "daemon/measure/evaluation.h"
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "algo/compensation/compensation.h"
+#include "algo/compensation/declared_uncertainty.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/usable_runs.h"
+#include "algo/uncertainty/budget.h"
 #include "daemon/history.h"
 #include "daemon/paths.h"
 #include "schema/base/toml_reader.h"
@@ -42,7 +46,9 @@ Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t
                              std::int64_t count, Reference reference) {
   Run page;
   MDOF_TRY(page.header, store.run_header(run));
-  MDOF_TRY(page.points, store.points(run, offset, count));
+  MDOF_TRY(page.points, store.points(run, 0, 1));
+  MDOF_TRY(auto asked, store.points(run, offset, count));
+  std::move(asked.begin(), asked.end(), std::back_inserter(page.points));
   return stated_anew(std::move(page), reference);
 }
 
@@ -95,6 +101,7 @@ std::vector<std::string> table_notes(const std::vector<Run>& runs) {
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request) {
   MDOF_CHECK(check_table_runs(store, request.runs));
   std::vector<Run> runs;
+  std::vector<Rig> rigs;
   algo::TableOptions options;
   options.remove_slope = !request.keep_slope;
   options.take_partial = request.partial;
@@ -111,12 +118,17 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
     options.machine = rig.machine;
     options.stated = at;
     runs.push_back(std::move(run));
+    rigs.push_back(rig);
   }
   MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
+  const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
   table.created_utc = utc_now();
   table.sha256 = table_sha256(table);
   MDOF_TRY(table.id, store.add_table(table, request.deed));
   MDOF_TRY(auto warnings, table_warnings(runs));
+  if (!declared)
+    warnings.push_back("its u is noise and repeatability only, without what the rigs declare: " +
+                       declared.error().message);
   return BuiltTable{std::move(table), std::move(warnings), table_notes(runs)};
 }
 
@@ -156,9 +168,19 @@ Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessReq
   MDOF_TRY(const Rig rig_y, rig_of(y.header));
   MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
   MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
+  MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact));
   s.created_utc = utc_now();
   MDOF_TRY(s.id, store.add_squareness(s, request.deed));
-  return FittedSquareness{std::move(s), algo::inherited_warnings({&x, &y})};
+  return FittedSquareness{std::move(s), std::move(budget), algo::inherited_warnings({&x, &y})};
+}
+
+Result<FittedSquareness> stored_squareness(store::Store& store, const Squareness& squareness) {
+  MDOF_TRY(const Run x, store.run(squareness.run_x));
+  MDOF_TRY(const Run y, store.run(squareness.run_y));
+  MDOF_TRY(const Rig rig_x, rig_of(x.header));
+  MDOF_TRY(const Rig rig_y, rig_of(y.header));
+  MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, squareness.artefact));
+  return FittedSquareness{squareness, std::move(budget), algo::inherited_warnings({&x, &y})};
 }
 
 }  // namespace mdof::daemon

@@ -12,6 +12,7 @@
 #include "schema/compensation_table.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
+#include "schema/uncertainty/budget.h"
 
 namespace mdof::daemon {
 
@@ -21,7 +22,8 @@ Result<Rig> rig_of(const RunHeader& run);
 // The run, stated anew. Error: the tool is asked for and the rig has no tool_point_mm.
 Result<Run> run_stated_at(store::Store& store, std::int64_t run, Reference reference);
 
-// Some of its points alone, without figures.
+// Its first point, with which its drift begins, and behind it `count` from `offset` on; without
+// figures.
 Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t offset,
                              std::int64_t count, Reference reference);
 
@@ -61,9 +63,13 @@ struct SquarenessRequest {
 };
 struct FittedSquareness {
   Squareness squareness;
+  Budget budget;  // of EC0Y
   std::vector<std::string> warnings;
 };
-// Fitted and stored. Errors: those of algo::artefact_of() and algo::squareness().
+// Fitted and stored. Errors: those of algo::artefact_of(), algo::squareness() and
+// algo::squareness_budget().
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request);
+// The same of one that is stored.
+Result<FittedSquareness> stored_squareness(store::Store& store, const Squareness& squareness);
 
 }  // namespace mdof::daemon

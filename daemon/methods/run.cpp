@@ -1,4 +1,8 @@
 // run.start, run.resume, run.stop, run.list, run.get, run.points.
+#include <algorithm>
+#include <ranges>
+
+#include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
 #include "daemon/paths.h"
@@ -22,6 +26,7 @@ using rpc::Reply;
 
 constexpr std::int64_t kMaxPointsPage = 100;
 constexpr std::size_t kMaxVisits = 1500;  // numbers of n_ij in one reply
+constexpr std::size_t kAfterFirst = 1;    // points_stated_at() gives the run's first before them
 constexpr std::int64_t kMaxRunsPage = 100;
 constexpr std::int64_t kMaxRunPoints = 100'000;  // all of them make the figures; some 0.3 s
 constexpr std::size_t kMaxTargets = 1500;        // the reply names them all, and a line holds them
@@ -250,6 +255,7 @@ Result<std::string> run_points(Methods& m, const Params& params) {
   MDOF_TRY(const Reference reference, reference_param(params));
   MDOF_TRY(const auto total, m.reader.count_points(id));
   MDOF_TRY(const Run run, points_stated_at(m.reader, id, page.offset, page.count, reference));
+  const RunUncertainty uncertainty = uncertainty_of(run);
   JsonWriter json;
   json.begin_object()
       .field("run", id)
@@ -257,12 +263,14 @@ Result<std::string> run_points(Methods& m, const Params& params) {
       .field("total", total)
       .field("offset", page.offset);
   write_reference(json, run.header.stated);
+  write_covers(json, uncertainty);
   json.key("points").begin_array();
-  append_page(json, run.points, [&](const MeasuredPoint& point) {
-    JsonWriter item;
-    write_point(item, run.header.moving(), point);
-    return item.take();
-  });
+  append_page(json, std::views::iota(kAfterFirst, std::max(kAfterFirst, run.points.size())),
+              [&](std::size_t j) {
+                JsonWriter item;
+                write_point(item, run.header.moving(), run.points[j], uncertainty.points[j]);
+                return item.take();
+              });
   json.end_array().end_object();
   return json.take();
 }
@@ -347,7 +355,9 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "run.points",
              .summary = "The points of a run in the order measured, a page at a time.",
              .params = {run, offset, count_param(kMaxPointsPage), reference},
-             .result = "total, points: position_mm, five errors in um and urad, u, flags",
+             .result =
+                 "total, u_covers, points: position_mm, five errors in um and urad, u, u_random, "
+                 "U, k, nu_eff (null: infinite), flags",
              .example = R"({"run": 1, "offset": 0, "count": 20})",
              .handler = [&m](const Params& p) { return run_points(m, p); }});
 }

@@ -21,7 +21,7 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   request.deed = deed_of(params, "squareness.fit");
   answer_from_store(m, std::move(reply), [request](store::Store& store) -> Result<std::string> {
     MDOF_TRY(const FittedSquareness fitted, fit_squareness(store, request));
-    return with_warnings(squareness_json(fitted.squareness), fitted.warnings);
+    return with_warnings(squareness_json(fitted.squareness, fitted.budget), fitted.warnings);
   });
 }
 
@@ -45,7 +45,8 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
                    {},
                    {.least = 0}},
                   {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
-       .result = "EC0Y_urad, u_EC0Y_urad, form_urad (how crooked the axes are) and both slopes, at "
+       .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), form_urad (how "
+                 "crooked the axes are) and both slopes, at "
                  "the fixture; warnings",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,

@@ -22,6 +22,7 @@ struct Station::OpenRun {
   std::uint64_t blocks_not_recorded = 0;           // the store's queue was full
   TroubleLog troubles = {};                        // of the devices, since it began
   EncoderDatum datum = {};                         // of its positions
+  Model model = Model::rigid;
 };
 
 // What a run that goes on from another begins with.

@@ -188,6 +188,7 @@ void Station::attach(Item& item) {
   open_ = std::make_unique<OpenRun>(
       OpenRun{item.run, item.request, std::move(*pipeline), {}, std::move(continues), {}, {}, 0});
   open_->datum = item.options->datum;
+  open_->model = item.options->model;
   shared_->run = item.run;
   shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
   item.done(item.run);
@@ -265,7 +266,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   open_->stored.insert(open_->stored.end(), fresh.begin(), fresh.end());
   tell_unsolved(fresh);
   const std::int64_t run = open_->id;
-  auto messages = points_messages(run, config_.rig.moving(), fresh, first);
+  auto messages = points_messages(run, config_.rig, open_->model, open_->stored, first);
   std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
   // Told to clients only once it is on the disk.
   keeper_.append_points(run, std::move(fresh),

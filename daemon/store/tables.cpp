@@ -23,16 +23,22 @@ constexpr std::string_view kTable =
     "moves, travel, reference, point_m, chain, chain_travel "
     "FROM compensation_table ";
 
+// Numbers a position: with what the rigs declare where they do.
+constexpr std::size_t kSeries = 20, kSeriesWithDeclared = 25;
+
 // The series in the order in which they are stored.
 template <class Table, class Visit>
-void for_each_series(Table& table, Visit visit) {
+void for_each_series(Table& table, bool with_declared, Visit visit) {
   for (auto* group : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
     for (auto& series : *group) visit(series);
+  if (with_declared)
+    for (auto& series : table.u_declared) visit(series);
 }
 
 Status check_shape(const CompensationTable& table) {
   bool fits = true;
-  for_each_series(table, [&](const auto& s) { fits &= s.size() == table.position_m.size(); });
+  for_each_series(table, table.has_declared(),
+                  [&](const auto& s) { fits &= s.size() == table.position_m.size(); });
   if (fits) return {};
   return fail(ErrorCode::usage, "compensation table: each series must have one value for each of " +
                                     std::to_string(table.position_m.size()) + " positions");
@@ -40,14 +46,15 @@ Status check_shape(const CompensationTable& table) {
 
 std::vector<double> all_series(const CompensationTable& table) {
   std::vector<double> all;
-  for_each_series(table, [&](const auto& s) { all.insert(all.end(), s.begin(), s.end()); });
+  for_each_series(table, table.has_declared(),
+                  [&](const auto& s) { all.insert(all.end(), s.begin(), s.end()); });
   return all;
 }
 
 void set_series(CompensationTable& table, const std::vector<double>& all) {
   const std::size_t n = table.position_m.size();
   auto from = all.begin();
-  for_each_series(table, [&](auto& series) {
+  for_each_series(table, all.size() == kSeriesWithDeclared * n, [&](auto& series) {
     series.assign(from, from + static_cast<std::ptrdiff_t>(n));
     from += static_cast<std::ptrdiff_t>(n);
   });
@@ -181,7 +188,8 @@ Result<CompensationTable> Store::table_of(Statement& row) {
   table.sha256 = row.text(5);
   table.position_m = doubles_from(row.bytes(6));
   const std::vector<double> errors = doubles_from(row.bytes(7));
-  if (errors.size() != 20 * table.position_m.size())
+  const std::size_t n = table.position_m.size();
+  if (errors.size() != kSeries * n && errors.size() != kSeriesWithDeclared * n)
     return bad_input(file().string() + ": compensation table " + std::to_string(table.id) +
                      " is damaged; restore the database from a backup");
   MDOF_CHECK(check_link(connection_, Fact::table, table.id));

@@ -4,6 +4,11 @@
 
 namespace mdof {
 
+std::string covers_text(const Budget& budget) {
+  return budget.noise_only ? "noise and repeatability only: no uncertainties are declared"
+                           : "noise, repeatability and what is declared";
+}
+
 const char* to_string(Conformity conformity) {
   return conformity == Conformity::conform       ? "conform"
          : conformity == Conformity::not_conform ? "not conform"

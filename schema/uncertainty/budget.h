@@ -45,6 +45,9 @@ struct Budget {
   std::optional<BudgetTrials> trials;
 };
 
+// What its u is made of: one sentence for people, without a full stop.
+std::string covers_text(const Budget& budget);
+
 // ISO 14253-1: what may be said of a figure that must be at most `limit` in size.
 enum class Conformity { conform, not_conform, undecided };
 const char* to_string(Conformity conformity);  // "conform", "not conform", "undecided"

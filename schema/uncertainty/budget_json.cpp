@@ -33,22 +33,35 @@ void write_trials(JsonWriter& json, const BudgetTrials& trials) {
       .end_object();
 }
 
+void write_members(JsonWriter& json, const Budget& budget) {
+  json.field("value", to_key_unit(budget.value))
+      .field("u", to_key_unit(budget.u))
+      .field("u_random", to_key_unit(budget.u_random))
+      .field("nu_eff", budget.freedom)
+      .field("k", budget.coverage_factor)
+      .field("U", to_key_unit(budget.U))
+      .field("U_by", budget.U_by_trials ? "Monte Carlo" : "GUM");
+}
+
 }  // namespace
+
+void write_stated(JsonWriter& json, const std::vector<Budget>& budgets) {
+  json.begin_object();
+  for (const Budget& budget : budgets) {
+    json.key(budget.figure).begin_object();
+    write_members(json, budget);
+    json.end_object();
+  }
+  json.end_object();
+}
 
 void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
                    const std::optional<double>& tolerance) {
   json.begin_object();
   for (const Budget& budget : budgets) {
-    json.key(budget.figure)
-        .begin_object()
-        .field("value", to_key_unit(budget.value))
-        .field("u", to_key_unit(budget.u))
-        .field("u_random", to_key_unit(budget.u_random))
-        .field("nu_eff", budget.freedom)
-        .field("k", budget.coverage_factor)
-        .field("U", to_key_unit(budget.U))
-        .field("U_by", budget.U_by_trials ? "Monte Carlo" : "GUM")
-        .field("noise_only", budget.noise_only);
+    json.key(budget.figure).begin_object();
+    write_members(json, budget);
+    json.field("noise_only", budget.noise_only);
     json.key("not_declared").begin_array();
     for (const std::string& key : budget.not_declared) json.value(key);
     json.end_array();

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <simdjson.h>
 
+#include "tests/algo/rigs.h"
+
 namespace mdof::daemon {
 namespace {
 
@@ -15,7 +17,8 @@ TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
     for (double& x : points[i].errors.local) x = 1.23456789012345e-6;
     for (double& x : points[i].errors.covariance) x = 1.23456789012345e-14;
   }
-  const auto messages = points_messages(7, {Axis::x, {}}, points, 40);
+  points.insert(points.begin(), 40, points.front());  // told already
+  const auto messages = points_messages(7, test::rig_x(), Model::exact, points, 40);
   EXPECT_GT(messages.size(), 1u);
   std::uint64_t next = 40;
   simdjson::dom::parser parser;
@@ -23,13 +26,17 @@ TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
     EXPECT_LT(message.size(), 48u * 1024 - 128);
     const auto json = parser.parse(message);
     EXPECT_EQ(std::uint64_t(json["offset"]), next);
+    EXPECT_EQ(std::string_view(json["u_covers"]),
+              "noise only: the rig declares no uncertainties");
     for (const auto point : json["points"]) EXPECT_EQ(std::uint64_t(point["target"]), ++next - 40);
   }
   EXPECT_EQ(next, 540u);
 }
 
 TEST(RunEvents, NoPointsAreNoMessage) {
-  EXPECT_TRUE(points_messages(7, {Axis::x, {}}, {}, 0).empty());
+  const Rig rig = test::rig_x();
+  EXPECT_TRUE(points_messages(7, rig, Model::exact, {}, 0).empty());
+  EXPECT_TRUE(points_messages(7, rig, Model::exact, {MeasuredPoint{}}, 1).empty());
 }
 
 }  // namespace

@@ -48,6 +48,13 @@ TEST_F(StoreTest, GivesACompensationTableBackToTheLastBit) {
     EXPECT_EQ(bits(back.u_forward[k]), bits(table.u_forward[k]));
     EXPECT_EQ(bits(back.u_reverse[k]), bits(table.u_reverse[k]));
   }
+  EXPECT_FALSE(back.has_declared());
+  for (std::size_t k = 0; k < 5; ++k) table.u_declared[k] = table.u_reverse[(k + 1) % 5];
+  const CompensationTable declared = store->table(store->add_table(table).value()).value();
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(bits(declared.u_declared[k]), bits(table.u_declared[k]));
+    EXPECT_EQ(bits(declared.u_reverse[k]), bits(table.u_reverse[k]));
+  }
   table.forward[2].pop_back();
   EXPECT_EQ(store->add_table(table).error().code, ErrorCode::usage);
 }

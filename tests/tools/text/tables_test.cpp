@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "algo/uncertainty/run_uncertainty.h"
 #include "schema/run_json.h"
 #include "schema/sample.h"
 #include "tools/mdof/csv/csv_text.h"
@@ -120,38 +121,50 @@ Run one_point(bool valid, const std::string& reason) {
   return run;
 }
 
+RunUncertainty noise_of(const Run& run) {
+  Rig nothing_declared;
+  return algo::run_uncertainty(nothing_declared, run);
+}
+
 TEST(RunTables, FitAnyTerminalWhateverTheNumbersAre) {
   for (const bool valid : {true, false}) {
     const auto run = one_point(valid, "five probes are needed, and of A, B, C two are left");
     for (const std::size_t width : {80u, 100u, 132u, 200u})
-      EXPECT_LE(widest(show_text(run, std::string(64, 'a'), width)), width) << width;
+      EXPECT_LE(widest(show_text(run, noise_of(run), std::string(64, 'a'), width)), width) << width;
   }
 }
 
 TEST(RunTables, AnUncertaintyThatIsNotKnownIsNotZero) {
-  const std::string text = points_text(one_point(true, ""), 200);
+  const auto run = one_point(true, "");
+  const std::string text = points_text(run, noise_of(run), 200);
   EXPECT_EQ(text.find("± 0.000"), std::string::npos) << text;
   EXPECT_EQ(text.find("-0.000 "), std::string::npos) << text;
 }
 
 TEST(RunCsv, HasUnitsInItsHeaderAndNothingWhereNothingIsKnown) {
-  const std::string csv = points_csv(one_point(true, ""));
+  const auto run = one_point(true, ""), unsolved = one_point(false, "why");
+  const std::string csv = points_csv(run, noise_of(run));
   EXPECT_TRUE(
       csv.starts_with("target,target_mm,run,direction,position_mm,EYX_um,EZX_um,EAX_urad,"
                       "EBX_urad,ECX_urad,u_EYX_um,u_EZX_um,u_EAX_urad,u_EBX_urad,"
-                      "u_ECX_urad,samples,flags,reason\n1,0,1,0,-123.45678"));
-  EXPECT_NE(csv.find(",0.099999999999999992,,0.099999999999999992,0,"), std::string::npos) << csv;
-  EXPECT_NE(points_csv(one_point(false, "why")).find(",,,,,,,,,,0,saturated:A"), std::string::npos);
+                      "u_ECX_urad,u_random_EYX_um,u_random_EZX_um,u_random_EAX_urad,"
+                      "u_random_EBX_urad,u_random_ECX_urad,U_EYX_um,U_EZX_um,U_EAX_urad,"
+                      "U_EBX_urad,U_ECX_urad,samples,flags,reason\n1,0,1,0,-123.45678"));
+  EXPECT_NE(csv.find(",0.099999999999999992,,0.099999999999999992,"), std::string::npos) << csv;
+  EXPECT_NE(points_csv(unsolved, noise_of(unsolved)).find(",,,,,,,,,,,,,,,,,,,,0,saturated:A"),
+            std::string::npos);
 }
 
 // The names are of the body that moves: where that is the fixture they have the other sign, as in
 // the JSON.
 TEST(RunCsv, SaysTheErrorsOfTheBodyThatMoves) {
   auto run = one_point(true, "");
-  EXPECT_NE(points_csv(run).find(",-123.4567,"), std::string::npos) << points_csv(run);
+  EXPECT_NE(points_csv(run, noise_of(run)).find(",-123.4567,"), std::string::npos)
+      << points_csv(run, noise_of(run));
   run.header.sides.fixture_moves = true;
-  EXPECT_NE(points_csv(run).find(",123.4567,"), std::string::npos) << points_csv(run);
-  EXPECT_NE(run_json(run).find("\"EYX_um\":123.4567,"), std::string::npos);
+  EXPECT_NE(points_csv(run, noise_of(run)).find(",123.4567,"), std::string::npos)
+      << points_csv(run, noise_of(run));
+  EXPECT_NE(run_json(run, noise_of(run), {}).find("\"EYX_um\":123.4567,"), std::string::npos);
 }
 
 TEST(LogCsv, IsALogWithTimesToTheNanosecond) {

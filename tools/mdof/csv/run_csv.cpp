@@ -11,32 +11,35 @@ namespace mdof::tools {
 namespace {
 
 // Points without noise have no uncertainty: the cell stays empty.
-double known_u(double variance) {
-  return variance > 0 ? to_key_unit(std::sqrt(variance)) : kNaN;
+double known_u(double u) {
+  return u > 0 ? to_key_unit(u) : kNaN;
 }
 
-void add_point(CsvText& csv, const MovingAxis& moving, const MeasuredPoint& p) {
+void add_point(CsvText& csv, const MovingAxis& moving, const MeasuredPoint& p,
+               const ErrorsUncertainty& uncertainty) {
   const Errors5 named = named_from_local(moving, p.errors.local);
-  const Covariance5 cov = named_from_local(moving.axis, p.errors.covariance);
   const bool valid = p.errors.valid;
   csv.cell(static_cast<long long>(p.target)).cell(to_mm(p.target_m));
   csv.cell(static_cast<long long>(p.run)).cell(static_cast<long long>(p.point.direction));
   csv.cell(to_mm(p.point.position_m));
   for (const double error : named) csv.cell(valid ? to_key_unit(error) : kNaN);
-  for (std::size_t k = 0; k < 5; ++k) csv.cell(valid ? known_u(cov[6 * k]) : kNaN);
+  for (const Errors5& five : {uncertainty.u, uncertainty.u_random, uncertainty.U})
+    for (const double u : five) csv.cell(known_u(u));
   csv.cell(static_cast<long long>(p.point.samples)).cell(joined(p.point.flags, " "));
   csv.cell(valid ? "" : p.errors.reason).end_row();
 }
 
 }  // namespace
 
-std::string points_csv(const Run& run) {
+std::string points_csv(const Run& run, const RunUncertainty& uncertainty) {
   CsvText csv;
   csv.cells({"target", "target_mm", "run", "direction", "position_mm"});
   for (const auto& name : error_names(run.header.axis)) csv.cell(std::string_view(name.key));
-  for (const auto& name : error_names(run.header.axis)) csv.cell("u_" + std::string(name.key));
+  for (const std::string of : {"u_", "u_random_", "U_"})
+    for (const auto& name : error_names(run.header.axis)) csv.cell(of + name.key);
   csv.cells({"samples", "flags", "reason"}).end_row();
-  for (const auto& point : run.points) add_point(csv, run.header.moving(), point);
+  for (std::size_t j = 0; j < run.points.size(); ++j)
+    add_point(csv, run.header.moving(), run.points[j], uncertainty.points[j]);
   return csv.take();
 }
 

@@ -17,11 +17,16 @@ std::string table_csv(const CompensationTable& t) {
   csv.cell("position_mm");
   for (const auto& group : groups)
     for (const auto& name : error_names(t.axis)) csv.cell(std::string(group.prefix) + name.key);
+  const bool declared = t.has_declared();
+  if (declared)
+    for (const auto& name : error_names(t.axis)) csv.cell(std::string("u_declared_") + name.key);
   csv.end_row();
   for (std::size_t i = 0; i < t.position_m.size(); ++i) {
     csv.cell(to_mm(t.position_m[i]));
     for (const auto& group : groups)
       for (const auto& series : group.values) csv.cell(to_key_unit(series[i]));
+    if (declared)
+      for (const auto& series : t.u_declared) csv.cell(to_key_unit(series[i]));
     csv.end_row();
   }
   return csv.take();

@@ -1,5 +1,6 @@
 #include "tools/mdof/stored/stored_run.h"
 
+#include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/store/store.h"
 #include "tools/mdof/stored/json_read.h"
@@ -19,7 +20,7 @@ Result<std::string> read_text(rpc::Client& daemon, std::int64_t id) {
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
   MDOF_TRY(const auto deeds, store.deeds_of_run(id));
   const std::size_t width = terminal_columns();
-  return show_text(run, sha256, width) + history_text(deeds, width);
+  return show_text(run, daemon::uncertainty_of(run), sha256, width) + history_text(deeds, width);
 }
 
 }  // namespace

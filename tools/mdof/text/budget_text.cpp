@@ -69,15 +69,35 @@ std::string trials_text(const Budget& b) {
 
 }  // namespace
 
+namespace {
+
+// Of two rigs ("X u_um_per_h", "Y u_um_per_h") what both leave out is named once.
+std::vector<std::string> named_once(const std::vector<std::string>& keys) {
+  const auto has = [&](const std::string& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  std::vector<std::string> once;
+  for (const std::string& key : keys) {
+    const std::string bare = key.substr(std::min<std::size_t>(2, key.size()));
+    const bool both = has("X " + bare) && has("Y " + bare);
+    if (!both) once.push_back(key);
+    if (both && key.starts_with("X ")) once.push_back(bare);
+  }
+  return once;
+}
+
+}  // namespace
+
 std::string not_declared_text(const std::vector<Budget>& budgets) {
   const Budget& first = budgets.front();  // all are of the same rigs
   if (first.not_declared.empty()) return "";
   return std::string(first.noise_only ? "noise only: the rig declares no uncertainties"
                                       : "the rig does not declare all uncertainties") +
-         ", so that U is too small by what these would add: " + joined(first.not_declared);
+         ", so that U is too small by what these would add: " +
+         joined(named_once(first.not_declared));
 }
 
-std::string budgets_text(const std::vector<Budget>& budgets) {
+std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) {
   TextTable table(
       {"figure", "value", "U", "unit", "k", "u random", "largest contributor", "share"});
   for (const Budget& b : budgets) {
@@ -86,7 +106,7 @@ std::string budgets_text(const std::vector<Budget>& budgets) {
                unit_of(b), fixed(b.coverage_factor, 2), shown(b, b.u_random), first.name,
                percent(first.share)});
   }
-  return table.text() + "U: expanded uncertainty, 95 %\n";
+  return table.text(width) + "U: expanded uncertainty, 95 %\n";
 }
 
 std::string budget_text(const Budget& b, const std::optional<double>& tolerance,

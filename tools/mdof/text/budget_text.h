@@ -10,7 +10,7 @@
 namespace mdof::tools {
 
 // One row a figure: value, U, k, what is random, and the largest contributor.
-std::string budgets_text(const std::vector<Budget>& budgets);
+std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width);
 // One figure whole, with a sentence that says what to improve first.
 std::string budget_text(const Budget& budget, const std::optional<double>& tolerance,
                         std::size_t width);

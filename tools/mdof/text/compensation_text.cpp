@@ -24,7 +24,7 @@ std::string side_text(const CompensationTable& t, const Columns& values, const C
     std::vector<std::string> row{in_mm(t.position_m[i])};
     for (std::size_t k = 0; k < 5; ++k) {
       const auto show = error_names(t.axis)[k].angle ? in_urad : in_um;
-      row.push_back(with_u(show(values[k][i]), show(u[k][i])));
+      row.push_back(with_u(show(values[k][i]), show(t.u_of(u, k, i))));
     }
     out.add(std::move(row));
   }
@@ -79,7 +79,9 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
          ", angles from the first target\n" + stated_text(t.stated) +
          corrections_text(t, terminal_columns()) + "\nforward\n" +
          side_text(t, t.forward, t.u_forward) + "\nreverse\n" +
-         side_text(t, t.reverse, t.u_reverse);
+         side_text(t, t.reverse, t.u_reverse) + "± one standard uncertainty: noise" +
+         (t.has_declared() ? ", repeatability and what the rigs declare\n"
+                           : " and repeatability only\n");
 }
 
 std::string list_document(const std::vector<CompensationTable>& tables,

@@ -81,10 +81,10 @@ std::string stated_text(const StatedAt& at) {
   return "straightness at the fixture\n";
 }
 
-std::string show_text(const Run& run, const std::string& result_sha256, std::size_t width,
-                      bool all_warnings) {
+std::string show_text(const Run& run, const RunUncertainty& uncertainty,
+                      const std::string& result_sha256, std::size_t width, bool all_warnings) {
   return head_text(run.header, result_sha256, width, all_warnings) + "\n" +
-         points_text(run, width) +
+         points_text(run, uncertainty, width) +
          (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : "");
 }
 
@@ -115,27 +115,28 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   return out;
 }
 
-std::string points_text(const Run& run, std::size_t width) {
+std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width) {
   const Axis axis = run.header.axis;
   std::vector<std::string> head{"target", "run", "dir", "at/mm"};
   for (const auto& name : error_names(axis)) head.push_back(error_label(name.key));
   head.insert(head.end(), {"samples", "flags"});
   TextTable table(std::move(head), 4);
-  for (const MeasuredPoint& p : run.points) {
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const MeasuredPoint& p = run.points[j];
     std::vector<std::string> row{std::to_string(p.target), std::to_string(p.run),
                                  arrow(p.point.direction), in_mm(p.point.position_m)};
     const Errors5 named = named_from_local(run.header.moving(), p.errors.local);
-    const Covariance5 cov = named_from_local(axis, p.errors.covariance);
     for (std::size_t k = 0; k < 5; ++k) {
       const auto show = error_names(axis)[k].angle ? in_urad : in_um;
-      row.push_back(p.errors.valid ? value_with_u(named[k], std::sqrt(cov[6 * k]), show) : "-");
+      row.push_back(p.errors.valid ? value_with_u(named[k], uncertainty.points[j].u[k], show)
+                                   : "-");
     }
     row.insert(row.end(), {std::to_string(p.point.samples), flags_of(p)});
     table.add(std::move(row));
   }
   return table.text(width) +
-         wrapped("± one standard uncertainty; error = actual - nominal, of the " +
-                     std::string(run.header.sides.moves()),
+         wrapped("± one standard uncertainty, " + covers_text(uncertainty) +
+                     "; error = actual - nominal, of the " + run.header.sides.moves(),
                  width) +
          "\n" + stated_text(run.header.stated);
 }

@@ -7,6 +7,7 @@
 #include "schema/iso230/reference_lines.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
+#include "schema/uncertainty/run_uncertainty.h"
 
 namespace mdof::tools {
 
@@ -16,7 +17,8 @@ std::string simulated_notice(bool simulated);
 std::string stated_text(const StatedAt& at);  // a line: where straightness is stated
 
 // What `mdof show` prints of a run.
-std::string show_text(const Run& run, const std::string& result_sha256, std::size_t width,
+std::string show_text(const Run& run, const RunUncertainty& uncertainty,
+                      const std::string& result_sha256, std::size_t width,
                       bool all_warnings = false);
 // What `mdof analyse` prints.
 std::string figures_text(const Run& run, std::size_t width);
@@ -24,7 +26,8 @@ std::string figures_text(const Run& run, std::size_t width);
 // Identity, provenance, warnings. `result_sha256` may be empty.
 std::string head_text(const RunHeader& header, const std::string& result_sha256, std::size_t width,
                       bool all_warnings = false);
-std::string points_text(const Run& run, std::size_t width);  // five errors ± u, samples, flags
+// Five errors ± u, samples, flags.
+std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width);
 std::string straightness_text(const std::vector<StraightnessFigure>& figures, std::size_t width);
 std::string minimum_zone_text(const std::vector<StraightnessLines>& lines, std::size_t width);
 std::string angles_text(const std::vector<AngleFigure>& figures, std::size_t width);

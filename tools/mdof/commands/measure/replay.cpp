@@ -5,6 +5,7 @@
 
 #include "algo/model/restate.h"
 #include "daemon/history.h"
+#include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/replay/replay_request.h"
 #include "schema/base/files.h"
@@ -120,9 +121,10 @@ Status replay(const ReplayCommand& command) {
   MDOF_TRY(const StatedAt at, asked_reference(command, run));
   run = algo::restate(std::move(run), at);  // what is stored is stated at the fixture
   for (const auto& warning : summarised(run.header.warnings, command.all_warnings)) warn(warning);
-  if (command.json) return write_line(run_json(run));
+  if (command.json)
+    return write_line(run_json(run, daemon::uncertainty_of(run), daemon::figure_budgets(run)));
   run.header.warnings.clear();  // said already
-  return write_out(show_text(run, "", terminal_columns()) + "\n" +
+  return write_out(show_text(run, daemon::uncertainty_of(run), "", terminal_columns()) + "\n" +
                    figures_text(run, terminal_columns()));
 }
 

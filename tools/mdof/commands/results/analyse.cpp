@@ -2,15 +2,19 @@
 #include <CLI/CLI.hpp>
 
 #include "algo/iso230/straightness.h"
+#include "daemon/measure/budgets.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
+#include "schema/uncertainty/budget_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/results/chosen_run.h"
 #include "tools/mdof/csv/run_csv.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/budget_text.h"
 #include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {
@@ -34,8 +38,18 @@ std::string analysis_json(const Run& run) {
   write_straightness_lines(json, lines_of(run));
   json.key("angles");
   write_angles(json, run.angles);
+  json.key("uncertainty");
+  write_stated(json, daemon::figure_budgets(run));
   json.end_object();
   return json.take();
+}
+
+std::string stated_figures_text(const std::vector<Budget>& figures) {
+  if (figures.empty()) return "";
+  const std::string missing = not_declared_text(figures);
+  return "\nof both approaches' mean, with uncertainty (mdof budget has the contributors)\n" +
+         budgets_text(figures, terminal_columns()) +
+         (missing.empty() ? "" : wrapped(missing, terminal_columns()) + "\n");
 }
 
 Status analyse(const ChosenRun& choice) {
@@ -48,7 +62,8 @@ Status analyse(const ChosenRun& choice) {
   if (choice.json) return write_line(analysis_json(run));
   const std::size_t width = terminal_columns();
   return write_out(head_text(run.header, "", width, choice.all_warnings) + "\n" +
-                   figures_text(run, width) + "\n" + minimum_zone_text(lines_of(run), width));
+                   figures_text(run, width) + "\n" + minimum_zone_text(lines_of(run), width) +
+                   stated_figures_text(daemon::figure_budgets(run)));
 }
 
 Action declare_analyse(CLI::App& command) {

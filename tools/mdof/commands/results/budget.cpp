@@ -87,8 +87,8 @@ std::string text_of(const daemon::FoundBudgets& found, const std::optional<doubl
   if (found.at_m) head += "errors at " + in_mm(*found.at_m) + " mm\n";
   return head + (found.budgets.size() == 1
                      ? budget_text(found.budgets.front(), tolerance, terminal_columns())
-                     : budgets_text(found.budgets) + "One figure whole: --figure " +
-                           found.budgets.front().figure + "\n");
+                     : budgets_text(found.budgets, terminal_columns()) +
+                           "One figure whole: --figure " + found.budgets.front().figure + "\n");
 }
 
 Status budget(const BudgetCommand& command) {

@@ -3,6 +3,7 @@
 
 #include "algo/iso230/straightness.h"
 #include "daemon/history.h"
+#include "daemon/measure/budgets.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
@@ -21,7 +22,7 @@ namespace {
 // is as it was.
 std::string with_lines_hash_and_history(const Run& run, const std::string& sha256,
                                         const std::vector<Deed>& deeds) {
-  std::string json = run_json(run);
+  std::string json = run_json(run, daemon::uncertainty_of(run), daemon::figure_budgets(run));
   json.pop_back();
   JsonWriter lines, history;
   write_straightness_lines(lines, algo::straightness_lines(run.header.moving(), run.points));
@@ -35,13 +36,14 @@ Status show(const ChosenRun& choice) {
   MDOF_TRY(const Run run, load_run(store, choice));
   if (choice.csv) {
     warn_of(run, choice.all_warnings);
-    return write_out(points_csv(run));
+    return write_out(points_csv(run, daemon::uncertainty_of(run)));
   }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
   if (choice.json) return write_line(with_lines_hash_and_history(run, sha256, deeds));
   const std::size_t width = terminal_columns();
-  return write_out(show_text(run, sha256, width, choice.all_warnings) + history_text(deeds, width));
+  return write_out(show_text(run, daemon::uncertainty_of(run), sha256, width, choice.all_warnings) +
+                   history_text(deeds, width));
 }
 
 Action declare_show(CLI::App& command) {

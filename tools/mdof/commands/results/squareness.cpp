@@ -15,6 +15,8 @@
 #include "tools/mdof/stored/database_writer.h"
 #include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/budget_text.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 #include "tools/mdof/text/warnings.h"
@@ -49,7 +51,8 @@ std::vector<std::string> line_row(const std::string& label, const SquarenessLine
           in_urad(lines.minimum_zone.*value)};
 }
 
-std::string squareness_text(const Squareness& s, const SquarenessLines& lines) {
+std::string squareness_text(const Squareness& s, const Budget& budget,
+                            const SquarenessLines& lines) {
   TextTable table({"slope/µrad", "least squares", "end points", "minimum zone"});
   table.add(line_row("EYX, run " + std::to_string(s.run_x), lines, &SquarenessLine::slope_EYX_rad,
                      with_u(in_urad(s.slope_EYX_rad), in_urad(s.u_slope_EYX_rad))));
@@ -59,14 +62,17 @@ std::string squareness_text(const Squareness& s, const SquarenessLines& lines) {
   table.add({"artefact", with_u(artefact, in_urad(s.artefact.u_rad)), artefact, artefact});
   table.add(line_row("EC0Y", lines, &SquarenessLine::EC0Y_rad, in_urad(s.EC0Y_rad)));
   return simulated_notice(s.simulated) + table.text() +
-         "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), in_urad(s.u_EC0Y_rad)) +
-         " µrad; the angle from +X to +Y is 90° + EC0Y\n"
+         "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), in_urad(budget.u)) +
+         " µrad, expanded U = " + in_urad(budget.U) + " (k = " + fixed(budget.coverage_factor, 2) +
+         ", 95 %)\n"
+         "the angle from +X to +Y is 90° + EC0Y\n"
          "form " +
-         in_urad(s.form_rad) +
-         " µrad: how crooked the axes are\n"
-         "± one standard uncertainty: noise and repeatability of the slopes, and the\n"
-         "artefact; not mounting, calibration and drift (mdof budget has those). Slopes at\n"
-         "the fixture.\n";
+         in_urad(s.form_rad) + " µrad: how crooked the axes are\n" +
+         wrapped("± one standard uncertainty: of EC0Y " + covers_text(budget) +
+                     ", of slopes noise and repeatability; mdof budget has the contributors. "
+                     "Slopes at the fixture.",
+                 terminal_columns()) +
+         "\n";
 }
 
 // Made on reading: stored is the fit by least squares.
@@ -100,7 +106,7 @@ Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessC
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto newest, store.list_squareness(0, kNewest));
   for (const auto& s : newest)
-    if (s.id == id) return daemon::FittedSquareness{s, texts(json, "warnings")};
+    if (s.id == id) return daemon::stored_squareness(store, s);
   return io_error("mdofd stored a squareness that its database does not have: " + reply);
 }
 
@@ -109,11 +115,13 @@ Status squareness(SquarenessCommand command) {
   MDOF_TRY(command.run_y, run_number(command.database, command.word_y, Axis::y));
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   MDOF_TRY(const auto fitted, mdofd ? fit_there(*mdofd, command) : fit(command));
-  const auto& [s, warnings] = fitted;
+  const auto& [s, budget, warnings] = fitted;
   for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
+  if (const std::string text = not_declared_text({budget}); !text.empty()) warn(text);
   MDOF_TRY(const SquarenessLines lines, lines_of_squareness(command.database, s));
-  return command.json ? write_line(with_lines(with_warnings(squareness_json(s), warnings), lines))
-                      : write_out(squareness_text(s, lines));
+  return command.json
+             ? write_line(with_lines(with_warnings(squareness_json(s, budget), warnings), lines))
+             : write_out(squareness_text(s, budget, lines));
 }
 
 Action declare_squareness(CLI::App& command) {

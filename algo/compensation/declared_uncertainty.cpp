@@ -1,0 +1,93 @@
+#include "algo/compensation/declared_uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "algo/model/restate.h"
+#include "algo/uncertainty/contributors.h"
+
+namespace mdof::algo {
+namespace {
+
+// About a second: points alone, whose sensitivities are differences of the solver, and points times
+// parts.
+constexpr std::size_t kMostPoints = 20'000, kMostCost = 1'000'000;
+
+// Of one contributor: its parts, each with the shifts of every run; a run without it has none.
+using PartsOfRuns = std::vector<std::vector<PointShifts>>;
+
+std::string identity(const Contributor& c) {
+  return c.name + " " + c.key + " " + std::to_string(c.declared.u * c.to_unit);
+}
+
+Result<std::map<std::string, PartsOfRuns>> all_contributors(const std::vector<Rig>& rigs,
+                                                            const std::vector<Run>& runs) {
+  std::map<std::string, PartsOfRuns> all;
+  std::size_t points = 0, parts_in_all = 0;
+  for (const Run& run : runs) points += run.points.size();
+  const auto too_many = [] {
+    return bad_input("the runs have too many points for what their rigs declare");
+  };
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!rigs[r].declares_uncertainty()) continue;
+    if (points > kMostPoints) return too_many();
+    MDOF_TRY(const auto declared, contributors(rigs[r], runs[r]));
+    for (const Contributor& contributor : declared) {
+      auto parts = contributor.parts();
+      PartsOfRuns& of = all[identity(contributor)];
+      if (of.size() < parts.size()) {
+        parts_in_all += parts.size() - of.size();
+        of.resize(parts.size(), std::vector<PointShifts>(runs.size()));
+      }
+      if (parts_in_all * points > kMostCost) return too_many();
+      for (std::size_t p = 0; p < parts.size(); ++p) of[p][r] = std::move(parts[p]);
+    }
+  }
+  return all;
+}
+
+using Squares = std::array<std::vector<double>, 5>;
+
+void add_squares(const std::array<std::vector<double>, 5>& shifted,
+                 const std::array<std::vector<double>, 5>& values, Squares& squares) {
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    for (std::size_t i = 0; i < values[k].size(); ++i)
+      if (const double by = shifted[k][i] - values[k][i]; std::isfinite(by))
+        squares[k][i] += by * by;
+}
+
+Squares zeros(std::size_t n) {
+  Squares squares;
+  squares.fill(std::vector<double>(n, 0.0));
+  return squares;
+}
+
+}  // namespace
+
+Status add_declared_uncertainty(CompensationTable& table, const std::vector<Rig>& rigs,
+                                const std::vector<Run>& measured, const TableOptions& options) {
+  std::vector<Run> runs;
+  for (const Run& run : measured) runs.push_back(restate(run, options.stated));
+  MDOF_TRY(const auto all, all_contributors(rigs, runs));
+  if (all.empty()) return {};
+  const std::size_t n = table.position_m.size();
+  Squares forward = zeros(n), reverse = zeros(n);
+  for (const auto& [name, parts] : all)
+    for (const std::vector<PointShifts>& part : parts) {
+      std::vector<Run> shifted = runs;
+      for (std::size_t r = 0; r < runs.size(); ++r) shift(shifted[r].points, part[r]);
+      MDOF_TRY(const CompensationTable built, build_table(shifted, options));
+      add_squares(built.forward, table.forward, forward);
+      add_squares(built.reverse, table.reverse, reverse);
+    }
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    table.u_declared[k].resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+      table.u_declared[k][i] = std::sqrt(std::max(forward[k][i], reverse[k][i]));
+  }
+  return {};
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,102 @@
+// What rigs declare, carried to the values of a table. EYX at the fixture is what probe D reads
+// where nothing turns: a table of it follows D's faults one to one.
+#include "algo/compensation/declared_uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "schema/run_json.h"
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+using test::rig_x_with;
+
+Run bent(const Rig& rig, std::int64_t id) {
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
+  Run run = synthetic.measure();
+  run.header.id = id;
+  for (MeasuredPoint& p : run.points) {  // a run an hour: no reading is of two runs
+    p.point.begin_ns += id * 3'600'000'000'000;
+    p.point.end_ns += id * 3'600'000'000'000;
+  }
+  return run;
+}
+
+CompensationTable table_of(const std::vector<Rig>& rigs, bool remove_slope = true) {
+  std::vector<Run> runs;
+  for (std::size_t r = 0; r < rigs.size(); ++r)
+    runs.push_back(bent(rigs[r], static_cast<std::int64_t>(r) + 1));
+  TableOptions options;
+  options.remove_slope = remove_slope;
+  options.stated = kAtFixture;
+  auto built = build_table(runs, options);
+  EXPECT_TRUE(built) << built.error().message;
+  CompensationTable table = built.value_or(CompensationTable{});
+  const Status added = add_declared_uncertainty(table, rigs, runs, options);
+  EXPECT_TRUE(added) << added.error().message;
+  return table;
+}
+
+TEST(DeclaredUncertainty, OfNothingIsNone) {
+  const auto table = table_of({rig_x_with("", "")});
+  EXPECT_FALSE(table.has_declared());
+  EXPECT_EQ(table.u_of(table.u_forward, 0, 1), table.u_forward[0][1]);
+}
+
+TEST(DeclaredUncertainty, AnOffsetCancelsAboutALineAndStaysAsMeasured) {
+  const Rig rig = rig_x_with("D", "u_calibration_um = 0.1");
+  const auto about_line = table_of({rig}), as_measured = table_of({rig}, false);
+  for (std::size_t i = 0; i < about_line.position_m.size(); ++i) {
+    EXPECT_NEAR(about_line.u_declared[0][i], 0, 1e-13);
+    EXPECT_NEAR(as_measured.u_declared[0][i], 0.1e-6, 1e-13);
+    EXPECT_NEAR(as_measured.u_declared[4][i], 0, 1e-11);  // referred to the first target
+  }
+}
+
+// A scale error of D changes the table by that part of itself.
+TEST(DeclaredUncertainty, AScaleErrorIsAPartOfTheValue) {
+  const auto table = table_of({rig_x_with("D", "u_sensitivity_ppm = 1000")});
+  double most = 0;
+  for (std::size_t i = 0; i < table.position_m.size(); ++i) {
+    EXPECT_NEAR(table.u_declared[0][i], 1e-3 * std::abs(table.forward[0][i]), 1e-14);
+    most = std::max(most, table.u_declared[0][i]);
+  }
+  EXPECT_GT(most, 1e-10);
+}
+
+// The same fixture twice errs twice alike; one of two fixtures by half.
+TEST(DeclaredUncertainty, OneFixtureIsNotMadeBetterByMoreRuns) {
+  const Rig rig = rig_x_with("D", "u_calibration_um = 0.1"), exact = rig_x_with("", "");
+  EXPECT_NEAR(table_of({rig, rig}, false).u_declared[0][3], 0.1e-6, 1e-13);
+  EXPECT_NEAR(table_of({rig, exact}, false).u_declared[0][3], 0.05e-6, 1e-13);
+}
+
+TEST(DeclaredUncertainty, IsInWhatIsReadOfTheTableAndInItsHash) {
+  const auto table = table_of({rig_x_with("D", "u_calibration_um = 0.1")}, false);
+  for (const TableSide side : {TableSide::forward, TableSide::reverse, TableSide::mean})
+    EXPECT_NEAR(table_at(table, 0.5 * (table.position_m[2] + table.position_m[3]), side).u[0],
+                0.1e-6, 1e-13);
+  auto without = table;
+  for (auto& series : without.u_declared) series.clear();
+  EXPECT_NE(table_sha256(table), table_sha256(without));
+  EXPECT_EQ(table_json(without).find("u_random"), std::string::npos);  // old hashes hold
+  EXPECT_EQ(table_json(without).find("u_covers"), std::string::npos);
+}
+
+TEST(DeclaredUncertainty, WhatWouldTakeLongIsSaid) {
+  const Rig rig = rig_x_with("D", "u_direction_mrad = 1");
+  auto run = bent(rig, 1);
+  run.points.resize(20'001, run.points.front());
+  CompensationTable table;
+  const Status added = add_declared_uncertainty(table, {rig}, {run}, {});
+  ASSERT_FALSE(added);
+  EXPECT_NE(added.error().message.find("too many points"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof::algo

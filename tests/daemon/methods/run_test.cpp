@@ -204,6 +204,27 @@ TEST_F(RunMethods, ARunIsGotWithItsFiguresAndWithoutItsPoints) {
   EXPECT_EQ(call("run.get", R"({"run":7})").code(), rpc::kNotFound);
 }
 
+TEST_F(RunMethods, ABudgetIsThatOfTheFigureAskedFor) {
+  add_run('X'), add_run('Y');
+  const Answer whole = call("run.budget", R"({"run":1,"figure":"EYX_straightness_um"})");
+  ASSERT_EQ(whole.code(), 0) << whole.text();
+  const std::string of = "/result/figures/EYX_straightness_um";
+  EXPECT_EQ(whole.number(of + "/u"), whole.number(of + "/u_random"));
+  EXPECT_EQ(whole.at(of + "/noise_only"), "true");
+  EXPECT_EQ(whole.at("/result/figures/EZX_straightness_um"), "");
+  const Answer at = call("run.budget", R"({"run":2,"figure":"EXY_um","at_mm":9})");
+  EXPECT_EQ(at.code(), 0) << at.text();
+  EXPECT_NEAR(at.number("/result/at_mm"), 10, 0.1);
+  EXPECT_GT(at.number("/result/figures/EXY_um/U"), 0);
+  const Answer square = call("squareness.budget", R"({"run_x":1,"run_y":2})");
+  const Answer fitted = call("squareness.fit", R"({"run_x":1,"run_y":2})");
+  EXPECT_EQ(square.at("/result/figures/EC0Y_urad/U"), fitted.at("/result/U_EC0Y_urad"));
+  EXPECT_EQ(call("run.budget", R"({"run":1,"figure":"EXY_um"})").code(), rpc::kInvalidParams);
+  EXPECT_EQ(call("run.budget", R"({"run":1})").code(), rpc::kInvalidParams);
+  EXPECT_EQ(call("run.budget", R"({"run":9,"figure":"EYX_slope_urad"})").code(), rpc::kNotFound);
+  EXPECT_EQ(call("squareness.budget", R"({"run_x":2,"run_y":1})").code(), rpc::kBadInput);
+}
+
 TEST_F(RunMethods, SquarenessIsThatOfARunAlongXAndOneAlongY) {
   add_run('X'), add_run('Y');
   const Answer plain = call("squareness.fit", R"({"run_x":1,"run_y":2})");

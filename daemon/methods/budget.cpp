@@ -1,0 +1,94 @@
+// run.budget, squareness.budget.
+#include "daemon/measure/budgets.h"
+
+#include "daemon/methods/methods.h"
+#include "schema/run_json.h"
+#include "schema/uncertainty/budget_json.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+using rpc::Params;
+using rpc::ParamType;
+
+constexpr std::int64_t kMostPoints = 5'000;  // some 0.2 s of the loop; 110 points: 0.02 s
+
+// The loop reckons it, and has other clients.
+Status check_size(Methods& m, std::int64_t run) {
+  MDOF_TRY(const std::int64_t points, m.reader.count_points(run));
+  if (points <= kMostPoints) return {};
+  return bad_input("run " + std::to_string(run) + " has " + std::to_string(points) +
+                   " points, too many for a budget by a call (at most " +
+                   std::to_string(kMostPoints) + "); mdof budget makes it");
+}
+
+std::string budget_json(const FoundBudgets& found) {
+  JsonWriter json;
+  json.begin_object();
+  write_reference(json, found.stated);
+  json.key("at_mm");
+  found.at_m ? json.value(to_mm(*found.at_m)) : json.null();
+  json.field("coverage", 0.95).field("simulated", found.simulated).key("figures");
+  write_budgets(json, found.budgets);
+  json.end_object();
+  return with_warnings(json.take(), found.warnings);
+}
+
+Result<std::string> run_budget(Methods& m, const Params& params) {
+  RunBudgetsRequest request;
+  request.run = params.integer("run");
+  request.figure = params.string("figure");
+  if (params.has("at_mm")) request.at_m = from_mm(params.number("at_mm"));
+  MDOF_TRY(request.reference, reference_param(params));
+  MDOF_CHECK(check_size(m, request.run));
+  MDOF_TRY(const FoundBudgets found, run_budgets(m.reader, request));
+  return budget_json(found);
+}
+
+Result<std::string> squareness_budget(Methods& m, const Params& params) {
+  SquarenessRequest request;
+  request.run_x = params.integer("run_x");
+  request.run_y = params.integer("run_y");
+  request.partial = params.boolean("partial", false);
+  MDOF_CHECK(check_size(m, request.run_x));
+  MDOF_CHECK(check_size(m, request.run_y));
+  MDOF_TRY(const FoundBudgets found, squareness_budgets(m.reader, request, {}));
+  return budget_json(found);
+}
+
+}  // namespace
+
+void add_budget_methods(rpc::MethodTable& table, Methods& m) {
+  const rpc::Param reference{"reference", ParamType::string,
+                             "where errors are stated: fixture, carriage or tool", false,
+                             "\"fixture\""};
+  const std::string result =
+      "figures: value, u, u_random, nu_eff (null: infinite), k, U for 95 %, not_declared, and "
+      "contributors, the largest first";
+  table.add({.name = "run.budget",
+             .summary = "The uncertainty budget of a figure of a run.",
+             .params = {{"run", ParamType::integer, "id of the run", true},
+                        {"figure", ParamType::string,
+                         "such as EYX_straightness_um, EYX_slope_urad, EAX_range_urad; with at_mm "
+                         "such as EYX_um",
+                         true},
+                        {"at_mm", ParamType::number,
+                         "of the error at the target nearest to this position", false},
+                        reference},
+             .result = result,
+             .example = R"({"run": 1, "figure": "EYX_straightness_um"})",
+             .handler = [&m](const Params& p) { return run_budget(m, p); }});
+  table.add(
+      {.name = "squareness.budget",
+       .summary = "The uncertainty budget of EC0Y of a run along X and one along Y; the "
+                  "artefact is that of the rigs.",
+       .params = {{"run_x", ParamType::integer, "id of the run along X", true},
+                  {"run_y", ParamType::integer, "id of the run along Y", true},
+                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
+       .result = result,
+       .example = R"({"run_x": 1, "run_y": 2})",
+       .handler = [&m](const Params& p) { return squareness_budget(m, p); }});
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,134 @@
+// A fixture whose every declared contributor is drawn from its distribution. The faults are made
+// here, by other code than the budget's: probes moved and turned in the fixture itself, flatness by
+// waves of any direction.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "algo/model/fixture.h"
+#include "algo/model/rigid.h"
+#include "schema/rig/rig.h"
+#include "tests/algo/rigs.h"
+
+namespace mdof::algo::test_faults {
+
+inline constexpr const char* kOfProbes =
+    "u_calibration_um = 0.05\nu_sensitivity_ppm = 1500\nu_position_mm = [0.08, 0.08, 0.08]\n"
+    "u_direction_mrad = 2\n";
+
+// Behind each probe of a rig's text.
+inline std::string with_declared_probes(std::string toml) {
+  for (std::size_t at = 0; (at = toml.find("measures", at)) != std::string::npos; at += 20) {
+    toml.insert(at, kOfProbes);
+    at += std::string(kOfProbes).size();
+  }
+  return toml;
+}
+
+// Of the installation, drift and planes; the side plane's normal is that of the rig's axis.
+inline std::string of_rig(double drift_um_per_h, const char* side_normal) {
+  return "[installation]\nu_angle_mrad = [2, 2, 2]\nu_offset_mm = [0.05, 0.05, 0.05]\n"
+         "[drift]\nu_um_per_h = " +
+         std::to_string(drift_um_per_h) +
+         "\n[[plane]]\nid = \"top\"\nnormal = \"+Z\"\nu_flatness_um = 0.02\n"
+         "[[plane]]\nid = \"side\"\nnormal = \"" +
+         side_normal + "\"\nu_flatness_um = 0.02\n";
+}
+
+class FaultyFixture {
+ public:
+  // Of what `rig` declares, all of it normal.
+  FaultyFixture(const Rig& rig, std::uint64_t seed)
+      : rig_(rig), nominal_(make_fixture(rig).value()), as_is_(nominal_), engine_(seed) {
+    misplace();
+    zero_ = rigid_readings(as_is_, 0, Errors5{}) - rigid_readings(nominal_, 0, Errors5{});
+    for (const Probe& probe : rig.probes) {
+      offset_m_.push_back(probe.uncertainty.calibration.u * normal());
+      gain_.push_back(probe.uncertainty.sensitivity.u * normal());
+      drift_m_per_s_.push_back(rig.uncertainty.drift.u * normal());
+    }
+    for (const TargetPlane& plane : rig.planes) waves_.push_back(waves_of(plane));
+  }
+
+  double normal() { return normal_(engine_); }
+
+  // Of all probes, without noise; `errors`: of the carriage, local frame.
+  std::vector<double> readings_m(double d, const Errors5& errors, double time_s) const {
+    const Eigen::VectorXd exact = rigid_readings(as_is_, d, errors) - zero_;
+    std::vector<double> all;
+    for (std::size_t k = 0; k < nominal_.probes.size(); ++k) {
+      const FixtureProbe& probe = nominal_.probes[k];
+      const double reading = exact(static_cast<Eigen::Index>(k));
+      const double second =
+          std::abs(probe.n_C.z()) > std::abs(probe.n_C.y()) ? probe.p_MP.y() : probe.p_MP.z();
+      all.push_back(reading * (1 + gain_[k]) + offset_m_[k] + drift_m_per_s_[k] * time_s +
+                    height(waves_[*probe.plane], probe.p_MP.x() - d, second));
+    }
+    return all;
+  }
+
+ private:
+  struct Wave {
+    double amplitude_m, along, across, per_m, phase;
+  };
+
+  Eigen::Vector3d vector(double u) { return {u * normal(), u * normal(), u * normal()}; }
+
+  void misplace() {
+    const RigUncertainty& whole = rig_.uncertainty;
+    const Eigen::Vector3d turn = vector(whole.installation_angle.u[0]);
+    const Eigen::Vector3d shift = vector(whole.installation_offset.u[0]);
+    for (std::size_t k = 0; k < as_is_.probes.size(); ++k) {
+      FixtureProbe& probe = as_is_.probes[k];
+      const ProbeUncertainty& u = rig_.probes[k].uncertainty;
+      probe.p_MP += vector(u.position.u[0]);
+      const Eigen::Vector3d tilt = vector(u.direction.u);
+      probe.u_M = (probe.u_M + tilt.cross(probe.u_M)).normalized();
+      if (turn.norm() == 0) continue;
+      const Eigen::AngleAxisd all(turn.norm(), turn.normalized());
+      probe.p_MP = all * probe.p_MP + shift;
+      probe.u_M = all * probe.u_M;
+    }
+  }
+
+  // Four waves a plane, amplitudes as 1/k², made to have the declared u.
+  std::vector<Wave> waves_of(const TargetPlane& plane) {
+    std::vector<Wave> all;
+    const double norm = std::sqrt(1 + 1 / 16.0 + 1 / 81.0 + 1 / 256.0);
+    for (int w = 1; w <= 4; ++w) {
+      const double direction = 2 * M_PI * uniform_(engine_);
+      all.push_back({plane.u_flatness.u * std::sqrt(2.0) / (w * w) / norm, std::cos(direction),
+                     std::sin(direction), w / plane.flatness_length_m,
+                     2 * M_PI * uniform_(engine_)});
+    }
+    return all;
+  }
+
+  static double height(const std::vector<Wave>& waves, double first, double second) {
+    double sum = 0;
+    for (const Wave& w : waves)
+      sum += w.amplitude_m *
+             std::sin(2 * M_PI * (first * w.along + second * w.across) * w.per_m + w.phase);
+    return sum;
+  }
+
+  const Rig& rig_;
+  Fixture nominal_, as_is_;
+  Eigen::VectorXd zero_;
+  std::mt19937_64 engine_;
+  std::normal_distribution<> normal_;
+  std::uniform_real_distribution<> uniform_;
+  std::vector<double> offset_m_, gain_, drift_m_per_s_;
+  std::vector<std::vector<Wave>> waves_;
+};
+
+// At the carriage, local frame, at a travel of d metres.
+inline Errors5 true_errors(double d) {
+  return {1.5e-6 * std::sin(90 * d) + 8e-6 * d, 1e-6 * std::cos(110 * d) - 5e-4 * d,
+          40e-6 * std::sin(60 * d), 60e-6 * std::cos(50 * d), 80e-6 * std::sin(70 * d)};
+}
+
+}  // namespace mdof::algo::test_faults

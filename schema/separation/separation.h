@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "schema/axis.h"
+
 namespace mdof {
 
 // A surface of the target: side, whose height is along y of the axis' local frame, or top, along z.
@@ -48,6 +50,29 @@ struct Separation {
   double residual_m = std::numeric_limits<double>::quiet_NaN();
   std::string u_reason;  // where u comes from, or why there is none
   std::vector<std::string> warnings;
+};
+
+// What it was made of, so that the profile can be used later by those who were not there.
+struct SeparationSource {
+  std::string name;    // "run 3", "a.csv"
+  std::string sha256;  // of the run's stored result, of the file's bytes
+  double height_sign = 1;
+  bool end_for_end = false;
+  double shift_m = 0;
+};
+
+struct SeparationRecord {
+  std::string method;  // "reversal", "shift"
+  Surface surface = Surface::side;
+  Axis axis = Axis::x;    // that moves
+  Axis normal = Axis::y;  // heights count along its +
+  Sides sides;
+  std::string error;  // "EYX"
+  std::string probe;  // whose own readings they are; empty: the error itself
+  std::vector<SeparationSource> sources;
+  bool simulated = false;
+  std::string created_utc;
+  Separation result;
 };
 
 }  // namespace mdof

@@ -261,16 +261,33 @@ TEST(Separation, UncertaintyIsThatOfTheNoise) {
   EXPECT_NEAR(trace, (13 - 2) / 2.0, 1e-9);
 }
 
+// A third set-up as the first was, with ten times its uncertainty, adds its weight and no more.
+TEST(Separation, ReadingsCountByTheirUncertainty) {
+  const World world{{}, 0, steps(7, 10 * kMm), 1 * kNm};
+  auto request = request_of(world, {{}, {true, false, 0}, {}});
+  for (double& u : request.set_ups[2].u_m) u *= 10;
+  const auto found = separate(request);
+  ASSERT_TRUE(found) << found.error().message;
+  double trace = 0;
+  for (const double v : found->target.u_m) trace += v * v;
+  EXPECT_NEAR(trace / (kNm * kNm), (7 - 2) * (1 / (1 + 0.01) + 1) / 4, 1e-9);
+}
+
 TEST(Separation, WithoutUncertaintyTheScatterTells) {
-  World world{{}, 0, steps(25, 2.5 * kMm), 5 * kNm};
-  auto request =
-      request_of(world, {{}, {true, false, 0}, {false, false, 5 * kMm}, {true, false, 10 * kMm}});
-  const auto with = separate(request);
-  for (auto& s : request.set_ups) s.u_m.clear();
-  const auto without_u = separate(request);
-  ASSERT_TRUE(with && without_u);
-  EXPECT_NEAR(without_u->target.u_m[9] / with->target.u_m[9], 1, 0.35);
-  EXPECT_NE(without_u->u_reason.find("scatter"), std::string::npos);
+  constexpr int kTrials = 400;
+  double square = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const World world{{}, 0, steps(9, 5 * kMm), 5 * kNm, static_cast<std::uint64_t>(trial) + 1};
+    auto request = request_of(world, {{}, {true, false, 0}, {false, false, 5 * kMm}});
+    const auto with = separate(request);
+    for (auto& s : request.set_ups) s.u_m.clear();
+    const auto by_scatter = separate(request);
+    ASSERT_TRUE(with && by_scatter);
+    ASSERT_EQ(by_scatter->freedom(), 6u);
+    EXPECT_NE(by_scatter->u_reason.find("scatter"), std::string::npos);
+    square += std::pow(by_scatter->target.u_m[4] / with->target.u_m[4], 2) / kTrials;
+  }
+  EXPECT_NEAR(square, 1, 0.09);  // sd of the mean: sqrt(2/6/400) = 0.03
 }
 
 TEST(Separation, AWrongShiftContradicts) {

@@ -7,6 +7,7 @@
 
 #include "algo/iso230/straightness.h"
 #include "algo/model/restate.h"
+#include "algo/plausibility/map_cover.h"
 #include "algo/plausibility/plausibility.h"
 #include "algo/points/flags.h"
 #include "daemon/measure/completeness.h"
@@ -349,7 +350,8 @@ void Pipeline::add_plausibility(Run& run) const {
   auto& warnings = run.header.warnings;
   for (const auto& more :
        {algo::warnings_of_signals(whole), algo::warnings_of_visits(whole, *run.plausibility),
-        algo::warnings_of_units(rig_, *run.plausibility)})
+        algo::warnings_of_units(rig_, *run.plausibility),
+        algo::warnings_of_maps(rig_, solver_.fixture(), sequence_.points)})
     warnings.insert(warnings.end(), more.begin(), more.end());
 }
 

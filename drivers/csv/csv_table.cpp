@@ -41,6 +41,27 @@ Result<std::vector<std::size_t>> channels_of(const CsvHeader& header,
   return channels;
 }
 
+// A column of that name in another unit is wanted too: channels_of() says that it is not read.
+std::vector<std::string> with_those_there(const CsvHeader& header, std::vector<std::string> names,
+                                          const std::vector<std::string>& optional) {
+  for (const std::string& name : optional)
+    if (std::any_of(header.columns.begin(), header.columns.end(),
+                    [&](const std::string& column) { return stem_of(column) == stem_of(name); }))
+      names.push_back(name);
+  return names;
+}
+
+void put_optional_in_order(CsvTable& table, const std::vector<std::string>& wanted,
+                           std::size_t required, const std::vector<std::string>& optional) {
+  std::size_t there = required;
+  for (std::size_t i = 0; i < optional.size(); ++i) {
+    if (there < wanted.size() && wanted[there] == optional[i])
+      ++there;
+    else
+      table.columns.emplace(table.columns.begin() + static_cast<std::ptrdiff_t>(required + i));
+  }
+}
+
 Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::size_t>& channels,
               const std::vector<std::string>& names) {
   const std::size_t before = table.rows();
@@ -66,7 +87,8 @@ std::string CsvTable::where(std::size_t row) const {
   return source + ":" + std::to_string(header_line + 1 + row) + ": ";
 }
 
-Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& names) {
+Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& names,
+                                const std::vector<std::string>& optional) {
   CsvRowsOptions options;
   options.kind = CsvKind::table;
   options.limits.bad_lines = 0;
@@ -77,14 +99,17 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   table.source = header.source;
   table.header_line = header.lines;
   table.simulated = header.says_simulated();
-  MDOF_TRY(const auto channels, channels_of(header, names));
-  table.columns.resize(names.size());
+  const auto wanted = with_those_there(header, names, optional);
+  MDOF_TRY(const auto channels, channels_of(header, wanted));
+  table.columns.resize(wanted.size());
   SampleBlock block;
   for (;;) {
     MDOF_TRY(const ReadState state, rows->next(block));
-    if (state == ReadState::end) return table;
-    MDOF_CHECK(append(table, block, channels, names));
+    if (state == ReadState::end) break;
+    MDOF_CHECK(append(table, block, channels, wanted));
   }
+  put_optional_in_order(table, wanted, names.size(), optional);
+  return table;
 }
 
 }  // namespace mdof::drivers

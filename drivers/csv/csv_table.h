@@ -11,18 +11,22 @@
 namespace mdof::drivers {
 
 struct CsvTable {
-  std::string source;                        // file name, for messages
-  std::uint64_t header_line = 0;             // number of the line with the names
-  bool simulated = false;                    // a comment says so
-  std::vector<std::vector<double>> columns;  // in the order in which they were asked for
+  std::string source;             // file name, for messages
+  std::uint64_t header_line = 0;  // number of the line with the names
+  bool simulated = false;         // a comment says so
+  // In the order in which they were asked for, then the optional ones; of one of these that the
+  // file does not have: empty.
+  std::vector<std::vector<double>> columns;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }
   std::string where(std::size_t row) const;  // "file.csv:7: "
 };
 
-// The columns `names` of `path` ("-": standard input), plain or gzip, in any order among others.
-// Errors name file, line, column and remedy: what CsvRows refuses; no column of that name; a cell
-// without a value; a line that is none; more than ten million rows.
-Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& names);
+// The columns `names` of `path` ("-": standard input), plain or gzip, in any order among others;
+// those of `optional` where they are there. Errors name file, line, column and remedy: what CsvRows
+// refuses; no column of that name; a cell without a value; a line that is none; more than ten
+// million rows.
+Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& names,
+                                const std::vector<std::string>& optional = {});
 
 }  // namespace mdof::drivers

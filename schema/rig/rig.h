@@ -47,7 +47,8 @@ struct Probe {
   ProbeUncertainty uncertainty = {};
 };
 
-// Known flatness of a target plane: height above the plane on a grid, bilinear between, ends held.
+// Known flatness of a target plane: height above the plane on a grid, bilinear between, ends held
+// (algo/plausibility/map_cover.h says where that happens).
 // Coordinates along the plane are two axes of C, in the order x, y, z with the normal's left out.
 struct HeightMap {
   std::vector<double> first_m, second_m;

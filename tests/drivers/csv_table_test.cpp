@@ -45,6 +45,23 @@ TEST_F(CsvTableTest, ReadsItsColumnsAmongOthersInAnyOrder) {
   EXPECT_FALSE(read("position_mm,deviation_um\n1,2\n")->simulated);
 }
 
+TEST_F(CsvTableTest, TakesOptionalColumnsWhereTheyAre) {
+  const auto with = [&](const std::string& text) {
+    std::ofstream(path_, std::ios::binary) << text;
+    return read_csv_table(path_.string(), kSeries, {"u_um", "v_um"});
+  };
+  const auto second = with("v_um,position_mm,deviation_um\n7,1,2\n").value();
+  EXPECT_EQ(second.columns, (std::vector<std::vector<double>>{{1}, {2}, {}, {7}}));
+  const auto first = with("u_um,position_mm,deviation_um\n7,1,2\n").value();
+  EXPECT_EQ(first.columns, (std::vector<std::vector<double>>{{1}, {2}, {7}, {}}));
+  const auto none = with("position_mm,deviation_um\n1,2\n").value();
+  EXPECT_EQ(none.columns, (std::vector<std::vector<double>>{{1}, {2}, {}, {}}));
+  const auto unit = with("position_mm,deviation_um,u_mm\n1,2,3\n");
+  ASSERT_FALSE(unit);
+  EXPECT_NE(unit.error().message.find("name it u_um"), std::string::npos) << unit.error().message;
+  EXPECT_FALSE(with("position_mm,deviation_um,u_um\n1,2,\n"));
+}
+
 TEST_F(CsvTableTest, ReadsMoreThanABlock) {
   std::string text = "position_mm,deviation_um\n";
   for (int i = 0; i < 20000; ++i) text += std::to_string(i) + "," + std::to_string(-i) + "\n";

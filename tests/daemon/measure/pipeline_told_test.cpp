@@ -44,6 +44,28 @@ TEST(PipelineTold, TheAxisAndItsFiguresAreThoseOfTheRig) {
   EXPECT_TRUE(run->header.notes.empty());
 }
 
+TEST(PipelineTold, AHeightMapThatEndsBeforeTheTravelIsAWarning) {
+  const TestAxis axis = pass_over_five();
+  Rig rig = five_probe_rig();
+  for (const char* id : {"top", "side"}) {
+    TargetPlane plane;
+    plane.id = id;
+    plane.normal = plane.id == "top" ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+    rig.planes.push_back(plane);
+  }
+  HeightMap& map = rig.planes[1].flatness;
+  map = {{-1, 1}, {0}, {0, 0}};
+  const auto warnings = [&] {
+    Pipeline pipeline = Pipeline::create(rig, {}).value();
+    return run_of(pipeline, {axis.whole()})->header.warnings;
+  };
+  const auto before = warnings();
+  map.first_m = {-1, -30e-3};
+  const auto after = warnings();
+  ASSERT_EQ(after.size(), before.size() + 1);
+  EXPECT_HAS_PART(after.back() + after.front(), "plane \"side\": its height map does not cover");
+}
+
 TEST(PipelineTold, PositionsWithoutADatumAreANote) {
   const TestAxis axis = pass_over_five();
   PipelineOptions options;

@@ -19,6 +19,7 @@ struct Group {
 };
 constexpr Group kGroups[] = {
     {"compensation", "Build, show and activate compensation tables", ""},
+    {"separate", "Tell the machine's error from the shape of the target", ""},
     {"encoder", "Where an axis stands whose encoder counts", ""},
     {"device", "The devices: list, probe, monitor",
      "Examples:\n"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "algo/plausibility/map_cover.h"
+
 namespace mdof::tools {
 namespace {
 
@@ -70,8 +72,9 @@ void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
   std::vector<double> readings_m(probes_.size());
   for (std::size_t i = 0; i < block.scans(); ++i) {
     for (std::size_t p = 0; p < probes_.size(); ++p) readings_m[p] = block.value[probes_[p]][i];
-    const AxisErrors errors =
-        solver_.solve(sides_.target_travel_m(block.value[encoder_][i]), readings_m, {});
+    const double travel_m = sides_.target_travel_m(block.value[encoder_][i]);
+    const AxisErrors errors = solver_.solve(travel_m, readings_m, {});
+    if (errors.valid) note_travel(travel_m);
     for (std::size_t k = 0; k < kErrorCount; ++k)
       out.local[k][i] = errors.valid ? errors.local[k] : kNaN;
     if (errors.valid) continue;
@@ -80,6 +83,19 @@ void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
     else if (unsolved_++ == 0)
       why_unsolved_ = "row " + std::to_string(rows_ + i + 1) + ": " + errors.reason;
   }
+}
+
+void FrameSolver::note_travel(double travel_m) {
+  if (!travels_m_) travels_m_ = {travel_m, travel_m};
+  auto& [least, most] = *travels_m_;
+  least = std::min(least, travel_m);
+  most = std::max(most, travel_m);
+}
+
+// Only the rigid model takes maps, and it solves rows one by one.
+std::vector<std::string> FrameSolver::map_warnings(const Rig& rig) const {
+  if (!travels_m_) return {};
+  return algo::warnings_of_maps(rig, solver_.fixture(), (*travels_m_)[0], (*travels_m_)[1]);
 }
 
 void FrameSolver::count_over_range(const SampleBlock& block) {

@@ -37,12 +37,15 @@ class FrameSolver {
   std::uint64_t without_reading() const { return without_reading_; }
   std::uint64_t unsolved() const { return unsolved_; }
   const std::string& why_unsolved() const { return why_unsolved_; }  // of the first such row
+  // Height maps of the rig that end before the rows do.
+  std::vector<std::string> map_warnings(const Rig& rig) const;
 
  private:
   FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels);
   const double* travel(const std::vector<double>& encoder_m);
   void solve_columns(const SampleBlock& block, SolvedRows& out);
   void solve_singly(const SampleBlock& block, SolvedRows& out);
+  void note_travel(double travel_m);
   void count_over_range(const SampleBlock& block);
   bool has_missing(const SampleBlock& block, std::size_t row) const;
 
@@ -55,6 +58,7 @@ class FrameSolver {
   std::vector<std::size_t> probes_;  // [probe of the rig] -> channel
   std::uint64_t rows_ = 0, over_range_ = 0, without_reading_ = 0, unsolved_ = 0;
   std::string why_unsolved_;
+  std::optional<std::array<double, 2>> travels_m_;  // least and most d solved one by one
 };
 
 }  // namespace mdof::tools

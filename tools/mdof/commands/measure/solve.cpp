@@ -71,6 +71,7 @@ Status solve(const SolveCommand& command) {
   MDOF_CHECK(solve_rows(*frames, solver, out));
   MDOF_CHECK(out.finish());
   warn_of_missing(*frames, solver);
+  for (const std::string& map : solver.map_warnings(rig)) warn(map);
   return judge(solver);
 }
 

@@ -1,0 +1,76 @@
+#include "algo/separation/request_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kMostReadings = 3000;
+constexpr double kMost_m = 1e6;
+
+Status check_set_up(const SetUp& set_up, std::size_t number) {
+  const std::string of = "set-up " + std::to_string(number) + ": ";
+  const auto wrong = [](double x) { return !(std::abs(x) <= kMost_m); };
+  if (set_up.position_m.size() < 3)
+    return bad_input(of + std::to_string(set_up.position_m.size()) +
+                     " readings; a line goes through any two: measure at three or more positions");
+  for (const auto* values : {&set_up.position_m, &set_up.error_m, &set_up.u_m})
+    if (std::any_of(values->begin(), values->end(), wrong))
+      return bad_input(of + "a value is not a finite number below 1000 km; check the units");
+  if (wrong(set_up.shift_m)) return bad_input(of + "its shift is not a finite number");
+  if (std::any_of(set_up.u_m.begin(), set_up.u_m.end(), [](double u) { return u < 0; }))
+    return bad_input(of + "a standard uncertainty is negative");
+  return {};
+}
+
+// Twice one reading: nothing distinguishes these set-ups.
+bool all_alike(const SeparationRequest& request) {
+  return std::all_of(request.set_ups.begin(), request.set_ups.end(), [&](const SetUp& s) {
+    return std::abs(s.shift_m) <= request.match_m && !s.turn.end_for_end && s.turn.height_sign > 0;
+  });
+}
+
+}  // namespace
+
+Status check_request(const SeparationRequest& request) {
+  if (request.set_ups.size() < 2)
+    return bad_input(
+        "one set-up cannot tell the machine from the target; measure again with the "
+        "target turned or shifted");
+  std::size_t readings = 0;
+  for (std::size_t k = 0; k < request.set_ups.size(); ++k) {
+    MDOF_CHECK(check_set_up(request.set_ups[k], k + 1));
+    readings += request.set_ups[k].position_m.size();
+  }
+  if (readings > kMostReadings)
+    return bad_input("these set-ups have " + std::to_string(readings) + " readings, and at most " +
+                     std::to_string(kMostReadings) + " can be separated at once; leave some out");
+  if (!all_alike(request)) return {};
+  return bad_input(
+      "the target lay alike in all set-ups, which cannot tell the machine from it; "
+      "say which was turned or how far it was shifted, or measure so");
+}
+
+Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups) {
+  for (const auto* at : {&grid.at_position, &grid.at_place}) {
+    std::vector<std::size_t> first_set_up(at->size(), set_ups.size());
+    bool shared = false;
+    std::size_t row = 0;
+    for (std::size_t k = 0; k < set_ups.size(); ++k)
+      for (std::size_t i = 0; i < set_ups[k].position_m.size(); ++i) {
+        std::size_t& first = first_set_up[(*at)[row++]];
+        if (first == set_ups.size()) first = k;
+        shared = shared || first != k;
+      }
+    if (!shared)
+      return bad_input(std::string("the set-ups have no place of the ") +
+                       (at == &grid.at_position ? "machine" : "target") +
+                       " in common, so that nothing can be told apart; measure at the same "
+                       "positions, and shift the target by less than the travel");
+  }
+  return {};
+}
+
+}  // namespace mdof::algo

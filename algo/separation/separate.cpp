@@ -1,0 +1,194 @@
+#include "algo/separation/separate.h"
+
+#include <Eigen/Core>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "algo/separation/grid.h"
+#include "algo/separation/request_check.h"
+#include "algo/separation/unseen.h"
+#include "algo/uncertainty/chi_square.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t kMostUnknowns = 1000;  // some seconds
+// Coefficients are of the order of 1, and places lie on an exact grid: what is not seen is at the
+// rounding, and what is seen far above this.
+constexpr double kSeenAbove = 1e-9;
+
+Index in(std::size_t i) {
+  return static_cast<Index>(i);
+}
+
+// Columns: the machine's places, the target's, then offset and slope of each set-up.
+struct Equations {
+  Grid grid;
+  MatrixXd A;
+  VectorXd errors, u;  // of each reading; u: NaN where it is not known
+  Index machine() const { return in(grid.position_m.size()); }
+  Index target() const { return in(grid.place_m.size()); }
+};
+
+bool knows_u(const SeparationRequest& request) {
+  return std::all_of(request.set_ups.begin(), request.set_ups.end(), [](const SetUp& s) {
+    return s.u_m.size() == s.position_m.size() &&
+           std::all_of(s.u_m.begin(), s.u_m.end(), [](double u) { return u > 0; });
+  });
+}
+
+Equations equations_of(const SeparationRequest& request, Grid grid) {
+  Equations e;
+  e.grid = std::move(grid);
+  const Index readings = in(e.grid.at_position.size()), clamps = in(2 * request.set_ups.size());
+  e.A = MatrixXd::Zero(readings, e.machine() + e.target() + clamps);
+  e.errors.resize(readings);
+  e.u.setConstant(readings, std::numeric_limits<double>::quiet_NaN());
+  const double first = e.grid.position_m.front(), last = e.grid.position_m.back();
+  const bool with_u = knows_u(request);
+  Index row = 0, clamp = e.machine() + e.target();
+  for (const SetUp& set_up : request.set_ups) {
+    for (std::size_t i = 0; i < set_up.position_m.size(); ++i, ++row) {
+      const std::size_t at = e.grid.at_position[static_cast<std::size_t>(row)];
+      e.A(row, in(at)) = 1;
+      e.A(row, e.machine() + in(e.grid.at_place[static_cast<std::size_t>(row)])) =
+          request.at.sides.error_sign() * set_up.turn.height_sign;
+      e.A(row, clamp) = 1;
+      e.A(row, clamp + 1) = (2 * e.grid.position_m[at] - first - last) / (last - first);
+      e.errors(row) = set_up.error_m[i];
+      if (with_u) e.u(row) = set_up.u_m[i];
+    }
+    clamp += 2;
+  }
+  return e;
+}
+
+// Equal weights where u is not known; a reading counts at most 1e6 times as much as another.
+VectorXd root_weights(const VectorXd& u) {
+  if (!u.allFinite()) return VectorXd::Ones(u.size());
+  return (u.minCoeff() / u.array()).max(1e-3);
+}
+
+struct Solution {
+  MatrixXd from_readings;  // unknowns = this times the readings
+  MatrixXd null;           // orthonormal: what no reading tells
+  Index rank = 0;
+};
+
+Solution solve(const Equations& e) {
+  const VectorXd w = root_weights(e.u);
+  const Eigen::BDCSVD<MatrixXd> svd(w.asDiagonal() * e.A,
+                                    Eigen::ComputeThinU | Eigen::ComputeFullV);
+  const VectorXd& s = svd.singularValues();
+  Solution found;
+  while (found.rank < s.size() && s(found.rank) > kSeenAbove * s(0)) ++found.rank;
+  const VectorXd inverse = s.head(found.rank).cwiseInverse();
+  found.from_readings = svd.matrixV().leftCols(found.rank) * inverse.asDiagonal() *
+                        svd.matrixU().leftCols(found.rank).transpose() * w.asDiagonal();
+  found.null = svd.matrixV().rightCols(e.A.cols() - found.rank);
+  return found;
+}
+
+// Orthonormal columns of what these rows of the null space can be.
+MatrixXd unseen_part(const MatrixXd& null, Index from, Index count) {
+  constexpr double kLeast = 1e-7;
+  const Eigen::BDCSVD<MatrixXd> svd(null.middleRows(from, count), Eigen::ComputeThinU);
+  Index rank = 0;
+  while (rank < svd.singularValues().size() && svd.singularValues()(rank) > kLeast) ++rank;
+  return svd.matrixU().leftCols(rank);
+}
+
+SeenSeries seen_part(const Equations& e, const Solution& solution, Index from,
+                     const std::vector<double>& places_m, const VectorXd& u_reading,
+                     const std::vector<double>& periods_m) {
+  const Index count = in(places_m.size());
+  const MatrixXd unseen = unseen_part(solution.null, from, count);
+  const MatrixXd all = solution.from_readings.middleRows(from, count);
+  const MatrixXd from_readings = all - unseen * (unseen.transpose() * all);
+  const VectorXd seen = from_readings * e.errors;
+  const VectorXd u = (from_readings * u_reading.asDiagonal()).rowwise().norm();
+  SeenSeries series;
+  series.place_m = places_m;
+  series.seen_m.assign(seen.begin(), seen.end());
+  series.u_m.assign(u.begin(), u.end());
+  series.unseen = named_shapes(places_m, unseen, periods_m);
+  return series;
+}
+
+std::string contradiction(double chi_square, std::size_t freedom) {
+  return "the set-ups contradict each other: chi-square is " + plain_number(chi_square) + " with " +
+         std::to_string(freedom) +
+         " degrees of freedom, which noise alone hardly ever gives; check shifts and turns, "
+         "whether the machine repeats, and u of the readings";
+}
+
+// u of each reading, by which u of the results is made.
+VectorXd judge(const Equations& e, const Solution& solution, Separation& result) {
+  const VectorXd left = e.errors - e.A * (solution.from_readings * e.errors);
+  const std::size_t freedom = result.freedom();
+  if (freedom > 0) result.residual_m = std::sqrt(left.squaredNorm() / static_cast<double>(freedom));
+  if (e.u.allFinite()) {
+    result.u_reason = "u of the readings, propagated";
+    const double chi_square = left.cwiseQuotient(e.u).squaredNorm();
+    if (freedom > 0 && chi_square > chi_square_limit(static_cast<int>(freedom)))
+      result.warnings.push_back(contradiction(chi_square, freedom));
+    return e.u;
+  }
+  result.u_reason =
+      freedom > 0 ? "the scatter about the fit, " + std::to_string(freedom) +
+                        " degrees of freedom; no u above 0 of all readings is given"
+                  : "not known: no u above 0 of all readings is given, and nothing is left over to "
+                    "tell it by; give u_um or --u-um";
+  return VectorXd::Constant(e.u.size(), result.residual_m);
+}
+
+// Of two set-ups that look the same way, by how much one is shifted against the other: what comes
+// back after that is hidden. Where there are no such two, what changes its sign over the shift is,
+// and comes back after twice of it.
+std::vector<double> returns_of(const std::vector<SetUp>& set_ups, double step_m) {
+  std::vector<double> alike, turned;
+  for (const SetUp& a : set_ups)
+    for (const SetUp& b : set_ups) {
+      if (a.turn.end_for_end || b.turn.end_for_end || !(step_m > 0)) continue;
+      const double shift_m = std::round((a.shift_m - b.shift_m) / step_m) * step_m;
+      (a.turn.height_sign == b.turn.height_sign ? alike : turned).push_back(shift_m);
+    }
+  if (std::any_of(alike.begin(), alike.end(), [](double s) { return s != 0; })) return alike;
+  for (double& s : turned) s *= 2;
+  return turned;
+}
+
+}  // namespace
+
+Result<Separation> separate(const SeparationRequest& request) {
+  MDOF_CHECK(check_request(request));
+  MDOF_TRY(Grid grid, grid_of(request.at, request.set_ups, request.match_m));
+  MDOF_CHECK(check_shared(grid, request.set_ups));
+  const Equations e = equations_of(request, std::move(grid));
+  if (e.A.cols() > in(kMostUnknowns))
+    return bad_input("these set-ups have " + std::to_string(e.A.cols()) + " places, and at most " +
+                     std::to_string(kMostUnknowns) + " can be separated at once; leave some out");
+  const Solution solution = solve(e);
+  Separation result;
+  result.set_ups = request.set_ups.size();
+  result.readings = static_cast<std::size_t>(e.A.rows());
+  result.unknowns = static_cast<std::size_t>(e.A.cols());
+  result.rank = static_cast<std::size_t>(solution.rank);
+  const VectorXd u = judge(e, solution, result);
+  const auto periods =
+      hidden_periods(returns_of(request.set_ups, e.grid.step_m), e.grid.step_m, request.match_m);
+  result.machine = seen_part(e, solution, 0, e.grid.position_m, u, periods);
+  result.target = seen_part(e, solution, e.machine(), e.grid.place_m, u, periods);
+  return result;
+}
+
+}  // namespace mdof::algo

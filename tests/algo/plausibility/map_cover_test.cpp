@@ -1,0 +1,92 @@
+// Height maps that end before the probes do: what is said of which plane, direction and probe.
+#include "algo/plausibility/map_cover.h"
+
+#include <gtest/gtest.h>
+
+namespace mdof::algo {
+namespace {
+
+// Probes at x = 0 and 10 mm over a top plane, 20 mm apart along y.
+struct Mapped {
+  Rig rig;
+  Fixture fixture;
+
+  Mapped(std::vector<double> first_m, std::vector<double> second_m) {
+    rig.planes.resize(2);
+    rig.planes[1].id = "top";
+    rig.planes[1].flatness = {first_m, second_m,
+                              std::vector<double>(first_m.size() * second_m.size(), 1e-6)};
+    for (const double x_m : {0.0, 10e-3}) {
+      FixtureProbe probe;
+      probe.id = x_m > 0 ? "B" : "A";
+      probe.p_MP = {x_m, x_m > 0 ? 10e-3 : -10e-3, 0};
+      probe.u_M = probe.n_C = {0, 0, 1};
+      probe.plane = 1;
+      fixture.probes.push_back(probe);
+    }
+  }
+  std::vector<std::string> said(double least_m, double most_m) const {
+    return warnings_of_maps(rig, fixture, least_m, most_m);
+  }
+};
+
+TEST(MapCover, NothingIsSaidWhereTheMapReaches) {
+  EXPECT_TRUE(Mapped({-60e-3, 10e-3}, {-10e-3, 10e-3}).said(0, 60e-3).empty());
+  EXPECT_TRUE(Mapped({-60e-3, 10e-3}, {-10e-3, 10e-3}).said(-49e-6, 60.049e-3).empty());
+  EXPECT_TRUE(Mapped({0}, {0}).said(0, 60e-3).empty());  // the same all along
+  EXPECT_TRUE(Mapped({-60e-3, 10e-3}, {0}).said(0, 60e-3).empty());
+  EXPECT_TRUE(Mapped({}, {}).said(0, 60e-3).empty());
+}
+
+TEST(MapCover, PlaneDirectionAndProbeAreNamed) {
+  const auto said = Mapped({-60e-3, 0}, {-10e-3, 5e-3}).said(0, 60e-3);
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_EQ(
+      said[0],
+      "plane \"top\": its height map does not cover what is measured: flatness_first_mm "
+      "covers -60 to 0 mm, and probe B reads at -50 to 10 mm; beyond it the height of its end "
+      "is taken, which nobody measured; extend the map, or keep the travel within it");
+  EXPECT_NE(said[1].find("flatness_second_mm covers -10 to 5 mm, and probe B reads at 10 mm;"),
+            std::string::npos);
+}
+
+TEST(MapCover, BothEndsCountAndProbesOfOtherPlanesDoNot) {
+  Mapped mapped({-60e-3, 10e-3}, {0});
+  EXPECT_EQ(mapped.said(-51e-6, 60e-3).size(), 1u);
+  EXPECT_EQ(mapped.said(0, 60.051e-3).size(), 1u);
+  EXPECT_NE(mapped.said(0, 70e-3)[0].find("probe A reads at -70 to 0 mm"), std::string::npos);
+  EXPECT_EQ(mapped.said(0, 70e-3)[0].find("probe B"), std::string::npos);
+  for (FixtureProbe& probe : mapped.fixture.probes) probe.plane = 0;
+  EXPECT_TRUE(mapped.said(-1, 1).empty());
+}
+
+// A side plane's axes are x and z, one across the motion's y and z.
+TEST(MapCover, TheAxesAreThoseOfThePlane) {
+  Mapped mapped({-60e-3, 10e-3}, {15e-3, 25e-3});
+  for (FixtureProbe& probe : mapped.fixture.probes) {
+    probe.n_C = {0, 1, 0};
+    probe.p_MP.z() = 20e-3;
+  }
+  EXPECT_TRUE(mapped.said(0, 60e-3).empty());
+  mapped.fixture.probes[0].p_MP.z() = 26e-3;
+  EXPECT_EQ(mapped.said(0, 60e-3).size(), 1u);
+}
+
+TEST(MapCover, TravelIsThatOfTheTargetAndOfPointsWithErrors) {
+  const Mapped mapped({-60e-3, 10e-3}, {0});
+  std::vector<MeasuredPoint> points(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    points[i].point.position_m = 60e-3 * static_cast<double>(i);
+    points[i].errors.valid = i < 2;
+  }
+  EXPECT_TRUE(warnings_of_maps(mapped.rig, mapped.fixture, points).empty());
+  Rig turned = mapped.rig;
+  turned.sides.against_encoder = true;
+  EXPECT_EQ(warnings_of_maps(turned, mapped.fixture, points).size(), 1u);
+  points[2].errors.valid = true;
+  EXPECT_EQ(warnings_of_maps(mapped.rig, mapped.fixture, points).size(), 1u);
+  EXPECT_TRUE(warnings_of_maps(mapped.rig, mapped.fixture, std::vector<MeasuredPoint>(2)).empty());
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,332 @@
+// Error separation against machines and targets that are known: what is planted comes back where
+// it is seen, and what is not seen is named and left out.
+#include "algo/separation/separate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <set>
+
+#include "schema/base/random.h"
+
+namespace mdof::algo {
+namespace {
+
+using Column = std::vector<double>;
+using Curve = std::function<double(double)>;
+
+constexpr double kMm = 1e-3, kUm = 1e-6, kNm = 1e-9;
+
+double wave(double x, double period_mm, double phase) {
+  return std::sin(2 * std::numbers::pi * (x / (period_mm * kMm) + phase));
+}
+// About 3 µm of machine and 1 µm of target, with parabolas and no common period.
+double machine_at(double x) {
+  return kUm * (1.1 * wave(x, 47, 0.1) + 0.4 * wave(x, 17, 0.7) + 900 * x * x);
+}
+double height_at(double c) {
+  return kUm * (0.3 * wave(c, 38, 0.3) + 0.1 * wave(c, 13, 0.6) - 300 * c * c);
+}
+
+// Where the material that is read lies in the target's own length: by moving bodies about, not by
+// the formula of set_up.h.
+struct Lain {
+  bool upside_down = false, end_for_end = false;
+  double shift_m = 0;
+};
+double own_length(double in_C, const Lain& lain) {
+  const double from_zero = in_C - lain.shift_m;  // to + of the motion
+  return lain.end_for_end ? -from_zero : from_zero;
+}
+
+struct World {
+  Sides sides;
+  double probe_at_m = 0;
+  Column x_m;
+  double noise_m = 0;
+  std::uint64_t seed = 1;
+};
+
+double normal(std::uint64_t seed, int number, std::size_t i) {
+  const auto words =
+      philox({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(number), 0, 0}, seed);
+  return gaussian(uniform(words[0], words[1]));
+}
+
+// What an instrument says: the displacement of the surface along +, read as an error of the body
+// that moves.
+SetUp measured(const World& world, const Lain& lain, int number) {
+  SetUp s;
+  s.turn = {lain.upside_down ? -1.0 : 1.0, lain.end_for_end};
+  s.shift_m = lain.shift_m;
+  for (const double x : world.x_m) {
+    const double target_went = world.sides.fixture_moves != world.sides.against_encoder ? -x : x;
+    const double bump =
+        (lain.upside_down ? -1 : 1) * height_at(own_length(world.probe_at_m - target_went, lain));
+    const double own_error = machine_at(x);
+    const double of_target = world.sides.fixture_moves ? -own_error : own_error;
+    const double displacement = of_target + bump + number * 5e-6 + number * 30e-6 * x / 0.06;
+    s.position_m.push_back(x);
+    s.error_m.push_back((world.sides.fixture_moves ? -displacement : displacement) +
+                        world.noise_m * normal(world.seed, number, s.error_m.size()));
+    if (world.noise_m > 0) s.u_m.push_back(world.noise_m);
+  }
+  return s;
+}
+
+SeparationRequest request_of(const World& world, const std::vector<Lain>& lain) {
+  SeparationRequest request;
+  request.at = {world.sides, world.probe_at_m};
+  for (const Lain& l : lain)
+    request.set_ups.push_back(measured(world, l, static_cast<int>(request.set_ups.size()) + 1));
+  return request;
+}
+
+Column steps(int n, double step_m, double from_m = 0) {
+  Column x;
+  for (int i = 0; i < n; ++i) x.push_back(from_m + i * step_m);
+  return x;
+}
+
+// Takes shapes out of a column by least squares, one after the other made square to those before.
+Column without(Column y, std::vector<Column> shapes) {
+  std::vector<Column> square;
+  const auto take_out = [](Column& of, const Column& shape) {
+    double dot = 0, norm = 0;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      dot += of[i] * shape[i];
+      norm += shape[i] * shape[i];
+    }
+    for (std::size_t i = 0; i < of.size(); ++i) of[i] -= dot / norm * shape[i];
+  };
+  for (Column shape : shapes) {
+    for (int twice = 0; twice < 2; ++twice)
+      for (const Column& before : square) take_out(shape, before);
+    square.push_back(shape);
+    take_out(y, shape);
+  }
+  return y;
+}
+
+Column of(const Column& x, const Curve& curve) {
+  Column y;
+  for (const double v : x) y.push_back(curve(v));
+  return y;
+}
+std::vector<Column> line(const Column& x) {
+  return {Column(x.size(), 1.0), x};
+}
+
+double worst(const Column& a, const Column& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+
+std::set<std::string> names(const SeenSeries& series) {
+  std::set<std::string> found;
+  for (const UnseenShape& shape : series.unseen) found.insert(shape.name);
+  return found;
+}
+
+TEST(Separation, ReversalTellsBothButForALine) {
+  for (const bool fixture : {false, true}) {
+    for (const bool against : {false, true}) {
+      const World world{{fixture, against}, 7 * kMm, {0, 4e-3, 11e-3, 19e-3, 33e-3, 48e-3, 60e-3}};
+      const auto request = request_of(world, {{}, {true, false, 0}});
+      const auto found = separate(request);
+      ASSERT_TRUE(found) << found.error().message;
+      EXPECT_LT(worst(found->machine.seen_m, without(of(world.x_m, machine_at), line(world.x_m))),
+                1e-15);
+      const Column& c = found->target.place_m;
+      EXPECT_NEAR(c.front(), fixture == against ? -53 * kMm : 7 * kMm, 1e-15);
+      EXPECT_LT(worst(found->target.seen_m, without(of(c, height_at), line(c))), 1e-15);
+      // The textbook's halves, each less a line.
+      Column half;
+      for (std::size_t i = 0; i < world.x_m.size(); ++i)
+        half.push_back((request.set_ups[0].error_m[i] + request.set_ups[1].error_m[i]) / 2);
+      EXPECT_LT(worst(found->machine.seen_m, without(half, line(world.x_m))), 1e-15);
+      EXPECT_EQ(names(found->target), (std::set<std::string>{"offset", "slope"}));
+      EXPECT_EQ(names(found->machine), names(found->target));
+      EXPECT_TRUE(found->target.whole());
+      EXPECT_EQ(found->rank, 14u);
+      EXPECT_EQ(found->freedom(), 0u);
+      EXPECT_TRUE(std::isnan(found->target.u_m[0]));
+    }
+  }
+}
+
+TEST(Separation, OneShiftHidesParabolaAndPeriods) {
+  for (const bool against : {false, true}) {
+    const World world{{false, against}, 0, steps(25, 2.5 * kMm)};
+    const auto found = separate(request_of(world, {{}, {false, false, 10 * kMm}}));
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(names(found->target), (std::set<std::string>{"offset", "slope", "parabola",
+                                                           "period 10 mm", "period 5 mm"}));
+    EXPECT_EQ(names(found->machine), names(found->target));
+    EXPECT_FALSE(found->target.whole());
+    for (const auto& [series, truth] : {std::pair{found->target, Curve(height_at)},
+                                        std::pair{found->machine, Curve(machine_at)}}) {
+      const Column& c = series.place_m;
+      auto hidden = line(c);
+      hidden.push_back(of(c, [](double x) { return x * x; }));
+      hidden.push_back(of(c, [&](double x) { return wave(x - c[0], 10, 0); }));
+      hidden.push_back(of(c, [&](double x) { return wave(x - c[0], 10, 0.25); }));
+      hidden.push_back(of(c, [&](double x) { return wave(x - c[0], 5, 0.25); }));
+      EXPECT_LT(worst(series.seen_m, without(of(c, truth), hidden)), 1e-13);
+    }
+    EXPECT_EQ(found->target.place_m.size(), 29u);
+    EXPECT_EQ(found->unknowns - found->rank, 4u + 4u);
+  }
+}
+
+TEST(Separation, ShiftsWithoutCommonDivisorHideTheParabolaAlone) {
+  const World world{{}, 0, steps(25, 2.5 * kMm)};
+  const auto found =
+      separate(request_of(world, {{}, {false, false, 10 * kMm}, {false, false, -7.5 * kMm}}));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(names(found->target), (std::set<std::string>{"offset", "slope", "parabola"}));
+}
+
+TEST(Separation, ShiftedAndTurnedSeesAllButALine) {
+  const World world{{}, 3 * kMm, steps(25, 2.5 * kMm)};
+  const auto found = separate(request_of(
+      world, {{}, {false, false, 10 * kMm}, {false, false, -5 * kMm}, {true, false, 0}}));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_TRUE(found->target.whole());
+  const Column& c = found->target.place_m;
+  EXPECT_LT(worst(found->target.seen_m, without(of(c, height_at), line(c))), 1e-13);
+  EXPECT_GT(found->freedom(), 20u);
+  EXPECT_LT(found->residual_m, 1e-15);
+}
+
+// What changes its sign over the shift looks like the machine once it is turned as well.
+TEST(Separation, TurnedAndShiftedAtOnceHidesTwiceTheShift) {
+  const World world{{}, 0, steps(25, 2.5 * kMm)};
+  auto found = separate(request_of(world, {{}, {true, false, 10 * kMm}}));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(names(found->target),
+            (std::set<std::string>{"offset", "slope", "period 20 mm", "period 6.666667 mm"}));
+  found = separate(request_of(
+      world, {{}, {false, false, 10 * kMm}, {false, false, -5 * kMm}, {true, false, 2.5 * kMm}}));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(names(found->target), (std::set<std::string>{"offset", "slope", "period 5 mm"}));
+}
+
+// About the normal the surface still looks the same way, so that what is symmetric about the middle
+// stays hidden; about the third axis it is what is antisymmetric.
+TEST(Separation, EndForEndSeesHalfOfTheShapes) {
+  const World world{{}, 0, steps(13, 5 * kMm)};
+  for (const bool upside_down : {false, true}) {
+    const auto found = separate(request_of(world, {{}, {upside_down, true, -60 * kMm}}));
+    ASSERT_TRUE(found) << found.error().message;
+    const Column& c = found->target.place_m;
+    ASSERT_EQ(c.size(), 13u);
+    Column half = of(c, height_at);
+    for (std::size_t i = 0; i < 13; ++i)
+      half[i] = (height_at(c[i]) + (upside_down ? 1 : -1) * height_at(c[12 - i])) / 2;
+    EXPECT_LT(worst(found->target.seen_m, without(half, line(c))), 1e-13);
+    std::set<std::string> expected{"offset", "slope"};
+    if (!upside_down) expected.insert({"parabola", "5 more symmetric about -30 mm"});
+    if (upside_down) expected.insert("5 more antisymmetric about -30 mm");
+    EXPECT_EQ(names(found->target), expected);
+  }
+}
+
+TEST(Separation, UncertaintyIsThatOfTheNoise) {
+  World world{{}, 0, steps(13, 5 * kMm), 5 * kNm};
+  const std::vector<Lain> lain = {{}, {true, false, 0}, {false, false, 5 * kMm}};
+  constexpr int kTrials = 2000;
+  Column sum(14), square(14), u;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    world.seed = static_cast<std::uint64_t>(trial) + 1;
+    const auto found = separate(request_of(world, lain));
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_TRUE(found->warnings.empty());
+    u = found->target.u_m;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      sum[i] += found->target.seen_m[i] / kTrials;
+      square[i] += found->target.seen_m[i] * found->target.seen_m[i] / kTrials;
+    }
+  }
+  for (std::size_t i = 0; i < u.size(); ++i)
+    EXPECT_NEAR(std::sqrt(square[i] - sum[i] * sum[i]) / u[i], 1, 0.06) << i;
+  // Reversal alone: of n readings with u, the half difference has u/sqrt(2), less a line.
+  const auto reversal = separate(request_of(world, {{}, {true, false, 0}}));
+  double trace = 0;
+  for (const double v : reversal->target.u_m) trace += v * v / (5 * kNm * 5 * kNm);
+  EXPECT_NEAR(trace, (13 - 2) / 2.0, 1e-9);
+}
+
+// A third set-up as the first was, with ten times its uncertainty, adds its weight and no more.
+TEST(Separation, ReadingsCountByTheirUncertainty) {
+  const World world{{}, 0, steps(7, 10 * kMm), 1 * kNm};
+  auto request = request_of(world, {{}, {true, false, 0}, {}});
+  for (double& u : request.set_ups[2].u_m) u *= 10;
+  const auto found = separate(request);
+  ASSERT_TRUE(found) << found.error().message;
+  double trace = 0;
+  for (const double v : found->target.u_m) trace += v * v;
+  EXPECT_NEAR(trace / (kNm * kNm), (7 - 2) * (1 / (1 + 0.01) + 1) / 4, 1e-9);
+}
+
+TEST(Separation, WithoutUncertaintyTheScatterTells) {
+  constexpr int kTrials = 400;
+  double square = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const World world{{}, 0, steps(9, 5 * kMm), 5 * kNm, static_cast<std::uint64_t>(trial) + 1};
+    auto request = request_of(world, {{}, {true, false, 0}, {false, false, 5 * kMm}});
+    const auto with = separate(request);
+    for (auto& s : request.set_ups) s.u_m.clear();
+    const auto by_scatter = separate(request);
+    ASSERT_TRUE(with && by_scatter);
+    ASSERT_EQ(by_scatter->freedom(), 6u);
+    EXPECT_NE(by_scatter->u_reason.find("scatter"), std::string::npos);
+    square += std::pow(by_scatter->target.u_m[4] / with->target.u_m[4], 2) / kTrials;
+  }
+  EXPECT_NEAR(square, 1, 0.09);  // sd of the mean: sqrt(2/6/400) = 0.03
+}
+
+TEST(Separation, AWrongShiftContradicts) {
+  const World world{{}, 0, steps(25, 2.5 * kMm), 5 * kNm};
+  auto request = request_of(world, {{}, {true, false, 0}, {false, false, 5 * kMm}});
+  EXPECT_TRUE(separate(request)->warnings.empty());
+  request.set_ups[2].shift_m = -5 * kMm;
+  const auto wrong = separate(request);
+  ASSERT_TRUE(wrong);
+  ASSERT_EQ(wrong->warnings.size(), 1u);
+  EXPECT_NE(wrong->warnings[0].find("contradict"), std::string::npos);
+}
+
+TEST(Separation, WhatCannotBeIsRefusedWithARemedy) {
+  const World world{{}, 0, steps(7, 10 * kMm)};
+  const auto says = [&](const SeparationRequest& request, const std::string& words) {
+    const auto found = separate(request);
+    ASSERT_FALSE(found) << words;
+    EXPECT_EQ(found.error().code, ErrorCode::bad_input);
+    EXPECT_NE(found.error().message.find(words), std::string::npos) << found.error().message;
+  };
+  says(request_of(world, {{}}), "one set-up");
+  says(request_of(world, {{}, {}}), "lay alike");
+  says(request_of(world, {{}, {false, false, 4 * kMm}}), "off whole steps of 10 mm");
+  says(request_of(world, {{}, {false, false, 70 * kMm}}), "no place of the target in common");
+  says(request_of({{}, 0, {0, 10e-3, 21e-3, 30e-3}}, {{}, {false, false, 10 * kMm}}),
+       "not equally spaced");
+  auto request = request_of(world, {{}, {true, false, 0}});
+  for (double& x : request.set_ups[1].position_m) x += 1 * kMm;
+  says(request, "no place of the machine in common");
+  request = request_of(world, {{}, {true, false, 0}});
+  request.set_ups[1].error_m[3] = std::nan("");
+  says(request, "set-up 2: a value is not a finite number");
+  request = request_of(world, {{}, {true, false, 0}});
+  request.set_ups[0].u_m.assign(7, -1e-9);
+  says(request, "negative");
+  request.set_ups[0] = {{0, 1}, {0, 1}, {}, {}, 0};
+  says(request, "2 readings");
+}
+
+}  // namespace
+}  // namespace mdof::algo

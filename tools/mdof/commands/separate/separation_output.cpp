@@ -1,0 +1,67 @@
+#include "tools/mdof/commands/separate/separation_output.h"
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/paths.h"
+#include "schema/run_json.h"
+#include "schema/separation/separation_json.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/separation_text.h"
+#include "tools/mdof/text/warnings.h"
+
+namespace mdof::tools {
+namespace {
+
+// The map is subtracted as it is: what is unseen would be taken to be flat.
+Status check_map(const SeparationRecord& record, const OutputOptions& options) {
+  if (!options.rig_toml || options.despite_unseen || record.result.target.whole()) return {};
+  return fail(ErrorCode::check,
+              "these set-ups do not see all of the target's height (" +
+                  unseen_text(record.result.target) +
+                  "), and a map without that would take it to be 0; measure once more with the "
+                  "target turned about the motion, or ask with --despite-unseen");
+}
+
+// "set-up 2" is what the algorithm knows; people know their files and runs.
+Error with_names(Error error, const SeparationRecord& record) {
+  std::string names;
+  for (std::size_t k = 0; k < record.sources.size(); ++k)
+    names += (k > 0 ? ", " : "") + std::to_string(k + 1) + " is " + record.sources[k].name;
+  error.message += " (set-up " + names + ")";
+  return error;
+}
+
+}  // namespace
+
+void add_output_options(CLI::App& command, OutputOptions& o) {
+  add_all_warnings_flag(command, o.all_warnings);
+  add_csv_and_json_flags(command, o.csv, o.json);
+  auto* toml = command.add_flag("--rig-toml", o.rig_toml,
+                                "Print the target's height as a [[plane]] of a rig");
+  toml->excludes(command.get_option("--csv"))->excludes(command.get_option("--json"));
+  command
+      .add_flag("--despite-unseen", o.despite_unseen,
+                "Print it though more than offset and slope is unseen")
+      ->needs(toml);
+}
+
+Status separate_and_print(LoadedSources loaded, const char* method, const OutputOptions& options) {
+  auto separated = algo::separate(loaded.request);
+  if (!separated) return tl::unexpected(with_names(std::move(separated.error()), loaded.record));
+  SeparationRecord& record = loaded.record;
+  record.method = method;
+  record.created_utc = daemon::utc_now();
+  record.result = std::move(*separated);
+  auto& warnings = loaded.warnings;
+  warnings.insert(warnings.end(), record.result.warnings.begin(), record.result.warnings.end());
+  for (const auto& warning : summarised(warnings, options.all_warnings)) warn(warning);
+  MDOF_CHECK(check_map(record, options));
+  if (options.rig_toml) return write_out(separation_plane_toml(record));
+  if (options.csv) return write_out(separation_csv(record));
+  if (options.json) return write_line(with_warnings(separation_json(record), warnings));
+  return write_out(separation_text(record, terminal_columns()));
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,149 @@
+#include "tools/mdof/text/separation_text.h"
+
+#include <cmath>
+#include <vector>
+
+#include "schema/base/number/number_text.h"
+#include "schema/separation/separation_json.h"
+#include "schema/units.h"
+#include "tools/mdof/csv/csv_text.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr int kDigits = 9;  // of a map: below the picometre
+
+std::string along(const SeparationRecord& record) {
+  return std::string("+") + letter(record.normal);
+}
+
+std::string turned_text(const SeparationSource& source) {
+  if (source.end_for_end)
+    return source.height_sign < 0 ? "end for end, looks the other way" : "end for end";
+  return source.height_sign < 0 ? "looks the other way" : "as first";
+}
+
+std::string sources_text(const SeparationRecord& record, std::size_t width) {
+  TextTable table({"set-up", "of", "target", "zero at/mm"});
+  for (std::size_t k = 0; k < record.sources.size(); ++k) {
+    const SeparationSource& s = record.sources[k];
+    table.add({std::to_string(k + 1), s.name, turned_text(s), in_mm(s.shift_m)});
+  }
+  return table.text(width);
+}
+
+std::string series_text(const std::string& title, const std::string& place,
+                        const std::string& value, const SeenSeries& series, std::size_t width) {
+  TextTable table({place, value + (series.whole() ? "" : ", the part seen")});
+  for (std::size_t i = 0; i < series.place_m.size(); ++i)
+    table.add({in_mm(series.place_m[i]),
+               with_u(in_um(series.seen_m[i]), in_um(kSeparationCoverage * series.u_m[i]))});
+  return title + (series.whole() ? ", peak to valley " : ", peak to valley of the part seen ") +
+         in_um(series.zone_m()) + " µm\nnot seen and not in it: " + unseen_text(series) + "\n" +
+         table.text(width);
+}
+
+std::string fit_text(const Separation& fit) {
+  std::string text = std::to_string(fit.readings) + " readings, " + std::to_string(fit.unknowns) +
+                     " unknowns, rank " + std::to_string(fit.rank);
+  if (fit.freedom() > 0)
+    text += "; the fit leaves " + in_um(fit.residual_m) + " µm (rms, " +
+            std::to_string(fit.freedom()) + " degrees of freedom)";
+  return text + "\n";
+}
+
+std::string list(const std::vector<double>& values, double (*to_unit)(double)) {
+  std::string text;
+  for (const double v : values)
+    text += (text.empty() ? "[" : ", ") + plain_number(to_unit(v), kDigits);
+  return text + "]";
+}
+
+std::string heights(const std::vector<double>& height_m) {
+  std::string text;
+  for (const double h : height_m)
+    text += (text.empty() ? "[[" : ", [") + plain_number(to_um(h), kDigits) + "]";
+  return text + "]";
+}
+
+// Root mean square over the places; NaN: not known.
+double mean_u(const SeenSeries& series) {
+  double sum = 0;
+  for (const double u : series.u_m) sum += u * u;
+  return std::sqrt(sum / static_cast<double>(series.u_m.size()));
+}
+
+std::string provenance_comment(const SeparationRecord& record) {
+  std::string text = "# Height of the " + std::string(to_string(record.surface)) +
+                     " surface of the target, separated from the machine's " + record.error +
+                     " (mdof separate " + record.method + ", " + record.created_utc + ")\n";
+  if (record.simulated) text += "# simulated data: no machine was measured\n";
+  if (!record.probe.empty()) text += "# as probe " + record.probe + " alone reads it\n";
+  for (const SeparationSource& s : record.sources) {
+    std::string name = s.name;
+    for (char& c : name)
+      if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+    text += "# of " + name + ", sha256 " + s.sha256 + ": " + turned_text(s) + ", zero at " +
+            plain_number(to_mm(s.shift_m), kDigits) + " mm\n";
+  }
+  return text + "# not seen and not in it: " + unseen_text(record.result.target) + "\n";
+}
+
+}  // namespace
+
+std::string unseen_text(const SeenSeries& series) {
+  std::vector<std::string> words;
+  for (const UnseenShape& shape : series.unseen) words.push_back(shape.name);
+  return words.empty() ? "nothing" : joined(words);
+}
+
+std::string separation_text(const SeparationRecord& record, std::size_t width) {
+  const Separation& r = record.result;
+  const std::string of = record.probe.empty() ? "" : " at probe " + record.probe;
+  return simulated_notice(record.simulated) + sources_text(record, width) + fit_text(r) + "\n" +
+         series_text("machine: " + record.error + of, "encoder/mm", record.error + "/µm", r.machine,
+                     width) +
+         "\n" +
+         series_text("target: height of its " + std::string(to_string(record.surface)) +
+                         " surface along " + along(record) + " as it lay first",
+                     "place/mm", "height/µm", r.target, width) +
+         "\n" +
+         wrapped("± U (k = 2), from " + r.u_reason + "; not in it: " + not_in_separation_u(),
+                 width) +
+         "\n";
+}
+
+std::string separation_csv(const SeparationRecord& record) {
+  CsvText csv;
+  csv.cells({"series", "place_mm", "seen_um", "u_um", "U_um", "whole"});
+  csv.end_row();
+  const auto add = [&](std::string_view name, const SeenSeries& series) {
+    for (std::size_t i = 0; i < series.place_m.size(); ++i) {
+      csv.cell(name).cell(to_mm(series.place_m[i])).cell(to_um(series.seen_m[i]));
+      csv.cell(to_um(series.u_m[i])).cell(kSeparationCoverage * to_um(series.u_m[i]));
+      csv.cell(series.whole() ? 1LL : 0LL);
+      csv.end_row();
+    }
+  };
+  add("machine", record.result.machine);
+  add("target", record.result.target);
+  return csv.take();
+}
+
+std::string separation_plane_toml(const SeparationRecord& record) {
+  const SeenSeries& target = record.result.target;
+  const double u_m = mean_u(target);
+  std::string text =
+      provenance_comment(record) +
+      "# A rig with a [[plane]] needs one for each surface that its probes look at.\n"
+      "[[plane]]\nid = \"" +
+      to_string(record.surface) + "\"\nnormal = \"" + along(record) +
+      "\"\nflatness_first_mm = " + list(target.place_m, to_mm) +
+      "\nflatness_second_mm = [0]\nflatness_um = " + heights(target.seen_m) + "\n";
+  return text + (std::isfinite(u_m) ? "u_flatness_um = " + plain_number(to_um(u_m), 3) + "\n"
+                                    : "# u_flatness_um: " + record.result.u_reason + "\n");
+}
+
+}  // namespace mdof::tools

@@ -18,6 +18,7 @@ struct Group {
   const char *summary, *footer;
 };
 constexpr Group kGroups[] = {
+    {"calibrate", "Calibrate the fixture in place: records that a rig refers to", ""},
     {"compensation", "Build, show and activate compensation tables", ""},
     {"encoder", "Where an axis stands whose encoder counts", ""},
     {"device", "The devices: list, probe, monitor",

@@ -20,7 +20,7 @@ Status check_log(ReplayLog& log, Axis axis, const Rig& rig) {
   moved.axis = axis;
   if (!check_axis(log.path(), log.comments(), moved))
     return bad_input(log.path() + ": says that it is of another axis than " +
-                     std::string(1, letter(axis)) + "; correct the letter before its name");
+                     std::string(1, letter(axis)) + ", of which a log is needed here; give that");
   return check_channels(log.path(), log.driver().info().channels, rig);
 }
 

@@ -124,8 +124,19 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
     record.probes.push_back(as_record(found.probes[k], rig.probes[k]));
 }
 
+// Found places would be taken for what was meant, and be known too well to be found anew.
+Status check_not_calibrated(const Rig& rig) {
+  for (const CalibrationRecord& record : rig.records)
+    if (record.kind == "mounting")
+      return bad_input(rig.source + ": refers to the calibration \"" + record.id +
+                       "\" of its mounting already; take it out of calibration = ..., measure, and "
+                       "refer to the new one");
+  return {};
+}
+
 Status calibrate(const MountingCommand& command) {
   MDOF_TRY(const Rig rig, load_rig(command.rig));
+  MDOF_CHECK(check_not_calibrated(rig));
   MDOF_TRY(const Sources sources, read_all(command, rig));
   MDOF_TRY(auto record, begin_record("mounting", rig, command.record, sources.started_utc));
   MDOF_TRY(const auto fit, algo::fit_mounting(rig, sources.clampings));

@@ -13,6 +13,7 @@
 #include "daemon/station/station.h"
 #include "daemon/store/result_hash.h"
 #include "schema/base/json_writer.h"
+#include "schema/rig/calibrated.h"
 #include "schema/rig/rig_check.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -307,6 +308,7 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
   for (auto& line : open->troubles.summary()) run.header.warnings.push_back(std::move(line));
   const auto overdue = overdue_calibrations(config_.rig, utc_now());
   run.header.warnings.insert(run.header.warnings.end(), overdue.begin(), overdue.end());
+  for (auto& note : calibration_notes(config_.rig)) run.header.notes.push_back(std::move(note));
   const auto doubtful = doubtful_values(config_.rig);
   run.header.warnings.insert(run.header.warnings.end(), doubtful.begin(), doubtful.end());
   if (!why.empty()) run.header.warnings.push_back(why);

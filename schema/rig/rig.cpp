@@ -5,6 +5,7 @@
 
 #include "schema/base/files.h"
 #include "schema/base/toml_reader.h"
+#include "schema/rig/calibrated.h"
 #include "schema/rig/rig_check.h"
 #include "schema/units.h"
 
@@ -241,6 +242,10 @@ std::vector<std::string> overdue_calibrations(const Rig& rig, std::string_view d
                       (c.certificate.empty() ? "" : " (certificate " + c.certificate + ")") +
                       " was due on " + c.due + "; have it calibrated anew");
   }
+  for (const CalibrationRecord& record : rig.records)
+    if (day.substr(0, record.valid_until.size()) > record.valid_until)
+      overdue.push_back("the calibration \"" + record.id + "\" was valid until " +
+                        record.valid_until + "; make it anew with mdof calibrate " + record.kind);
   return overdue;
 }
 
@@ -334,13 +339,14 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
                               std::to_string(kMostProbes) + " can be");
   else
     reject_doubles(table, rig.probes);
+  apply_records(table, toml_text, rig);
   MDOF_CHECK(table.finish());
   MDOF_CHECK(check_rig(rig));
   return rig;
 }
 
 Result<Rig> load_rig(const std::filesystem::path& file) {
-  MDOF_TRY(const std::string text, read_text_file(file));
+  MDOF_TRY(const std::string text, load_rig_text(file));
   return parse_rig(text, file.string());
 }
 

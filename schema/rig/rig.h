@@ -11,6 +11,7 @@
 
 #include "schema/axis.h"
 #include "schema/base/result.h"
+#include "schema/calibration/record.h"
 #include "schema/rig/chain.h"
 #include "schema/rig/uncertainty.h"
 
@@ -84,8 +85,9 @@ struct Rig {
   std::optional<double> artefact_angle_error_rad;
   double u_artefact_angle_rad = 0;
   RigUncertainty uncertainty;
-  std::string text;    // the TOML itself: provenance
-  std::string source;  // file name, for messages
+  std::vector<CalibrationRecord> records;  // that it refers to; applied (schema/rig/calibrated.h)
+  std::string text;                        // the TOML itself with its records: provenance
+  std::string source;                      // file name, for messages
 
   MovingAxis moving() const { return {axis, sides}; }
 
@@ -96,10 +98,12 @@ struct Rig {
   bool declares_uncertainty() const;  // any of them, of any part
 };
 
-// What results measured on this day (YYYY-MM-DD..., UTC) have to say of the probes' calibrations.
+// What results measured on this day (YYYY-MM-DD..., UTC) have to say of the probes' calibrations
+// and of the records that are out of date.
 std::vector<std::string> overdue_calibrations(const Rig& rig, std::string_view day);
 
-// Reads a rig (DESIGN §6). Errors name the file, line and key, and for an unknown key the nearest
+// Reads a rig (DESIGN §6); of one that refers to calibration records, with them behind it, as
+// load_rig_text() gives it. Errors name the file, line and key, and for an unknown key the nearest
 // known one.
 Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name);
 Result<Rig> load_rig(const std::filesystem::path& file);

@@ -6,6 +6,7 @@
 #include "daemon/measure/config.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
+#include "schema/rig/calibrated.h"
 #include "schema/rig/rig_check.h"
 
 namespace mdof::daemon {
@@ -186,6 +187,7 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   const std::string day = log.started_utc().empty() ? utc_now() : log.started_utc();
   const auto overdue = overdue_calibrations(rig, day);
   run->header.warnings.insert(run->header.warnings.end(), overdue.begin(), overdue.end());
+  for (auto& note : calibration_notes(rig)) run->header.notes.push_back(std::move(note));
   const auto doubtful = doubtful_values(rig);
   run->header.warnings.insert(run->header.warnings.end(), doubtful.begin(), doubtful.end());
   return run;

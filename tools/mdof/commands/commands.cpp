@@ -18,6 +18,7 @@ struct Group {
   const char *summary, *footer;
 };
 constexpr Group kGroups[] = {
+    {"calibrate", "Calibrate the fixture in place: records that a rig refers to", ""},
     {"compensation", "Build, show and activate compensation tables", ""},
     {"separate", "Tell the machine's error from the shape of the target", ""},
     {"encoder", "Where an axis stands whose encoder counts", ""},

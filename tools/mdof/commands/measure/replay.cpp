@@ -8,7 +8,7 @@
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/replay/replay_request.h"
-#include "schema/base/files.h"
+#include "schema/rig/calibrated.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -39,7 +39,7 @@ Result<daemon::ReplayRequest> request_of(const ReplayCommand& c) {
   request.log = c.log;
   request.rig_source = c.rig;
   if (!c.rig.empty()) {
-    MDOF_TRY(request.rig_text, read_text_file(c.rig));
+    MDOF_TRY(request.rig_text, load_rig_text(c.rig));
   }
   request.model = c.model;
   request.note = c.note;

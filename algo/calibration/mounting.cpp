@@ -1,0 +1,250 @@
+#include "algo/calibration/mounting.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "algo/calibration/mounting_model.h"
+#include "algo/calibration/mounting_view.h"
+#include "algo/uncertainty/chi_square.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr int kMaxIterations = 40;
+constexpr double kStepDone = 1e-7;  // in units of what is not known before
+constexpr double kRankTolerance = 1e-9;
+constexpr double kFarthest_m = 1e-3;  // from the rig's place: no clamping by hand is as bad
+
+// The least-squares solution in the clampings' unknowns alone.
+struct PoseSpace {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  Eigen::MatrixXd basis;
+
+  explicit PoseSpace(const Eigen::MatrixXd& by_pose) : qr(by_pose.rows(), by_pose.cols()) {
+    qr.setThreshold(kRankTolerance);
+    qr.compute(by_pose);
+    basis = qr.householderQ() * Eigen::MatrixXd::Identity(by_pose.rows(), qr.rank());
+  }
+  Eigen::MatrixXd without(const Eigen::MatrixXd& m) const {
+    return m - basis * (basis.transpose() * m);
+  }
+};
+
+MountingView view_of(const Eigen::JacobiSVD<Eigen::MatrixXd>& svd) {
+  const Eigen::VectorXd& all = svd.singularValues();
+  const auto n = std::count_if(all.begin(), all.end(), [](double s) { return s >= kSeenFrom; });
+  const Eigen::MatrixXd& v = svd.matrixV();
+  return {v.leftCols(n), v.rightCols(v.cols() - n), all.head(n)};
+}
+
+class Fit {
+ public:
+  explicit Fit(MountingModel model)
+      : model_(std::move(model)),
+        pose_(Eigen::VectorXd::Zero(model_.pose_unknowns())),
+        probe_(Eigen::VectorXd::Zero(model_.unknowns())) {}
+
+  Status run(double u_encoder_m) {
+    MDOF_CHECK(settle([this] { return step_of_poses(); }));
+    model_.widen_by_encoder(pose_, u_encoder_m);
+    return settle([this] { return step_of_all(); });
+  }
+  MountingFit result(const Rig& rig, const std::vector<Clamping>& clampings) const;
+  const MountingView& view() const { return view_; }
+  Eigen::VectorXd change() const { return probe_.cwiseProduct(model_.scale()); }
+  const MountingModel& model() const { return model_; }
+
+ private:
+  template <class Step>
+  Status settle(Step step) {
+    for (int i = 0; i < kMaxIterations; ++i) {
+      const double size = step();
+      if (!(pose_.cwiseAbs().maxCoeff() < 25)) break;  // 0.25 rad, where the model ends
+      if (size < kStepDone) return {};
+    }
+    return fail(ErrorCode::check,
+                "no mounting and tilts of the target give these readings; check that each log is "
+                "of one clamping, of its axis, and which way the target goes on it (--reversed)");
+  }
+
+  double step_of_poses() {
+    const auto lines = model_.linearised(pose_, probe_);
+    const Eigen::VectorXd step = PoseSpace(lines.by_pose).qr.solve(lines.misfit);
+    pose_ += step;
+    return step.cwiseAbs().maxCoeff();
+  }
+
+  // What the probes' unknowns are as a whole, not only their step, is taken from what is seen now:
+  // nothing is left in them of what was seen a step before and is not.
+  double step_of_all() {
+    const auto lines = model_.linearised(pose_, probe_);
+    const PoseSpace poses(lines.by_pose);
+    const Eigen::MatrixXd shown = poses.without(lines.by_probe);
+    const Eigen::VectorXd goal = poses.without(lines.misfit) + shown * probe_;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(shown, Eigen::ComputeThinU | Eigen::ComputeFullV);
+    view_ = view_of(svd);
+    const auto n = view_.singular.size();
+    const Eigen::VectorXd now =
+        view_.seen * (svd.matrixU().leftCols(n).transpose() * goal).cwiseQuotient(view_.singular);
+    const Eigen::VectorXd change = now - probe_;
+    const Eigen::VectorXd step = poses.qr.solve(lines.misfit - lines.by_probe * change);
+    probe_ = now;
+    pose_ += step;
+    pose_rank_ = poses.qr.rank();
+    return std::max(change.cwiseAbs().maxCoeff(), step.cwiseAbs().maxCoeff());
+  }
+
+  void judge(MountingCalibration& found) const;
+  void tell_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
+                  const Eigen::MatrixXd& covariance, MountedProbe& out) const;
+  double u_of(Eigen::Index unknown, const Unseen& unseen, const Eigen::MatrixXd& covariance) const;
+
+  MountingModel model_;
+  Eigen::VectorXd pose_, probe_;
+  MountingView view_;
+  Eigen::Index pose_rank_ = 0;
+};
+
+// What is not seen stays as uncertain as the rig says; NaN where it says nothing.
+double Fit::u_of(Eigen::Index unknown, const Unseen& unseen,
+                 const Eigen::MatrixXd& covariance) const {
+  const double share = unseen.share(unknown), scale = model_.scale()(unknown);
+  if (share > kUnseenShare && !model_.declared(unknown)) return std::nan("");
+  return std::sqrt(covariance(unknown, unknown) + share * scale * scale);
+}
+
+void Fit::tell_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
+                     const Eigen::MatrixXd& covariance, MountedProbe& out) const {
+  const Eigen::VectorXd found = change();
+  const auto seen = [&](MountingUnknown which) {
+    return unseen.share(unknown_of(k, which)) <= kUnseenShare;
+  };
+  const auto axes = local_axes(rig.axis);
+  const auto u = [&](MountingUnknown which) {
+    return u_of(unknown_of(k, which), unseen, covariance);
+  };
+  const Eigen::Vector3d &e1 = model_.along(k, 0), &e2 = model_.along(k, 1);
+  const Eigen::Vector3d moved =
+      found(unknown_of(k, kPlace1)) * e1 + found(unknown_of(k, kPlace2)) * e2;
+  const Eigen::Vector3d direction =
+      model_.turned_direction(k, found(unknown_of(k, kTowards1)), found(unknown_of(k, kTowards2)));
+  out.id = rig.probes[k].id;
+  out.position_seen = seen(kPlace1) && seen(kPlace2);
+  out.direction_seen = seen(kTowards1) && seen(kTowards2);
+  out.zero_seen = seen(kZero);
+  const double cross = covariance(unknown_of(k, kPlace1), unknown_of(k, kPlace2));
+  for (std::size_t m = 0; m < 3; ++m) {
+    double shift = 0, turned = 0, part1 = 0, part2 = 0;
+    for (std::size_t l = 0; l < 3; ++l) {
+      const auto i = static_cast<Eigen::Index>(l);
+      shift += axes[m][l] * moved(i);
+      turned += axes[m][l] * direction(i);
+      part1 += axes[m][l] * e1(i);
+      part2 += axes[m][l] * e2(i);
+    }
+    out.position_m[m] = rig.probes[k].position_m[m] + shift;
+    out.direction[m] = out.direction_seen ? turned : rig.probes[k].direction[m];
+    const auto square = [](double part, double u_part) {
+      return part == 0 ? 0 : part * part * u_part * u_part;
+    };
+    out.u_position_m[m] = std::sqrt(std::max(
+        square(part1, u(kPlace1)) + square(part2, u(kPlace2)) + 2 * part1 * part2 * cross, 0.0));
+    if (std::isnan(u(kPlace1)) && part1 != 0) out.u_position_m[m] = std::nan("");
+    if (std::isnan(u(kPlace2)) && part2 != 0) out.u_position_m[m] = std::nan("");
+  }
+  const double u1 = u(kTowards1), u2 = u(kTowards2);
+  out.u_direction_rad = std::isnan(u1) || std::isnan(u2) ? std::nan("") : std::max(u1, u2);
+  out.zero_m = found(unknown_of(k, kZero));
+  out.u_zero_m = out.zero_seen ? u(kZero) : std::nan("");
+  out.scale_1 = found(unknown_of(k, kScale));
+  out.u_scale_1 = u(kScale);
+  out.readings = static_cast<std::size_t>(
+      std::count_if(model_.readings().begin(), model_.readings().end(),
+                    [&](const TraverseReading& reading) { return reading.probe == k; }));
+}
+
+// Residuals that the readings' uncertainties do not explain widen all that follows (Birge).
+void Fit::judge(MountingCalibration& found) const {
+  const auto lines = model_.linearised(pose_, probe_);
+  found.readings = model_.readings().size();
+  found.chi_square = lines.misfit.squaredNorm();
+  found.freedom = static_cast<int>(lines.misfit.size() - pose_rank_ - view_.singular.size());
+  found.explained = found.freedom <= 0 || found.chi_square <= chi_square_limit(found.freedom);
+}
+
+MountingFit Fit::result(const Rig& rig, const std::vector<Clamping>& clampings) const {
+  MountingFit fit;
+  judge(fit.found);
+  const double widened =
+      fit.found.explained ? 1 : fit.found.chi_square / static_cast<double>(fit.found.freedom);
+  const Eigen::MatrixXd scaled =
+      view_.seen * view_.singular.cwiseAbs2().cwiseInverse().asDiagonal() * view_.seen.transpose();
+  const auto& s = model_.scale();
+  fit.change = change();
+  fit.covariance = widened * (s.asDiagonal() * scaled * s.asDiagonal());
+  fit.seen = s.asDiagonal() * view_.projector() *
+             s.unaryExpr([](double x) { return x > 0 ? 1 / x : 0; }).asDiagonal();
+  const Unseen unseen = unseen_of(model_, view_);
+  fit.found.not_seen = unseen.sentences;
+  fit.found.u_together_m = unseen.u_together_m;
+  fit.found.clampings = clampings.size();
+  fit.found.probes.resize(rig.probes.size());
+  for (std::size_t k = 0; k < rig.probes.size(); ++k)
+    tell_probe(rig, k, unseen, fit.covariance, fit.found.probes[k]);
+  for (std::size_t i = 0; i < clampings.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Errors5 a = model_.angles_of(pose_, i), b = model_.angles_of(pose_, j);
+      const Eigen::Vector3d apart(a[kEx] - b[kEx], a[kEy] - b[kEy], a[kEz] - b[kEz]);
+      fit.found.tilt_rad = std::max(fit.found.tilt_rad, apart.norm());
+    }
+  return fit;
+}
+
+Status check_places(const Rig& rig, const MountingFit& fit) {
+  for (std::size_t k = 0; k < rig.probes.size(); ++k) {
+    const double x = fit.change(unknown_of(k, kPlace1)), y = fit.change(unknown_of(k, kPlace2));
+    const double away_m = std::sqrt(x * x + y * y);
+    if (away_m <= kFarthest_m) continue;
+    return fail(
+        ErrorCode::check,
+        rig.source + ": probe \"" + rig.probes[k].id + "\" would be " +
+            plain_number(to_mm(away_m), 3) +
+            " mm from its position_mm, more than any clamping leaves: an axis on which the "
+            "target goes the other way (--reversed), probes exchanged, or position_mm wrong");
+  }
+  return {};
+}
+
+Status check_seen(const MountingFit& fit) {
+  const auto& probes = fit.found.probes;
+  if (std::any_of(probes.begin(), probes.end(), [](const auto& p) { return p.position_seen; }))
+    return {};
+  return fail(ErrorCode::check,
+              "these clampings show the place of no probe: the tilts of the target differ by " +
+                  plain_number(fit.found.tilt_rad * 1e3, 3) +
+                  " mrad at most; clamp it at three tilts or more that differ by some mrad about "
+                  "each of two axes, not all in a line");
+}
+
+}  // namespace
+
+Result<MountingFit> fit_mounting(const Rig& rig, const std::vector<Clamping>& clampings) {
+  MDOF_TRY(MountingModel model, MountingModel::create(rig, clampings));
+  if (model.readings().empty())
+    return fail(
+        ErrorCode::check,
+        "no probe has a reading that can be used in any stop; check range_um and the zeros");
+  Fit fit(std::move(model));
+  MDOF_CHECK(fit.run(rig.uncertainty.encoder.u));
+  MountingFit result = fit.result(rig, clampings);
+  MDOF_CHECK(check_seen(result));
+  MDOF_CHECK(check_places(rig, result));
+  return result;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,76 @@
+// The unknowns of a mounting and what the probes read by them.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "algo/calibration/mounting.h"
+#include "algo/model/fixture.h"
+
+namespace mdof::algo {
+
+enum MountingUnknown { kPlace1, kPlace2, kZero, kTowards1, kTowards2, kScale };
+inline Eigen::Index unknown_of(std::size_t probe, MountingUnknown which) {
+  return static_cast<Eigen::Index>(probe) * kMountingUnknowns + which;
+}
+
+// One reading that is used.
+struct TraverseReading {
+  std::size_t clamping, traverse;  // traverse counts over all clampings
+  std::size_t probe;
+  Eigen::Vector3d way_M;  // unit vector of the axis, local frame
+  double travel_m;
+  double reading_m, u_m;
+
+  Eigen::Vector3d travel_M() const { return travel_m * way_M; }
+};
+
+class MountingModel {
+ public:
+  static Result<MountingModel> create(const Rig& rig, const std::vector<Clamping>& clampings);
+
+  const Fixture& nominal() const { return nominal_; }
+  const std::vector<TraverseReading>& readings() const { return readings_; }
+  std::size_t probes() const { return nominal_.probes.size(); }
+  Eigen::Index unknowns() const;  // of the probes
+  Eigen::Index pose_unknowns()
+      const;  // of the clampings: angles of each, δy and δz of each traverse
+
+  // In the local frame: along the plane of a probe, and towards which its direction turns.
+  const Eigen::Vector3d& along(std::size_t probe, std::size_t which) const;
+  Eigen::Vector3d turned_direction(std::size_t probe, double towards1, double towards2) const;
+
+  // How much is not known of each unknown before the logs; 0: it is exact.
+  const Eigen::VectorXd& scale() const { return scale_; }
+  bool declared(Eigen::Index unknown) const;  // by the rig; else that of clamping by hand
+
+  // What is left of the readings, over their uncertainties, and its derivatives by the unknowns of
+  // the poses (angles in units of 0.01 rad, so that columns compare) and of the probes (in units of
+  // scale()), both with the sign of the reading.
+  struct Linearised {
+    Eigen::VectorXd misfit;
+    Eigen::MatrixXd by_pose, by_probe;
+  };
+  Linearised linearised(const Eigen::VectorXd& pose, const Eigen::VectorXd& probe) const;
+
+  // Adds what the encoder's declared uncertainty makes of a tilt to those of the readings.
+  void widen_by_encoder(const Eigen::VectorXd& pose, double u_encoder_m);
+  Errors5 angles_of(const Eigen::VectorXd& pose, std::size_t clamping) const;
+
+ private:
+  void take(const std::vector<Clamping>& clampings);
+  void set_scales(const Rig& rig);
+  Errors5 pose_of(const Eigen::VectorXd& pose, const TraverseReading& at) const;
+  FixtureProbe mounted(const Eigen::VectorXd& probe, std::size_t k) const;
+
+  Fixture nominal_;
+  std::vector<std::array<Eigen::Vector3d, 2>> along_, towards_;  // [probe]
+  std::vector<TraverseReading> readings_;
+  std::size_t clampings_ = 0, traverses_ = 0;
+  Eigen::VectorXd scale_;
+  std::vector<bool> declared_;
+};
+
+}  // namespace mdof::algo

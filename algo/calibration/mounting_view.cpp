@@ -1,0 +1,164 @@
+#include "algo/calibration/mounting_view.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kWhole = 0.99;       // of a combination lies in what is not seen
+constexpr double kSamePlane = 1e-9;   // 1 - cosine
+constexpr double kIndependent = 0.1;  // what is left of a combination beside others
+
+using Group = std::vector<std::size_t>;  // probes that look at one plane
+
+std::vector<Group> groups_of(const Fixture& fixture) {
+  std::vector<Group> groups;
+  for (std::size_t k = 0; k < fixture.probes.size(); ++k) {
+    bool placed = false;
+    for (Group& group : groups) {
+      const double same = fixture.probes[group[0]].n_C.dot(fixture.probes[k].n_C);
+      if (placed || std::abs(same) < 1 - kSamePlane) continue;
+      group.push_back(k);
+      placed = true;
+    }
+    if (!placed) groups.push_back({k});
+  }
+  return groups;
+}
+
+std::string ids_of(const MountingModel& model, const Group& group) {
+  std::string ids;
+  for (const std::size_t k : group) ids += (ids.empty() ? "" : ", ") + model.nominal().probes[k].id;
+  return ids;
+}
+
+// In machine axes.
+Vec3 machine(const MountingModel& model, const Eigen::Vector3d& local) {
+  const auto axes = local_axes(model.nominal().axis);
+  Vec3 v{};
+  for (std::size_t m = 0; m < 3; ++m)
+    for (std::size_t l = 0; l < 3; ++l) v[m] += axes[m][l] * local(static_cast<Eigen::Index>(l));
+  return v;
+}
+
+std::size_t largest(const Vec3& v) {
+  std::size_t at = 0;
+  for (std::size_t m = 1; m < 3; ++m)
+    if (std::abs(v[m]) > std::abs(v[at])) at = m;
+  return at;
+}
+
+class Naming {
+ public:
+  Naming(const MountingModel& model, const MountingView& view) : model_(model), view_(view) {
+    together_ = Eigen::MatrixXd(model.unknowns(), 0);
+    for (const Group& group : groups_of(model.nominal())) {
+      for (std::size_t j = 0; j < 2; ++j) together_along(group, j);
+      together_zero(group);
+    }
+    find_apart();
+    for (std::size_t k = 0; k < model.probes(); ++k) single(k);
+  }
+  Unseen take() { return std::move(out_); }
+
+ private:
+  // Whether all of `v`, in the unknowns' own units, is unseen. It is then one of those together.
+  bool is_unseen(const Eigen::VectorXd& v, double& length) {
+    Eigen::VectorXd scaled = v;
+    for (Eigen::Index i = 0; i < v.size(); ++i)
+      scaled(i) = v(i) == 0 ? 0 : v(i) / model_.scale()(i);
+    length = scaled.norm();
+    scaled /= length;
+    if ((view_.unseen.transpose() * scaled).squaredNorm() < kWhole) return false;
+    scaled -= together_ * (together_.transpose() * scaled);
+    if (scaled.norm() < kIndependent) return true;
+    together_.conservativeResize(Eigen::NoChange, together_.cols() + 1);
+    together_.col(together_.cols() - 1) = scaled.normalized();
+    return true;
+  }
+
+  void together_along(const Group& group, std::size_t which) {
+    const Eigen::Vector3d way = model_.along(group[0], which);
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(model_.unknowns());
+    bool declared = true;
+    for (const std::size_t k : group) {
+      shift(unknown_of(k, kPlace1)) = way.dot(model_.along(k, 0));
+      shift(unknown_of(k, kPlace2)) = way.dot(model_.along(k, 1));
+      declared = declared && model_.declared(unknown_of(k, which == 0 ? kPlace1 : kPlace2));
+    }
+    double length = 0;
+    if (!is_unseen(shift, length)) return;
+    const std::size_t axis = largest(machine(model_, way));
+    const double u_m = declared ? 1 / length : std::nan("");
+    double& u_axis = out_.u_together_m[axis];
+    u_axis = std::isnan(u_m) || std::isnan(u_axis) ? std::nan("") : std::max(u_axis, u_m);
+    out_.sentences.push_back(
+        "where " + ids_of(model_, group) + " are together along " + std::string(1, "XYZ"[axis]) +
+        ": a clamping moves the target as well; their mean stays that of the rig, " +
+        (declared ? "known to " + plain_number(to_um(u_m), 3) + " um"
+                  : "and the rig does not say how well it is known (u_position_mm)"));
+  }
+
+  void together_zero(const Group& group) {
+    Eigen::VectorXd zero = Eigen::VectorXd::Zero(model_.unknowns());
+    for (const std::size_t k : group) {
+      const FixtureProbe& p = model_.nominal().probes[k];
+      const FixtureProbe& first = model_.nominal().probes[group[0]];
+      zero(unknown_of(k, kZero)) = (p.n_C.dot(first.n_C) > 0 ? 1 : -1) / p.n_C.dot(p.u_M);
+    }
+    double length = 0;
+    if (is_unseen(zero, length))
+      out_.sentences.push_back("the zeros of " + ids_of(model_, group) +
+                               " together: their mean stays that of the rig");
+  }
+
+  void find_apart() {
+    // To the precision of what is called unseen, what is left of a column is all of it or nothing.
+    const Eigen::MatrixXd left =
+        view_.unseen - together_ * (together_.transpose() * view_.unseen).eval();
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeThinU);
+    const auto& length = svd.singularValues();
+    const auto n = std::count_if(length.begin(), length.end(), [](double x) { return x > 0.5; });
+    out_.apart = svd.matrixU().leftCols(n);
+  }
+
+  bool unseen(Eigen::Index unknown) const {
+    return model_.scale()(unknown) > 0 && out_.share(unknown) > kUnseenShare;
+  }
+
+  void single(std::size_t k) {
+    const std::string& id = model_.nominal().probes[k].id;
+    for (std::size_t j = 0; j < 2; ++j)
+      if (unseen(unknown_of(k, j == 0 ? kPlace1 : kPlace2)))
+        out_.sentences.push_back(
+            "the place of " + id + " along " +
+            std::string(1, "XYZ"[largest(machine(model_, model_.along(k, j)))]) +
+            " beside the others: clamp the target at more, and more different, tilts");
+    if (unseen(unknown_of(k, kZero)))
+      out_.sentences.push_back("the zero of " + id + " beside the others");
+    if (unseen(unknown_of(k, kTowards1)) || unseen(unknown_of(k, kTowards2)))
+      out_.sentences.push_back("the direction of " + id +
+                               ", at tilts and readings as small as these");
+    if (unseen(unknown_of(k, kScale)))
+      out_.sentences.push_back("the sensitivity of " + id +
+                               " (mdof calibrate sensitivity shows it)");
+  }
+
+  const MountingModel& model_;
+  const MountingView& view_;
+  Eigen::MatrixXd together_;
+  Unseen out_;
+};
+
+}  // namespace
+
+Unseen unseen_of(const MountingModel& model, const MountingView& view) {
+  return Naming(model, view).take();
+}
+
+}  // namespace mdof::algo

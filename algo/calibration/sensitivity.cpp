@@ -1,0 +1,132 @@
+#include "algo/calibration/sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algo/iso230/line_fit.h"
+#include "algo/model/fixture.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kFewest = 3;
+constexpr double kShortest = 0.05;         // of the range
+constexpr double kLeast = 0.5, kMost = 2;  // sensitivities that a probe may have
+constexpr double kOnePlace = 1e-3;         // of the range: stops nearer than this are one
+
+// Displacement along the probe's direction for a travel along the axis.
+Result<double> facing(const Rig& rig, std::size_t probe, Axis axis) {
+  MDOF_TRY(const Fixture fixture, make_fixture(rig));
+  const FixtureProbe& p = fixture.probes[probe];
+  Vec3 machine{};
+  machine[static_cast<std::size_t>(axis)] = 1;
+  const Vec3 way = to_local(rig.axis, machine);
+  return p.n_C.dot(Eigen::Vector3d(way[0], way[1], way[2])) / p.n_C.dot(p.u_M);
+}
+
+struct Reading {
+  double true_m, read_m;
+};
+
+// In the order of the readings; those of one place as their mean.
+std::vector<Reading> places_of(std::vector<Reading> all, double apart_m) {
+  std::sort(all.begin(), all.end(),
+            [](const Reading& a, const Reading& b) { return a.read_m < b.read_m; });
+  std::vector<Reading> places;
+  for (std::size_t i = 0; i < all.size();) {
+    std::size_t end = i;
+    Reading sum{0, 0};
+    for (; end < all.size() && all[end].read_m - all[i].read_m <= apart_m; ++end) {
+      sum.true_m += all[end].true_m;
+      sum.read_m += all[end].read_m;
+    }
+    const auto n = static_cast<double>(end - i);
+    places.push_back({sum.true_m / n, sum.read_m / n});
+    i = end;
+  }
+  return places;
+}
+
+Status check(const Probe& probe, const Line& line) {
+  if (line.slope >= kLeast && line.slope <= kMost) return {};
+  return fail(
+      ErrorCode::check,
+      "probe \"" + probe.id + "\" would read " + plain_number(line.slope, 4) +
+          " um for a um of travel, which no probe does; " +
+          (line.slope < 0 ? "the target goes the other way on this axis (--reversed), or the rig's "
+                            "reads or measures is wrong"
+                          : "check the rig's um_per_V and the unit of the encoder"));
+}
+
+// Where the probe is in volts its scale takes the sensitivity; the rest is a table.
+void propose(const Probe& probe, const std::vector<Reading>& places, const Line& line,
+             SensitivityCalibration& found) {
+  const Calibration& c = probe.calibration;
+  const double divisor = c.um_per_V ? line.slope : 1;
+  if (c.um_per_V) found.um_per_V = *c.um_per_V / divisor;
+  found.offset_um = c.offset_um / divisor;
+  const double zero_m = line.intercept / line.slope;
+  const double sign = c.reads_gap ? -1 : 1;
+  for (const Reading& place : places) {
+    const double read_m = place.read_m / divisor;
+    found.linearity.push_back({sign * to_um(read_m), sign * to_um(place.true_m + zero_m - read_m)});
+  }
+  std::sort(found.linearity.begin(), found.linearity.end());
+}
+
+}  // namespace
+
+Result<Axis> approaching_axis(const Rig& rig, std::size_t probe) {
+  Axis best = Axis::x;
+  double most = 0;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    MDOF_TRY(const double along, facing(rig, probe, axis));
+    if (std::abs(along) <= most) continue;
+    most = std::abs(along);
+    best = axis;
+  }
+  return best;
+}
+
+Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe,
+                                               const Traverse& traverse) {
+  const Probe& own = rig.probes[probe];
+  MDOF_TRY(const double along, facing(rig, probe, traverse.axis));
+  std::vector<Reading> all;
+  for (const TraverseStop& stop : traverse.stops)
+    if (std::isfinite(stop.reading_m[probe]))
+      all.push_back({stop.travel_m * along, stop.reading_m[probe]});
+  const auto places = places_of(all, kOnePlace * own.range_m);
+  const double way_m = places.empty() ? 0 : places.back().read_m - places.front().read_m;
+  if (places.size() < kFewest || way_m < kShortest * own.range_m)
+    return fail(ErrorCode::check, "probe \"" + own.id + "\" was read at " +
+                                      std::to_string(places.size()) + " places over " +
+                                      plain_number(to_um(way_m)) +
+                                      " um; stop at three or more, over as much of its range of " +
+                                      plain_number(to_um(own.range_m)) + " um as it is used");
+  std::vector<double> x, y;
+  for (const Reading& reading : all) {
+    x.push_back(reading.true_m - all.front().true_m);
+    y.push_back(reading.read_m);
+  }
+  Line line = least_squares_line(x, y);
+  line.intercept -= line.slope * all.front().true_m;
+  MDOF_CHECK(check(own, line));
+  SensitivityCalibration found;
+  found.id = own.id;
+  found.sensitivity_1 = line.slope;
+  found.u_sensitivity_1 = line.u_slope;
+  found.residual_sd_m = line.residual_sd;
+  found.from_m = places.front().read_m;
+  found.to_m = places.back().read_m;
+  found.stops = all.size();
+  for (const Reading& reading : all)
+    found.linearity_m =
+        std::max(found.linearity_m, std::abs(reading.read_m - line.at(reading.true_m)));
+  propose(own, places, line, found);
+  return found;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,79 @@
+#include "daemon/measure/stops.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "algo/points/align.h"
+#include "algo/points/dwell.h"
+#include "algo/points/flags.h"
+#include "daemon/measure/replay/replay.h"
+#include "drivers/calibration.h"
+#include "schema/base/number/number_text.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr std::chrono::milliseconds kReadTimeout{1000};
+
+Status check_log(ReplayLog& log, Axis axis, const Rig& rig) {
+  Rig moved = rig;
+  moved.axis = axis;
+  if (!check_axis(log.path(), log.comments(), moved))
+    return bad_input(log.path() + ": says that it is of another axis than " +
+                     std::string(1, letter(axis)) + ", of which a log is needed here; give that");
+  return check_channels(log.path(), log.driver().info().channels, rig);
+}
+
+void leave_out(Point& stop, const Rig& rig) {
+  for (std::size_t k = 0; k < rig.probes.size(); ++k)
+    for (const char* fault : {"saturated:", "frozen:", "step:"})
+      if (algo::has_flag(stop, fault + rig.probes[k].id)) stop.probe_m[k] = kNaN;
+}
+
+}  // namespace
+
+Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) {
+  MDOF_TRY(ReplayLog log, ReplayLog::open(path));
+  MDOF_CHECK(check_log(log, axis, rig));
+  std::vector<std::string> ids;
+  std::vector<double> ranges_m;
+  algo::AlignOptions options;
+  for (const Probe& probe : rig.probes) {
+    ids.push_back(probe.id);
+    ranges_m.push_back(probe.range_m);
+    if (probe.delay_s > 0) options.delay_s[probe.id] = probe.delay_s;
+  }
+  const drivers::Calibrator calibrator(rig);
+  algo::Aligner aligner(options, ids);
+  algo::DwellDetector dwell({}, ids, ranges_m);
+  LogStops found;
+  FrameBlock frames;
+  const auto take = [&] {
+    dwell.push(frames, found.stops);
+    frames.time_ns.clear();
+  };
+  SampleBlock block;
+  for (auto state = drivers::ReadState::more; state != drivers::ReadState::end;) {
+    MDOF_TRY(state, log.driver().read(block, kReadTimeout));
+    if (block.scans() == 0) continue;
+    if (auto done = calibrator.apply(block); !done) return in_context(path, done.error());
+    if (auto done = aligner.push(block, frames); !done) return in_context(path, done.error());
+    if (frames.size() > 0) take();
+  }
+  aligner.flush(frames);
+  take();
+  dwell.flush(found.stops);
+  dwell.mark(found.stops);
+  if (found.stops.empty())
+    return bad_input(path + ": no stop found; the longest was " +
+                     plain_number(dwell.summary().longest_still_s) + " s, needed are " +
+                     plain_number(algo::DwellOptions().shortest_s()) +
+                     " s; let the axis stand longer at each place");
+  for (Point& stop : found.stops) leave_out(stop, rig);
+  found.sha256 = log.sha256();
+  found.started_utc = log.started_utc();
+  found.warnings = log.warnings();
+  return found;
+}
+
+}  // namespace mdof::daemon

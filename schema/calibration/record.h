@@ -1,0 +1,70 @@
+// A calibration in place as it is kept: a TOML file that a rig refers to.
+//
+//   [[calibration_record]]
+//   sha256 = "…"            of all that follows this line, to the next record or the end
+//   id = "mounting-2026-11-23-5c0e8b51"
+//   kind = "mounting"       or "sensitivity"
+//   …
+// The text of a rig that refers to records has them behind it, so that it is whole by itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/axis.h"
+#include "schema/base/result.h"
+#include "schema/base/toml_reader.h"
+
+namespace mdof {
+
+// What of a probe was found; nothing where the calibration did not show it. SI.
+struct CalibratedProbe {
+  std::string id;
+  std::optional<Vec3> position_m;
+  Vec3 u_position_m{};
+  std::optional<Vec3> direction;
+  double u_direction_rad = 0;
+  std::optional<double> offset_um;  // raw reading at the nominal surface
+  double u_offset_m = 0;
+  std::optional<double> um_per_V;
+  std::vector<std::array<double, 2>> linearity;  // as in the rig
+  double u_sensitivity_1 = 0;
+};
+
+struct CalibrationRecord {
+  std::string id;
+  std::string kind;         // "mounting", "sensitivity"
+  std::string rig;          // its name
+  char axis = 'X';          // of the rig
+  std::string date;         // YYYY-MM-DD
+  std::string valid_until;  // the last day on which it holds
+  std::string software;     // that made it
+  struct Source {
+    std::string file, sha256;
+  };
+  std::vector<Source> sources;
+  double chi_square = 0;
+  std::int64_t freedom = 0;
+  std::vector<std::string> not_seen;
+  std::optional<Vec3> u_together_m;  // of all probes together, along X, Y, Z
+  std::vector<CalibratedProbe> probes;
+};
+
+inline constexpr std::string_view kRecordHead = "[[calibration_record]]";
+
+// The file, with its id and hash; `record.id` is not looked at.
+std::string record_text(const CalibrationRecord& record);
+
+// Reads one [[calibration_record]]; what is wrong is recorded in the table.
+CalibrationRecord read_record(TomlTable& table);
+
+// Each record in a text, from its head to the next or the end.
+std::vector<std::string_view> record_parts(std::string_view text);
+// Whether a part is as it was made.
+bool is_unchanged(std::string_view record_part);
+
+}  // namespace mdof

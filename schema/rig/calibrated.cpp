@@ -1,0 +1,176 @@
+#include "schema/rig/calibrated.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "schema/base/files.h"
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+constexpr const char* kRemedy =
+    "; make it anew with mdof calibrate, or take the line out of the rig";
+
+std::vector<std::string> names_of(TomlTable& rig) {
+  if (!rig.has("calibration")) return {};
+  if (rig.is_array("calibration")) return rig.strings("calibration");
+  return {rig.string("calibration")};
+}
+
+// Of the rig, as far as a record must fit it.
+struct Fits {
+  std::string source, name, axis;
+  std::vector<std::string> probes;
+};
+
+std::string joined(const std::vector<std::string>& ids) {
+  std::string text;
+  for (const auto& id : ids) text += (text.empty() ? "" : ", ") + id;
+  return text;
+}
+
+void check_fit(const CalibrationRecord& record, const Fits& rig, TomlTable& table) {
+  const std::string remedy =
+      "; calibrate this one with mdof calibrate " + record.kind + ", or refer to its own record";
+  if (record.rig != rig.name)
+    return table.reject("rig", "is \"" + record.rig + "\", and " + rig.source + " is \"" +
+                                   rig.name + "\"" + remedy);
+  if (std::string(1, record.axis) != rig.axis)
+    return table.reject("axis", "is " + std::string(1, record.axis) + ", and that of " +
+                                    rig.source + " is " + rig.axis + remedy);
+  std::vector<std::string> ids, more;
+  for (const auto& probe : record.probes) ids.push_back(probe.id);
+  for (const auto& id : ids)
+    if (std::find(rig.probes.begin(), rig.probes.end(), id) == rig.probes.end()) more.push_back(id);
+  if (record.kind == "mounting")
+    for (const auto& id : rig.probes)
+      if (std::find(ids.begin(), ids.end(), id) == ids.end()) more.push_back(id);
+  if (!more.empty())
+    table.reject("probe", "the record is of the probes " + joined(ids) + ", and " + rig.source +
+                              " has " + joined(rig.probes) + remedy);
+}
+
+Fits fits_of(TomlTable& rig, const std::string& source) {
+  Fits fits{source, rig.string("name", ""), rig.string("axis", ""), {}};
+  for (auto& probe : rig.tables("probe")) fits.probes.push_back(probe.string("id", ""));
+  return fits;
+}
+
+Result<std::string> read_one(const std::filesystem::path& file, const Fits& rig,
+                             const std::string& where) {
+  auto text = read_text_file(file);
+  if (!text) return in_context(where, text.error());
+  MDOF_TRY(TomlTable table, TomlTable::parse(*text, file.string()));
+  const auto parts = record_parts(*text);
+  if (parts.size() != 1 || !table.is_array("calibration_record"))
+    return bad_input(file.string() + ": is no calibration record" + kRemedy);
+  auto tables = table.tables("calibration_record");
+  const CalibrationRecord record = read_record(tables.front());
+  if (!is_unchanged(parts.front()))
+    tables.front().reject("sha256",
+                          "is not that of the text below it: it was changed since it was "
+                          "made" +
+                              std::string(kRemedy));
+  check_fit(record, rig, tables.front());
+  MDOF_CHECK(table.finish());
+  return std::string(parts.front());
+}
+
+// The reading t = raw - offset falls by what the offset grows: a correction by it moves along.
+void move_offset(Calibration& calibration, double offset_um) {
+  const double by_um = offset_um - calibration.offset_um;
+  calibration.offset_um = offset_um;
+  for (auto& [reading_um, correction_um] : calibration.linearity) reading_um -= by_um;
+  auto& c = calibration.polynomial_um;  // p(t + by), by Horner's rule for each coefficient
+  for (std::size_t i = 0; i + 1 < c.size(); ++i)
+    for (std::size_t j = c.size() - 1; j-- > i;) c[j] += by_um * c[j + 1];
+}
+
+void apply(const CalibratedProbe& found, Probe& probe) {
+  Calibration& calibration = probe.calibration;
+  if (found.position_m) {
+    probe.position_m = *found.position_m;
+    probe.uncertainty.position = {found.u_position_m};
+  }
+  if (found.direction) {
+    probe.direction = *found.direction;
+    probe.uncertainty.direction = {found.u_direction_rad};
+  }
+  if (found.um_per_V) calibration.um_per_V = found.um_per_V;
+  if (!found.linearity.empty()) {
+    calibration.linearity = found.linearity;
+    calibration.polynomial_um.clear();
+  }
+  if (found.u_sensitivity_1 > 0) probe.uncertainty.sensitivity = {found.u_sensitivity_1};
+  if (!found.offset_um) return;
+  move_offset(calibration, *found.offset_um);
+  if (!probe.uncertainty.calibration.declared()) probe.uncertainty.calibration = {found.u_offset_m};
+}
+
+void apply(const CalibrationRecord& record, Rig& rig) {
+  for (const CalibratedProbe& found : record.probes)
+    for (Probe& probe : rig.probes)
+      if (probe.id == found.id) apply(found, probe);
+  auto& offset = rig.uncertainty.installation_offset;
+  if (record.u_together_m && offset.u == Vec3{}) offset = {*record.u_together_m};
+}
+
+std::string what_of(const CalibrationRecord& record) {
+  return record.kind == "mounting" ? "places of the probes" : "sensitivity";
+}
+
+}  // namespace
+
+Result<std::string> load_rig_text(const std::filesystem::path& file) {
+  MDOF_TRY(std::string text, read_text_file(file));
+  auto table = TomlTable::parse(text, file.string());
+  if (!table || table->has("calibration_record")) return text;  // parse_rig() says what is wrong
+  const Fits rig = fits_of(*table, file.string());
+  std::string records;
+  for (const std::string& name : names_of(*table)) {
+    MDOF_TRY(const std::string record,
+             read_one(file.parent_path() / name, rig, table->where("calibration")));
+    records += record;
+  }
+  if (records.empty()) return text;
+  return text + (text.ends_with('\n') ? "" : "\n") + records;
+}
+
+void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
+  const auto names = names_of(table);
+  auto tables = table.tables("calibration_record");
+  const auto parts = record_parts(text);
+  if (names.size() != tables.size() || parts.size() != tables.size())
+    return table.reject("calibration",
+                        "names " + std::to_string(names.size()) + " files, and this text has " +
+                            std::to_string(parts.size()) +
+                            " calibration records behind it; give the rig as a file");
+  Fits fits{rig.source, rig.name, std::string(1, letter(rig.axis)), {}};
+  for (const Probe& probe : rig.probes) fits.probes.push_back(probe.id);
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    CalibrationRecord record = read_record(tables[i]);
+    if (!is_unchanged(parts[i]))
+      tables[i].reject("sha256", "is not that of the text below it" + std::string(kRemedy));
+    check_fit(record, fits, tables[i]);
+    apply(record, rig);
+    rig.records.push_back(std::move(record));
+  }
+}
+
+std::vector<std::string> calibration_notes(const Rig& rig) {
+  std::vector<std::string> notes;
+  for (const CalibrationRecord& record : rig.records)
+    notes.push_back(what_of(record) + " by the calibration \"" + record.id + "\" of " +
+                    record.date + ", valid until " + record.valid_until);
+  return notes;
+}
+
+std::vector<std::string> calibration_notes(std::string_view rig_text) {
+  if (rig_text.find(kRecordHead) == std::string_view::npos) return {};
+  const auto rig = parse_rig(rig_text, "rig");
+  return rig ? calibration_notes(*rig) : std::vector<std::string>();
+}
+
+}  // namespace mdof

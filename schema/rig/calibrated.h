@@ -1,0 +1,31 @@
+// A rig and the calibration records that it refers to (schema/calibration/record.h):
+//
+//   calibration = "mounting.toml"     relative to the rig's file; or a list of several
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/base/toml_reader.h"
+#include "schema/rig/rig.h"
+
+namespace mdof {
+
+// The rig's text with the records that it refers to behind it: what parse_rig() takes and a run
+// keeps. One that refers to none, or has them behind it already, stays as it is. Errors: a file
+// that is no record, was changed since it was made, or is of another rig or other probes.
+Result<std::string> load_rig_text(const std::filesystem::path& file);
+
+// Reads `calibration` and the records, for parse_rig(). What a record found takes the place of what
+// the rig says, uncertainties included; what it leaves open stays. `[installation] u_offset_mm` and
+// `u_calibration_um` are taken only where the rig does not declare them.
+void apply_records(TomlTable& table, std::string_view text, Rig& rig);
+
+// What results of such a rig say of it, one sentence a record; none for other rigs.
+std::vector<std::string> calibration_notes(const Rig& rig);
+std::vector<std::string> calibration_notes(std::string_view rig_text);
+
+}  // namespace mdof

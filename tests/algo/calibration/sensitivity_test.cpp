@@ -1,0 +1,93 @@
+#include "algo/calibration/sensitivity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "schema/units.h"
+#include "tests/algo/rigs.h"
+
+namespace mdof::algo {
+namespace {
+
+// Probe A (0) of test::rig_x(), which the Z axis approaches.
+constexpr std::size_t kA = 0;
+
+template <class Reads>
+Traverse along_z(Reads reads, int n = 11, double reach_m = 80e-6) {
+  Traverse traverse{Axis::z, {}};
+  for (int i = 0; i < n; ++i) {
+    const double z = reach_m * (2.0 * i / (n - 1) - 1);
+    TraverseStop stop{0.2 + z, std::vector<double>(5, std::nan("")), std::vector<double>(5, 1e-9)};
+    stop.reading_m[kA] = reads(z);
+    traverse.stops.push_back(stop);
+  }
+  return traverse;
+}
+
+TEST(Sensitivity, IsThatOfTheReadingsWithItsUncertainty) {
+  // ±20 nm in turn about a line: the sd of a slope over 11 points by hand.
+  int k = 0;
+  const auto found = fit_sensitivity(test::rig_x(), kA, along_z([&](double z) {
+                                       return 3e-6 + 1.002 * z + (k++ % 2 ? 20e-9 : -20e-9);
+                                     }));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->sensitivity_1, 1.002, 1e-12);
+  const double mean = -20e-9 / 11, sum = 11 * 400e-18 - 11 * mean * mean;
+  double squares = 0;
+  for (int i = 0; i < 11; ++i) squares += std::pow(80e-6 * (2.0 * i / 10 - 1), 2);
+  EXPECT_NEAR(found->u_sensitivity_1, std::sqrt(sum / 9 / squares), 1e-9);
+  EXPECT_NEAR(found->linearity_m, 20e-9 - mean, 1e-12);
+  EXPECT_EQ(found->stops, 11U);
+  EXPECT_FALSE(found->um_per_V);
+}
+
+// What is proposed makes the readings true, whichever way the probe counts.
+TEST(Sensitivity, TheProposedTableMakesReadingsTrue) {
+  const auto curve = [](double z) { return 2e-6 + 1.003 * z + 40 * z * z; };
+  for (const char* reads : {"displacement", "gap"})
+    for (const char* volts : {"", "um_per_V = 10\n"}) {
+      const Rig rig =
+          test::rig_x_with("A", std::string("reads = \"") + reads +
+                                    "\"\noffset_um = 100\nvalid_um = [-100, 300]\n" + volts);
+      const auto found = fit_sensitivity(rig, kA, along_z(curve));
+      ASSERT_TRUE(found) << found.error().message;
+      EXPECT_EQ(found->um_per_V.has_value(), volts[0] != '\0');
+      const double sign = std::string(reads) == "gap" ? -1 : 1;
+      double zero_um = std::nan("");
+      std::size_t k = 0;
+      for (const auto& [t_um, correction_um] : found->linearity) {
+        // Back to the raw number, then by the rig as it is proposed.
+        const double displacement_um = sign * (t_um + correction_um);
+        const auto i = sign > 0 ? k : 10 - k;
+        const double z = 80e-6 * (2.0 * static_cast<double>(i) / 10 - 1);
+        const double raw_um = 100 + sign * to_um(curve(z));
+        const double new_raw_um = found->um_per_V ? raw_um / 10 * *found->um_per_V : raw_um;
+        EXPECT_NEAR(new_raw_um - (found->um_per_V ? found->offset_um : 100), t_um, 1e-9);
+        if (k == 0) zero_um = displacement_um - to_um(z);
+        EXPECT_NEAR(displacement_um - to_um(z), zero_um, 1e-9);
+        ++k;
+      }
+      EXPECT_EQ(k, 11U);
+    }
+}
+
+TEST(Sensitivity, WhatCannotBeIsRefused) {
+  const Rig rig = test::rig_x();
+  const auto says = [&](const Traverse& traverse, const char* what) {
+    const auto found = fit_sensitivity(rig, kA, traverse);
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, ErrorCode::check);
+    EXPECT_NE(found.error().message.find(what), std::string::npos) << found.error().message;
+  };
+  says(along_z([](double z) { return z; }, 2), "at 2 places");
+  says(along_z([](double z) { return z; }, 11, 1e-6), "as much of its range");
+  says(along_z([](double z) { return -z; }), "--reversed");
+  says(along_z([](double z) { return 2.5 * z; }), "um_per_V");
+  says(along_z([](double) { return std::nan(""); }), "at 0 places");
+  EXPECT_EQ(approaching_axis(rig, kA).value(), Axis::z);
+  EXPECT_EQ(approaching_axis(rig, 3).value(), Axis::y);
+}
+
+}  // namespace
+}  // namespace mdof::algo

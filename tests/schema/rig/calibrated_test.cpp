@@ -1,0 +1,149 @@
+// Rigs that refer to calibration records.
+#include "schema/rig/calibrated.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/algo/rigs.h"
+
+namespace mdof {
+namespace {
+
+CalibrationRecord mounting() {
+  CalibrationRecord record;
+  record.kind = "mounting";
+  record.rig = "test";
+  record.date = "2026-11-02";
+  record.valid_until = "2027-11-02";
+  record.not_seen = {"the direction of \"A\""};
+  record.sources = {{"x.csv", "aa"}, {"y.csv", "bb"}};
+  record.u_together_m = Vec3{1e-5, 2e-5, 3e-5};
+  for (const char* id : {"A", "B", "C", "D", "E"}) {
+    CalibratedProbe probe;
+    probe.id = id;
+    record.probes.push_back(probe);
+  }
+  record.probes[1].position_m = Vec3{1.0 / 3e4, 0.01, 0};
+  record.probes[1].u_position_m = {1e-6, 2e-6, 0};
+  record.probes[1].offset_um = 2.5;
+  record.probes[1].u_offset_m = 1e-8;
+  return record;
+}
+
+std::string rig_text(const std::string& of_B = "", const std::string& last = "") {
+  std::string text = "calibration = \"m.toml\"\n" + test::rig_x_toml();
+  text.insert(text.find('\n', text.find("id = \"B\"")) + 1, of_B);
+  return text + last;
+}
+
+std::string record_part() {
+  const std::string text = record_text(mounting());
+  return text.substr(text.find(kRecordHead));
+}
+
+Rig with_record(const std::string& of_B = "", const std::string& last = "") {
+  const auto rig = parse_rig(rig_text(of_B, last) + record_part(), "rig.toml");
+  EXPECT_TRUE(rig) << rig.error().message;
+  return rig.value_or(Rig());
+}
+
+TEST(CalibratedRig, TakesWhatTheRecordFoundAndKeepsTheRest) {
+  const Rig plain = test::rig_x(), rig = with_record();
+  EXPECT_EQ(rig.probes[0].position_m, plain.probes[0].position_m);
+  EXPECT_NEAR(rig.probes[1].position_m[0], 1.0 / 3e4, 1e-19) << "to the last bits";
+  EXPECT_EQ(rig.probes[1].direction, plain.probes[1].direction);
+  EXPECT_EQ(rig.probes[1].calibration.offset_um, 2.5);
+  EXPECT_NEAR(rig.probes[1].uncertainty.calibration.u, 1e-8, 1e-20);
+  EXPECT_NEAR(rig.uncertainty.installation_offset.u[1], 2e-5, 1e-18);
+  ASSERT_EQ(rig.records.size(), 1U);
+  EXPECT_EQ(rig.records[0].not_seen, mounting().not_seen);
+  EXPECT_EQ(rig.records[0].sources[1].file, "y.csv");
+  const auto notes = calibration_notes(rig.text);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find(rig.records[0].id), std::string::npos);
+}
+
+TEST(CalibratedRig, UncertaintiesBelongToWhatWasReplaced) {
+  const Rig rig = with_record("u_position_mm = 0.05\nu_calibration_um = 0.5\n",
+                              "[installation]\nu_offset_mm = 0.4\n");
+  EXPECT_NEAR(rig.probes[1].uncertainty.position.u[1], 2e-6, 1e-18);
+  EXPECT_NEAR(rig.probes[1].uncertainty.calibration.u, 0.5e-6, 1e-18) << "declared";
+  EXPECT_NEAR(rig.uncertainty.installation_offset.u[1], 0.4e-3, 1e-18) << "declared";
+}
+
+// A correction is of the raw reading: with another offset it is found at another t = raw - offset.
+TEST(CalibratedRig, ALinearityMovesWithTheOffset) {
+  const Rig table = with_record("offset_um = 1\nlinearity = [[-50, 0.2], [50, -0.1]]\n");
+  EXPECT_EQ(table.probes[1].calibration.linearity[0], (std::array<double, 2>{-51.5, 0.2}));
+  EXPECT_EQ(table.probes[1].calibration.linearity[1], (std::array<double, 2>{48.5, -0.1}));
+  const Rig power = with_record("offset_um = 1\npolynomial_um = [0.5, 0.01, 0.002, -0.0001]\n");
+  const auto p = [](const std::vector<double>& c, double t) {
+    return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+  };
+  for (const double raw : {-40.0, 0.0, 33.0})
+    EXPECT_NEAR(p(power.probes[1].calibration.polynomial_um, raw - 2.5),
+                p({0.5, 0.01, 0.002, -0.0001}, raw - 1), 1e-12);
+}
+
+TEST(CalibratedRig, OutOfDateIsAWarning) {
+  const Rig rig = with_record();
+  EXPECT_TRUE(overdue_calibrations(rig, "2027-11-02T23:59:59Z").empty());
+  const auto overdue = overdue_calibrations(rig, "2027-11-03T00:00:00Z");
+  ASSERT_EQ(overdue.size(), 1U);
+  EXPECT_NE(overdue[0].find("mdof calibrate mounting"), std::string::npos);
+}
+
+TEST(CalibratedRig, ATextWithoutItsRecordOrWithAChangedOneIsRefused) {
+  const auto says = [](const std::string& text, const char* what) {
+    const auto rig = parse_rig(text, "rig.toml");
+    ASSERT_FALSE(rig) << what;
+    EXPECT_NE(rig.error().message.find(what), std::string::npos) << rig.error().message;
+  };
+  says(rig_text(), "rig.toml:1: calibration: names 1 files, and this text has 0");
+  says(test::rig_x_toml() + record_part(), "names 0 files");
+  std::string changed = record_part();
+  changed.replace(changed.find("0.01"), 0, "1");
+  says(rig_text() + changed.replace(changed.find("u_position_mm = ["), 0, ""), "sha256");
+  CalibrationRecord other = mounting();
+  other.rig = "other";
+  const std::string text = record_text(other);
+  says(rig_text() + text.substr(text.find(kRecordHead)), "rig: is \"other\"");
+  CalibrationRecord fewer = mounting();
+  fewer.probes.pop_back();
+  const std::string four = record_text(fewer);
+  says(rig_text() + four.substr(four.find(kRecordHead)), "the record is of the probes A, B, C, D");
+}
+
+TEST(CalibratedRig, IsLoadedWithTheFilesItNames) {
+  const auto folder = std::filesystem::temp_directory_path() / "mdof_calibrated_rig_test";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "rig.toml") << rig_text();
+  std::ofstream(folder / "m.toml") << record_text(mounting());
+  const auto text = load_rig_text(folder / "rig.toml");
+  ASSERT_TRUE(text) << text.error().message;
+  EXPECT_EQ(*text, rig_text() + record_part());
+  // What has its records behind it needs no file.
+  std::ofstream(folder / "whole.toml") << *text;
+  std::filesystem::remove(folder / "m.toml");
+  EXPECT_EQ(load_rig_text(folder / "whole.toml").value_or(""), *text);
+  const auto missing = load_rig_text(folder / "rig.toml");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("rig.toml:1: calibration"), std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(CalibrationRecord, PartsOfATextEndWhereTheNextBegins) {
+  const std::string one = record_part();
+  const std::string both = "name = \"x\"\n" + one + one;
+  const auto parts = record_parts(both);
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_TRUE(is_unchanged(parts[0]) && is_unchanged(parts[1]));
+  EXPECT_FALSE(is_unchanged(one + "\n"));
+  EXPECT_FALSE(is_unchanged(kRecordHead));
+  EXPECT_TRUE(record_parts("name = 1\n").empty());
+}
+
+}  // namespace
+}  // namespace mdof

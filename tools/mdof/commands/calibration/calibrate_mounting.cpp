@@ -1,0 +1,195 @@
+// mdof calibrate mounting CLAMPING...: where the probes of a fixture sit, from a tilted target.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "algo/calibration/mounting.h"
+#include "daemon/measure/stops.h"
+#include "tools/mdof/commands/calibration/record_file.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/mounting_text.h"
+
+namespace mdof::tools {
+namespace {
+
+struct MountingCommand {
+  std::vector<std::string> clampings, reversed;
+  std::string rig;
+  RecordOptions record;
+  bool json = false;
+};
+
+struct NamedLog {
+  Axis axis = Axis::x;
+  std::string file;
+};
+
+// "X=one.csv,Y=other.csv"
+Result<std::vector<NamedLog>> logs_of(const std::string& clamping) {
+  std::vector<NamedLog> logs;
+  std::istringstream words(clamping);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto axis = axis_from(word.substr(0, 1));
+    if (!axis || word.size() < 3 || word[1] != '=')
+      return fail(ErrorCode::usage, "\"" + word + "\" of \"" + clamping +
+                                        "\" is no log with its axis; give the logs of each "
+                                        "clamping as X=FILE,Y=FILE");
+    logs.push_back({*axis, word.substr(2)});
+  }
+  return logs;
+}
+
+struct Sources {
+  std::vector<algo::Clamping> clampings;
+  std::vector<CalibrationRecord::Source> files;
+  std::string started_utc;  // the newest
+};
+
+// +1 or -1: which way the target goes along the axis as its encoder grows.
+double target_sign(const MountingCommand& command, const Rig& rig, Axis axis) {
+  const std::string name(1, letter(axis));
+  const auto& all = command.reversed;
+  const bool reversed = std::find(all.begin(), all.end(), name) != all.end();
+  const double own = axis == rig.axis ? rig.sides.target_travel_m(1) : 1;
+  return reversed ? -own : own;
+}
+
+Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& rig,
+                                     const NamedLog& log, Sources& sources) {
+  MDOF_TRY(const auto found, daemon::read_stops(log.file, log.axis, rig));
+  for (const auto& warning : found.warnings) warn(warning);
+  const auto same = [&](const auto& file) { return file.sha256 == found.sha256; };
+  const auto again = std::find_if(sources.files.begin(), sources.files.end(), same);
+  if (again != sources.files.end())
+    return bad_input(log.file + ": is the same log as " + again->file +
+                     "; give each traverse of each clamping once");
+  sources.files.push_back({log.file, found.sha256});
+  sources.started_utc = std::max(sources.started_utc, found.started_utc);
+  algo::Traverse traverse{log.axis, {}};
+  const double sign = target_sign(command, rig, log.axis);
+  for (const Point& stop : found.stops)
+    traverse.stops.push_back({sign * stop.position_m, stop.probe_m, stop.probe_u_m});
+  if (traverse.stops.size() < 2)
+    return bad_input(log.file +
+                     ": has one stop only, which shows no slope; stop at two places or "
+                     "more, some mm apart");
+  return traverse;
+}
+
+Result<Sources> read_all(const MountingCommand& command, const Rig& rig) {
+  Sources sources;
+  for (const std::string& clamping : command.clampings) {
+    MDOF_TRY(const auto logs, logs_of(clamping));
+    sources.clampings.emplace_back();
+    for (const NamedLog& log : logs) {
+      MDOF_TRY(auto traverse, read_traverse(command, rig, log, sources));
+      sources.clampings.back().traverses.push_back(std::move(traverse));
+    }
+  }
+  return sources;
+}
+
+CalibratedProbe as_record(const MountedProbe& found, const Probe& probe) {
+  CalibratedProbe kept;
+  kept.id = found.id;
+  if (found.position_seen) {
+    kept.position_m = found.position_m;
+    kept.u_position_m = found.u_position_m;
+  }
+  if (found.direction_seen) {
+    kept.direction = found.direction;
+    kept.u_direction_rad = found.u_direction_rad;
+  }
+  if (found.zero_seen) {
+    kept.offset_um = offset_um_with(probe, found.zero_m);
+    kept.u_offset_m = found.u_zero_m;
+  }
+  return kept;
+}
+
+void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig& rig,
+          const std::vector<CalibrationRecord::Source>& files) {
+  record.sources = files;
+  record.chi_square = found.chi_square;
+  record.freedom = found.freedom;
+  record.not_seen = found.not_seen;
+  const Vec3& together = found.u_together_m;
+  if (std::all_of(together.begin(), together.end(), [](double u) { return std::isfinite(u); }))
+    record.u_together_m = together;
+  for (std::size_t k = 0; k < rig.probes.size(); ++k)
+    record.probes.push_back(as_record(found.probes[k], rig.probes[k]));
+}
+
+// Found places would be taken for what was meant, and be known too well to be found anew.
+Status check_not_calibrated(const Rig& rig) {
+  for (const CalibrationRecord& record : rig.records)
+    if (record.kind == "mounting")
+      return bad_input(rig.source + ": refers to the calibration \"" + record.id +
+                       "\" of its mounting already; take it out of calibration = ..., measure, and "
+                       "refer to the new one");
+  return {};
+}
+
+Status calibrate(const MountingCommand& command) {
+  MDOF_TRY(const Rig rig, load_rig(command.rig));
+  MDOF_CHECK(check_not_calibrated(rig));
+  MDOF_TRY(const Sources sources, read_all(command, rig));
+  MDOF_TRY(auto record, begin_record("mounting", rig, command.record, sources.started_utc));
+  MDOF_TRY(const auto fit, algo::fit_mounting(rig, sources.clampings));
+  const MountingCalibration& found = fit.found;
+  if (!found.explained)
+    warn(
+        "chi-square is more than the noise of the readings explains: a target that is not flat or "
+        "moved in its clamp, an axis that is not straight; the uncertainties are widened by it");
+  fill(record, found, rig, sources.files);
+  if (!command.record.out.empty())
+    MDOF_CHECK(write_record(command.record.out, record_text(record)));
+  if (command.json) return write_line(mounting_json(found, record, command.record.out));
+  MDOF_CHECK(write_out(mounting_text(found, rig, terminal_columns())));
+  return command.record.out.empty()
+             ? Status()
+             : write_line(command.record.out + " is written: put calibration = \"" +
+                          command.record.out + "\" into the rig");
+}
+
+Action declare_mounting(CLI::App& command) {
+  const auto o = std::make_shared<MountingCommand>();
+  command
+      .add_option("CLAMPING", o->clampings,
+                  "The logs of one clamping, with the axes that moved: X=FILE,Y=FILE")
+      ->required()
+      ->type_name("");
+  command.add_option("--rig", o->rig, "Fixture as it was meant to be")
+      ->required()
+      ->type_name("RIG.toml");
+  command
+      .add_option("--reversed", o->reversed,
+                  "Axes on which the target goes the other way as the encoder grows")
+      ->delimiter(',')
+      ->type_name("X,Y,Z")
+      ->check(CLI::IsMember({"X", "Y", "Z"}));
+  add_record_options(command, o->record);
+  add_json_flag(command, o->json);
+  return [o] { return calibrate(*o); };
+}
+
+}  // namespace
+
+Command calibrate_mounting_command() {
+  return {.name = "calibrate mounting",
+          .summary = "Find where the probes sit, from a target clamped at several tilts",
+          .footer =
+              "Clamp the target at three tilts or more, some mrad each, about different axes,\n"
+              "each tilt with its opposite. At each, move X and Y by some mm with five stops\n"
+              "or more, and record each traverse as a log of its own.\n"
+              "Example:\n"
+              "  mdof calibrate mounting X=x1.csv,Y=y1.csv X=x2.csv,Y=y2.csv X=x3.csv,Y=y3.csv \\\n"
+              "    --rig rig_X.toml --out mounting.toml",
+          .declare = declare_mounting};
+}
+
+}  // namespace mdof::tools

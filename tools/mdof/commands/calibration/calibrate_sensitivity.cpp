@@ -1,0 +1,134 @@
+// mdof calibrate sensitivity LOG: a probe against the encoder of the axis that approaches it.
+#include <CLI/CLI.hpp>
+
+#include "algo/calibration/sensitivity.h"
+#include "daemon/measure/stops.h"
+#include "schema/base/json_writer.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/calibration/record_file.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct SensitivityCommand {
+  std::string log, rig, probe;
+  RecordOptions record;
+  bool reversed = false, json = false;
+};
+
+std::string ids_of(const Rig& rig) {
+  std::vector<std::string> ids;
+  for (const Probe& probe : rig.probes) ids.push_back(probe.id);
+  return joined(ids);
+}
+
+std::string json_of(const SensitivityCalibration& found, const CalibrationRecord& record,
+                    const std::string& file) {
+  JsonWriter json;
+  json.begin_object().field("kind", "sensitivity").field("rig", record.rig);
+  json.field("date", record.date).field("valid_until", record.valid_until).key("record");
+  file.empty() ? json.null() : json.value(file);
+  json.field("probe", found.id).field("sensitivity_1", found.sensitivity_1);
+  json.field("u_sensitivity_ppm", found.u_sensitivity_1 * 1e6);
+  json.field("from_um", to_um(found.from_m)).field("to_um", to_um(found.to_m));
+  json.field("stops", static_cast<std::uint64_t>(found.stops));
+  json.field("linearity_um", to_um(found.linearity_m));
+  json.field("residual_sd_um", to_um(found.residual_sd_m)).key("um_per_V");
+  found.um_per_V ? json.value(*found.um_per_V) : json.null();
+  json.field("offset_um", found.offset_um).key("linearity").begin_array();
+  for (const auto& [reading_um, correction_um] : found.linearity)
+    json.begin_array().value(reading_um).value(correction_um).end_array();
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string text_of(const SensitivityCalibration& found) {
+  std::string text = "probe " + found.id + ": " +
+                     with_u(fixed(found.sensitivity_1, 6), fixed(found.u_sensitivity_1, 6)) +
+                     " of reading for displacement\n" + std::to_string(found.stops) +
+                     " stops, readings from " + fixed(to_um(found.from_m), 3) + " to " +
+                     fixed(to_um(found.to_m), 3) + " um; the line leaves " +
+                     fixed(to_um(found.linearity_m), 4) + " um at most, sd " +
+                     fixed(to_um(found.residual_sd_m), 4) + " um\nFor the rig:\n";
+  if (found.um_per_V) text += "um_per_V = " + plain_number(*found.um_per_V, 9) + "\n";
+  if (found.um_per_V) text += "offset_um = " + plain_number(found.offset_um, 9) + "\n";
+  text += "linearity = [";
+  for (std::size_t i = 0; i < found.linearity.size(); ++i)
+    text += (i > 0 ? ", [" : "[") + fixed(found.linearity[i][0], 3) + ", " +
+            fixed(found.linearity[i][1], 4) + "]";
+  return text + "]\n";
+}
+
+CalibratedProbe as_record(const SensitivityCalibration& found, const Probe& probe) {
+  CalibratedProbe kept;
+  kept.id = found.id;
+  kept.um_per_V = found.um_per_V;
+  kept.linearity = found.linearity;
+  kept.u_sensitivity_1 = found.u_sensitivity_1;
+  if (!found.um_per_V) return kept;
+  kept.offset_um = found.offset_um;
+  kept.u_offset_m = probe.uncertainty.calibration.u;
+  return kept;
+}
+
+Status calibrate(const SensitivityCommand& command) {
+  MDOF_TRY(Rig rig, load_rig(command.rig));
+  const auto at = rig.probe_index(command.probe);
+  if (!at)
+    return fail(ErrorCode::usage, command.rig + ": has no probe \"" + command.probe +
+                                      "\"; its probes are " + ids_of(rig));
+  Calibration& calibration = rig.probes[*at].calibration;
+  calibration.linearity.clear();  // found anew
+  calibration.polynomial_um.clear();
+  MDOF_TRY(const Axis axis, algo::approaching_axis(rig, *at));
+  MDOF_TRY(const auto log, daemon::read_stops(command.log, axis, rig));
+  for (const auto& warning : log.warnings) warn(warning);
+  const double own = axis == rig.axis ? rig.sides.target_travel_m(1) : 1;
+  algo::Traverse traverse{axis, {}};
+  for (const Point& stop : log.stops)
+    traverse.stops.push_back(
+        {(command.reversed ? -own : own) * stop.position_m, stop.probe_m, stop.probe_u_m});
+  MDOF_TRY(auto record, begin_record("sensitivity", rig, command.record, log.started_utc));
+  MDOF_TRY(const auto found, algo::fit_sensitivity(rig, *at, traverse));
+  record.sources = {{command.log, log.sha256}};
+  record.probes = {as_record(found, rig.probes[*at])};
+  if (!command.record.out.empty())
+    MDOF_CHECK(write_record(command.record.out, record_text(record)));
+  return command.json ? write_line(json_of(found, record, command.record.out))
+                      : write_out(text_of(found));
+}
+
+Action declare_sensitivity(CLI::App& command) {
+  const auto o = std::make_shared<SensitivityCommand>();
+  command
+      .add_option("LOG", o->log, "Of the axis that moves the target along the probe's direction")
+      ->required()
+      ->type_name("");
+  command.add_option("--rig", o->rig, "Fixture")->required()->type_name("RIG.toml");
+  command.add_option("--probe", o->probe, "Which probe")->required()->type_name("ID");
+  command.add_flag("--reversed", o->reversed,
+                   "The target goes the other way as the encoder of that axis grows");
+  add_record_options(command, o->record);
+  add_json_flag(command, o->json);
+  return [o] { return calibrate(*o); };
+}
+
+}  // namespace
+
+Command calibrate_sensitivity_command() {
+  return {.name = "calibrate sensitivity",
+          .summary = "Find a probe's sensitivity against the encoder of the approaching axis",
+          .footer =
+              "Move the target towards the probe in steps over its range, and stop at each.\n"
+              "What the encoder's scale is wrong by is in the result.\n"
+              "Example:\n"
+              "  mdof calibrate sensitivity z.csv --rig rig_X.toml --probe A --out A.toml",
+          .declare = declare_sensitivity};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,82 @@
+#include "tools/mdof/commands/calibration/record_file.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "daemon/paths.h"
+#include "daemon/version.h"
+#include "schema/units.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr int kMostDays = 36'500;
+
+Result<std::chrono::sys_days> day_of(const std::string& date) {
+  int year = 0;
+  unsigned month = 0, day = 0;
+  const bool read = date.size() == 10 &&
+                    std::sscanf(date.c_str(), "%4d-%2u-%2u", &year, &month, &day) == 3;  // NOLINT
+  const auto ymd = std::chrono::year{year} / std::chrono::month{month} / std::chrono::day{day};
+  if (!read || !ymd.ok())
+    return fail(ErrorCode::usage, "--date \"" + date + "\" is no day; give it as YYYY-MM-DD");
+  return std::chrono::sys_days(ymd);
+}
+
+std::string text_of(std::chrono::sys_days day) {
+  const std::chrono::year_month_day ymd(day);
+  char text[16];
+  std::snprintf(text, sizeof text, "%04d-%02u-%02u", static_cast<int>(ymd.year()),
+                static_cast<unsigned>(ymd.month()), static_cast<unsigned>(ymd.day()));
+  return text;
+}
+
+}  // namespace
+
+void add_record_options(CLI::App& command, RecordOptions& options) {
+  command.add_option("--out", options.out, "Write the calibration record, which a rig refers to")
+      ->type_name("FILE.toml");
+  command.add_option("--date", options.date, "Of the calibration [default: of the log, or today]")
+      ->type_name("YYYY-MM-DD");
+  command.add_option("--valid-days", options.valid_days, "For how long it holds")
+      ->check(CLI::Range(1, kMostDays))
+      ->capture_default_str();
+}
+
+Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
+                                       const RecordOptions& options,
+                                       const std::string& started_utc) {
+  CalibrationRecord record;
+  record.kind = kind;
+  record.rig = rig.name;
+  record.axis = letter(rig.axis);
+  const std::string now = started_utc.empty() ? daemon::utc_now() : started_utc;
+  record.date = options.date.empty() ? now.substr(0, 10) : options.date;
+  MDOF_TRY(const auto day, day_of(record.date));
+  record.valid_until = text_of(day + std::chrono::days(options.valid_days));
+  record.software = daemon::kVersion;
+  return record;
+}
+
+Status write_record(const std::string& file, const std::string& text) {
+  std::error_code ec;
+  if (std::filesystem::exists(file, ec))
+    return fail(ErrorCode::usage, file +
+                                      ": is there already, and a record is never changed; give "
+                                      "another name with --out");
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) return io_error(file + ": cannot be written; check the folder and its space");
+  return {};
+}
+
+double offset_um_with(const Probe& probe, double zero_m) {
+  const double zero_um = to_um(zero_m);
+  return probe.calibration.offset_um + (probe.calibration.reads_gap ? -zero_um : zero_um);
+}
+
+}  // namespace mdof::tools

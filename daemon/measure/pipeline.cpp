@@ -11,6 +11,7 @@
 #include "algo/plausibility/plausibility.h"
 #include "algo/points/flags.h"
 #include "daemon/measure/completeness.h"
+#include "daemon/measure/drift_treatment.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -99,6 +100,7 @@ std::string PipelineOptions::json() const {
   json.end_array()
       .field("target_window_mm", to_mm(sequence.target_window_m))
       .field("repeats", repeats);
+  if (remove_drift) json.field("remove_drift", true);
   write_datum(json, datum);
   json.end_object();
   return json.take();
@@ -383,6 +385,7 @@ Result<Run> Pipeline::finish() {
   const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
   if (const auto contradiction = residuals.warning(run.points)) more.push_back(*contradiction);
   run.header.warnings.insert(run.header.warnings.end(), more.begin(), more.end());
+  treat_drift(rig_, options_.remove_drift, run);
   judge(run);
   run.straightness = algo::straightness(rig_.moving(), run.points);
   run.angles = algo::angles(rig_.moving(), run.points);

@@ -28,10 +28,11 @@ struct PipelineOptions {
   algo::AlignOptions align;
   algo::DwellOptions dwell;
   algo::SequenceOptions sequence;
-  double stale_s = 0.5;     // an instant older than this is not shown as good
-  bool keep_points = true;  // false: for a view without a run
-  int repeats = 0;          // a run was asked for so many, both ways; 0: until stopped
-  EncoderDatum datum;       // of the positions that are pushed: they have it in them
+  double stale_s = 0.5;       // an instant older than this is not shown as good
+  bool keep_points = true;    // false: for a view without a run
+  int repeats = 0;            // a run was asked for so many, both ways; 0: until stopped
+  bool remove_drift = false;  // of the errors, where it is significant (algo/drift)
+  EncoderDatum datum;         // of the positions that are pushed: they have it in them
 
   std::string json() const;  // for the provenance
 };

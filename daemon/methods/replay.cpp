@@ -58,6 +58,7 @@ Result<ReplayRequest> read_replay_request(const Params& params) {
   request.min_length_s = optional_number(params, "min_length_s");
   request.max_gap_s = optional_number(params, "max_gap_s");
   request.lag_bound_s = optional_number(params, "lag_bound_s");
+  request.remove_drift = params.boolean("remove_drift", false);
   MDOF_TRY(request.targets_mm, params.numbers("targets_mm"));
   return request;
 }
@@ -128,6 +129,8 @@ void add_replay_methods(rpc::MethodTable& table, Methods& m) {
              false,
              {},
              kPositive},
+            {"remove_drift", ParamType::boolean, "takes a significant drift from the errors", false,
+             "false"},
             {"note", ParamType::string, "for people", false, "\"\""}},
        .result = "run: its id, once it is stored; a long log takes long",
        .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",

@@ -187,8 +187,16 @@ void read_installation_and_drift(TomlTable& table, Rig& rig) {
     rig.uncertainty.installation_offset =
         read_uncertainty3(*installation, "u_offset_mm", from_mm(1));
   }
-  if (auto drift = table.table("drift"))
-    rig.uncertainty.drift = read_uncertainty(*drift, "u_um_per_h", from_um(1) / 3600);
+  auto drift = table.table("drift");
+  if (!drift) return;
+  rig.uncertainty.drift = read_uncertainty(*drift, "u_um_per_h", from_um(1) / 3600);
+  if (!drift->has("limit_um_per_h")) return;
+  const double limit_um_per_h = drift->number("limit_um_per_h");
+  if (!(limit_um_per_h > 0 && std::isfinite(limit_um_per_h)))
+    drift->reject(
+        "limit_um_per_h",
+        "must be the most by which a probe's readings may drift, in um/h, and more than 0");
+  rig.drift_limit_m_per_s = from_um(limit_um_per_h) / 3600;
 }
 
 void read_artefact(TomlTable& table, Rig& rig) {

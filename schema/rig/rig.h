@@ -85,6 +85,8 @@ struct Rig {
   std::optional<double> artefact_angle_error_rad;
   double u_artefact_angle_rad = 0;
   RigUncertainty uncertainty;
+  // [drift]: of any probe's readings over a run; more is a warning of the run. m/s.
+  std::optional<double> drift_limit_m_per_s = std::nullopt;
   std::vector<CalibrationRecord> records;  // that it refers to; applied (schema/rig/calibrated.h)
   std::string text;                        // the TOML itself with its records: provenance
   std::string source;                      // file name, for messages

@@ -37,6 +37,7 @@ Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog
   PipelineOptions options = asked.options;
   if (!request.model.empty()) model_from(request.model, options.model);
   if (request.tolerance_um) options.dwell.tolerance_m = from_um(*request.tolerance_um);
+  options.remove_drift = options.remove_drift || request.remove_drift;
   options.dwell.settle_s = request.settle_s.value_or(options.dwell.settle_s);
   options.dwell.min_length_s = request.min_length_s.value_or(options.dwell.min_length_s);
   options.align.lag_bound_s = request.lag_bound_s.value_or(options.align.lag_bound_s);

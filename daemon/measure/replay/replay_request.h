@@ -15,6 +15,7 @@ struct ReplayRequest {
   std::string model, note;           // model empty: as it was measured
   std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
   std::vector<double> targets_mm;
+  bool remove_drift = false;  // false: as it was measured
 };
 
 // As mdofd measured what it recorded, but for what the request says. The run has all but its id.

@@ -173,6 +173,7 @@ Result<PipelineOptions> read_options(element object, PipelineOptions options) {
   if (const auto align = members.object("align")) MDOF_CHECK(read_align(*align, options.align));
   if (const auto dwell = members.object("dwell")) MDOF_CHECK(read_dwell(*dwell, options.dwell));
   read_targets(members, options);
+  members.take("remove_drift", options.remove_drift);
   if (const auto datum = members.object("encoder_datum"))
     MDOF_CHECK(read_datum(*datum, options.datum));
   MDOF_CHECK(members.done());

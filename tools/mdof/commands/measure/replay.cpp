@@ -31,7 +31,7 @@ struct ReplayCommand {
   std::string log, rig, database, socket, model, note;  // model: empty where not given
   std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
   std::vector<double> targets_mm;
-  bool json = false, keep_out = false, all_warnings = false;
+  bool remove_drift = false, json = false, keep_out = false, all_warnings = false;
 };
 
 Result<daemon::ReplayRequest> request_of(const ReplayCommand& c) {
@@ -49,6 +49,7 @@ Result<daemon::ReplayRequest> request_of(const ReplayCommand& c) {
   request.lag_bound_s = c.lag_bound_s;
   request.max_gap_s = c.max_gap_s;
   request.targets_mm = c.targets_mm;
+  request.remove_drift = c.remove_drift;
   return request;
 }
 
@@ -74,6 +75,7 @@ std::string params_of(const daemon::ReplayRequest& request, const std::string& p
   number("min_length_s", request.min_length_s);
   number("max_gap_s", request.max_gap_s);
   number("lag_bound_s", request.lag_bound_s);
+  if (request.remove_drift) json.field("remove_drift", true);
   json.key("targets_mm").begin_array();
   for (const double target_mm : request.targets_mm) json.value(target_mm);
   json.end_array().end_object();
@@ -158,6 +160,8 @@ Action declare_replay(CLI::App& command) {
       ->check(CLI::PositiveNumber);
   command.add_option("--lag-bound-s", o->lag_bound_s, "A probe silent for longer is given up [3]")
       ->check(CLI::PositiveNumber);
+  command.add_flag("--remove-drift", o->remove_drift,
+                   "Take a significant drift from the errors; its uncertainty is added");
   add_all_warnings_flag(command, o->all_warnings);
   add_json_flag(command, o->json);
   return [o] { return replay(*o); };

@@ -3,6 +3,7 @@
 
 #include "algo/iso230/straightness.h"
 #include "daemon/measure/budgets.h"
+#include "daemon/measure/evaluation.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "schema/uncertainty/budget_json.h"
@@ -13,6 +14,7 @@
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/budget_text.h"
+#include "tools/mdof/text/drift_text.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 
@@ -24,7 +26,7 @@ std::vector<StraightnessLines> lines_of(const Run& run) {
   return algo::straightness_lines(run.header.moving(), run.points);
 }
 
-std::string analysis_json(const Run& run) {
+std::string analysis_json(const Run& run, const std::vector<std::string>& probes) {
   JsonWriter json;
   json.begin_object()
       .field("run", run.header.id)
@@ -40,6 +42,8 @@ std::string analysis_json(const Run& run) {
   write_angles(json, run.angles);
   json.key("uncertainty");
   write_stated(json, daemon::figure_budgets(run));
+  json.key("drift");
+  write_drift(json, run, probes, drift_of(run));
   json.end_object();
   return json.take();
 }
@@ -59,11 +63,17 @@ Status analyse(const ChosenRun& choice) {
     warn_of(run, choice.all_warnings);
     return write_out(figures_csv(run));
   }
-  if (choice.json) return write_line(analysis_json(run));
+  if (choice.json) {
+    MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
+    std::vector<std::string> probes;
+    for (const Probe& probe : rig.probes) probes.push_back(probe.id);
+    return write_line(analysis_json(run, probes));
+  }
   const std::size_t width = terminal_columns();
   return write_out(head_text(run.header, "", width, choice.all_warnings) + "\n" +
                    figures_text(run, width) + "\n" + minimum_zone_text(lines_of(run), width) +
-                   stated_figures_text(daemon::figure_budgets(run)));
+                   stated_figures_text(daemon::figure_budgets(run)) + "\n" +
+                   drift_text(run, drift_of(run), width));
 }
 
 Action declare_analyse(CLI::App& command) {
@@ -76,7 +86,7 @@ Action declare_analyse(CLI::App& command) {
 
 Command analyse_command() {
   return {.name = "analyse",
-          .summary = "Show straightness by each reference line, and angles",
+          .summary = "Show straightness by each reference line, angles, and drift",
           .footer =
               "Examples:\n"
               "  mdof analyse latest\n"

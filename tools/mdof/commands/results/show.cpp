@@ -12,6 +12,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/drift_text.h"
 #include "tools/mdof/text/history_text.h"
 #include "tools/mdof/text/run_tables.h"
 
@@ -42,8 +43,9 @@ Status show(const ChosenRun& choice) {
   MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
   if (choice.json) return write_line(with_lines_hash_and_history(run, sha256, deeds));
   const std::size_t width = terminal_columns();
+  const std::string drift = drift_notice(run, drift_of(run).found, width);
   return write_out(show_text(run, daemon::uncertainty_of(run), sha256, width, choice.all_warnings) +
-                   history_text(deeds, width));
+                   (drift.empty() ? "" : "\n" + drift) + history_text(deeds, width));
 }
 
 Action declare_show(CLI::App& command) {

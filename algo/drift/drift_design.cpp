@@ -1,0 +1,91 @@
+#include "algo/drift/drift_design.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <utility>
+
+namespace mdof::algo {
+namespace {
+
+// The least share of its variance over all visits that any combination of the first `n` polynomials
+// has between visits of the same place.
+double least_share(const Eigen::MatrixXd& between, const Eigen::MatrixXd& all, Eigen::Index n) {
+  const Eigen::MatrixXd seen = between.leftCols(n).transpose() * between.leftCols(n);
+  const Eigen::MatrixXd whole = all.leftCols(n).transpose() * all.leftCols(n);
+  const Eigen::LLT<Eigen::MatrixXd> root(whole);
+  if (root.info() != Eigen::Success) return 0;  // fewer times than polynomials
+  const Eigen::MatrixXd half = root.matrixL().solve(seen);
+  const Eigen::MatrixXd share = root.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(share, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(0);
+}
+
+}  // namespace
+
+DriftDesign::DriftDesign(std::vector<TimedVisit> visits) : visits_(std::move(visits)) {
+  if (visits_.empty()) return;
+  const auto earlier = [](const TimedVisit& a, const TimedVisit& b) { return a.time_s < b.time_s; };
+  const auto [first, last] = std::minmax_element(visits_.begin(), visits_.end(), earlier);
+  begin_s_ = first->time_s;
+  length_s_ = last->time_s - first->time_s;
+  for (const TimedVisit& v : visits_) {
+    if (v.place >= visits_of_place_.size()) visits_of_place_.resize(v.place + 1);
+    visits_of_place_[v.place] += 1;
+  }
+  if (!(length_s_ > 0)) return;
+  const auto n = static_cast<Eigen::Index>(visits_.size());
+  Eigen::MatrixXd all(n, kMostOrders);
+  for (Eigen::Index i = 0; i < n; ++i)
+    all.row(i) = polynomials(visits_[static_cast<std::size_t>(i)].time_s, kMostOrders).transpose();
+  mean_ = all.colwise().mean().transpose();
+  all.rowwise() -= mean_.transpose();
+  const Eigen::MatrixXd between = centred(all);
+  const auto places = static_cast<double>(visits_of_place_.size());
+  const auto left = [&](int orders) { return static_cast<double>(n) - places - orders; };
+  while (orders_ < kMostOrders && left(orders_ + 1) >= kFewestFreedom &&
+         least_share(between, all, orders_ + 1) >= kFewestSeen)
+    ++orders_;
+  if (orders_ == 0) return;
+  freedom_ = left(orders_);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(between.leftCols(orders_));
+  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(n, orders_);
+  root_ = qr.matrixQR().topRows(orders_).triangularView<Eigen::Upper>();
+}
+
+Eigen::VectorXd DriftDesign::polynomials(double time_s, int orders) const {
+  const double x = std::clamp(2 * (time_s - begin_s_) / length_s_ - 1, -1.0, 1.0);
+  Eigen::VectorXd p(orders);
+  double before = 1, now = x;
+  for (int k = 1; k <= orders; ++k) {
+    p(k - 1) = now;
+    before = std::exchange(now, ((2 * k + 1) * x * now - k * before) / (k + 1));
+  }
+  return p;
+}
+
+Eigen::MatrixXd DriftDesign::centred(const Eigen::MatrixXd& y) const {
+  Eigen::MatrixXd means =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(visits_of_place_.size()), y.cols());
+  const auto place = [&](Eigen::Index i) { return visits_[static_cast<std::size_t>(i)].place; };
+  for (Eigen::Index i = 0; i < y.rows(); ++i)
+    means.row(static_cast<Eigen::Index>(place(i))) += y.row(i) / visits_of_place_[place(i)];
+  Eigen::MatrixXd out = y;
+  for (Eigen::Index i = 0; i < y.rows(); ++i)
+    out.row(i) -= means.row(static_cast<Eigen::Index>(place(i)));
+  return out;
+}
+
+Eigen::MatrixXd DriftDesign::scores(const Eigen::MatrixXd& y) const {
+  return basis_.transpose() * centred(y);
+}
+
+Eigen::MatrixXd DriftDesign::residuals(const Eigen::MatrixXd& y) const {
+  return centred(y) - basis_ * scores(y);
+}
+
+Eigen::VectorXd DriftDesign::shapes(double time_s) const {
+  const Eigen::VectorXd p = polynomials(time_s, orders_) - mean_.head(orders_);
+  return root_.transpose().triangularView<Eigen::Lower>().solve(p);
+}
+
+}  // namespace mdof::algo

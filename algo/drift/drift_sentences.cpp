@@ -1,0 +1,78 @@
+#include "algo/drift/drift_sentences.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kSecondsPerMinute = 60, kSecondsPerHour = 3600;
+
+std::string change_text(const ErrorName& name, const SeriesDrift& drift, double sign) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(),
+                name.angle ? "%s %+.2f ± %.2f µrad" : "%s %+.4f ± %.4f µm", name.name,
+                to_key_unit(sign * drift.change), to_key_unit(drift.u_change));
+  return text.data();
+}
+
+}  // namespace
+
+std::string changes_text(const RunDrift& drift, const MovingAxis& moving, bool steps) {
+  const Errors5 signs = named_from_local(moving, Errors5{1, 1, 1, 1, 1});
+  const auto& names = error_names(moving.axis);
+  std::string text;
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    const SeriesDrift& of = drift.errors[names[k].local];
+    if (!of.significant() || of.steps != steps) continue;
+    text += (text.empty() ? "" : ", ") + change_text(names[k], of, signs[k]);
+  }
+  if (text.empty()) return "";
+  return text + " from the first point to the last (" +
+         plain_number(drift.length_s / kSecondsPerMinute, 3) + " min)";
+}
+
+std::vector<std::string> drift_sentences(const RunDrift& drift, const MovingAxis& moving) {
+  std::vector<std::string> out;
+  if (const auto changes = changes_text(drift, moving, false); !changes.empty())
+    out.push_back("drift: " + changes +
+                  ": it is in every error of one approach and against the start; let the system "
+                  "warm up (mdof drift says when it has), or replay the log with --remove-drift");
+  if (const auto changes = changes_text(drift, moving, true); !changes.empty())
+    out.push_back("changes from run to run: " + changes +
+                  "; they may be steps as well as a drift, so that --remove-drift leaves them");
+  return out;
+}
+
+std::string removed_sentence(const RunDrift& drift, const MovingAxis& moving) {
+  if (!drift.not_seen.empty()) return "no drift was removed: " + drift.not_seen;
+  std::string text = changes_text(drift, moving, false);
+  text = text.empty() ? "no drift was removed: none is significant"
+                      : "drift removed: " + text + "; its uncertainty is in that of each point";
+  if (const auto steps = changes_text(drift, moving, true); !steps.empty())
+    text += "; changes that may be steps from run to run as well were left: " + steps;
+  return text;
+}
+
+std::string over_limit_sentence(const RunDrift& drift, const Rig& rig) {
+  if (!rig.drift_limit_m_per_s || !(drift.length_s > 0)) return "";
+  std::string probes;
+  for (std::size_t k = 0; k < std::min(drift.probes.size(), rig.probes.size()); ++k) {
+    const double rate_m_per_s = drift.probes[k].range / drift.length_s;
+    if (!drift.probes[k].significant() || !(rate_m_per_s > *rig.drift_limit_m_per_s)) continue;
+    probes += (probes.empty() ? "" : ", ") + rig.probes[k].id + " by " +
+              plain_number(to_um(rate_m_per_s) * kSecondsPerHour, 3) + " um/h";
+  }
+  if (probes.empty()) return "";
+  return "the readings of probes drift by more than the limit of " +
+         plain_number(to_um(*rig.drift_limit_m_per_s) * kSecondsPerHour) +
+         " um/h ([drift] limit_um_per_h of the rig): " + probes +
+         "; let the system warm up (mdof drift says when it has) and measure again";
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,223 @@
+#include "algo/drift/run_drift.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "algo/sensitivity/plan/functions.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kLogLikelihoodRatio = 5;  // by which a drift must be likelier than steps
+constexpr std::size_t kFewestOfPass = 3;   // points, on the average
+constexpr double kLeastScatter_m = 1e-12;
+
+using Points = std::vector<const MeasuredPoint*>;
+
+Points that_tell(const std::vector<MeasuredPoint>& points) {
+  Points out;
+  for (const MeasuredPoint& p : points)
+    if (p.errors.valid && p.point.direction != 0) out.push_back(&p);
+  return out;
+}
+
+DriftDesign design_of(const Points& points) {
+  std::map<std::pair<int, int>, std::size_t> places;
+  std::vector<TimedVisit> visits;
+  for (const MeasuredPoint* p : points) {
+    const auto place = places.emplace(std::pair(p->target, p->point.direction), places.size());
+    visits.push_back({place.first->second, time_of_s(*p)});
+  }
+  return DriftDesign(std::move(visits));
+}
+
+DriftFit errors_fit(const Points& points) {
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd y(n, kErrorCount);
+  Eigen::VectorXd noise2 = Eigen::VectorXd::Zero(kErrorCount);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const AxisErrors& errors = points[static_cast<std::size_t>(i)]->errors;
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      y(i, static_cast<Eigen::Index>(k)) = errors.local[k];
+      noise2(static_cast<Eigen::Index>(k)) += errors.covariance[6 * k] / static_cast<double>(n);
+    }
+  }
+  return {design_of(points), y, noise2};
+}
+
+// Of those points in which no probe is lost.
+std::vector<SeriesDrift> drifts_of_probes(const Points& points) {
+  Points whole;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(whole), [](const auto* p) {
+    return std::none_of(p->point.probe_m.begin(), p->point.probe_m.end(),
+                        [](double x) { return std::isnan(x); });
+  });
+  const std::size_t probes = points.empty() ? 0 : points.front()->point.probe_m.size();
+  const auto n = static_cast<Eigen::Index>(whole.size());
+  Eigen::MatrixXd y(n, static_cast<Eigen::Index>(probes));
+  Eigen::VectorXd noise2 = Eigen::VectorXd::Zero(y.cols());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Point& p = whole[static_cast<std::size_t>(i)]->point;
+    for (std::size_t k = 0; k < probes; ++k) {
+      y(i, static_cast<Eigen::Index>(k)) = p.probe_m[k];
+      noise2(static_cast<Eigen::Index>(k)) +=
+          p.probe_u_m[k] * p.probe_u_m[k] / static_cast<double>(n);
+    }
+  }
+  return DriftFit(design_of(whole), y, noise2).series();
+}
+
+std::vector<Closure> closures_of(const Points& points) {
+  std::vector<Closure> closures;
+  std::set<int> begun;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const MeasuredPoint& start = *points[i];
+    if (!begun.insert(start.run).second) continue;
+    const MeasuredPoint* end = nullptr;
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      if (points[j]->target != start.target) continue;
+      end = points[j];
+      if (end->point.direction == start.point.direction) break;
+    }
+    if (!end) continue;
+    Closure closure{start.run,
+                    time_of_s(*end) - time_of_s(start),
+                    end->point.direction == start.point.direction,
+                    {}};
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      closure.change[k] = end->errors.local[k] - start.errors.local[k];
+    closures.push_back(closure);
+  }
+  return closures;
+}
+
+// Which of the values share a mean that is not known.
+using Groups = std::vector<std::size_t>;
+
+void take_means(const Groups& groups, Eigen::MatrixXd& columns) {
+  const std::size_t n = 1 + *std::max_element(groups.begin(), groups.end());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), columns.cols());
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
+  const auto group = [&](Eigen::Index i) {
+    return static_cast<Eigen::Index>(groups[static_cast<std::size_t>(i)]);
+  };
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    sum.row(group(i)) += columns.row(i);
+    count(group(i)) += 1;
+  }
+  for (Eigen::Index i = 0; i < columns.rows(); ++i)
+    columns.row(i) -= sum.row(group(i)) / count(group(i));
+}
+
+// What the columns and a mean of each group leave of y, in squares.
+double left_of(Eigen::MatrixXd columns, Eigen::MatrixXd y, const Groups& groups) {
+  take_means(groups, columns);
+  take_means(groups, y);
+  const Eigen::MatrixXd fitted = columns * columns.completeOrthogonalDecomposition().solve(y);
+  return (y - fitted).squaredNorm();
+}
+
+// The target and the pass (a stretch of one run and direction) of each point.
+struct Grouping {
+  Groups target, pass;
+  std::size_t passes = 0;
+};
+
+Grouping grouping_of(const Points& points) {
+  Grouping out;
+  std::map<int, std::size_t> targets;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const MeasuredPoint& p = *points[i];
+    out.target.push_back(targets.emplace(p.target, targets.size()).first->second);
+    const bool same =
+        i > 0 && points[i - 1]->run == p.run && points[i - 1]->point.direction == p.point.direction;
+    out.passes += same ? 0 : 1;
+    out.pass.push_back(out.passes - 1);
+  }
+  return out;
+}
+
+// Is a step from pass to pass as good an explanation as a drift, where the reversal is the same at
+// all targets?
+bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
+  const Grouping groups = grouping_of(points);
+  const auto n = static_cast<Eigen::Index>(points.size());
+  if (kFewestOfPass * groups.passes > points.size()) return true;
+  const int order = fit.series()[k].order;
+  Eigen::MatrixXd y(n, 1), drift(n, order + 1);
+  Eigen::MatrixXd steps = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(groups.passes));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const MeasuredPoint& p = *points[static_cast<std::size_t>(i)];
+    y(i, 0) = p.errors.local[k];
+    drift(i, 0) = p.point.direction;
+    drift.row(i).tail(order) = fit.design().shapes(time_of_s(p)).head(order).transpose();
+    steps(i, static_cast<Eigen::Index>(groups.pass[static_cast<std::size_t>(i)])) = 1;
+  }
+  const double least = static_cast<double>(n) * kLeastScatter_m * kLeastScatter_m;
+  const double of_drift = std::max(left_of(drift, y, groups.target), least);
+  const double of_steps = std::max(left_of(steps, y, groups.target), least);
+  return 0.5 * static_cast<double>(n) * natural_log(of_steps / of_drift) < kLogLikelihoodRatio;
+}
+
+std::string why_not_seen(const DriftDesign& design) {
+  if (design.visits().empty()) return "no point has errors and a known approach";
+  return "too few targets were visited again from the same side, so that a drift cannot be told "
+         "from the form and slope of the axis; measure two runs or more";
+}
+
+}  // namespace
+
+double time_of_s(const MeasuredPoint& point) {
+  return (ns_to_s(point.point.begin_ns) + ns_to_s(point.point.end_ns)) / 2;
+}
+
+bool RunDrift::significant() const {
+  return std::any_of(errors.begin(), errors.end(), [](const auto& e) { return e.significant(); });
+}
+
+bool RunDrift::removable() const {
+  return std::any_of(errors.begin(), errors.end(),
+                     [](const auto& e) { return e.significant() && !e.steps; });
+}
+
+DriftOfRun::DriftOfRun(const std::vector<MeasuredPoint>& points) {
+  const Points tell = that_tell(points);
+  found_.closures = closures_of(tell);
+  if (tell.empty()) {
+    found_.not_seen = why_not_seen(design_of(tell));
+    return;
+  }
+  found_.length_s = time_of_s(*tell.back()) - time_of_s(*tell.front());
+  fit_.emplace(errors_fit(tell));
+  if (fit_->design().orders() == 0) {
+    found_.not_seen = why_not_seen(fit_->design());
+    fit_.reset();
+    return;
+  }
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    if (fit_->series()[k].significant() && may_be_steps(tell, *fit_, k)) fit_->take_for_steps(k);
+  std::copy_n(fit_->series().begin(), kErrorCount, found_.errors.begin());
+  found_.probes = drifts_of_probes(tell);
+}
+
+std::vector<MeasuredPoint> DriftOfRun::without(std::vector<MeasuredPoint> points) const {
+  if (!fit_ || !found_.removable()) return points;
+  for (MeasuredPoint& p : points) {
+    if (!p.errors.valid) continue;
+    const Eigen::VectorXd drift = fit_->drift(time_of_s(p));
+    const Eigen::MatrixXd covariance = fit_->covariance(time_of_s(p));
+    for (Eigen::Index a = 0; a < kErrorCount; ++a) {
+      p.errors.local[static_cast<std::size_t>(a)] -= drift(a);
+      for (Eigen::Index b = 0; b < kErrorCount; ++b)
+        p.errors.covariance[static_cast<std::size_t>(a * kErrorCount + b)] += covariance(a, b);
+    }
+  }
+  return points;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,22 @@
+#include "daemon/measure/drift_treatment.h"
+
+#include <utility>
+
+#include "algo/drift/drift_sentences.h"
+#include "algo/drift/run_drift.h"
+
+namespace mdof::daemon {
+
+void treat_drift(const Rig& rig, bool remove, Run& run) {
+  if (!remove && !rig.drift_limit_m_per_s) return;
+  const algo::DriftOfRun drift(run.points);
+  if (auto over = algo::over_limit_sentence(drift.found(), rig); !over.empty())
+    run.header.warnings.push_back(std::move(over));
+  if (rig.drift_limit_m_per_s && !drift.found().not_seen.empty())
+    run.header.notes.push_back("the limit of drift was not tested: " + drift.found().not_seen);
+  if (!remove) return;
+  run.header.notes.push_back(algo::removed_sentence(drift.found(), rig.moving()));
+  run.points = drift.without(std::move(run.points));
+}
+
+}  // namespace mdof::daemon

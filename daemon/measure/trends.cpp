@@ -1,0 +1,203 @@
+#include "daemon/measure/trends.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "algo/uncertainty/budget.h"
+#include "daemon/measure/evaluation.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr std::int64_t kRunsPage = 500;
+constexpr const char* kSquareness = "EC0Y_urad";
+constexpr std::array kAxes = {Axis::x, Axis::y, Axis::z};
+
+// What two runs must have alike to be in one chart.
+std::string kind_of(const RunHeader& run) {
+  const bool without_drift =
+      run.provenance.options_json.find("\"remove_drift\":true") != std::string::npos;
+  return run.provenance.model + (without_drift ? " without drift " : " ") + run.provenance.rig_text;
+}
+
+void leave_out(std::vector<std::string>& sentences, const std::vector<std::int64_t>& runs,
+               const std::string& why) {
+  if (runs.empty()) return;
+  constexpr std::size_t kNamed = 8;
+  std::string text = runs.size() == 1 ? "run " : "runs ";
+  for (std::size_t i = 0; i < std::min(runs.size(), kNamed); ++i)
+    text += (i == 0 ? "" : ", ") + std::to_string(runs[i]);
+  if (runs.size() > kNamed) text += " and " + std::to_string(runs.size() - kNamed) + " more";
+  sentences.push_back(text + ": " + why);
+}
+
+bool earlier(const RunHeader& a, const RunHeader& b) {
+  return std::pair(a.started_utc, a.id) < std::pair(b.started_utc, b.id);
+}
+
+struct Chosen {
+  std::vector<RunHeader> runs;  // in time
+  std::vector<std::string> left_out, warnings;
+};
+
+// Of one kind, that of the newest, unless they are to be mixed.
+void choose_kind(Chosen& chosen, bool mixed) {
+  if (chosen.runs.empty()) return;
+  const std::string kind = kind_of(chosen.runs.back());
+  std::vector<std::int64_t> others;
+  for (const RunHeader& run : chosen.runs)
+    if (kind_of(run) != kind) others.push_back(run.id);
+  const std::string newest = "run " + std::to_string(chosen.runs.back().id);
+  if (mixed) {
+    leave_out(chosen.warnings, others, "taken, though its rig or model is not that of " + newest);
+    return;
+  }
+  leave_out(chosen.left_out, others,
+            "another rig, model or treatment of drift than " + newest + " (--mixed takes it)");
+  std::erase_if(chosen.runs, [&](const RunHeader& run) { return kind_of(run) != kind; });
+}
+
+Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
+  Chosen chosen;
+  std::vector<std::int64_t> simulated, partial, superseded, again;
+  std::set<std::string> recordings;
+  for (std::int64_t offset = 0;; offset += kRunsPage) {
+    MDOF_TRY(const auto page, store.list_runs(offset, kRunsPage, axis));  // newest first
+    for (const RunHeader& run : page) {
+      MDOF_TRY(const auto by, store.superseded_by(run.id));
+      const std::string& recording = run.provenance.recording_sha256;
+      if (by)
+        superseded.push_back(run.id);
+      else if (run.simulated)
+        simulated.push_back(run.id);
+      else if (run.state != RunState::complete)
+        partial.push_back(run.id);
+      else if (!recording.empty() && !recordings.insert(recording).second)
+        again.push_back(run.id);
+      else
+        chosen.runs.push_back(run);
+    }
+    if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
+  }
+  leave_out(chosen.left_out, simulated, "simulated");
+  leave_out(chosen.left_out, partial, "not complete");
+  leave_out(chosen.left_out, superseded, "superseded");
+  leave_out(chosen.left_out, again, "of a recording of which a newer run is there");
+  std::sort(chosen.runs.begin(), chosen.runs.end(), earlier);
+  choose_kind(chosen, mixed);
+  return chosen;
+}
+
+// Of all wanted figures at once: a run is read once.
+Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>& trends,
+               const std::vector<algo::Figure>& figures) {
+  MDOF_TRY(const Run run, run_stated_at(store, header.id, Reference::fixture));
+  MDOF_TRY(const Rig rig, rig_of(run.header));
+  MDOF_TRY(const auto budgets, algo::RunBudgets::create(rig, run));
+  for (std::size_t f = 0; f < figures.size(); ++f) {
+    const Budget budget = budgets.of(figures[f]);
+    if (std::isfinite(budget.value))
+      trends[f].values.push_back({{header.id}, header.started_utc, budget.value, budget.u_random});
+    else
+      leave_out(trends[f].left_out, {header.id}, "has too few solved targets for this figure");
+  }
+  return {};
+}
+
+Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
+                std::vector<Trend>& out) {
+  std::vector<algo::Figure> figures = algo::figures_of_run(axis);
+  if (!request.figure.empty())
+    std::erase_if(figures, [&](const auto& figure) { return figure.name != request.figure; });
+  if (figures.empty()) return {};
+  MDOF_TRY(const Chosen chosen, choose(store, axis, request.mixed));
+  std::vector<Trend> of_axis;
+  for (const algo::Figure& figure : figures)
+    of_axis.push_back({figure.name, {}, {}, chosen.left_out, chosen.warnings});
+  for (const RunHeader& run : chosen.runs) MDOF_CHECK(add_run(store, run, of_axis, figures));
+  for (Trend& trend : of_axis)
+    if (!trend.values.empty() || !request.figure.empty() || request.axis)
+      out.push_back(std::move(trend));
+  return {};
+}
+
+// Of two runs that may both be in a chart, the newest fit of each two.
+Status add_squareness(store::Store& store, const TrendRequest& request, std::vector<Trend>& out) {
+  MDOF_TRY(const Chosen x, choose(store, Axis::x, request.mixed));
+  MDOF_TRY(const Chosen y, choose(store, Axis::y, request.mixed));
+  std::map<std::int64_t, const RunHeader*> allowed;
+  for (const auto* chosen : {&x, &y})
+    for (const RunHeader& run : chosen->runs) allowed[run.id] = &run;
+  Trend trend{kSquareness, {}, {}, {}, {}};
+  for (const auto* chosen : {&x, &y}) {
+    trend.left_out.insert(trend.left_out.end(), chosen->left_out.begin(), chosen->left_out.end());
+    trend.warnings.insert(trend.warnings.end(), chosen->warnings.begin(), chosen->warnings.end());
+  }
+  std::set<std::pair<std::int64_t, std::int64_t>> seen;
+  std::optional<SquareArtefact> artefact;
+  std::vector<std::int64_t> others;
+  for (std::int64_t offset = 0;; offset += kRunsPage) {
+    MDOF_TRY(const auto page, store.list_squareness(offset, kRunsPage));  // newest first
+    for (const Squareness& s : page) {
+      if (!allowed.contains(s.run_x) || !allowed.contains(s.run_y)) continue;
+      if (!seen.emplace(s.run_x, s.run_y).second) continue;
+      if (!artefact) artefact = s.artefact;
+      if (!request.mixed && (s.artefact.angle_error_rad != artefact->angle_error_rad ||
+                             s.artefact.corner != artefact->corner)) {
+        others.push_back(s.id);
+        continue;
+      }
+      const RunHeader* last =
+          std::max(allowed[s.run_x], allowed[s.run_y],
+                   [](const auto* a, const auto* b) { return earlier(*a, *b); });
+      trend.values.push_back({{s.run_x, s.run_y}, last->started_utc, s.EC0Y_rad, s.u_EC0Y_rad});
+    }
+    if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
+  }
+  if (!others.empty())
+    trend.left_out.push_back(std::to_string(others.size()) +
+                             " fits with another artefact angle than the newest (--mixed takes "
+                             "them)");
+  std::sort(trend.values.begin(), trend.values.end(), [](const TrendValue& a, const TrendValue& b) {
+    return std::pair(a.started_utc, a.runs) < std::pair(b.started_utc, b.runs);
+  });
+  if (!trend.values.empty() || !request.figure.empty()) out.push_back(std::move(trend));
+  return {};
+}
+
+Status check_figure(const TrendRequest& request) {
+  std::string names = request.axis ? "" : kSquareness;
+  for (const Axis axis : kAxes) {
+    if (request.axis && *request.axis != axis) continue;
+    for (const algo::Figure& figure : algo::figures_of_run(axis)) {
+      if (figure.name == request.figure) return {};
+      names += (names.empty() ? "" : ", ") + figure.name;
+    }
+  }
+  if (request.figure.empty() || (!request.axis && request.figure == kSquareness)) return {};
+  return fail(ErrorCode::usage, "\"" + request.figure + "\" is no figure here; there are " + names);
+}
+
+}  // namespace
+
+Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& request) {
+  MDOF_CHECK(check_figure(request));
+  std::vector<Trend> out;
+  if (!request.axis && (request.figure.empty() || request.figure == kSquareness))
+    MDOF_CHECK(add_squareness(store, request, out));
+  for (const Axis axis : kAxes)
+    if (!request.axis || *request.axis == axis) MDOF_CHECK(add_axis(store, axis, request, out));
+  for (Trend& trend : out) {
+    std::vector<algo::ChartValue> values;
+    for (const TrendValue& v : trend.values) values.push_back({v.value, v.u});
+    trend.chart = algo::control_chart(values, request.baseline);
+  }
+  return out;
+}
+
+}  // namespace mdof::daemon

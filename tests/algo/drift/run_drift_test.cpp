@@ -1,0 +1,315 @@
+#include "algo/drift/run_drift.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "schema/base/random.h"
+
+namespace mdof::algo {
+namespace {
+
+// 13 targets at 0 ... 60 mm, forward and back, a stop each 2 s: a run takes 52 s.
+struct Log {
+  int runs = 3, targets = 13;
+  double noise_m = 0;
+  std::uint32_t seed = 1;
+  bool both_ways = true, back_to_start = false;
+  std::function<double(double)> drift = [](double) { return 0.0; };  // of δy, over s
+  std::function<double(int)> reversal = [](int) { return 80e-9; };   // by target
+  std::function<double(int)> of_run = [](int) { return 0.0; };       // a step
+
+  double length_s() const { return 2.0 * (targets * (both_ways ? 2 : 1) * runs - 1); }
+
+  std::vector<MeasuredPoint> points() const {
+    std::vector<MeasuredPoint> out;
+    for (int run = 1; run <= runs; ++run)
+      for (int way = 0; way < (both_ways ? 2 : 1); ++way)
+        for (int i = 1; i <= targets; ++i)
+          add(out, run, way == 0 ? i : targets + 1 - i, way == 0 ? 1 : -1);
+    if (back_to_start) add(out, runs + 1, 1, 1);
+    return out;
+  }
+  double form(int target) const { return 1e-6 * std::sin(target) + 0.2e-6 * target; }
+
+ private:
+  void add(std::vector<MeasuredPoint>& out, int run, int target, int direction) const {
+    const auto n = static_cast<std::uint32_t>(out.size());
+    const double time_s = 2.0 * n;
+    MeasuredPoint p;
+    p.target = target;
+    p.run = run;
+    p.target_m = p.point.position_m = 5e-3 * (target - 1);
+    p.point.direction = direction;
+    p.point.begin_ns = static_cast<std::int64_t>((time_s - 0.5) * 1e9);
+    p.point.end_ns = static_cast<std::int64_t>((time_s + 0.5) * 1e9);
+    p.errors.valid = true;
+    const double whole = drift(time_s) + of_run(run);
+    const double side = direction > 0 ? 0.5 : -0.5;
+    for (std::uint32_t k = 0; k < 5; ++k)
+      p.errors.local[k] =
+          form(target) + side * reversal(target) + noise(n, k) + (k == 0 ? whole : 0);
+    p.errors.covariance = {};
+    for (std::uint32_t k = 0; k < 5; ++k) {
+      p.point.probe_m.push_back(form(target) + noise(n, 5 + k) + (k == 3 ? whole : 0));
+      p.point.probe_u_m.push_back(0);
+    }
+    out.push_back(p);
+  }
+  double noise(std::uint32_t point, std::uint32_t series) const {
+    // A hash of three numbers (splitmix64), so that no seed follows from another.
+    std::uint64_t x = (std::uint64_t{seed} << 40) ^ (std::uint64_t{point} << 8) ^ series;
+    x += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    x ^= x >> 31;
+    return noise_m *
+           gaussian(uniform(static_cast<std::uint32_t>(x >> 32), static_cast<std::uint32_t>(x)));
+  }
+};
+
+constexpr double kNoise = 3e-9;
+
+// Largest deviation of δy over all points from form and reversal, the mean over all put aside.
+double worst_off(const Log& log, const std::vector<MeasuredPoint>& points) {
+  double mean = 0;
+  std::vector<double> off;
+  for (const MeasuredPoint& p : points) {
+    off.push_back(p.errors.local[kDy] - log.form(p.target) -
+                  p.point.direction * 0.5 * log.reversal(p.target));
+    mean += off.back() / static_cast<double>(points.size());
+  }
+  double worst = 0;
+  for (const double x : off) worst = std::max(worst, std::abs(x - mean));
+  return worst;
+}
+
+TEST(RunDrift, WithoutNoiseAStraightDriftIsFoundToTheLastPicometre) {
+  Log log;
+  log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
+  const auto points = log.points();
+  const DriftOfRun drift(points);
+  EXPECT_EQ(drift.found().not_seen, "");
+  EXPECT_DOUBLE_EQ(drift.found().length_s, log.length_s());
+  EXPECT_EQ(drift.found().errors[kDy].order, 1);
+  EXPECT_NEAR(drift.found().errors[kDy].change, 200e-9, 1e-15);
+  EXPECT_NEAR(drift.found().errors[kDy].range, 200e-9, 1e-15);
+  EXPECT_NEAR(drift.found().probes[3].change, 200e-9, 1e-15);
+  for (const std::size_t k : {kDz, kEx, kEy, kEz})
+    EXPECT_FALSE(drift.found().errors[k].significant());
+  EXPECT_LT(worst_off(log, drift.without(points)), 1e-15);
+  EXPECT_NEAR(worst_off(log, points), 100e-9, 1e-9);
+}
+
+TEST(RunDrift, UncertaintyIsTheScatterOverManySeeds) {
+  double square = 0, stated = 0;
+  constexpr int kSeeds = 400;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    Log log;
+    log.noise_m = kNoise;
+    log.seed = static_cast<std::uint32_t>(seed);
+    log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
+    const DriftOfRun drift(log.points());
+    const SeriesDrift& of = drift.found().errors[kDy];
+    ASSERT_GE(of.order, 1);
+    square += (of.change - 200e-9) * (of.change - 200e-9) / kSeeds;
+    stated += of.u_change * of.u_change / kSeeds;
+  }
+  EXPECT_NEAR(std::sqrt(stated / square), 1.07, 0.13);  // neighbours' correlation makes it larger
+}
+
+TEST(RunDrift, ALogWithoutDriftIsGivenNoneMoreOftenThanStated) {
+  int errors = 0, probes = 0;
+  constexpr int kSeeds = 1000;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    Log log;
+    log.noise_m = kNoise;
+    log.seed = static_cast<std::uint32_t>(seed);
+    const DriftOfRun drift(log.points());
+    errors += drift.found().significant();
+    for (const auto& p : drift.found().probes)
+      if (p.significant()) {
+        ++probes;
+        break;
+      }
+  }
+  EXPECT_LE(errors, 16);  // 10 expected at the most; 2 sd of chance more
+  EXPECT_LE(probes, 16);
+}
+
+TEST(RunDrift, AsOftenAsStatedOfTwoRuns) {
+  int errors = 0;
+  for (std::uint32_t seed = 1; seed <= 500; ++seed) {
+    Log log;
+    log.runs = 2;
+    log.noise_m = kNoise;
+    log.seed = 5000 + seed;
+    errors += DriftOfRun(log.points()).found().significant();
+  }
+  EXPECT_LE(errors, 10);
+}
+
+// 200 nm of each kind over the runs, noise 3 nm: what is left.
+TEST(RunDrift, WhatIsLeftOfCurvedDrifts) {
+  struct Kind {
+    const char* name;
+    std::function<double(double)> of;  // of the part of the log that is over
+    double left_m;
+  };
+  const auto turns = [](double n) {
+    return [n](double x) { return 100e-9 * std::sin(2 * M_PI * n * x); };
+  };
+  for (const Kind& kind :
+       {Kind{"linear", [](double x) { return 200e-9 * x; }, 15e-9},
+        Kind{"warm-up", [](double x) { return 200e-9 * (1 - std::exp(-4 * x)); }, 30e-9},
+        Kind{"sine", turns(0.75), 30e-9}}) {
+    Log log;
+    log.runs = 4;
+    log.noise_m = kNoise;
+    log.drift = [&](double t) { return kind.of(t / log.length_s()); };
+    const auto points = log.points();
+    const DriftOfRun drift(points);
+    EXPECT_GT(drift.found().errors[kDy].order, 0) << kind.name;
+    EXPECT_FALSE(drift.found().errors[kDy].steps) << kind.name;
+    const double before = worst_off(log, points), after = worst_off(log, drift.without(points));
+    EXPECT_GT(before, 90e-9) << kind.name;
+    EXPECT_LT(after, kind.left_m) << kind.name;
+  }
+}
+
+TEST(RunDrift, OneRunDoesNotTellADriftFromTheForm) {
+  Log log;
+  log.runs = 1;
+  log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
+  const auto points = log.points();
+  const DriftOfRun drift(points);
+  EXPECT_NE(drift.found().not_seen.find("measure two runs"), std::string::npos);
+  EXPECT_FALSE(drift.found().significant());
+  EXPECT_EQ(drift.without(points)[20].errors.local, points[20].errors.local);
+  ASSERT_EQ(drift.found().closures.size(), 1u);  // the reversal is in it
+  EXPECT_FALSE(drift.found().closures[0].same_side);
+  EXPECT_NEAR(drift.found().closures[0].change[kDy], 200e-9 - 80e-9, 1e-15);
+}
+
+TEST(RunDrift, ClosuresAreFromTheSameSideWhereThereIsAVisitFromThere) {
+  Log log;
+  log.runs = 2;
+  log.back_to_start = true;
+  log.drift = [](double t) { return 1e-9 * t; };
+  const auto closures = DriftOfRun(log.points()).found().closures;
+  ASSERT_EQ(closures.size(), 2u);
+  for (const Closure& c : closures) {
+    EXPECT_TRUE(c.same_side);
+    EXPECT_DOUBLE_EQ(c.after_s, 52);
+    EXPECT_NEAR(c.change[kDy], 52e-9, 1e-15);
+    EXPECT_NEAR(c.change[kDz], 0, 1e-15);
+  }
+}
+
+// Somebody touched the fixture between the runs: the same between the runs as a steady drift.
+TEST(RunDrift, StepsFromRunToRunAreNotTakenForADrift) {
+  for (const int runs : {2, 3, 4}) {
+    Log log;
+    log.runs = runs;
+    log.noise_m = kNoise;
+    log.of_run = [](int run) { return 100e-9 * run; };
+    const auto points = log.points();
+    const DriftOfRun drift(points);
+    EXPECT_TRUE(drift.found().errors[kDy].significant());
+    EXPECT_TRUE(drift.found().errors[kDy].steps) << runs;
+    EXPECT_FALSE(drift.found().removable());
+    EXPECT_EQ(drift.without(points)[7].errors.local, points[7].errors.local);
+  }
+}
+
+TEST(RunDrift, AReversalThatChangesAlongTheAxisIsNoDrift) {
+  Log log;
+  log.noise_m = kNoise;
+  log.reversal = [](int target) { return 80e-9 + 20e-9 * target; };
+  EXPECT_FALSE(DriftOfRun(log.points()).found().significant());
+}
+
+// Each run and direction has a shift of its own, as real machines have.
+TEST(RunDrift, RandomShiftsOfPassesAreNotTakenForADrift) {
+  int removed = 0;
+  for (std::uint32_t seed = 1; seed <= 500; ++seed) {
+    Log log;
+    log.runs = 2 + static_cast<int>(seed % 4);
+    log.noise_m = kNoise;
+    log.seed = seed;
+    const double length_s = log.length_s() / (2 * log.runs);
+    log.drift = [&](double t) {
+      const auto pass = static_cast<std::uint32_t>(t / (length_s + 0.5));
+      return 4 * kNoise * gaussian(uniform(seed * 2654435761u, (pass + 1) * 2246822519u));
+    };
+    removed += DriftOfRun(log.points()).found().removable();
+  }
+  RecordProperty("removed_of_500", removed);
+  EXPECT_LE(removed, 10);
+}
+
+TEST(RunDrift, OfOneDirectionADriftMayBeSteps) {
+  Log log;
+  log.both_ways = false;
+  log.noise_m = kNoise;
+  log.drift = [&](double t) { return -200e-9 * t / log.length_s(); };
+  const DriftOfRun drift(log.points());
+  EXPECT_NEAR(drift.found().errors[kDy].change, -200e-9, 15e-9);
+  EXPECT_TRUE(drift.found().errors[kDy].steps);
+  EXPECT_FALSE(drift.found().removable());
+}
+
+TEST(RunDrift, ItsUncertaintyIsAddedToTheCovariance) {
+  Log log;
+  log.noise_m = kNoise;
+  log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
+  const auto points = log.points();
+  const DriftOfRun drift(points);
+  const auto after = drift.without(points);
+  const double u_first = std::sqrt(after.front().errors.covariance[0]);
+  const double u_last = std::sqrt(after.back().errors.covariance[0]);
+  // Of order 1 the drift is straight, and its mean over the points is 0: each end has half.
+  ASSERT_EQ(drift.found().errors[kDy].order, 1);
+  EXPECT_NEAR(u_first, drift.found().errors[kDy].u_change / 2, 1e-13);
+  EXPECT_NEAR(u_last, u_first, 1e-13);
+  EXPECT_EQ(after.front().errors.covariance[6], 0);  // δz has none
+}
+
+TEST(RunDrift, PointsWithoutErrorsTellNothingAndStayAsTheyAre) {
+  Log log;
+  log.noise_m = kNoise;
+  log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
+  auto points = log.points();
+  points[5].errors = AxisErrors();
+  points[6].point.direction = 0;
+  points[7].point.probe_m[2] = std::nan("");
+  const DriftOfRun drift(points);
+  EXPECT_TRUE(drift.found().removable());
+  EXPECT_TRUE(drift.found().probes[3].significant());
+  const auto after = drift.without(points);
+  EXPECT_EQ(after[5].errors.local, points[5].errors.local);
+  EXPECT_NE(after[6].errors.local, points[6].errors.local);  // its time is known
+  EXPECT_NE(DriftOfRun({}).found().not_seen, "");
+}
+
+TEST(DriftDesign, OrdersAreThoseThatVisitsSee) {
+  std::vector<TimedVisit> visits;
+  for (int i = 0; i < 20; ++i) visits.push_back({static_cast<std::size_t>(i % 10), 1.0 * i});
+  const DriftDesign twice(visits);
+  EXPECT_GE(twice.orders(), 1);
+  EXPECT_LT(twice.orders(), DriftDesign::kMostOrders);  // one is near a wave that both runs have
+  EXPECT_DOUBLE_EQ(twice.freedom(), 20 - 10 - twice.orders());
+  visits.resize(10);
+  EXPECT_EQ(DriftDesign(visits).orders(), 0);
+  EXPECT_EQ(DriftDesign({}).orders(), 0);
+  EXPECT_EQ(DriftDesign({{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}}).orders(), 0);
+}
+
+TEST(DriftDesign, CriticalTIsThatOfTheTables) {
+  EXPECT_NEAR(critical_t(0.01, 4), 4.604, 0.001);
+  EXPECT_NEAR(critical_t(0.05, 10), 2.228, 0.001);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,83 @@
+#include "algo/trend/control_chart.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+std::vector<ChartValue> values(const std::vector<double>& x, double u = 0) {
+  std::vector<ChartValue> out;
+  for (const double v : x) out.push_back({v, u});
+  return out;
+}
+
+// The flow rates of the NIST/SEMATECH handbook 6.3.2.2: mean 50.81, mean moving range 1.8778,
+// limits 45.8155 and 55.8041 (there 50.81 ± 3 · 1.8778 / 1.128).
+TEST(ControlChart, TheWorkedExampleOfTheHandbook) {
+  const auto x = values({49.6, 47.6, 49.9, 51.3, 47.8, 51.2, 52.6, 52.4, 53.6, 52.1});
+  const auto chart = control_chart(x, 10);
+  ASSERT_TRUE(chart);
+  EXPECT_NEAR(chart->centre, 50.81, 1e-12);
+  EXPECT_NEAR(chart->sigma * 1.128, 1.8778, 5e-5);
+  EXPECT_NEAR(chart->high[0], 55.8041, 1e-4);
+  EXPECT_NEAR(chart->low[9], 45.8159, 1e-4);
+  EXPECT_TRUE(chart->outside.empty());
+  EXPECT_FALSE(chart->moved);
+}
+
+// By hand: 1 2 1 2 1 has the mean 1.4, ranges of 1, sigma 1/1.128; 4 is inside 1.4 + 2.66, 5 is
+// not.
+TEST(ControlChart, TheLastValueIsHeldAgainstThoseBefore) {
+  EXPECT_FALSE(control_chart(values({1, 2, 1, 2, 1, 4}))->moved);
+  const auto chart = control_chart(values({1, 2, 1, 2, 1, 5}));
+  EXPECT_NEAR(chart->high[5], 1.4 + 3 / 1.128, 1e-12);
+  EXPECT_EQ(chart->outside, std::vector<std::size_t>{5});
+  ASSERT_TRUE(chart->moved);
+  EXPECT_EQ(chart->moved->since, 5u);
+  EXPECT_NEAR(chart->moved->by, 3.6, 1e-12);
+  EXPECT_NEAR(chart->moved->u, std::sqrt(1.0 / 5 + 1) / 1.128, 1e-12);
+  EXPECT_TRUE(control_chart(values({1, 2, 1, 2, 1, -3}))->moved->by < 0);
+}
+
+TEST(ControlChart, AValueOfLargeUncertaintyHasWiderLimits) {
+  auto x = values({1, 2, 1, 2, 1, 5});
+  x.back().u = 1.3;
+  EXPECT_FALSE(control_chart(x)->moved);
+  x.back().u = 1.1;
+  ASSERT_TRUE(control_chart(x)->moved);
+  EXPECT_NEAR(control_chart(x)->moved->u, 1.1, 1e-12);
+}
+
+TEST(ControlChart, EightOnOneSide) {
+  std::vector<double> x = {1, -1, 1, -1, 1, -1};  // sigma 1.77
+  for (int i = 0; i < 7; ++i) x.push_back(1.5);
+  EXPECT_FALSE(control_chart(values(x), 6)->moved);
+  x.push_back(1.5);
+  const auto chart = control_chart(values(x), 6);
+  EXPECT_TRUE(chart->outside.empty());
+  EXPECT_EQ(chart->one_side, std::vector<std::size_t>{13});
+  ASSERT_TRUE(chart->moved);
+  EXPECT_EQ(chart->moved->since, 6u);
+  EXPECT_NEAR(chart->moved->by, 1.5, 1e-12);
+  x[9] = 0;  // on the centre: on no side
+  EXPECT_TRUE(control_chart(values(x), 6)->one_side.empty());
+}
+
+TEST(ControlChart, AnOutlierThatIsPastHasNotMoved) {
+  const auto chart = control_chart(values({1, 2, 1, 2, 9, 1, 2}), 4);
+  EXPECT_EQ(chart->outside, std::vector<std::size_t>{4});
+  EXPECT_FALSE(chart->moved);
+}
+
+TEST(ControlChart, TooFewValuesSayNothing) {
+  EXPECT_FALSE(control_chart({}));
+  EXPECT_FALSE(control_chart(values({1, 2, 1, 2})));
+  EXPECT_TRUE(control_chart(values({1, 2, 1, 2, 1})));
+  EXPECT_FALSE(control_chart(values({1, 2, 1, 2, 1}), 6));
+  EXPECT_FALSE(control_chart(values({1, 2, 1, 2, 1}), 3));
+}
+
+}  // namespace
+}  // namespace mdof::algo

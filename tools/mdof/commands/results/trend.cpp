@@ -1,0 +1,211 @@
+// mdof trend: figures of the stored runs over time, with control limits.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "daemon/measure/trends.h"
+#include "schema/base/json_writer.h"
+#include "schema/sample.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/csv/csv_text.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::size_t kFirmBaseline = 8;  // values; of fewer, limits are provisional
+
+struct TrendCommand {
+  std::string database, axis, figure;
+  std::size_t baseline = 0;
+  bool mixed = false, csv = false, json = false;
+};
+
+std::string runs_of(const daemon::TrendValue& value) {
+  std::string text;
+  for (const std::int64_t run : value.runs) text += (text.empty() ? "" : " ") + std::to_string(run);
+  return text;
+}
+
+// "µm" of "EYX_straightness_um".
+std::string unit_of(const daemon::Trend& trend) {
+  return trend.figure.ends_with("_um") ? "µm" : "µrad";
+}
+
+std::string shown(const daemon::Trend& trend, double si) {
+  return fixed(to_key_unit(si), trend.figure.ends_with("_um") ? 4 : 3);
+}
+
+std::string signal_of(const algo::Chart& chart, std::size_t i) {
+  const auto has = [i](const std::vector<std::size_t>& of) {
+    return std::find(of.begin(), of.end(), i) != of.end();
+  };
+  if (has(chart.outside)) return "outside";
+  return has(chart.one_side) ? "8 on one side" : "";
+}
+
+std::string sentence_of(const daemon::Trend& trend) {
+  const auto& [figure, values, chart, left_out, warnings] = trend;
+  if (!chart)
+    return figure + ": " + std::to_string(values.size()) +
+           " values, too few for limits, which take " + std::to_string(algo::kFewestOfBaseline) +
+           " and the one to be judged";
+  const std::string provisional =
+      chart->baseline < kFirmBaseline
+          ? "; limits of " + std::to_string(chart->baseline) + " values are provisional"
+          : "";
+  if (chart->moved) {
+    const auto& since = values[chart->moved->since];
+    return figure + " has moved by " +
+           with_u(shown(trend, chart->moved->by), shown(trend, chart->moved->u)) + " " +
+           unit_of(trend) + " since run " + runs_of(since) + " (" + since.started_utc + "): run " +
+           runs_of(values.back()) +
+           (signal_of(*chart, values.size() - 1) == "outside"
+                ? " is outside the limits (Shewhart, 3 sigma)"
+                : " is at least the eighth in a row on one side of the centre (Western Electric)") +
+           provisional;
+  }
+  if (!chart->outside.empty())
+    return figure + ": run " + runs_of(values[chart->outside.back()]) +
+           " was outside the limits, later ones are not" + provisional;
+  return figure + " has not moved" + provisional;
+}
+
+std::string text_of(const daemon::Trend& trend) {
+  TextTable table({"runs", "started", "value/" + unit_of(trend), "low", "high", "signal"});
+  for (std::size_t i = 0; i < trend.values.size(); ++i) {
+    const auto& v = trend.values[i];
+    const bool has = trend.chart.has_value();
+    table.add({runs_of(v), v.started_utc, with_u(shown(trend, v.value), shown(trend, v.u)),
+               has ? shown(trend, trend.chart->low[i]) : "-",
+               has ? shown(trend, trend.chart->high[i]) : "-",
+               has ? signal_of(*trend.chart, i) : ""});
+  }
+  std::string out = trend.figure + "\n";
+  if (trend.chart)
+    out += "centre " + shown(trend, trend.chart->centre) + ", sigma " +
+           shown(trend, trend.chart->sigma) + " " + unit_of(trend) + " of the first " +
+           std::to_string(trend.chart->baseline) + " values (moving range)\n";
+  out += table.text(terminal_columns());
+  for (const std::string& why : trend.left_out)
+    out += wrapped("left out: " + why, terminal_columns()) + "\n";
+  return out + wrapped(sentence_of(trend), terminal_columns()) + "\n";
+}
+
+std::string text_of(const std::vector<daemon::Trend>& trends) {
+  std::string out;
+  for (const daemon::Trend& trend : trends) out += (out.empty() ? "" : "\n") + text_of(trend);
+  return out.empty() ? "no runs are stored that could be in a chart\n" : out;
+}
+
+void write_trend(JsonWriter& json, const daemon::Trend& trend) {
+  const auto& chart = trend.chart;
+  const auto number = [&](double si) { return chart ? to_key_unit(si) : kNaN; };
+  json.begin_object().key("values").begin_array();
+  for (std::size_t i = 0; i < trend.values.size(); ++i) {
+    const auto& v = trend.values[i];
+    json.begin_object().key("runs").begin_array();
+    for (const std::int64_t run : v.runs) json.value(run);
+    json.end_array()
+        .field("started_utc", v.started_utc)
+        .field("value", to_key_unit(v.value))
+        .field("u", to_key_unit(v.u))
+        .field("low", chart ? number(chart->low[i]) : kNaN)
+        .field("high", chart ? number(chart->high[i]) : kNaN)
+        .field("signal", chart ? signal_of(*chart, i) : "")
+        .end_object();
+  }
+  json.end_array()
+      .field("centre", chart ? number(chart->centre) : kNaN)
+      .field("sigma", chart ? number(chart->sigma) : kNaN)
+      .field("baseline", static_cast<std::uint64_t>(chart ? chart->baseline : 0))
+      .key("moved");
+  if (chart && chart->moved) {
+    json.begin_object().key("since_runs").begin_array();
+    for (const std::int64_t run : trend.values[chart->moved->since].runs) json.value(run);
+    json.end_array()
+        .field("by", number(chart->moved->by))
+        .field("u_by", number(chart->moved->u))
+        .end_object();
+  } else {
+    json.null();
+  }
+  json.field("says", sentence_of(trend)).key("left_out").begin_array();
+  for (const std::string& why : trend.left_out) json.value(why);
+  json.end_array().end_object();
+}
+
+std::string json_of(const std::vector<daemon::Trend>& trends) {
+  JsonWriter json;
+  json.begin_object().field("reference", "fixture").key("figures").begin_object();
+  for (const daemon::Trend& trend : trends) {
+    json.key(trend.figure);
+    write_trend(json, trend);
+  }
+  json.end_object().end_object();
+  return json.take();
+}
+
+std::string csv_of(const std::vector<daemon::Trend>& trends) {
+  CsvText csv;
+  csv.cells({"figure", "runs", "started_utc", "value", "u", "centre", "low", "high", "signal"});
+  csv.end_row();
+  for (const daemon::Trend& trend : trends)
+    for (std::size_t i = 0; i < trend.values.size(); ++i) {
+      const auto& v = trend.values[i];
+      const auto& chart = trend.chart;
+      csv.cells({trend.figure, runs_of(v), v.started_utc});
+      csv.cell(to_key_unit(v.value)).cell(to_key_unit(v.u));
+      csv.cell(chart ? to_key_unit(chart->centre) : kNaN);
+      csv.cell(chart ? to_key_unit(chart->low[i]) : kNaN);
+      csv.cell(chart ? to_key_unit(chart->high[i]) : kNaN);
+      csv.cells({chart ? signal_of(*chart, i) : ""});
+      csv.end_row();
+    }
+  return csv.take();
+}
+
+Status trend(const TrendCommand& command) {
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const auto found, daemon::trends(store, {axis_from(command.axis), command.figure,
+                                                    command.baseline, command.mixed}));
+  for (const daemon::Trend& of : found)
+    for (const std::string& warning : of.warnings) warn(of.figure + ": " + warning);
+  if (command.csv)
+    for (const daemon::Trend& of : found)
+      for (const std::string& why : of.left_out) warn(of.figure + ": left out: " + why);
+  return command.csv    ? write_out(csv_of(found))
+         : command.json ? write_line(json_of(found))
+                        : write_out(text_of(found));
+}
+
+Action declare_trend(CLI::App& command) {
+  const auto o = std::make_shared<TrendCommand>();
+  add_only_axis_option(command, o->axis);
+  command.add_option("--figure", o->figure, "One figure, such as EYX_straightness_um or EC0Y_urad")
+      ->type_name("NAME");
+  command.add_option("--baseline", o->baseline, "Limits of so many first runs [all but the last]")
+      ->check(CLI::Range(algo::kFewestOfBaseline, std::size_t{100'000}));
+  command.add_flag("--mixed", o->mixed, "Take runs of other rigs and models as well");
+  add_database_option(command, o->database);
+  add_csv_and_json_flags(command, o->csv, o->json);
+  return [o] { return trend(*o); };
+}
+
+}  // namespace
+
+Command trend_command() {
+  return {.name = "trend",
+          .summary = "Chart squareness and other figures over the stored runs",
+          .footer =
+              "Squareness is that of the stored fits (mdof squareness).\n"
+              "Examples:\n"
+              "  mdof trend --figure EC0Y_urad\n"
+              "  mdof trend --axis X --csv > trend_X.csv",
+          .declare = declare_trend};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,152 @@
+#include "tools/mdof/text/drift_text.h"
+
+#include <cmath>
+
+#include "algo/drift/drift_sentences.h"
+#include "algo/iso230/straightness.h"
+#include "algo/model/restate.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr double kSecondsPerMinute = 60;
+
+std::string shape_of(const algo::SeriesDrift& drift) {
+  if (drift.steps) return "drift or steps";
+  if (drift.order == 0) return "none significant";
+  return drift.order == 1 ? "steady" : "curved, order " + std::to_string(drift.order);
+}
+
+std::string closures_text(const Run& run, const std::vector<algo::Closure>& closures,
+                          std::size_t width) {
+  std::vector<std::string> head{"run", "after/min", "from"};
+  const auto& names = error_names(run.header.axis);
+  for (const auto& name : names) head.push_back(error_label(name.key));
+  TextTable table(std::move(head));
+  for (const algo::Closure& c : closures) {
+    const Errors5 change = named_from_local(run.header.moving(), c.change);
+    std::vector<std::string> row{std::to_string(c.run), fixed(c.after_s / kSecondsPerMinute, 2),
+                                 c.same_side ? "the same side" : "the other side, reversal in it"};
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      row.push_back(names[k].angle ? in_urad(change[k]) : in_um(change[k]));
+    table.add(std::move(row));
+  }
+  return "closure: change of the errors back at the start of each run, at the fixture\n" +
+         table.text(width);
+}
+
+std::string changes_table(const Run& run, const algo::RunDrift& drift, std::size_t width) {
+  TextTable table({"error", "drift", "first to last point", "highest - lowest", "seen from"});
+  const Errors5 signs = named_from_local(run.header.moving(), Errors5{1, 1, 1, 1, 1});
+  const auto& names = error_names(run.header.axis);
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    const algo::SeriesDrift& of = drift.errors[names[k].local];
+    const auto show = names[k].angle ? in_urad : in_um;
+    table.add({error_label(names[k].key), shape_of(of),
+               of.significant() ? with_u(show(signs[k] * of.change), show(of.u_change)) : "-",
+               of.significant() ? show(of.range) : "-", show(of.least_found)});
+  }
+  return "drift over " + fixed(drift.length_s / kSecondsPerMinute, 2) + " min\n" +
+         table.text(width);
+}
+
+std::string without_text(const Run& run, const std::vector<StraightnessFigure>& without,
+                         std::size_t width) {
+  const Run at_fixture = algo::restate(run, kAtFixture);
+  TextTable table({"error", "approach", "least squares/µm", "without drift/µm", "slope/µrad",
+                   "without drift/µrad"},
+                  2);
+  for (std::size_t i = 0; i < without.size() && i < at_fixture.straightness.size(); ++i) {
+    const StraightnessFigure &with = at_fixture.straightness[i], &none = without[i];
+    table.add({with.error_key.substr(0, 3), with.approach, in_um(with.straightness_least_squares_m),
+               in_um(none.straightness_least_squares_m), in_urad(with.slope_least_squares_rad),
+               in_urad(none.slope_least_squares_rad)});
+  }
+  return "straightness with and without drift, at the fixture\n" + table.text(width);
+}
+
+void write_series(JsonWriter& json, const algo::SeriesDrift& drift, double sign) {
+  json.begin_object()
+      .field("order", drift.order)
+      .field("change", drift.significant() ? to_key_unit(sign * drift.change) : std::nan(""))
+      .field("u_change", drift.significant() ? to_key_unit(drift.u_change) : std::nan(""))
+      .field("range", drift.significant() ? to_key_unit(drift.range) : std::nan(""))
+      .field("seen_from", to_key_unit(drift.least_found))
+      .field("steps", drift.steps)
+      .end_object();
+}
+
+void write_closures(JsonWriter& json, const Run& run, const std::vector<algo::Closure>& closures) {
+  json.begin_array();
+  for (const algo::Closure& c : closures) {
+    const Errors5 change = named_from_local(run.header.moving(), c.change);
+    json.begin_object()
+        .field("run", c.run)
+        .field("after_s", c.after_s)
+        .field("same_side", c.same_side);
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      json.field(error_names(run.header.axis)[k].key, to_key_unit(change[k]));
+    json.end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace
+
+DriftOfStored drift_of(const Run& run) {
+  const Run at_fixture = algo::restate(run, kAtFixture);
+  const algo::DriftOfRun drift(at_fixture.points);
+  DriftOfStored out{drift.found(), {}};
+  if (out.found.removable())
+    out.without = algo::straightness(run.header.moving(), drift.without(at_fixture.points));
+  return out;
+}
+
+std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_t width) {
+  std::string text;
+  for (const std::string& sentence : algo::drift_sentences(drift, run.header.moving()))
+    text += wrapped(sentence, width) + "\n";
+  return text;
+}
+
+std::string drift_text(const Run& run, const DriftOfStored& drift, std::size_t width) {
+  std::string text;
+  if (!drift.found.closures.empty()) text = closures_text(run, drift.found.closures, width) + "\n";
+  if (!drift.found.not_seen.empty())
+    return text + wrapped("no drift can be told: " + drift.found.not_seen, width) + "\n";
+  text += changes_table(run, drift.found, width);
+  if (!drift.without.empty()) text += "\n" + without_text(run, drift.without, width);
+  const std::string notice = drift_notice(run, drift.found, width);
+  return notice.empty() ? text : text + "\n" + notice;
+}
+
+void write_drift(JsonWriter& json, const Run& run, const std::vector<std::string>& probes,
+                 const DriftOfStored& drift) {
+  const algo::RunDrift& found = drift.found;
+  json.begin_object().field("significant", found.significant()).key("not_seen");
+  found.not_seen.empty() ? json.null() : json.value(found.not_seen);
+  json.field("length_s", found.length_s).field("level", algo::kDriftLevel);
+  json.key("errors").begin_object();
+  const Errors5 signs = named_from_local(run.header.moving(), Errors5{1, 1, 1, 1, 1});
+  const auto& names = error_names(run.header.axis);
+  for (std::size_t k = 0; k < kErrorCount && found.not_seen.empty(); ++k) {
+    json.key(names[k].key);
+    write_series(json, found.errors[names[k].local], signs[k]);
+  }
+  json.end_object().key("probes").begin_object();
+  for (std::size_t k = 0; k < found.probes.size() && k < probes.size(); ++k) {
+    json.key(probes[k] + "_um");
+    write_series(json, found.probes[k], 1);
+  }
+  json.end_object().key("closures");
+  write_closures(json, run, found.closures);
+  json.key("straightness_without");
+  write_straightness(json, drift.without);
+  json.end_object();
+}
+
+}  // namespace mdof::tools

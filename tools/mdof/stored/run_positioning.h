@@ -7,7 +7,7 @@
 
 #include "schema/base/result.h"
 #include "schema/run.h"
-#include "tools/mdof/text/positioning_text.h"
+#include "tools/mdof/text/analyses/positioning_text.h"
 
 namespace mdof::tools {
 

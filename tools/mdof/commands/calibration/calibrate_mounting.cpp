@@ -11,7 +11,7 @@
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/mounting_text.h"
+#include "tools/mdof/text/analyses/mounting_text.h"
 
 namespace mdof::tools {
 namespace {

@@ -13,8 +13,8 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/budget_text.h"
-#include "tools/mdof/text/drift_text.h"
+#include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/analyses/drift_text.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 

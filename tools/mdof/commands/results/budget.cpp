@@ -13,7 +13,7 @@
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/budget_text.h"
+#include "tools/mdof/text/analyses/budget_text.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 #include "tools/mdof/text/warnings.h"

@@ -19,7 +19,7 @@
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/stored/run_positioning.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/positioning_text.h"
+#include "tools/mdof/text/analyses/positioning_text.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 #include "tools/mdof/text/warnings.h"

@@ -12,7 +12,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/drift_text.h"
+#include "tools/mdof/text/analyses/drift_text.h"
 #include "tools/mdof/text/history_text.h"
 #include "tools/mdof/text/run_tables.h"
 

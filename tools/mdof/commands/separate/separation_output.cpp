@@ -8,7 +8,7 @@
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/separation_text.h"
+#include "tools/mdof/text/analyses/separation_text.h"
 #include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {

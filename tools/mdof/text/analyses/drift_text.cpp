@@ -1,4 +1,4 @@
-#include "tools/mdof/text/drift_text.h"
+#include "tools/mdof/text/analyses/drift_text.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/text/mounting_text.h"
+#include "tools/mdof/text/analyses/mounting_text.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/text/positioning_text.h"
+#include "tools/mdof/text/analyses/positioning_text.h"
 
 #include "tools/mdof/text/text_table.h"
 

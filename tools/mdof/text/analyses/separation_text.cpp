@@ -1,4 +1,4 @@
-#include "tools/mdof/text/separation_text.h"
+#include "tools/mdof/text/analyses/separation_text.h"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "tools/mdof/text/budget_text.h"
+#include "tools/mdof/text/analyses/budget_text.h"
 
 #include <algorithm>
 #include <cmath>

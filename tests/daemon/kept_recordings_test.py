@@ -21,7 +21,10 @@ def check(file, *options):
     result = replayed(sys.argv[1], file, *options)
     assert result["recording"]["sha256"] == checked_hash(file), file
     assert len(expected["points"]) >= 8, file
-    assert result["points"] == expected["points"], f"{file}: the points are others"
+    assert len(result["points"]) == len(expected["points"]), f"{file}: there are other points"
+    for point, then in zip(result["points"], expected["points"]):
+        # u_random, U, k and nu_eff came later; these rigs declare nothing, so that u is what it was.
+        assert {key: point[key] for key in then} == then, f"{file}: the points are others"
     print(f"{os.path.basename(file)}: {len(result['points'])} points to the bit")
 
 

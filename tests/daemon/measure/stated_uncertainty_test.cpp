@@ -268,18 +268,18 @@ void expect_covered(const Coverage& coverage, int pairs, double least_percent) {
 }
 
 TEST(StatedUncertainty, HoldsTheTruthWithWhiteNoise) {
-  const int pairs = pairs_wanted(40);
+  const int pairs = pairs_wanted(15);
   expect_covered(coverage_of(Noise::white, pairs), pairs, 95);
 }
 
 TEST(StatedUncertainty, HoldsTheTruthWithPinkNoise) {
-  const int pairs = pairs_wanted(40);
+  const int pairs = pairs_wanted(15);
   expect_covered(coverage_of(Noise::pink, pairs), pairs, 94);
 }
 
 // The control: what is not declared is not covered.
 TEST(StatedUncertainty, WithoutOneContributorDoesNot) {
-  const Coverage coverage = coverage_of(Noise::white, std::max(60, pairs_wanted(60) / 10), false);
+  const Coverage coverage = coverage_of(Noise::white, std::max(25, pairs_wanted(25) / 10), false);
   EXPECT_LT(coverage.at("point EYX").percent(), 88);
 }
 

@@ -1,6 +1,5 @@
 // run.start, run.resume, run.stop, run.list, run.get, run.points.
 #include <algorithm>
-#include <ranges>
 
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
@@ -265,12 +264,11 @@ Result<std::string> run_points(Methods& m, const Params& params) {
   write_reference(json, run.header.stated);
   write_covers(json, uncertainty);
   json.key("points").begin_array();
-  append_page(json, std::views::iota(kAfterFirst, std::max(kAfterFirst, run.points.size())),
-              [&](std::size_t j) {
-                JsonWriter item;
-                write_point(item, run.header.moving(), run.points[j], uncertainty.points[j]);
-                return item.take();
-              });
+  append_page_of(json, kAfterFirst, run.points.size(), [&](std::size_t j) {
+    JsonWriter item;
+    write_point(item, run.header.moving(), run.points[j], uncertainty.points[j]);
+    return item.take();
+  });
   json.end_array().end_object();
   return json.take();
 }

@@ -1,7 +1,5 @@
 #include "daemon/station/run_events.h"
 
-#include <ranges>
-
 #include "algo/uncertainty/run_uncertainty.h"
 #include "schema/base/json_page.h"
 #include "schema/run_json.h"
@@ -37,7 +35,7 @@ std::string points_json(const Run& part, const RunUncertainty& uncertainty, std:
       .field("reference", to_string(part.header.stated.reference));
   write_covers(json, uncertainty);
   json.key("points").begin_array();
-  next += append_page(json, std::views::iota(next, part.points.size()), [&](std::size_t j) {
+  next += append_page_of(json, next, part.points.size(), [&](std::size_t j) {
     JsonWriter item;
     write_point(item, part.header.moving(), part.points[j], uncertainty.points[j]);
     return item.take();

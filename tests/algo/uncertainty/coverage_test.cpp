@@ -27,6 +27,13 @@ TEST(Coverage, FactorsOfTheGuide) {
   EXPECT_NEAR(coverage_factor(2.5), 3.574655, 1e-6);  // scipy.stats.t.ppf(0.975, 2.5)
 }
 
+// Two ways to one number where they meet, and another program's: scipy.stats.t.ppf(0.975, 200).
+TEST(Coverage, FewAndManyDegreesOfFreedomMeet) {
+  const double below = coverage_factor(200 - 1e-6), above = coverage_factor(200);
+  EXPECT_NEAR(below, above, 3e-8);
+  EXPECT_NEAR(above, 1.971896, 1e-6);
+}
+
 // H.1.6: end gauge calibration; the guide comes to 16 after cutting 16.7.
 TEST(Coverage, EffectiveDegreesOfFreedomOfTheGaugeBlock) {
   const std::vector<UncertaintyPart> parts = {{25, 18}, {9.7, 25.6}, {2.9, 50}, {16.6, 2}};

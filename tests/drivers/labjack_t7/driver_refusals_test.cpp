@@ -88,6 +88,17 @@ TEST_F(LabjackT7Driver, ARefusalIsToldInLabJacksWords) {
   EXPECT_TRUE(has(message, settings.command.text())) << message;
 }
 
+// LAST_ERR_DETAIL says 0 where there is none.
+TEST_F(LabjackT7Driver, ARefusalWithoutDetailIsGivenNone) {
+  SimulatedLabjackT7::Faults faults;
+  faults.refused = reg::stream_enable.address;
+  faults.refused_code = 0;
+  serve(faults);
+  const std::string message = refusal();
+  EXPECT_TRUE(has(message, "STREAM_ENABLE")) << message;
+  EXPECT_FALSE(has(message, "LabJack error")) << message;
+}
+
 TEST_F(LabjackT7Driver, NobodyThereIsAnErrorWithTheAddress) {
   serve({});
   served.reset();

@@ -4,6 +4,8 @@
 
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/run_uncertainty.h"
+#include "schema/run_json.h"
+#include "schema/uncertainty/budget_json.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -99,6 +101,18 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
   FoundBudgets found{kAtFixture, {}, {}, algo::inherited_warnings({&x, &y}), fitted.simulated};
   found.budgets.push_back(std::move(budget));
   return found;
+}
+
+std::string budgets_json(const FoundBudgets& found, const std::optional<double>& tolerance) {
+  JsonWriter json;
+  json.begin_object();
+  write_reference(json, found.stated);
+  json.key("at_mm");
+  found.at_m ? json.value(to_mm(*found.at_m)) : json.null();
+  json.field("coverage", 0.95).field("simulated", found.simulated).key("figures");
+  write_budgets(json, found.budgets, tolerance);
+  json.end_object();
+  return with_warnings(json.take(), found.warnings);
 }
 
 }  // namespace mdof::daemon

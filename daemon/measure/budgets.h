@@ -45,4 +45,8 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
 Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessRequest& request,
                                         const algo::TrialsRequest& trials);
 
+// What `mdof budget --json` and the RPC say of them; `tolerance` as of write_budgets().
+std::string budgets_json(const FoundBudgets& found,
+                         const std::optional<double>& tolerance = std::nullopt);
+
 }  // namespace mdof::daemon

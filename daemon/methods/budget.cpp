@@ -2,8 +2,6 @@
 #include "daemon/measure/budgets.h"
 
 #include "daemon/methods/methods.h"
-#include "schema/run_json.h"
-#include "schema/uncertainty/budget_json.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -23,18 +21,6 @@ Status check_size(Methods& m, std::int64_t run) {
                    std::to_string(kMostPoints) + "); mdof budget makes it");
 }
 
-std::string budget_json(const FoundBudgets& found) {
-  JsonWriter json;
-  json.begin_object();
-  write_reference(json, found.stated);
-  json.key("at_mm");
-  found.at_m ? json.value(to_mm(*found.at_m)) : json.null();
-  json.field("coverage", 0.95).field("simulated", found.simulated).key("figures");
-  write_budgets(json, found.budgets);
-  json.end_object();
-  return with_warnings(json.take(), found.warnings);
-}
-
 Result<std::string> run_budget(Methods& m, const Params& params) {
   RunBudgetsRequest request;
   request.run = params.integer("run");
@@ -43,7 +29,7 @@ Result<std::string> run_budget(Methods& m, const Params& params) {
   MDOF_TRY(request.reference, reference_param(params));
   MDOF_CHECK(check_size(m, request.run));
   MDOF_TRY(const FoundBudgets found, run_budgets(m.reader, request));
-  return budget_json(found);
+  return budgets_json(found);
 }
 
 Result<std::string> squareness_budget(Methods& m, const Params& params) {
@@ -54,7 +40,7 @@ Result<std::string> squareness_budget(Methods& m, const Params& params) {
   MDOF_CHECK(check_size(m, request.run_x));
   MDOF_CHECK(check_size(m, request.run_y));
   MDOF_TRY(const FoundBudgets found, squareness_budgets(m.reader, request, {}));
-  return budget_json(found);
+  return budgets_json(found);
 }
 
 }  // namespace

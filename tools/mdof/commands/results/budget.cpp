@@ -4,8 +4,6 @@
 #include <optional>
 
 #include "daemon/measure/budgets.h"
-#include "schema/run_json.h"
-#include "schema/uncertainty/budget_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -70,18 +68,6 @@ Result<daemon::FoundBudgets> of_two_runs(store::Store& store, const BudgetComman
   return daemon::squareness_budgets(store, request, command.trials);
 }
 
-std::string json_of(const daemon::FoundBudgets& found, const std::optional<double>& tolerance) {
-  JsonWriter json;
-  json.begin_object();
-  write_reference(json, found.stated);
-  json.key("at_mm");
-  found.at_m ? json.value(to_mm(*found.at_m)) : json.null();
-  json.field("coverage", 0.95).field("simulated", found.simulated).key("figures");
-  write_budgets(json, found.budgets, tolerance);
-  json.end_object();
-  return with_warnings(json.take(), found.warnings);
-}
-
 std::string text_of(const daemon::FoundBudgets& found, const std::optional<double>& tolerance) {
   std::string head = simulated_notice(found.simulated);
   if (found.at_m) head += "errors at " + in_mm(*found.at_m) + " mm\n";
@@ -101,7 +87,7 @@ Status budget(const BudgetCommand& command) {
   const auto tolerance =
       command.tolerance ? std::optional(from_um(*command.tolerance)) : std::nullopt;
   MDOF_CHECK(command.csv    ? write_out(budgets_csv(found.budgets))
-             : command.json ? write_line(json_of(found, tolerance))
+             : command.json ? write_line(daemon::budgets_json(found, tolerance))
                             : write_out(text_of(found, tolerance)));
   if (!tolerance) return {};
   const Conformity decision = conformity(found.budgets.front(), *tolerance);

@@ -49,7 +49,8 @@ std::string analysis_json(const Run& run, const std::vector<std::string>& probes
 }
 
 std::string stated_figures_text(const std::vector<Budget>& figures) {
-  if (figures.empty()) return "";
+  if (figures.empty())
+    return "\ntheir uncertainty is not made here; mdof budget makes it or says why not\n";
   const std::string missing = not_declared_text(figures);
   return "\nof both approaches' mean, with uncertainty (mdof budget has the contributors)\n" +
          budgets_text(figures, terminal_columns()) +

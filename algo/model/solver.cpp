@@ -9,6 +9,12 @@
 namespace mdof::algo {
 namespace {
 
+std::vector<bool> usable(const std::vector<double>& readings_m) {
+  std::vector<bool> use(readings_m.size());
+  for (std::size_t i = 0; i < use.size(); ++i) use[i] = std::isfinite(readings_m[i]);
+  return use;
+}
+
 // 1/u² where every u is known, else all alike; 0 for a lost probe.
 std::vector<double> make_weights(const std::vector<bool>& use, const std::vector<double>& u_m) {
   bool known = u_m.size() == use.size();
@@ -48,8 +54,7 @@ Result<Solver> Solver::create(const Rig& rig, Model model) {
 AxisErrors Solver::solve(double travel_m, const std::vector<double>& readings_m,
                          const std::vector<double>& u_m) const {
   assert(readings_m.size() == fixture_.probes.size());
-  std::vector<bool> use(readings_m.size());
-  for (std::size_t i = 0; i < use.size(); ++i) use[i] = std::isfinite(readings_m[i]);
+  const std::vector<bool> use = usable(readings_m);
   const bool complete = std::all_of(use.begin(), use.end(), [](bool u) { return u; });
   if (!complete) {
     const Visibility seen = visibility(fixture_, use);
@@ -72,24 +77,33 @@ AxisErrors Solver::solve(double travel_m, const std::vector<double>& readings_m,
   return errors;
 }
 
-// First-order propagation, GUM 5.1.2: with K the weighted pseudo-inverse of the Jacobian,
-// cov(e) = K diag(u²) Kᵀ. The small-angle models use the same Jacobian at zero error; what that
-// leaves out is of the order of an angle, 1e-3 of the uncertainty.
+Eigen::MatrixXd Solver::gain(double travel_m, const AxisErrors& errors,
+                             const std::vector<double>& weights) const {
+  const Errors5 at = model_ == Model::rigid ? errors.local : Errors5{};
+  const Eigen::MatrixXd J = rigid_jacobian(fixture_, travel_m, at);
+  Eigen::VectorXd root_weight(J.rows());
+  for (Eigen::Index i = 0; i < J.rows(); ++i)
+    root_weight(i) = std::sqrt(weights[static_cast<std::size_t>(i)]);
+  const Eigen::MatrixXd weighted = root_weight.asDiagonal() * J;
+  return weighted.colPivHouseholderQr().solve(Eigen::MatrixXd(root_weight.asDiagonal()));
+}
+
+Eigen::MatrixXd Solver::gain(double travel_m, const AxisErrors& errors,
+                             const std::vector<double>& readings_m,
+                             const std::vector<double>& u_m) const {
+  return gain(travel_m, errors, make_weights(usable(readings_m), u_m));
+}
+
+// First-order propagation, GUM 5.1.2: with K the gain, cov(e) = K diag(u²) Kᵀ.
 Covariance5 Solver::covariance(double travel_m, const AxisErrors& errors,
                                const std::vector<bool>& use, const std::vector<double>& weights,
                                const std::vector<double>& u_m) const {
-  const Errors5 at = model_ == Model::rigid ? errors.local : Errors5{};
-  const Eigen::MatrixXd J = rigid_jacobian(fixture_, travel_m, at);
-  const auto n = J.rows();
-  Eigen::VectorXd root_weight(n), u2(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
+  const Eigen::MatrixXd K = gain(travel_m, errors, weights);
+  Eigen::VectorXd u2(K.cols());
+  for (Eigen::Index i = 0; i < K.cols(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    root_weight(i) = std::sqrt(weights[k]);
     u2(i) = use[k] ? u_m[k] * u_m[k] : 0.0;
   }
-  const Eigen::MatrixXd weighted = root_weight.asDiagonal() * J;
-  const Eigen::MatrixXd K =
-      weighted.colPivHouseholderQr().solve(Eigen::MatrixXd(root_weight.asDiagonal()));
   const Eigen::MatrixXd cov = K * u2.asDiagonal() * K.transpose();
   Covariance5 out{};
   for (Eigen::Index i = 0; i < 5; ++i) {

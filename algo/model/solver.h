@@ -24,6 +24,12 @@ class Solver {
   AxisErrors solve(double travel_m, const std::vector<double>& readings_m,
                    const std::vector<double>& u_m) const;
 
+  // Change of the local errors, stated at the carriage, by 1 m of each probe's reading: 5 x probes,
+  // 0 for a lost probe. First order (GUM 5.1.3): the weighted pseudo-inverse of the Jacobian, at
+  // `errors` for the rigid model, at zero error for the small-angle ones, which is right to 1e-3.
+  Eigen::MatrixXd gain(double travel_m, const AxisErrors& errors,
+                       const std::vector<double>& readings_m, const std::vector<double>& u_m) const;
+
   Model model() const { return model_; }
   const Fixture& fixture() const { return fixture_; }
   const Visibility& seen() const { return seen_; }
@@ -34,6 +40,8 @@ class Solver {
   Solver() = default;
   Covariance5 covariance(double travel_m, const AxisErrors& errors, const std::vector<bool>& use,
                          const std::vector<double>& weights, const std::vector<double>& u_m) const;
+  Eigen::MatrixXd gain(double travel_m, const AxisErrors& errors,
+                       const std::vector<double>& weights) const;
 
   Model model_ = Model::exact;
   Fixture fixture_;

@@ -24,30 +24,39 @@ class Differences {
     s.valid = p_.errors.valid && carriage.valid;
     if (!s.valid) return s;
     s.carriage = carriage.local;
+    const Eigen::MatrixXd gain =
+        solver_.gain(s.travel_m, carriage, p_.point.probe_m, p_.point.probe_u_m);
     for (std::size_t k = 0; k < s.by_probe.size(); ++k)
-      if (std::isfinite(p_.point.probe_m[k])) s.by_probe[k] = by_reading(s.travel_m, k);
-    s.by_travel = slope(solved(s.travel_m + kTravelStep_m, p_.point.probe_m),
-                        solved(s.travel_m - kTravelStep_m, p_.point.probe_m), kTravelStep_m);
+      if (std::isfinite(p_.point.probe_m[k]))
+        s.by_probe[k] = by_reading(carriage, s.travel_m, gain.col(static_cast<Eigen::Index>(k)));
+    s.by_travel = slope(solved(s.travel_m + kTravelStep_m), solved(s.travel_m - kTravelStep_m),
+                        kTravelStep_m);
     return s;
   }
 
  private:
-  Errors5 solved(double travel_m, const std::vector<double>& readings_m) const {
-    const AxisErrors errors = solver_.solve(travel_m, readings_m, p_.point.probe_u_m);
-    return restate(errors, solver_.model(), run_.header.axis, travel_m, kAtCarriage,
+  Errors5 stated(const AxisErrors& carriage, double travel_m) const {
+    return restate(carriage, solver_.model(), run_.header.axis, travel_m, kAtCarriage,
                    run_.header.stated)
         .local;
+  }
+  Errors5 solved(double travel_m) const {
+    return stated(solver_.solve(travel_m, p_.point.probe_m, p_.point.probe_u_m), travel_m);
   }
   static Errors5 slope(const Errors5& above, const Errors5& below, double step) {
     Errors5 out{};
     for (std::size_t e = 0; e < out.size(); ++e) out[e] = (above[e] - below[e]) / (2 * step);
     return out;
   }
-  Errors5 by_reading(double travel_m, std::size_t probe) const {
-    std::vector<double> above = p_.point.probe_m, below = above;
-    above[probe] += kReadingStep_m;
-    below[probe] -= kReadingStep_m;
-    return slope(solved(travel_m, above), solved(travel_m, below), kReadingStep_m);
+  Errors5 by_reading(const AxisErrors& carriage, double travel_m,
+                     const Eigen::VectorXd& gain) const {
+    AxisErrors above = carriage, below = carriage;
+    for (std::size_t e = 0; e < kErrorCount; ++e) {
+      const double step = kReadingStep_m * gain(static_cast<Eigen::Index>(e));
+      above.local[e] += step;
+      below.local[e] -= step;
+    }
+    return slope(stated(above, travel_m), stated(below, travel_m), kReadingStep_m);
   }
 
   const Solver& solver_;

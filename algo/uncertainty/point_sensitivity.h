@@ -18,8 +18,8 @@ struct PointSensitivity {
   Errors5 by_travel{};
 };
 
-// One a point of the run, by differences of the solver itself. The solver is of the run's rig and
-// model.
+// One a point of the run: of a reading by the solver's gain, of the travel by differences of the
+// solver itself. The solver is of the run's rig and model.
 std::vector<PointSensitivity> point_sensitivities(const Solver& solver, const Run& run);
 
 }  // namespace mdof::algo

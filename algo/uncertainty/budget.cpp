@@ -85,6 +85,11 @@ void complete(Budget& budget) {
   budget.U = budget.coverage_factor * budget.u;
 }
 
+void add_to(std::vector<Errors5>& sum, const std::vector<Errors5>& part, double factor) {
+  for (std::size_t i = 0; i < part.size(); ++i)
+    for (std::size_t k = 0; k < kErrorCount; ++k) sum[i][k] += factor * part[i][k];
+}
+
 // The distance from `value` within which 95 % of the trials lie.
 double distance_of_95_percent(std::vector<double> trials, double value) {
   for (double& trial : trials) trial = std::abs(trial - value);
@@ -185,7 +190,7 @@ RunBudgets::Random RunBudgets::random_of(const Figure& figure) const {
   return runs.u > targets.u ? runs : targets;
 }
 
-Budget RunBudgets::of(const Figure& figure) const {
+Budget RunBudgets::first_order(const Figure& figure) const {
   Budget budget;
   budget.figure = figure.name;
   budget.value = figure.of(means_);
@@ -201,35 +206,61 @@ Budget RunBudgets::of(const Figure& figure) const {
   budget.lines.push_back(noise);
   for (const Shifted& shifted : shifted_) budget.lines.push_back(line(figure, shifted));
   complete(budget);
-  if (!figure.is_range || !(budget.u > 0)) return budget;
-  budget.U = distance_of_95_percent(draw(figure, {kTrialsOfU, 1}), budget.value);
-  budget.coverage_factor = budget.U / budget.u;
-  budget.U_by_trials = true;
   return budget;
 }
 
-std::vector<double> RunBudgets::draw(const Figure& figure, const TrialsRequest& request,
-                                     std::uint32_t stream) const {
-  const Random random = random_of(figure);
-  const QuantileFunction noise(of_one_u({1, UncertaintyShape::normal, random.freedom}));
+Budget RunBudgets::of(const Figure& figure) const {
+  return of(std::vector{figure}).front();
+}
+
+std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
+  std::vector<Budget> budgets;
+  std::vector<Figure> ranges;
+  std::vector<std::size_t> place;  // of each range among the budgets
+  for (const Figure& figure : figures) {
+    budgets.push_back(first_order(figure));
+    if (!figure.is_range || !(budgets.back().u > 0)) continue;
+    ranges.push_back(figure);
+    place.push_back(budgets.size() - 1);
+  }
+  if (ranges.empty()) return budgets;
+  auto values = draw(ranges, {kTrialsOfU, 1});
+  for (std::size_t r = 0; r < ranges.size(); ++r) {
+    Budget& budget = budgets[place[r]];
+    budget.U = distance_of_95_percent(std::move(values[r]), budget.value);
+    budget.coverage_factor = budget.U / budget.u;
+    budget.U_by_trials = true;
+  }
+  return budgets;
+}
+
+std::vector<std::vector<double>> RunBudgets::draw(const std::vector<Figure>& figures,
+                                                  const TrialsRequest& request,
+                                                  std::uint32_t stream) const {
+  std::vector<Random> random;
+  std::vector<QuantileFunction> noise, alone;
+  for (const Figure& figure : figures) {
+    random.push_back(random_of(figure));
+    noise.emplace_back(of_one_u({1, UncertaintyShape::normal, random.back().freedom}));
+  }
   const QuantileFunction normal(of_one_u({1, UncertaintyShape::normal, kInfinite}));
-  std::vector<QuantileFunction> alone;
   for (const Shifted& s : shifted_) alone.emplace_back(of_one_u(s.contributor.declared));
-  std::vector<double> values(request.trials);
+  std::vector<std::vector<double>> values(figures.size(), std::vector<double>(request.trials));
+  MeanErrors means = means_;
   for (std::uint64_t trial = 0; trial < request.trials; ++trial) {
     std::uint64_t q = 0;
     const auto next = [&] { return algo::draw({request.seed, stream}, trial, q++); };
-    MeanErrors means = means_;
-    const double added = random.u * noise.at(next());
+    const double of_noise = next();
+    MeanShifts moved(means_.targets.size());
     for (std::size_t s = 0; s < shifted_.size(); ++s) {
-      const bool one = shifted_[s].parts.size() == 1;
-      for (const MeanShifts& part : shifted_[s].parts) {
-        const double z = (one ? alone[s] : normal).at(next());
-        for (std::size_t i = 0; i < part.size(); ++i)
-          for (std::size_t k = 0; k < kErrorCount; ++k) means.targets[i].named[k] += z * part[i][k];
-      }
+      const QuantileFunction& of_parts = shifted_[s].parts.size() == 1 ? alone[s] : normal;
+      for (const MeanShifts& part : shifted_[s].parts) add_to(moved, part, of_parts.at(next()));
     }
-    values[trial] = figure.of(means) + added;
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      for (std::size_t k = 0; k < kErrorCount; ++k)
+        means.targets[i].named[k] = means_.targets[i].named[k] + moved[i][k];
+    for (std::size_t f = 0; f < figures.size(); ++f)
+      values[f][trial] = figures[f].of(means) + random[f].u * noise[f].at(of_noise);
   }
   return values;
 }
@@ -296,8 +327,8 @@ Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& 
     budget.not_declared.emplace_back("u_artefact_angle_urad");
   complete(budget);
   if (request.trials < 2) return budget;
-  std::vector<double> values = along_x.draw(slope_x, request, 0);
-  const std::vector<double> of_y = along_y.draw(slope_y, request, 1);
+  std::vector<double> values = along_x.draw({slope_x}, request, 0).front();
+  const std::vector<double> of_y = along_y.draw({slope_y}, request, 1).front();
   const QuantileFunction normal(of_one_u({1, UncertaintyShape::normal, kInfinite}));
   for (std::uint64_t t = 0; t < request.trials; ++t)
     values[t] = -values[t] - of_y[t] + artefact.corner * artefact.angle_error_rad +

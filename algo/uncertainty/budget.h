@@ -36,10 +36,16 @@ class RunBudgets {
   // trials lie (JCGM 101): noise makes the range of a trial larger than the measured one, as it
   // made the measured one larger than the true one. A figure that is NaN has a budget of NaN.
   Budget of(const Figure& figure) const;
-  // JCGM 101: the figure of many trials, in each of which all contributors are drawn from their
-  // distributions, and what is random from Student's t. Any other `stream` is independent.
-  std::vector<double> draw(const Figure& figure, const TrialsRequest& request,
-                           std::uint32_t stream = 0) const;
+  // Of each; the trials are drawn once for all of them.
+  std::vector<Budget> of(const std::vector<Figure>& figures) const;
+  // The same without trials: U is k u of a range too.
+  Budget first_order(const Figure& figure) const;
+  // JCGM 101: each figure of many trials, in each of which all contributors are drawn from their
+  // distributions, and what is random from Student's t. Any other `stream` is independent. What a
+  // figure gets does not depend on which others are asked for.
+  std::vector<std::vector<double>> draw(const std::vector<Figure>& figures,
+                                        const TrialsRequest& request,
+                                        std::uint32_t stream = 0) const;
 
  private:
   struct Random {

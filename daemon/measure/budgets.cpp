@@ -52,9 +52,8 @@ std::vector<Budget> figure_budgets(const Run& run) {
   const auto rig = rig_of(run.header);
   const auto of_run = rig ? algo::RunBudgets::create(*rig, run) : tl::unexpected(rig.error());
   if (!of_run || of_run->cost() > kMostCost) return budgets;
-  for (const algo::Figure& figure : algo::figures_of_run(run.header.axis))
-    if (Budget budget = of_run->of(figure); std::isfinite(budget.value))
-      budgets.push_back(std::move(budget));
+  budgets = of_run->of(algo::figures_of_run(run.header.axis));
+  std::erase_if(budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
   return budgets;
 }
 
@@ -78,7 +77,8 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
                        figure.name);
     }
     if (request.trials.trials > 1)
-      budget.trials = algo::summary_of(of_run.draw(figure, request.trials), request.trials.seed);
+      budget.trials =
+          algo::summary_of(of_run.draw({figure}, request.trials).front(), request.trials.seed);
     found.budgets.push_back(std::move(budget));
   }
   if (found.budgets.empty())

@@ -100,7 +100,7 @@ Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>&
   MDOF_TRY(const Rig rig, rig_of(run.header));
   MDOF_TRY(const auto budgets, algo::RunBudgets::create(rig, run));
   for (std::size_t f = 0; f < figures.size(); ++f) {
-    const Budget budget = budgets.of(figures[f]);
+    const Budget budget = budgets.first_order(figures[f]);
     if (std::isfinite(budget.value))
       trends[f].values.push_back({{header.id}, header.started_utc, budget.value, budget.u_random});
     else

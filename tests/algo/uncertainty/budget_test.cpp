@@ -110,8 +110,8 @@ TEST(Budget, LinesAreInOrderAndSharesAddToOne) {
   EXPECT_NEAR(shares, 1, 1e-12);
   EXPECT_FALSE(at.noise_only);
   // First order and Monte Carlo agree where the model is nearly linear.
-  const BudgetTrials trials =
-      summary_of(budgets.draw(error_figure(Axis::x, 0, 9), {.trials = 20000, .seed = 3}), 3);
+  const BudgetTrials trials = summary_of(
+      budgets.draw({error_figure(Axis::x, 0, 9)}, {.trials = 20000, .seed = 3}).front(), 3);
   EXPECT_NEAR(trials.u / at.u, 1, 0.02);
   EXPECT_NEAR((trials.high - trials.low) / 2 / at.U, 1, 0.03);
 }
@@ -123,7 +123,8 @@ TEST(Budget, TrialsHaveTheDeclaredDistributions) {
   const Rig one = rig_x_with("D", flat);
   const auto of_one = RunBudgets::create(one, SyntheticRun{.rig = one}.measure()).value();
   const Figure error = error_figure(Axis::x, 0, 1);
-  const BudgetTrials trials = summary_of(of_one.draw(error, {.trials = 50000, .seed = 1}), 1);
+  const BudgetTrials trials =
+      summary_of(of_one.draw({error}, {.trials = 50000, .seed = 1}).front(), 1);
   EXPECT_NEAR(trials.u, 1e-6, 0.01e-6);
   EXPECT_NEAR(trials.high, 0.95 * std::sqrt(3.0) * 1e-6, 0.01e-6);
 }

@@ -1,6 +1,7 @@
 // The table of formats: one row each. A new one: a file beside this one, and its row here.
 #include <algorithm>
 
+#include "daemon/output/controllers/error_rows.h"
 #include "daemon/output/controllers/export.h"
 #include "daemon/output/controllers/linuxcnc.h"
 #include "daemon/output/controllers/table_json.h"
@@ -31,6 +32,39 @@ const std::vector<Format>& formats() {
        .takes_home = false,
        .write = write_table_json,
        .read = read_table_json},
+      {.name = "siemens-lec",
+       .of = "Siemens SINUMERIK, encoder error compensation (ENC_COMP)",
+       .holds = "positioning, one value for both approaches; a file an axis",
+       .limits = "200 points at equal steps; linear between them, end values hold",
+       .sense = "value = +E in mm: a positive value moves the axis in the negative direction",
+       .source = "manual of the 808D, 01/2017; not run on a control",
+       .sign_confirmed = true,
+       .quantum_m = 2e-9,
+       .takes_home = false,
+       .write = write_lec,
+       .read = read_lec},
+      {.name = "beckhoff-ssfk",
+       .of = "Beckhoff TwinCAT CNC, lead screw compensation (kw.ssfk)",
+       .holds = "positioning, positive and negative travel; a file an axis",
+       .limits = "1500 rows; whole numbers of 0.1 um; unit and interval are not written",
+       .sense = "value = actual - set = +E in 0.1 um",
+       .source = "worked example of the manual; not run on a control",
+       .sign_confirmed = true,
+       .quantum_m = 1e-7,
+       .takes_home = false,
+       .write = write_ssfk,
+       .read = read_ssfk},
+      {.name = "weihong",
+       .of = "Weihong NcStudio, NK: axeserr.dat",
+       .holds = "positioning, forward and backward; one file of all axes",
+       .limits = "10000 rows an axis, a limit of mdof's own",
+       .sense = "forward and backward error = +E in mm",
+       .source = "inferred from the backlash example of the manual",
+       .sign_confirmed = false,
+       .quantum_m = 2e-9,
+       .takes_home = false,
+       .write = write_weihong,
+       .read = read_weihong},
   };
   return rows;
 }

@@ -14,6 +14,14 @@
 
 namespace mdof {
 
+// The error of an axis along itself (EXX, EYY, EZZ), which the five probes do not see, by position;
+// m. Of the axis' actual minus its commanded place in the controller's own coordinates, so that the
+// correction is -E whichever body moves. NaN: no value there.
+struct PositioningErrors {
+  std::vector<double> forward, reverse, u_forward, u_reverse;
+  std::vector<double> u_declared;  // empty: not declared
+};
+
 // Sense: the table holds errors (actual - nominal) of the body that moves. What a controller adds
 // to the command of an axis follows from the machine's chain (schema/rig/correction.h), and without
 // one is not known; every reply and export states which of the two it shows.
@@ -34,6 +42,7 @@ struct CompensationTable {
   // By what the rigs declare: common to both approaches, the larger of the two. Empty: they declare
   // nothing, or the table is older than this.
   std::array<std::vector<double>, 5> u_declared;
+  PositioningErrors positioning;  // empty: not measured. Of imported runs
   // Built when tables did not say at which point they hold (at the carriage, in fact), nor which
   // way a correction goes: not to be served.
   bool without_stated_point = false;
@@ -41,6 +50,7 @@ struct CompensationTable {
   std::string sha256;  // of the canonical JSON of the above
 
   bool has_declared() const { return !u_declared.front().empty(); }
+  bool has_positioning() const { return !positioning.forward.empty(); }
   // Combined standard uncertainty of a named error at a position, of an approach.
   double u_of(const std::array<std::vector<double>, 5>& u_random, std::size_t named,
               std::size_t row) const {

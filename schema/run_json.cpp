@@ -5,6 +5,7 @@
 
 #include "schema/base/sha256.h"
 #include "schema/figures_json.h"
+#include "schema/imported/series.h"
 #include "schema/plausibility_json.h"
 #include "schema/rig/correction.h"
 #include "schema/uncertainty/budget_json.h"
@@ -29,6 +30,10 @@ void write_corrections(JsonWriter& json, const CompensationTable& t) {
     if (!signs.gap[k].empty()) json.field("reason", signs.gap[k]);
     json.end_object();
   }
+  if (t.has_positioning()) {
+    json.key(positioning_name(t.axis) + "_um").begin_object().field("factor", -1);
+    json.field("command", std::string(1, letter(t.axis))).end_object();
+  }
   json.end_object();
 }
 
@@ -38,21 +43,35 @@ void write_strings(JsonWriter& json, const char* key, const std::vector<std::str
   json.end_array();
 }
 
-void write_side(JsonWriter& json, const CompensationTable& t,
-                const std::array<std::vector<double>, 5>& values,
-                const std::array<std::vector<double>, 5>& u, std::size_t row) {
+// What a table holds of an approach.
+struct Side {
+  const std::array<std::vector<double>, 5>&values, &u;
+  const std::vector<double>&along, &u_along;
+};
+
+void write_side(JsonWriter& json, const CompensationTable& t, const Side& side, std::size_t row) {
   const auto write_five = [&](auto value) {
     for (std::size_t k = 0; k < kErrorCount; ++k)
       json.field(error_names(t.axis)[k].key, to_key_unit(value(k)));
   };
+  const auto write_along = [&](double value) {
+    if (t.has_positioning()) json.field(positioning_name(t.axis) + "_um", to_key_unit(value));
+  };
+  const auto along = [&](const std::vector<double>& series) {
+    return t.has_positioning() ? series[row] : std::nan("");
+  };
   json.begin_object();
-  write_five([&](std::size_t k) { return values[k][row]; });
+  write_five([&](std::size_t k) { return side.values[k][row]; });
+  write_along(along(side.along));
   json.key("u").begin_object();
-  write_five([&](std::size_t k) { return t.u_of(u, k, row); });
+  write_five([&](std::size_t k) { return t.u_of(side.u, k, row); });
+  write_along(t.has_declared() ? std::hypot(along(side.u_along), along(t.positioning.u_declared))
+                               : along(side.u_along));
   json.end_object();
   if (t.has_declared()) {
     json.key("u_random").begin_object();
-    write_five([&](std::size_t k) { return u[k][row]; });
+    write_five([&](std::size_t k) { return side.u[k][row]; });
+    write_along(along(side.u_along));
     json.end_object();
   }
   json.end_object();
@@ -76,7 +95,7 @@ bool redundant(const MeasuredPoint& p) {
 
 // The scans of a CSV log are not numbered: nobody knows of one that it is missing.
 bool lost_is_known(const RunHeader& h) {
-  return h.provenance.recording_kind != "csv" || h.scans_lost > 0;
+  return (h.provenance.recording_kind != "csv" && !is_imported(h)) || h.scans_lost > 0;
 }
 
 }  // namespace
@@ -253,9 +272,11 @@ std::string with_texts(std::string json, const std::string& name,
 void write_table_row(JsonWriter& json, const CompensationTable& t, std::size_t row) {
   json.begin_object().field("position_mm", to_mm(t.position_m[row]));
   json.key("forward");
-  write_side(json, t, t.forward, t.u_forward, row);
+  write_side(json, t, {t.forward, t.u_forward, t.positioning.forward, t.positioning.u_forward},
+             row);
   json.key("reverse");
-  write_side(json, t, t.reverse, t.u_reverse, row);
+  write_side(json, t, {t.reverse, t.u_reverse, t.positioning.reverse, t.positioning.u_reverse},
+             row);
   json.end_object();
 }
 
@@ -287,8 +308,12 @@ void write_hashed_members(JsonWriter& json, const CompensationTable& t) {
 
 void write_table_members(JsonWriter& json, const CompensationTable& t) {
   write_hashed_members(json, t);
-  json.field("u_covers", t.has_declared() ? "noise, repeatability and what the rigs declare"
-                                          : "noise and repeatability only");
+  if (t.has_positioning())
+    json.field("u_covers", t.has_declared() ? "repeatability and what was declared at import"
+                                            : "repeatability only");
+  else
+    json.field("u_covers", t.has_declared() ? "noise, repeatability and what the rigs declare"
+                                            : "noise and repeatability only");
 }
 
 std::string table_json(const CompensationTable& t) {

@@ -6,17 +6,20 @@
 
 #include "algo/compensation/compensation.h"
 #include "algo/compensation/declared_uncertainty.h"
+#include "algo/compensation/imported_table.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/budget.h"
 #include "daemon/history.h"
 #include "daemon/paths.h"
 #include "schema/base/toml_reader.h"
+#include "schema/imported/series.h"
 #include "schema/run_json.h"
 
 namespace mdof::daemon {
 
 Result<Rig> rig_of(const RunHeader& run) {
+  MDOF_CHECK(check_measured(run, "this"));
   const std::string of = run.id == 0 ? "the run" : "run " + std::to_string(run.id);
   MDOF_TRY(Rig rig, parse_rig(run.provenance.rig_text, of + " (its rig)"));
   if (rig.machine.known() || run.provenance.configuration.empty()) return rig;
@@ -98,8 +101,38 @@ std::vector<std::string> table_notes(const std::vector<Run>& runs) {
   return notes;
 }
 
+namespace {
+
+Status store_built(store::Store& store, CompensationTable& table, const std::optional<Deed>& deed) {
+  table.created_utc = utc_now();
+  table.sha256 = table_sha256(table);
+  MDOF_TRY(table.id, store.add_table(table, deed));
+  return {};
+}
+
+// Of imported runs: the first is one.
+Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& request) {
+  std::vector<Run> runs;
+  for (const std::int64_t id : request.runs) {
+    MDOF_TRY(Run run, store.run(id));
+    runs.push_back(std::move(run));
+  }
+  MDOF_TRY(CompensationTable table, algo::build_positioning_table(runs));
+  MDOF_CHECK(store_built(store, table, request.deed));
+  auto notes = table_notes(runs);
+  for (auto& note : algo::positioning_notes(runs)) notes.push_back(std::move(note));
+  return BuiltTable{std::move(table), algo::inherited_warnings(algo::all_of(runs)),
+                    std::move(notes)};
+}
+
+}  // namespace
+
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request) {
   MDOF_CHECK(check_table_runs(store, request.runs));
+  if (!request.runs.empty()) {
+    MDOF_TRY(const RunHeader first, store.run_header(request.runs.front()));
+    if (is_imported(first)) return build_positioning(store, request);
+  }
   std::vector<Run> runs;
   std::vector<Rig> rigs;
   algo::TableOptions options;
@@ -122,9 +155,7 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
   }
   MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
-  table.created_utc = utc_now();
-  table.sha256 = table_sha256(table);
-  MDOF_TRY(table.id, store.add_table(table, request.deed));
+  MDOF_CHECK(store_built(store, table, request.deed));
   MDOF_TRY(auto warnings, table_warnings(runs));
   if (!declared)
     warnings.push_back("its u is noise and repeatability only, without what the rigs declare: " +
@@ -138,6 +169,11 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
     return bad_input(store.file().string() + ": compensation table " + std::to_string(table.id) +
                      " is not what was built (its hash differs), so that it is not put in force; "
                      "build it again from its runs");
+  if (table.has_positioning())
+    return fail(ErrorCode::conflict,
+                "table " + std::to_string(table.id) + " holds " + positioning_name(table.axis) +
+                    ", which mdofd does not serve: the controller has it from a file, mdof "
+                    "compensation export");
   std::vector<Run> runs(table.runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     MDOF_TRY(runs[i], store.run(table.runs[i]));

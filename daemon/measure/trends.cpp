@@ -9,6 +9,7 @@
 
 #include "algo/uncertainty/budget.h"
 #include "daemon/measure/evaluation.h"
+#include "schema/imported/series.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -64,14 +65,16 @@ void choose_kind(Chosen& chosen, bool mixed) {
 
 Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
   Chosen chosen;
-  std::vector<std::int64_t> simulated, partial, superseded, again;
+  std::vector<std::int64_t> simulated, partial, superseded, again, imported;
   std::set<std::string> recordings;
   for (std::int64_t offset = 0;; offset += kRunsPage) {
     MDOF_TRY(const auto page, store.list_runs(offset, kRunsPage, axis));  // newest first
     for (const RunHeader& run : page) {
       MDOF_TRY(const auto by, store.superseded_by(run.id));
       const std::string& recording = run.provenance.recording_sha256;
-      if (by)
+      if (is_imported(run))
+        imported.push_back(run.id);
+      else if (by)
         superseded.push_back(run.id);
       else if (run.simulated)
         simulated.push_back(run.id);
@@ -84,6 +87,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
     }
     if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
   }
+  leave_out(chosen.left_out, imported, "imported: it has no figures of a run");
   leave_out(chosen.left_out, simulated, "simulated");
   leave_out(chosen.left_out, partial, "not complete");
   leave_out(chosen.left_out, superseded, "superseded");

@@ -23,21 +23,48 @@ constexpr std::string_view kTable =
     "moves, travel, reference, point_m, chain, chain_travel "
     "FROM compensation_table ";
 
-// Numbers a position: with what the rigs declare where they do.
+// Numbers a position: with what the rigs declare where they do, and with positioning where it was
+// imported.
 constexpr std::size_t kSeries = 20, kSeriesWithDeclared = 25;
+constexpr std::size_t kPositioning = 4, kPositioningWithDeclared = 5;
+
+struct Parts {
+  bool declared = false, positioning = false;
+  std::size_t series() const {
+    return (declared ? kSeriesWithDeclared : kSeries) + (!positioning ? 0
+                                                         : declared   ? kPositioningWithDeclared
+                                                                      : kPositioning);
+  }
+};
+
+// None: no table has so many numbers.
+std::optional<Parts> parts_of(std::size_t numbers, std::size_t positions) {
+  for (const Parts parts : {Parts{false, false}, {true, false}, {false, true}, {true, true}})
+    if (numbers == parts.series() * positions) return parts;
+  return std::nullopt;
+}
+
+Parts parts_of(const CompensationTable& table) {
+  return {table.has_declared(), table.has_positioning()};
+}
 
 // The series in the order in which they are stored.
 template <class Table, class Visit>
-void for_each_series(Table& table, bool with_declared, Visit visit) {
+void for_each_series(Table& table, const Parts& parts, Visit visit) {
   for (auto* group : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
     for (auto& series : *group) visit(series);
-  if (with_declared)
+  if (parts.declared)
     for (auto& series : table.u_declared) visit(series);
+  if (!parts.positioning) return;
+  auto& along = table.positioning;
+  for (auto* series : {&along.forward, &along.reverse, &along.u_forward, &along.u_reverse})
+    visit(*series);
+  if (parts.declared) visit(along.u_declared);
 }
 
 Status check_shape(const CompensationTable& table) {
   bool fits = true;
-  for_each_series(table, table.has_declared(),
+  for_each_series(table, parts_of(table),
                   [&](const auto& s) { fits &= s.size() == table.position_m.size(); });
   if (fits) return {};
   return fail(ErrorCode::usage, "compensation table: each series must have one value for each of " +
@@ -46,15 +73,15 @@ Status check_shape(const CompensationTable& table) {
 
 std::vector<double> all_series(const CompensationTable& table) {
   std::vector<double> all;
-  for_each_series(table, table.has_declared(),
+  for_each_series(table, parts_of(table),
                   [&](const auto& s) { all.insert(all.end(), s.begin(), s.end()); });
   return all;
 }
 
-void set_series(CompensationTable& table, const std::vector<double>& all) {
+void set_series(CompensationTable& table, const Parts& parts, const std::vector<double>& all) {
   const std::size_t n = table.position_m.size();
   auto from = all.begin();
-  for_each_series(table, all.size() == kSeriesWithDeclared * n, [&](auto& series) {
+  for_each_series(table, parts, [&](auto& series) {
     series.assign(from, from + static_cast<std::ptrdiff_t>(n));
     from += static_cast<std::ptrdiff_t>(n);
   });
@@ -188,12 +215,12 @@ Result<CompensationTable> Store::table_of(Statement& row) {
   table.sha256 = row.text(5);
   table.position_m = doubles_from(row.bytes(6));
   const std::vector<double> errors = doubles_from(row.bytes(7));
-  const std::size_t n = table.position_m.size();
-  if (errors.size() != kSeries * n && errors.size() != kSeriesWithDeclared * n)
+  const auto parts = parts_of(errors.size(), table.position_m.size());
+  if (!parts)
     return bad_input(file().string() + ": compensation table " + std::to_string(table.id) +
                      " is damaged; restore the database from a backup");
   MDOF_CHECK(check_link(connection_, Fact::table, table.id));
-  set_series(table, errors);
+  set_series(table, *parts, errors);
   MDOF_CHECK(read_statement(row, table));
   MDOF_TRY(table.runs, sources(table.id));
   return table;

@@ -81,7 +81,7 @@ TEST_F(StoreTest, AFileThatMayNotGrowStoresNothingByHalves) {
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{400'000, 400'000};
+    const rlimit limit{600'000, 600'000};
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(1);
     auto store = writer();
     std::int64_t stored = 0;

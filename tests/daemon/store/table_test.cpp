@@ -55,6 +55,20 @@ TEST_F(StoreTest, GivesACompensationTableBackToTheLastBit) {
     EXPECT_EQ(bits(declared.u_declared[k]), bits(table.u_declared[k]));
     EXPECT_EQ(bits(declared.u_reverse[k]), bits(table.u_reverse[k]));
   }
+  table.positioning = {
+      table.forward[1], table.reverse[2], table.u_forward[3], {kNaN, -0.0, 1e-9}, {}};
+  for (const bool with_declared : {true, false}) {
+    table.positioning.u_declared = with_declared ? table.forward[4] : std::vector<double>();
+    if (!with_declared) table.u_declared = {};
+    const CompensationTable along = store->table(store->add_table(table).value()).value();
+    EXPECT_EQ(along.has_declared(), with_declared);
+    EXPECT_EQ(bits(along.u_reverse[4]), bits(table.u_reverse[4]));
+    EXPECT_EQ(bits(along.positioning.forward), bits(table.positioning.forward));
+    EXPECT_EQ(bits(along.positioning.reverse), bits(table.positioning.reverse));
+    EXPECT_EQ(bits(along.positioning.u_forward), bits(table.positioning.u_forward));
+    EXPECT_EQ(bits(along.positioning.u_reverse), bits(table.positioning.u_reverse));
+    EXPECT_EQ(bits(along.positioning.u_declared), bits(table.positioning.u_declared));
+  }
   table.forward[2].pop_back();
   EXPECT_EQ(store->add_table(table).error().code, ErrorCode::usage);
 }

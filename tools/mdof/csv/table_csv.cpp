@@ -1,5 +1,7 @@
 #include "tools/mdof/csv/table_csv.h"
 
+#include "schema/imported/series.h"
+#include "schema/iso230/positioning.h"
 #include "schema/units.h"
 #include "tools/mdof/csv/csv_text.h"
 
@@ -20,6 +22,11 @@ std::string table_csv(const CompensationTable& t) {
   const bool declared = t.has_declared();
   if (declared)
     for (const auto& name : error_names(t.axis)) csv.cell(std::string("u_declared_") + name.key);
+  const auto& along = t.positioning;
+  const std::string key = positioning_name(t.axis) + "_um";
+  if (t.has_positioning())
+    for (const char* prefix : {"forward_", "u_forward_", "reverse_", "u_reverse_", "u_declared_"})
+      csv.cell(prefix + key);
   csv.end_row();
   for (std::size_t i = 0; i < t.position_m.size(); ++i) {
     csv.cell(to_mm(t.position_m[i]));
@@ -27,6 +34,12 @@ std::string table_csv(const CompensationTable& t) {
       for (const auto& series : group.values) csv.cell(to_key_unit(series[i]));
     if (declared)
       for (const auto& series : t.u_declared) csv.cell(to_key_unit(series[i]));
+    if (t.has_positioning()) {
+      for (const auto* series :
+           {&along.forward, &along.u_forward, &along.reverse, &along.u_reverse})
+        csv.cell(to_key_unit((*series)[i]));
+      csv.cell(declared ? to_key_unit(along.u_declared[i]) : kNoFigure);
+    }
     csv.end_row();
   }
   return csv.take();

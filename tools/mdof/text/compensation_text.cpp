@@ -1,5 +1,8 @@
 #include "tools/mdof/text/compensation_text.h"
 
+#include <cmath>
+
+#include "schema/imported/series.h"
 #include "schema/rig/correction.h"
 #include "schema/run_json.h"
 #include "tools/mdof/terminal.h"
@@ -14,6 +17,17 @@ using Columns = std::array<std::vector<double>, 5>;
 void write_state(JsonWriter& json, std::int64_t generation) {
   json.field("in_force", generation > 0).key("generation");
   generation > 0 ? json.value(generation) : json.null();
+}
+
+// Of positioning alone: no other error was measured.
+std::string positioning_text(const CompensationTable& t, const std::vector<double>& values,
+                             const std::vector<double>& u) {
+  TextTable out({"position/mm", error_label(positioning_name(t.axis) + "_um")});
+  for (std::size_t i = 0; i < t.position_m.size(); ++i) {
+    const double u_all = t.has_declared() ? std::hypot(u[i], t.positioning.u_declared[i]) : u[i];
+    out.add({in_mm(t.position_m[i]), with_u(in_um(values[i]), in_um(u_all))});
+  }
+  return out.text(terminal_columns());
 }
 
 std::string side_text(const CompensationTable& t, const Columns& values, const Columns& u) {
@@ -38,6 +52,9 @@ std::string runs_of(const CompensationTable& t) {
 }
 
 std::string corrections_text(const CompensationTable& t, std::size_t width) {
+  if (t.has_positioning())
+    return std::string(1, letter(t.axis)) + " command: add -" + positioning_name(t.axis) +
+           ", whichever body moves\n";
   const CorrectionSigns signs = correction_signs(t.machine, t.axis);
   if (!t.machine.known()) return wrapped("correction: not known; " + signs.gap[0], width, 2) + "\n";
   std::string text = "machine " + t.machine.text + " (" + travels_of(t.machine) + ")\n";
@@ -69,7 +86,21 @@ std::string table_document(const CompensationTable& t, std::int64_t generation) 
   return json.take();
 }
 
+std::string table_of_positioning_text(const CompensationTable& t) {
+  const PositioningErrors& along = t.positioning;
+  return simulated_notice(t.simulated) +
+         wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) +
+                     ", positioning of the imported runs " + runs_of(t) + ", " + t.created_utc,
+                 terminal_columns()) +
+         "\nerrors: actual - nominal, as measured\n" + corrections_text(t, terminal_columns()) +
+         "\nforward\n" + positioning_text(t, along.forward, along.u_forward) + "\nreverse\n" +
+         positioning_text(t, along.reverse, along.u_reverse) + "± one standard uncertainty: " +
+         (t.has_declared() ? "repeatability and what was declared at import\n"
+                           : "repeatability only\n");
+}
+
 std::string table_text(const CompensationTable& t, std::int64_t generation) {
+  if (t.has_positioning()) return table_of_positioning_text(t);
   return simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) + ", " +
                      state_of(generation) + ", of the runs " + runs_of(t) + ", " + t.created_utc,

@@ -77,6 +77,10 @@ Status build(const BuildCommand& asked) {
   MDOF_CHECK(command.json ? write_line(with_texts(with_warnings(table_document(table, 0), warnings),
                                                   "notes", notes))
                           : write_out(table_text(table, 0)));
+  if (table.has_positioning()) {
+    say("stored; a controller gets it by: mdof compensation export " + std::to_string(table.id));
+    return {};
+  }
   say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id) +
       (warnings.empty() && notes.empty() ? "" : " --despite-warnings"));
   return {};

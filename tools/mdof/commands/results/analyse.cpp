@@ -4,6 +4,7 @@
 #include "algo/iso230/straightness.h"
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
+#include "schema/imported/series.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "schema/uncertainty/budget_json.h"
@@ -60,6 +61,7 @@ std::string stated_figures_text(const std::vector<Budget>& figures) {
 Status analyse(const ChosenRun& choice) {
   MDOF_TRY(store::Store store, open_to_read(choice.database));
   MDOF_TRY(const Run run, load_run(store, choice));
+  MDOF_CHECK(check_measured(run.header, "an analysis"));
   if (choice.csv) {
     warn_of(run, choice.all_warnings);
     return write_out(figures_csv(run));

@@ -9,6 +9,7 @@
 #include "algo/iso230/positioning_uncertainty.h"
 #include "daemon/measure/evaluation.h"
 #include "drivers/csv/positioning_csv.h"
+#include "schema/imported/series.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -80,6 +81,7 @@ Status iso230_of_run(const Iso230Command& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
   MDOF_TRY(const Run run, daemon::run_stated_at(store, id, reference));
+  MDOF_CHECK(check_measured(run.header, "--run (give the file itself to mdof iso230-2)"));
   MDOF_TRY(const RunPositioning found,
            run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
   warn_all(found.warnings, command.all_warnings);

@@ -4,6 +4,7 @@
 #include "algo/iso230/straightness.h"
 #include "daemon/history.h"
 #include "daemon/measure/budgets.h"
+#include "schema/imported/series.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
@@ -14,6 +15,7 @@
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/analyses/drift_text.h"
 #include "tools/mdof/text/history_text.h"
+#include "tools/mdof/text/imported_text.h"
 #include "tools/mdof/text/run_tables.h"
 
 namespace mdof::tools {
@@ -32,9 +34,23 @@ std::string with_lines_hash_and_history(const Run& run, const std::string& sha25
          "\",\"history\":" + history.take() + "}";
 }
 
+Status show_imported(store::Store& store, const Run& run, const ChosenRun& choice) {
+  MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
+  MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
+  if (choice.csv) {
+    warn_of(run, choice.all_warnings);
+    return write_out(imported_csv(run));
+  }
+  if (choice.json) return write_line(imported_json(run, sha256, deeds));
+  const std::size_t width = terminal_columns();
+  return write_out(imported_text(run, sha256, width, choice.all_warnings) +
+                   history_text(deeds, width));
+}
+
 Status show(const ChosenRun& choice) {
   MDOF_TRY(store::Store store, open_to_read(choice.database));
   MDOF_TRY(const Run run, load_run(store, choice));
+  if (is_imported(run.header)) return show_imported(store, run, choice);
   if (choice.csv) {
     warn_of(run, choice.all_warnings);
     return write_out(points_csv(run, daemon::uncertainty_of(run)));

@@ -1,0 +1,179 @@
+#include "algo/compensation/imported_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/base/number/number_text.h"
+#include "schema/sample.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kSamePosition_m = 1e-7;
+
+std::vector<double> distinct(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  std::vector<double> out;
+  for (const double at : x)
+    if (out.empty() || at - out.back() > kSamePosition_m) out.push_back(at);
+  return out;
+}
+
+std::vector<double> targets_of(const Run& run) {
+  std::vector<double> positions;
+  for (const MeasuredPoint& p : run.points) positions.push_back(p.target_m);
+  return distinct(std::move(positions));
+}
+
+std::string name_of(const Run& run) {
+  return "run " + std::to_string(run.header.id);
+}
+
+Status check_one(const Run& run, const Run& first) {
+  const Axis axis = first.header.axis;
+  if (!is_imported(run.header))
+    return bad_input(name_of(run) + " was measured by mdof and " + name_of(first) +
+                     " is imported; build a table of each");
+  const std::string& error = run.header.provenance.model;
+  if (run.header.axis != axis)
+    return bad_input(name_of(run) + " is of axis " + letter(run.header.axis) + ", " +
+                     name_of(first) + " of " + letter(axis) + "; a table is of one axis");
+  if (error != positioning_name(axis))
+    return bad_input(
+        name_of(run) + " is an imported " + error +
+        ", of which nobody knows at which point it holds; a table is built of imported "
+        "positioning (" +
+        positioning_name(axis) + ")");
+  if (run.header.simulated != first.header.simulated)
+    return bad_input(name_of(run.header.simulated ? run : first) +
+                     " is simulated and the other measured: no table is made of both");
+  return {};
+}
+
+Status check_sources(const std::vector<Run>& runs) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    MDOF_CHECK(check_one(runs[i], runs.front()));
+    for (std::size_t j = 0; j < i; ++j)
+      if (runs[i].header.provenance.recording_sha256 == runs[j].header.provenance.recording_sha256)
+        return bad_input(
+            name_of(runs[j]) + " and " + name_of(runs[i]) +
+            " are of the same file: readings that count twice make the uncertainty too "
+            "small; leave one out");
+  }
+  return {};
+}
+
+// Readings of one approach at each target of the grid.
+Result<std::vector<std::vector<double>>> readings_of(const std::vector<Run>& runs,
+                                                     const std::vector<double>& grid,
+                                                     int direction) {
+  std::vector<std::vector<double>> at(grid.size());
+  for (const Run& run : runs)
+    for (const MeasuredPoint& p : run.points) {
+      const std::size_t i = target_at(grid, p.target_m);
+      if (std::abs(grid[i] - p.target_m) > kSamePosition_m)
+        return bad_input(name_of(run) + " has a target at " + plain_number(to_mm(p.target_m), 9) +
+                         " mm and " + name_of(runs.front()) +
+                         " none; build one table from runs of the same targets");
+      if (p.point.direction == direction || p.point.direction == 0)
+        at[i].push_back(p.point.probe_m.at(0));
+    }
+  return at;
+}
+
+double mean_of(const std::vector<double>& x) {
+  double sum = 0;
+  for (const double v : x) sum += v;
+  return x.empty() ? kNaN : sum / static_cast<double>(x.size());
+}
+
+double u_of_mean(const std::vector<double>& x) {
+  if (x.size() < 2) return kNaN;
+  const double mean = mean_of(x), n = static_cast<double>(x.size());
+  double squares = 0;
+  for (const double v : x) squares += (v - mean) * (v - mean);
+  return std::sqrt(squares / (n - 1) / n);
+}
+
+// NaN: a run declares none.
+double declared_of(const std::vector<Run>& runs) {
+  double largest = 0;
+  for (const Run& run : runs)
+    for (const MeasuredPoint& p : run.points) {
+      if (p.point.probe_u_m.empty()) return kNaN;
+      largest = std::max(largest, p.point.probe_u_m.front());
+    }
+  return largest;
+}
+
+void set_declared(CompensationTable& table, double u) {
+  if (std::isnan(u)) return;
+  const std::size_t n = table.position_m.size();
+  table.u_declared.fill(std::vector<double>(n, kNaN));
+  table.positioning.u_declared.assign(n, u);
+}
+
+}  // namespace
+
+std::vector<double> imported_targets(const std::vector<ImportedReading>& readings) {
+  std::vector<double> positions;
+  for (const ImportedReading& r : readings) positions.push_back(r.position_m);
+  return distinct(std::move(positions));
+}
+
+std::size_t target_at(const std::vector<double>& targets, double position_m) {
+  const auto above = std::lower_bound(targets.begin(), targets.end(), position_m);
+  if (above == targets.begin()) return 0;
+  const auto below = above - 1;
+  const bool take_above = above != targets.end() && *above - position_m < position_m - *below;
+  return static_cast<std::size_t>((take_above ? above : below) - targets.begin());
+}
+
+Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs) {
+  if (runs.empty()) return bad_input("a compensation table needs at least one run");
+  MDOF_CHECK(check_sources(runs));
+  CompensationTable table;
+  table.axis = runs.front().header.axis;
+  table.slope_removed = false;
+  table.position_m = targets_of(runs.front());
+  const std::size_t n = table.position_m.size();
+  if (n < 2)
+    return bad_input(name_of(runs.front()) + " has one target; a table needs at least two");
+  for (const Run& run : runs) {
+    table.runs.push_back(run.header.id);
+    table.simulated = table.simulated || run.header.simulated;
+  }
+  for (auto* group : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
+    group->fill(std::vector<double>(n, kNaN));
+  MDOF_TRY(const auto forward, readings_of(runs, table.position_m, 1));
+  MDOF_TRY(const auto reverse, readings_of(runs, table.position_m, -1));
+  PositioningErrors& along = table.positioning;
+  for (std::size_t i = 0; i < n; ++i) {
+    along.forward.push_back(mean_of(forward[i]));
+    along.reverse.push_back(mean_of(reverse[i]));
+    along.u_forward.push_back(u_of_mean(forward[i]));
+    along.u_reverse.push_back(u_of_mean(reverse[i]));
+  }
+  set_declared(table, declared_of(runs));
+  return table;
+}
+
+std::vector<std::string> positioning_notes(const std::vector<Run>& runs) {
+  std::vector<std::string> notes;
+  bool one_reading = false;
+  for (const Run& run : runs) {
+    const bool unknown = std::any_of(run.points.begin(), run.points.end(),
+                                     [](const auto& p) { return p.point.direction == 0; });
+    if (unknown)
+      notes.push_back(name_of(run) +
+                      " does not say from which side its targets were approached: forward and "
+                      "reverse are alike, and a reversal is not corrected");
+    one_reading = one_reading || run.points.size() == targets_of(run).size();
+  }
+  if (runs.size() == 1 && one_reading)
+    notes.push_back("one reading a target: its repeatability is not known, and u is null");
+  return notes;
+}
+
+}  // namespace mdof::algo

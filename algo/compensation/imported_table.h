@@ -1,0 +1,29 @@
+// Imported runs of an axis' positioning -> a table, which holds EXX (EYY, EZZ) alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/compensation_table.h"
+#include "schema/imported/series.h"
+#include "schema/run.h"
+
+namespace mdof::algo {
+
+// The different positions, ascending; those within 0.1 µm are one.
+std::vector<double> imported_targets(const std::vector<ImportedReading>& readings);
+// The nearest of them.
+std::size_t target_at(const std::vector<double>& targets, double position_m);
+
+// The mean deviation at each target by approach, as measured: no line is taken from it. A reading
+// whose approach was not said counts for both. u: s/√n of the repeats (n - 1); NaN where there is
+// one reading. What was declared at import stands beside it, the largest of the runs', where each
+// has it. Errors: a run that was not imported, of another axis or error, of the same file; other
+// targets; fewer than two.
+Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs);
+
+// What a reader of that table should know.
+std::vector<std::string> positioning_notes(const std::vector<Run>& runs);
+
+}  // namespace mdof::algo

@@ -1,0 +1,95 @@
+#include "daemon/measure/imported/import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "algo/compensation/imported_table.h"
+#include "daemon/paths.h"
+#include "daemon/version.h"
+#include "drivers/imported/imported_file.h"
+#include "schema/base/json_writer.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+std::string options_json(const ImportRequest& request, const ImportedError& error,
+                         const ImportedSeries& series) {
+  JsonWriter json;
+  json.begin_object().key("imported").begin_object();
+  json.field("error", error.name).field("format", series.format);
+  json.field("readings", static_cast<std::uint64_t>(series.readings.size()));
+  json.key(error.angle ? "u_urad" : "u_um");
+  request.u_si ? json.value(to_key_unit(*request.u_si)) : json.null();
+  json.key("about").begin_array();
+  for (const std::string& line : series.about) json.value(line);
+  json.end_array().end_object().end_object();
+  return json.take();
+}
+
+MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targets,
+                       const ImportRequest& request, const ImportedError& error) {
+  MeasuredPoint p;
+  const std::size_t target = algo::target_at(targets, r.position_m);
+  p.target = static_cast<int>(target) + 1;
+  p.target_m = targets[target];
+  p.run = r.run;
+  p.point.position_m = r.position_m;
+  p.point.direction = r.direction;
+  p.point.samples = 1;
+  p.point.probe_m = {r.deviation};
+  if (request.u_si) p.point.probe_u_m = {*request.u_si};
+  p.errors.reason = "imported: " + error.name + " alone";
+  return p;
+}
+
+// A deviation as long as the way between two targets is one in another unit.
+std::vector<std::string> doubts(const ImportedSeries& series, const ImportedError& error,
+                                const std::vector<double>& targets) {
+  double largest = 0, step = std::numeric_limits<double>::infinity();
+  for (const ImportedReading& r : series.readings)
+    largest = std::max(largest, std::abs(r.deviation));
+  for (std::size_t i = 1; i < targets.size(); ++i)
+    step = std::min(step, targets[i] - targets[i - 1]);
+  if (error.angle || largest < step) return {};
+  return {"deviations of up to " + plain_number(to_um(largest)) + " um are as long as the " +
+          plain_number(to_mm(step)) + " mm between targets: are they in um?"};
+}
+
+}  // namespace
+
+Result<Run> imported_run(const ImportRequest& request) {
+  const std::string name = request.error.empty() ? positioning_name(request.axis) : request.error;
+  MDOF_TRY(const ImportedError error, imported_error(request.axis, name));
+  if (request.u_si && !(*request.u_si >= 0 && std::isfinite(*request.u_si)))
+    return fail(ErrorCode::usage, "the standard uncertainty must be a finite number, not negative");
+  MDOF_TRY(const ImportedSeries series,
+           drivers::read_imported_file(request.file, request.format, error.angle));
+  Run run;
+  RunHeader& header = run.header;
+  header.axis = request.axis;
+  header.state = RunState::complete;
+  header.simulated = series.simulated;
+  header.started_utc = utc_now();
+  header.note = request.note;
+  header.scans = series.readings.size();
+  std::error_code ec;
+  header.provenance = {"imported " + series.format,
+                       std::filesystem::absolute(request.file, ec).string(),
+                       series.sha256,
+                       "",
+                       error.name,
+                       kVersion,
+                       options_json(request, error, series),
+                       ""};
+  const std::vector<double> targets = algo::imported_targets(series.readings);
+  header.warnings = doubts(series, error, targets);
+  for (const ImportedReading& r : series.readings)
+    run.points.push_back(point_of(r, targets, request, error));
+  return run;
+}
+
+}  // namespace mdof::daemon

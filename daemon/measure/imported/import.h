@@ -1,0 +1,26 @@
+// What another instrument measured, as a run: a file that is read once and kept by name and hash.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "schema/base/result.h"
+#include "schema/imported/series.h"
+#include "schema/run.h"
+
+namespace mdof::daemon {
+
+struct ImportRequest {
+  std::string file;
+  Axis axis = Axis::x;
+  std::string error;           // "EXX"; empty: the positioning of the axis
+  std::string format;          // as of read_imported_file(); empty: told by the file
+  std::optional<double> u_si;  // standard uncertainty of a deviation, common to all; m or rad
+  std::string note;
+};
+
+// Complete, not stored. Errors: those of imported_error() and read_imported_file(); an uncertainty
+// that is none.
+Result<Run> imported_run(const ImportRequest& request);
+
+}  // namespace mdof::daemon

@@ -1,0 +1,206 @@
+#include "daemon/output/controllers/check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/output/controllers/series.h"
+#include "schema/imported/series.h"
+#include "schema/units.h"
+
+namespace mdof::controllers {
+namespace {
+
+constexpr int kBetween = 4;  // places in each step of the grid
+constexpr double kRounding_m = 1e-12;
+
+double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  if (at <= x.front()) return y.front();
+  if (at >= x.back()) return y.back();
+  const auto above = std::upper_bound(x.begin(), x.end(), at);
+  const auto i = static_cast<std::size_t>(above - x.begin());
+  return y[i - 1] + (y[i] - y[i - 1]) * ((at - x[i - 1]) / (x[i] - x[i - 1]));
+}
+
+// The simulated machine: how an error of the axis `along`, and a correction of `command`, move the
+// tool against the work. Told from the chain's bodies, not from the factor that the export used.
+struct Machine {
+  double error = 1, command = 1;
+  bool own = false;  // the corrected axis is the measured one: the correction also moves where E is
+};
+
+Machine machine_of(const CompensationTable& table, const AppliedCorrection& applied) {
+  if (applied.along == applied.command) return {1, 1, true};
+  const ChainAxis* measured = table.machine.find(applied.along);
+  const ChainAxis* corrected = table.machine.find(applied.command);
+  Machine machine;
+  if (measured && measured->carries_work) machine.error = -1;
+  if (corrected && corrected->carries_work) machine.command *= -1;
+  if (corrected && corrected->against_command) machine.command *= -1;
+  return machine;
+}
+
+// One approach: what the axis has, and what the controller adds.
+struct Approach {
+  const std::vector<double>&error_at, &error, &added_at, &added;
+};
+
+double tool_error(const Machine& machine, const Approach& a, double x, double sign) {
+  const double c = sign * interpolated(a.added_at, a.added, x);
+  const double at = machine.own ? x + c : x;
+  return machine.error * interpolated(a.error_at, a.error, at) + machine.command * c;
+}
+
+class Trial {
+ public:
+  Trial(const Series& series, const AppliedCorrection& applied, const Machine& machine, double zero)
+      : series_(series), applied_(applied), machine_(machine), zero_(zero) {}
+
+  // Largest over both approaches; `sign` 0: without correction, -1: the wrong one.
+  double residual(double sign, bool swapped, bool one_way) const {
+    double largest = 0;
+    for (const double x : places()) {
+      const double f = at(x, sign, !swapped, true), r = at(x, sign, swapped, false);
+      const double of_both = one_way ? std::abs(0.5 * (f + r)) : std::max(std::abs(f), std::abs(r));
+      largest = std::max(largest, of_both);
+    }
+    return largest;
+  }
+  // |E dE/dx| of the correction's own place, where it moves the axis that was measured.
+  double second_order() const {
+    if (!machine_.own) return 0;
+    double largest = 0, steepest = 0;
+    for (const auto* y : {&series_.forward, &series_.reverse})
+      for (std::size_t i = 1; i < y->size(); ++i) {
+        steepest =
+            std::max(steepest, std::abs(((*y)[i] - (*y)[i - 1]) /
+                                        (series_.position_m[i] - series_.position_m[i - 1])));
+        largest = std::max({largest, std::abs((*y)[i]), std::abs((*y)[i - 1])});
+      }
+    return (largest + std::abs(zero_)) * steepest;
+  }
+
+ private:
+  double at(double x, double sign, bool added_forward, bool forward) const {
+    const Approach approach{series_.position_m, forward ? series_.forward : series_.reverse,
+                            applied_.position_m,
+                            added_forward ? applied_.forward : applied_.reverse};
+    return tool_error(machine_, approach, x, sign) + sign * machine_.command * zero_;
+  }
+  std::vector<double> places() const {
+    std::vector<double> x;
+    const double first = std::max(series_.position_m.front(), applied_.position_m.front());
+    const double last = std::min(series_.position_m.back(), applied_.position_m.back());
+    for (std::size_t i = 0; i + 1 < series_.position_m.size(); ++i)
+      for (int k = 0; k <= kBetween; ++k) {
+        const double a = series_.position_m[i], b = series_.position_m[i + 1];
+        const double place = a + (b - a) * k / kBetween;
+        if (place >= first && place <= last) x.push_back(place);
+      }
+    return x;
+  }
+
+  const Series& series_;
+  const AppliedCorrection& applied_;
+  Machine machine_;
+  double zero_;  // what was taken from the correction, so that it is 0 at home
+};
+
+Control control_of(const std::string& name, double residual, double bound, double change) {
+  return {name, residual, residual > bound, change <= 2 * bound};
+}
+
+double largest_reversal(const Series& s) {
+  double largest = 0;
+  for (std::size_t i = 0; i < s.position_m.size(); ++i)
+    largest = std::max(largest, std::abs(s.forward[i] - s.reverse[i]));
+  return largest;
+}
+
+// A hole of the table is no part of what was exported.
+Series without_missing(const Series& s) {
+  Series whole = s;
+  whole.position_m.clear();
+  whole.forward.clear();
+  whole.reverse.clear();
+  for (std::size_t i = 0; i < s.position_m.size(); ++i) {
+    if (!std::isfinite(s.forward[i]) || !std::isfinite(s.reverse[i])) continue;
+    whole.position_m.push_back(s.position_m[i]);
+    whole.forward.push_back(s.forward[i]);
+    whole.reverse.push_back(s.reverse[i]);
+  }
+  return whole;
+}
+
+// The constant that the file lacks: the machine's zero is moved by it, which is no error.
+double zero_of(const Series& s, const ExportOptions& options) {
+  if (!options.home_m) return 0;
+  return s.factor * 0.5 *
+         (interpolated(s.position_m, s.forward, *options.home_m) +
+          interpolated(s.position_m, s.reverse, *options.home_m));
+}
+
+CheckedError judged(const Format& format, const CompensationTable& table, const Series& measured,
+                    const AppliedCorrection& applied, const Export& exported,
+                    const ExportOptions& options) {
+  const Series series = without_missing(measured);
+  const Trial trial(series, applied, machine_of(table, applied),
+                    format.takes_home ? zero_of(series, options) : 0);
+  CheckedError e;
+  e.error = applied.error;
+  e.angle = series.angle;
+  e.one_way = applied.forward == applied.reverse && largest_reversal(series) > 0;
+  double thinning = 0;
+  for (const Written& written : exported.written)
+    if (written.error == e.error) thinning = written.largest_deviation;
+  e.before = trial.residual(0, false, e.one_way);
+  e.residual = trial.residual(1, false, e.one_way);
+  e.bound = thinning + format.quantum_m + trial.second_order() + kRounding_m;
+  e.cancels = e.residual <= e.bound;
+  e.controls.push_back(
+      control_of("wrong sign", trial.residual(-1, false, e.one_way), e.bound, 2 * e.before));
+  if (!e.one_way)
+    e.controls.push_back(control_of("forward and reverse swapped", trial.residual(1, true, false),
+                                    e.bound, largest_reversal(series)));
+  return e;
+}
+
+const CompensationTable* table_of(const std::vector<CompensationTable>& tables, char axis) {
+  for (const CompensationTable& table : tables)
+    if (letter(table.axis) == axis) return &table;
+  return nullptr;
+}
+
+}  // namespace
+
+bool Check::passed() const {
+  return !errors.empty() && std::all_of(errors.begin(), errors.end(), [](const CheckedError& e) {
+    return e.cancels && std::all_of(e.controls.begin(), e.controls.end(),
+                                    [](const Control& c) { return c.detected || c.too_small; });
+  });
+}
+
+Result<Check> check_export(const Format& format, const std::vector<CompensationTable>& tables,
+                           const Export& exported, const ExportOptions& options) {
+  MDOF_TRY(const auto applied, format.read(exported.files));
+  Check check;
+  for (const AppliedCorrection& one : applied) {
+    const CompensationTable* table = table_of(tables, one.along);
+    const auto series = table ? series_of(*table) : std::vector<Series>();
+    const Series* measured = find_series(series, one.error);
+    if (!measured)
+      return fail(ErrorCode::check, "the files correct " + one.error + ", which no table has");
+    check.errors.push_back(judged(format, *table, *measured, one, exported, options));
+  }
+  for (const Written& written : exported.written) {
+    const bool there = std::any_of(check.errors.begin(), check.errors.end(),
+                                   [&](const auto& e) { return e.error == written.error; });
+    const bool known =
+        written.error[1] == written.error[2] ||
+        std::any_of(tables.begin(), tables.end(), [](const auto& t) { return t.machine.known(); });
+    if (!there && known)
+      return fail(ErrorCode::check, written.error + " was written and is not read back");
+  }
+  return check;
+}
+
+}  // namespace mdof::controllers

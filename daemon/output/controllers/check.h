@@ -1,0 +1,42 @@
+// Does what was exported make the error vanish? The files are read back by the controller's own
+// rules and applied to a simulated axis that has the table's errors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "daemon/output/controllers/export.h"
+
+namespace mdof::controllers {
+
+// The same with a mistake planted: the check is worth something only if it is seen.
+struct Control {
+  std::string name;        // "wrong sign", "forward and reverse swapped"
+  double residual = 0;     // m or rad
+  bool detected = false;   // beyond the bound
+  bool too_small = false;  // the mistake would change less than the bound: it cannot be seen
+};
+
+struct CheckedError {
+  std::string error;
+  bool angle = false;
+  bool one_way = false;  // the controller holds one value for both approaches: their mean is judged
+  double before = 0;     // largest error without the correction, m or rad
+  double residual = 0;   // with it, both approaches, on the grid and between
+  double bound = 0;      // thinning, step of the numbers, and second order
+  bool cancels = false;
+  std::vector<Control> controls;
+};
+
+struct Check {
+  std::vector<CheckedError> errors;
+  bool passed() const;
+};
+
+// Of what `format` wrote of these tables. Each error is the table's own, joined by straight lines.
+// Errors: files that the controller would not read as meant; a correction of an error that no table
+// has.
+Result<Check> check_export(const Format& format, const std::vector<CompensationTable>& tables,
+                           const Export& exported, const ExportOptions& options);
+
+}  // namespace mdof::controllers

@@ -1,0 +1,86 @@
+// Compensation tables as files of machine controllers: pure functions from values to texts and
+// back.
+//
+// Sense. A table holds errors E = actual - nominal of the body that moves. What is added to the
+// command of an axis so that the error vanishes is factor * E: of positioning -E whichever body
+// moves, of the others by the machine's chain (schema/rig/correction.h). A controller's file may
+// hold the correction or the error: its row in formats.cpp says which, and where that is known
+// from.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/compensation_table.h"
+
+namespace mdof::controllers {
+
+// One error of one axis against the position of that axis.
+struct Series {
+  std::string error;   // "EXX"
+  char along = 'X';    // the axis whose position it is told by
+  char command = 'X';  // the axis whose command takes the correction
+  bool angle = false;
+  int factor = 0;                                    // correction = factor * E; 0: not known
+  std::string gap;                                   // why it is not
+  std::vector<double> position_m, forward, reverse;  // E; m or rad
+};
+
+struct ExportOptions {
+  double tolerance_m = 0;          // points are left out within it; 0: none is. Of angles in rad
+  bool cut_range = false;          // the longest range without a missing value, instead of refusing
+  std::optional<double> home_m;    // the correction is 0 there (mean of both approaches)
+  std::vector<std::string> marks;  // what a reader of the files has to be told
+};
+
+struct ControllerFile {
+  std::string name, text;
+};
+
+// What became of a series.
+struct Written {
+  std::string error;
+  std::size_t points = 0, points_before = 0;
+  double largest_deviation = 0;  // by thinning, m or rad
+};
+
+struct Export {
+  std::vector<ControllerFile> files;
+  std::vector<Written> written;
+  std::vector<std::string> left_out;  // what the controller cannot hold
+  std::vector<std::string> notes;
+};
+
+// What a controller adds to a command, as its own rules read the files: linear between the
+// positions, held beyond the ends, chosen by the sign of the velocity.
+struct AppliedCorrection {
+  std::string error;
+  char along = 'X', command = 'X';
+  std::vector<double> position_m, forward, reverse;  // correction, m or rad
+};
+
+struct Format {
+  const char* name;   // "linuxcnc"
+  const char* of;     // the controller
+  const char* holds;  // what of a table goes in
+  const char* limits;
+  const char* sense;    // what its values mean
+  const char* source;   // where that sense is known from
+  bool sign_confirmed;  // else the export has to be asked for
+  double quantum_m;     // step of its numbers
+  bool takes_home;      // ExportOptions::home_m is taken out of it
+  Result<Export> (*write)(const std::vector<CompensationTable>& tables,
+                          const ExportOptions& options);
+  // The controller's own strict grammar; an error names file and line.
+  Result<std::vector<AppliedCorrection>> (*read)(const std::vector<ControllerFile>& files);
+};
+
+// In the order of the help.
+const std::vector<Format>& formats();
+// Error (usage): names those there are.
+Result<const Format*> format_named(const std::string& name);
+
+}  // namespace mdof::controllers

@@ -1,0 +1,171 @@
+#include "daemon/output/controllers/linuxcnc.h"
+
+#include <array>
+#include <cmath>
+
+#include "daemon/output/controllers/series.h"
+#include "daemon/output/controllers/text_lines.h"
+#include "schema/base/number/number_text.h"
+#include "schema/imported/series.h"
+#include "schema/units.h"
+
+namespace mdof::controllers {
+namespace {
+
+constexpr std::size_t kMostRows = 256, kLongestLine = 253;
+constexpr int kDecimals = 9;  // of mm
+constexpr const char* kIni = "compensation.ini";
+constexpr const char* kAxes = "XYZ";
+
+double correction_at(const Series& s, double at_m) {
+  std::size_t i = 1;
+  while (i + 1 < s.position_m.size() && s.position_m[i] < at_m) ++i;
+  const double from = s.position_m[i - 1], to = s.position_m[i];
+  const double share = std::min(std::max((at_m - from) / (to - from), 0.0), 1.0);
+  const auto mean = [&](std::size_t k) { return 0.5 * (s.forward[k] + s.reverse[k]); };
+  return s.factor * (mean(i - 1) + (mean(i) - mean(i - 1)) * share);
+}
+
+std::string rows_text(const Series& s, double zero_m) {
+  std::string text;
+  for (std::size_t i = 0; i < s.position_m.size(); ++i) {
+    const auto trim = [&](double error) { return to_mm(s.factor * error - zero_m); };
+    text += fixed(to_mm(s.position_m[i]), kDecimals) + " " + fixed(trim(s.forward[i]), kDecimals) +
+            " " + fixed(trim(s.reverse[i]), kDecimals) + "\n";
+  }
+  return text;
+}
+
+// The constant that makes the trim 0 at home; where nobody said where that is, what it is at 0.
+double zero_of(const Series& s, const ExportOptions& options, Export& out) {
+  const double there = correction_at(s, options.home_m.value_or(0.0));
+  const std::string um = plain_number(to_um(there)) + " um";
+  if (options.home_m) {
+    out.notes.push_back(
+        s.error + ": " + um + " was taken from every trim, so that it is 0 at home (" +
+        plain_number(to_mm(*options.home_m)) + " mm); the axis' zero is moved by it");
+    return there;
+  }
+  if (std::abs(there) > 1e-9)
+    out.notes.push_back(
+        s.error + ": the trim is " + um +
+        " at 0 mm, by which the first motion after homing steps; --home-mm takes it "
+        "out");
+  return 0;
+}
+
+std::string ini_of(const CompensationTable& table, const ExportOptions& options) {
+  const std::string file = std::string(1, letter(table.axis)) + ".comp";
+  std::string text;
+  for (const std::string& line :
+       head_lines(table, options,
+                  "columns are position, trim forward, trim reverse in mm; trim = -" +
+                      positioning_name(table.axis) + ", added to the motor command"))
+    text += "# " + line + "\n";
+  const int joint = static_cast<int>(table.axis);
+  return text + "[JOINT_" + std::to_string(joint) + "]\nCOMP_FILE = " + file +
+         "\nCOMP_FILE_TYPE = 1\n";
+}
+
+Status add_joint(const CompensationTable& table, const ExportOptions& options, Export& out,
+                 std::string& ini) {
+  const std::string error = positioning_name(table.axis);
+  const auto series = series_of(table);
+  for (const Series& s : series)
+    if (s.error != error)
+      out.left_out.push_back(s.error + " of table " + std::to_string(table.id) +
+                             ": a COMP_FILE corrects a joint by its own position");
+  const Series* along = find_series(series, error);
+  if (!along)
+    return bad_input("table " + std::to_string(table.id) + " has no " + error +
+                     ", and a COMP_FILE of LinuxCNC holds nothing else; import the positioning of "
+                     "the axis (mdof import) and build a table of it");
+  MDOF_TRY(const Series s, fitted(*along, table.id, kMostRows, options, out));
+  out.files.push_back(
+      {std::string(1, letter(table.axis)) + ".comp", rows_text(s, zero_of(s, options, out))});
+  ini += ini_of(table, options);
+  return {};
+}
+
+Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int type) {
+  AppliedCorrection read{{'E', axis, axis}, axis, axis, {}, {}, {}};
+  const auto lines = lines_of(file.text);
+  if (lines.empty() || lines.size() > kMostRows)
+    return bad_input(file.name + ": " + std::to_string(lines.size()) +
+                     " rows, and LinuxCNC takes 1 to " + std::to_string(kMostRows));
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    const auto words = words_of(lines[n]);
+    std::array<double, 3> row{};
+    bool three = words.size() == row.size() && lines[n].size() <= kLongestLine;
+    for (std::size_t i = 0; three && i < row.size(); ++i) {
+      const auto x = decimal_from(words[i]);
+      three = x.has_value();
+      row[i] = from_mm(x.value_or(0));
+    }
+    if (!three)
+      return wrong_at(file.name, n + 1, "not three numbers: LinuxCNC would stop reading here");
+    if (n > 0 && !(row[0] > read.position_m.back()))
+      return wrong_at(file.name, n + 1,
+                      "the position does not increase: LinuxCNC would skip the row");
+    read.position_m.push_back(row[0]);
+    read.forward.push_back(type == 0 ? row[0] - row[1] : row[1]);
+    read.reverse.push_back(type == 0 ? row[0] - row[2] : row[2]);
+  }
+  return read;
+}
+
+// What the ini lines have said of one joint.
+struct JointLines {
+  std::string file;
+  int type = 0;  // LinuxCNC's default
+};
+
+}  // namespace
+
+Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
+                              const ExportOptions& options) {
+  MDOF_CHECK(check_one_table_an_axis(tables));
+  Export out;
+  std::string ini =
+      "# For the ini file of LinuxCNC, with the .comp files beside it. Restart LinuxCNC to change "
+      "a "
+      "table.\n# Joints 0 1 2 are X Y Z. A joint with a table ignores BACKLASH. A .comp file has "
+      "no "
+      "comments: it would be cut there.\n";
+  for (const CompensationTable& table : tables) MDOF_CHECK(add_joint(table, options, out, ini));
+  out.files.push_back({kIni, ini});
+  return out;
+}
+
+Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<ControllerFile>& files) {
+  const ControllerFile* ini = find_file(files, kIni);
+  if (!ini) return bad_input(std::string(kIni) + ": is not there");
+  std::array<JointLines, 3> joints;
+  std::size_t joint = joints.size(), n = 0;
+  for (const std::string_view line : lines_of(ini->text)) {
+    ++n;
+    if (line.starts_with("#")) continue;
+    const auto words = words_of(line);
+    if (line.starts_with("[JOINT_") && line.size() == 9) {
+      joint = static_cast<std::size_t>(line[7] - '0');
+    } else if (joint < joints.size() && words.size() == 3 && words[0] == "COMP_FILE") {
+      joints[joint].file = std::string(words[2]);
+    } else if (joint < joints.size() && words.size() == 3 && words[0] == "COMP_FILE_TYPE") {
+      joints[joint].type = words[2] == "0" ? 0 : 1;
+    } else {
+      return wrong_at(kIni, n, "is no line of a joint");
+    }
+  }
+  std::vector<AppliedCorrection> all;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].file.empty()) continue;
+    const ControllerFile* file = find_file(files, joints[j].file);
+    if (!file)
+      return bad_input(joints[j].file + ": is not there, and LinuxCNC would never come up");
+    MDOF_TRY(AppliedCorrection read, read_comp(*file, kAxes[j], joints[j].type));
+    all.push_back(std::move(read));
+  }
+  return all;
+}
+
+}  // namespace mdof::controllers

@@ -1,0 +1,157 @@
+#include "daemon/output/controllers/series.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "algo/compensation/thinning.h"
+#include "schema/base/number/number_text.h"
+#include "schema/imported/series.h"
+#include "schema/rig/correction.h"
+#include "schema/units.h"
+
+namespace mdof::controllers {
+namespace {
+
+bool any_value(const std::vector<double>& x) {
+  return std::any_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
+}
+
+bool has_value(const Series& s, std::size_t i) {
+  return std::isfinite(s.forward[i]) && std::isfinite(s.reverse[i]);
+}
+
+std::string place_text(double position_m) {
+  return plain_number(to_mm(position_m), 9) + " mm";
+}
+
+// First and last + 1 of the longest run of positions with both values.
+std::pair<std::size_t, std::size_t> longest_range(const Series& s) {
+  std::pair<std::size_t, std::size_t> best{0, 0};
+  for (std::size_t i = 0, begin = 0; i <= s.position_m.size(); ++i) {
+    if (i < s.position_m.size() && has_value(s, i)) continue;
+    if (i - begin > best.second - best.first) best = {begin, i};
+    begin = i + 1;
+  }
+  return best;
+}
+
+Series part_of(const Series& s, const std::vector<std::size_t>& kept) {
+  Series part = s;
+  part.position_m.clear();
+  part.forward.clear();
+  part.reverse.clear();
+  for (const std::size_t i : kept) {
+    part.position_m.push_back(s.position_m[i]);
+    part.forward.push_back(s.forward[i]);
+    part.reverse.push_back(s.reverse[i]);
+  }
+  return part;
+}
+
+Series range_of(const Series& s, std::pair<std::size_t, std::size_t> range) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = range.first; i < range.second; ++i) kept.push_back(i);
+  return part_of(s, kept);
+}
+
+// "table 3, EXX"
+std::string of_table(const Series& s, std::int64_t table) {
+  return "table " + std::to_string(table) + ", " + s.error;
+}
+
+Result<Series> without_holes(const Series& s, std::int64_t table, bool cut, Export& out) {
+  const auto [first, end] = longest_range(s);
+  if (end - first == s.position_m.size()) return s;
+  std::size_t hole = 0;
+  while (has_value(s, hole)) ++hole;
+  const std::string missing = of_table(s, table) + ": no " +
+                              (std::isfinite(s.forward[hole]) ? "reverse" : "forward") +
+                              " value at " + place_text(s.position_m[hole]);
+  if (end - first < 2)
+    return bad_input(missing + ", nor at two places in a row; nothing to export");
+  const std::string range =
+      place_text(s.position_m[first]) + " to " + place_text(s.position_m[end - 1]);
+  if (!cut)
+    return bad_input(missing + "; measure it, or take " + range + " alone with --cut-range");
+  out.notes.push_back(missing + ": only " + range + " is exported, and the end values hold beyond");
+  return range_of(s, {first, end});
+}
+
+Result<Series> short_enough(const Series& s, std::int64_t table, std::size_t most,
+                            const ExportOptions& options, Export& out) {
+  const std::vector<std::vector<double>> columns{s.forward, s.reverse};
+  auto thin = algo::thinned(s.position_m, columns, options.tolerance_m);
+  if (!thin) return in_context(of_table(s, table), std::move(thin.error()));
+  if (thin->kept.size() > most) {
+    MDOF_TRY(const double enough, algo::tolerance_for(s.position_m, columns, most));
+    return bad_input(of_table(s, table) + ": " + std::to_string(thin->kept.size()) +
+                     " points, and the controller takes " + std::to_string(most) +
+                     "; from --tolerance-um " + plain_number(to_um(enough * 1.01), 3) +
+                     " on they are few enough");
+  }
+  out.written.push_back({s.error, thin->kept.size(), s.position_m.size(), thin->largest_deviation});
+  return part_of(s, thin->kept);
+}
+
+}  // namespace
+
+std::vector<Series> series_of(const CompensationTable& table) {
+  const CorrectionSigns signs = correction_signs(table.machine, table.axis);
+  std::vector<Series> all;
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    const ErrorName& name = error_names(table.axis)[k];
+    if (!any_value(table.forward[k]) && !any_value(table.reverse[k])) continue;
+    all.push_back({name.name, letter(table.axis), corrected_by(name), name.angle, signs.factor[k],
+                   signs.gap[k], table.position_m, table.forward[k], table.reverse[k]});
+  }
+  const char axis = letter(table.axis);
+  if (table.has_positioning())
+    all.push_back({positioning_name(table.axis), axis, axis, false, -1, "", table.position_m,
+                   table.positioning.forward, table.positioning.reverse});
+  return all;
+}
+
+const Series* find_series(const std::vector<Series>& series, const std::string& error) {
+  for (const Series& s : series)
+    if (s.error == error) return &s;
+  return nullptr;
+}
+
+Result<Series> fitted(const Series& series, std::int64_t table, std::size_t most,
+                      const ExportOptions& options, Export& out) {
+  if (series.position_m.empty()) return bad_input(of_table(series, table) + ": has no points");
+  MDOF_TRY(const Series whole, without_holes(series, table, options.cut_range, out));
+  return short_enough(whole, table, most, options, out);
+}
+
+Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (tables[i].axis == tables[j].axis)
+        return fail(ErrorCode::usage, "tables " + std::to_string(tables[j].id) + " and " +
+                                          std::to_string(tables[i].id) + " are both of axis " +
+                                          letter(tables[i].axis) + "; name one for each axis");
+  return {};
+}
+
+std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
+                                    const std::string& sense) {
+  std::vector<std::string> lines{"mdof compensation table " + std::to_string(table.id) + ", axis " +
+                                     letter(table.axis) + ", made " + table.created_utc,
+                                 "sha256 of the table " + table.sha256, "sense: " + sense};
+  for (const std::string& mark : options.marks) lines.push_back(mark);
+  return lines;
+}
+
+std::string fixed(double x, int decimals) {
+  std::array<char, 400> text{};
+  const int size = std::snprintf(text.data(), text.size(), "%.*f", decimals, x);
+  std::string out(text.data(), static_cast<std::size_t>(std::max(size, 0)));
+  if (out.starts_with("-") && out.find_first_not_of("-0.") == out.npos) out.erase(0, 1);
+  return out;
+}
+
+}  // namespace mdof::controllers

@@ -1,0 +1,32 @@
+// What of a table can be written, and how it becomes points of a controller.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "daemon/output/controllers/export.h"
+
+namespace mdof::controllers {
+
+// Of each error that has any value, in the order of the table; positioning last.
+std::vector<Series> series_of(const CompensationTable& table);
+// That of this name; nullptr: the table has none.
+const Series* find_series(const std::vector<Series>& series, const std::string& error);
+
+// `series` without holes, thinned by options.tolerance_m and not longer than `most` points; what
+// became of it goes to `out`. Errors (bad_input) name table, error, position and remedy: a missing
+// value, unless the range is to be cut; too many points, with the tolerance that would do.
+Result<Series> fitted(const Series& series, std::int64_t table, std::size_t most,
+                      const ExportOptions& options, Export& out);
+
+// Of two tables of one axis only one can be meant.
+Status check_one_table_an_axis(const std::vector<CompensationTable>& tables);
+
+// The lines that every file with comments has: table, hash, sense, marks. Without comment signs.
+std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
+                                    const std::string& sense);
+
+std::string fixed(double x, int decimals);  // never "-0"
+
+}  // namespace mdof::controllers

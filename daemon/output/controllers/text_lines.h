@@ -1,0 +1,23 @@
+// Pieces that the readers of controllers' files share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/output/controllers/export.h"
+
+namespace mdof::controllers {
+
+// Split at LF; a last line without one counts too.
+std::vector<std::string_view> lines_of(std::string_view text);
+// Split at spaces and tabs.
+std::vector<std::string_view> words_of(std::string_view line);
+// [-+]digits[.digits], all of the word.
+std::optional<double> decimal_from(std::string_view word);
+// "X.comp:7: what"
+tl::unexpected<Error> wrong_at(const std::string& file, std::size_t line, const std::string& what);
+const ControllerFile* find_file(const std::vector<ControllerFile>& files, std::string_view name);
+
+}  // namespace mdof::controllers

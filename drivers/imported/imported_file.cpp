@@ -1,0 +1,83 @@
+#include "drivers/imported/imported_file.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "drivers/csv/csv_table.h"
+#include "drivers/csv/positioning_csv.h"
+#include "drivers/imported/rtl.h"
+#include "schema/base/files.h"
+#include "schema/base/number/number_text.h"
+#include "schema/base/sha256.h"
+#include "schema/units.h"
+
+namespace mdof::drivers {
+namespace {
+
+constexpr double kMostRuns = 1e6;
+
+std::string format_of(const std::string& text) {
+  if (text.find("DEVIATIONS::") != text.npos) return "rtl";
+  return text.find("target_mm") != text.npos ? "iso230-2" : "csv";
+}
+
+Result<ImportedSeries> series_of_positioning(const std::string& path) {
+  MDOF_TRY(const PositioningCsv csv, read_positioning_csv(path));
+  ImportedSeries series;
+  series.simulated = csv.simulated;
+  for (const PositioningReading& r : csv.readings)
+    series.readings.push_back({r.target_m, r.direction, r.run, r.deviation});
+  return series;
+}
+
+Result<ImportedSeries> series_of_csv(const std::string& path, bool angle) {
+  const std::string deviation = angle ? "deviation_urad" : "deviation_um";
+  MDOF_TRY(const CsvTable table,
+           read_csv_table(path, {"position_mm", deviation}, {"direction", "run"}));
+  const auto &direction = table.columns[2], &run = table.columns[3];
+  ImportedSeries series;
+  series.simulated = table.simulated;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    ImportedReading r{from_mm(table.columns[0][row]), 0, 1, from_um(table.columns[1][row])};
+    if (!direction.empty()) {
+      if (std::abs(direction[row]) != 1)
+        return bad_input(table.where(row) + "column direction: " + plain_number(direction[row]) +
+                         "; give 1 (approached in the + sense) or -1");
+      r.direction = direction[row] > 0 ? 1 : -1;
+    }
+    if (!run.empty()) {
+      if (run[row] != std::floor(run[row]) || !(std::abs(run[row]) <= kMostRuns))
+        return bad_input(table.where(row) + "column run: " + plain_number(run[row]) +
+                         "; number the runs 1, 2, 3 ...");
+      r.run = static_cast<int>(run[row]);
+    }
+    series.readings.push_back(r);
+  }
+  return series;
+}
+
+Result<ImportedSeries> read(const std::string& path, const std::string& text,
+                            const std::string& format, const std::string& source, bool angle) {
+  if (angle && format != "csv")
+    return fail(ErrorCode::usage,
+                "an angle is imported from CSV with columns position_mm and deviation_urad");
+  if (format == "rtl") return parse_rtl(text, source);
+  return format == "iso230-2" ? series_of_positioning(path) : series_of_csv(path, angle);
+}
+
+}  // namespace
+
+Result<ImportedSeries> read_imported_file(const std::string& path, const std::string& asked,
+                                          bool angle) {
+  MDOF_TRY(const std::string text, read_text_file(path));
+  const std::string format = asked.empty() ? format_of(text) : asked;
+  const std::string source = std::filesystem::path(path).filename().string();
+  MDOF_TRY(ImportedSeries series, read(path, text, format, source, angle));
+  if (series.readings.empty()) return bad_input(source + ": has no readings");
+  series.format = format;
+  series.source = source;
+  series.sha256 = sha256_hex(text);
+  return series;
+}
+
+}  // namespace mdof::drivers

@@ -1,0 +1,17 @@
+// A series of deviations that another instrument measured, from a file.
+#pragma once
+
+#include <string>
+
+#include "schema/base/result.h"
+#include "schema/imported/series.h"
+
+namespace mdof::drivers {
+
+// `format`: "csv" (position_mm, deviation_um or _urad, and direction, run where there are such),
+// "iso230-2" (target_mm, direction, run, deviation_um), "rtl" (rtl.h); empty: told by the file. An
+// angle is read from CSV alone. Errors name file, line, column and remedy.
+Result<ImportedSeries> read_imported_file(const std::string& path, const std::string& format,
+                                          bool angle);
+
+}  // namespace mdof::drivers

@@ -1,0 +1,206 @@
+#include "drivers/imported/rtl.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "schema/base/number/number.h"
+#include "schema/base/trimmed.h"
+#include "schema/units.h"
+
+namespace mdof::drivers {
+namespace {
+
+constexpr std::size_t kMostTargets = 100'000, kMostRtlRuns = 1000;
+
+std::string utf8_from_latin1(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xC0 | (byte >> 6));
+      out += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return out;
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0;;) {
+    at = line.find_first_not_of(" \t\r", at);
+    if (at == line.npos) return words;
+    const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = end;
+  }
+}
+
+std::optional<double> number_from(std::string_view word) {
+  double x = 0;
+  const char* const end = parse_double(word.data(), word.data() + word.size(), x);
+  if (end != word.data() + word.size() || !std::isfinite(x)) return std::nullopt;
+  return x;
+}
+
+// A whole number from 1 to `most`; 0: it is none.
+std::size_t count_from(std::string_view word, std::size_t most) {
+  const auto x = number_from(word);
+  if (!x || *x != std::floor(*x) || *x < 1 || *x > static_cast<double>(most)) return 0;
+  return static_cast<std::size_t>(*x);
+}
+
+// What a line "key : value" has before its first colon, and behind it.
+std::pair<std::string_view, std::string_view> key_and_value(std::string_view line) {
+  const std::size_t colon = line.find(':');
+  if (colon == line.npos) return {trimmed(line), {}};
+  return {trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1))};
+}
+
+class Rtl {
+ public:
+  explicit Rtl(const std::string& source) : source_(source) {
+    series_.format = "rtl";
+    series_.source = source;
+  }
+
+  Status take(std::string_view line) {
+    ++line_;
+    line = trimmed(line);
+    if (line.empty()) return {};
+    if (line.ends_with("::")) {
+      section_ = std::string(line.substr(0, line.size() - 2));
+      in_targets_ = in_deviations_ = false;
+      return {};
+    }
+    if (section_ == "HEADER" || section_ == "USER-TEXT") return take_about(line);
+    if (section_ == "TARGET DATA") return take_target_line(line);
+    if (section_ == "RUNS") return take_run_count(line);
+    if (section_ == "DEVIATIONS") return take_deviation_line(line);
+    return {};  // EQUIPMENT, ENVIRONMENT: kept in the file
+  }
+
+  Result<ImportedSeries> finish() {
+    if (section_.empty())
+      return bad_input(source_ + ": has no section such as TARGET DATA::; this is no .rtl file");
+    if (targets_.empty() || targets_.size() != target_count_)
+      return bad_input(source_ + ": has " + std::to_string(targets_.size()) +
+                       " targets, and its Target-count is " + std::to_string(target_count_));
+    for (std::size_t i = 1; i < targets_.size(); ++i)
+      if (!(targets_[i] > targets_[i - 1]))
+        return bad_input(source_ + ": target " + std::to_string(i + 1) +
+                         " is not beyond the one before; forward would not be told from reverse");
+    if (series_.readings.size() != run_count_ * target_count_)
+      return bad_input(source_ + ": has " + std::to_string(series_.readings.size()) +
+                       " deviations; Run-count " + std::to_string(run_count_) + " times " +
+                       std::to_string(target_count_) + " targets are expected");
+    for (ImportedReading& reading : series_.readings)
+      reading.position_m = from_mm(targets_[static_cast<std::size_t>(reading.position_m)]);
+    return std::move(series_);
+  }
+
+ private:
+  tl::unexpected<Error> wrong(const std::string& what) const {
+    return bad_input(source_ + ":" + std::to_string(line_) + ": " + what);
+  }
+
+  Status take_about(std::string_view line) {
+    const auto [key, value] = key_and_value(line);
+    if (key == "File type" && value.find("ngular") != value.npos)
+      return wrong("a file of angles, whose scale is not public; deviations of lengths are read");
+    if (!value.empty())
+      series_.about.push_back(utf8_from_latin1(key) + ": " + utf8_from_latin1(value));
+    return {};
+  }
+
+  Status take_target_line(std::string_view line) {
+    const auto [key, value] = key_and_value(line);
+    if (key == "Target-count") {
+      target_count_ = count_from(value, kMostTargets);
+      return target_count_ > 0 ? Status() : wrong("Target-count is no number from 1 on");
+    }
+    if (key == "Targets" || key == "Flags" || key == "Filetype") {
+      in_targets_ = key == "Targets";
+      if (!in_targets_) return {};
+      line = value;
+    }
+    if (!in_targets_) return {};
+    for (const std::string_view word : words_of(line)) {
+      const auto target = number_from(word);
+      if (!target) return wrong("target \"" + utf8_from_latin1(word) + "\" is no number of mm");
+      if (targets_.size() == kMostTargets) return wrong("too many targets");
+      targets_.push_back(*target);
+    }
+    return {};
+  }
+
+  Status take_run_count(std::string_view line) {
+    const auto [key, value] = key_and_value(line);
+    if (key != "Run-count") return {};
+    run_count_ = count_from(value, kMostRtlRuns);
+    return run_count_ > 0 ? Status() : wrong("Run-count is no number from 1 on");
+  }
+
+  Status take_deviation_line(std::string_view line) {
+    if (key_and_value(line).first == "Run Target Data") {
+      in_deviations_ = true;
+      return {};
+    }
+    if (!in_deviations_) return {};
+    const auto words = words_of(line);
+    if (words.size() != 3) return wrong("a deviation is: run, target, µm");
+    const std::size_t run = count_from(words[0], run_count_),
+                      target = count_from(words[1], target_count_);
+    const auto deviation_um = number_from(words[2]);
+    if (run == 0 || target == 0 || !deviation_um)
+      return wrong("a run from 1 to " + std::to_string(run_count_) + ", a target from 1 to " +
+                   std::to_string(target_count_) + " and a deviation in µm are expected");
+    MDOF_CHECK(check_way(run, target));
+    if (!seen_.insert({run, target}).second) return wrong("this run has this target already");
+    const bool forward = run % 2 == 1;
+    series_.readings.push_back({static_cast<double>(target - 1), forward ? 1 : -1,
+                                static_cast<int>((run + 1) / 2), from_um(*deviation_um)});
+    return {};
+  }
+
+  // Forward and reverse are told by the run's number alone: the order of its targets must say so
+  // too.
+  Status check_way(std::size_t run, std::size_t target) {
+    const bool same = run == last_run_;
+    const bool right = run % 2 == 1 ? target > last_target_ : target < last_target_;
+    last_run_ = run;
+    const std::size_t before = std::exchange(last_target_, target);
+    if (!same || right) return {};
+    return wrong("run " + std::to_string(run) + " goes from target " + std::to_string(before) +
+                 " to " + std::to_string(target) +
+                 "; odd runs go forward and even ones backward. Of a test of one direction make a "
+                 "CSV: target_mm,direction,run,deviation_um");
+  }
+
+  std::string source_, section_;
+  std::uint64_t line_ = 0;
+  bool in_targets_ = false, in_deviations_ = false;
+  std::size_t target_count_ = 0, run_count_ = 0, last_run_ = 0, last_target_ = 0;
+  std::vector<double> targets_;  // mm
+  std::set<std::pair<std::size_t, std::size_t>> seen_;
+  ImportedSeries series_;  // positions: the target's place, until all targets are known
+};
+
+}  // namespace
+
+Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& source) {
+  Rtl rtl(source);
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    MDOF_CHECK(rtl.take(text.substr(0, end)));
+    text = end == text.npos ? std::string_view() : text.substr(end + 1);
+  }
+  return rtl.finish();
+}
+
+}  // namespace mdof::drivers

@@ -1,0 +1,32 @@
+#include "schema/imported/series.h"
+
+namespace mdof {
+
+std::string positioning_name(Axis axis) {
+  return {'E', letter(axis), letter(axis)};
+}
+
+Result<ImportedError> imported_error(Axis axis, const std::string& name) {
+  if (name == positioning_name(axis)) return ImportedError{name, std::nullopt, false};
+  std::string all = positioning_name(axis);
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    const ErrorName& known = error_names(axis)[k];
+    if (name == known.name) return ImportedError{name, k, known.angle};
+    all += std::string(", ") + known.name;
+  }
+  return fail(ErrorCode::usage,
+              "\"" + name + "\" is no error of axis " + letter(axis) + "; there are " + all);
+}
+
+bool is_imported(const RunHeader& run) {
+  return run.provenance.recording_kind.starts_with("imported");
+}
+
+Status check_measured(const RunHeader& run, const std::string& what) {
+  if (!is_imported(run)) return {};
+  return bad_input("run " + std::to_string(run.id) + " is imported: it has " +
+                   run.provenance.model + " alone, from " + run.provenance.recording_path +
+                   ", and no rig; " + what + " needs a run that mdof measured or replayed");
+}
+
+}  // namespace mdof

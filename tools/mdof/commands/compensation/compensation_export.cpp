@@ -1,0 +1,167 @@
+// mdof compensation export: tables as the files of a machine's controller.
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "schema/base/json_writer.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/compensation/exported.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportTablesCommand {
+  ExportRequest request;
+  std::string folder;
+  bool list = false, overwrite = false, json = false;
+};
+
+std::string formats_json() {
+  JsonWriter json;
+  json.begin_object().key("formats").begin_array();
+  for (const controllers::Format& f : controllers::formats())
+    json.begin_object()
+        .field("format", f.name)
+        .field("of", f.of)
+        .field("holds", f.holds)
+        .field("limits", f.limits)
+        .field("sense", f.sense)
+        .field("source", f.source)
+        .field("sign_confirmed", f.sign_confirmed)
+        .end_object();
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string formats_text(std::size_t width) {
+  std::string text;
+  for (const controllers::Format& f : controllers::formats()) {
+    text += std::string(f.name) + ": " + f.of + "\n";
+    for (const auto& [label, what] : {std::pair{"  holds   ", f.holds},
+                                      {"  limits  ", f.limits},
+                                      {"  sense   ", f.sense},
+                                      {"  known   ", f.source}})
+      text += wrapped(std::string(label) + what, width, 10) + "\n";
+    if (!f.sign_confirmed) text += "  SIGN NOT CONFIRMED: needs --unverified-sign\n";
+  }
+  return text;
+}
+
+Status write_file(const fs::path& file, const std::string& text, bool overwrite) {
+  std::error_code ec;
+  if (!overwrite && fs::exists(file, ec))
+    return fail(ErrorCode::usage, file.string() +
+                                      ": is there already; another --out, or "
+                                      "--overwrite");
+  errno = 0;
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << text << std::flush;
+  if (stream) return {};
+  return io_error(file.string() + ": cannot be written: " + std::strerror(errno ? errno : EIO));
+}
+
+Result<std::vector<std::string>> write_files(const ExportTablesCommand& command,
+                                             const controllers::Export& files) {
+  std::error_code ec;
+  fs::create_directories(command.folder, ec);
+  if (ec) return io_error(command.folder + ": cannot be made: " + ec.message());
+  std::vector<std::string> names;
+  for (const auto& file : files.files) {
+    const fs::path path = fs::path(command.folder) / file.name;
+    MDOF_CHECK(write_file(path, file.text, command.overwrite));
+    names.push_back(path.string());
+  }
+  return names;
+}
+
+void write_texts_of(JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
+  json.key(key).begin_array();
+  for (const auto& text : texts) json.value(text);
+  json.end_array();
+}
+
+std::string exported_json(const ExportedTables& exported, const std::vector<std::string>& names) {
+  JsonWriter json;
+  json.begin_object().field("format", exported.format->name).field("sense", exported.format->sense);
+  json.field("source", exported.format->source);
+  json.field("sign_confirmed", exported.format->sign_confirmed).key("tables").begin_array();
+  for (const auto& table : exported.tables) json.value(table.id);
+  json.end_array();
+  write_texts_of(json, "files", names);
+  json.key("written").begin_array();
+  for (const auto& written : exported.files.written)
+    json.begin_object()
+        .field("error", written.error)
+        .field("points", static_cast<std::uint64_t>(written.points))
+        .field("points_before", static_cast<std::uint64_t>(written.points_before))
+        .field("largest_deviation_um", written.largest_deviation * 1e6)
+        .end_object();
+  json.end_array();
+  write_texts_of(json, "left_out", exported.files.left_out);
+  write_texts_of(json, "notes", exported.files.notes);
+  write_texts_of(json, "marks", exported.options.marks);
+  json.key("check").raw(check_json(exported.check)).end_object();
+  return json.take();
+}
+
+std::string exported_text(const ExportedTables& exported, const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += name + "\n";
+  text += std::string("sense: ") + exported.format->sense + "\n";
+  for (const auto& written : exported.files.written)
+    text += written.error + ": " + std::to_string(written.points) + " of " +
+            std::to_string(written.points_before) + " points, off by up to " +
+            fixed(written.largest_deviation * 1e6, 4) + " µm\n";
+  return text + "read back and applied to a simulated axis:\n" + check_text(exported.check);
+}
+
+Status export_tables(const ExportTablesCommand& command) {
+  if (command.list)
+    return command.json ? write_line(formats_json()) : write_out(formats_text(terminal_columns()));
+  if (command.folder.empty()) return fail(ErrorCode::usage, "where to? Give --out FOLDER");
+  MDOF_TRY(const ExportedTables exported, exported_tables(command.request));
+  for (const auto& mark : exported.options.marks) warn(mark);
+  for (const auto& note : exported.files.notes) say("note: " + note);
+  for (const auto& left : exported.files.left_out) say("left out: " + left);
+  if (!exported.check.passed())
+    return fail(ErrorCode::check, "what would be written does not make the error vanish:\n" +
+                                      check_text(exported.check) + "nothing was written");
+  MDOF_TRY(const auto names, write_files(command, exported.files));
+  return command.json ? write_line(exported_json(exported, names))
+                      : write_out(exported_text(exported, names));
+}
+
+Action declare_export_tables(CLI::App& command) {
+  const auto o = std::make_shared<ExportTablesCommand>();
+  add_export_options(command, o->request);
+  command.add_option("--out", o->folder, "Folder of the files; made where it is not there")
+      ->type_name("FOLDER");
+  command.add_flag("--overwrite", o->overwrite, "Replace files that are there");
+  command.add_flag("--list", o->list,
+                   "The formats: what each holds, its sense and where that is "
+                   "known from");
+  add_json_flag(command, o->json);
+  return [o] { return export_tables(*o); };
+}
+
+}  // namespace
+
+Command compensation_export_command() {
+  return {.name = "compensation export",
+          .summary = "Write tables as the files of a controller",
+          .footer =
+              "Examples:\n"
+              "  mdof compensation export --list\n"
+              "  mdof compensation export 4 5 6 --format linuxcnc --tolerance-um 0.1 --out comp",
+          .declare = declare_export_tables};
+}
+
+}  // namespace mdof::tools

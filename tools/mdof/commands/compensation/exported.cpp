@@ -1,0 +1,159 @@
+#include "tools/mdof/commands/compensation/exported.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "schema/base/json_writer.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+using controllers::CheckedError;
+using controllers::Control;
+
+Status check_request(const ExportRequest& request) {
+  if (request.format.empty())
+    return fail(ErrorCode::usage,
+                "for which controller? Give --format; mdof compensation export "
+                "--list has them");
+  if (request.tables.empty())
+    return fail(ErrorCode::usage, "which table? Give its number; mdof compensation list has them");
+  if (!std::isfinite(request.tolerance_um) || !std::isfinite(request.home_mm))
+    return fail(ErrorCode::usage, "--tolerance-um and --home-mm must be finite numbers");
+  return {};
+}
+
+// What nobody may take for a measured table in force is refused, or marked where it is asked for.
+Status judge_table(const CompensationTable& table, std::int64_t generation,
+                   const ExportRequest& request, std::vector<std::string>& marks) {
+  const std::string name = "table " + std::to_string(table.id);
+  if (table_sha256(table) != table.sha256)
+    return bad_input(name + " is not what was built (its hash differs); build it again");
+  if (table.without_stated_point)
+    return bad_input(name + " does not say at which point it holds; build it again from its runs");
+  if (table.simulated) {
+    if (!request.simulated)
+      return bad_input(name +
+                       " is simulated: no machine was measured; --simulated exports it, and "
+                       "says so in the file");
+    marks.push_back("SIMULATED: " + name + ": no machine was measured");
+  }
+  // Positioning is never in force: mdofd does not serve it.
+  if (generation > 0 || table.has_positioning()) return {};
+  if (!request.not_in_force)
+    return bad_input(name + " is not in force; activate it (mdof compensation activate " +
+                     std::to_string(table.id) + "), or ask with --not-in-force");
+  marks.push_back("NOT IN FORCE: " + name + " was not in force when it was exported");
+  return {};
+}
+
+Status judge_sign(const controllers::Format& format, const ExportRequest& request,
+                  std::vector<std::string>& marks) {
+  if (format.sign_confirmed) return {};
+  const std::string why = std::string(format.sense) + " (" + format.source + ")";
+  if (!request.unverified_sign)
+    return fail(ErrorCode::usage, std::string("the sign of ") + format.name +
+                                      " is not confirmed: " + why +
+                                      ". A wrong sign doubles the error; verify it on the machine "
+                                      "and ask with --unverified-sign");
+  marks.push_back("SIGN NOT CONFIRMED: verify on the machine that the error becomes smaller");
+  return {};
+}
+
+}  // namespace
+
+void add_export_options(CLI::App& command, ExportRequest& request) {
+  command.add_option("TABLE", request.tables, "Numbers of tables, one for each axis")
+      ->type_name("");
+  command.add_option("--format", request.format, "As of mdof compensation export --list")
+      ->type_name("NAME");
+  command
+      .add_option("--tolerance-um", request.tolerance_um,
+                  "Leave out points that straight lines come as near to as this (angles: urad)")
+      ->check(CLI::NonNegativeNumber);
+  auto* home = command.add_option("--home-mm", request.home_mm,
+                                  "Where the axis is homed: the correction is made 0 there");
+  home->each([&request](const std::string&) { request.home_given = true; });
+  command.add_flag("--cut-range", request.cut_range,
+                   "Of a table with missing values, the longest range without");
+  command.add_flag("--simulated", request.simulated, "Also a simulated table, marked as such");
+  command.add_flag("--not-in-force", request.not_in_force,
+                   "Also a table that is not in force, marked as such");
+  command.add_flag("--unverified-sign", request.unverified_sign,
+                   "Also where the sense of the controller's values is not confirmed");
+  add_database_option(command, request.database);
+}
+
+Result<ExportedTables> exported_tables(const ExportRequest& request) {
+  MDOF_CHECK(check_request(request));
+  ExportedTables out;
+  MDOF_TRY(out.format, controllers::format_named(request.format));
+  out.options.tolerance_m = from_um(request.tolerance_um);
+  out.options.cut_range = request.cut_range;
+  if (request.home_given) out.options.home_m = from_mm(request.home_mm);
+  MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
+  MDOF_TRY(store::Store store, open_to_read(request.database));
+  for (const std::int64_t id : request.tables) {
+    MDOF_TRY(CompensationTable table, store.table(id));
+    MDOF_TRY(const std::int64_t generation, generation_of(store, table));
+    MDOF_CHECK(judge_table(table, generation, request, out.options.marks));
+    out.tables.push_back(std::move(table));
+  }
+  MDOF_TRY(out.files, out.format->write(out.tables, out.options));
+  MDOF_TRY(out.check, controllers::check_export(*out.format, out.tables, out.files, out.options));
+  return out;
+}
+
+namespace {
+
+void write_control(JsonWriter& json, const CheckedError& e, const Control& control) {
+  json.begin_object().field("mistake", control.name);
+  json.field(e.angle ? "residual_urad" : "residual_um", control.residual * 1e6);
+  json.field("detected", control.detected);
+  if (!control.detected && control.too_small)
+    json.field("reason", "it changes no more than what is allowed");
+  json.end_object();
+}
+
+}  // namespace
+
+std::string check_json(const controllers::Check& check) {
+  JsonWriter json;
+  json.begin_object().field("passed", check.passed()).key("errors").begin_array();
+  for (const CheckedError& e : check.errors) {
+    const std::string unit = e.angle ? "_urad" : "_um";
+    json.begin_object().field("error", e.error).field("cancels", e.cancels);
+    json.field("before" + unit, e.before * 1e6).field("residual" + unit, e.residual * 1e6);
+    json.field("bound" + unit, e.bound * 1e6);
+    json.field("judged", e.one_way ? "mean of both approaches" : "each approach");
+    json.key("controls").begin_array();
+    for (const Control& control : e.controls) write_control(json, e, control);
+    json.end_array().end_object();
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string check_text(const controllers::Check& check) {
+  TextTable table({"error", "before", "after", "allowed", "cancels", "mistakes seen"});
+  for (const CheckedError& e : check.errors) {
+    std::string seen;
+    for (const Control& control : e.controls)
+      seen += (seen.empty() ? "" : ", ") + control.name + ": " +
+              (control.detected    ? "yes"
+               : control.too_small ? "too small to see"
+                                   : "NO");
+    table.add({e.error + (e.angle ? "/µrad" : "/µm") + (e.one_way ? ", mean" : ""),
+               fixed(e.before * 1e6, 4), fixed(e.residual * 1e6, 4), fixed(e.bound * 1e6, 4),
+               e.cancels ? "yes" : "NO", seen});
+  }
+  return table.text();
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,100 @@
+// mdof import FILE: what another instrument measured, as a stored run.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
+
+#include "daemon/history.h"
+#include "daemon/measure/imported/import.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/imported_text.h"
+
+namespace mdof::tools {
+namespace {
+
+struct ImportCommand {
+  std::string database, axis;
+  daemon::ImportRequest request;
+  std::optional<double> u_um;
+  bool json = false;
+};
+
+std::string stored_json(const Run& run) {
+  JsonWriter json;
+  json.begin_object()
+      .field("run", run.header.id)
+      .field("axis", std::string(1, letter(run.header.axis)));
+  json.field("error", run.header.provenance.model);
+  json.field("format",
+             run.header.provenance.recording_kind.substr(std::string("imported ").size()));
+  json.field("readings", static_cast<std::uint64_t>(run.points.size()));
+  json.field("file", run.header.provenance.recording_path);
+  json.field("sha256", run.header.provenance.recording_sha256);
+  json.field("simulated", run.header.simulated).key("warnings").begin_array();
+  for (const auto& warning : run.header.warnings) json.value(warning);
+  json.end_array().end_object();
+  return json.take();
+}
+
+Status import(ImportCommand command) {
+  command.request.axis = *axis_from(command.axis);  // the option takes no other
+  if (command.u_um) command.request.u_si = from_um(*command.u_um);
+  MDOF_TRY(Run run, daemon::imported_run(command.request));
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(run.header.id,
+           store.add_run(run, daemon::deed_now("run.import", daemon::this_process())));
+  for (const auto& warning : run.header.warnings) warn(warning);
+  say("stored; a table of it is made with: mdof compensation build " +
+      std::to_string(run.header.id));
+  if (command.json) return write_line(stored_json(run));
+  run.header.warnings.clear();  // said already
+  return write_out(imported_text(run, "", terminal_columns(), false));
+}
+
+Action declare_import(CLI::App& command) {
+  const auto o = std::make_shared<ImportCommand>();
+  command.add_option("FILE", o->request.file, "CSV, ISO 230-2 series as CSV, or Renishaw .rtl")
+      ->required()
+      ->type_name("");
+  command.add_option("--axis", o->axis, "Of the machine")
+      ->required()
+      ->check(CLI::IsMember({"X", "Y", "Z"}));
+  command
+      .add_option("--error", o->request.error,
+                  "What was measured, such as EYX [default: positioning, EXX of X]")
+      ->type_name("NAME");
+  command.add_option("--format", o->request.format, "[default: told by the file]")
+      ->check(CLI::IsMember({"csv", "iso230-2", "rtl"}));
+  command
+      .add_option("--u-um,--u-urad", o->u_um,
+                  "Standard uncertainty of each deviation (the laser, its alignment, temperature)")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--note", o->request.note, "Kept with the run; at most 1024 bytes")
+      ->type_name("TEXT")
+      ->check([](const std::string& note) {
+        return std::string(note.size() <= 1024 ? "" : "a note has at most 1024 bytes");
+      });
+  add_database_option(command, o->database);
+  add_json_flag(command, o->json);
+  return [o] { return import(*o); };
+}
+
+}  // namespace
+
+Command import_command() {
+  return {.name = "import",
+          .summary = "Store positioning that was measured elsewhere as a run",
+          .footer =
+              "CSV has position_mm, deviation_um (or deviation_urad) and, where known, direction "
+              "(1 or -1) and run; an ISO 230-2 series target_mm, direction, run, deviation_um.\n"
+              "Examples:\n"
+              "  mdof import laser_X.rtl --axis X --u-um 0.3\n"
+              "  mdof import straightness.csv --axis X --error EYX",
+          .declare = declare_import};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,24 @@
+// The command that brings the tool where a command should have brought it.
+#pragma once
+
+#include "algo/machine/tool_error.h"
+
+namespace mdof::algo {
+
+struct CompensatingCommand {
+  Command command{};
+  Eigen::Vector3d residual_m;  // of the tool's point by the full product, in the work's coordinates
+  Eigen::Vector3d angles_rad;  // that stay: linear axes turn nothing
+  int steps = 0;
+  bool converged = false;           // another step changes nothing above 1e-12 m
+  std::vector<std::string> beyond;  // as of ToolError, at the new command
+};
+
+// Fixed point over the linear axes, c ← c + J⁻¹ (wanted - reached), J of the nominal machine;
+// rotary axes stay where they are. With fewer than three linear axes the residual has what they
+// cannot reach. The fixed point contracts by about the slope of the errors over the travel, 1e-3
+// and less for machines. Error: the chain has no linear axis.
+Result<CompensatingCommand> compensating_command(const Machine& machine, const Command& wanted,
+                                                 MachineApproach approach);
+
+}  // namespace mdof::algo

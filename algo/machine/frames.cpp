@@ -1,0 +1,110 @@
+#include "algo/machine/frames.h"
+
+#include <algorithm>
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::string_view kLetters = "XYZABC";
+
+struct Place {
+  std::size_t cell = 0;
+  double part = 0;  // of the way from its begin to its end
+  bool beyond = false;
+};
+
+Place place_of(const std::vector<double>& position, double at) {
+  if (position.empty()) return {};
+  if (position.size() == 1) return {0, 0, at != position[0]};
+  if (at <= position.front()) return {0, 0, at < position.front()};
+  if (at >= position.back()) return {position.size() - 2, 1, at > position.back()};
+  const auto above = std::upper_bound(position.begin(), position.end(), at);
+  const auto cell = static_cast<std::size_t>(above - position.begin()) - 1;
+  return {cell, (at - position[cell]) / (position[cell + 1] - position[cell])};
+}
+
+double value_at(const std::vector<double>& values, const Place& place) {
+  if (values.size() < 2) return values.empty() ? 0 : values[0];
+  const double a = values[place.cell], b = values[place.cell + 1];
+  return place.part == 1 ? b : a + (b - a) * place.part;
+}
+
+double value_at(const ErrorFunction& f, const Place& place, MachineApproach approach) {
+  const double forward = value_at(f.forward, place);
+  if (f.reverse.empty() || approach == MachineApproach::forward) return forward;
+  const double reverse = value_at(f.reverse, place);
+  return approach == MachineApproach::reverse ? reverse : (forward + reverse) / 2;
+}
+
+// Of the line of an axis; of angles, by the rotations one after the other.
+Eigen::Matrix3d line_rotation(const FrameValues& v) {
+  return tiny_rotation(v.location[3], v.location[4], v.location[5]);
+}
+
+Pose about_point(const Eigen::Matrix3d& R, const Eigen::Vector3d& point) {
+  return {R, point - R * point};
+}
+
+Pose motion(const MachineFrame& frame, const FrameValues& v) {
+  if (frame.kind == FrameKind::fixed) return {};
+  const Eigen::Matrix3d line = line_rotation(v);
+  if (frame.kind == FrameKind::linear)
+    return {Eigen::Matrix3d::Identity(),
+            line.col(static_cast<Eigen::Index>(frame.direction)) * v.travel};
+  const Eigen::Vector3d centre =
+      vector_of(frame.at_m) + Eigen::Vector3d(v.location[0], v.location[1], v.location[2]);
+  return about_point(line * turn_about(frame.direction, v.travel) * line.transpose(), centre);
+}
+
+}  // namespace
+
+double command_of(const MachineFrame& frame, const Command& command) {
+  return frame.kind == FrameKind::fixed ? 0 : command[kLetters.find(frame.id)];
+}
+
+FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach) {
+  FrameValues v;
+  const double at = command_of(frame, command);
+  v.travel = frame.against_command ? -at : at;
+  for (std::size_t k = 0; k < kBodyErrors; ++k) {
+    const ErrorFunction& f = frame.error[k];
+    const Place place = place_of(f.position, at);
+    v.error[k] = value_at(f, place, approach);
+    v.u_error[k] = value_at(f.u, place);
+    v.beyond[k] = f.known() && place.beyond;
+    v.location[k] = frame.location[k].value.value_or(0);
+    v.u_location[k] = frame.location[k].u.value_or(0);
+  }
+  return v;
+}
+
+std::vector<FrameValues> values_at(const Machine& machine, const Command& command,
+                                   MachineApproach approach) {
+  std::vector<FrameValues> values;
+  values.reserve(machine.frames.size());
+  for (const MachineFrame& frame : machine.frames)
+    values.push_back(values_at(frame, command, approach));
+  return values;
+}
+
+Pose nominal_pose(const MachineFrame& frame, double travel) {
+  FrameValues v;
+  v.travel = travel;
+  return motion(frame, v);
+}
+
+Eigen::Vector3d holding_point(const MachineFrame& frame, double travel) {
+  Eigen::Vector3d point = vector_of(frame.at_m);
+  if (frame.kind == FrameKind::linear && frame.point_moves)
+    point[static_cast<Eigen::Index>(frame.direction)] += travel;
+  return point;
+}
+
+Pose actual_pose(const MachineFrame& frame, const FrameValues& v) {
+  const Eigen::Vector3d point = holding_point(frame, v.travel);
+  Pose error = about_point(tiny_rotation(v.error[3], v.error[4], v.error[5]), point);
+  error.p += Eigen::Vector3d(v.error[0], v.error[1], v.error[2]);
+  return error * motion(frame, v);
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,39 @@
+// One frame of the chain: its motion, its errors, and what they do to a point (README.md).
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "algo/machine/pose.h"
+#include "schema/machine/machine.h"
+
+namespace mdof::algo {
+
+// Commands of X Y Z (m) and A B C (rad); of an axis that the chain has not: 0.
+using Command = std::array<double, 6>;
+enum class MachineApproach { mean, forward, reverse };  // the way all commands have come
+
+// What the description says of a frame at a command.
+struct FrameValues {
+  double travel = 0;                             // of the body along + of its axis, m or rad
+  std::array<double, kBodyErrors> error{};       // 0 where it is not measured
+  std::array<double, kBodyErrors> location{};    // the same
+  std::array<double, kBodyErrors> u_error{};     // 0 where it is not declared
+  std::array<double, kBodyErrors> u_location{};  // the same
+  std::array<bool, kBodyErrors> beyond{};        // the end of the table is held
+};
+FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach);
+std::vector<FrameValues> values_at(const Machine& machine, const Command& command,
+                                   MachineApproach approach);
+
+double command_of(const MachineFrame& frame, const Command& command);
+
+Pose nominal_pose(const MachineFrame& frame, double travel);
+// The true displacement of the frame's body: the motion along the true line of the axis, then the
+// body's errors at the point where they hold.
+Pose actual_pose(const MachineFrame& frame, const FrameValues& values);
+// That point when the body has travelled so far.
+Eigen::Vector3d holding_point(const MachineFrame& frame, double travel);
+
+}  // namespace mdof::algo

@@ -1,0 +1,237 @@
+#include "algo/machine/tool_error.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+double size_of(const std::array<double, kBodyErrors>& errors, std::size_t from) {
+  return std::abs(errors[from]) + std::abs(errors[from + 1]) + std::abs(errors[from + 2]);
+}
+
+// The bodies between the bed and the work, or the bed and the tool, the outermost from the bed
+// first: what they take a point of the work or the tool to. `pose` gives that of one frame.
+template <class PoseOf>
+Pose bodies(const Machine& machine, bool of_work, PoseOf pose) {
+  Pose all;
+  for (std::size_t i = 0; i < machine.frames.size(); ++i) {
+    if (machine.frames[i].carries_work != of_work) continue;
+    all = of_work ? pose(i) * all : all * pose(i);
+  }
+  return all;
+}
+
+template <class PoseOf>
+Pose tool_in_work(const Machine& machine, PoseOf pose) {
+  const Pose work = bodies(machine, true, pose), tool = bodies(machine, false, pose);
+  return work.inverse() * tool * Pose{Eigen::Matrix3d::Identity(), vector_of(machine.tool_m)};
+}
+
+double travel_at(const MachineFrame& frame, const Command& command) {
+  const double at = command_of(frame, command);
+  return frame.against_command ? -at : at;
+}
+
+Eigen::Vector3d unit(std::size_t k) {
+  return Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k % 3));
+}
+
+// What a unit of an error does to a point that is at `at` when the body has moved: displacement and
+// turn, before the bodies further out have moved it.
+struct Effect {
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+};
+
+Effect effect_of_body(const MachineFrame& frame, std::size_t k, const Eigen::Vector3d& at,
+                      double travel) {
+  if (k < 3) return {unit(k), Eigen::Vector3d::Zero()};
+  return {unit(k).cross(at - holding_point(frame, travel)), unit(k)};
+}
+
+Effect effect_of_line(const MachineFrame& frame, std::size_t k, const Eigen::Vector3d& at,
+                      double travel) {
+  if (frame.kind == FrameKind::linear)
+    return {unit(k).cross(unit(frame.direction)) * travel, Eigen::Vector3d::Zero()};
+  const Eigen::Matrix3d turn = turn_about(frame.direction, travel);
+  if (k < 3) return {unit(k) - turn * unit(k), Eigen::Vector3d::Zero()};
+  const Eigen::Vector3d arm = at - vector_of(frame.at_m);
+  const Eigen::Vector3d about = unit(k) - turn * unit(k);  // R0 T R0ᵀ = (1 + [θ - Tθ]×) T
+  return {about.cross(arm), about};
+}
+
+// The nominal machine: where the tool's point is behind each frame, and the bodies further out.
+struct Walk {
+  std::vector<Eigen::Vector3d> at;     // by frame, after its own motion
+  std::vector<Eigen::Matrix3d> outer;  // turns of the frames nearer to the bed
+  Eigen::Matrix3d to_work;             // bed to work coordinates
+};
+
+Walk walk(const Machine& machine, const Command& command) {
+  const std::size_t n = machine.frames.size();
+  Walk w{std::vector<Eigen::Vector3d>(n), std::vector<Eigen::Matrix3d>(n), {}};
+  const auto pose = [&](std::size_t i) {
+    return nominal_pose(machine.frames[i], travel_at(machine.frames[i], command));
+  };
+  Pose tool, work;
+  for (std::size_t i = 0; i < n; ++i) {  // from the bed to the tool
+    if (machine.frames[i].carries_work) continue;
+    w.outer[i] = tool.R;
+    tool = tool * pose(i);
+  }
+  for (std::size_t i = n; i-- > 0;) {  // from the bed to the work
+    if (!machine.frames[i].carries_work) continue;
+    w.outer[i] = work.R;
+    work = work * pose(i);
+  }
+  Eigen::Vector3d point = vector_of(machine.tool_m);
+  for (std::size_t i = n; i-- > 0;)
+    if (!machine.frames[i].carries_work) w.at[i] = point = pose(i) * point;
+  point = work.inverse() * point;  // the point of the work that the tool is at
+  for (std::size_t i = 0; i < n; ++i)
+    if (machine.frames[i].carries_work) w.at[i] = point = pose(i) * point;
+  w.to_work = work.R.transpose();
+  return w;
+}
+
+bool is_known(const MachineFrame& frame, const ErrorDerivative& d) {
+  return d.of_line ? frame.location[d.k].value.has_value() : frame.error[d.k].known();
+}
+
+bool has_u(const MachineFrame& frame, const ErrorDerivative& d) {
+  return d.of_line ? frame.location[d.k].u.has_value() : !frame.error[d.k].u.empty();
+}
+
+// EC0X says the same as EC0Y of two linear axes, with the other sign: one of them is enough.
+bool stands_for_another(const Machine& machine, const ErrorDerivative& d) {
+  const MachineFrame& frame = machine.frames[d.frame];
+  if (!d.of_line || frame.kind != FrameKind::linear || is_known(frame, d)) return false;
+  const std::size_t other = 3 - frame.direction - d.k % 3;  // k's own turn is about the third
+  const MachineFrame* axis = machine.find(std::string(1, "XYZ"[other]));
+  if (!axis) return true;  // no two axes to be square
+  return axis->location[d.k].value.has_value() || frame.direction < other;
+}
+
+std::string name_of(const Machine& machine, const ErrorDerivative& d) {
+  const MachineFrame& frame = machine.frames[d.frame];
+  return d.of_line ? location_name(frame, d.k) : error_name(frame, d.k);
+}
+
+// A fixed frame has the errors that are given, and no others are looked for.
+bool counts_as_missing(const Machine& machine, const ErrorDerivative& d) {
+  const MachineFrame& frame = machine.frames[d.frame];
+  return frame.kind != FrameKind::fixed && !is_known(frame, d) && !stands_for_another(machine, d);
+}
+
+void name_what_is_missing(const Machine& machine, const std::vector<ErrorDerivative>& all,
+                          ToolError& error) {
+  for (const ErrorDerivative& d : all) {
+    const bool known = is_known(machine.frames[d.frame], d);
+    const bool missing = counts_as_missing(machine, d);
+    if (known ? has_u(machine.frames[d.frame], d) : !missing) continue;
+    for (std::size_t c = 0; c < 6; ++c) {
+      if (std::abs(d.d[static_cast<Eigen::Index>(c)]) < 1e-12) continue;
+      (known ? error.no_u : error.not_measured)[c].push_back(name_of(machine, d));
+    }
+  }
+}
+
+}  // namespace
+
+Pose nominal_tool(const Machine& machine, const Command& command) {
+  return tool_in_work(machine, [&](std::size_t i) {
+    return nominal_pose(machine.frames[i], travel_at(machine.frames[i], command));
+  });
+}
+
+Pose actual_tool(const Machine& machine, const std::vector<FrameValues>& values) {
+  return tool_in_work(machine,
+                      [&](std::size_t i) { return actual_pose(machine.frames[i], values[i]); });
+}
+
+Vector6 exact_error(const Machine& machine, const Command& command,
+                    const std::vector<FrameValues>& values) {
+  const Pose nominal = nominal_tool(machine, command), actual = actual_tool(machine, values);
+  Vector6 error;
+  error << actual.p - nominal.p, small_angles_of(actual.R * nominal.R.transpose());
+  return error;
+}
+
+std::vector<ErrorDerivative> derivatives(const Machine& machine, const Command& command) {
+  const Walk w = walk(machine, command);
+  std::vector<ErrorDerivative> all;
+  for (std::size_t i = 0; i < machine.frames.size(); ++i) {
+    const MachineFrame& frame = machine.frames[i];
+    const double travel = travel_at(frame, command);
+    const Eigen::Matrix3d out = w.to_work * w.outer[i] * (frame.carries_work ? -1 : 1);
+    const auto add = [&](std::size_t k, bool of_line, const Effect& effect) {
+      ErrorDerivative d{i, k, of_line, {}};
+      d.d << out * effect.shift, out * effect.turn;
+      all.push_back(d);
+    };
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      add(k, false, effect_of_body(frame, k, w.at[i], travel));
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      if (has_location(frame, k)) add(k, true, effect_of_line(frame, k, w.at[i], travel));
+  }
+  return all;
+}
+
+Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
+                     const std::vector<FrameValues>& values) {
+  Vector6 sum = Vector6::Zero();
+  for (const ErrorDerivative& d : derivatives) {
+    const FrameValues& v = values[d.frame];
+    sum += d.d * (d.of_line ? v.location[d.k] : v.error[d.k]);
+  }
+  return sum;
+}
+
+Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
+                          const std::vector<FrameValues>& values) {
+  Vector6 sum = Vector6::Zero();
+  for (const ErrorDerivative& d : derivatives) {
+    const FrameValues& v = values[d.frame];
+    const Vector6 part = d.d * (d.of_line ? v.u_location[d.k] : v.u_error[d.k]);
+    sum += part.cwiseProduct(part);
+  }
+  return sum.cwiseSqrt();
+}
+
+LinearBound linear_bound(const Machine& machine, const Command& command,
+                         const std::vector<FrameValues>& values) {
+  const Walk w = walk(machine, command);
+  double shifts = 0, turns = 0, arm = 0;
+  for (std::size_t i = 0; i < machine.frames.size(); ++i) {
+    const MachineFrame& frame = machine.frames[i];
+    const FrameValues& v = values[i];
+    // A line that is turned or shifted counts twice where the body goes there and back.
+    const double twice = frame.kind == FrameKind::rotary ? 2 : 1;
+    shifts += size_of(v.error, 0) + twice * size_of(v.location, 0);
+    turns += size_of(v.error, 3) + twice * size_of(v.location, 3);
+    arm = std::max(arm, (w.at[i] - holding_point(frame, v.travel)).norm());
+    if (frame.kind == FrameKind::linear) arm = std::max(arm, std::abs(v.travel));
+  }
+  const double more = 1 + 4 * turns;  // higher orders
+  return {(2 * turns * shifts + 3 * turns * turns * arm) * more, turns * turns * more};
+}
+
+ToolError tool_error(const Machine& machine, const Command& command, MachineApproach approach) {
+  const auto values = values_at(machine, command, approach);
+  const auto all = derivatives(machine, command);
+  ToolError error{exact_error(machine, command, values),
+                  linear_error(all, values),
+                  error_uncertainty(all, values),
+                  linear_bound(machine, command, values),
+                  {},
+                  {},
+                  {}};
+  name_what_is_missing(machine, all, error);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      if (values[i].beyond[k]) error.beyond.push_back(error_name(machine.frames[i], k));
+  return error;
+}
+
+}  // namespace mdof::algo

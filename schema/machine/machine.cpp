@@ -1,0 +1,85 @@
+#include "schema/machine/machine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+constexpr std::string_view kDirections = "XYZABC";
+constexpr double kMostTurn_rad = 0.1, kMostShift_m = 0.01;
+constexpr double kDegreesByRadian = 180 / std::numbers::pi;
+
+bool all_below(const std::vector<double>& values, double most) {
+  return std::all_of(values.begin(), values.end(),
+                     [most](double v) { return std::abs(v) <= most; });  // false for nan
+}
+
+bool increasing(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(),
+                            [](double a, double b) { return !(a < b); }) == values.end();
+}
+
+}  // namespace
+
+const MachineFrame* Machine::find(std::string_view id) const {
+  const auto found =
+      std::find_if(frames.begin(), frames.end(), [&](const MachineFrame& f) { return f.id == id; });
+  return found == frames.end() ? nullptr : &*found;
+}
+
+std::string error_name(const MachineFrame& frame, std::size_t k) {
+  const std::string direction(1, kDirections[k]);
+  return "E" + direction + (frame.kind == FrameKind::fixed ? "(" + frame.id + ")" : frame.id);
+}
+
+std::string location_name(const MachineFrame& frame, std::size_t k) {
+  return "E" + std::string(1, kDirections[k]) + "0" + frame.id;
+}
+
+std::string with_unit(const std::string& name, std::size_t k) {
+  return name + (k < 3 ? "_um" : "_urad");
+}
+
+bool has_location(const MachineFrame& frame, std::size_t k) {
+  if (frame.kind == FrameKind::fixed || k % 3 == frame.direction) return false;
+  return frame.kind == FrameKind::rotary || k >= 3;
+}
+
+double position_from_written(const MachineFrame& frame, double written) {
+  return frame.kind == FrameKind::rotary ? written / kDegreesByRadian : from_mm(written);
+}
+
+double written_position(const MachineFrame& frame, double position) {
+  return frame.kind == FrameKind::rotary ? position * kDegreesByRadian : to_mm(position);
+}
+
+const char* position_unit(const MachineFrame& frame) {
+  return frame.kind == FrameKind::rotary ? "deg" : "mm";
+}
+
+Status check_function(const ErrorFunction& function, std::size_t k, const std::string& where) {
+  const std::size_t rows = std::max<std::size_t>(function.position.size(), 1);
+  const auto fits = [rows](const std::vector<double>& v) { return v.empty() || v.size() == rows; };
+  if (function.forward.size() != rows || !fits(function.reverse) || !fits(function.u))
+    return bad_input(where + ": must have one value for each position, and at least one");
+  if (!all_below(function.position, 1e6))
+    return bad_input(where + ": a position is no finite number; correct it or take it out");
+  if (!increasing(function.position))
+    return bad_input(where +
+                     ": positions must increase; sort them, and take the mean of readings at the "
+                     "same position");
+  const double most = k < 3 ? kMostShift_m : kMostTurn_rad;
+  if (!all_below(function.forward, most) || !all_below(function.reverse, most))
+    return bad_input(where + ": every value must be a number of at most " +
+                     (k < 3 ? "10,000 µm" : "100,000 µrad") + "; is the unit right?");
+  const auto negative = [](double u) { return !(u >= 0); };
+  if (!all_below(function.u, most) || std::any_of(function.u.begin(), function.u.end(), negative))
+    return bad_input(where + ": a standard uncertainty must be a number and not negative");
+  return {};
+}
+
+}  // namespace mdof

@@ -1,0 +1,90 @@
+// A machine as a chain of frames from the work to the tool, with the measured errors of its axes
+// (algo/machine/README.md has the equations). Coordinates are those of the machine, fixed to the
+// bed, and of every body when all commands are 0.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/axis.h"
+#include "schema/base/result.h"
+#include "schema/rig/chain.h"
+
+namespace mdof {
+
+// The six errors of a body: along X, Y, Z (m), about X, Y, Z, that is A, B, C (rad).
+inline constexpr std::size_t kBodyErrors = 6;
+
+// An error of the body that an axis moves against the command of the axis: actual - nominal.
+// Linear between the positions; beyond them the end value is held.
+struct ErrorFunction {
+  std::vector<double> position;  // m or rad, strictly increasing; empty: a constant
+  std::vector<double> forward;   // m or rad; empty: not measured
+  std::vector<double> reverse;   // as the command falls; empty: the same
+  std::vector<double> u;         // standard uncertainty; empty: not declared
+  std::string file;              // where it stands, as MACHINE.toml names it; empty: here
+
+  bool known() const { return !forward.empty(); }
+};
+
+// Of where the line of an axis lies: a squareness, a place of a rotary axis.
+struct LocationError {
+  std::optional<double> value;  // m or rad; none: not measured
+  std::optional<double> u;      // none: not declared
+};
+
+enum class FrameKind { linear, rotary, fixed };
+
+struct MachineFrame {
+  std::string id;  // letter of the axis; of a fixed frame its name
+  FrameKind kind = FrameKind::fixed;
+  std::size_t direction = 0;  // along or about X, Y, Z: 0, 1, 2; not of a fixed frame
+  bool carries_work = false;  // else the tool
+  bool against_command = false;
+  // Where EXk, EYk, EZk hold; of a rotary axis a point of the axis. m.
+  Vec3 at_m{};
+  // The point goes with the body of a linear axis; else it stands still, as a fixture in the
+  // spindle does over a table.
+  bool point_moves = false;
+  std::array<ErrorFunction, kBodyErrors> error;
+  std::array<LocationError, kBodyErrors> location;
+  std::optional<std::array<double, 2>> range;  // of the command that is used, m or rad
+  std::string file;                            // columns of several errors; empty: none
+};
+
+struct Machine {
+  std::string name;
+  Chain chain;
+  std::vector<MachineFrame> frames;  // from the work to the tool
+  Vec3 tool_m{};                     // the tool's point
+  bool simulated = false;
+
+  const MachineFrame* find(std::string_view id) const;
+};
+
+// "EXX", "EX(column)"; of the line of an axis "EC0Y".
+std::string error_name(const MachineFrame& frame, std::size_t k);
+std::string location_name(const MachineFrame& frame, std::size_t k);
+// The name with its unit: "EXX_um", "EAX_urad".
+std::string with_unit(const std::string& name, std::size_t k);
+// Whether an axis can have this error of its line: a turn about itself and, of a linear axis, a
+// shift are none.
+bool has_location(const MachineFrame& frame, std::size_t k);
+
+// Positions of an axis as they are written: mm, of a rotary axis degrees.
+double position_from_written(const MachineFrame& frame, double written);
+double written_position(const MachineFrame& frame, double position);
+const char* position_unit(const MachineFrame& frame);  // "mm", "deg"
+
+// Errors: as many values as positions, increasing, finite, below what any machine has (0.1 rad,
+// 10 mm: µm and mm mixed up). `where` begins the message.
+Status check_function(const ErrorFunction& function, std::size_t k, const std::string& where);
+
+// MACHINE.toml (schema/machine/README.md). Errors name file, line, key and remedy. What stands in
+// other files is not read: `file` of a frame or of an error says which.
+Result<Machine> parse_machine(std::string_view text, const std::string& source_name);
+
+}  // namespace mdof

@@ -1,0 +1,209 @@
+// MACHINE.toml: the chain, where the errors of each axis hold, and the errors.
+#include <algorithm>
+#include <cmath>
+
+#include "schema/base/toml_reader.h"
+#include "schema/machine/machine.h"
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+constexpr std::string_view kLetters = "XYZABC";
+
+double value_from_written(std::size_t k, double written) {
+  return k < 3 ? from_um(written) : from_urad(written);
+}
+
+Vec3 read_point(TomlTable& table, std::string_view key) {
+  Vec3 point = table.vector3(key);
+  for (double& x : point) x = from_mm(x);
+  if (!std::all_of(point.begin(), point.end(), [](double x) { return std::abs(x) < 1e3; }))
+    table.reject(key, "must be three numbers of mm");
+  return point;
+}
+
+void read_rows(TomlTable& table, const std::string& key, const MachineFrame& frame, std::size_t k,
+               ErrorFunction& function) {
+  const auto rows = table.matrix(key);
+  for (const auto& row : rows) {
+    if (row.size() < 2 || row.size() > 3 || row.size() != rows.front().size()) {
+      table.reject(key, "each row must be [position, error], or each [position, forward, reverse]");
+      return;
+    }
+    function.position.push_back(position_from_written(frame, row[0]));
+    function.forward.push_back(value_from_written(k, row[1]));
+    if (row.size() == 3) function.reverse.push_back(value_from_written(k, row[2]));
+  }
+}
+
+// The key's standard uncertainty; not read where the error is not given, so that it is unknown.
+std::optional<double> read_u(TomlTable& table, const std::string& key, std::size_t k) {
+  const std::string of = "u_" + key;
+  if (!table.has(of)) return std::nullopt;
+  const double u = value_from_written(k, table.number(of));
+  if (!(u >= 0 && std::isfinite(u)))
+    table.reject(of, "is a standard uncertainty: it must be a number and not negative");
+  return u;
+}
+
+// A number, rows, or the name of a file under EXX_file.
+void read_function(TomlTable& table, const std::string& name, const MachineFrame& frame,
+                   std::size_t k, ErrorFunction& function) {
+  const std::string key = with_unit(name, k), file_key = name + "_file";
+  if (frame.kind != FrameKind::fixed && table.has(file_key)) {
+    function.file = table.string(file_key);
+    if (const auto u = read_u(table, key, k)) function.u = {*u};
+    return;
+  }
+  if (!table.has(key)) return;
+  if (table.is_array(key)) {
+    if (frame.kind == FrameKind::fixed)
+      table.reject(key, "a frame that is no axis has no positions; give one number");
+    read_rows(table, key, frame, k, function);
+  } else {
+    function.forward = {value_from_written(k, table.number(key))};
+  }
+  if (const auto u = read_u(table, key, k))
+    function.u.assign(std::max<std::size_t>(function.position.size(), 1), *u);
+  if (auto fit = check_function(function, k, name); !fit) table.reject(key, fit.error().message);
+}
+
+// Of a fixed frame, which is named by its table, "EX".
+std::string name_in_table(const MachineFrame& frame, std::size_t k) {
+  const std::string id = frame.kind == FrameKind::fixed ? "" : frame.id;
+  return "E" + std::string(1, kLetters[k]) + id;
+}
+
+void read_errors(TomlTable& table, MachineFrame& frame) {
+  for (std::size_t k = 0; k < kBodyErrors; ++k) {
+    read_function(table, name_in_table(frame, k), frame, k, frame.error[k]);
+    if (!has_location(frame, k)) continue;
+    const std::string key = with_unit(location_name(frame, k), k);
+    if (!table.has(key)) continue;
+    const double value = value_from_written(k, table.number(key));
+    ErrorFunction constant;
+    constant.forward = {value};
+    if (auto fit = check_function(constant, k, key); !fit) table.reject(key, fit.error().message);
+    frame.location[k] = {value, read_u(table, key, k)};
+  }
+}
+
+void read_range(TomlTable& table, MachineFrame& frame) {
+  const std::string key = std::string("range_") + position_unit(frame);
+  if (!table.has(key)) return;
+  const auto ends = table.numbers(key);
+  if (ends.size() != 2 || !(ends[0] < ends[1])) {
+    table.reject(key, "must be [from, to], from below to");
+    return;
+  }
+  frame.range = {position_from_written(frame, ends[0]), position_from_written(frame, ends[1])};
+}
+
+void read_axis(TomlTable& table, MachineFrame& frame) {
+  if (frame.kind == FrameKind::rotary) {
+    if (!table.has("centre_mm"))
+      table.reject("id", "a rotary axis needs centre_mm = [x, y, z], a point of its axis");
+    else
+      frame.at_m = read_point(table, "centre_mm");
+  } else {
+    frame.at_m = read_point(table, "holds_at_mm");
+    const std::string point = table.string("point");
+    frame.point_moves = point == "moving";
+    if (point != "moving" && point != "standing")
+      table.reject("point",
+                   "must be \"standing\" (the errors hold where an indicator stands still) or "
+                   "\"moving\" (at a point that goes with the axis)");
+  }
+  frame.file = table.string("file", "");
+  read_range(table, frame);
+  read_errors(table, frame);
+}
+
+MachineFrame frame_of(const ChainAxis& axis) {
+  MachineFrame frame;
+  const std::size_t letter = kLetters.find(axis.letter);
+  frame.id = std::string(1, axis.letter);
+  frame.kind = letter < 3 ? FrameKind::linear : FrameKind::rotary;
+  frame.direction = letter % 3;
+  frame.carries_work = axis.carries_work;
+  frame.against_command = axis.against_command;
+  return frame;
+}
+
+void read_axes(TomlTable& root, Machine& machine) {
+  for (const ChainAxis& axis : machine.chain.axes) machine.frames.push_back(frame_of(axis));
+  std::string read;
+  for (TomlTable& table : root.tables("axis")) {
+    const std::string id = table.string("id");
+    const auto frame = std::find_if(machine.frames.begin(), machine.frames.end(),
+                                    [&](const MachineFrame& f) { return f.id == id; });
+    if (frame == machine.frames.end()) {
+      table.reject("id", "the chain " + machine.chain.text + " has no axis \"" + id + "\"");
+    } else if (read.find(id) != std::string::npos) {
+      table.reject("id", "axis " + id + " is there twice");
+    } else {
+      read_axis(table, *frame);
+      read += id;
+    }
+  }
+  for (const ChainAxis& axis : machine.chain.axes)
+    if (read.find(axis.letter) == std::string::npos)
+      root.reject("axis", "axis " + std::string(1, axis.letter) +
+                              " of the chain has no [[axis]]; give one with id and " +
+                              (kLetters.find(axis.letter) < 3 ? "holds_at_mm" : "centre_mm"));
+}
+
+// Where in the list a frame goes that stands after `link` of the chain, seen from the work.
+std::optional<std::size_t> place_after(const Machine& machine, const std::string& link) {
+  if (link == "w") return 0;
+  const auto& frames = machine.frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].id == link) return i + 1;
+    if (link == "b" && !frames[i].carries_work) return i;
+  }
+  return link == "b" ? std::optional(frames.size()) : std::nullopt;
+}
+
+// A body that does not move has errors all the same: how it was put upon the one before.
+void read_fixed_frames(TomlTable& root, Machine& machine) {
+  for (TomlTable& table : root.tables("frame")) {
+    MachineFrame frame;
+    frame.id = table.string("id");
+    const std::string after = table.string("after");
+    const auto place = place_after(machine, after);
+    if (frame.id.size() < 2 || machine.find(frame.id))
+      table.reject("id", "must be a name of two letters or more that no other frame has");
+    if (!place) {
+      table.reject("after", "\"" + after +
+                                "\" is no link of the chain; give w, b, an axis or the " +
+                                "id of a frame above this one");
+      continue;
+    }
+    frame.carries_work = after == "w" || (after != "b" && machine.frames[*place - 1].carries_work);
+    frame.at_m = read_point(table, "holds_at_mm");
+    read_errors(table, frame);
+    machine.frames.insert(machine.frames.begin() + static_cast<std::ptrdiff_t>(*place),
+                          std::move(frame));
+  }
+}
+
+}  // namespace
+
+Result<Machine> parse_machine(std::string_view text, const std::string& source_name) {
+  MDOF_TRY(TomlTable root, TomlTable::parse(text, source_name));
+  Machine machine;
+  machine.name = root.string("name");
+  machine.simulated = root.boolean("simulated", false);
+  machine.chain = read_machine(root);
+  if (!machine.chain.known())
+    root.reject("machine", "[machine] chain is needed, such as chain = \"w-Y-X-b-Z-t\"");
+  else
+    read_axes(root, machine);
+  read_fixed_frames(root, machine);
+  if (auto tool = root.table("tool")) machine.tool_m = read_point(*tool, "point_mm");
+  MDOF_CHECK(root.finish());
+  return machine;
+}
+
+}  // namespace mdof

@@ -1,0 +1,200 @@
+#include "algo/machine/tool_error.h"
+
+#include <gtest/gtest.h>
+
+#include "algo/machine/compensating.h"
+#include "tests/algo/machine/random_machine.h"
+
+namespace mdof::algo {
+namespace {
+
+const char* const kChains[] = {"XYZ", "XYZC", "XYZAC", "XYZABC", "XYZmn", "XY", "XYZCmnopqrstuv"};
+
+// Bar: 1e-12 m over 10,000 random machines.
+TEST(MachineModel, IsTheProductOfMatrices) {
+  test::RandomMachines random(1);
+  double worst_place = 0, worst_angle = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const auto machine = random.machine(kChains[i % 7], 50e-6, 1e-3, 0.3);
+    const auto command = random.command(0.3);
+    const auto truth = test::true_error(machine, command);
+    const auto error =
+        exact_error(machine, command, values_at(machine, command, MachineApproach::mean));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      worst_place =
+          std::max(worst_place, std::abs(error[at] - static_cast<double>(truth.place[k])));
+      worst_angle =
+          std::max(worst_angle, std::abs(error[at + 3] - static_cast<double>(truth.angle[k])));
+    }
+  }
+  RecordProperty("worst_place_m", std::to_string(worst_place * 1e15) + "e-15");
+  EXPECT_LT(worst_place, 1e-14);
+  EXPECT_LT(worst_angle, 1e-14);
+}
+
+TEST(MachineModel, LinearIsWithinItsBound) {
+  test::RandomMachines random(2);
+  double closest = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double turn = random.between(1e-5, 5e-3);
+    const auto machine = random.machine(kChains[i % 7], 50e-6, turn, 0.3);
+    const auto command = random.command(0.3);
+    const auto e = tool_error(machine, command, MachineApproach::mean);
+    const double place = (e.exact - e.linear).head<3>().norm();
+    const double angle = (e.exact - e.linear).tail<3>().norm();
+    EXPECT_LE(place, e.bound.place_m);
+    EXPECT_LE(angle, e.bound.angle_rad);
+    closest = std::max(closest, place / e.bound.place_m);
+  }
+  EXPECT_GT(closest, 0.02);  // the bound says something
+}
+
+// One error at a time, small: what the full product does is the derivative.
+TEST(MachineModel, DerivativesAreThoseOfTheProduct) {
+  test::RandomMachines random(3);
+  for (int i = 0; i < 40; ++i) {
+    auto machine = random.machine(kChains[i % 7], 0, 0, 0.3);
+    const auto command = random.command(0.3);
+    for (const auto& d : derivatives(machine, command)) {
+      auto& frame = machine.frames[d.frame];
+      const auto with = [&](double value) {
+        const auto before = frame;
+        if (d.of_line)
+          frame.location[d.k].value = value;
+        else
+          frame.error[d.k] = {{}, {value}, {}, {}, {}};
+        const auto e =
+            exact_error(machine, command, values_at(machine, command, MachineApproach::mean));
+        frame = before;
+        return e;
+      };
+      const Vector6 slope = (with(1e-5) - with(-1e-5)) / 2e-5;
+      EXPECT_LT((slope - d.d).cwiseAbs().maxCoeff(), 1e-8)
+          << frame.id << " " << d.k << (d.of_line ? " of its line" : "");
+    }
+  }
+}
+
+// w-X-b-Y-Z-t with a tool 100 mm above: signs and arms by hand.
+Machine by_hand(bool x_carries_work) {
+  Machine m;
+  m.frames.resize(2);
+  m.frames[0].id = "X";
+  m.frames[0].kind = FrameKind::linear;
+  m.frames[0].carries_work = x_carries_work;
+  m.frames[1].id = "Z";
+  m.frames[1].kind = FrameKind::linear;
+  m.frames[1].direction = 2;
+  m.tool_m = {0, 0, 0.1};
+  return m;
+}
+
+TEST(MachineModel, SignsAndArmsByHand) {
+  for (const bool work : {true, false}) {
+    const double side = work ? -1 : 1;
+    auto m = by_hand(work);
+    const Command at = {0.05, 0, 0.02, 0, 0, 0};
+    const auto error_of = [&](std::size_t k, double value, bool moves) {
+      auto one = m;
+      one.frames[0].error[k].forward = {value};
+      one.frames[0].point_moves = moves;
+      return tool_error(one, at, MachineApproach::mean).linear;
+    };
+    EXPECT_NEAR(error_of(1, 1e-6, false)[1], side * 1e-6, 1e-15);  // EYX
+    // EBX about the machine's origin: the tool is 120 mm above.
+    EXPECT_NEAR(error_of(4, 1e-6, false)[0], side * 0.12e-6, 1e-15);
+    // Of a tool axis the tool has gone 50 mm along; over a table it is where it was.
+    EXPECT_NEAR(error_of(4, 1e-6, false)[2], work ? 0 : -0.05e-6, 1e-15);
+    EXPECT_NEAR(error_of(4, 1e-6, true)[2], work ? -0.05e-6 : 0, 1e-15);
+    EXPECT_NEAR(error_of(4, 1e-6, true)[4], side * 1e-6, 1e-15);
+  }
+}
+
+// The angle from +X to +Y is 90° + EC0Y: Y's line leans to -X.
+TEST(MachineModel, SquarenessLeansAsItsNameSays) {
+  auto m = by_hand(false);
+  m.frames[1].id = "Y";
+  m.frames[1].direction = 1;
+  m.frames[1].location[5].value = 10e-6;
+  const Command at = {0, 0.1, 0, 0, 0, 0};
+  const auto e = tool_error(m, at, MachineApproach::mean);
+  EXPECT_NEAR(e.exact[0], -1e-6, 1e-14);
+  EXPECT_NEAR(e.linear[0], -1e-6, 1e-18);
+  EXPECT_EQ(e.exact[5], 0);  // a line that leans turns no body
+  EXPECT_EQ(e.no_u[0], std::vector<std::string>{"EC0Y"});
+}
+
+TEST(MachineModel, NamesWhatWasNotMeasured) {
+  auto m = by_hand(true);
+  m.frames[0].error[0].forward = {1e-6};
+  const auto e = tool_error(m, {0.05, 0, 0.02, 0, 0, 0}, MachineApproach::mean);
+  const auto& x = e.not_measured[0];
+  const auto named = [&x](const char* name) { return std::count(x.begin(), x.end(), name) == 1; };
+  EXPECT_TRUE(named("EBX") && named("EXZ") && named("EBZ") && named("EB0Z"));
+  EXPECT_FALSE(named("EXX") || named("EYX") || named("EB0X"));
+  EXPECT_EQ(e.no_u[0], std::vector<std::string>{"EXX"});
+}
+
+TEST(MachineModel, HoldsTheEndOfATableAndSaysSo) {
+  auto m = by_hand(false);
+  m.frames[0].error[0] = {{0, 0.04}, {0, 4e-6}, {0, 6e-6}, {}, {}};
+  const auto at = [&](double x_m, MachineApproach approach) {
+    return tool_error(m, {x_m, 0, 0, 0, 0, 0}, approach);
+  };
+  EXPECT_NEAR(at(0.01, MachineApproach::forward).exact[0], 1e-6, 1e-15);
+  EXPECT_NEAR(at(0.01, MachineApproach::reverse).exact[0], 1.5e-6, 1e-15);
+  EXPECT_NEAR(at(0.01, MachineApproach::mean).exact[0], 1.25e-6, 1e-15);
+  EXPECT_TRUE(at(0.04, MachineApproach::forward).beyond.empty());
+  const auto beyond = at(0.05, MachineApproach::forward);
+  EXPECT_NEAR(beyond.exact[0], 4e-6, 1e-15);
+  EXPECT_EQ(beyond.beyond, std::vector<std::string>{"EXX"});
+}
+
+TEST(MachineModel, UncertaintyIsTheRootOfSquares) {
+  auto m = by_hand(true);
+  m.frames[0].error[0] = {{}, {1e-6}, {}, {0.3e-6}, {}};
+  m.frames[0].error[4] = {{}, {0}, {}, {2e-6}, {}};  // arm of 120 mm
+  m.frames[1].location[4] = {0, 5e-6};               // over 20 mm
+  const auto e = tool_error(m, {0.05, 0, 0.02, 0, 0, 0}, MachineApproach::mean);
+  EXPECT_NEAR(e.u[0], std::hypot(0.3e-6, 0.24e-6, 0.1e-6), 1e-15);
+  EXPECT_NEAR(e.u[4], 2e-6, 1e-15);
+}
+
+// Bar: 1 nm for errors of 50 µm and 200 µrad in a cube of 100 mm.
+TEST(Compensating, LeavesNothingOfThePlace) {
+  test::RandomMachines random(4);
+  double worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto machine = random.machine(i % 2 == 0 ? "XYZ" : "XYZC", 50e-6, 200e-6, 0.1);
+    auto wanted = random.command(0.098);
+    for (std::size_t k = 0; k < 3; ++k) wanted[k] += 0.001;  // the ends of tables are held
+    wanted[5] /= 10;  // at a quarter of a turn an axis beyond C may lie along another
+    const auto c = compensating_command(machine, wanted, MachineApproach::mean);
+    ASSERT_TRUE(c);
+    EXPECT_TRUE(c->converged);
+    EXPECT_LE(c->steps, 8);
+    // By the matrices that know nothing of it.
+    const auto reached = test::tool_matrix(machine, c->command, true);
+    const auto nominal = test::tool_matrix(machine, wanted, false);
+    for (std::size_t k = 0; k < 3; ++k)
+      worst = std::max(worst, static_cast<double>(std::abs(reached[k][3] - nominal[k][3])));
+  }
+  EXPECT_LT(worst, 1e-12);
+}
+
+TEST(Compensating, SaysWhatTwoAxesCannotReach) {
+  auto m = by_hand(true);
+  m.frames[0].error[1].forward = {3e-6};  // EYX, and no Y
+  m.frames[0].error[0].forward = {2e-6};
+  const auto c = compensating_command(m, {0.05, 0, 0, 0, 0, 0}, MachineApproach::mean);
+  ASSERT_TRUE(c);
+  EXPECT_NEAR(c->residual_m[0], 0, 1e-15);
+  EXPECT_NEAR(c->residual_m[1], -3e-6, 1e-15);
+  EXPECT_NEAR(c->command[0] - 0.05, -2e-6, 1e-12);  // the table has gone 2 µm too far
+  m.frames.clear();
+  EXPECT_FALSE(compensating_command(m, {}, MachineApproach::mean));
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,120 @@
+#include "schema/machine/machine.h"
+
+#include <gtest/gtest.h>
+
+namespace mdof {
+namespace {
+
+const std::string kMachine = R"(name = "grooving machine"
+machine = {chain = "w-C-Y-b-X-Z-t", travel = {Y = "-"}}
+tool = {point_mm = [0, 0, 120]}
+[[axis]]
+id = "X"
+holds_at_mm = [0, 0, 120]
+point = "moving"
+range_mm = [0, 400]
+EXX_um = [[0, 0, 0.5], [400, 8, 9]]
+u_EXX_um = 0.2
+EYX_file = "eyx.csv"
+EAX_urad = 3
+[[axis]]
+id = "Y"
+holds_at_mm = [1, 2, 3]
+point = "standing"
+file = "y.csv"
+EC0Y_urad = 25
+u_EC0Y_urad = 0.4
+[[axis]]
+id = "Z"
+holds_at_mm = [0, 0, 0]
+point = "moving"
+[[axis]]
+id = "C"
+centre_mm = [200, 200, 0]
+EXC_um = [[0, 0], [360, 1]]
+EX0C_um = 2
+EA0C_urad = -4
+)";
+const std::string kColumn =
+    "[[frame]]\nid = \"column\"\nafter = \"b\"\nholds_at_mm = [0, 0, 500]\nEC_urad = 5\nu_EC_urad "
+    "= 1\n";
+
+TEST(MachineToml, IsRead) {
+  const auto read = parse_machine(kMachine + kColumn, "m.toml");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->frames.size(), 5u);
+  EXPECT_EQ(read->frames[2].id, "column");
+  EXPECT_FALSE(read->frames[2].carries_work);
+  EXPECT_EQ(error_name(read->frames[2], 5), "EC(column)");
+  EXPECT_DOUBLE_EQ(read->frames[2].error[5].forward[0], 5e-6);
+  const auto* x = read->find("X");
+  EXPECT_EQ(x->error[0].position, (std::vector<double>{0, 0.4}));
+  ASSERT_EQ(x->error[0].reverse.size(), 2u);
+  EXPECT_DOUBLE_EQ(x->error[0].reverse[1], 9e-6);
+  ASSERT_EQ(x->error[0].u.size(), 2u);
+  EXPECT_DOUBLE_EQ(x->error[0].u[1], 0.2e-6);
+  EXPECT_EQ(x->error[1].file, "eyx.csv");
+  EXPECT_TRUE(x->point_moves && !x->carries_work);
+  const auto* y = read->find("Y");
+  EXPECT_TRUE(y->carries_work && y->against_command && !y->point_moves);
+  EXPECT_DOUBLE_EQ(*y->location[5].value, 25e-6);
+  EXPECT_DOUBLE_EQ(*y->location[5].u, 0.4e-6);
+  const auto* c = read->find("C");
+  EXPECT_NEAR(c->error[0].position[1], 6.283185307179586, 1e-15);
+  EXPECT_DOUBLE_EQ(*c->location[3].value, -4e-6);
+  EXPECT_DOUBLE_EQ(read->tool_m[2], 0.12);
+}
+
+// Fixed frames stand where they say, on the side of the link before.
+TEST(MachineToml, FramesThatAreNoAxes) {
+  const auto frame = [](const char* id, const char* after) {
+    return "[[frame]]\nid = \"" + std::string(id) + "\"\nafter = \"" + after +
+           "\"\nholds_at_mm = [0, 0, 0]\n";
+  };
+  const auto read =
+      parse_machine(kMachine + frame("fixture", "w") + frame("saddle", "Y") + frame("column", "b") +
+                        frame("spindle", "Z") + frame("holder", "spindle"),
+                    "m.toml");
+  ASSERT_TRUE(read) << read.error().message;
+  std::string order;
+  for (const auto& f : read->frames) order += f.id + (f.carries_work ? "w " : "t ");
+  EXPECT_EQ(order, "fixturew Cw Yw saddlew columnt Xt Zt spindlet holdert ");
+}
+
+struct Bad {
+  const char *from, *to, *says;
+};
+TEST(MachineToml, WhatIsWrongIsNamed) {
+  const Bad all[] = {
+      {"point = \"moving\"\nrange", "range", "point"},
+      {"point = \"moving\"\nrange", "point = \"still\"\nrange", "standing"},
+      {"EXX_um = [[0, 0, 0.5]", "EXX_um = [[500, 0, 0.5]", "increase"},
+      {"[400, 8, 9]", "[400, nan, 9]", "finite"},
+      {"[400, 8, 9]", "[400, 8]", "each row"},
+      {"[400, 8, 9]", "[400, 80000, 9]", "unit"},
+      {"EAX_urad = 3", "EAX_urad = 3e6", "unit"},
+      {"EAX_urad = 3", "EAX_um = 3", "EAX_u"},
+      {"EC0Y_urad", "EC0X_urad", "EC0"},
+      {"u_EC0Y_urad = 0.4", "u_EC0Y_urad = -1", "not negative"},
+      {"centre_mm = [200, 200, 0]\n", "", "centre_mm"},
+      {"id = \"Z\"", "id = \"Y\"", "twice"},
+      {"id = \"Z\"", "id = \"B\"", "has no axis"},
+      {"[0, 400]", "[400, 0]", "from below"},
+      {"w-C-Y-b-X-Z-t", "w-C-Y-X-Z-t", "bed"},
+      {"holds_at_mm = [1, 2, 3]", "holds_at_mm = [1, 2, inf]", "holds_at_mm"},
+      {"name", "nam", "nam"},
+  };
+  for (const Bad& bad : all) {
+    std::string text = kMachine;
+    const auto at = text.find(bad.from);
+    ASSERT_NE(at, std::string::npos) << bad.from;
+    text.replace(at, std::string(bad.from).size(), bad.to);
+    const auto read = parse_machine(text, "m.toml");
+    ASSERT_FALSE(read) << bad.from << " -> " << bad.to;
+    EXPECT_NE(read.error().message.find(bad.says), std::string::npos) << read.error().message;
+    EXPECT_NE(read.error().message.find("m.toml"), std::string::npos) << read.error().message;
+  }
+}
+
+}  // namespace
+}  // namespace mdof

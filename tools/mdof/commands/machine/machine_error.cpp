@@ -1,0 +1,145 @@
+// mdof machine error MACHINE.toml --at X,Y,Z: the error of the tool against the work.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "algo/machine/compensating.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/machine/machine_file.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct MachineErrorCommand {
+  std::string file, at, approach = "mean";
+  bool json = false;
+};
+
+struct FoundError {
+  algo::Command at{};
+  algo::ToolError error;
+  algo::CompensatingCommand compensating;
+};
+
+void write_by_component(JsonWriter& json, const char* key,
+                        const std::array<std::vector<std::string>, 6>& names) {
+  json.key(key).begin_object();
+  for (std::size_t k = 0; k < 6; ++k) write_names(json, kComponents[k], names[k]);
+  json.end_object();
+}
+
+void write_compensating(JsonWriter& json, const Machine& machine,
+                        const algo::CompensatingCommand& c) {
+  json.key("compensation").begin_object();
+  write_command(json, "command", machine, c.command);
+  json.field("residual_um", to_um(c.residual_m.norm())).key("residual").begin_object();
+  for (int k = 0; k < 3; ++k) json.field(kComponents[k], to_um(c.residual_m[k]));
+  json.end_object().key("angles_left").begin_object();
+  for (int k = 0; k < 3; ++k) json.field(kComponents[3 + k], to_urad(c.angles_rad[k]));
+  json.end_object().field("steps", c.steps).field("converged", c.converged);
+  write_names(json, "beyond_tables", c.beyond);
+  json.end_object();
+}
+
+std::string error_json(const Machine& machine, const FoundError& found,
+                       const std::string& approach) {
+  const algo::ToolError& e = found.error;
+  JsonWriter json;
+  json.begin_object()
+      .field("machine", machine.name)
+      .field("chain", machine.chain.text)
+      .field("simulated", machine.simulated)
+      .field("approach", approach);
+  write_command(json, "at", machine, found.at);
+  json.field("sense", "error of the tool against the work, actual - nominal, in its coordinates");
+  write_components(json, "error", e.exact);
+  write_components(json, "u", e.u);
+  write_components(json, "linear", e.linear);
+  write_components(json, "difference", e.exact - e.linear);
+  json.key("difference_bound")
+      .begin_object()
+      .field("place_um", to_um(e.bound.place_m))
+      .field("angle_urad", to_urad(e.bound.angle_rad))
+      .end_object();
+  write_by_component(json, "not_measured", e.not_measured);
+  write_by_component(json, "u_not_declared", e.no_u);
+  write_names(json, "beyond_tables", e.beyond);
+  write_compensating(json, machine, found.compensating);
+  json.end_object();
+  return json.take();
+}
+
+std::string compensating_text(const Machine& machine, const FoundError& found) {
+  const auto& c = found.compensating;
+  std::string text = "the tool comes to the nominal place with";
+  for (const MachineFrame& frame : machine.frames)
+    if (frame.kind == FrameKind::linear) {
+      const double to = algo::command_of(frame, c.command);
+      text += " " + frame.id + " " + fixed(to_mm(to), 6) + " mm (" +
+              fixed(to_um(to - algo::command_of(frame, found.at)), 4) + " µm)";
+    }
+  return text + "; residual " + fixed(to_um(c.residual_m.norm()), 6) + " µm\n" +
+         (c.converged ? "" : "NOT CONVERGED: errors this steep have no compensating command\n") +
+         "angles stay: " + in_urad(c.angles_rad[0]) + ", " + in_urad(c.angles_rad[1]) + ", " +
+         in_urad(c.angles_rad[2]) + " µrad about X, Y, Z\n";
+}
+
+std::string error_text(const Machine& machine, const FoundError& found) {
+  const algo::ToolError& e = found.error;
+  TextTable table({"", "error", "u", "linear", "difference", "without"});
+  const char* const labels[] = {"x/µm", "y/µm", "z/µm", "a/µrad", "b/µrad", "c/µrad"};
+  for (int k = 0; k < 6; ++k) {
+    const auto& without = e.not_measured[static_cast<std::size_t>(k)];
+    table.add({labels[k], fixed(to_key_unit(e.exact[k]), 4), fixed(to_key_unit(e.u[k]), 4),
+               fixed(to_key_unit(e.linear[k]), 4), fixed(to_key_unit(e.exact[k] - e.linear[k]), 6),
+               joined(without, " ")});
+  }
+  std::vector<std::string> no_u;
+  for (const auto& names : e.no_u)
+    for (const auto& name : names)
+      if (std::find(no_u.begin(), no_u.end(), name) == no_u.end()) no_u.push_back(name);
+  return simulated_notice(machine.simulated) + machine.name + ", " + machine.chain.text +
+         ": error of the tool against the work, actual - nominal\n" +
+         table.text(terminal_columns()) + "without: errors that were not measured\n" +
+         missing_text({}, no_u, terminal_columns()) +
+         wrapped(compensating_text(machine, found), terminal_columns());
+}
+
+Status machine_error(const MachineErrorCommand& o) {
+  MDOF_TRY(const Machine machine, load_machine(o.file));
+  FoundError found;
+  MDOF_TRY(found.at, command_from(machine, o.at));
+  const auto approach = approach_from(o.approach);
+  found.error = algo::tool_error(machine, found.at, approach);
+  MDOF_TRY(found.compensating, algo::compensating_command(machine, found.at, approach));
+  warn_beyond(found.error.beyond);
+  return o.json ? write_line(error_json(machine, found, o.approach))
+                : write_out(error_text(machine, found));
+}
+
+Action declare_machine_error(CLI::App& command) {
+  const auto o = std::make_shared<MachineErrorCommand>();
+  add_machine_argument(command, o->file);
+  command.add_option("--at", o->at, "Commands of X, Y and Z in mm, or X=10,C=90 (rotary: degrees)")
+      ->required()
+      ->type_name("X,Y,Z");
+  add_approach_option(command, o->approach);
+  add_json_flag(command, o->json);
+  return [o] { return machine_error(*o); };
+}
+
+}  // namespace
+
+Command machine_error_command() {
+  return {.name = "machine error",
+          .summary = "Error of the tool against the work, and the command that compensates it",
+          .footer = "Example:\n  mdof machine error machine.toml --at 10,20,30",
+          .declare = declare_machine_error};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,186 @@
+// mdof machine map MACHINE.toml --plane XY --step-mm S: errors of the tool over a plane.
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "algo/machine/plane_map.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/machine/machine_file.h"
+#include "tools/mdof/csv/csv_text.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct MachineMapCommand {
+  std::string file, plane = "XY", at = "", approach = "mean";
+  double step_mm = 10;
+  bool without_angles = false, bidirectional = false, csv = false, json = false;
+};
+
+struct FoundMap {
+  std::string approach;
+  algo::PlaneMap map;
+};
+
+std::string key_in_mm(std::size_t direction) {
+  return std::string(1, "XYZ"[direction]) + "_mm";
+}
+
+std::string map_csv(const std::vector<FoundMap>& maps) {
+  CsvText csv;
+  const auto& first = maps.front().map;
+  if (maps.size() > 1) csv.cell("approach");
+  csv.cells({key_in_mm(first.first), key_in_mm(first.second)});
+  for (int k = 0; k < 3; ++k) csv.cell(kComponents[k]);
+  for (int k = 0; k < 3; ++k) csv.cell(std::string("u_") + kComponents[k]);
+  csv.end_row();
+  for (const FoundMap& found : maps)
+    for (const algo::PlanePoint& p : found.map.points) {
+      if (maps.size() > 1) csv.cell(found.approach);
+      csv.cell(to_mm(p.first_m)).cell(to_mm(p.second_m));
+      for (int k = 0; k < 3; ++k) csv.cell(to_um(p.error[k]));
+      for (int k = 0; k < 3; ++k) csv.cell(to_um(p.u[k]));
+      csv.end_row();
+    }
+  return csv.take();
+}
+
+void write_extremes(JsonWriter& json, const algo::PlaneMap& map) {
+  json.key("largest").begin_object();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto extreme = algo::extreme_of(map, k);
+    const auto& p = map.points[extreme.point];
+    json.key(kComponents[k])
+        .begin_object()
+        .field("value_um", to_um(extreme.value))
+        .field("u_um", to_um(p.u[static_cast<Eigen::Index>(k)]))
+        .field("range_um", to_um(extreme.range))
+        .field(key_in_mm(map.first), to_mm(p.first_m))
+        .field(key_in_mm(map.second), to_mm(p.second_m))
+        .end_object();
+  }
+  json.end_object();
+}
+
+void write_grid(JsonWriter& json, const algo::PlaneMap& map) {
+  json.key("points").begin_array();
+  for (const algo::PlanePoint& p : map.points) {
+    json.begin_object()
+        .field(key_in_mm(map.first), to_mm(p.first_m))
+        .field(key_in_mm(map.second), to_mm(p.second_m));
+    for (int k = 0; k < 3; ++k) json.field(kComponents[k], to_um(p.error[k]));
+    for (int k = 0; k < 3; ++k) json.field(std::string("u_") + kComponents[k], to_um(p.u[k]));
+    json.end_object();
+  }
+  json.end_array();
+}
+
+std::string map_json(const Machine& machine, const MachineMapCommand& o,
+                     const std::vector<FoundMap>& maps) {
+  JsonWriter json;
+  json.begin_object()
+      .field("machine", machine.name)
+      .field("chain", machine.chain.text)
+      .field("simulated", machine.simulated)
+      .field("plane", o.plane)
+      .field("without_angles", o.without_angles)
+      .key("maps")
+      .begin_array();
+  for (const FoundMap& found : maps) {
+    json.begin_object().field("approach", found.approach);
+    write_extremes(json, found.map);
+    write_names(json, "not_measured", found.map.not_measured);
+    write_names(json, "u_not_declared", found.map.no_u);
+    write_names(json, "beyond_tables", found.map.beyond);
+    write_grid(json, found.map);
+    json.end_object();
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string map_text(const Machine& machine, const MachineMapCommand& o,
+                     const std::vector<FoundMap>& maps) {
+  const auto& first = maps.front().map;
+  TextTable table(
+      {"approach", "", "largest/µm", "u/µm", "at " + std::string(1, "XYZ"[first.first]) + "/mm",
+       std::string(1, "XYZ"[first.second]) + "/mm", "range/µm"},
+      2);
+  for (const FoundMap& found : maps)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto extreme = algo::extreme_of(found.map, k);
+      const auto& p = found.map.points[extreme.point];
+      table.add({found.approach, std::string(1, "xyz"[k]), in_um(extreme.value),
+                 in_um(p.u[static_cast<Eigen::Index>(k)]), in_mm(p.first_m), in_mm(p.second_m),
+                 in_um(extreme.range)});
+    }
+  return simulated_notice(machine.simulated) + machine.name + ", " + machine.chain.text + ": " +
+         std::to_string(first.points.size()) + " points of the plane " + o.plane +
+         ", error of the tool against the work\n" + table.text(terminal_columns()) +
+         (o.without_angles ? "of positions, straightness and squareness; no angles\n" : "") +
+         missing_text(first.not_measured, first.no_u, terminal_columns()) +
+         "The points: --csv or --json\n";
+}
+
+Status machine_map(const MachineMapCommand& o) {
+  if (!(o.step_mm > 0 && std::isfinite(o.step_mm)))
+    return fail(ErrorCode::usage, "--step-mm must be a finite number above 0");
+  MDOF_TRY(const Machine machine, load_machine(o.file));
+  algo::PlaneMapRequest request;
+  request.first = std::string("XYZ").find(o.plane[0]);
+  request.second = std::string("XYZ").find(o.plane[1]);
+  request.step_m = from_mm(o.step_mm);
+  request.without_angles = o.without_angles;
+  if (!o.at.empty()) {
+    MDOF_TRY(request.others, command_from(machine, o.at));
+  }
+  std::vector<FoundMap> maps;
+  for (const char* approach : {"forward", "reverse"}) {
+    const std::string name = o.bidirectional ? approach : o.approach;
+    request.approach = approach_from(name);
+    MDOF_TRY(auto map, algo::plane_map(machine, request));
+    maps.push_back({name, std::move(map)});
+    if (!o.bidirectional) break;
+  }
+  warn_beyond(maps.front().map.beyond);
+  if (o.csv || o.json) {
+    if (o.csv && !maps.front().map.not_measured.empty())
+      warn("not measured, and not in these figures: " + joined(maps.front().map.not_measured));
+    return o.csv ? write_out(map_csv(maps)) : write_line(map_json(machine, o, maps));
+  }
+  return write_out(map_text(machine, o, maps));
+}
+
+Action declare_machine_map(CLI::App& command) {
+  const auto o = std::make_shared<MachineMapCommand>();
+  add_machine_argument(command, o->file);
+  command.add_option("--plane", o->plane, "The two axes")
+      ->check(CLI::IsMember({"XY", "XZ", "YZ"}))
+      ->capture_default_str();
+  command.add_option("--step-mm", o->step_mm, "Between two points, about")->capture_default_str();
+  command.add_option("--at", o->at, "Where the other axes stand, such as Z=30 [default: at 0]")
+      ->type_name("AXIS=MM");
+  add_approach_option(command, o->approach);
+  command.add_flag("--bidirectional", o->bidirectional, "Both approaches, one map each")
+      ->excludes("--approach");
+  command.add_flag("--without-angles", o->without_angles,
+                   "Positions, straightness and squareness alone");
+  add_csv_and_json_flags(command, o->csv, o->json);
+  return [o] { return machine_map(*o); };
+}
+
+}  // namespace
+
+Command machine_map_command() {
+  return {.name = "machine map",
+          .summary = "Errors of the tool over a plane of two axes, and the largest",
+          .footer = "Example:\n  mdof machine map machine.toml --plane XY --step-mm 20 --csv",
+          .declare = declare_machine_map};
+}
+
+}  // namespace mdof::tools

@@ -1,7 +1,10 @@
 #include "daemon/measure/budgets.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "algo/separation/square_reversal.h"
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/run_uncertainty.h"
 #include "schema/run_json.h"
@@ -101,6 +104,44 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
   FoundBudgets found{kAtFixture, {}, {}, algo::inherited_warnings({&x, &y}), fitted.simulated};
   found.budgets.push_back(std::move(budget));
   return found;
+}
+
+namespace {
+
+struct FoundSetUp {
+  algo::SquareSetUp set_up;
+  std::vector<std::string> warnings;
+  bool simulated = false;
+};
+
+// Its square taken to be true.
+Result<FoundSetUp> square_set_up(store::Store& store, const SquarenessRequest& request) {
+  MDOF_TRY(const Run x, store.run(request.run_x));
+  MDOF_TRY(const Run y, store.run(request.run_y));
+  MDOF_TRY(const Rig rig_x, rig_of(x.header));
+  MDOF_TRY(const Rig rig_y, rig_of(y.header));
+  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, {0.0, 0.0}));
+  MDOF_TRY(const Squareness fitted, algo::squareness(x, y, artefact, request.partial));
+  MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact));
+  std::erase(budget.not_declared, "u_artefact_angle_urad");  // the reversal takes the angle out
+  return FoundSetUp{
+      {artefact.corner, std::move(budget)}, algo::inherited_warnings({&x, &y}), fitted.simulated};
+}
+
+}  // namespace
+
+Result<FoundSquareReversal> square_reversal(store::Store& store, const SquarenessRequest& first,
+                                            const SquarenessRequest& second) {
+  MDOF_TRY(FoundSetUp a, square_set_up(store, first));
+  MDOF_TRY(FoundSetUp b, square_set_up(store, second));
+  MDOF_TRY(const SquareReversal found, algo::square_reversal(a.set_up, b.set_up));
+  FoundSquareReversal out{found, std::move(a.set_up.budget.not_declared), std::move(a.warnings),
+                          a.simulated || b.simulated};
+  for (auto [from, to] : {std::pair{&b.set_up.budget.not_declared, &out.not_declared},
+                          std::pair{&b.warnings, &out.warnings}})
+    for (std::string& text : *from)
+      if (std::find(to->begin(), to->end(), text) == to->end()) to->push_back(std::move(text));
+  return out;
 }
 
 std::string budgets_json(const FoundBudgets& found, const std::optional<double>& tolerance) {

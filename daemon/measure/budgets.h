@@ -11,6 +11,7 @@
 #include "daemon/store/store.h"
 #include "schema/base/result.h"
 #include "schema/run.h"
+#include "schema/separation/square_reversal.h"
 #include "schema/uncertainty/budget.h"
 #include "schema/uncertainty/run_uncertainty.h"
 
@@ -44,6 +45,18 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
 // Of EC0Y, as fit_squareness() makes it; nothing is stored.
 Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessRequest& request,
                                         const algo::TrialsRequest& trials);
+
+// Squareness of two set-ups of the same square, which was turned over in between; nothing is
+// stored. What the rigs say of its angle is not used. Errors: as of algo::square_reversal(), and
+// those of each set-up.
+struct FoundSquareReversal {
+  SquareReversal found;
+  std::vector<std::string> not_declared;  // keys of the rigs
+  std::vector<std::string> warnings;      // of the runs
+  bool simulated = false;
+};
+Result<FoundSquareReversal> square_reversal(store::Store& store, const SquarenessRequest& first,
+                                            const SquarenessRequest& second);
 
 // What `mdof budget --json` and the RPC say of them; `tolerance` as of write_budgets().
 std::string budgets_json(const FoundBudgets& found,

@@ -1,0 +1,105 @@
+// mdof separate square RUN_X RUN_Y RUN_X2 RUN_Y2: squareness without knowing the square's angle.
+#include <CLI/CLI.hpp>
+#include <array>
+
+#include "daemon/measure/budgets.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+#include "tools/mdof/text/warnings.h"
+
+namespace mdof::tools {
+namespace {
+
+struct SquareCommand {
+  std::string database;
+  std::array<std::string, 4> word;  // X, Y, X, Y
+  bool partial = false, json = false, all_warnings = false;
+};
+
+std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& run,
+                    const daemon::FoundSquareReversal& found) {
+  JsonWriter json;
+  json.begin_object().key("runs").begin_array();
+  for (const std::int64_t id : run) json.value(id);
+  json.end_array();
+  json.field("EC0Y_urad", to_urad(s.EC0Y_rad))
+      .field("artefact_angle_error_urad", to_urad(s.square_rad));
+  json.field("u_urad", to_urad(s.u_rad)).field("u_random_urad", to_urad(s.u_random_rad));
+  json.field("u_declared_urad", to_urad(s.u_declared_rad)).field("U_urad", to_urad(s.U_rad));
+  json.field("k", s.coverage_factor).field("nu_eff", s.freedom);
+  json.field("first_EC0Y_urad", to_urad(s.first_rad))
+      .field("second_EC0Y_urad", to_urad(s.second_rad));
+  json.key("u_not_declared").begin_array();
+  for (const std::string& key : found.not_declared) json.value(key);
+  json.end_array();
+  json.field("simulated", found.simulated).end_object();
+  return with_warnings(json.take(), found.warnings);
+}
+
+std::string text_of(const SquareReversal& s, bool simulated) {
+  TextTable table({"", "EC0Y/µrad"});
+  table.add({"first set-up, square taken as true", in_urad(s.first_rad)});
+  table.add({"second set-up, square taken as true", in_urad(s.second_rad)});
+  const std::string u = in_urad(s.u_rad);
+  return simulated_notice(simulated) + table.text() + "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), u) +
+         " µrad, expanded U = " + in_urad(s.U_rad) + " (k = " + fixed(s.coverage_factor, 2) +
+         ", 95 %)\nthe angle from +X to +Y is 90° + EC0Y\nthe square encloses 90° + " +
+         with_u(in_urad(s.square_rad), u) + " µrad (artefact_angle_error_urad of a rig)\n" +
+         wrapped("± one standard uncertainty: " +
+                     std::string(s.noise_only ? "noise and repeatability only"
+                                              : "noise, and what the rigs declare as common to "
+                                                "both set-ups") +
+                     ". The square is taken to be the same in both.",
+                 terminal_columns()) +
+         "\n";
+}
+
+Status square(const SquareCommand& command) {
+  std::array<std::int64_t, 4> run{};
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    MDOF_TRY(run[i], run_number(command.database, command.word[i], i % 2 == 0 ? Axis::x : Axis::y));
+  }
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const auto found, daemon::square_reversal(store, {run[0], run[1], {}, command.partial},
+                                                     {run[2], run[3], {}, command.partial}));
+  for (const auto& warning : summarised(found.warnings, command.all_warnings)) warn(warning);
+  if (command.json) return write_line(json_of(found.found, run, found));
+  return write_out(text_of(found.found, found.simulated));
+}
+
+Action declare_separate_square(CLI::App& command) {
+  const auto o = std::make_shared<SquareCommand>();
+  add_run_argument(command, "RUN_X", o->word[0], "Run along X, first set-up");
+  add_run_argument(command, "RUN_Y", o->word[1], "Run along Y, first set-up");
+  add_run_argument(command, "RUN_X2", o->word[2], "Run along X, the square turned over");
+  add_run_argument(command, "RUN_Y2", o->word[3], "Run along Y, the square turned over");
+  command.add_flag("--partial", o->partial, "Take partial runs as well");
+  add_database_option(command, o->database);
+  add_json_flag(command, o->json);
+  add_all_warnings_flag(command, o->all_warnings);
+  return [o] { return square(*o); };
+}
+
+}  // namespace
+
+Command separate_square_command() {
+  return {.name = "separate square",
+          .summary = "Squareness and the angle of the square, which was turned over in between",
+          .footer =
+              "EC0Y = (first + second)/2, and the square's own angle error is half of the "
+              "difference. Which way it goes in, the planes of the rigs tell.\n"
+              "Example:\n"
+              "  mdof separate square 1 2 3 4",
+          .declare = declare_separate_square};
+}
+
+}  // namespace mdof::tools

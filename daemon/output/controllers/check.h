@@ -30,7 +30,8 @@ struct CheckedError {
 
 struct Check {
   std::vector<CheckedError> errors;
-  bool passed() const;
+  std::vector<std::string> not_judged;  // written, but nobody knows which way its correction goes
+  bool passed() const;                  // of what could be judged
 };
 
 // Of what `format` wrote of these tables. Each error is the table's own, joined by straight lines.

@@ -19,6 +19,10 @@ Status check_tables(const CheckTablesCommand& command) {
   for (const auto& left : exported.files.left_out) say("left out: " + left);
   MDOF_CHECK(command.json ? write_line(check_json(exported.check))
                           : write_out(check_text(exported.check)));
+  if (exported.check.errors.empty())
+    return fail(ErrorCode::check,
+                "nothing could be judged: of no error it is known which way its "
+                "correction goes");
   if (exported.check.passed()) return {};
   return fail(ErrorCode::check, "the error does not vanish, or a mistake would not be seen");
 }

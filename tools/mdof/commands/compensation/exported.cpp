@@ -136,6 +136,8 @@ std::string check_json(const controllers::Check& check) {
     for (const Control& control : e.controls) write_control(json, e, control);
     json.end_array().end_object();
   }
+  json.end_array().key("not_judged").begin_array();
+  for (const std::string& error : check.not_judged) json.value(error);
   json.end_array().end_object();
   return json.take();
 }
@@ -153,7 +155,10 @@ std::string check_text(const controllers::Check& check) {
                fixed(e.before * 1e6, 4), fixed(e.residual * 1e6, 4), fixed(e.bound * 1e6, 4),
                e.cancels ? "yes" : "NO", seen});
   }
-  return table.text();
+  std::string text = table.text();
+  for (const std::string& error : check.not_judged)
+    text += error + ": not judged: which way its correction goes is not known\n";
+  return text;
 }
 
 }  // namespace mdof::tools

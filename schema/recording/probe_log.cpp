@@ -36,7 +36,7 @@ std::string where(const CsvHeader& header, std::size_t column) {
 // The channel of a column; nothing where the unit is not known.
 std::optional<Channel> channel_of(const std::string& name) {
   static constexpr std::array kRead = {Unit::um, Unit::mm, Unit::volt, Unit::deg_c};
-  static constexpr std::array kKept = {"s", "hz", "urad", "percent", "hPa"};
+  static constexpr std::array kKept = {"s", "hz", "urad", "deg", "percent", "hPa"};
   const std::size_t bar = name.rfind('_');
   if (bar == name.npos) return Channel{name, Unit::other};
   const std::string id = name.substr(0, bar), unit = name.substr(bar + 1);
@@ -113,8 +113,8 @@ Status add_column(CsvHeader& header, std::size_t column) {
   const std::optional<Channel> channel = channel_of(name);
   if (!channel || channel->id.empty())
     return bad_input(where(header, column) +
-                     "unknown unit; known are _um _mm _V _C (and _s _hz _urad _percent _hPa, kept "
-                     "unread): convert the readings, of a probe to um, or rename the column");
+                     "unknown unit; known are _um _mm _V _C (and _s _hz _urad _deg _percent _hPa, "
+                     "kept unread): convert the readings, of a probe to um, or rename the column");
   for (std::size_t k = 0; k < header.channels.size(); ++k)
     if (header.channels[k].id == channel->id)
       return bad_input(where(header, column) + "channel \"" + channel->id + "\" is there twice (" +

@@ -8,7 +8,7 @@
 //
 // Columns in any order; comma separated, '.' decimal, LF or CRLF, a UTF-8 byte order mark is
 // skipped. A column "A_um" is channel "A" in micrometres. Suffixes: _um _mm _V _C; a column that
-// ends in another unit of the project (_s _hz _urad _percent _hPa) or in none is kept as
+// ends in another unit of the project (_s _hz _urad _deg _percent _hPa) or in none is kept as
 // Unit::other under its whole name; any other suffix is an error. The axis position may also be
 // encoder_um, encoder_m or, where the rig says its scale, encoder_V; in no other unit, and time in
 // seconds alone.

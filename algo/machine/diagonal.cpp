@@ -1,0 +1,143 @@
+#include "algo/machine/diagonal.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "algo/uncertainty/coverage.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::string_view kAxisNames = "XYZ";
+
+void merge(const std::vector<std::string>& names, std::vector<std::string>& to) {
+  for (const std::string& name : names)
+    if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(name);
+}
+
+struct Corner {
+  std::size_t first, second;
+  std::array<double, 2> first_range, second_range;  // from begin to end
+};
+
+Diagonal along(const Machine& machine, const Corner& c, std::size_t steps,
+               MachineApproach approach) {
+  Diagonal d;
+  d.name = std::string(kAxisNames.substr(c.first, 1)) +
+           (c.first_range[1] > c.first_range[0] ? "+" : "-") +
+           std::string(kAxisNames.substr(c.second, 1)) + "+";
+  const auto command = [&c](double part) {
+    Command at{};
+    at[c.first] = c.first_range[0] + (c.first_range[1] - c.first_range[0]) * part;
+    at[c.second] = c.second_range[0] + (c.second_range[1] - c.second_range[0]) * part;
+    return at;
+  };
+  const Eigen::Vector3d begin = nominal_tool(machine, command(0)).p;
+  const Eigen::Vector3d way = nominal_tool(machine, command(1)).p - begin;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(steps);
+    const ToolError e = tool_error(machine, command(part), approach);
+    d.position_m.push_back(way.norm() * part);
+    d.deviation_m.push_back(e.exact.head<3>().dot(way.normalized()));
+    for (std::size_t k = 0; k < 3; ++k) merge(e.not_measured[k], d.not_measured);
+    merge(e.beyond, d.beyond);
+  }
+  const double zero = d.deviation_m.front();
+  for (double& x : d.deviation_m) x -= zero;
+  const auto [low, high] = std::minmax_element(d.deviation_m.begin(), d.deviation_m.end());
+  d.range_m = *high - *low;
+  return d;
+}
+
+struct Length {
+  double mean = 0, u_repeat = 0, freedom = 0;
+};
+
+Length length_of(const MeasuredLine& line) {
+  Length l;
+  if (line.length_m.empty()) return l;
+  const auto n = static_cast<double>(line.length_m.size());
+  for (const double x : line.length_m) l.mean += (x - line.length_m[0]) / n;
+  l.mean += line.length_m[0];
+  if (n < 2) return l;
+  double squares = 0;
+  for (const double x : line.length_m) squares += (x - l.mean) * (x - l.mean);
+  l.freedom = n - 1;
+  l.u_repeat = std::sqrt(squares / (l.freedom * n));
+  return l;
+}
+
+bool usable(const MeasuredLine& line) {
+  return std::all_of(line.length_m.begin(), line.length_m.end(),
+                     [](double x) { return x > 0 && std::isfinite(x); });
+}
+
+}  // namespace
+
+Result<std::vector<Diagonal>> plane_diagonals(const Machine& machine, std::size_t first,
+                                              std::size_t second, std::size_t steps,
+                                              MachineApproach approach) {
+  Corner c{first, second, {}, {}};
+  for (const std::size_t direction : {first, second}) {
+    const MachineFrame* frame = machine.find(kAxisNames.substr(direction, 1));
+    if (!frame)
+      return bad_input("the chain " + machine.chain.text + " has no axis " +
+                       std::string(kAxisNames.substr(direction, 1)));
+    MDOF_TRY((direction == first ? c.first_range : c.second_range), range_of(*frame));
+  }
+  std::vector<Diagonal> diagonals = {along(machine, c, steps, approach)};
+  std::swap(c.first_range[0], c.first_range[1]);
+  diagonals.push_back(along(machine, c, steps, approach));
+  return diagonals;
+}
+
+Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines) {
+  if (lines.first.length_m.empty() || lines.second.length_m.empty() ||
+      lines.diagonal.length_m.empty())
+    return bad_input("lines 1 and 2, along the axes, and 3, the diagonal, are needed");
+  if (!usable(lines.first) || !usable(lines.second) || !usable(lines.diagonal) ||
+      !usable(lines.other))
+    return bad_input("every length must be a number above 0");
+  SquarenessOfDiagonals s;
+  s.two_diagonals = !lines.other.length_m.empty();
+  const Length x = length_of(lines.first), y = length_of(lines.second);
+  const Length d = length_of(lines.diagonal), e = length_of(lines.other);
+  const double product = 2 * x.mean * y.mean;
+  const double cosine = s.two_diagonals
+                            ? (d.mean - e.mean) * (d.mean + e.mean) / (2 * product)
+                            : (d.mean * d.mean - x.mean * x.mean - y.mean * y.mean) / product;
+  if (!(std::abs(cosine) < 0.1))
+    return bad_input(
+        "no two axes that are nearly square have lines of these lengths; are they in "
+        "the right order and unit?");
+  s.angle_error_rad = -std::asin(cosine);  // acos(c) - 90°
+  const double by_sine = 1 / std::sqrt(1 - cosine * cosine);
+  // ∂θ/∂length = -∂cos/∂length / sin θ.
+  const double half = s.two_diagonals ? 0.5 : 1;
+  const std::array<double, 4> slope = {
+      (s.two_diagonals ? 0 : 2 * x.mean / product) + cosine / x.mean,
+      (s.two_diagonals ? 0 : 2 * y.mean / product) + cosine / y.mean, -half * 2 * d.mean / product,
+      s.two_diagonals ? half * 2 * e.mean / product : 0};
+  const std::array<Length, 4> of = {x, y, d, e};
+  std::vector<UncertaintyPart> parts;
+  double squares = 0;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const double repeat = by_sine * slope[i] * of[i].u_repeat;
+    const double declared = by_sine * slope[i] * lines.u_line_m;
+    if (of[i].freedom > 0) parts.push_back({std::abs(repeat), of[i].freedom});
+    parts.push_back({std::abs(declared), std::numeric_limits<double>::infinity()});
+    s.u_repeat_rad = std::hypot(s.u_repeat_rad, repeat);
+    squares += repeat * repeat + declared * declared;
+  }
+  if (!(squares > 0))
+    return bad_input("nothing tells the uncertainty: give each line several times, or --u-um");
+  s.u_rad = std::sqrt(squares);
+  s.freedom = effective_freedom(parts);
+  s.k = coverage_factor(s.freedom);
+  s.U_rad = s.k * s.u_rad;
+  return s;
+}
+
+}  // namespace mdof::algo

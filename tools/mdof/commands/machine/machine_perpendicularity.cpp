@@ -1,0 +1,142 @@
+// mdof machine perpendicularity FILE.csv: how a rotary table leans against the XY plane, from a
+// circle that X, Y and the table move together.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "algo/machine/perpendicularity.h"
+#include "drivers/csv/csv_table.h"
+#include "schema/base/json_writer.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct PerpendicularityCommand {
+  std::string file;
+  double radius_mm = 0;
+  int harmonics = 5;
+  bool json = false;
+};
+
+std::vector<double> scaled(const std::vector<double>& values, double by) {
+  std::vector<double> out;
+  for (const double v : values) out.push_back(v * by);
+  return out;
+}
+
+std::string counted_text(const algo::Perpendicularity& p) {
+  std::string text;
+  if (!p.tilt_known)
+    text +=
+        "The table's tilt motion is not given (EAC_urad, EBC_urad): its part that goes twice a "
+        "turn counts as a lean.\n";
+  if (!p.axes_known)
+    text +=
+        "The errors of X and Y are not given (axes_um): what of them goes once a turn counts as "
+        "a lean.\n";
+  return text;
+}
+
+std::string perpendicularity_json(const algo::Perpendicularity& p, double radius_mm,
+                                  bool simulated) {
+  JsonWriter json;
+  json.begin_object()
+      .field("EA0C_urad", to_urad(p.EA0C_rad))
+      .field("EB0C_urad", to_urad(p.EB0C_rad))
+      .field("u_urad", to_urad(p.u_rad))
+      .field("U_urad", to_urad(p.U_rad))
+      .field("k", p.k)
+      .field("nu", p.freedom)
+      .field("size_urad", to_urad(p.size_rad))
+      .field("sense", "turns of the table's axis about X and Y against the normal of the XY plane")
+      .field("u_covers", "noise of the readings")
+      .field("radius_mm", radius_mm)
+      .field("mean_um", to_um(p.mean_m))
+      .field("residual_sd_um", to_um(p.residual_sd_m))
+      .field("tilt_taken_away", p.tilt_known)
+      .field("axes_taken_away", p.axes_known)
+      .field("simulated", simulated)
+      .key("harmonics")
+      .begin_array();
+  for (const algo::Harmonic& h : p.harmonics)
+    json.begin_object()
+        .field("order", h.order)
+        .field("cosine_um", to_um(h.cosine_m))
+        .field("sine_um", to_um(h.sine_m))
+        .field("u_um", to_um(h.u_m))
+        .end_object();
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string perpendicularity_text(const algo::Perpendicularity& p, bool simulated) {
+  TextTable table({"harmonic", "cosine/µm", "sine/µm", "u/µm"});
+  for (const algo::Harmonic& h : p.harmonics)
+    table.add({std::to_string(h.order), in_um(h.cosine_m), in_um(h.sine_m), in_um(h.u_m)});
+  const std::string u = in_urad(p.u_rad);
+  return simulated_notice(simulated) + "EA0C = " + with_u(in_urad(p.EA0C_rad), u) +
+         " µrad, EB0C = " + with_u(in_urad(p.EB0C_rad), u) +
+         " µrad, expanded U of each = " + in_urad(p.U_rad) + " (k = " + fixed(p.k, 2) +
+         ", 95 %)\n" + "the table's axis leans by " + in_urad(p.size_rad) +
+         " µrad against the normal of the XY plane\n" + table.text(terminal_columns()) +
+         "residual " + in_um(p.residual_sd_m) +
+         " µm; ± one standard uncertainty, of the readings' noise\n" + counted_text(p);
+}
+
+Status machine_perpendicularity(const PerpendicularityCommand& o) {
+  if (!std::isfinite(o.radius_mm))
+    return fail(ErrorCode::usage, "--radius-mm must be a finite number");
+  MDOF_TRY(const auto csv, drivers::read_csv_table(o.file, {"angle_deg", "height_um"},
+                                                   {"EAC_urad", "EBC_urad", "axes_um"}));
+  algo::CircleReadings readings{from_mm(o.radius_mm),
+                                scaled(csv.columns[0], std::numbers::pi / 180),
+                                scaled(csv.columns[1], from_um(1)),
+                                scaled(csv.columns[2], from_urad(1)),
+                                scaled(csv.columns[3], from_urad(1)),
+                                scaled(csv.columns[4], from_um(1))};
+  auto p = algo::perpendicularity(readings, o.harmonics);
+  if (!p) return in_context(csv.source, std::move(p.error()));
+  if (o.json) {
+    if (const std::string text = counted_text(*p); !text.empty())
+      warn(text.substr(0, text.size() - 1));
+    return write_line(perpendicularity_json(*p, o.radius_mm, csv.simulated));
+  }
+  return write_out(perpendicularity_text(*p, csv.simulated));
+}
+
+Action declare_machine_perpendicularity(CLI::App& command) {
+  const auto o = std::make_shared<PerpendicularityCommand>();
+  command
+      .add_option("FILE", o->file,
+                  "CSV: angle_deg of the spot about the table's axis from +X to +Y, height_um of "
+                  "the table, + towards +Z; where known EAC_urad, EBC_urad (its tilt motion), "
+                  "axes_um (height by X and Y)")
+      ->required()
+      ->type_name("");
+  command.add_option("--radius-mm", o->radius_mm, "Of the circle")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  command.add_option("--harmonics", o->harmonics, "That are told apart")
+      ->check(CLI::Range(1, 50))
+      ->capture_default_str();
+  add_json_flag(command, o->json);
+  return [o] { return machine_perpendicularity(*o); };
+}
+
+}  // namespace
+
+Command machine_perpendicularity_command() {
+  return {.name = "machine perpendicularity",
+          .summary = "How a rotary table leans against the XY plane, from a circle",
+          .footer = "Example:\n  mdof machine perpendicularity circle.csv --radius-mm 100",
+          .declare = declare_machine_perpendicularity};
+}
+
+}  // namespace mdof::tools

@@ -53,7 +53,7 @@ Status OnTheFlyRun::push(SampleBlock& raw) {
   note_temperature(raw);
   MDOF_CHECK(calibrator_.apply(raw));
   MDOF_CHECK(aligner_.push(raw, frames_));
-  const Status taken = fly_.push(frames_);
+  Status taken = fly_.push(frames_);
   frames_.time_ns.clear();
   return taken;
 }

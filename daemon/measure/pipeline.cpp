@@ -101,6 +101,7 @@ std::string PipelineOptions::json() const {
       .field("target_window_mm", to_mm(sequence.target_window_m))
       .field("repeats", repeats);
   if (remove_drift) json.field("remove_drift", true);
+  if (on_the_fly) json.key("on_the_fly").raw(on_the_fly->json());
   write_datum(json, datum);
   json.end_object();
   return json.take();
@@ -295,7 +296,8 @@ Status Pipeline::explain_nothing() const {
                    plain_number(s.longest_still_s) + " s" + " within " +
                    plain_number(to_um(s.tolerance_m)) + " um" + ", needed are " +
                    plain_number(options_.dwell.shortest_s()) + " s" +
-                   "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um" +
+                   "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um; an "
+                   "axis that is to move all the time is measured by mdof replay --on-the-fly" +
                    (doubt.empty() ? "" : "; " + doubt));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algo/model/solver.h"
+#include "algo/on_the_fly/target_grid.h"
 #include "algo/points/align.h"
 #include "algo/points/dwell.h"
 #include "algo/sequence/sequence.h"
@@ -32,7 +33,8 @@ struct PipelineOptions {
   bool keep_points = true;    // false: for a view without a run
   int repeats = 0;            // a run was asked for so many, both ways; 0: until stopped
   bool remove_drift = false;  // of the errors, where it is significant (algo/drift)
-  EncoderDatum datum;         // of the positions that are pushed: they have it in them
+  std::optional<algo::OnTheFlyOptions> on_the_fly;  // replays only: dwells are not looked for
+  EncoderDatum datum;  // of the positions that are pushed: they have it in them
 
   std::string json() const;  // for the provenance
 };

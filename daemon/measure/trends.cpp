@@ -23,7 +23,9 @@ constexpr std::array kAxes = {Axis::x, Axis::y, Axis::z};
 std::string kind_of(const RunHeader& run) {
   const bool without_drift =
       run.provenance.options_json.find("\"remove_drift\":true") != std::string::npos;
-  return run.provenance.model + (without_drift ? " without drift " : " ") + run.provenance.rig_text;
+  const bool on_the_fly = run.provenance.options_json.find("\"on_the_fly\":") != std::string::npos;
+  return run.provenance.model + (without_drift ? " without drift " : " ") +
+         (on_the_fly ? "on the fly " : "") + run.provenance.rig_text;
 }
 
 void leave_out(std::vector<std::string>& sentences, const std::vector<std::int64_t>& runs,
@@ -59,7 +61,8 @@ void choose_kind(Chosen& chosen, bool mixed) {
     return;
   }
   leave_out(chosen.left_out, others,
-            "another rig, model or treatment of drift than " + newest + " (--mixed takes it)");
+            "another rig, model or treatment of drift, or on the fly, other than " + newest +
+                " (--mixed takes it)");
   std::erase_if(chosen.runs, [&](const RunHeader& run) { return kind_of(run) != kind; });
 }
 

@@ -59,6 +59,11 @@ Result<ReplayRequest> read_replay_request(const Params& params) {
   request.max_gap_s = optional_number(params, "max_gap_s");
   request.lag_bound_s = optional_number(params, "lag_bound_s");
   request.remove_drift = params.boolean("remove_drift", false);
+  request.on_the_fly = params.boolean("on_the_fly", false);
+  request.interval_mm = optional_number(params, "interval_mm");
+  request.bin_mm = optional_number(params, "bin_mm");
+  request.from_mm = optional_number(params, "from_mm");
+  request.to_mm = optional_number(params, "to_mm");
   MDOF_TRY(request.targets_mm, params.numbers("targets_mm"));
   return request;
 }
@@ -131,6 +136,22 @@ void add_replay_methods(rpc::MethodTable& table, Methods& m) {
              kPositive},
             {"remove_drift", ParamType::boolean, "takes a significant drift from the errors", false,
              "false"},
+            {"on_the_fly", ParamType::boolean, "the axis moves all the time: bins about targets",
+             false, "false"},
+            {"interval_mm",
+             ParamType::number,
+             "on the fly, from target to target; 1",
+             false,
+             {},
+             kPositive},
+            {"bin_mm",
+             ParamType::number,
+             "on the fly, what counts about a target; 0: as interval_mm, at most 1",
+             false,
+             {},
+             kPositive},
+            {"from_mm", ParamType::number, "on the fly, the first target", false},
+            {"to_mm", ParamType::number, "on the fly, none beyond", false},
             {"note", ParamType::string, "for people", false, "\"\""}},
        .result = "run: its id, once it is stored; a long log takes long",
        .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",

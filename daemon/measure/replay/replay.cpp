@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "daemon/measure/config.h"
+#include "daemon/measure/replay/on_the_fly_run.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
 #include "schema/rig/calibrated.h"
@@ -63,7 +64,8 @@ std::string stated_axis(const std::vector<std::string>& comments) {
   return "";
 }
 
-Status read_through(ReplayLog& log, Pipeline& pipeline, const ProgressCallback& progress) {
+template <class Measuring>
+Status read_through(ReplayLog& log, Measuring& pipeline, const ProgressCallback& progress) {
   SampleBlock block;
   for (;;) {
     MDOF_TRY(const ReadState state, log.driver().read(block, kReadTimeout));
@@ -75,6 +77,16 @@ Status read_through(ReplayLog& log, Pipeline& pipeline, const ProgressCallback& 
       return io_error(log.path() + ": given up before its end; replay it again");
     if (state == ReadState::end) return {};
   }
+}
+
+template <class Measuring>
+Result<Run> measured(ReplayLog& log, const Rig& rig, const PipelineOptions& options,
+                     const ProgressCallback& progress) {
+  MDOF_TRY(Measuring measuring, Measuring::create(rig, options));
+  MDOF_CHECK(read_through(log, measuring, progress));
+  auto run = measuring.finish();
+  if (!run) return in_context(log.path(), run.error());
+  return run;
 }
 
 Provenance provenance_of(const ReplayLog& log, const Rig& rig, const PipelineOptions& options) {
@@ -174,10 +186,9 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   MDOF_CHECK(check_axis(log.path(), log.comments(), rig));
   MDOF_CHECK(check_channels(log.path(), log.driver().info().channels, rig));
   MDOF_TRY(const AskedFor asked, log.asked_for());
-  MDOF_TRY(Pipeline pipeline, Pipeline::create(rig, options));
-  MDOF_CHECK(read_through(log, pipeline, progress));
-  auto run = pipeline.finish();
-  if (!run) return in_context(log.path(), run.error());
+  auto run = options.on_the_fly ? measured<OnTheFlyRun>(log, rig, options, progress)
+                                : measured<Pipeline>(log, rig, options, progress);
+  if (!run) return tl::unexpected(run.error());
   run->header.simulated = log.driver().info().simulated;
   run->header.started_utc = log.started_utc();
   run->header.provenance = provenance_of(log, rig, options);

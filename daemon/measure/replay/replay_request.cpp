@@ -31,8 +31,44 @@ Status check_options(const ReplayRequest& request) {
   return {};
 }
 
+// What is of dwells alone, or of runs in motion alone.
+Status check_on_the_fly(const ReplayRequest& request) {
+  const bool of_motion = request.interval_mm || request.bin_mm || request.from_mm || request.to_mm;
+  if (of_motion && !request.on_the_fly)
+    return fail(
+        ErrorCode::usage,
+        "interval_mm, bin_mm, from_mm and to_mm are of a run on the fly; ask for that, too");
+  if (request.on_the_fly && (request.tolerance_um || request.settle_s || request.min_length_s))
+    return fail(ErrorCode::usage,
+                "tolerance_um, settle_s and min_length_s are of dwells, and a run on the fly has "
+                "none; leave them out");
+  const bool of_grid = request.interval_mm || request.from_mm || request.to_mm;
+  if (!request.targets_mm.empty() && of_grid)
+    return fail(ErrorCode::usage,
+                "targets_mm and interval_mm, from_mm, to_mm both say where the targets are; give "
+                "one of them");
+  return {};
+}
+
+// Targets of the run, given now or recorded, are kept unless an interval is asked for.
+Status ask_on_the_fly(const ReplayRequest& request, PipelineOptions& options) {
+  if (!request.on_the_fly) return {};
+  algo::OnTheFlyOptions& to = options.on_the_fly.emplace();
+  const bool by_interval = request.interval_mm || request.from_mm || request.to_mm;
+  if (by_interval) options.sequence.targets_m.clear();
+  if (!options.sequence.targets_m.empty()) to.interval_mm = 0;
+  if (request.interval_mm && !(*request.interval_mm > 0))
+    return fail(ErrorCode::usage, "interval_mm must be greater than zero");
+  to.interval_mm = request.interval_mm.value_or(to.interval_mm);
+  to.bin_mm = request.bin_mm.value_or(to.bin_mm);
+  to.from_mm = request.from_mm;
+  to.to_mm = request.to_mm;
+  return algo::check_on_the_fly(to, options.sequence.targets_m);
+}
+
 Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog& log) {
   MDOF_CHECK(check_options(request));
+  MDOF_CHECK(check_on_the_fly(request));
   MDOF_TRY(const auto asked, log.asked_for());
   PipelineOptions options = asked.options;
   if (!request.model.empty()) model_from(request.model, options.model);
@@ -45,6 +81,7 @@ Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog
   if (!request.targets_mm.empty()) options.sequence.targets_m.clear();
   for (const double t : request.targets_mm) options.sequence.targets_m.push_back(from_mm(t));
   std::sort(options.sequence.targets_m.begin(), options.sequence.targets_m.end());
+  MDOF_CHECK(ask_on_the_fly(request, options));
   return options;
 }
 
@@ -57,6 +94,7 @@ Result<PipelineOptions> delayed(PipelineOptions options, const ReplayRequest& re
     MDOF_TRY(before, parse_rig(recorded, request.log + " (its rig)"));
   }
   options = with_delays_of(rig, before, std::move(options));
+  if (options.on_the_fly) return options;  // which has no stops to settle in
   if (const auto settles = check_settling(options); !settles)
     return fail(ErrorCode::usage, settles.error().message);
   return options;

@@ -16,6 +16,8 @@ struct ReplayRequest {
   std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
   std::vector<double> targets_mm;
   bool remove_drift = false;  // false: as it was measured
+  bool on_the_fly = false;    // the axis moves all the time; the rest only then
+  std::optional<double> interval_mm, bin_mm, from_mm, to_mm;
 };
 
 // As mdofd measured what it recorded, but for what the request says. The run has all but its id.

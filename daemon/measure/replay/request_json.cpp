@@ -165,6 +165,21 @@ Status read_datum(element object, EncoderDatum& datum) {
   return members.done();
 }
 
+Status read_on_the_fly(element object, std::optional<algo::OnTheFlyOptions>& to) {
+  Members members(object, "options.on_the_fly.");
+  algo::OnTheFlyOptions options;
+  members.take("interval_mm", options.interval_mm);
+  members.take("bin_mm", options.bin_mm);
+  for (const auto& [key, end] :
+       {std::pair("from_mm", &options.from_mm), std::pair("to_mm", &options.to_mm)}) {
+    double at_mm = std::nan("");
+    members.take(key, at_mm);
+    if (!std::isnan(at_mm)) *end = at_mm;
+  }
+  to = options;
+  return members.done();
+}
+
 Result<PipelineOptions> read_options(element object, PipelineOptions options) {
   Members members(object, "options.");
   std::string model = to_string(options.model);
@@ -174,6 +189,8 @@ Result<PipelineOptions> read_options(element object, PipelineOptions options) {
   if (const auto dwell = members.object("dwell")) MDOF_CHECK(read_dwell(*dwell, options.dwell));
   read_targets(members, options);
   members.take("remove_drift", options.remove_drift);
+  if (const auto on_the_fly = members.object("on_the_fly"))
+    MDOF_CHECK(read_on_the_fly(*on_the_fly, options.on_the_fly));
   if (const auto datum = members.object("encoder_datum"))
     MDOF_CHECK(read_datum(*datum, options.datum));
   MDOF_CHECK(members.done());

@@ -27,9 +27,10 @@ std::string temperature_text(const Temperature& read) {
   return text.data();
 }
 
+using Options = Result<daemon::PipelineOptions>;
+
 // What its positions are counted from; "": the device knows, or the notes say that nobody does.
-std::string datum_of(const RunHeader& h) {
-  const auto options = daemon::read_options_json(h.provenance.options_json, {});
+std::string datum_of(const Options& options) {
   return options ? datum_text(options->datum) : "";
 }
 
@@ -95,17 +96,20 @@ std::string figures_text(const Run& run, std::size_t width) {
 std::string head_text(const RunHeader& h, const std::string& result_sha256, std::size_t width,
                       bool all_warnings) {
   const auto& from = h.provenance;
+  const Options options = daemon::read_options_json(from.options_json, {});
+  const bool on_the_fly = options && options->on_the_fly;
   std::string out = simulated_notice(h.simulated);
   out += wrapped("run " + (h.id == 0 ? std::string("(not stored)") : std::to_string(h.id)) +
-                     ", axis " + letter(h.axis) + ", " + to_string(h.state) + ", model " +
-                     from.model + ", " + h.started_utc,
+                     ", axis " + letter(h.axis) + ", " + to_string(h.state) +
+                     (on_the_fly ? ", on the fly" : "") + ", model " + from.model + ", " +
+                     h.started_utc,
                  width) +
          "\n";
   if (!h.note.empty()) out += labelled("note", h.note, width);
   if (h.supersedes) out += labelled("supersedes", "run " + std::to_string(*h.supersedes), width);
   out += labelled(from.recording_kind, from.recording_path, width);
   out += labelled("scans", std::to_string(h.scans) + ", " + lost_of(h), width);
-  if (const auto datum = datum_of(h); !datum.empty()) out += labelled("datum", datum, width);
+  if (const auto datum = datum_of(options); !datum.empty()) out += labelled("datum", datum, width);
   if (h.temperature) out += labelled("at", temperature_text(*h.temperature), width);
   out += labelled("software", from.software_version, width);
   for (const auto& warning : summarised(h.warnings, all_warnings))

@@ -31,7 +31,9 @@ struct ReplayCommand {
   std::string log, rig, database, socket, model, note;  // model: empty where not given
   std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
   std::vector<double> targets_mm;
-  bool remove_drift = false, json = false, keep_out = false, all_warnings = false;
+  std::optional<double> interval_mm, bin_mm, from_mm, to_mm;
+  bool on_the_fly = false, remove_drift = false, json = false, keep_out = false,
+       all_warnings = false;
 };
 
 Result<daemon::ReplayRequest> request_of(const ReplayCommand& c) {
@@ -50,6 +52,11 @@ Result<daemon::ReplayRequest> request_of(const ReplayCommand& c) {
   request.max_gap_s = c.max_gap_s;
   request.targets_mm = c.targets_mm;
   request.remove_drift = c.remove_drift;
+  request.on_the_fly = c.on_the_fly;
+  request.interval_mm = c.interval_mm;
+  request.bin_mm = c.bin_mm;
+  request.from_mm = c.from_mm;
+  request.to_mm = c.to_mm;
   return request;
 }
 
@@ -76,6 +83,11 @@ std::string params_of(const daemon::ReplayRequest& request, const std::string& p
   number("max_gap_s", request.max_gap_s);
   number("lag_bound_s", request.lag_bound_s);
   if (request.remove_drift) json.field("remove_drift", true);
+  if (request.on_the_fly) json.field("on_the_fly", true);
+  number("interval_mm", request.interval_mm);
+  number("bin_mm", request.bin_mm);
+  number("from_mm", request.from_mm);
+  number("to_mm", request.to_mm);
   json.key("targets_mm").begin_array();
   for (const double target_mm : request.targets_mm) json.value(target_mm);
   json.end_array().end_object();
@@ -130,6 +142,24 @@ Status replay(const ReplayCommand& command) {
                    figures_text(run, terminal_columns()));
 }
 
+void add_on_the_fly_options(CLI::App& command, ReplayCommand& o) {
+  auto* on_the_fly = command.add_flag(
+      "--on-the-fly", o.on_the_fly,
+      "The axis moves all the time: each point is of the readings about its target");
+  command.add_option("--interval-mm", o.interval_mm, "On the fly: from target to target [1]")
+      ->check(CLI::PositiveNumber)
+      ->needs(on_the_fly);
+  command
+      .add_option("--bin-mm", o.bin_mm,
+                  "On the fly: length about a target [the interval, at most 1]")
+      ->check(CLI::PositiveNumber)
+      ->needs(on_the_fly);
+  command.add_option("--from-mm", o.from_mm, "On the fly: the first target [as the axis goes]")
+      ->needs(on_the_fly);
+  command.add_option("--to-mm", o.to_mm, "On the fly: no target beyond [as the axis goes]")
+      ->needs(on_the_fly);
+}
+
 Action declare_replay(CLI::App& command) {
   const auto o = std::make_shared<ReplayCommand>();
   command.add_option("LOG", o->log, "Probe log (CSV, CSV.gz, - for standard input) or .mdofrec")
@@ -162,6 +192,7 @@ Action declare_replay(CLI::App& command) {
       ->check(CLI::PositiveNumber);
   command.add_flag("--remove-drift", o->remove_drift,
                    "Take a significant drift from the errors; its uncertainty is added");
+  add_on_the_fly_options(command, *o);
   add_all_warnings_flag(command, o->all_warnings);
   add_json_flag(command, o->json);
   return [o] { return replay(*o); };

@@ -1,0 +1,121 @@
+#include "algo/on_the_fly/bin_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "algo/points/median.h"
+#include "algo/uncertainty/mean_uncertainty.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kReject = 8.0, kMadToSd = 1.4826;
+constexpr std::size_t kNeighbours = 5;
+constexpr double kEnds = 0.5;  // whose neighbours stand on one side, and differ by the bend as well
+constexpr std::size_t kUnknowns = 3;
+
+// From the medians of the two halves: a few spikes do not turn it.
+double robust_slope(std::span<const double> place, std::span<const double> reading) {
+  const std::size_t half = place.size() / 2;
+  const auto middle = [](std::span<const double> x) {
+    return median_of(std::vector<double>(x.begin(), x.end()));
+  };
+  const double way = middle(place.subspan(half)) - middle(place.first(half));
+  if (way == 0) return 0;
+  return (middle(reading.subspan(half)) - middle(reading.first(half))) / way;
+}
+
+// Of each reading, how far it is from the median of its neighbours once the slope is taken away.
+std::vector<double> deviations_of(std::span<const double> place, std::span<const double> reading) {
+  const double slope = robust_slope(place, reading);
+  std::vector<double> level(reading.size()), out(reading.size());
+  for (std::size_t i = 0; i < level.size(); ++i) level[i] = reading[i] - slope * place[i];
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    const std::size_t last = level.size() - kNeighbours;
+    const std::size_t first = std::min(i < kNeighbours / 2 ? 0 : i - kNeighbours / 2, last);
+    std::array<double, kNeighbours> near{};
+    std::copy_n(level.begin() + static_cast<std::ptrdiff_t>(first), kNeighbours, near.begin());
+    std::nth_element(near.begin(), near.begin() + kNeighbours / 2, near.end());
+    out[i] = level[i] - near[kNeighbours / 2];
+    if (i != first + kNeighbours / 2) out[i] *= kEnds;
+  }
+  return out;
+}
+
+// Solution of the normal equations about the first reading, and the first diagonal element of their
+// inverse: what a variance of single readings makes of the value's.
+struct Parabola {
+  double value = 0, slope = 0, bend = 0, variance = 0;
+  double at(double x) const { return value + x * (slope + x * bend); }
+};
+
+Parabola parabola(std::span<const double> x, std::span<const double> y) {
+  std::array<double, 5> s{};
+  std::array<double, 3> t{};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    double power = 1;
+    for (std::size_t k = 0; k < s.size(); ++k, power *= x[i]) {
+      s[k] += power;
+      if (k < t.size()) t[k] += power * (y[i] - y[0]);
+    }
+  }
+  const double c00 = s[2] * s[4] - s[3] * s[3], c01 = s[2] * s[3] - s[1] * s[4];
+  const double c02 = s[1] * s[3] - s[2] * s[2], c11 = s[0] * s[4] - s[2] * s[2];
+  const double c12 = s[1] * s[2] - s[0] * s[3], c22 = s[0] * s[2] - s[1] * s[1];
+  const double determinant = s[0] * c00 + s[1] * c01 + s[2] * c02;
+  return {y[0] + (c00 * t[0] + c01 * t[1] + c02 * t[2]) / determinant,
+          (c01 * t[0] + c11 * t[1] + c12 * t[2]) / determinant,
+          (c02 * t[0] + c12 * t[1] + c22 * t[2]) / determinant, c00 / determinant};
+}
+
+// What a cubic adds to the slope at the target, of what the parabola leaves of readings that are
+// even over the bin: the slope of a line through a wave is too small.
+double cubic_slope(std::span<const double> x, std::span<const double> left) {
+  constexpr double kOdd = 0.6;
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double odd = x[i] * (x[i] * x[i] - kOdd);
+    product += left[i] * odd;
+    square += odd * odd;
+  }
+  return -kOdd * product / square;
+}
+
+}  // namespace
+
+BinFit fit_bin(std::span<const double> place, std::span<const double> reading, double coarse,
+               std::vector<double>& scratch) {
+  BinFit fit;
+  fit.used = reading.size();
+  if (fit.used < kFewestOfBin) return fit;
+  const std::vector<double> deviations = deviations_of(place, reading);
+  std::vector<double> sizes(deviations);
+  for (double& size : sizes) size = std::abs(size);
+  const double limit = std::max(coarse, kReject * kMadToSd * median_of(std::move(sizes)));
+  std::vector<double> x;
+  scratch.clear();
+  for (std::size_t i = 0; i < reading.size(); ++i) {
+    if (std::abs(deviations[i]) > limit) continue;
+    x.push_back(place[i]);
+    scratch.push_back(reading[i]);
+  }
+  fit.used = x.size();
+  fit.rejected = reading.size() - x.size();
+  if (fit.used < kFewestOfBin) return fit;
+  const Parabola curve = parabola(x, scratch);
+  fit.value = curve.value;
+  fit.slope = curve.slope;
+  double square = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    scratch[i] -= curve.at(x[i]);
+    square += scratch[i] * scratch[i];
+  }
+  fit.slope += cubic_slope(x, scratch);
+  const auto n = static_cast<double>(fit.used);
+  fit.sd = std::sqrt(square / (n - static_cast<double>(kUnknowns)));
+  fit.u = mean_uncertainty(scratch, fit.sd) * std::sqrt(std::max(1.0, n * curve.variance));
+  return fit;
+}
+
+}  // namespace mdof::algo

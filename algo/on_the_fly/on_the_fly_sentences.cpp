@@ -1,0 +1,215 @@
+// What is said of a run in motion.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "algo/on_the_fly/bin_fit.h"
+#include "algo/on_the_fly/on_the_fly.h"
+#include "algo/plausibility/sentences.h"
+#include "algo/points/dwell_notice.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kNmPerM = 1e9, kMicroseconds = 1e6, kMilliseconds = 1e3;
+constexpr double kSeenWave = 2.5;    // bins: a shorter wave is read more than 1 % too small
+constexpr double kOtherSpeed = 0.1;  // of the run's
+constexpr double kBriefDelay_s = 1e-6;
+
+struct Speeds {
+  double min_m_s = INFINITY, max_m_s = 0, sum_m_s = 0, n = 0;
+  double mean_m_s() const { return sum_m_s / n; }
+};
+
+Speeds speeds_of(const std::vector<PassBins>& passes) {
+  Speeds speeds;
+  for (const PassBins& pass : passes) {
+    for (const BinPoint& bin : pass.bins) {
+      speeds.min_m_s = std::min(speeds.min_m_s, bin.speed_m_s);
+      speeds.max_m_s = std::max(speeds.max_m_s, bin.speed_m_s);
+      speeds.sum_m_s += bin.speed_m_s;
+      speeds.n += 1;
+    }
+  }
+  return speeds;
+}
+
+std::string mm_s(double speed_m_s) {
+  return plain_number(to_mm(speed_m_s), 4) + " mm/s";
+}
+
+// Root of the mean square over all bins.
+double scatter_m(const std::vector<PassBins>& passes, std::size_t probe) {
+  double square = 0, n = 0;
+  for (const PassBins& pass : passes) {
+    for (const BinPoint& bin : pass.bins) {
+      const double sd = bin.point.probe_sd_m[probe];
+      if (!std::isfinite(sd)) continue;
+      square += sd * sd;
+      n += 1;
+    }
+  }
+  return std::sqrt(square / n);
+}
+
+std::string scatter_text(const std::vector<PassBins>& passes, const ProbesOfBins& probes) {
+  std::string text;
+  for (std::size_t k = 0; k < probes.ids.size(); ++k)
+    text += (k == 0 ? "" : ", ") + probes.ids[k] + " " +
+            plain_number(scatter_m(passes, k) * kNmPerM, 3);
+  return text;
+}
+
+std::string lag_text(const std::vector<ReadingLag>& lags, const ProbesOfBins& probes) {
+  std::string told, untold;
+  double worst_1 = 0;
+  for (std::size_t k = 0; k < lags.size(); ++k) {
+    const ReadingLag& lag = lags[k];
+    worst_1 = std::max(worst_1, lag.steepest_1 * lag.speed_m_s);
+    if (std::isnan(lag.delay_s)) {
+      untold += (untold.empty() ? "" : ", ") + probes.ids[k];
+      continue;
+    }
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "%s %+.1f ± %.1f µs", probes.ids[k].c_str(),
+                  lag.delay_s * kMicroseconds, lag.u_delay_s * kMicroseconds);
+    told += (told.empty() ? "" : ", ") + std::string(text.data());
+  }
+  std::string out;
+  if (!told.empty()) out = "delay beside what is declared, by forward against reverse: " + told;
+  if (!untold.empty())
+    out += (out.empty() ? "" : "; ") + std::string("a delay of ") + untold +
+           " cannot be told from forward against reverse (passed one way only, too few targets, or "
+           "an even slope)";
+  return out + "; 100 µs that nobody declares move a reading by " +
+         plain_number(worst_1 * 100 / kMicroseconds * kNmPerM, 3) + " nm at the most";
+}
+
+std::string lag_warning(const std::string& id, const ReadingLag& lag) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(),
+                "forward and reverse differ as by a delay of %.3f ± %.3f ms of probe %s (up to "
+                "%.0f nm each way at %.3g mm/s): declare its delay_us in the rig; if the axis "
+                "loses %.3g um when it turns (backlash before the encoder), that looks the same: "
+                "measure at another speed to tell them apart",
+                lag.delay_s * kMilliseconds, lag.u_delay_s * kMilliseconds, id.c_str(),
+                lag.effect_m * kNmPerM, to_mm(lag.speed_m_s),
+                to_um(2 * std::abs(lag.delay_s) * lag.speed_m_s));
+  return text.data();
+}
+
+// Is it between bins of its pass that were taken? Else it is of the way up to speed, or down.
+bool is_amid(const PassBins& pass, const BinLeftOut& left) {
+  const auto beyond = [&](const BinPoint& bin) {
+    return (bin.point.position_m - left.position_m) * pass.direction > 0;
+  };
+  const auto n = std::count_if(pass.bins.begin(), pass.bins.end(), beyond);
+  return n > 0 && n < static_cast<std::ptrdiff_t>(pass.bins.size());
+}
+
+std::string left_out_text(const BinLeftOut& left, std::int64_t begin_ns) {
+  const char* why = left.fault == BinFault::speed_changes ? "the axis changed its speed or stopped"
+                    : left.fault == BinFault::gap         ? "most of its scans are missing"
+                                                          : "it has too few scans";
+  return with_number("the bin at %.4f mm, ", to_mm(left.position_m)) +
+         with_number("%.3f s after the first scan, was left out: ",
+                     ns_to_s(left.begin_ns - begin_ns)) +
+         why;
+}
+
+std::size_t count_left_out(const std::vector<PassBins>& passes, BinFault fault) {
+  std::size_t n = 0;
+  for (const PassBins& pass : passes)
+    for (const BinLeftOut& left : pass.left_out) n += left.fault == fault;
+  return n;
+}
+
+}  // namespace
+
+Status OnTheFly::explain_nothing() const {
+  const bool any = std::any_of(passes_.begin(), passes_.end(),
+                               [](const PassBins& pass) { return !pass.bins.empty(); });
+  if (any) return {};
+  const double travel_m = summary_.encoder_max_m - summary_.encoder_min_m;
+  const std::string travel = plain_number(to_mm(summary_.encoder_min_m), 6) + " to " +
+                             plain_number(to_mm(summary_.encoder_max_m), 6) + " mm";
+  if (summary_.scans == 0) return bad_input("no scan has a position of the encoder");
+  if (passes_.empty())
+    return bad_input("the axis goes from " + travel + ", and no whole bin of " +
+                     plain_number(to_mm(grid_.bin_m())) +
+                     " mm about a target lies within: give a smaller --interval-mm or --bin-mm, "
+                     "other --from-mm and --to-mm, or let the axis go further");
+  std::size_t bins = 0;
+  double way_m = 0, passed_s = 0;
+  bool dense = false;
+  for (const PassBins& pass : passes_) {
+    dense = dense || pass.too_dense;
+    way_m += std::abs(pass.to_m - pass.from_m);
+    passed_s += ns_to_s(pass.end_ns - pass.begin_ns);
+    bins += pass.left_out.size();
+  }
+  if (dense || count_left_out(passes_, BinFault::too_few) > 0) {
+    const double speed_m_s = way_m / passed_s, rate_hz = 1 / summary_.period_s;
+    const double needed_m = static_cast<double>(kFewestOfBin + 1) * speed_m_s / rate_hz;
+    return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz a bin of " +
+                     plain_number(to_mm(grid_.bin_m())) + " mm has " +
+                     plain_number(grid_.bin_m() / speed_m_s * rate_hz, 3) + " scans, needed are " +
+                     std::to_string(kFewestOfBin) + ": take an --interval-mm and --bin-mm of " +
+                     plain_number(to_mm(needed_m), 3) + " or more, record faster, or go slower");
+  }
+  return bad_input("in none of " + std::to_string(bins) + " bins from " + travel + " (" +
+                   plain_number(to_mm(travel_m), 4) +
+                   " mm) does the axis go on at a steady speed: it stops or changes its speed all "
+                   "the way; if it stops at targets, replay without --on-the-fly");
+}
+
+std::vector<std::string> OnTheFly::warnings() const {
+  std::vector<std::string> all, amid;
+  for (const PassBins& pass : passes_)
+    for (const BinLeftOut& left : pass.left_out)
+      if (left.fault != BinFault::speed_changes || is_amid(pass, left))
+        amid.push_back(left_out_text(left, begin_ns_));
+  append_summarised(all, amid, "bins that were left out");
+  const Speeds speeds = speeds_of(passes_);
+  if (speeds.max_m_s > (1 + kOtherSpeed) * speeds.min_m_s)
+    all.push_back("the axis went at " + mm_s(speeds.min_m_s) + " to " + mm_s(speeds.max_m_s) +
+                  ": a delay that is not declared acts by the speed of each point");
+  const auto found = lags();
+  for (std::size_t k = 0; k < found.size(); ++k)
+    if (found[k].significant && std::abs(found[k].delay_s) > kBriefDelay_s)
+      all.push_back(lag_warning(probes_.ids[k], found[k]));
+  for (auto& warning : places_.warnings(begin_ns_)) all.push_back(std::move(warning));
+  const auto dead = describe(watch_, probes_.ids, begin_ns_);
+  all.insert(all.end(), dead.begin(), dead.end());
+  return all;
+}
+
+std::vector<std::string> OnTheFly::statements() const {
+  const Speeds speeds = speeds_of(passes_);
+  if (speeds.n == 0) return {};
+  const auto passes = std::count_if(passes_.begin(), passes_.end(),
+                                    [](const PassBins& pass) { return !pass.bins.empty(); });
+  const std::size_t unsteady = count_left_out(passes_, BinFault::speed_changes);
+  const double bin_mm = to_mm(grid_.bin_m());
+  std::string first =
+      "measured on the fly: " + std::to_string(passes) +
+      (passes == 1 ? " pass at " : " passes at ") + mm_s(speeds.mean_m_s()) + " (" +
+      plain_number(to_mm(speeds.min_m_s), 4) + " to " + plain_number(to_mm(speeds.max_m_s), 4) +
+      "), each point a parabola through the readings of " + plain_number(bin_mm) +
+      " mm about its target; " + std::to_string(unsteady) +
+      " bins in which the axis changed its speed are left out; errors that change within " +
+      plain_number(kSeenWave * bin_mm, 3) + " mm are read too small";
+  return {std::move(first),
+          "what motion adds: the readings scatter about the parabolas by " +
+              scatter_text(passes_, probes_) +
+              " nm rms (noise and vibration, in u); vibration slower than " +
+              plain_number(2 * speeds.mean_m_s() / grid_.bin_m(), 3) +
+              " Hz looks like form and only shows between runs",
+          lag_text(lags(), probes_) +
+              "; neither the uncertainty of a delay nor forces of motion are in u"};
+}
+
+}  // namespace mdof::algo

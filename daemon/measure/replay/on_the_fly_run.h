@@ -1,0 +1,47 @@
+// Raw blocks of one axis that moves all the time -> a run: what Pipeline does where it dwells.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algo/model/solver.h"
+#include "algo/on_the_fly/on_the_fly.h"
+#include "algo/points/align.h"
+#include "algo/uncertainty/chi_square.h"
+#include "daemon/measure/pipeline.h"
+#include "drivers/calibration.h"
+
+namespace mdof::daemon {
+
+// Thread-bound.
+class OnTheFlyRun {
+ public:
+  // `options` have on_the_fly, which check_on_the_fly() accepts. Error: Pipeline's.
+  static Result<OnTheFlyRun> create(const Rig& rig, const PipelineOptions& options);
+
+  // Uses the block up. Error: Pipeline's, or a pass that is too long.
+  Status push(SampleBlock& raw);
+  // End of the data, as Pipeline::finish(). Error: no bin was passed at a steady speed with scans
+  // enough, or none could be solved, with the reason.
+  Result<Run> finish();
+
+ private:
+  OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver);
+  void note_temperature(const SampleBlock& raw);
+  Status solve(algo::Sequence& sequence, const algo::Residuals& residuals) const;
+  void judge(const algo::Sequence& sequence, Run& run) const;
+
+  Rig rig_;
+  PipelineOptions options_;
+  drivers::Calibrator calibrator_;
+  algo::Aligner aligner_;
+  algo::Solver solver_;
+  algo::OnTheFly fly_;
+  FrameBlock frames_;
+  std::uint64_t lost_ = 0;
+  std::optional<Temperature> temperature_;  // mean_C: the sum of
+  std::uint64_t temperatures_ = 0;          // so many readings
+};
+
+}  // namespace mdof::daemon

@@ -1,0 +1,75 @@
+#include "algo/on_the_fly/bin_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace mdof::algo {
+namespace {
+
+struct BinReadings {
+  std::vector<double> place, reading, scratch;
+  template <class Curve>
+  BinReadings(int n, Curve curve, double from = -1, double to = 1) {
+    for (int i = 0; i < n; ++i) {
+      place.push_back(from + (to - from) * (i + 0.3) / n);
+      reading.push_back(curve(place.back()));
+    }
+  }
+  BinFit fit() { return fit_bin(place, reading, 5e-8, scratch); }
+};
+
+TEST(BinFit, IsExactForAParabolaThatIsNotSymmetric) {
+  BinReadings bin(
+      40, [](double x) { return 2e-6 + 3e-6 * x - 4e-7 * x * x; }, -0.9, 0.5);
+  const auto found = bin.fit();
+  EXPECT_NEAR(found.value, 2e-6, 1e-18);
+  EXPECT_NEAR(found.slope, 3e-6, 1e-17);
+  EXPECT_EQ(found.rejected, 0U);
+}
+
+TEST(BinFit, LeavesOfAWaveWhatItStates) {
+  // A wave of 5 bins: (pi / 5)^4 / 280 of its amplitude.
+  const double turn = std::acos(-1.0) / 5;
+  BinReadings top(4001, [=](double x) { return 1e-6 * std::cos(turn * x); });
+  EXPECT_NEAR(top.fit().value - 1e-6, -1e-6 * std::pow(turn, 4) / 280, 3e-11);
+  BinReadings side(4001, [=](double x) { return 1e-6 * std::sin(turn * x); });
+  EXPECT_NEAR(side.fit().slope / (1e-6 * turn), 1, 3e-3);
+}
+
+TEST(BinFit, LeavesSpikesOut) {
+  for (const int at : {0, 1, 13, 39}) {
+    BinReadings bin(40, [](double x) { return 1e-6 * x; });
+    bin.reading[static_cast<std::size_t>(at)] += 5e-6;
+    const auto found = bin.fit();
+    EXPECT_EQ(found.rejected, 1U) << at;
+    EXPECT_NEAR(found.value, 0, 1e-15) << at;
+  }
+}
+
+TEST(BinFit, StatesTheScatterOfItsValue) {
+  std::mt19937_64 random(5);
+  double square = 0, u_square = 0;
+  constexpr int kBins = 400;
+  for (int k = 0; k < kBins; ++k) {
+    BinReadings bin(50, [&](double) {  // sd 1e-8, uniform: the same numbers in every library
+      return 1e-8 * std::sqrt(12.0) * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
+    });
+    const auto found = bin.fit();
+    square += found.value * found.value;
+    u_square += found.u * found.u;
+  }
+  EXPECT_NEAR(std::sqrt(square / kBins), 1.5e-8 / std::sqrt(50.0), 1.5e-10);
+  EXPECT_NEAR(std::sqrt(u_square / square), 1.1, 0.12);  // u is never below that of white noise
+}
+
+TEST(BinFit, NeedsEightReadings) {
+  BinReadings few(7, [](double x) { return x; });
+  EXPECT_EQ(few.fit().used, 7U);
+  EXPECT_EQ(few.fit().value, 0);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -9,7 +9,8 @@
 #include "algo/model/small_rotation.h"
 #include "algo/probe_physics/air.h"
 #include "algo/probe_physics/gap.h"
-#include "algo/sensitivity/plan/mounting.h"
+#include "algo/sensitivity/plan/draws.h"
+#include "schema/base/random.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

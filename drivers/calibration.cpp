@@ -5,31 +5,13 @@
 #include <span>
 
 #include "schema/base/compiled_for.h"
+#include "schema/rig/physics.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {
 namespace {
 
 constexpr double kRangeUsed = 0.9995;  // beyond this share of the range a reading is at its end
-
-double correction_um(const Calibration& c, double reading_um) {
-  if (!c.polynomial_um.empty()) {
-    double sum = 0;
-    for (auto k = c.polynomial_um.rbegin(); k != c.polynomial_um.rend(); ++k)
-      sum = sum * reading_um + *k;
-    return sum;
-  }
-  const auto& table = c.linearity;
-  if (table.empty() || std::isnan(reading_um)) return 0.0;  // NaN has no place in the table
-  if (reading_um <= table.front()[0]) return table.front()[1];
-  if (reading_um >= table.back()[0]) return table.back()[1];
-  const auto above =
-      std::upper_bound(table.begin(), table.end(), reading_um,
-                       [](double x, const std::array<double, 2>& row) { return x < row[0]; });
-  const auto& [x1, y1] = *above;
-  const auto& [x0, y0] = *(above - 1);
-  return y0 + (y1 - y0) * ((reading_um - x0) / (x1 - x0));
-}
 
 // Raw readings in µm outside these are at the end of the probe's range.
 struct Window {
@@ -53,7 +35,7 @@ void mark(SampleBlock& block, std::size_t channel, std::size_t scan, Quality qua
 
 double displacement_m(const Calibration& c, double raw_um) {
   const double reading_um = raw_um - c.offset_um;
-  const double displacement_um = reading_um + correction_um(c, reading_um);
+  const double displacement_um = reading_um + linearity_um(c, reading_um);
   return from_um(c.reads_gap ? -displacement_um : displacement_um);
 }
 

@@ -10,6 +10,7 @@
 #include "algo/model/small_rotation.h"
 #include "algo/model/solver.h"
 #include "algo/sensitivity/plan/mounting.h"
+#include "algo/uncertainty/physics_contributors.h"
 #include "algo/uncertainty/point_sensitivity.h"
 #include "schema/base/random.h"
 #include "schema/units.h"
@@ -288,7 +289,10 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
       std::make_shared<const Basis>(Basis{rig, std::move(solver), run, std::move(points)});
   MDOF_CHECK(check_run(*basis));
   MDOF_CHECK(check_angles(basis->rig));
-  return List(basis).take();
+  std::vector<Contributor> list = List(basis).take();
+  for (auto& more : physics_contributors(rig, basis->solver, run, basis->points))
+    list.push_back(std::move(more));
+  return list;
 }
 
 void shift(std::vector<MeasuredPoint>& points, const PointShifts& shifts) {

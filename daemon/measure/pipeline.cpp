@@ -72,16 +72,6 @@ void write_datum(JsonWriter& json, const EncoderDatum& datum) {
   json.end_object();
 }
 
-// Why a probe is missing, before what follows from it.
-std::string by_cause(const Point& point) {
-  constexpr std::string_view kFrozen = "frozen:";
-  for (const std::string& flag : point.flags) {
-    if (flag.starts_with(kFrozen))
-      return "probe " + flag.substr(kFrozen.size()) + " no longer changes: ";
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string PipelineOptions::json() const {
@@ -118,12 +108,14 @@ Pipeline::Pipeline(Rig rig, PipelineOptions options, algo::Solver solver)
       calibrator_(rig_),
       aligner_(options_.align, probe_ids(rig_)),
       dwell_(options_.dwell, probe_ids(rig_), probe_ranges(rig_)),
-      solver_(std::move(solver)) {}
+      solver_(std::move(solver)),
+      corrections_(rig_) {}
 
 Status Pipeline::push(SampleBlock& raw) {
   lost_ += raw.lost;
   note_encoder(raw);
   note_temperature(raw);
+  corrections_.push(raw);
   MDOF_CHECK(calibrator_.apply(raw));
   MDOF_CHECK(aligner_.push(raw, frames_));
   if (frames_.size() == 0) return {};
@@ -222,8 +214,10 @@ void Pipeline::take_new_points() {
   const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
   std::vector<Point> fresh(found_.begin() + static_cast<std::ptrdiff_t>(taken_), found_.end());
   dwell_.mark(fresh);
+  std::copy(fresh.begin(), fresh.end(), found_.begin() + static_cast<std::ptrdiff_t>(taken_));
+  corrections_.apply(solver_, fresh);
   for (Point& stop : fresh) {
-    found_[taken_++] = stop;
+    ++taken_;
     if (unplaced(stop)) {
       ++unplaced_;
       continue;
@@ -239,13 +233,12 @@ void Pipeline::take_new_points() {
 void Pipeline::take_points() {
   taken_ = found_.size();
   dwell_.mark(found_);
-  std::vector<Point> placed;  // only where some are not
-  if (!suspect_.empty()) {
-    std::copy_if(found_.begin(), found_.end(), std::back_inserter(placed),
-                 [this](const Point& stop) { return !unplaced(stop); });
-    unplaced_ = found_.size() - placed.size();
-  }
-  sequence_ = algo::recognise_sequence(unplaced_ > 0 ? placed : found_, options_.sequence);
+  std::vector<Point> placed;
+  std::copy_if(found_.begin(), found_.end(), std::back_inserter(placed),
+               [this](const Point& stop) { return !unplaced(stop); });
+  unplaced_ = found_.size() - placed.size();
+  corrections_.apply(solver_, placed);
+  sequence_ = algo::recognise_sequence(placed, options_.sequence);
   const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
   for (auto& p : sequence_.points) solve_point(p, residuals);
 }
@@ -253,7 +246,7 @@ void Pipeline::take_points() {
 void Pipeline::solve_point(MeasuredPoint& p, const algo::Residuals& residuals) const {
   const double travel_m = rig_.sides.target_travel_m(p.point.position_m);
   p.errors = solver_.solve(travel_m, p.point.probe_m, p.point.probe_u_m);
-  if (!p.errors.valid) p.errors.reason = by_cause(p.point) + p.errors.reason;
+  if (!p.errors.valid) p.errors.reason = cause_of(p.point) + p.errors.reason;
   residuals.test(p);
   p.errors = algo::restate(p.errors, options_.model, rig_.axis, travel_m, kAtCarriage, kAtFixture);
 }
@@ -383,6 +376,7 @@ Result<Run> Pipeline::finish() {
   for (auto& [probe, why] : aligner_.too_slow()) run.header.warnings.push_back(std::move(why));
   add_plausibility(run);
   run.points = sequence_.points;
+  corrections_.tell(solver_, found_, run);
   auto more = dwell_.warnings(found_);
   const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
   if (const auto contradiction = residuals.warning(run.points)) more.push_back(*contradiction);

@@ -15,6 +15,7 @@
 #include "algo/sequence/sequence.h"
 #include "algo/sequence/sequence_tail.h"
 #include "algo/uncertainty/chi_square.h"
+#include "daemon/measure/corrections/point_corrections.h"
 #include "drivers/calibration.h"
 #include "schema/base/result.h"
 #include "schema/encoder_datum.h"
@@ -92,9 +93,10 @@ class Pipeline {
   algo::Aligner aligner_;
   algo::DwellDetector dwell_;
   algo::Solver solver_;
+  PointCorrections corrections_;
   FrameBlock frames_, newest_;
-  std::vector<Point> found_;
-  std::size_t taken_ = 0;  // of found_: those that sequence_ was made of
+  std::vector<Point> found_;  // as averaged, not corrected
+  std::size_t taken_ = 0;     // of found_: those that sequence_ was made of
   algo::Sequence sequence_;
   std::optional<algo::SequenceTail> tail_;  // goes on from it
   std::size_t whole_at_ = 0;                // of found_: then the whole is recognised again

@@ -36,7 +36,7 @@ std::string where(const CsvHeader& header, std::size_t column) {
 // The channel of a column; nothing where the unit is not known.
 std::optional<Channel> channel_of(const std::string& name) {
   static constexpr std::array kRead = {Unit::um, Unit::mm, Unit::volt, Unit::deg_c};
-  static constexpr std::array kKept = {"s", "hz", "urad", "deg", "percent", "hPa"};
+  static constexpr std::array kKept = {"s", "hz", "urad", "deg", "percent", "hPa", "kPa"};
   const std::size_t bar = name.rfind('_');
   if (bar == name.npos) return Channel{name, Unit::other};
   const std::string id = name.substr(0, bar), unit = name.substr(bar + 1);

@@ -6,6 +6,7 @@
 #include "schema/base/files.h"
 #include "schema/base/toml_reader.h"
 #include "schema/rig/calibrated.h"
+#include "schema/rig/physics.h"
 #include "schema/rig/rig_check.h"
 #include "schema/units.h"
 
@@ -309,12 +310,14 @@ std::vector<std::string> Rig::undeclared_uncertainties() const {
   std::vector<std::string> keys;
   for (const DeclaredKey& of : declared_keys(*this))
     if (!of.everywhere) keys.emplace_back(of.key);
+  for (std::string& key : undeclared_physics(*this)) keys.push_back(std::move(key));
   return keys;
 }
 
 bool Rig::declares_uncertainty() const {
   const auto keys = declared_keys(*this);
-  return std::any_of(keys.begin(), keys.end(), [](const auto& of) { return of.somewhere; });
+  return declares_physics(*this) ||
+         std::any_of(keys.begin(), keys.end(), [](const auto& of) { return of.somewhere; });
 }
 
 Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name) {
@@ -348,6 +351,7 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
   else
     reject_doubles(table, rig.probes);
   apply_records(table, toml_text, rig);
+  read_physics(table, rig);
   MDOF_CHECK(table.finish());
   MDOF_CHECK(check_rig(rig));
   return rig;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,6 +70,8 @@ struct TargetPlane {
   double flatness_length_m = 0.03;
 };
 
+struct RigPhysics;  // schema/rig/physics.h
+
 struct Rig {
   std::string name;
   Axis axis = Axis::x;
@@ -87,6 +90,9 @@ struct Rig {
   RigUncertainty uncertainty;
   // [drift]: of any probe's readings over a run; more is a warning of the run. m/s.
   std::optional<double> drift_limit_m_per_s = std::nullopt;
+  // What makes a capacitance probe read another gap than there is, and which of it is corrected.
+  // None: the rig says nothing of it.
+  std::shared_ptr<const RigPhysics> physics = nullptr;
   std::vector<CalibrationRecord> records;  // that it refers to; applied (schema/rig/calibrated.h)
   std::string text;                        // the TOML itself with its records: provenance
   std::string source;                      // file name, for messages

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "daemon/measure/config.h"
+#include "daemon/measure/corrections/air_series.h"
 #include "daemon/measure/replay/on_the_fly_run.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
@@ -48,6 +49,22 @@ Status check_encoder(const std::string& source, const std::vector<Channel>& chan
                      "\" is the axis position in volts, and " + rig.source +
                      " does not say their scale; give it there ([encoder] um_per_V), or convert "
                      "the column and name it encoder_mm");
+  }
+  return {};
+}
+
+// What a correction of the air needs and the rig leaves to the log.
+Status check_air(const std::string& source, const std::vector<Channel>& channels, const Rig& rig) {
+  const auto columns = columns_of_air(rig);
+  for (std::size_t q = 0; q < kAirQuantities; ++q) {
+    const std::string key = air_quantities()[q].key;
+    if (std::find(columns.begin(), columns.end(), key) == columns.end()) continue;
+    if (std::any_of(channels.begin(), channels.end(),
+                    [q](const Channel& c) { return is_channel_of(c, q); }))
+      continue;
+    return bad_input(source + ": has no column " + key +
+                     ", which [corrections] dielectric = true of " + rig.source +
+                     " needs; log it, or declare " + key + " of the run in [air]");
   }
   return {};
 }
@@ -177,6 +194,7 @@ Status check_channels(const std::string& source, const std::vector<Channel>& cha
                      " (" + probe.id + "_um or " + probe.id + "_V); its columns are " + columns +
                      ". Correct the rig or the header");
   }
+  MDOF_CHECK(check_air(source, channels, rig));
   if (has_channel(channels, kEncoderChannel)) return check_encoder(source, channels, rig);
   return bad_input(source + ": has no axis position (encoder_mm); its columns are " + columns);
 }

@@ -24,12 +24,12 @@ Result<FrameSolver> FrameSolver::create(const Rig& rig, Model model,
 }
 
 FrameSolver::FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels)
-    : solver_(std::move(solver)),
-      calibrator_(rig),
-      sides_(rig.sides),
-      channels_(std::move(channels)) {
+    : rig_(rig), solver_(std::move(solver)), calibrator_(rig), channels_(std::move(channels)) {
   encoder_ = index_of(channels_, kEncoderChannel);
   for (const Probe& probe : rig.probes) probes_.push_back(index_of(channels_, probe.id));
+  for (std::size_t q = 0; q < kAirQuantities; ++q)
+    for (std::size_t c = 0; c < channels_.size(); ++c)
+      if (daemon::is_channel_of(channels_[c], q)) air_[q] = c;
 }
 
 Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
@@ -38,14 +38,14 @@ Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
   MDOF_CHECK(calibrator_.apply(raw));
   count_over_range(raw);
   for (auto& column : out.local) column.resize(raw.scans());
-  solver_.small_angle() ? solve_columns(raw, out) : solve_singly(raw, out);
+  solver_.small_angle() && !corrects() ? solve_columns(raw, out) : solve_singly(raw, out);
   rows_ += raw.scans();
   return {};
 }
 
 // d of the models; a column of its own only where it is not the encoder's.
 const double* FrameSolver::travel(const std::vector<double>& encoder_m) {
-  if (sides_.target_travel_m(1.0) > 0) return encoder_m.data();
+  if (rig_.sides.target_travel_m(1.0) > 0) return encoder_m.data();
   travel_m_.resize(encoder_m.size());
   std::transform(encoder_m.begin(), encoder_m.end(), travel_m_.begin(), std::negate<>());
   return travel_m_.data();
@@ -69,10 +69,18 @@ void FrameSolver::solve_columns(const SampleBlock& block, SolvedRows& out) {
 }
 
 void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
+  std::optional<algo::ReadingCorrection> correction;
+  if (corrects())
+    correction.emplace(rig_, solver_,
+                       algo::WhichCorrections{rig_.physics->tilt, rig_.physics->dielectric});
   std::vector<double> readings_m(probes_.size());
   for (std::size_t i = 0; i < block.scans(); ++i) {
     for (std::size_t p = 0; p < probes_.size(); ++p) readings_m[p] = block.value[probes_[p]][i];
-    const double travel_m = sides_.target_travel_m(block.value[encoder_][i]);
+    const double travel_m = rig_.sides.target_travel_m(block.value[encoder_][i]);
+    if (correction && !correct(*correction, block, i, readings_m)) {
+      for (auto& column : out.local) column[i] = kNaN;
+      continue;
+    }
     const AxisErrors errors = solver_.solve(travel_m, readings_m, {});
     if (errors.valid) note_travel(travel_m);
     for (std::size_t k = 0; k < kErrorCount; ++k)
@@ -80,9 +88,56 @@ void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
     if (errors.valid) continue;
     if (has_missing(block, i))
       ++without_reading_;
-    else if (unsolved_++ == 0)
-      why_unsolved_ = "row " + std::to_string(rows_ + i + 1) + ": " + errors.reason;
+    else
+      leave_unsolved(i, errors.reason);
   }
+}
+
+void FrameSolver::leave_unsolved(std::size_t row, const std::string& why) {
+  if (unsolved_++ == 0) why_unsolved_ = "row " + std::to_string(rows_ + row + 1) + ": " + why;
+}
+
+// What the rig declares of the run, else the row's own.
+std::optional<Air> FrameSolver::air_of(const SampleBlock& block, std::size_t row) const {
+  Air air{};
+  for (std::size_t q = 0; q < kAirQuantities; ++q) {
+    const auto& declared = rig_.physics->air->run[q];
+    air[q] = declared ? *declared : air_[q] ? block.value[*air_[q]][row] : kNaN;
+    if (!(air[q] >= air_quantities()[q].least && air[q] <= air_quantities()[q].most))
+      return std::nullopt;
+  }
+  return air;
+}
+
+bool FrameSolver::correct(const algo::ReadingCorrection& correction, const SampleBlock& block,
+                          std::size_t row, std::vector<double>& readings_m) {
+  std::optional<Air> air = Air{};
+  if (rig_.physics->dielectric) air = air_of(block, row);
+  if (!air) {
+    leave_unsolved(row, "the air of [corrections] dielectric is not known; give it in each row");
+    return false;
+  }
+  const auto corrected = correction.correct(rig_.sides.target_travel_m(block.value[encoder_][row]),
+                                            readings_m, {}, *air);
+  if (!corrected.why_not.empty()) {
+    leave_unsolved(row, corrected.why_not);
+    return false;
+  }
+  for (std::size_t k = 0; k < probes_.size(); ++k) {
+    tilt_.add(corrected.tilt_m[k], rig_.probes[k].id);
+    dielectric_.add(corrected.dielectric_m[k], rig_.probes[k].id);
+  }
+  readings_m = corrected.readings_m;
+  return true;
+}
+
+std::vector<std::string> FrameSolver::notes() const {
+  std::vector<std::string> notes;
+  if (!rig_.physics) return notes;
+  if (rig_.physics->tilt) notes.push_back(daemon::change_sentence("tilt", true, tilt_));
+  if (rig_.physics->dielectric)
+    notes.push_back(daemon::change_sentence("dielectric", true, dielectric_));
+  return notes;
 }
 
 void FrameSolver::note_travel(double travel_m) {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "algo/model/solver.h"
+#include "algo/probe_physics/reading_correction.h"
+#include "daemon/measure/corrections/point_corrections.h"
 #include "drivers/calibration.h"
 #include "schema/base/result.h"
 #include "schema/rig/rig.h"
@@ -37,11 +39,19 @@ class FrameSolver {
   std::uint64_t without_reading() const { return without_reading_; }
   std::uint64_t unsolved() const { return unsolved_; }
   const std::string& why_unsolved() const { return why_unsolved_; }  // of the first such row
+  // What was corrected (schema/rig/physics.h), and by how much at most; one sentence each.
+  std::vector<std::string> notes() const;
   // Height maps of the rig that end before the rows do.
   std::vector<std::string> map_warnings(const Rig& rig) const;
 
  private:
   FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels);
+  bool corrects() const { return rig_.physics && rig_.physics->corrects(); }
+  std::optional<Air> air_of(const SampleBlock& block, std::size_t row) const;
+  // False: why it cannot be is noted.
+  bool correct(const algo::ReadingCorrection& correction, const SampleBlock& block, std::size_t row,
+               std::vector<double>& readings_m);
+  void leave_unsolved(std::size_t row, const std::string& why);
   const double* travel(const std::vector<double>& encoder_m);
   void solve_columns(const SampleBlock& block, SolvedRows& out);
   void solve_singly(const SampleBlock& block, SolvedRows& out);
@@ -49,13 +59,15 @@ class FrameSolver {
   void count_over_range(const SampleBlock& block);
   bool has_missing(const SampleBlock& block, std::size_t row) const;
 
+  Rig rig_;
   algo::Solver solver_;
   drivers::Calibrator calibrator_;
-  Sides sides_;
   std::vector<double> travel_m_;  // where it is not the encoder
   std::vector<Channel> channels_;
   std::size_t encoder_ = 0;
-  std::vector<std::size_t> probes_;  // [probe of the rig] -> channel
+  std::vector<std::size_t> probes_;                             // [probe of the rig] -> channel
+  std::array<std::optional<std::size_t>, kAirQuantities> air_;  // channels
+  daemon::LargestChange tilt_, dielectric_;
   std::uint64_t rows_ = 0, over_range_ = 0, without_reading_ = 0, unsolved_ = 0;
   std::string why_unsolved_;
   std::optional<std::array<double, 2>> travels_m_;  // least and most d solved one by one

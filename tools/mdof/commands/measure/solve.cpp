@@ -72,6 +72,7 @@ Status solve(const SolveCommand& command) {
   MDOF_CHECK(out.finish());
   warn_of_missing(*frames, solver);
   for (const std::string& map : solver.map_warnings(rig)) warn(map);
+  for (const std::string& note : solver.notes()) say(note);
   return judge(solver);
 }
 

@@ -1,0 +1,201 @@
+#include "algo/uncertainty/physics_contributors.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "algo/model/small_rotation.h"
+#include "algo/probe_physics/air.h"
+#include "algo/probe_physics/gap.h"
+#include "algo/sensitivity/plan/draws.h"
+#include "schema/base/random.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+// Of one probe at one point.
+struct Gap {
+  double gap_m = 0;
+  Eigen::Vector3d tilt = Eigen::Vector3d::Zero();  // tilt_of()
+};
+
+class Physics {
+ public:
+  Physics(const Rig& rig, const Solver& solver, const Run& run,
+          const std::vector<PointSensitivity>& points)
+      : rig_(rig), fixture_(solver.fixture()), run_(run), points_(points) {
+    for (std::size_t k = 0; k < rig.probes.size(); ++k) add_probe(k);
+    add_air();
+  }
+  std::vector<Contributor> take() { return std::move(list_); }
+
+ private:
+  const RigPhysics& physics() const { return *rig_.physics; }
+
+  // `change_m(point, probe)`: of the readings, by one standard uncertainty.
+  template <class Change>
+  PointShifts shifts(Change change_m) const {
+    PointShifts all(points_.size());
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      if (!points_[j].valid) continue;
+      for (std::size_t k = 0; k < rig_.probes.size(); ++k)
+        for (std::size_t e = 0; e < kErrorCount; ++e)
+          if (points_[j].by_probe[k][e] != 0)
+            all[j][e] += points_[j].by_probe[k][e] * change_m(j, k);
+    }
+    return all;
+  }
+  template <class Change>
+  PointShifts of_probe(std::size_t probe, Change change_m) const {
+    return shifts([&](std::size_t j, std::size_t k) { return k == probe ? change_m(j) : 0.0; });
+  }
+
+  // All of them are made at once: they are few, and share what is dear.
+  void add(std::string name, std::string key, const DeclaredUncertainty& declared, double to_unit,
+           std::string unit, std::vector<PointShifts> parts) {
+    if (!declared.declared()) return;
+    list_.push_back({std::move(name), std::move(key), declared, to_unit, std::move(unit),
+                     [parts = std::move(parts)] { return parts; }});
+  }
+
+  Gap at(std::size_t j, std::size_t k) const {
+    const auto R_MC = local_rotation(fixture_.axis, points_[j].carriage).R_MC;
+    return {physics().probes[k].standoff_m - run_.points[j].point.probe_m[k],
+            tilt_of(fixture_.probes[k], R_MC)};
+  }
+
+  void add_probe(std::size_t k) {
+    const std::string name = "probe " + rig_.probes[k].id + ": ";
+    if (physics().probes[k].tilts()) {
+      add_tilt(k, name);
+      add_clamp(k, name);
+    }
+    add_linearity(k, name);
+    add_left_out(k, name);
+  }
+
+  // The reading that one unit of the factor makes, against the zero. Not corrected: its mean square
+  // about 0.
+  void add_tilt(std::size_t k, const std::string& name) {
+    const ProbePhysics& probe = physics().probes[k];
+    DeclaredUncertainty factor = probe.u_tilt_factor;
+    if (!physics().tilt)
+      factor = {std::sqrt(probe.tilt_factor * probe.tilt_factor +
+                          probe.u_tilt_factor.u * probe.u_tilt_factor.u)};
+    ProbePhysics unit = probe;
+    unit.tilt_factor = 1;
+    const double zero =
+        tilt_of(fixture_.probes[k], Eigen::Matrix3d::Identity()).squaredNorm() / probe.standoff_m;
+    add(name + (physics().tilt ? "tilt" : "tilt, not corrected"),
+        physics().tilt ? "u_tilt_factor" : "tilt_factor", factor, 1, "", {of_probe(k, [&](auto j) {
+          const Gap gap = at(j, k);
+          return factor.u *
+                 tilt_excess_m(unit, gap.tilt.squaredNorm() - zero * gap.gap_m, gap.gap_m);
+        })});
+  }
+
+  // A probe that stands φ askew in its clamp sees |θ + φ|²: the product about two axes, and φ²,
+  // which changes as the gap does.
+  void add_clamp(std::size_t k, const std::string& name) {
+    const ProbePhysics& probe = physics().probes[k];
+    const DeclaredUncertainty& u = rig_.probes[k].uncertainty.direction;
+    const Gap zero{probe.standoff_m, tilt_of(fixture_.probes[k], Eigen::Matrix3d::Identity())};
+    const Eigen::Vector3d first = fixture_.probes[k].u_M.unitOrthogonal();
+    const Eigen::Vector3d second = fixture_.probes[k].u_M.cross(first);
+    std::vector<PointShifts> parts;
+    for (const Eigen::Vector3d& about : {first, second})
+      parts.push_back(of_probe(k, [&](std::size_t j) {
+        const Gap gap = at(j, k);
+        return tilt_excess_m(probe, 2 * u.u * about.dot(gap.tilt), gap.gap_m) -
+               tilt_excess_m(probe, 2 * u.u * about.dot(zero.tilt), zero.gap_m);
+      }));
+    parts.push_back(of_probe(k, [&](std::size_t j) {
+      const double square = 2 * u.u * u.u;
+      return tilt_excess_m(probe, square, at(j, k).gap_m) -
+             tilt_excess_m(probe, square, zero.gap_m);
+    }));
+    add(name + "tilt in its clamp", "u_direction_mrad", u, 1e3, "mrad", std::move(parts));
+  }
+
+  // What is left of the curve after its correction, as waves over the range: its square is u² at
+  // every reading.
+  void add_linearity(std::size_t k, const std::string& name) {
+    const DeclaredUncertainty& u = physics().probes[k].u_linearity;
+    std::vector<PointShifts> parts;
+    double norm = 0;
+    for (std::size_t w = 1; w <= kFlatnessWaves; ++w) norm += std::pow(static_cast<double>(w), -4);
+    for (std::size_t w = 1; u.declared() && w <= kFlatnessWaves; ++w)
+      for (const double phase_turns : {0.0, 0.25})
+        parts.push_back(of_probe(k, [&](std::size_t j) {
+          const auto wave = static_cast<double>(w);
+          const double turns = run_.points[j].point.probe_m[k] / rig_.probes[k].range_m * wave;
+          return u.u / (wave * wave * std::sqrt(norm)) * sine_of_turns(turns + phase_turns);
+        }));
+    add(name + "linearity", "u_linearity_um", u, 1e6, "µm", std::move(parts));
+  }
+
+  // linearity = false: the correction that was not made.
+  void add_left_out(std::size_t k, const std::string& name) {
+    if (physics().left_out.empty()) return;
+    const Calibration& c = *physics().left_out[k];
+    double most_m = 0;
+    const auto correction_m = [&](std::size_t j) {
+      const double sign = c.reads_gap ? -1 : 1;
+      return sign * from_um(linearity_um(c, sign * to_um(run_.points[j].point.probe_m[k])));
+    };
+    for (std::size_t j = 0; j < points_.size(); ++j)
+      if (points_[j].valid) most_m = std::max(most_m, std::abs(correction_m(j)));
+    add(name + "linearity, not corrected", c.polynomial_um.empty() ? "linearity" : "polynomial_um",
+        {most_m}, 1e6, "µm", {of_probe(k, correction_m)});
+  }
+
+  // By one unit of ε/ε of the calibration all gaps change in proportion to themselves.
+  std::vector<PointShifts> by_permittivity(double u) const {
+    return {shifts([&](std::size_t j, std::size_t k) { return -u * at(j, k).gap_m; })};
+  }
+
+  void add_air() {
+    if (!physics().knows_air()) return;
+    const DeclaredAir& air = *physics().air;
+    const double calibration = air_permittivity(air.calibration);
+    Air run = air.calibration;  // of a log alone: its slopes are the same to a hundredth
+    bool known = true;
+    for (std::size_t q = 0; q < kAirQuantities; ++q) {
+      known = known && air.run[q];
+      run[q] = air.run[q].value_or(run[q]);
+    }
+    if (!physics().dielectric && known) {
+      const double ratio = air_permittivity(run) / calibration - 1;
+      add("air: dielectric, not corrected", "[air]", {std::abs(ratio)}, 1e6, "ppm",
+          by_permittivity(ratio));
+    }
+    for (std::size_t q = 0; q < kAirQuantities; ++q) {
+      const AirQuantity& of = air_quantities()[q];
+      const DeclaredUncertainty &u = air.u_run[q], &u_calibration = air.u_calibration[q];
+      add(std::string("air: ") + of.name, std::string("u_") + of.key, u, 1, of.unit,
+          by_permittivity(u.u * air_permittivity_slope(run, q)));
+      add(std::string("air of the calibration: ") + of.name, std::string("u_calibration_") + of.key,
+          u_calibration, 1, of.unit,
+          by_permittivity(-u_calibration.u * air_permittivity_slope(air.calibration, q)));
+    }
+  }
+
+  const Rig& rig_;
+  const Fixture& fixture_;
+  const Run& run_;
+  const std::vector<PointSensitivity>& points_;
+  std::vector<Contributor> list_;
+};
+
+}  // namespace
+
+std::vector<Contributor> physics_contributors(const Rig& rig, const Solver& solver, const Run& run,
+                                              const std::vector<PointSensitivity>& points) {
+  if (!rig.physics) return {};
+  return Physics(rig, solver, run, points).take();
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,202 @@
+#include "daemon/measure/corrections/point_corrections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "algo/points/flags.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr std::string_view kFrozen = "frozen:", kGapClosed = "gap_closed:";
+constexpr const char* kNoAir = "no_air";
+
+bool tilts_everywhere(const RigPhysics& physics) {
+  return std::all_of(physics.probes.begin(), physics.probes.end(),
+                     [](const ProbePhysics& p) { return p.tilts(); });
+}
+
+std::string flag_of(const Point& point, std::string_view prefix) {
+  for (const std::string& flag : point.flags)
+    if (flag.starts_with(prefix)) return flag;
+  return "";
+}
+
+// Which of `before` became points of the run.
+std::vector<const Point*> kept(const std::vector<Point>& before, const Run& run) {
+  std::set<std::int64_t> begins_ns;
+  for (const MeasuredPoint& p : run.points) begins_ns.insert(p.point.begin_ns);
+  std::vector<const Point*> points;
+  for (const Point& point : before)
+    if (begins_ns.contains(point.begin_ns)) points.push_back(&point);
+  return points;
+}
+
+// c(t) of a displacement that has it in it, or (`in_it` false) not yet; along `measures`, m.
+double linearity_of(const Calibration& c, double displacement_m, bool in_it) {
+  const double sign = c.reads_gap ? -1 : 1;
+  const double t_um = sign * to_um(displacement_m);
+  double correction_um = linearity_um(c, t_um);
+  for (int i = 0; in_it && i < 5; ++i) correction_um = linearity_um(c, t_um - correction_um);
+  return sign * from_um(correction_um);
+}
+
+}  // namespace
+
+void LargestChange::add(double change_m, const std::string& of_probe) {
+  if (!(std::abs(change_m) > size_m)) return;
+  size_m = std::abs(change_m);
+  probe = of_probe;
+}
+
+std::string change_sentence(const char* what, bool corrected, const LargestChange& change) {
+  const std::string size = plain_number(to_um(change.size_m) * 1e3, 3) + " nm" +
+                           (change.probe.empty() ? "" : " (probe " + change.probe + ")");
+  return corrected ? std::string(what) + " corrected: at most " + size
+                   : std::string(what) + " not corrected: up to " + size +
+                         " of it are left in the readings, see mdof budget";
+}
+
+PointCorrections::PointCorrections(Rig rig) : rig_(std::move(rig)) {
+  if (!rig_.physics) return;
+  const RigPhysics& physics = *rig_.physics;
+  asked_ = {physics.tilt, physics.dielectric};
+  known_ = {tilts_everywhere(physics), physics.knows_air()};
+  if (physics.air) air_.emplace(*physics.air);
+}
+
+void PointCorrections::push(const SampleBlock& raw) {
+  if (air_) air_->push(raw);
+}
+
+std::optional<Air> PointCorrections::air_at(const Point& point) const {
+  return air_ ? air_->at(point.begin_ns + (point.end_ns - point.begin_ns) / 2) : std::nullopt;
+}
+
+void PointCorrections::apply(const algo::Solver& solver, std::vector<Point>& points) const {
+  if (!asked_.any()) return;
+  const algo::ReadingCorrection correction(rig_, solver, asked_);
+  for (Point& point : points) correct(correction, point);
+}
+
+void PointCorrections::correct(const algo::ReadingCorrection& correction, Point& point) const {
+  const auto air = air_at(point);
+  if (asked_.dielectric && !air) {
+    algo::add_flag(point, kNoAir);
+    point.probe_m.assign(point.probe_m.size(), kNaN);
+    return;
+  }
+  const auto corrected = correction.correct(rig_.sides.target_travel_m(point.position_m),
+                                            point.probe_m, point.probe_u_m, air.value_or(Air{}));
+  if (!corrected.why_not.empty())
+    algo::add_flag(point, std::string(kGapClosed) +
+                              (corrected.closed ? rig_.probes[*corrected.closed].id : "?"));
+  point.probe_m = corrected.readings_m;
+}
+
+PointCorrections::Changes PointCorrections::changes(const algo::Solver& solver,
+                                                    algo::WhichCorrections which,
+                                                    const std::vector<const Point*>& points) const {
+  Changes most;
+  if (!which.any()) return most;
+  const algo::ReadingCorrection correction(rig_, solver, which);
+  for (const Point* point : points) {
+    const auto air = air_at(*point);
+    if (which.dielectric && !air) continue;
+    const auto corrected =
+        correction.correct(rig_.sides.target_travel_m(point->position_m), point->probe_m,
+                           point->probe_u_m, air.value_or(Air{}));
+    if (!corrected.why_not.empty()) continue;
+    for (std::size_t k = 0; k < rig_.probes.size(); ++k) {
+      most.tilt.add(corrected.tilt_m[k], rig_.probes[k].id);
+      most.dielectric.add(corrected.dielectric_m[k], rig_.probes[k].id);
+    }
+  }
+  return most;
+}
+
+LargestChange PointCorrections::linearity(const std::vector<const Point*>& points) const {
+  const auto& left_out = rig_.physics->left_out;
+  LargestChange most;
+  for (const Point* point : points)
+    for (std::size_t k = 0; k < rig_.probes.size(); ++k) {
+      const bool in_it = left_out.empty();
+      const Calibration& c = in_it ? rig_.probes[k].calibration : *left_out[k];
+      most.add(linearity_of(c, point->probe_m[k], in_it), rig_.probes[k].id);
+    }
+  return most;
+}
+
+void PointCorrections::tell(const algo::Solver& solver, const std::vector<Point>& before,
+                            Run& run) const {
+  if (!rig_.physics) return;
+  const auto points = kept(before, run);
+  auto& notes = run.header.notes;
+  const LargestChange linear = linearity(points);
+  if (rig_.physics->linearity || linear.size_m > 0)
+    notes.push_back(change_sentence("linearity", rig_.physics->left_out.empty(), linear));
+  const Changes made = changes(solver, asked_, points);
+  const algo::WhichCorrections left{known_.tilt && !asked_.tilt,
+                                    known_.dielectric && !asked_.dielectric};
+  const Changes not_made = changes(solver, left, points);
+  if (asked_.tilt)
+    notes.push_back(change_sentence("tilt", true, made.tilt) +
+                    "; what the tilt changed since the zero, how each probe stands in its clamp "
+                    "is not known (u_direction_mrad)");
+  if (left.tilt) notes.push_back(change_sentence("tilt", false, not_made.tilt));
+  if (asked_.dielectric) notes.push_back(change_sentence("dielectric", true, made.dielectric));
+  if (left.dielectric && not_made.dielectric.size_m > 0)
+    notes.push_back(change_sentence("dielectric", false, not_made.dielectric));
+  tell_air(run);
+  tell_failures(run);
+}
+
+// At the first and the last point, since it may change.
+void PointCorrections::tell_air(Run& run) const {
+  if (!known_.dielectric || run.points.empty()) return;
+  const auto first = air_at(run.points.front().point), last = air_at(run.points.back().point);
+  if (!first || !last) return;
+  std::string text = "air of the run:";
+  for (std::size_t q = 0; q < kAirQuantities; ++q) {
+    const std::string from = plain_number((*first)[q]), to = plain_number((*last)[q]);
+    text += std::string(q == 0 ? " " : ", ") + from + (from == to ? "" : " to " + to) + " " +
+            air_quantities()[q].unit;
+  }
+  run.header.notes.push_back(text);
+}
+
+void PointCorrections::tell_failures(Run& run) const {
+  std::size_t closed = 0, without_air = 0;
+  std::string first;
+  for (const MeasuredPoint& p : run.points) {
+    const std::string flag = flag_of(p.point, kGapClosed);
+    without_air += algo::has_flag(p.point, kNoAir) ? 1 : 0;
+    if (flag.empty()) continue;
+    if (closed++ == 0) first = cause_of(p.point);
+  }
+  if (closed > 0)
+    run.header.warnings.push_back(std::to_string(closed) +
+                                  " points cannot be corrected; the first: " + first +
+                                  "it would be closed or touch its target");
+  if (without_air > 0)
+    run.header.warnings.push_back(std::to_string(without_air) +
+                                  " points cannot be corrected: no value of the air came, which "
+                                  "[corrections] dielectric needs; log it, or declare it in [air]");
+}
+
+// The solver only knows that a reading is not there.
+std::string cause_of(const Point& point) {
+  if (const std::string flag = flag_of(point, kFrozen); !flag.empty())
+    return "probe " + flag.substr(kFrozen.size()) + " no longer changes: ";
+  if (const std::string flag = flag_of(point, kGapClosed); !flag.empty())
+    return "the gap of probe " + flag.substr(kGapClosed.size()) +
+           " is closed by its standoff_um and sensing_radius_mm: ";
+  if (algo::has_flag(point, kNoAir)) return "the air is not known: ";
+  return "";
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,208 @@
+#include "schema/rig/physics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/base/number/number_text.h"
+#include "schema/rig/rig.h"
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+constexpr double kMostRadius_mm = 50, kMostStandoff_um = 1e5, kMostTiltFactor = 100;
+constexpr int kLooks = 200;              // at a correction, over the range
+constexpr double kRangeCovered = 0.999;  // a reading beyond it is at the end of the range
+
+double positive(TomlTable& table, const char* key, double most) {
+  if (!table.has(key)) return 0;
+  const double x = table.number(key);
+  if (!(x > 0 && x <= most))
+    table.reject(key, "must be greater than zero and at most " + plain_number(most));
+  return x;
+}
+
+void check_standoff(TomlTable& table, const Probe& probe, const ProbePhysics& physics) {
+  if (physics.standoff_m == 0 || probe.calibration.reads_gap) return;
+  if (physics.standoff_m < probe.range_m / 2)
+    table.reject("standoff_um", plain_number(to_um(physics.standoff_m)) +
+                                    " um is less than half of range_um, so that the gap would be "
+                                    "closed at the end of the range; give the gap at reading 0");
+}
+
+ProbePhysics read_probe_physics(TomlTable& table, const Probe& probe) {
+  ProbePhysics physics;
+  physics.sensing_radius_m = from_mm(positive(table, "sensing_radius_mm", kMostRadius_mm));
+  physics.standoff_m = from_um(positive(table, "standoff_um", kMostStandoff_um));
+  if (physics.standoff_m == 0 && probe.calibration.reads_gap)
+    physics.standoff_m = std::max(0.0, from_um(probe.calibration.offset_um));
+  check_standoff(table, probe, physics);
+  const bool has_factor = table.has("tilt_factor"), has_u = table.has("u_tilt_factor");
+  if (has_factor) physics.tilt_factor = positive(table, "tilt_factor", kMostTiltFactor);
+  physics.u_tilt_factor = read_uncertainty(table, "u_tilt_factor", 1);
+  if (!has_factor && !has_u)
+    physics.u_tilt_factor = {kTiltFactorHalfWidth / std::sqrt(3.0), UncertaintyShape::rectangular};
+  if ((has_factor || has_u) && physics.sensing_radius_m == 0)
+    table.reject(has_factor ? "tilt_factor" : "u_tilt_factor",
+                 "is of no use without the radius of the electrode; add sensing_radius_mm");
+  physics.u_linearity = read_uncertainty(table, "u_linearity_um", from_um(1));
+  return physics;
+}
+
+double read_air(TomlTable& table, const std::string& key, const AirQuantity& of) {
+  const double x = table.number(key);
+  if (!(x >= of.least && x <= of.most))
+    table.reject(key, plain_number(x) + " is no " + of.name + " of air; it must be from " +
+                          plain_number(of.least) + " to " + plain_number(of.most) + " " + of.unit);
+  return x;
+}
+
+std::optional<DeclaredAir> read_air(TomlTable& root) {
+  auto table = root.table("air");
+  if (!table) return std::nullopt;
+  DeclaredAir air;
+  for (std::size_t q = 0; q < kAirQuantities; ++q) {
+    const AirQuantity& of = air_quantities()[q];
+    const std::string calibration = std::string("calibration_") + of.key;
+    if (table->has(of.key)) air.run[q] = read_air(*table, of.key, of);
+    air.calibration[q] = read_air(*table, calibration, of);
+    air.u_run[q] = read_uncertainty(*table, std::string("u_") + of.key, 1);
+    air.u_calibration[q] = read_uncertainty(*table, "u_" + calibration, 1);
+  }
+  return air;
+}
+
+// Readings t = raw - offset at the ends of the probe's range, µm.
+std::array<double, 2> readings_of_range(const Probe& probe) {
+  const Calibration& c = probe.calibration;
+  const double range_um = to_um(probe.range_m);
+  std::array<double, 2> raw{-range_um / 2, range_um / 2};
+  if (c.reads_gap) raw = {0, range_um};
+  if (c.valid_um) raw = *c.valid_um;
+  return {raw[0] - c.offset_um, raw[1] - c.offset_um};
+}
+
+bool rises(const Calibration& c, const std::array<double, 2>& range) {
+  std::vector<double> at;
+  for (int i = 0; i <= kLooks; ++i) at.push_back(range[0] + (range[1] - range[0]) * i / kLooks);
+  for (const auto& row : c.linearity) at.push_back(row[0]);
+  std::sort(at.begin(), at.end());
+  at.erase(std::unique(at.begin(), at.end()), at.end());
+  for (std::size_t i = 1; i < at.size(); ++i)
+    if (!(at[i] + linearity_um(c, at[i]) > at[i - 1] + linearity_um(c, at[i - 1]))) return false;
+  return true;
+}
+
+// What is asked for must be there, be a function of the reading, and cover what can be read.
+void check_linearity(TomlTable& table, const Probe& probe) {
+  const Calibration& c = probe.calibration;
+  const char* key = c.polynomial_um.empty() ? "linearity" : "polynomial_um";
+  if (c.linearity.empty() && c.polynomial_um.empty())
+    return table.reject(key,
+                        "is missing, and [corrections] linearity = true needs it of each probe; "
+                        "add linearity or polynomial_um, or leave the correction out");
+  const auto range = readings_of_range(probe);
+  if (!rises(c, range))
+    return table.reject(key,
+                        "is not monotonic: two readings would be the same displacement; correct "
+                        "its values (reading and correction are in um)");
+  if (c.linearity.empty()) return;
+  const double middle = (range[0] + range[1]) / 2, half = kRangeCovered * (range[1] - middle);
+  if (c.linearity.front()[0] <= middle - half && c.linearity.back()[0] >= middle + half) return;
+  table.reject(key, "covers readings from " + plain_number(c.linearity.front()[0], 6) + " to " +
+                        plain_number(c.linearity.back()[0], 6) + " um, and the probe reads from " +
+                        plain_number(range[0], 6) + " to " + plain_number(range[1], 6) +
+                        " um; extend it, or say by valid_um where the probe is used");
+}
+
+void leave_linearity_out(Rig& rig, RigPhysics& physics) {
+  for (Probe& probe : rig.probes) {
+    physics.left_out.push_back(std::make_shared<Calibration>(probe.calibration));
+    probe.calibration.linearity.clear();
+    probe.calibration.polynomial_um.clear();
+  }
+}
+
+void need(TomlTable& table, const char* key, bool known, const char* correction) {
+  if (known) return;
+  table.reject(key, std::string("is missing, and [corrections] ") + correction +
+                        " = true needs it of each probe; add it, or leave the correction out");
+}
+
+void check_needs(TomlTable& root, std::vector<TomlTable>& tables, const Rig& rig,
+                 const RigPhysics& physics) {
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    const ProbePhysics& probe = physics.probes[k];
+    if (physics.linearity.value_or(false)) check_linearity(tables[k], rig.probes[k]);
+    if (physics.tilt) need(tables[k], "sensing_radius_mm", probe.sensing_radius_m > 0, "tilt");
+    if (physics.tilt) need(tables[k], "standoff_um", probe.standoff_m > 0, "tilt");
+    if (physics.dielectric) need(tables[k], "standoff_um", probe.standoff_m > 0, "dielectric");
+  }
+  if (physics.dielectric && !physics.air)
+    root.reject("air",
+                "is missing, and [corrections] dielectric = true needs it; add a table [air] with "
+                "calibration_temperature_C, calibration_pressure_kPa and "
+                "calibration_humidity_percent");
+}
+
+bool says_anything(const RigPhysics& physics) {
+  return physics.asked || physics.air ||
+         std::any_of(physics.probes.begin(), physics.probes.end(), [](const ProbePhysics& p) {
+           return p.sensing_radius_m > 0 || p.u_linearity.declared();
+         });
+}
+
+}  // namespace
+
+const std::array<AirQuantity, kAirQuantities>& air_quantities() {
+  static constexpr std::array<AirQuantity, kAirQuantities> kQuantities = {{
+      {"temperature_C", "temperature", "°C", -20, 50},
+      {"pressure_kPa", "pressure", "kPa", 30, 120},
+      {"humidity_percent", "humidity", "%", 0, 100},
+  }};
+  return kQuantities;
+}
+
+bool RigPhysics::knows_air() const {
+  return air && std::all_of(probes.begin(), probes.end(),
+                            [](const ProbePhysics& p) { return p.standoff_m > 0; });
+}
+
+void read_physics(TomlTable& table, Rig& rig) {
+  RigPhysics physics;
+  if (auto corrections = table.table("corrections")) {
+    physics.asked = true;
+    if (corrections->has("linearity")) physics.linearity = corrections->boolean("linearity");
+    physics.tilt = corrections->boolean("tilt", false);
+    physics.dielectric = corrections->boolean("dielectric", false);
+  }
+  physics.air = read_air(table);
+  auto tables = table.tables("probe");
+  if (tables.size() != rig.probes.size()) return;  // which parse_rig() refuses
+  for (std::size_t k = 0; k < tables.size(); ++k)
+    physics.probes.push_back(read_probe_physics(tables[k], rig.probes[k]));
+  check_needs(table, tables, rig, physics);
+  if (!physics.linearity.value_or(true)) leave_linearity_out(rig, physics);
+  if (says_anything(physics)) rig.physics = std::make_shared<const RigPhysics>(std::move(physics));
+}
+
+double linearity_um(const Calibration& c, double reading_um) {
+  if (!c.polynomial_um.empty()) {
+    double sum = 0;
+    for (auto k = c.polynomial_um.rbegin(); k != c.polynomial_um.rend(); ++k)
+      sum = sum * reading_um + *k;
+    return sum;
+  }
+  const auto& table = c.linearity;
+  if (table.empty() || std::isnan(reading_um)) return 0.0;  // NaN has no place in the table
+  if (reading_um <= table.front()[0]) return table.front()[1];
+  if (reading_um >= table.back()[0]) return table.back()[1];
+  const auto above =
+      std::upper_bound(table.begin(), table.end(), reading_um,
+                       [](double x, const std::array<double, 2>& row) { return x < row[0]; });
+  const auto& [x1, y1] = *above;
+  const auto& [x0, y0] = *(above - 1);
+  return y0 + (y1 - y0) * ((reading_um - x0) / (x1 - x0));
+}
+
+}  // namespace mdof

@@ -1,0 +1,68 @@
+// What a rig leaves open of its probes' physics, by the names of its keys.
+#include <algorithm>
+
+#include "schema/rig/physics.h"
+#include "schema/rig/rig.h"
+
+namespace mdof {
+namespace {
+
+template <class Is>
+bool of_any_probe(const RigPhysics& physics, Is is) {
+  return std::any_of(physics.probes.begin(), physics.probes.end(), is);
+}
+
+bool left_out_linearity(const RigPhysics& physics) {
+  return std::any_of(physics.left_out.begin(), physics.left_out.end(), [](const auto& c) {
+    return !c->linearity.empty() || !c->polynomial_um.empty();
+  });
+}
+
+// The conditions of a run of which only its log knows are not kept with it.
+void add_undeclared_air(const RigPhysics& physics, std::vector<std::string>& keys) {
+  for (std::size_t q = 0; q < kAirQuantities; ++q) {
+    const std::string key = air_quantities()[q].key;
+    if (!physics.dielectric && !physics.air->run[q]) keys.push_back("[air] " + key);
+    if (!physics.dielectric) continue;
+    if (!physics.air->u_run[q].declared()) keys.push_back("u_" + key);
+    if (!physics.air->u_calibration[q].declared()) keys.push_back("u_calibration_" + key);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> undeclared_physics(const Rig& rig) {
+  std::vector<std::string> keys;
+  if (!rig.physics) return keys;
+  const RigPhysics& physics = *rig.physics;
+  if (physics.asked &&
+      of_any_probe(physics, [](const ProbePhysics& p) { return !p.u_linearity.declared(); }))
+    keys.emplace_back("u_linearity_um");
+  if (of_any_probe(physics, [&](const ProbePhysics& p) { return !p.tilts(); }))
+    keys.emplace_back("sensing_radius_mm and standoff_um");
+  if (of_any_probe(physics,
+                   [&](const ProbePhysics& p) { return p.tilts() && !p.u_tilt_factor.declared(); }))
+    keys.emplace_back("u_tilt_factor");
+  if (physics.knows_air())
+    add_undeclared_air(physics, keys);
+  else
+    keys.emplace_back("[air]");
+  return keys;
+}
+
+bool declares_physics(const Rig& rig) {
+  if (!rig.physics) return false;
+  const auto adds = [](const ProbePhysics& p) { return p.tilts() || p.u_linearity.declared(); };
+  return of_any_probe(*rig.physics, adds) || left_out_linearity(*rig.physics) ||
+         rig.physics->knows_air();
+}
+
+std::vector<std::string> columns_of_air(const Rig& rig) {
+  std::vector<std::string> columns;
+  if (!rig.physics || !rig.physics->dielectric) return columns;
+  for (std::size_t q = 0; q < kAirQuantities; ++q)
+    if (!rig.physics->air->run[q]) columns.emplace_back(air_quantities()[q].key);
+  return columns;
+}
+
+}  // namespace mdof

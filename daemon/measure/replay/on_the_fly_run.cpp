@@ -46,11 +46,13 @@ OnTheFlyRun::OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver)
       solver_(std::move(solver)),
       fly_(algo::TargetGrid(options_.on_the_fly.value_or(algo::OnTheFlyOptions()),
                             options_.sequence.targets_m),
-           ids_of(rig_), ranges_of(rig_), options_.dwell.max_speed_m_s) {}
+           ids_of(rig_), ranges_of(rig_), options_.dwell.max_speed_m_s),
+      corrections_(rig_) {}
 
 Status OnTheFlyRun::push(SampleBlock& raw) {
   lost_ += raw.lost;
   note_temperature(raw);
+  corrections_.push(raw);
   MDOF_CHECK(calibrator_.apply(raw));
   MDOF_CHECK(aligner_.push(raw, frames_));
   Status taken = fly_.push(frames_);
@@ -69,6 +71,13 @@ void OnTheFlyRun::note_temperature(const SampleBlock& raw) {
     temperature_->min_C = std::min(temperature_->min_C, read_C);
     temperature_->max_C = std::max(temperature_->max_C, read_C);
   }
+}
+
+void OnTheFlyRun::correct(algo::Sequence& sequence) const {
+  std::vector<Point> points;
+  for (const MeasuredPoint& p : sequence.points) points.push_back(p.point);
+  corrections_.apply(solver_, points);
+  for (std::size_t i = 0; i < points.size(); ++i) sequence.points[i].point = std::move(points[i]);
 }
 
 Status OnTheFlyRun::solve(algo::Sequence& sequence, const algo::Residuals& residuals) const {
@@ -104,6 +113,9 @@ Result<Run> OnTheFlyRun::finish() {
   fly_.flush();
   MDOF_CHECK(fly_.explain_nothing());
   algo::Sequence sequence = fly_.sequence();
+  std::vector<Point> as_read;
+  for (const MeasuredPoint& p : sequence.points) as_read.push_back(p.point);
+  correct(sequence);
   const algo::Residuals residuals(solver_, ranges_of(rig_), rig_.sides);
   MDOF_CHECK(solve(sequence, residuals));
   Run run;
@@ -120,6 +132,7 @@ Result<Run> OnTheFlyRun::finish() {
   for (auto& [probe, why] : aligner_.too_slow()) run.header.warnings.push_back(std::move(why));
   judge(sequence, run);
   run.points = std::move(sequence.points);
+  corrections_.tell(solver_, as_read, run);
   if (const auto contradiction = residuals.warning(run.points))
     run.header.warnings.push_back(*contradiction);
   treat_drift(rig_, options_.remove_drift, run);

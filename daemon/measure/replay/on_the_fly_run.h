@@ -9,6 +9,7 @@
 #include "algo/on_the_fly/on_the_fly.h"
 #include "algo/points/align.h"
 #include "algo/uncertainty/chi_square.h"
+#include "daemon/measure/corrections/point_corrections.h"
 #include "daemon/measure/pipeline.h"
 #include "drivers/calibration.h"
 
@@ -29,6 +30,7 @@ class OnTheFlyRun {
  private:
   OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver);
   void note_temperature(const SampleBlock& raw);
+  void correct(algo::Sequence& sequence) const;
   Status solve(algo::Sequence& sequence, const algo::Residuals& residuals) const;
   void judge(const algo::Sequence& sequence, Run& run) const;
 
@@ -38,6 +40,7 @@ class OnTheFlyRun {
   algo::Aligner aligner_;
   algo::Solver solver_;
   algo::OnTheFly fly_;
+  PointCorrections corrections_;
   FrameBlock frames_;
   std::uint64_t lost_ = 0;
   std::optional<Temperature> temperature_;  // mean_C: the sum of

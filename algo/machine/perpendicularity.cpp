@@ -31,7 +31,7 @@ double widest_gap(const std::vector<double>& angles) {
 }
 
 Status check(const CircleReadings& r, int highest) {
-  const std::size_t n = r.angle_rad.size(), unknowns = static_cast<std::size_t>(2 * highest + 1);
+  const std::size_t n = r.angle_rad.size(), unknowns = 2 * static_cast<std::size_t>(highest) + 1;
   if (!(r.radius_m > 0 && r.radius_m < 100))
     return bad_input("the radius of the circle must be above 0");
   if (n < unknowns + 2)

@@ -64,8 +64,7 @@ TEST(MachineModel, DerivativesAreThoseOfTheProduct) {
           frame.location[d.k].value = value;
         else
           frame.error[d.k] = {{}, {value}, {}, {}, {}};
-        const auto e =
-            exact_error(machine, command, values_at(machine, command, MachineApproach::mean));
+        auto e = exact_error(machine, command, values_at(machine, command, MachineApproach::mean));
         frame = before;
         return e;
       };

@@ -61,11 +61,11 @@ class Feed {
     ended_ = true;
     changed_.notify_all();
   }
-  // All that was given has been read.
+  // All that was given has been read, and the reader has put it on: it asks for more.
   void wait_until_read() {
     std::unique_lock lock(mutex_);
-    EXPECT_TRUE(
-        changed_.wait_for(lock, std::chrono::seconds(20), [this] { return blocks_.empty(); }));
+    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(20),
+                                  [this] { return blocks_.empty() && !in_hand_; }));
   }
 
   Status open() {
@@ -75,6 +75,7 @@ class Feed {
   Result<drivers::ReadState> read(SampleBlock& block) {
     std::unique_lock lock(mutex_);
     block = SampleBlock();
+    if (std::exchange(in_hand_, false)) changed_.notify_all();
     if (std::exchange(gone_once_, false)) return io_error("10.0.0.9: connection lost");
     changed_.wait_for(lock, std::chrono::milliseconds(5),
                       [this] { return gone_ || ended_ || !blocks_.empty(); });
@@ -83,6 +84,7 @@ class Feed {
     block = std::move(blocks_.front());
     blocks_.pop_front();
     ++read_;
+    in_hand_ = true;
     changed_.notify_all();
     return drivers::ReadState::more;
   }
@@ -97,6 +99,7 @@ class Feed {
   std::condition_variable changed_;
   std::deque<SampleBlock> blocks_;
   bool gone_ = false, ended_ = false, gone_once_ = false;
+  bool in_hand_ = false;              // the reader has a block that it has not put on
   std::size_t lost_ = 0;              // more than the marks: its datum is lost
   std::size_t given_ = 0, read_ = 0;  // blocks
   std::vector<std::size_t> mark_before_;

@@ -33,16 +33,20 @@ OnTheFly::OnTheFly(TargetGrid grid, std::vector<std::string> ids, std::vector<do
   probes_.step_m.resize(probes_.ids.size());
 }
 
-// The first row alone may be wrong, most of them are not.
+// The first row alone may be wrong, most of them are not. The axis may be moving already: it has
+// the time of these rows to come from their middle.
 void OnTheFly::begin(const FrameBlock& frames) {
   std::vector<double> early;
-  for (std::size_t i = 0; i < frames.size() && early.size() < kRowsForStart; ++i)
+  std::int64_t passed_ns = 0;
+  for (std::size_t i = 0; i < frames.size() && early.size() < kRowsForStart; ++i) {
+    passed_ns = frames.time_ns[i] - frames.time_ns.front();
     if (std::isfinite(frames.encoder_m[i])) early.push_back(frames.encoder_m[i]);
+  }
   if (early.empty()) return;
   begun_ = true;
   const double middle_m = median_of(std::move(early));
   begin_ns_ = last_ns_ = frames.time_ns.front();
-  places_.begin_at(begin_ns_, middle_m);
+  places_.begin_at(begin_ns_ - passed_ns, middle_m);
   summary_.encoder_min_m = summary_.encoder_max_m = middle_m;
 }
 

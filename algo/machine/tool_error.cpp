@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "schema/sample.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -228,6 +230,8 @@ ToolError tool_error(const Machine& machine, const Command& command, MachineAppr
                   {},
                   {}};
   name_what_is_missing(machine, all, error);
+  for (double& u : error.u)
+    if (u == 0) u = kNaN;
   for (std::size_t i = 0; i < values.size(); ++i)
     for (std::size_t k = 0; k < kBodyErrors; ++k)
       if (values[i].beyond[k]) error.beyond.push_back(error_name(machine.frames[i], k));

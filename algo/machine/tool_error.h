@@ -46,7 +46,7 @@ LinearBound linear_bound(const Machine& machine, const Command& command,
 
 // Everything said of one command.
 struct ToolError {
-  Vector6 exact, linear, u;
+  Vector6 exact, linear, u;  // u: NaN where nothing that counts has one
   LinearBound bound;
   // By component: names of errors that were not measured and would count; that have no u.
   std::array<std::vector<std::string>, 6> not_measured, no_u;

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "schema/imported/series.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/list_page.h"
@@ -38,7 +39,9 @@ std::string runs_text(const std::vector<RunHeader>& runs, std::int64_t total) {
     const auto& from = h.provenance;
     table.add({std::to_string(h.id), std::string(1, letter(h.axis)), to_string(h.state),
                h.started_utc, from.model, std::to_string(h.scans),
-               h.simulated ? "SIMULATED" : "measured",
+               h.simulated      ? "SIMULATED"
+               : is_imported(h) ? "imported"
+                                : "measured",
                std::filesystem::path(from.recording_path).filename().string(), h.note});
   }
   return table.text(terminal_columns()) + left_out(runs.size(), total, "runs");

@@ -14,6 +14,7 @@
 #include "daemon/paths.h"
 #include "schema/base/toml_reader.h"
 #include "schema/imported/series.h"
+#include "schema/rig/rig_notes.h"
 #include "schema/run_json.h"
 
 namespace mdof::daemon {
@@ -89,6 +90,22 @@ Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& ru
   return bad_input("these runs have " + std::to_string(points) +
                    " points together, and a table is built from at most " +
                    std::to_string(kMostPoints) + "; leave some out");
+}
+
+}  // namespace
+
+namespace {
+
+// Of a run a missing datum is a note; of a table in force it is a correction at another place. That
+// its rig was calibrated and its readings corrected is no doubt.
+std::vector<std::string> doubts_of_table(std::vector<Run> runs) {
+  for (Run& run : runs) {
+    const auto good = rig_notes(run.header.provenance.rig_text);
+    std::erase_if(run.header.notes, [&](const std::string& note) {
+      return std::find(good.begin(), good.end(), note) != good.end();
+    });
+  }
+  return table_notes(runs);
 }
 
 }  // namespace
@@ -178,8 +195,7 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
   for (std::size_t i = 0; i < runs.size(); ++i) {
     MDOF_TRY(runs[i], store.run(table.runs[i]));
   }
-  // Of a run a missing datum is a note; of a table in force it is a correction at another place.
-  std::vector<std::string> warnings = table_notes(runs);
+  std::vector<std::string> warnings = doubts_of_table(runs);
   MDOF_TRY(const auto of_table, table_warnings(runs));
   warnings.insert(warnings.end(), of_table.begin(), of_table.end());
   const auto now = store.active(table.axis);

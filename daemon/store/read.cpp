@@ -6,7 +6,7 @@
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
 #include "schema/encoder_datum.h"
-#include "schema/rig/calibrated.h"
+#include "schema/rig/rig_notes.h"
 
 namespace mdof::store {
 
@@ -103,8 +103,7 @@ Result<RunHeader> Store::header_of(Statement& row) {
   EncoderDatum::Kind datum{};
   if (datum_kind_from(std::string(row.text(21)), datum) && datum == EncoderDatum::Kind::none)
     header.notes.push_back(datum_note(datum, std::string(row.text(22))));
-  for (auto& note : calibration_notes(header.provenance.rig_text))
-    header.notes.push_back(std::move(note));
+  for (auto& note : rig_notes(header.provenance.rig_text)) header.notes.push_back(std::move(note));
   if (!row.is_null(14)) {
     header.state = state_from(row.text(14));
     header.scans = natural(row.integer(15));

@@ -167,10 +167,4 @@ std::vector<std::string> calibration_notes(const Rig& rig) {
   return notes;
 }
 
-std::vector<std::string> calibration_notes(std::string_view rig_text) {
-  if (rig_text.find(kRecordHead) == std::string_view::npos) return {};
-  const auto rig = parse_rig(rig_text, "rig");
-  return rig ? calibration_notes(*rig) : std::vector<std::string>();
-}
-
 }  // namespace mdof

@@ -26,6 +26,5 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig);
 
 // What results of such a rig say of it, one sentence a record; none for other rigs.
 std::vector<std::string> calibration_notes(const Rig& rig);
-std::vector<std::string> calibration_notes(std::string_view rig_text);
 
 }  // namespace mdof

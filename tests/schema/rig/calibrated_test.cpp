@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "schema/rig/rig_notes.h"
 #include "tests/algo/rigs.h"
 
 namespace mdof {
@@ -60,7 +61,7 @@ TEST(CalibratedRig, TakesWhatTheRecordFoundAndKeepsTheRest) {
   ASSERT_EQ(rig.records.size(), 1U);
   EXPECT_EQ(rig.records[0].not_seen, mounting().not_seen);
   EXPECT_EQ(rig.records[0].sources[1].file, "y.csv");
-  const auto notes = calibration_notes(rig.text);
+  const auto notes = rig_notes(rig.text);
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_NE(notes[0].find(rig.records[0].id), std::string::npos);
 }

@@ -90,11 +90,12 @@ DeviceSink Station::sink() {
     shared_->queue.push_always(std::move(item));
   };
   sink.trouble = [this](const Trouble& trouble) {
-    shared_->events.trouble(config_.rig.axis, run(), trouble);
+    // Who hears of it and stops the run finds it in the run.
     Item item;
     item.kind = Item::Kind::trouble;
     item.trouble = std::make_shared<const Trouble>(trouble);
     shared_->queue.push_always(std::move(item));
+    shared_->events.trouble(config_.rig.axis, run(), trouble);
   };
   sink.mark = [this](const std::string& device) {
     Item item;

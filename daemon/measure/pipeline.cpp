@@ -12,6 +12,7 @@
 #include "algo/points/flags.h"
 #include "daemon/measure/completeness.h"
 #include "daemon/measure/drift_treatment.h"
+#include "daemon/measure/points/point_solver.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -20,18 +21,6 @@ namespace mdof::daemon {
 namespace {
 
 constexpr std::size_t kAlwaysWhole = 256;  // stops; fewer are recognised anew with each
-
-std::vector<std::string> probe_ids(const Rig& rig) {
-  std::vector<std::string> ids;
-  for (const auto& probe : rig.probes) ids.push_back(probe.id);
-  return ids;
-}
-
-std::vector<double> probe_ranges(const Rig& rig) {
-  std::vector<double> ranges;
-  for (const auto& probe : rig.probes) ranges.push_back(probe.range_m);
-  return ranges;
-}
 
 // The last instant of `frames`, into `newest`.
 void keep_last(const FrameBlock& frames, FrameBlock& newest) {
@@ -107,14 +96,16 @@ Pipeline::Pipeline(Rig rig, PipelineOptions options, algo::Solver solver)
       options_(std::move(options)),
       calibrator_(rig_),
       aligner_(options_.align, probe_ids(rig_)),
-      dwell_(options_.dwell, probe_ids(rig_), probe_ranges(rig_)),
+      dwell_(options_.dwell, probe_ids(rig_), probe_ranges_m(rig_)),
       solver_(std::move(solver)),
-      corrections_(rig_) {}
+      corrections_(rig_),
+      suspect_(options_.dwell.min_length_s / 2) {}
 
 Status Pipeline::push(SampleBlock& raw) {
   lost_ += raw.lost;
-  note_encoder(raw);
-  note_temperature(raw);
+  note_break(raw);
+  suspect_.push(raw);
+  temperature_.push(raw);
   corrections_.push(raw);
   MDOF_CHECK(calibrator_.apply(raw));
   MDOF_CHECK(aligner_.push(raw, frames_));
@@ -126,74 +117,21 @@ Status Pipeline::push(SampleBlock& raw) {
   return {};
 }
 
-void Pipeline::note_encoder(const SampleBlock& raw) {
-  const auto is_encoder = [](const Channel& channel) { return channel.id == kEncoderChannel; };
-  const auto at = std::find_if(raw.channels.begin(), raw.channels.end(), is_encoder);
-  if (raw.scans() == 0 || at == raw.channels.end()) return;
-  note_break(raw);
-  const auto channel = static_cast<std::size_t>(at - raw.channels.begin());
-  if (!raw.quality.empty() && !raw.quality[channel].empty())
-    note_suspect(raw, raw.quality[channel]);
-  else if (std::exchange(suspect_now_, false))
-    end_stretch();
-}
-
-// A stretch too short for a stop, such as a single late reading, is forgotten: it spoils no point.
-void Pipeline::end_stretch() {
-  const double length_s = ns_to_s(suspect_.back().end_ns - suspect_.back().begin_ns);
-  if (length_s < options_.dwell.min_length_s / 2) suspect_.pop_back();
-}
-
-void Pipeline::note_suspect(const SampleBlock& raw, const std::vector<Quality>& quality) {
-  const auto suspect = [](Quality q) { return q == Quality::suspect; };
-  if (!suspect_now_ && std::none_of(quality.begin(), quality.end(), suspect)) return;
-  encoder_device_ = raw.device;
-  for (std::size_t i = 0; i < quality.size(); ++i) {
-    const bool was = std::exchange(suspect_now_, suspect(quality[i]));
-    if (was && !suspect_now_) end_stretch();
-    if (!suspect_now_) continue;
-    if (!was) suspect_.push_back({raw.time_ns[i], raw.time_ns[i]});
-    suspect_.back().end_ns = raw.time_ns[i];
-  }
-}
-
-bool Pipeline::unplaced(const Point& stop) const {
-  return std::any_of(suspect_.begin(), suspect_.end(), [&](const Stretch& stretch) {
-    return stretch.begin_ns <= stop.begin_ns && stop.end_ns <= stretch.end_ns;
-  });
-}
-
 std::string Pipeline::explain_unplaced() const {
   const auto first = std::find_if(found_.begin(), found_.end(),
-                                  [this](const Point& stop) { return unplaced(stop); });
-  return std::to_string(unplaced_) + (unplaced_ == 1 ? " stop" : " stops") + " from " +
-         plain_number(ns_to_s(first->begin_ns - *begin_ns_)) +
-         " s on cannot be placed and are left out: the encoder (device \"" + encoder_device_ +
-         "\") was suspect there, as while its clock is in doubt, or after it was without power and "
-         "has lost its datum; in that case go to a known place and tell it by mdof encoder set; "
-         "measure them anew";
+                                  [this](const Point& stop) { return suspect_.covers(stop); });
+  return suspect_.left_out_text(unplaced_, "stop", ns_to_s(first->begin_ns - *begin_ns_));
 }
 
 void Pipeline::note_break(const SampleBlock& raw) {
+  const auto is_encoder = [](const Channel& channel) { return channel.id == kEncoderChannel; };
+  if (raw.scans() == 0 || std::none_of(raw.channels.begin(), raw.channels.end(), is_encoder))
+    return;
   if (!begin_ns_) begin_ns_ = raw.time_ns.front();
   const auto unseen_ns = static_cast<std::int64_t>(options_.dwell.window_s * 1e9);
   if (raw.lost > 0 && encoder_ns_ && raw.time_ns.front() - *encoder_ns_ > unseen_ns)
     dwell_.break_after(*encoder_ns_);
   encoder_ns_ = raw.time_ns.back();
-}
-
-void Pipeline::note_temperature(const SampleBlock& raw) {
-  const Channel wanted{"temperature", Unit::deg_c};
-  const auto found = std::find(raw.channels.begin(), raw.channels.end(), wanted);
-  if (found == raw.channels.end()) return;
-  const auto channel = static_cast<std::size_t>(found - raw.channels.begin());
-  for (const double read_C : raw.value[channel]) {
-    if (!std::isfinite(read_C)) continue;
-    if (temperatures_++ == 0) temperature_ = Temperature{0, read_C, read_C};
-    temperature_->mean_C += read_C;
-    temperature_->min_C = std::min(temperature_->min_C, read_C);
-    temperature_->max_C = std::max(temperature_->max_C, read_C);
-  }
 }
 
 const std::vector<MeasuredPoint>& Pipeline::points() {
@@ -211,20 +149,20 @@ const std::vector<MeasuredPoint>& Pipeline::points() {
 // A long run grows by one point at a time: only the new point is put in its place and solved. The
 // whole sequence is recognised again whenever it has grown by a quarter, and at the end.
 void Pipeline::take_new_points() {
-  const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
+  const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_.sides);
   std::vector<Point> fresh(found_.begin() + static_cast<std::ptrdiff_t>(taken_), found_.end());
   dwell_.mark(fresh);
   std::copy(fresh.begin(), fresh.end(), found_.begin() + static_cast<std::ptrdiff_t>(taken_));
   corrections_.apply(solver_, fresh);
   for (Point& stop : fresh) {
     ++taken_;
-    if (unplaced(stop)) {
+    if (suspect_.covers(stop)) {
       ++unplaced_;
       continue;
     }
     for (std::size_t i = tail_->append(std::move(stop), sequence_); i < sequence_.points.size();
          ++i)
-      solve_point(sequence_.points[i], residuals);
+      solve_point(solver_, rig_, residuals, sequence_.points[i]);
   }
 }
 
@@ -235,20 +173,12 @@ void Pipeline::take_points() {
   dwell_.mark(found_);
   std::vector<Point> placed;
   std::copy_if(found_.begin(), found_.end(), std::back_inserter(placed),
-               [this](const Point& stop) { return !unplaced(stop); });
+               [this](const Point& stop) { return !suspect_.covers(stop); });
   unplaced_ = found_.size() - placed.size();
   corrections_.apply(solver_, placed);
   sequence_ = algo::recognise_sequence(placed, options_.sequence);
-  const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
-  for (auto& p : sequence_.points) solve_point(p, residuals);
-}
-
-void Pipeline::solve_point(MeasuredPoint& p, const algo::Residuals& residuals) const {
-  const double travel_m = rig_.sides.target_travel_m(p.point.position_m);
-  p.errors = solver_.solve(travel_m, p.point.probe_m, p.point.probe_u_m);
-  if (!p.errors.valid) p.errors.reason = cause_of(p.point) + p.errors.reason;
-  residuals.test(p);
-  p.errors = algo::restate(p.errors, options_.model, rig_.axis, travel_m, kAtCarriage, kAtFixture);
+  const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_.sides);
+  for (auto& p : sequence_.points) solve_point(solver_, rig_, residuals, p);
 }
 
 AxisErrors Pipeline::solve_at(double encoder_m, const std::vector<double>& readings_m,
@@ -366,8 +296,7 @@ Result<Run> Pipeline::finish() {
   run.header.stated = kAtFixture;
   run.header.scans = dwell_.summary().scans;
   run.header.scans_lost = lost_;
-  run.header.temperature = temperature_;
-  if (temperature_) run.header.temperature->mean_C /= static_cast<double>(temperatures_);
+  run.header.temperature = temperature_.of_run();
   if (auto note = datum_note(options_.datum.kind, options_.datum.device); !note.empty())
     run.header.notes.push_back(std::move(note));
   run.header.warnings.insert(run.header.warnings.end(), sequence_.warnings.begin(),
@@ -378,7 +307,7 @@ Result<Run> Pipeline::finish() {
   run.points = sequence_.points;
   corrections_.tell(solver_, found_, run);
   auto more = dwell_.warnings(found_);
-  const algo::Residuals residuals(solver_, probe_ranges(rig_), rig_.sides);
+  const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_.sides);
   if (const auto contradiction = residuals.warning(run.points)) more.push_back(*contradiction);
   run.header.warnings.insert(run.header.warnings.end(), more.begin(), more.end());
   treat_drift(rig_, options_.remove_drift, run);

@@ -16,6 +16,8 @@
 #include "algo/sequence/sequence_tail.h"
 #include "algo/uncertainty/chi_square.h"
 #include "daemon/measure/corrections/point_corrections.h"
+#include "daemon/measure/points/run_temperature.h"
+#include "daemon/measure/points/suspect_encoder.h"
 #include "drivers/calibration.h"
 #include "schema/base/result.h"
 #include "schema/encoder_datum.h"
@@ -71,16 +73,10 @@ class Pipeline {
 
  private:
   Pipeline(Rig rig, PipelineOptions options, algo::Solver solver);
-  void note_encoder(const SampleBlock& raw);
   void note_break(const SampleBlock& raw);
-  void note_suspect(const SampleBlock& raw, const std::vector<Quality>& quality);
-  void note_temperature(const SampleBlock& raw);
-  void end_stretch();
-  bool unplaced(const Point& stop) const;
   std::string explain_unplaced() const;
   void take_points();
   void take_new_points();
-  void solve_point(MeasuredPoint& p, const algo::Residuals& residuals) const;
   bool moved() const;
   Status explain_nothing() const;
   Status judge_dead_probes(std::vector<std::string>& warnings) const;
@@ -102,17 +98,9 @@ class Pipeline {
   std::size_t whole_at_ = 0;                // of found_: then the whole is recognised again
   std::uint64_t lost_ = 0;
   std::optional<std::int64_t> begin_ns_, encoder_ns_;  // of the encoder's first and last scan
-  // Stretches in which the encoder was suspect throughout: where it was without power its datum is
-  // lost, and a stop in one has no place.
-  struct Stretch {
-    std::int64_t begin_ns, end_ns;
-  };
-  std::vector<Stretch> suspect_;
-  bool suspect_now_ = false;
-  std::string encoder_device_;
-  std::size_t unplaced_ = 0;                // of found_
-  std::optional<Temperature> temperature_;  // mean_C: the sum of
-  std::uint64_t temperatures_ = 0;          // so many readings
+  SuspectEncoder suspect_;
+  std::size_t unplaced_ = 0;  // of found_
+  RunTemperature temperature_;
 };
 
 }  // namespace mdof::daemon

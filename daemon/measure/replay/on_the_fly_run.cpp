@@ -1,30 +1,18 @@
 #include "daemon/measure/replay/on_the_fly_run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "algo/iso230/straightness.h"
-#include "algo/model/restate.h"
 #include "algo/plausibility/map_cover.h"
 #include "algo/plausibility/plausibility.h"
 #include "daemon/measure/completeness.h"
 #include "daemon/measure/drift_treatment.h"
+#include "daemon/measure/points/point_solver.h"
+#include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
-
-std::vector<std::string> ids_of(const Rig& rig) {
-  std::vector<std::string> ids;
-  for (const Probe& probe : rig.probes) ids.push_back(probe.id);
-  return ids;
-}
-
-std::vector<double> ranges_of(const Rig& rig) {
-  std::vector<double> ranges_m;
-  for (const Probe& probe : rig.probes) ranges_m.push_back(probe.range_m);
-  return ranges_m;
-}
 
 template <class Texts>
 void append(std::vector<std::string>& to, const Texts& texts) {
@@ -42,16 +30,19 @@ OnTheFlyRun::OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver)
     : rig_(std::move(rig)),
       options_(std::move(options)),
       calibrator_(rig_),
-      aligner_(options_.align, ids_of(rig_)),
+      aligner_(options_.align, probe_ids(rig_)),
       solver_(std::move(solver)),
       fly_(algo::TargetGrid(options_.on_the_fly.value_or(algo::OnTheFlyOptions()),
                             options_.sequence.targets_m),
-           ids_of(rig_), ranges_of(rig_), options_.dwell.max_speed_m_s),
-      corrections_(rig_) {}
+           probe_ids(rig_), probe_ranges_m(rig_), options_.dwell.max_speed_m_s),
+      corrections_(rig_),
+      suspect_(options_.dwell.min_length_s / 2) {}
 
 Status OnTheFlyRun::push(SampleBlock& raw) {
   lost_ += raw.lost;
-  note_temperature(raw);
+  if (!begin_ns_ && raw.scans() > 0) begin_ns_ = raw.time_ns.front();
+  temperature_.push(raw);
+  suspect_.push(raw);
   corrections_.push(raw);
   MDOF_CHECK(calibrator_.apply(raw));
   MDOF_CHECK(aligner_.push(raw, frames_));
@@ -60,17 +51,19 @@ Status OnTheFlyRun::push(SampleBlock& raw) {
   return taken;
 }
 
-void OnTheFlyRun::note_temperature(const SampleBlock& raw) {
-  const auto found =
-      std::find(raw.channels.begin(), raw.channels.end(), Channel{"temperature", Unit::deg_c});
-  if (found == raw.channels.end()) return;
-  for (const double read_C : raw.value[static_cast<std::size_t>(found - raw.channels.begin())]) {
-    if (!std::isfinite(read_C)) continue;
-    if (temperatures_++ == 0) temperature_ = Temperature{0, read_C, read_C};
-    temperature_->mean_C += read_C;
-    temperature_->min_C = std::min(temperature_->min_C, read_C);
-    temperature_->max_C = std::max(temperature_->max_C, read_C);
-  }
+// Unlike a stop, a bin has its place from each of its scans.
+Status OnTheFlyRun::leave_suspect_out(algo::Sequence& sequence,
+                                      std::vector<std::string>& warnings) const {
+  auto& points = sequence.points;
+  const auto suspect = [this](const MeasuredPoint& p) { return suspect_.touches(p.point); };
+  const auto first = std::find_if(points.begin(), points.end(), suspect);
+  if (first == points.end()) return {};
+  const double from_s = ns_to_s(first->point.begin_ns - *begin_ns_);
+  const std::size_t left_out = std::erase_if(points, suspect);
+  std::string text = suspect_.left_out_text(left_out, "point", from_s);
+  if (points.empty()) return bad_input(std::move(text));
+  warnings.push_back(std::move(text));
+  return {};
 }
 
 void OnTheFlyRun::correct(algo::Sequence& sequence) const {
@@ -83,11 +76,7 @@ void OnTheFlyRun::correct(algo::Sequence& sequence) const {
 Status OnTheFlyRun::solve(algo::Sequence& sequence, const algo::Residuals& residuals) const {
   bool any = false;
   for (MeasuredPoint& p : sequence.points) {
-    const double travel_m = rig_.sides.target_travel_m(p.point.position_m);
-    p.errors = solver_.solve(travel_m, p.point.probe_m, p.point.probe_u_m);
-    residuals.test(p);
-    p.errors =
-        algo::restate(p.errors, options_.model, rig_.axis, travel_m, kAtCarriage, kAtFixture);
+    solve_point(solver_, rig_, residuals, p);
     any = any || p.errors.valid;
   }
   if (any) return {};
@@ -113,20 +102,21 @@ Result<Run> OnTheFlyRun::finish() {
   fly_.flush();
   MDOF_CHECK(fly_.explain_nothing());
   algo::Sequence sequence = fly_.sequence();
+  Run run;
+  MDOF_CHECK(leave_suspect_out(sequence, run.header.warnings));
   std::vector<Point> as_read;
   for (const MeasuredPoint& p : sequence.points) as_read.push_back(p.point);
   correct(sequence);
-  const algo::Residuals residuals(solver_, ranges_of(rig_), rig_.sides);
+  const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_.sides);
   MDOF_CHECK(solve(sequence, residuals));
-  Run run;
   run.header.axis = rig_.axis;
   run.header.sides = rig_.sides;
   run.header.stated = kAtFixture;
   run.header.scans = fly_.summary().scans;
   run.header.scans_lost = lost_;
-  run.header.temperature = temperature_;
-  if (temperature_) run.header.temperature->mean_C /= static_cast<double>(temperatures_);
-  append(run.header.warnings, fly_.statements());  // which are stored, as notes are not
+  run.header.temperature = temperature_.of_run();
+  auto statements = fly_.statements();  // which are stored, as notes are not
+  run.header.warnings.insert(run.header.warnings.begin(), statements.begin(), statements.end());
   if (auto note = datum_note(options_.datum.kind, options_.datum.device); !note.empty())
     run.header.notes.push_back(std::move(note));
   for (auto& [probe, why] : aligner_.too_slow()) run.header.warnings.push_back(std::move(why));

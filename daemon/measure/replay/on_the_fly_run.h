@@ -11,6 +11,8 @@
 #include "algo/uncertainty/chi_square.h"
 #include "daemon/measure/corrections/point_corrections.h"
 #include "daemon/measure/pipeline.h"
+#include "daemon/measure/points/run_temperature.h"
+#include "daemon/measure/points/suspect_encoder.h"
 #include "drivers/calibration.h"
 
 namespace mdof::daemon {
@@ -29,7 +31,8 @@ class OnTheFlyRun {
 
  private:
   OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver);
-  void note_temperature(const SampleBlock& raw);
+  // Points while the encoder was suspect. Error: there are no others.
+  Status leave_suspect_out(algo::Sequence& sequence, std::vector<std::string>& warnings) const;
   void correct(algo::Sequence& sequence) const;
   Status solve(algo::Sequence& sequence, const algo::Residuals& residuals) const;
   void judge(const algo::Sequence& sequence, Run& run) const;
@@ -43,8 +46,9 @@ class OnTheFlyRun {
   PointCorrections corrections_;
   FrameBlock frames_;
   std::uint64_t lost_ = 0;
-  std::optional<Temperature> temperature_;  // mean_C: the sum of
-  std::uint64_t temperatures_ = 0;          // so many readings
+  std::optional<std::int64_t> begin_ns_;
+  SuspectEncoder suspect_;
+  RunTemperature temperature_;
 };
 
 }  // namespace mdof::daemon

@@ -7,6 +7,7 @@
 #include "algo/model/restate.h"
 #include "algo/model/solver.h"
 #include "algo/points/align.h"
+#include "daemon/measure/points/point_solver.h"
 #include "drivers/calibration.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -168,9 +169,7 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   MDOF_CHECK(check_channels(log.path(), log.driver().info().channels, rig));
   MDOF_TRY(const AskedFor asked, log.asked_for());
   MDOF_TRY(const algo::Solver solver, algo::Solver::create(rig, asked.options.model));
-  std::vector<std::string> ids;
-  for (const Probe& probe : rig.probes) ids.push_back(probe.id);
-  ParkedReader reader(rig, asked.options.align, std::move(ids));
+  ParkedReader reader(rig, asked.options.align, probe_ids(rig));
   MDOF_CHECK(reader.read(log, progress));
   ParkedLog parked;
   parked.axis = rig.axis;

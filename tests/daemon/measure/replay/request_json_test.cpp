@@ -18,6 +18,8 @@ PipelineOptions asked_options() {
   options.align.interval_s = {{"A", 0.1}, {"E", 0.25}};
   options.align.delay_s = {{"A", 0.00384}, {"B", 0.001}, {"E", -0.0065}};
   options.dwell.leave_s = 0.00384;
+  options.remove_drift = true;
+  options.on_the_fly = algo::OnTheFlyOptions{0.5, 0.25, -3.5, 61.25};
   return options;
 }
 
@@ -33,6 +35,8 @@ TEST(RequestJson, ComesBackAsItWas) {
   EXPECT_EQ(back->options.align.interval_s, asked.options.align.interval_s);
   EXPECT_EQ(back->options.align.delay_s, asked.options.align.delay_s);
   EXPECT_EQ(back->options.dwell.leave_s, 0.00384);
+  EXPECT_TRUE(back->options.remove_drift);
+  EXPECT_EQ(back->options.on_the_fly->to_mm, 61.25);
 }
 
 // Whoever adds an option to PipelineOptions::json() must read it back as well: else a replay of a

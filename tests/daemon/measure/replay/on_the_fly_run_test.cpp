@@ -1,0 +1,76 @@
+// What a run in motion has from its samples beside the positions and readings.
+#include "daemon/measure/replay/on_the_fly_run.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/daemon/measure/test_axis.h"
+
+namespace mdof::daemon {
+namespace {
+
+// 20 mm and back at 20 mm/s.
+SampleBlock to_and_fro() {
+  TestAxis axis(0);
+  axis.move_to(20, 1);
+  axis.move_to(0, 1);
+  return axis.whole();
+}
+
+Result<Run> run_on_the_fly(SampleBlock block) {
+  PipelineOptions options;
+  options.on_the_fly.emplace();
+  OnTheFlyRun run = OnTheFlyRun::create(five_probe_rig(), options).value();
+  MDOF_CHECK(run.push(block));
+  return run.finish();
+}
+
+std::string said_by(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const auto& text : texts) all += text + "\n";
+  return all;
+}
+
+// The encoder is suspect from 0.3 s to 0.4 s after the first scan: from 6 to 8 mm.
+TEST(OnTheFlyRun, PointsWhileTheEncoderWasSuspectAreLeftOut) {
+  const auto all = run_on_the_fly(to_and_fro());
+  ASSERT_TRUE(all) << all.error().message;
+  SampleBlock block = to_and_fro();
+  block.quality.assign(block.channels.size(), {});
+  block.quality[0].assign(block.scans(), Quality::good);
+  std::fill_n(block.quality[0].begin() + 300, 101, Quality::suspect);
+  const auto run = run_on_the_fly(std::move(block));
+  ASSERT_TRUE(run) << run.error().message;
+  std::size_t expected = 0;
+  for (const auto& p : all->points) {
+    const double mm = 1e3 * p.point.position_m;
+    if (!(p.point.direction > 0 && mm > 5.4 && mm < 8.6)) ++expected;
+  }
+  EXPECT_EQ(run->points.size(), expected);
+  EXPECT_EQ(all->points.size(), expected + 3) << "at 6, 7 and 8 mm on the way forward";
+  const std::string warnings = said_by(run->header.warnings);
+  EXPECT_NE(warnings.find("3 points from 0.27"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("device \"daq\""), std::string::npos) << warnings;
+}
+
+TEST(OnTheFlyRun, AnEncoderThatIsSuspectThroughoutGivesNoRun) {
+  SampleBlock block = to_and_fro();
+  block.quality.assign(block.channels.size(), {});
+  block.quality[0].assign(block.scans(), Quality::suspect);
+  const auto run = run_on_the_fly(std::move(block));
+  ASSERT_FALSE(run);
+  EXPECT_NE(run.error().message.find("was suspect there"), std::string::npos)
+      << run.error().message;
+}
+
+// A single late reading, as of a slow USB reply, spoils no point.
+TEST(OnTheFlyRun, ASingleSuspectScanSpoilsNothing) {
+  SampleBlock block = to_and_fro();
+  block.quality.assign(block.channels.size(), {});
+  block.quality[0].assign(block.scans(), Quality::good);
+  block.quality[0][350] = Quality::suspect;
+  EXPECT_EQ(run_on_the_fly(std::move(block))->points.size(),
+            run_on_the_fly(to_and_fro())->points.size());
+}
+
+}  // namespace
+}  // namespace mdof::daemon

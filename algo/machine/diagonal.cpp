@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::string_view kAxisNames = "XYZ";
 
-void merge(const std::vector<std::string>& names, std::vector<std::string>& to) {
-  for (const std::string& name : names)
-    if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(name);
-}
-
 struct Corner {
   std::size_t first, second;
   std::array<double, 2> first_range, second_range;  // from begin to end
@@ -41,8 +36,8 @@ Diagonal along(const Machine& machine, const Corner& c, std::size_t steps,
     const ToolError e = tool_error(machine, command(part), approach);
     d.position_m.push_back(way.norm() * part);
     d.deviation_m.push_back(e.exact.head<3>().dot(way.normalized()));
-    for (std::size_t k = 0; k < 3; ++k) merge(e.not_measured[k], d.not_measured);
-    merge(e.beyond, d.beyond);
+    for (std::size_t k = 0; k < 3; ++k) add_new(e.not_measured[k], d.not_measured);
+    add_new(e.beyond, d.beyond);
   }
   const double zero = d.deviation_m.front();
   for (double& x : d.deviation_m) x -= zero;

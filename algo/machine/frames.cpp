@@ -62,10 +62,15 @@ double command_of(const MachineFrame& frame, const Command& command) {
   return frame.kind == FrameKind::fixed ? 0 : command[kLetters.find(frame.id)];
 }
 
+double travel_of(const MachineFrame& frame, const Command& command) {
+  const double at = command_of(frame, command);
+  return frame.against_command ? -at : at;
+}
+
 FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach) {
   FrameValues v;
   const double at = command_of(frame, command);
-  v.travel = frame.against_command ? -at : at;
+  v.travel = travel_of(frame, command);
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
     const ErrorFunction& f = frame.error[k];
     const Place place = place_of(f.position, at);

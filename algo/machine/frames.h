@@ -28,6 +28,8 @@ std::vector<FrameValues> values_at(const Machine& machine, const Command& comman
                                    MachineApproach approach);
 
 double command_of(const MachineFrame& frame, const Command& command);
+// How far its body goes along + of its axis.
+double travel_of(const MachineFrame& frame, const Command& command);
 
 Pose nominal_pose(const MachineFrame& frame, double travel);
 // The true displacement of the frame's body: the motion along the true line of the axis, then the

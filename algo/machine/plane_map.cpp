@@ -24,11 +24,6 @@ std::vector<double> steps_over(const std::array<double, 2>& range, double step_m
   return at;
 }
 
-void add_new(const std::vector<std::string>& names, std::vector<std::string>& to) {
-  for (const std::string& name : names)
-    if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(name);
-}
-
 }  // namespace
 
 Result<std::array<double, 2>> range_of(const MachineFrame& frame) {

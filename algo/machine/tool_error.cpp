@@ -31,11 +31,6 @@ Pose tool_in_work(const Machine& machine, PoseOf pose) {
   return work.inverse() * tool * Pose{Eigen::Matrix3d::Identity(), vector_of(machine.tool_m)};
 }
 
-double travel_at(const MachineFrame& frame, const Command& command) {
-  const double at = command_of(frame, command);
-  return frame.against_command ? -at : at;
-}
-
 Eigen::Vector3d unit(std::size_t k) {
   return Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k % 3));
 }
@@ -74,7 +69,7 @@ Walk walk(const Machine& machine, const Command& command) {
   const std::size_t n = machine.frames.size();
   Walk w{std::vector<Eigen::Vector3d>(n), std::vector<Eigen::Matrix3d>(n), {}};
   const auto pose = [&](std::size_t i) {
-    return nominal_pose(machine.frames[i], travel_at(machine.frames[i], command));
+    return nominal_pose(machine.frames[i], travel_of(machine.frames[i], command));
   };
   Pose tool, work;
   for (std::size_t i = 0; i < n; ++i) {  // from the bed to the tool
@@ -141,9 +136,14 @@ void name_what_is_missing(const Machine& machine, const std::vector<ErrorDerivat
 
 }  // namespace
 
+void add_new(const std::vector<std::string>& names, std::vector<std::string>& to) {
+  for (const std::string& name : names)
+    if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(name);
+}
+
 Pose nominal_tool(const Machine& machine, const Command& command) {
   return tool_in_work(machine, [&](std::size_t i) {
-    return nominal_pose(machine.frames[i], travel_at(machine.frames[i], command));
+    return nominal_pose(machine.frames[i], travel_of(machine.frames[i], command));
   });
 }
 
@@ -165,7 +165,7 @@ std::vector<ErrorDerivative> derivatives(const Machine& machine, const Command& 
   std::vector<ErrorDerivative> all;
   for (std::size_t i = 0; i < machine.frames.size(); ++i) {
     const MachineFrame& frame = machine.frames[i];
-    const double travel = travel_at(frame, command);
+    const double travel = travel_of(frame, command);
     const Eigen::Matrix3d out = w.to_work * w.outer[i] * (frame.carries_work ? -1 : 1);
     const auto add = [&](std::size_t k, bool of_line, const Effect& effect) {
       ErrorDerivative d{i, k, of_line, {}};

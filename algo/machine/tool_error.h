@@ -54,4 +54,7 @@ struct ToolError {
 };
 ToolError tool_error(const Machine& machine, const Command& command, MachineApproach approach);
 
+// Those of `names` that are not in the list yet: of many commands.
+void add_new(const std::vector<std::string>& names, std::vector<std::string>& to);
+
 }  // namespace mdof::algo

@@ -30,17 +30,6 @@ std::string utf8_from_latin1(std::string_view text) {
   return out;
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0;;) {
-    at = line.find_first_not_of(" \t\r", at);
-    if (at == line.npos) return words;
-    const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = end;
-  }
-}
-
 std::optional<double> number_from(std::string_view word) {
   double x = 0;
   const char* const end = parse_double(word.data(), word.data() + word.size(), x);

@@ -1,8 +1,10 @@
-// Text without the spaces around it.
+// Text without its spaces: around it, between its words.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 namespace mdof {
 
@@ -11,6 +13,17 @@ inline std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
   if (first == text.npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+// Its words, between the same.
+inline std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = text.find_first_not_of(" \t\r"); at != text.npos;) {
+    const std::size_t end = std::min(text.find_first_of(" \t\r", at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = text.find_first_not_of(" \t\r", end);
+  }
+  return words;
 }
 
 }  // namespace mdof

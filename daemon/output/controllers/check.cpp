@@ -134,9 +134,7 @@ Series without_missing(const Series& s) {
 // The constant that the file lacks: the machine's zero is moved by it, which is no error.
 double zero_of(const Series& s, const ExportOptions& options) {
   if (!options.home_m) return 0;
-  return s.factor * 0.5 *
-         (interpolated(s.position_m, s.forward, *options.home_m) +
-          interpolated(s.position_m, s.reverse, *options.home_m));
+  return s.factor * mean_error_at(s, *options.home_m);
 }
 
 CheckedError judged(const Format& format, const CompensationTable& table, const Series& measured,

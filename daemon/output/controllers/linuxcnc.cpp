@@ -17,15 +17,6 @@ constexpr int kDecimals = 9;  // of mm
 constexpr const char* kIni = "compensation.ini";
 constexpr const char* kAxes = "XYZ";
 
-double correction_at(const Series& s, double at_m) {
-  std::size_t i = 1;
-  while (i + 1 < s.position_m.size() && s.position_m[i] < at_m) ++i;
-  const double from = s.position_m[i - 1], to = s.position_m[i];
-  const double share = std::min(std::max((at_m - from) / (to - from), 0.0), 1.0);
-  const auto mean = [&](std::size_t k) { return 0.5 * (s.forward[k] + s.reverse[k]); };
-  return s.factor * (mean(i - 1) + (mean(i) - mean(i - 1)) * share);
-}
-
 std::string rows_text(const Series& s, double zero_m) {
   std::string text;
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
@@ -38,7 +29,7 @@ std::string rows_text(const Series& s, double zero_m) {
 
 // The constant that makes the trim 0 at home; where nobody said where that is, what it is at 0.
 double zero_of(const Series& s, const ExportOptions& options, Export& out) {
-  const double there = correction_at(s, options.home_m.value_or(0.0));
+  const double there = s.factor * mean_error_at(s, options.home_m.value_or(0.0));
   const std::string um = plain_number(to_um(there)) + " um";
   if (options.home_m) {
     out.notes.push_back(
@@ -127,11 +118,10 @@ Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
   std::string ini =
-      "# For the ini file of LinuxCNC, with the .comp files beside it. Restart LinuxCNC to change "
-      "a "
-      "table.\n# Joints 0 1 2 are X Y Z. A joint with a table ignores BACKLASH. A .comp file has "
-      "no "
-      "comments: it would be cut there.\n";
+      "# For the ini file of LinuxCNC, with the .comp files beside it.\n"
+      "# Restart LinuxCNC to change a table. Joints 0 1 2 are X Y Z.\n"
+      "# A joint with a table ignores BACKLASH.\n"
+      "# A .comp file has no comments: it would be cut there.\n";
   for (const CompensationTable& table : tables) MDOF_CHECK(add_joint(table, options, out, ini));
   out.files.push_back({kIni, ini});
   return out;

@@ -146,6 +146,16 @@ std::vector<std::string> head_lines(const CompensationTable& table, const Export
   return lines;
 }
 
+double mean_error_at(const Series& s, double position_m) {
+  const auto& x = s.position_m;
+  const auto mean = [&](std::size_t k) { return 0.5 * (s.forward[k] + s.reverse[k]); };
+  if (!(position_m > x.front())) return mean(0);
+  if (!(position_m < x.back())) return mean(x.size() - 1);
+  const auto i =
+      static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), position_m) - x.begin());
+  return mean(i - 1) + (mean(i) - mean(i - 1)) * ((position_m - x[i - 1]) / (x[i] - x[i - 1]));
+}
+
 std::string fixed(double x, int decimals) {
   std::array<char, 400> text{};
   const int size = std::snprintf(text.data(), text.size(), "%.*f", decimals, x);

@@ -27,6 +27,8 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables);
 std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
                                     const std::string& sense);
 
+// Mean of both approaches at a position: linear between the points, the ends held.
+double mean_error_at(const Series& series, double position_m);
 std::string fixed(double x, int decimals);  // never "-0"
 
 }  // namespace mdof::controllers

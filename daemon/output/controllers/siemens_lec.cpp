@@ -19,14 +19,6 @@ struct EqualSteps {
   double loss_m = 0;          // at a point of the table, by resampling
 };
 
-double mean_at(const Series& s, double at_m) {
-  const auto& x = s.position_m;
-  const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, at_m);
-  const auto i = static_cast<std::size_t>(above - x.begin());
-  const auto mean = [&](std::size_t k) { return 0.5 * (s.forward[k] + s.reverse[k]); };
-  return mean(i - 1) + (mean(i) - mean(i - 1)) * ((at_m - x[i - 1]) / (x[i] - x[i - 1]));
-}
-
 double error_at(const EqualSteps& e, double at_m) {
   const double place =
       std::clamp((at_m - e.first_m) / e.step_m, 0.0, static_cast<double>(e.error.size() - 1));
@@ -46,10 +38,9 @@ EqualSteps equal_steps(const Series& s) {
   e.first_m = std::round(x.front() / kSameStep_m) * kSameStep_m;
   e.step_m = std::round(range / std::max(wanted, 1.0) / kSameStep_m) * kSameStep_m;
   for (std::size_t i = 0; i <= static_cast<std::size_t>(std::max(wanted, 1.0)); ++i)
-    e.error.push_back(
-        mean_at(s, std::clamp(e.first_m + static_cast<double>(i) * e.step_m, x.front(), x.back())));
+    e.error.push_back(mean_error_at(s, e.first_m + static_cast<double>(i) * e.step_m));
   for (const double at : x)
-    e.loss_m = std::max(e.loss_m, std::abs(error_at(e, at) - mean_at(s, at)));
+    e.loss_m = std::max(e.loss_m, std::abs(error_at(e, at) - mean_error_at(s, at)));
   return e;
 }
 

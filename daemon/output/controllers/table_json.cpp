@@ -22,7 +22,9 @@ std::string document_of(const CompensationTable& table, const ExportOptions& opt
   return json.take() + "\n";
 }
 
-double number_of(const element& of, const std::string& key) {
+// `of`: an element, or what was asked of one and may not be there.
+template <class Of>
+double number_of(const Of& of, const std::string& key) {
   double x = std::nan("");
   return of[key].get(x) == simdjson::SUCCESS ? x : std::nan("");
 }
@@ -39,8 +41,8 @@ Result<AppliedCorrection> correction_of(const element& table, const std::string&
   if (table["points"].get(points) != simdjson::SUCCESS)
     return bad_input(file + ": the table has no points");
   for (const element& point : points) {
-    const double forward = number_of(point["forward"].value_unsafe(), key);
-    const double reverse = number_of(point["reverse"].value_unsafe(), key);
+    const double forward = number_of(point["forward"], key);
+    const double reverse = number_of(point["reverse"], key);
     if (!std::isfinite(forward) || !std::isfinite(reverse)) continue;  // null: no value there
     read.position_m.push_back(from_mm(number_of(point, "position_mm")));
     read.forward.push_back(factor * from_um(forward));

@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "daemon/output/controllers/export.h"
+#include "schema/base/trimmed.h"
 
 namespace mdof::controllers {
 
 // Split at LF; a last line without one counts too.
 std::vector<std::string_view> lines_of(std::string_view text);
-// Split at spaces and tabs.
-std::vector<std::string_view> words_of(std::string_view line);
 // [-+]digits[.digits], all of the word.
 std::optional<double> decimal_from(std::string_view word);
 // "X.comp:7: what"

@@ -96,16 +96,18 @@ Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& ru
 
 namespace {
 
+std::string note_of(const Run& run, const std::string& note) {
+  return "run " + std::to_string(run.header.id) + ": " + note;
+}
+
 // Of a run a missing datum is a note; of a table in force it is a correction at another place. That
 // its rig was calibrated and its readings corrected is no doubt.
-std::vector<std::string> doubts_of_table(std::vector<Run> runs) {
-  for (Run& run : runs) {
-    const auto good = rig_notes(run.header.provenance.rig_text);
-    std::erase_if(run.header.notes, [&](const std::string& note) {
-      return std::find(good.begin(), good.end(), note) != good.end();
-    });
-  }
-  return table_notes(runs);
+std::vector<std::string> doubts_of_table(const std::vector<Run>& runs) {
+  std::vector<std::string> doubts = table_notes(runs);
+  for (const Run& run : runs)
+    for (const std::string& good : rig_notes(run.header.provenance.rig_text))
+      std::erase(doubts, note_of(run, good));
+  return doubts;
 }
 
 }  // namespace
@@ -113,8 +115,7 @@ std::vector<std::string> doubts_of_table(std::vector<Run> runs) {
 std::vector<std::string> table_notes(const std::vector<Run>& runs) {
   std::vector<std::string> notes;
   for (const Run& run : runs)
-    for (const auto& note : run.header.notes)
-      notes.push_back("run " + std::to_string(run.header.id) + ": " + note);
+    for (const auto& note : run.header.notes) notes.push_back(note_of(run, note));
   return notes;
 }
 

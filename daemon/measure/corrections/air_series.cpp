@@ -39,8 +39,9 @@ void AirSeries::add(std::size_t quantity, std::int64_t time_ns, double value) {
 double AirSeries::interpolated(const std::vector<Second>& seconds, double time_s) const {
   const auto time_of = [](const Second& s) { return s.time_sum_s / s.n; };
   const auto mean_of = [](const Second& s) { return s.sum / s.n; };
-  const auto after = std::find_if(seconds.begin(), seconds.end(),
-                                  [&](const Second& second) { return time_of(second) > time_s; });
+  const auto after =
+      std::partition_point(seconds.begin(), seconds.end(),
+                           [&](const Second& second) { return !(time_of(second) > time_s); });
   if (after == seconds.begin()) return mean_of(seconds.front());
   if (after == seconds.end()) return mean_of(seconds.back());
   const double from_s = time_of(*(after - 1)),

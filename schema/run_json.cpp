@@ -37,12 +37,6 @@ void write_corrections(JsonWriter& json, const CompensationTable& t) {
   json.end_object();
 }
 
-void write_strings(JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
-  json.key(key).begin_array();
-  for (const auto& text : texts) json.value(text);
-  json.end_array();
-}
-
 // What a table holds of an approach.
 struct Side {
   const std::array<std::vector<double>, 5>&values, &u;
@@ -99,6 +93,12 @@ bool lost_is_known(const RunHeader& h) {
 }
 
 }  // namespace
+
+void write_strings(JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
+  json.key(key).begin_array();
+  for (const auto& text : texts) json.value(text);
+  json.end_array();
+}
 
 void write_reference(JsonWriter& json, const StatedAt& at) {
   json.field("reference", to_string(at.reference)).key("reference_mm");

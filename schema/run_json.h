@@ -15,6 +15,9 @@ namespace mdof {
 void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& point,
                  const ErrorsUncertainty& uncertainty);
 
+// "key": ["text", ...] of an open object.
+void write_strings(JsonWriter& json, const char* key, const std::vector<std::string>& texts);
+
 // "reference" and "reference_mm" (null for the carriage) of an open object.
 void write_reference(JsonWriter& json, const StatedAt& at);
 

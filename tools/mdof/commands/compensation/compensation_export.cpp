@@ -4,8 +4,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
-#include "schema/base/json_writer.h"
+#include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/compensation/exported.h"
 #include "tools/mdof/options.h"
@@ -55,12 +56,12 @@ std::string formats_text(std::size_t width) {
   return text;
 }
 
-Status write_file(const fs::path& file, const std::string& text, bool overwrite) {
-  std::error_code ec;
-  if (!overwrite && fs::exists(file, ec))
-    return fail(ErrorCode::usage, file.string() +
-                                      ": is there already; another --out, or "
-                                      "--overwrite");
+// "EAX", not "EXX".
+bool is_angle(const std::string& error) {
+  return error.size() > 1 && std::string_view("ABC").find(error[1]) != std::string_view::npos;
+}
+
+Status write_file(const fs::path& file, const std::string& text) {
   errno = 0;
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << text << std::flush;
@@ -68,24 +69,30 @@ Status write_file(const fs::path& file, const std::string& text, bool overwrite)
   return io_error(file.string() + ": cannot be written: " + std::strerror(errno ? errno : EIO));
 }
 
+// All or none: files of two exports beside each other would be a table of their own.
+Status check_free(const std::vector<fs::path>& files) {
+  std::error_code ec;
+  for (const fs::path& file : files)
+    if (fs::exists(file, ec))
+      return fail(ErrorCode::usage,
+                  file.string() + ": is there already; another --out, or --overwrite");
+  return {};
+}
+
 Result<std::vector<std::string>> write_files(const ExportTablesCommand& command,
                                              const controllers::Export& files) {
+  std::vector<fs::path> paths;
+  for (const auto& file : files.files) paths.push_back(fs::path(command.folder) / file.name);
+  if (!command.overwrite) MDOF_CHECK(check_free(paths));
   std::error_code ec;
   fs::create_directories(command.folder, ec);
   if (ec) return io_error(command.folder + ": cannot be made: " + ec.message());
   std::vector<std::string> names;
-  for (const auto& file : files.files) {
-    const fs::path path = fs::path(command.folder) / file.name;
-    MDOF_CHECK(write_file(path, file.text, command.overwrite));
-    names.push_back(path.string());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    MDOF_CHECK(write_file(paths[i], files.files[i].text));
+    names.push_back(paths[i].string());
   }
   return names;
-}
-
-void write_texts_of(JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
-  json.key(key).begin_array();
-  for (const auto& text : texts) json.value(text);
-  json.end_array();
 }
 
 std::string exported_json(const ExportedTables& exported, const std::vector<std::string>& names) {
@@ -95,19 +102,20 @@ std::string exported_json(const ExportedTables& exported, const std::vector<std:
   json.field("sign_confirmed", exported.format->sign_confirmed).key("tables").begin_array();
   for (const auto& table : exported.tables) json.value(table.id);
   json.end_array();
-  write_texts_of(json, "files", names);
+  write_strings(json, "files", names);
   json.key("written").begin_array();
   for (const auto& written : exported.files.written)
     json.begin_object()
         .field("error", written.error)
         .field("points", static_cast<std::uint64_t>(written.points))
         .field("points_before", static_cast<std::uint64_t>(written.points_before))
-        .field("largest_deviation_um", written.largest_deviation * 1e6)
+        .field(is_angle(written.error) ? "largest_deviation_urad" : "largest_deviation_um",
+               written.largest_deviation * 1e6)
         .end_object();
   json.end_array();
-  write_texts_of(json, "left_out", exported.files.left_out);
-  write_texts_of(json, "notes", exported.files.notes);
-  write_texts_of(json, "marks", exported.options.marks);
+  write_strings(json, "left_out", exported.files.left_out);
+  write_strings(json, "notes", exported.files.notes);
+  write_strings(json, "marks", exported.options.marks);
   json.key("check").raw(check_json(exported.check)).end_object();
   return json.take();
 }
@@ -119,7 +127,8 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
   for (const auto& written : exported.files.written)
     text += written.error + ": " + std::to_string(written.points) + " of " +
             std::to_string(written.points_before) + " points, off by up to " +
-            fixed(written.largest_deviation * 1e6, 4) + " µm\n";
+            fixed(written.largest_deviation * 1e6, 4) +
+            (is_angle(written.error) ? " µrad\n" : " µm\n");
   return text + "read back and applied to a simulated axis:\n" + check_text(exported.check);
 }
 

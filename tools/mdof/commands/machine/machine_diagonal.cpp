@@ -81,8 +81,8 @@ std::string diagonals_json(const Machine& machine, const std::vector<algo::Diago
         .field("name", d.name)
         .field("length_mm", to_mm(d.position_m.back()))
         .field("range_um", to_um(d.range_m));
-    write_names(json, "not_measured", d.not_measured);
-    write_names(json, "beyond_tables", d.beyond);
+    write_strings(json, "not_measured", d.not_measured);
+    write_strings(json, "beyond_tables", d.beyond);
     json.key("points").begin_array();
     for (std::size_t k = 0; k < d.position_m.size(); ++k)
       json.begin_object()

@@ -29,7 +29,7 @@ struct FoundError {
 void write_by_component(JsonWriter& json, const char* key,
                         const std::array<std::vector<std::string>, 6>& names) {
   json.key(key).begin_object();
-  for (std::size_t k = 0; k < 6; ++k) write_names(json, kComponents[k], names[k]);
+  for (std::size_t k = 0; k < 6; ++k) write_strings(json, kComponents[k], names[k]);
   json.end_object();
 }
 
@@ -42,7 +42,7 @@ void write_compensating(JsonWriter& json, const Machine& machine,
   json.end_object().key("angles_left").begin_object();
   for (int k = 0; k < 3; ++k) json.field(kComponents[3 + k], to_urad(c.angles_rad[k]));
   json.end_object().field("steps", c.steps).field("converged", c.converged);
-  write_names(json, "beyond_tables", c.beyond);
+  write_strings(json, "beyond_tables", c.beyond);
   json.end_object();
 }
 
@@ -68,7 +68,7 @@ std::string error_json(const Machine& machine, const FoundError& found,
       .end_object();
   write_by_component(json, "not_measured", e.not_measured);
   write_by_component(json, "u_not_declared", e.no_u);
-  write_names(json, "beyond_tables", e.beyond);
+  write_strings(json, "beyond_tables", e.beyond);
   write_compensating(json, machine, found.compensating);
   json.end_object();
   return json.take();

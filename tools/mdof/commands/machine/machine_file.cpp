@@ -155,12 +155,6 @@ void write_components(JsonWriter& json, const char* key, const algo::Vector6& er
   json.end_object();
 }
 
-void write_names(JsonWriter& json, const char* key, const std::vector<std::string>& names) {
-  json.key(key).begin_array();
-  for (const auto& name : names) json.value(name);
-  json.end_array();
-}
-
 void write_command(JsonWriter& json, const char* key, const Machine& machine,
                    const algo::Command& command) {
   json.key(key).begin_object();

@@ -7,6 +7,7 @@
 #include "algo/machine/tool_error.h"
 #include "schema/base/json_writer.h"
 #include "schema/machine/machine.h"
+#include "schema/run_json.h"
 
 namespace CLI {
 class App;
@@ -28,7 +29,6 @@ Result<algo::Command> command_from(const Machine& machine, const std::string& te
 // The six components of an error, as keys of JSON and in µm or µrad.
 inline constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad", "c_urad"};
 void write_components(JsonWriter& json, const char* key, const algo::Vector6& error);
-void write_names(JsonWriter& json, const char* key, const std::vector<std::string>& names);
 // {"X_mm": ..., "C_deg": ...} of the axes of the chain.
 void write_command(JsonWriter& json, const char* key, const Machine& machine,
                    const algo::Command& command);

@@ -94,9 +94,9 @@ std::string map_json(const Machine& machine, const MachineMapCommand& o,
   for (const FoundMap& found : maps) {
     json.begin_object().field("approach", found.approach);
     write_extremes(json, found.map);
-    write_names(json, "not_measured", found.map.not_measured);
-    write_names(json, "u_not_declared", found.map.no_u);
-    write_names(json, "beyond_tables", found.map.beyond);
+    write_strings(json, "not_measured", found.map.not_measured);
+    write_strings(json, "u_not_declared", found.map.no_u);
+    write_strings(json, "beyond_tables", found.map.beyond);
     write_grid(json, found.map);
     json.end_object();
   }

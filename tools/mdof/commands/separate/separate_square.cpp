@@ -31,6 +31,7 @@ std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& 
   json.begin_object().key("runs").begin_array();
   for (const std::int64_t id : run) json.value(id);
   json.end_array();
+  write_reference(json, kAtFixture);
   json.field("EC0Y_urad", to_urad(s.EC0Y_rad))
       .field("artefact_angle_error_urad", to_urad(s.square_rad));
   json.field("u_urad", to_urad(s.u_rad)).field("u_random_urad", to_urad(s.u_random_rad));
@@ -38,9 +39,7 @@ std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& 
   json.field("k", s.coverage_factor).field("nu_eff", s.freedom);
   json.field("first_EC0Y_urad", to_urad(s.first_rad))
       .field("second_EC0Y_urad", to_urad(s.second_rad));
-  json.key("u_not_declared").begin_array();
-  for (const std::string& key : found.not_declared) json.value(key);
-  json.end_array();
+  write_strings(json, "u_not_declared", found.not_declared);
   json.field("simulated", found.simulated).end_object();
   return with_warnings(json.take(), found.warnings);
 }
@@ -58,7 +57,7 @@ std::string text_of(const SquareReversal& s, bool simulated) {
                      std::string(s.noise_only ? "noise and repeatability only"
                                               : "noise, and what the rigs declare as common to "
                                                 "both set-ups") +
-                     ". The square is taken to be the same in both.",
+                     ". Slopes at the fixture; the square is taken to be the same in both.",
                  terminal_columns()) +
          "\n";
 }
@@ -72,6 +71,10 @@ Status square(const SquareCommand& command) {
   MDOF_TRY(const auto found, daemon::square_reversal(store, {run[0], run[1], {}, command.partial},
                                                      {run[2], run[3], {}, command.partial}));
   for (const auto& warning : summarised(found.warnings, command.all_warnings)) warn(warning);
+  Budget budget;
+  budget.not_declared = found.not_declared;
+  budget.noise_only = found.found.noise_only;
+  if (const std::string text = not_declared_text({budget}); !text.empty()) warn(text);
   if (command.json) return write_line(json_of(found.found, run, found));
   return write_out(text_of(found.found, found.simulated));
 }

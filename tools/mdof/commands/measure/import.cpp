@@ -5,6 +5,7 @@
 
 #include "daemon/history.h"
 #include "daemon/measure/imported/import.h"
+#include "schema/imported/series.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -19,7 +20,7 @@ namespace {
 struct ImportCommand {
   std::string database, axis;
   daemon::ImportRequest request;
-  std::optional<double> u_um;
+  std::optional<double> u_um, u_urad;
   bool json = false;
 };
 
@@ -40,9 +41,22 @@ std::string stored_json(const Run& run) {
   return json.take();
 }
 
+// Of an angle in urad, else in um.
+Status take_u(ImportCommand& command) {
+  daemon::ImportRequest& request = command.request;
+  const std::string name = request.error.empty() ? positioning_name(request.axis) : request.error;
+  MDOF_TRY(const ImportedError error, imported_error(request.axis, name));
+  if (error.angle ? command.u_um.has_value() : command.u_urad.has_value())
+    return fail(ErrorCode::usage,
+                name + (error.angle ? " is an angle: give --u-urad" : " is a length: give --u-um"));
+  if (command.u_um) request.u_si = from_um(*command.u_um);
+  if (command.u_urad) request.u_si = from_urad(*command.u_urad);
+  return {};
+}
+
 Status import(ImportCommand command) {
   command.request.axis = *axis_from(command.axis);  // the option takes no other
-  if (command.u_um) command.request.u_si = from_um(*command.u_um);
+  MDOF_CHECK(take_u(command));
   MDOF_TRY(Run run, daemon::imported_run(command.request));
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id,
@@ -70,9 +84,10 @@ Action declare_import(CLI::App& command) {
   command.add_option("--format", o->request.format, "[default: told by the file]")
       ->check(CLI::IsMember({"csv", "iso230-2", "rtl"}));
   command
-      .add_option("--u-um,--u-urad", o->u_um,
+      .add_option("--u-um", o->u_um,
                   "Standard uncertainty of each deviation (the laser, its alignment, temperature)")
       ->check(CLI::NonNegativeNumber);
+  command.add_option("--u-urad", o->u_urad, "The same of an angle")->check(CLI::NonNegativeNumber);
   command.add_option("--note", o->request.note, "Kept with the run; at most 1024 bytes")
       ->type_name("TEXT")
       ->check([](const std::string& note) {

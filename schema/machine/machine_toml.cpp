@@ -108,7 +108,7 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
       frame.at_m = read_point(table, "centre_mm");
   } else {
     frame.at_m = read_point(table, "holds_at_mm");
-    const std::string point = table.string("point");
+    const std::string point = table.string("point", "");
     frame.point_moves = point == "moving";
     if (point != "moving" && point != "standing")
       table.reject("point",

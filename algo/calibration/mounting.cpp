@@ -1,13 +1,13 @@
 #include "algo/calibration/mounting.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "algo/calibration/mounting_model.h"
 #include "algo/calibration/mounting_view.h"
+#include "algo/linear_algebra/least_squares.h"
+#include "algo/linear_algebra/spectra.h"
 #include "algo/uncertainty/chi_square.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -22,23 +22,20 @@ constexpr double kFarthest_m = 1e-3;  // from the rig's place: no clamping by ha
 
 // The least-squares solution in the clampings' unknowns alone.
 struct PoseSpace {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  LeastSquares fit;
   Eigen::MatrixXd basis;
 
-  explicit PoseSpace(const Eigen::MatrixXd& by_pose) : qr(by_pose.rows(), by_pose.cols()) {
-    qr.setThreshold(kRankTolerance);
-    qr.compute(by_pose);
-    basis = qr.householderQ() * Eigen::MatrixXd::Identity(by_pose.rows(), qr.rank());
-  }
+  explicit PoseSpace(const Eigen::MatrixXd& by_pose)
+      : fit(by_pose, kRankTolerance), basis(fit.basis()) {}
   Eigen::MatrixXd without(const Eigen::MatrixXd& m) const {
     return m - basis * (basis.transpose() * m);
   }
 };
 
-MountingView view_of(const Eigen::JacobiSVD<Eigen::MatrixXd>& svd) {
-  const Eigen::VectorXd& all = svd.singularValues();
+MountingView view_of(const SingularValues& svd) {
+  const Eigen::VectorXd& all = svd.values;
   const auto n = std::count_if(all.begin(), all.end(), [](double s) { return s >= kSeenFrom; });
-  const Eigen::MatrixXd& v = svd.matrixV();
+  const Eigen::MatrixXd& v = svd.V;
   return {v.leftCols(n), v.rightCols(v.cols() - n), all.head(n)};
 }
 
@@ -74,7 +71,7 @@ class Fit {
 
   double step_of_poses() {
     const auto lines = model_.linearised(pose_, probe_);
-    const Eigen::VectorXd step = PoseSpace(lines.by_pose).qr.solve(lines.misfit);
+    const Eigen::VectorXd step = LeastSquares(lines.by_pose, kRankTolerance).solve(lines.misfit);
     pose_ += step;
     return step.cwiseAbs().maxCoeff();
   }
@@ -86,16 +83,17 @@ class Fit {
     const PoseSpace poses(lines.by_pose);
     const Eigen::MatrixXd shown = poses.without(lines.by_probe);
     const Eigen::VectorXd goal = poses.without(lines.misfit) + shown * probe_;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(shown, Eigen::ComputeThinU | Eigen::ComputeFullV);
+    const SingularValues svd = singular_values(shown);
     view_ = view_of(svd);
     const auto n = view_.singular.size();
     const Eigen::VectorXd now =
-        view_.seen * (svd.matrixU().leftCols(n).transpose() * goal).cwiseQuotient(view_.singular);
+        view_.seen * (svd.U.leftCols(n).transpose() * goal).cwiseQuotient(view_.singular);
     const Eigen::VectorXd change = now - probe_;
-    const Eigen::VectorXd step = poses.qr.solve(lines.misfit - lines.by_probe * change);
+    const Eigen::VectorXd step =
+        poses.fit.solve(Eigen::VectorXd(lines.misfit - lines.by_probe * change));
     probe_ = now;
     pose_ += step;
-    pose_rank_ = poses.qr.rank();
+    pose_rank_ = poses.fit.rank();
     return std::max(change.cwiseAbs().maxCoeff(), step.cwiseAbs().maxCoeff());
   }
 

@@ -1,9 +1,9 @@
 #include "algo/calibration/mounting_view.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "algo/linear_algebra/spectra.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
@@ -121,10 +121,10 @@ class Naming {
     // To the precision of what is called unseen, what is left of a column is all of it or nothing.
     const Eigen::MatrixXd left =
         view_.unseen - together_ * (together_.transpose() * view_.unseen).eval();
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeThinU);
-    const auto& length = svd.singularValues();
+    const SingularValues svd = singular_values(left);
+    const auto& length = svd.values;
     const auto n = std::count_if(length.begin(), length.end(), [](double x) { return x > 0.5; });
-    out_.apart = svd.matrixU().leftCols(n);
+    out_.apart = svd.U.leftCols(n);
   }
 
   bool unseen(Eigen::Index unknown) const {

@@ -1,8 +1,11 @@
 #include "algo/drift/drift_design.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <utility>
+
+#include "algo/linear_algebra/least_squares.h"
+#include "algo/linear_algebra/spectra.h"
 
 namespace mdof::algo {
 namespace {
@@ -16,8 +19,7 @@ double least_share(const Eigen::MatrixXd& between, const Eigen::MatrixXd& all, E
   if (root.info() != Eigen::Success) return 0;  // fewer times than polynomials
   const Eigen::MatrixXd half = root.matrixL().solve(seen);
   const Eigen::MatrixXd share = root.matrixL().solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(share, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()(0);
+  return symmetric_eigenvalues(share)(0);
 }
 
 }  // namespace
@@ -47,9 +49,9 @@ DriftDesign::DriftDesign(std::vector<TimedVisit> visits) : visits_(std::move(vis
     ++orders_;
   if (orders_ == 0) return;
   freedom_ = left(orders_);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(between.leftCols(orders_));
-  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(n, orders_);
-  root_ = qr.matrixQR().topRows(orders_).triangularView<Eigen::Upper>();
+  auto [Q, R] = thin_qr(between.leftCols(orders_));
+  basis_ = std::move(Q);
+  root_ = std::move(R);
 }
 
 Eigen::VectorXd DriftDesign::polynomials(double time_s, int orders) const {

@@ -1,12 +1,13 @@
 #include "algo/drift/run_drift.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "algo/linear_algebra/least_squares.h"
 #include "algo/sensitivity/plan/functions.h"
 #include "schema/units.h"
 
@@ -118,7 +119,7 @@ void take_means(const Groups& groups, Eigen::MatrixXd& columns) {
 double left_of(Eigen::MatrixXd columns, Eigen::MatrixXd y, const Groups& groups) {
   take_means(groups, columns);
   take_means(groups, y);
-  const Eigen::MatrixXd fitted = columns * columns.completeOrthogonalDecomposition().solve(y);
+  const Eigen::MatrixXd fitted = columns * LeastNorm(columns).solve(y);
   return (y - fitted).squaredNorm();
 }
 

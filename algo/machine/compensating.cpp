@@ -1,6 +1,6 @@
 #include "algo/machine/compensating.h"
 
-#include <Eigen/QR>
+#include "algo/linear_algebra/least_squares.h"
 
 namespace mdof::algo {
 namespace {
@@ -38,13 +38,13 @@ Result<CompensatingCommand> compensating_command(const Machine& machine, const C
   if (directions.empty())
     return bad_input("the chain " + machine.chain.text +
                      " has no linear axis whose command could be corrected");
-  const auto inverse = jacobian(machine, wanted, directions).completeOrthogonalDecomposition();
+  const LeastNorm inverse(jacobian(machine, wanted, directions));
   const Eigen::Vector3d target = nominal_tool(machine, wanted).p;
   CompensatingCommand c;
   c.command = wanted;
   for (c.steps = 0; c.steps < kMostSteps && !c.converged; ++c.steps) {
     const Pose reached = actual_tool(machine, values_at(machine, c.command, approach));
-    const Eigen::VectorXd step = inverse.solve(target - reached.p);
+    const Eigen::VectorXd step = inverse.solve(Eigen::VectorXd(target - reached.p));
     for (std::size_t i = 0; i < directions.size(); ++i)
       c.command[directions[i]] += step[static_cast<Eigen::Index>(i)];
     c.converged = step.norm() < kStill_m;

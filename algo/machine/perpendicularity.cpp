@@ -1,6 +1,6 @@
 #include "algo/machine/perpendicularity.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
 #include "algo/model/rigid.h"
 
-#include <Eigen/QR>
 #include <cmath>
 
+#include "algo/linear_algebra/least_squares.h"
 #include "algo/model/small_rotation.h"
 
 namespace mdof::algo {
@@ -87,9 +87,8 @@ AxisErrors solve_rigid(const Fixture& fixture, double travel_m,
   for (int iteration = 0; iteration < kMaxIterations && !done; ++iteration) {
     const Eigen::VectorXd misfit = readings - rigid_readings(fixture, travel_m, e);
     const Eigen::MatrixXd J = rigid_jacobian(fixture, travel_m, e);
-    const Eigen::VectorXd step = (root_weight.asDiagonal() * J)
-                                     .colPivHouseholderQr()
-                                     .solve(root_weight.asDiagonal() * misfit);
+    const Eigen::VectorXd step = LeastSquares(root_weight.asDiagonal() * J)
+                                     .solve(Eigen::VectorXd(root_weight.asDiagonal() * misfit));
     for (std::size_t k = 0; k < e.size(); ++k) e[k] += step(static_cast<Eigen::Index>(k));
     const bool inside = std::abs(e[kEx]) < kSmallAngleMax_rad &&
                         std::abs(e[kEy]) < kSmallAngleMax_rad &&

@@ -1,9 +1,9 @@
 #include "algo/model/solver.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "algo/linear_algebra/least_squares.h"
 #include "algo/model/rigid.h"
 
 namespace mdof::algo {
@@ -85,7 +85,7 @@ Eigen::MatrixXd Solver::gain(double travel_m, const AxisErrors& errors,
   for (Eigen::Index i = 0; i < J.rows(); ++i)
     root_weight(i) = std::sqrt(weights[static_cast<std::size_t>(i)]);
   const Eigen::MatrixXd weighted = root_weight.asDiagonal() * J;
-  return weighted.colPivHouseholderQr().solve(Eigen::MatrixXd(root_weight.asDiagonal()));
+  return LeastSquares(weighted).solve(Eigen::MatrixXd(root_weight.asDiagonal()));
 }
 
 Eigen::MatrixXd Solver::gain(double travel_m, const AxisErrors& errors,

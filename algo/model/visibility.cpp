@@ -1,9 +1,10 @@
 #include "algo/model/visibility.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "algo/linear_algebra/spectra.h"
 
 namespace mdof::algo {
 namespace {
@@ -44,8 +45,8 @@ Visibility visibility(const Fixture& fixture, const std::vector<bool>& use) {
     for (const auto& name : error_names(fixture.axis)) result.unseen.emplace_back(name.name);
     return result;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeFullV);
-  const auto& singular = svd.singularValues();
+  const SingularValues svd = singular_values(J);
+  const auto& singular = svd.values;
   Errors5 share{};
   for (Eigen::Index k = 0; k < kErrorCount; ++k) {
     const bool seen = k < singular.size() && singular(k) > kRankTolerance * singular(0);
@@ -55,7 +56,7 @@ Visibility visibility(const Fixture& fixture, const std::vector<bool>& use) {
       continue;
     }
     for (std::size_t e = 0; e < share.size(); ++e) {
-      share[e] = std::max(share[e], std::abs(svd.matrixV()(static_cast<Eigen::Index>(e), k)));
+      share[e] = std::max(share[e], std::abs(svd.V(static_cast<Eigen::Index>(e), k)));
     }
   }
   for (const auto& name : error_names(fixture.axis)) {

@@ -1,9 +1,11 @@
 #include "algo/on_the_fly/reading_lag.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "algo/linear_algebra/least_squares.h"
 
 namespace mdof::algo {
 namespace {
@@ -85,7 +87,7 @@ void fit(const std::vector<Difference>& rows, ReadingLag& lag) {
     factor[i] = row.factor_m_s;
     difference[i] = row.difference_m;
   }
-  const auto line = even.colPivHouseholderQr();
+  const LeastSquares line(even);
   const Eigen::VectorXd changes = factor - even * line.solve(factor);
   const Eigen::VectorXd odd = difference - even * line.solve(difference);
   const double square = changes.squaredNorm();

@@ -1,10 +1,11 @@
 #include "algo/sensitivity/correlation.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cstdio>
 #include <string>
+
+#include "algo/linear_algebra/spectra.h"
 
 namespace mdof::algo {
 namespace {
@@ -28,8 +29,7 @@ Result<std::vector<double>> cholesky_factor(const PlannedCorrelation& group) {
   const Eigen::MatrixXd matrix =
       Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
           group.matrix.data(), n, n);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);
-  const double smallest = eigen.eigenvalues().minCoeff();
+  const double smallest = symmetric_eigenvalues(matrix).minCoeff();
   const Eigen::LLT<Eigen::MatrixXd> llt(matrix);
   if (llt.info() != Eigen::Success || smallest < kLeastEigenvalue)
     return not_positive_definite(group, smallest);

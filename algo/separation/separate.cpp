@@ -1,12 +1,13 @@
 #include "algo/separation/separate.h"
 
 #include <Eigen/Core>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include "algo/linear_algebra/least_squares.h"
+#include "algo/linear_algebra/spectra.h"
 #include "algo/separation/grid.h"
 #include "algo/separation/request_check.h"
 #include "algo/separation/unseen.h"
@@ -86,25 +87,17 @@ struct Solution {
 
 Solution solve(const Equations& e) {
   const VectorXd w = root_weights(e.u);
-  const Eigen::BDCSVD<MatrixXd> svd(w.asDiagonal() * e.A,
-                                    Eigen::ComputeThinU | Eigen::ComputeFullV);
-  const VectorXd& s = svd.singularValues();
-  Solution found;
-  while (found.rank < s.size() && s(found.rank) > kSeenAbove * s(0)) ++found.rank;
-  const VectorXd inverse = s.head(found.rank).cwiseInverse();
-  found.from_readings = svd.matrixV().leftCols(found.rank) * inverse.asDiagonal() *
-                        svd.matrixU().leftCols(found.rank).transpose() * w.asDiagonal();
-  found.null = svd.matrixV().rightCols(e.A.cols() - found.rank);
-  return found;
+  const LeastNorm fit(w.asDiagonal() * e.A, kSeenAbove);
+  return {fit.inverse() * w.asDiagonal(), fit.null_space(), fit.rank()};
 }
 
 // Orthonormal columns of what these rows of the null space can be.
 MatrixXd unseen_part(const MatrixXd& null, Index from, Index count) {
   constexpr double kLeast = 1e-7;
-  const Eigen::BDCSVD<MatrixXd> svd(null.middleRows(from, count), Eigen::ComputeThinU);
-  Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()(rank) > kLeast) ++rank;
-  return svd.matrixU().leftCols(rank);
+  if (null.cols() == 0) return MatrixXd(count, 0);
+  const SingularValues svd = singular_values(null.middleRows(from, count));
+  const auto rank = (svd.values.array() > kLeast).count();
+  return svd.U.leftCols(rank);
 }
 
 SeenSeries seen_part(const Equations& e, const Solution& solution, Index from,

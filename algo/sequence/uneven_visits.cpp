@@ -1,12 +1,13 @@
 #include "algo/sequence/uneven_visits.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "algo/linear_algebra/least_squares.h"
 #include "algo/points/ranges_text.h"
 
 namespace mdof::algo {
@@ -88,7 +89,7 @@ class EffectFit {
 
   // Of the first kind, [effect][error]. Effects that no entries link have no difference; the
   // solution of least norm leaves them as they are.
-  Eigen::MatrixXd solve() const { return normal_.completeOrthogonalDecomposition().solve(right_); }
+  Eigen::MatrixXd solve() const { return LeastNorm(normal_).solve(right_); }
 
  private:
   Eigen::MatrixXd normal_, right_;

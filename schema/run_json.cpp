@@ -201,7 +201,7 @@ void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures) {
 }
 
 std::string run_json(const Run& run, const RunUncertainty& uncertainty,
-                     const std::vector<Budget>& figures) {
+                     const StatedFigures& figures) {
   JsonWriter json;
   json.begin_object();
   write_header_members(json, run.header);
@@ -214,7 +214,6 @@ std::string run_json(const Run& run, const RunUncertainty& uncertainty,
   write_straightness(json, run.straightness);
   json.key("angles");
   write_angles(json, run.angles);
-  json.key("uncertainty");
   write_stated(json, figures);
   json.key("plausibility");
   run.plausibility ? write_plausibility(json, *run.plausibility) : static_cast<void>(json.null());

@@ -24,9 +24,9 @@ void write_reference(JsonWriter& json, const StatedAt& at);
 // Identity, state and provenance, without points; the members of an open object.
 void write_header_members(JsonWriter& json, const RunHeader& header);
 
-// The whole run as `mdof replay --json` prints it (DESIGN §6); `figures` as "uncertainty".
+// The whole run as `mdof replay --json` prints it (DESIGN §6); `figures` as of write_stated().
 std::string run_json(const Run& run, const RunUncertainty& uncertainty,
-                     const std::vector<Budget>& figures);
+                     const StatedFigures& figures);
 
 // {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}
 void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures);

@@ -41,6 +41,9 @@ LeastNorm::LeastNorm(const MatrixXd& A, double rank_tolerance)
 LeastNorm::~LeastNorm() = default;
 LeastNorm::LeastNorm(LeastNorm&&) noexcept = default;
 
+Index LeastNorm::unknowns() const {
+  return cod_->cols();
+}
 Index LeastNorm::rank() const {
   return cod_->rank();
 }

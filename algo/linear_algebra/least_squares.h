@@ -36,6 +36,7 @@ class LeastNorm {
   ~LeastNorm();
   LeastNorm(LeastNorm&&) noexcept;
 
+  Eigen::Index unknowns() const;
   Eigen::Index rank() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;

@@ -45,11 +45,11 @@ Surface meet(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC, const Eigen
 }  // namespace
 
 Eigen::VectorXd rigid_readings(const Fixture& fixture, double travel_m, const Errors5& local) {
-  const Rotation r = local_rotation(fixture.axis, local);
+  const Eigen::Matrix3d R_MC = local_rotation_alone(fixture.axis, local);
   const Eigen::Vector3d t = carriage_position(travel_m, local);
   Eigen::VectorXd readings(static_cast<Eigen::Index>(fixture.probes.size()));
   Eigen::Index i = 0;
-  for (const auto& probe : fixture.probes) readings(i++) = meet(probe, r.R_MC, t).s;
+  for (const auto& probe : fixture.probes) readings(i++) = meet(probe, R_MC, t).s;
   return readings;
 }
 

@@ -1,6 +1,17 @@
 #include "algo/model/small_rotation.h"
 
 namespace mdof::algo {
+namespace {
+
+Eigen::Matrix3d columns_of(const std::array<std::array<double, 3>, 3>& axes) {
+  Eigen::Matrix3d L;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j)
+      L(i, j) = axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  return L;
+}
+
+}  // namespace
 
 SinCos small_sin_cos(double x) {
   // Horner form of x - x³/3! + x⁵/5! ...; the terms left out are below 2^-53 of the result.
@@ -33,12 +44,7 @@ Rotation rotation(double ex, double ey, double ez) {
 }
 
 Rotation local_rotation(Axis axis, const Errors5& local) {
-  const auto axes = local_axes(axis);
-  Eigen::Matrix3d L;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j < 3; ++j)
-      L(i, j) = axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  }
+  const Eigen::Matrix3d L = columns_of(local_axes(axis));
   const Eigen::Vector3d e = L * Eigen::Vector3d(local[kEx], local[kEy], local[kEz]);
   const Rotation machine = rotation(e.x(), e.y(), e.z());
   Rotation r;
@@ -51,6 +57,21 @@ Rotation local_rotation(Axis axis, const Errors5& local) {
                  L;
   }
   return r;
+}
+
+Eigen::Matrix3d local_rotation_alone(Axis axis, const Errors5& local) {
+  const Eigen::Matrix3d L = columns_of(local_axes(axis));
+  const Eigen::Vector3d e = L * Eigen::Vector3d(local[kEx], local[kEy], local[kEz]);
+  const auto [sx, cx] = small_sin_cos(e.x());
+  const auto [sy, cy] = small_sin_cos(e.y());
+  const auto [sz, cz] = small_sin_cos(e.z());
+  Eigen::Matrix3d Rx, Ry, Rz;
+  Rx << 1, 0, 0, 0, cx, -sx, 0, sx, cx;
+  Ry << cy, 0, sy, 0, 1, 0, -sy, 0, cy;
+  Rz << cz, -sz, 0, sz, cz, 0, 0, 0, 1;
+  const Eigen::Matrix3d RzRy = Rz * Ry;
+  const Eigen::Matrix3d R = RzRy * Rx;
+  return L.transpose() * R * L;
 }
 
 }  // namespace mdof::algo

@@ -27,5 +27,7 @@ Rotation rotation(double ex_rad, double ey_rad, double ez_rad);
 // angles turn like vectors: e_machine = L e, and R = Lᵀ Rz(C) Ry(B) Rx(A) L. L only exchanges
 // coordinates and signs, so nothing is rounded.
 Rotation local_rotation(Axis axis, const Errors5& local);
+// R alone, the same bits: a third of the time.
+Eigen::Matrix3d local_rotation_alone(Axis axis, const Errors5& local);
 
 }  // namespace mdof::algo

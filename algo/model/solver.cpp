@@ -53,6 +53,15 @@ Result<Solver> Solver::create(const Rig& rig, Model model) {
 
 AxisErrors Solver::solve(double travel_m, const std::vector<double>& readings_m,
                          const std::vector<double>& u_m) const {
+  AxisErrors errors = solve_alone(travel_m, readings_m, u_m);
+  if (!errors.valid || u_m.size() != readings_m.size()) return errors;
+  const std::vector<bool> use = usable(readings_m);
+  errors.covariance = covariance(travel_m, errors, use, make_weights(use, u_m), u_m);
+  return errors;
+}
+
+AxisErrors Solver::solve_alone(double travel_m, const std::vector<double>& readings_m,
+                               const std::vector<double>& u_m) const {
   assert(readings_m.size() == fixture_.probes.size());
   const std::vector<bool> use = usable(readings_m);
   const bool complete = std::all_of(use.begin(), use.end(), [](bool u) { return u; });
@@ -60,20 +69,14 @@ AxisErrors Solver::solve(double travel_m, const std::vector<double>& readings_m,
     const Visibility seen = visibility(fixture_, use);
     if (!seen.complete()) return not_seen(fixture_, use, seen);
   }
-  const auto weights = make_weights(use, u_m);
+  if (model_ == Model::rigid)
+    return solve_rigid(fixture_, travel_m, readings_m, make_weights(use, u_m));
+  std::array<double, 5> m{};
+  for (std::size_t k = 0; k < 5; ++k) m[k] = readings_m[small_angle_->probe[k]];
   AxisErrors errors;
-  if (model_ == Model::rigid) {
-    errors = solve_rigid(fixture_, travel_m, readings_m, weights);
-  } else {
-    std::array<double, 5> m{};
-    for (std::size_t k = 0; k < 5; ++k) m[k] = readings_m[small_angle_->probe[k]];
-    errors.local = solve_small_angle(model_, *small_angle_, travel_m, m);
-    errors.valid = true;
-    errors.reason.clear();
-  }
-  if (errors.valid && u_m.size() == use.size()) {
-    errors.covariance = covariance(travel_m, errors, use, weights, u_m);
-  }
+  errors.local = solve_small_angle(model_, *small_angle_, travel_m, m);
+  errors.valid = true;
+  errors.reason.clear();
   return errors;
 }
 

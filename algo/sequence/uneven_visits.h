@@ -9,6 +9,11 @@
 
 namespace mdof::algo {
 
+// Means are made of the points with errors and a known approach.
+bool counts_in_means(const MeasuredPoint& point);
+// Of points that count.
+bool any_run_lacks_visits(const std::vector<MeasuredPoint>& counted);
+
 struct WithoutDrift {
   std::vector<MeasuredPoint> points;
   Errors5 u_level{};  // local; m, rad

@@ -1,22 +1,23 @@
 #include "algo/uncertainty/budget.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "algo/model/restate.h"
-#include "algo/sensitivity/distribution.h"
-#include "algo/sensitivity/random.h"
+#include "algo/uncertainty/budget_draws.h"
 #include "algo/uncertainty/coverage.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {
 namespace {
 
-constexpr std::uint64_t kTrialsOfU = 2000;  // U is then right to 2 %
-constexpr double kMostFreedom = 10000;      // of Student's t; normal beyond
+constexpr std::uint64_t kTrialsOfU = 2000;    // U is then right to 2 %
+constexpr std::uint64_t kTrialsOfBlock = 64;  // their shifts stay in the cache
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -37,36 +38,6 @@ double sum_of_squares(const std::vector<double>& values) {
   return sum;
 }
 
-// JCGM 101 6.4; of one standard uncertainty, and Student's t where the degrees of freedom are few
-// (6.4.9).
-Distribution of_one_u(const DeclaredUncertainty& declared) {
-  Distribution d;
-  const auto limited = [&](Distribution::Kind kind, double half_width) {
-    d.kind = kind;
-    d.low = -half_width;
-    d.high = half_width;
-  };
-  switch (declared.shape) {
-    case UncertaintyShape::rectangular:
-      limited(Distribution::Kind::rectangular, std::sqrt(3.0));
-      break;
-    case UncertaintyShape::triangular:
-      limited(Distribution::Kind::triangular, std::sqrt(6.0));
-      break;
-    case UncertaintyShape::u_shaped:
-      limited(Distribution::Kind::u_shaped, std::sqrt(2.0));
-      break;
-    case UncertaintyShape::normal:
-      d.kind = Distribution::Kind::normal;
-      d.spread = 1;
-      if (declared.freedom <= kMostFreedom) {
-        d.kind = Distribution::Kind::t;
-        d.dof = declared.freedom;
-      }
-  }
-  return d;
-}
-
 // Shares, the largest first, and what follows from all lines.
 void complete(Budget& budget) {
   std::vector<UncertaintyPart> parts;
@@ -85,10 +56,43 @@ void complete(Budget& budget) {
   budget.U = budget.coverage_factor * budget.u;
 }
 
-void add_to(std::vector<Errors5>& sum, const std::vector<Errors5>& part, double factor) {
-  for (std::size_t i = 0; i < part.size(); ++i)
-    for (std::size_t k = 0; k < kErrorCount; ++k) sum[i][k] += factor * part[i][k];
-}
+// Some parts, to be added to the shifts of all trials at once, one after the other: a sum is read
+// and written a fourth as often.
+class SomeParts {
+ public:
+  void add(const std::vector<double>& part, std::vector<double> drawn) {
+    part_[n_] = part.data();
+    width_ = part.size();
+    drawn_[n_++] = std::move(drawn);
+  }
+  bool full() const { return n_ == kMost; }
+  // `sums`: of each trial.
+  void add_to(std::vector<double>& sums) {
+    for (std::size_t t = 0; n_ > 0 && t < drawn_[0].size(); ++t) {
+      double* sum = sums.data() + t * width_;
+      if (full())
+        add_four(sum, t);
+      else
+        for (std::size_t p = 0; p < n_; ++p)
+          for (std::size_t i = 0; i < width_; ++i) sum[i] += drawn_[p][t] * part_[p][i];
+    }
+    n_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 4;
+
+  void add_four(double* sum, std::size_t t) const {
+    const double a = drawn_[0][t], b = drawn_[1][t], c = drawn_[2][t], d = drawn_[3][t];
+    const double *pa = part_[0], *pb = part_[1], *pc = part_[2], *pd = part_[3];
+    for (std::size_t i = 0; i < width_; ++i)
+      sum[i] = sum[i] + a * pa[i] + b * pb[i] + c * pc[i] + d * pd[i];
+  }
+
+  std::array<const double*, kMost> part_{};
+  std::array<std::vector<double>, kMost> drawn_;
+  std::size_t n_ = 0, width_ = 0;
+};
 
 // The distance from `value` within which 95 % of the trials lie.
 double distance_of_95_percent(std::vector<double> trials, double value) {
@@ -101,13 +105,16 @@ double distance_of_95_percent(std::vector<double> trials, double value) {
 
 }  // namespace
 
+RunBudgets::RunBudgets(const Rig& rig, const Run& run)
+    : means_(means_of(run, run.points)),
+      changes_(run.header.moving(), run.points),
+      runs_(means_of_each_run(run)),
+      not_declared_(rig.undeclared_uncertainties()) {}
+
 Result<RunBudgets> RunBudgets::create(const Rig& rig, const Run& run) {
   MDOF_TRY(const auto declared, contributors(rig, run));
-  RunBudgets budgets;
-  budgets.not_declared_ = rig.undeclared_uncertainties();
-  budgets.means_ = means_of(run, run.points);
-  budgets.runs_ = means_of_each_run(run);
-  for (const Contributor& contributor : declared) budgets.add(contributor, run);
+  RunBudgets budgets(rig, run);
+  for (const Contributor& contributor : declared) budgets.add(contributor, contributor.parts());
   return budgets;
 }
 
@@ -117,26 +124,21 @@ std::size_t RunBudgets::cost() const {
   return parts * means_.targets.size();
 }
 
-void RunBudgets::add(const Contributor& contributor, const Run& run) {
-  Shifted shifted{contributor, {}};
-  std::vector<MeasuredPoint> points = run.points;
-  for (const PointShifts& shifts : contributor.parts()) {
-    shift(points, shifts);
-    const MeanErrors means = means_of(run, points);
-    for (std::size_t j = 0; j < points.size(); ++j) points[j].errors = run.points[j].errors;
-    MeanShifts& of_means = shifted.parts.emplace_back(means_.targets.size());
-    for (std::size_t i = 0; i < of_means.size(); ++i)
-      for (std::size_t k = 0; k < kErrorCount; ++k)
-        of_means[i][k] = means.targets[i].named[k] - means_.targets[i].named[k];
+void RunBudgets::add(const Contributor& contributor, const std::vector<PointShifts>& parts) {
+  Shifted& shifted = shifted_.emplace_back(Shifted{contributor, {}});
+  shifted.contributor.parts = nullptr;  // they hold the whole run
+  for (const PointShifts& part : parts) {
+    MeanShifts& shifts = shifted.parts.emplace_back();
+    for (const Errors5& at_target : changes_.of(part))
+      shifts.insert(shifts.end(), at_target.begin(), at_target.end());
   }
-  shifted_.push_back(std::move(shifted));
 }
 
-MeanErrors RunBudgets::moved(const MeanShifts& shifts, double factor) const {
+MeanErrors RunBudgets::moved(std::span<const double> shifts, double factor) const {
   MeanErrors means = means_;
-  for (std::size_t i = 0; i < shifts.size(); ++i)
+  for (std::size_t i = 0; i < means.targets.size(); ++i)
     for (std::size_t k = 0; k < kErrorCount; ++k)
-      means.targets[i].named[k] += factor * shifts[i][k];
+      means.targets[i].named[k] += factor * shifts[i * kErrorCount + k];
   return means;
 }
 
@@ -165,8 +167,9 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
   std::vector<double> parts;
   double freedom = 0;
   for (std::size_t i = 0; i < means_.targets.size(); ++i) {
-    MeanShifts alone(means_.targets.size());
-    alone[i] = means_.targets[i].u;
+    MeanShifts alone(means_.targets.size() * kErrorCount);
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      alone[i * kErrorCount + k] = means_.targets[i].u[k];
     parts.push_back(half_difference(figure, alone));
     freedom += std::max(0.0, static_cast<double>(means_.targets[i].n) - 2);
   }
@@ -234,33 +237,48 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
   return budgets;
 }
 
+// Of each trial the shifts of the means; `quantities`: of each contributor.
+std::vector<double> RunBudgets::moved_by(BlockOfDraws& draws, std::size_t trials,
+                                         const std::vector<OneU>& quantities) const {
+  std::vector<double> moved(trials * means_.targets.size() * kErrorCount);
+  SomeParts some;
+  for (std::size_t s = 0; s < shifted_.size(); ++s)
+    for (const MeanShifts& part : shifted_[s].parts) {
+      some.add(part, draws.next(quantities[s]));
+      if (some.full()) some.add_to(moved);
+    }
+  some.add_to(moved);
+  return moved;
+}
+
 std::vector<std::vector<double>> RunBudgets::draw(const std::vector<Figure>& figures,
                                                   const TrialsRequest& request,
                                                   std::uint32_t stream) const {
   std::vector<Random> random;
-  std::vector<QuantileFunction> noise, alone;
+  std::map<double, OneU> noise;  // by degrees of freedom: a table of t is dear
   for (const Figure& figure : figures) {
     random.push_back(random_of(figure));
-    noise.emplace_back(of_one_u({1, UncertaintyShape::normal, random.back().freedom}));
+    noise.try_emplace(random.back().freedom, random.back().freedom);
   }
-  const QuantileFunction normal(of_one_u({1, UncertaintyShape::normal, kInfinite}));
-  for (const Shifted& s : shifted_) alone.emplace_back(of_one_u(s.contributor.declared));
+  std::vector<OneU> quantities;
+  for (const Shifted& s : shifted_)
+    quantities.push_back(s.parts.size() == 1 ? OneU(s.contributor.declared) : OneU(kInfinite));
   std::vector<std::vector<double>> values(figures.size(), std::vector<double>(request.trials));
-  MeanErrors means = means_;
-  for (std::uint64_t trial = 0; trial < request.trials; ++trial) {
-    std::uint64_t q = 0;
-    const auto next = [&] { return algo::draw({request.seed, stream}, trial, q++); };
-    const double of_noise = next();
-    MeanShifts moved(means_.targets.size());
-    for (std::size_t s = 0; s < shifted_.size(); ++s) {
-      const QuantileFunction& of_parts = shifted_[s].parts.size() == 1 ? alone[s] : normal;
-      for (const MeanShifts& part : shifted_[s].parts) add_to(moved, part, of_parts.at(next()));
+  for (std::uint64_t first = 0; first < request.trials; first += kTrialsOfBlock) {
+    const std::size_t trials = std::min(kTrialsOfBlock, request.trials - first);
+    BlockOfDraws draws({request.seed, stream}, first, trials);
+    const std::vector<double> uniform = draws.next();
+    const std::vector<double> shifts = moved_by(draws, trials, quantities);
+    const std::size_t width = shifts.size() / trials;
+    std::map<double, std::vector<double>> of_noise;
+    for (const auto& [freedom, quantity] : noise)
+      quantity.quantiles(of_noise.try_emplace(freedom, uniform).first->second);
+    for (std::size_t t = 0; t < trials; ++t) {
+      const MeanErrors means = moved(std::span(shifts).subspan(t * width, width), 1);
+      for (std::size_t f = 0; f < figures.size(); ++f)
+        values[f][first + t] =
+            figures[f].of(means) + random[f].u * of_noise.at(random[f].freedom)[t];
     }
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      for (std::size_t k = 0; k < kErrorCount; ++k)
-        means.targets[i].named[k] = means_.targets[i].named[k] + moved[i][k];
-    for (std::size_t f = 0; f < figures.size(); ++f)
-      values[f][trial] = figures[f].of(means) + random[f].u * noise[f].at(of_noise);
   }
   return values;
 }
@@ -329,10 +347,11 @@ Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& 
   if (request.trials < 2) return budget;
   std::vector<double> values = along_x.draw({slope_x}, request, 0).front();
   const std::vector<double> of_y = along_y.draw({slope_y}, request, 1).front();
-  const QuantileFunction normal(of_one_u({1, UncertaintyShape::normal, kInfinite}));
+  const std::vector<double> of_square =
+      BlockOfDraws({request.seed, 2}, 0, request.trials).next(OneU(kInfinite));
   for (std::uint64_t t = 0; t < request.trials; ++t)
     values[t] = -values[t] - of_y[t] + artefact.corner * artefact.angle_error_rad +
-                artefact.u_rad * normal.at(algo::draw({request.seed, 2}, t, 0));
+                artefact.u_rad * of_square[t];
   budget.trials = summary_of(std::move(values), request.seed);
   return budget;
 }

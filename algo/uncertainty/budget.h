@@ -4,9 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "algo/iso230/target_changes.h"
+#include "algo/uncertainty/budget_draws.h"
 #include "algo/uncertainty/contributors.h"
 #include "algo/uncertainty/figures.h"
 #include "schema/base/result.h"
@@ -26,6 +29,9 @@ class RunBudgets {
  public:
   // Of the run as it is stated. Error: as contributors().
   static Result<RunBudgets> create(const Rig& rig, const Run& run);
+  // Of noise and repeatability alone, to which contributors of that run are added.
+  RunBudgets(const Rig& rig, const Run& run);
+  void add(const Contributor& contributor, const std::vector<PointShifts>& parts);
 
   const MeanErrors& means() const { return means_; }
   // Targets times independent parts of contributors: the time of a figure grows with it.
@@ -51,13 +57,14 @@ class RunBudgets {
   struct Random {
     double u = 0, freedom = 0;
   };
-  using MeanShifts = std::vector<Errors5>;  // named, by target
+  using MeanShifts = std::vector<double>;  // named, five by target
   struct Shifted {
-    Contributor contributor;
+    Contributor contributor;  // without its parts
     std::vector<MeanShifts> parts;
   };
-  void add(const Contributor& contributor, const Run& run);
-  MeanErrors moved(const MeanShifts& shifts, double factor) const;
+  MeanErrors moved(std::span<const double> shifts, double factor) const;
+  std::vector<double> moved_by(BlockOfDraws& draws, std::size_t trials,
+                               const std::vector<OneU>& quantities) const;
   double half_difference(const Figure& figure, const MeanShifts& shifts) const;
   BudgetLine line(const Figure& figure, const Shifted& shifted) const;
   Random random_of_targets(const Figure& figure) const;
@@ -65,6 +72,7 @@ class RunBudgets {
   Random random_of(const Figure& figure) const;
 
   MeanErrors means_;
+  TargetChanges changes_;
   std::vector<MeanErrors> runs_;  // of each run of the sequence alone
   std::vector<Shifted> shifted_;
   std::vector<std::string> not_declared_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "algo/model/small_rotation.h"
@@ -49,93 +50,157 @@ Vec3 along_axis(std::size_t component, double value) {
 
 // `change_m(point, probe)`: what is added to that probe's reading.
 template <class Change>
-PointShifts by_readings(const Basis& basis, Change change_m) {
+PointShifts by_readings(const Basis& basis, std::size_t first_probe, std::size_t end_probe,
+                        Change change_m) {
   PointShifts shifts(basis.points.size());
   for (std::size_t j = 0; j < shifts.size(); ++j) {
     const PointSensitivity& point = basis.points[j];
     if (!point.valid) continue;
-    for (std::size_t k = 0; k < basis.probes(); ++k)
+    for (std::size_t k = first_probe; k < end_probe; ++k) {
+      const Errors5& by_probe = point.by_probe[k];
+      if (by_probe == Errors5{}) continue;
+      const double change = change_m(j, k);
       for (std::size_t e = 0; e < kErrorCount; ++e)
-        if (point.by_probe[k][e] != 0) shifts[j][e] += point.by_probe[k][e] * change_m(j, k);
+        if (by_probe[e] != 0) shifts[j][e] += by_probe[e] * change;
+    }
   }
   return shifts;
 }
 
 template <class Change>
+PointShifts by_all_probes(const Basis& basis, Change change_m) {
+  return by_readings(basis, 0, basis.probes(), change_m);
+}
+
+template <class Change>
 PointShifts by_one_probe(const Basis& basis, std::size_t probe, Change change_m) {
-  return by_readings(basis,
-                     [&](std::size_t j, std::size_t k) { return k == probe ? change_m(j) : 0.0; });
+  return by_readings(basis, probe, probe + 1,
+                     [&](std::size_t j, std::size_t) { return change_m(j); });
 }
 
-Mounting nothing_off(const Basis& basis) {
-  Mounting mounting;
-  mounting.probe.resize(basis.probes());
-  return mounting;
-}
-
-// Readings of a fixture that is mounted so, of every point; empty: an angle is too large.
-std::vector<std::vector<double>> readings_of(const Basis& basis, const Mounting& mounting) {
+// Readings at every point by the probes of `fixture`, which is mounted so; empty: an angle is too
+// large.
+std::vector<double> readings_of(const Basis& basis, const Fixture& nominal,
+                                const Mounting& mounting) {
   const Forward forward =
       basis.solver.model() == Model::rigid ? Forward::rigid : Forward::small_angle;
-  MountedFixture fixture(basis.solver.fixture(), forward, 1);
+  MountedFixture fixture(nominal, forward, 1);
   if (!fixture.mount(mounting)) return {};
-  std::vector<std::vector<double>> readings(basis.points.size());
-  for (std::size_t j = 0; j < readings.size(); ++j) {
-    readings[j].resize(basis.probes());
+  const std::size_t probes = nominal.probes.size();
+  std::vector<double> readings(basis.points.size() * probes);
+  for (std::size_t j = 0; j < basis.points.size(); ++j) {
     const PointSensitivity& point = basis.points[j];
-    if (point.valid && !fixture.read(point.travel_m, point.carriage, 0, true, readings[j]))
-      return {};
+    const std::span<double> here(readings.data() + j * probes, probes);
+    if (point.valid && !fixture.read(point.travel_m, point.carriage, 0, true, here)) return {};
   }
   return readings;
 }
 
-// Half of what `set(mounting, +1)` and `set(mounting, -1)` differ by.
+// Half of what the readings differ by between `set(mounting, +1)` and `set(mounting, -1)`, of each
+// probe of `fixture` at each point.
 template <class Set>
-PointShifts by_mounting(const Basis& basis, Set set) {
-  Mounting plus = nothing_off(basis), minus = plus;
+std::vector<double> by_mounting(const Basis& basis, const Fixture& fixture, Set set) {
+  Mounting plus;
+  plus.probe.resize(fixture.probes.size());
+  Mounting minus = plus;
   set(plus, 1.0);
   set(minus, -1.0);
-  const auto above = readings_of(basis, plus), below = readings_of(basis, minus);
-  return by_readings(basis,
-                     [&](std::size_t j, std::size_t k) { return (above[j][k] - below[j][k]) / 2; });
+  std::vector<double> half = readings_of(basis, fixture, plus);
+  const std::vector<double> below = readings_of(basis, fixture, minus);
+  for (std::size_t i = 0; i < half.size(); ++i) half[i] = (half[i] - below[i]) / 2;
+  return half;
+}
+
+template <class Set>
+PointShifts by_whole_mounting(const Basis& basis, Set set) {
+  const std::vector<double> change = by_mounting(basis, basis.solver.fixture(), set);
+  return by_all_probes(
+      basis, [&](std::size_t j, std::size_t k) { return change[j * basis.probes() + k]; });
+}
+
+// `set(deviation, ±1)` of one probe: no other reads anything else.
+template <class Set>
+PointShifts by_probe_mounting(const Basis& basis, std::size_t probe, Set set) {
+  const Fixture& all = basis.solver.fixture();
+  const Fixture alone{all.axis, {all.probes[probe]}};
+  const std::vector<double> change = by_mounting(
+      basis, alone, [&](Mounting& mounting, double sign) { set(mounting.probe[0], sign); });
+  return by_one_probe(basis, probe, [&](std::size_t j) { return change[j]; });
 }
 
 double middle_s(const MeasuredPoint& p) {
   return (ns_to_s(p.point.begin_ns) + ns_to_s(p.point.end_ns)) / 2;
 }
 
-// A wave of the surface that each probe of the plane meets. The square of the parts of all waves,
-// directions and both phases is u² at every place.
-PointShifts of_wave(const Basis& basis, std::size_t plane, std::size_t wave, double direction_turns,
-                    double phase_turns) {
-  const TargetPlane& surface = basis.rig.planes[plane];
+// The waves 1 ... kFlatnessWaves of `turns` of the longest, as sine and cosine: the later ones by
+// the sums of angles, as a sine is dear.
+struct Waves {
+  explicit Waves(double turns) {
+    sine[0] = sine_of_turns(turns);
+    cosine[0] = sine_of_turns(turns + kQuarterTurn);
+    for (std::size_t w = 1; w < kFlatnessWaves; ++w) {
+      sine[w] = sine[w - 1] * cosine[0] + cosine[w - 1] * sine[0];
+      cosine[w] = cosine[w - 1] * cosine[0] - sine[w - 1] * sine[0];
+    }
+  }
+  std::array<double, kFlatnessWaves> sine{}, cosine{};
+};
+
+// Of the highest wave of each direction; those of the others go with 1/k².
+double wave_height_m(const TargetPlane& surface) {
   double norm = 0;
   for (std::size_t w = 1; w <= kFlatnessWaves; ++w) norm += std::pow(static_cast<double>(w), -4);
-  const double k2 = static_cast<double>(wave * wave);
-  const double height_m = surface.u_flatness.u / (k2 * std::sqrt(norm * kDirections));
-  const double along = sine_of_turns(direction_turns + kQuarterTurn);
-  const double across = sine_of_turns(direction_turns);
-  return by_readings(basis, [&](std::size_t j, std::size_t k) {
-    const FixtureProbe& probe = basis.solver.fixture().probes[k];
-    if (probe.plane != plane) return 0.0;
-    const double first = probe.p_MP.x() - basis.points[j].travel_m;
-    const double second =
-        std::abs(probe.n_C.z()) > std::abs(probe.n_C.y()) ? probe.p_MP.y() : probe.p_MP.z();
-    const double waves = (first * along + second * across) * static_cast<double>(wave);
-    return height_m / probe.n_C.dot(probe.u_M) *
-           sine_of_turns(waves / surface.flatness_length_m + phase_turns);
-  });
+  return surface.u_flatness.u / std::sqrt(norm * kDirections);
 }
 
-std::vector<PointShifts> of_flatness(const Basis& basis, std::size_t plane) {
-  std::vector<PointShifts> parts;
-  for (std::size_t wave = 1; wave <= kFlatnessWaves; ++wave)
-    for (std::size_t d = 0; d < kDirections; ++d)
-      for (const double phase : {0.0, kQuarterTurn})
-        parts.push_back(
-            of_wave(basis, plane, wave, static_cast<double>(d) / (2.0 * kDirections), phase));
-  return parts;
-}
+// A surface that each probe of the plane meets, as waves of all directions and both phases: the
+// square of all parts is u² at every place.
+class Flatness {
+ public:
+  Flatness(const Basis& basis, std::size_t plane)
+      : basis_(basis),
+        plane_(plane),
+        height_m_(wave_height_m(basis.rig.planes[plane])),
+        parts_(2 * kDirections * kFlatnessWaves, PointShifts(basis.points.size())) {
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const double turns = static_cast<double>(d) / (2.0 * kDirections);
+      along_[d] = sine_of_turns(turns + kQuarterTurn);
+      across_[d] = sine_of_turns(turns);
+    }
+    for (std::size_t j = 0; j < basis.points.size(); ++j)
+      for (std::size_t k = 0; k < basis.probes() && basis.points[j].valid; ++k)
+        if (basis.solver.fixture().probes[k].plane == plane) add(j, k);
+  }
+  std::vector<PointShifts> take() { return std::move(parts_); }
+
+ private:
+  void add(std::size_t j, std::size_t k) {
+    const PointSensitivity& point = basis_.points[j];
+    const FixtureProbe& probe = basis_.solver.fixture().probes[k];
+    const double first = probe.p_MP.x() - point.travel_m;
+    const double second =
+        std::abs(probe.n_C.z()) > std::abs(probe.n_C.y()) ? probe.p_MP.y() : probe.p_MP.z();
+    const double reading_m = height_m_ / probe.n_C.dot(probe.u_M);
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const Waves waves((first * along_[d] + second * across_[d]) /
+                        basis_.rig.planes[plane_].flatness_length_m);
+      for (std::size_t w = 0; w < kFlatnessWaves; ++w) {
+        const double wave_m = reading_m / static_cast<double>((w + 1) * (w + 1));
+        const std::size_t part = 2 * (w * kDirections + d);
+        for (std::size_t e = 0; e < kErrorCount; ++e) {
+          parts_[part][j][e] += point.by_probe[k][e] * wave_m * waves.sine[w];
+          parts_[part + 1][j][e] += point.by_probe[k][e] * wave_m * waves.cosine[w];
+        }
+      }
+    }
+  }
+
+  const Basis& basis_;
+  std::size_t plane_;
+  double height_m_;
+  std::array<double, kDirections> along_{}, across_{};
+  std::vector<PointShifts> parts_;
+};
 
 std::vector<PointShifts> of_encoder(const Basis& basis) {
   std::map<int, std::size_t> part_of;  // by target
@@ -189,16 +254,17 @@ class List {
     for (std::size_t c = 0; c < 3; ++c)
       add(name + "position " + kAxisLetters[c], "u_position_mm", u.position.component(c), 1e3, "mm",
           [k, c, size = u.position.u[c]](const Basis& b) {
-            return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
-              mounting.probe[k].shift = b.local(along_axis(c, sign * size));
-            })};
+            return std::vector<PointShifts>{
+                by_probe_mounting(b, k, [&](ProbeDeviation& probe_off, double sign) {
+                  probe_off.shift = b.local(along_axis(c, sign * size));
+                })};
           });
     add(name + "direction", "u_direction_mrad", u.direction, 1e3, "mrad",
         [k, size = u.direction.u](const Basis& b) {
           const auto about = [&](double turns) {
-            return by_mounting(b, [&](Mounting& mounting, double sign) {
-              mounting.probe[k].tilt_rad = sign * size;
-              mounting.probe[k].tilt_turns = turns;
+            return by_probe_mounting(b, k, [&](ProbeDeviation& probe_off, double sign) {
+              probe_off.tilt_rad = sign * size;
+              probe_off.tilt_turns = turns;
             });
           };
           return std::vector<PointShifts>{about(0), about(kQuarterTurn)};
@@ -211,17 +277,19 @@ class List {
       add(std::string("installation: angle about ") + kAxisLetters[c], "u_angle_mrad",
           u.installation_angle.component(c), 1e3, "mrad",
           [c, size = u.installation_angle.u[c]](const Basis& b) {
-            return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
-              mounting.part[kFixture].turn = b.local(along_axis(c, sign * size));
-            })};
+            return std::vector<PointShifts>{
+                by_whole_mounting(b, [&](Mounting& mounting, double sign) {
+                  mounting.part[kFixture].turn = b.local(along_axis(c, sign * size));
+                })};
           });
     for (std::size_t c = 0; c < 3; ++c)
       add(std::string("installation: offset ") + kAxisLetters[c], "u_offset_mm",
           u.installation_offset.component(c), 1e3, "mm",
           [c, size = u.installation_offset.u[c]](const Basis& b) {
-            return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
-              mounting.part[kFixture].shift = b.local(along_axis(c, sign * size));
-            })};
+            return std::vector<PointShifts>{
+                by_whole_mounting(b, [&](Mounting& mounting, double sign) {
+                  mounting.part[kFixture].shift = b.local(along_axis(c, sign * size));
+                })};
           });
   }
 
@@ -242,7 +310,7 @@ class List {
     const std::string name =
         plane.id.empty() ? "plane " + std::to_string(i + 1) : "plane " + plane.id;
     add(name + ": flatness", "u_flatness_um", plane.u_flatness, 1e6, "µm",
-        [i](const Basis& b) { return of_flatness(b, i); });
+        [i](const Basis& b) { return Flatness(b, i).take(); });
   }
 
   SharedBasis basis_;
@@ -254,11 +322,13 @@ bool is_small(const Errors5& e) {
   return most < kSmallAngleMax_rad;
 }
 
+std::string name_of(const Run& run) {
+  return "run " + std::to_string(run.header.id);
+}
+
 // What the mounted fixture does not take is refused before it is asked.
 Status check_run(const Basis& basis) {
-  const std::string run = "run " + std::to_string(basis.run.header.id);
-  if (basis.run.points.empty())
-    return bad_input(run + " has no points, so that there is nothing to budget");
+  const std::string run = name_of(basis.run);
   for (std::size_t j = 0; j < basis.points.size(); ++j)
     if (basis.points[j].valid && !is_small(basis.points[j].carriage))
       return bad_input(run + ": at target " + std::to_string(basis.run.points[j].target) +
@@ -281,6 +351,9 @@ Status check_angles(const Rig& rig) {
 }  // namespace
 
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
+  if (run.points.empty())
+    return bad_input(name_of(run) + " has no points, so that there is nothing to budget");
+  if (!rig.declares_uncertainty()) return std::vector<Contributor>{};
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
   MDOF_TRY(Solver solver, Solver::create(rig, model));

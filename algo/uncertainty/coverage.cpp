@@ -27,14 +27,22 @@ double by_expansion(double freedom) {
 
 }  // namespace
 
+double fourth_by(double u_square, double freedom) {
+  return u_square * u_square / freedom;
+}
+
+double effective_freedom(double sum_of_squares, double sum_of_fourths) {
+  return sum_of_fourths > 0 ? sum_of_squares * sum_of_squares / sum_of_fourths
+                            : std::numeric_limits<double>::infinity();
+}
+
 double effective_freedom(std::span<const UncertaintyPart> parts) {
   double square = 0, fourth = 0;
   for (const UncertaintyPart& part : parts) {
-    const double u2 = part.u * part.u;
-    square += u2;
-    fourth += u2 * u2 / part.freedom;
+    square += part.u * part.u;
+    fourth += fourth_by(part.u * part.u, part.freedom);
   }
-  return fourth > 0 ? square * square / fourth : std::numeric_limits<double>::infinity();
+  return effective_freedom(square, fourth);
 }
 
 // The root of the tail's probability by regula falsi (Illinois), which never leaves its bracket: a

@@ -11,6 +11,9 @@ struct UncertaintyPart {
   double u = 0, freedom = 0;
 };
 double effective_freedom(std::span<const UncertaintyPart> parts);
+// The same of the sums: of u_i², and of fourth_by(u_i², ν_i).
+double effective_freedom(double sum_of_squares, double sum_of_fourths);
+double fourth_by(double u_square, double freedom);  // u⁴ / ν
 
 // k such that ±k u covers 95 % of Student's t with so many degrees of freedom (GUM G.3.2 and table
 // G.2, which truncates them to the next lower integer; here they stay as they are).

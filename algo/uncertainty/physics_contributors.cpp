@@ -41,10 +41,13 @@ class Physics {
     PointShifts all(points_.size());
     for (std::size_t j = 0; j < all.size(); ++j) {
       if (!points_[j].valid) continue;
-      for (std::size_t k = 0; k < rig_.probes.size(); ++k)
+      for (std::size_t k = 0; k < rig_.probes.size(); ++k) {
+        const Errors5& by_probe = points_[j].by_probe[k];
+        if (by_probe == Errors5{}) continue;
+        const double change = change_m(j, k);
         for (std::size_t e = 0; e < kErrorCount; ++e)
-          if (points_[j].by_probe[k][e] != 0)
-            all[j][e] += points_[j].by_probe[k][e] * change_m(j, k);
+          if (by_probe[e] != 0) all[j][e] += by_probe[e] * change;
+      }
     }
     return all;
   }

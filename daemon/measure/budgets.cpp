@@ -7,6 +7,7 @@
 #include "algo/separation/square_reversal.h"
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/run_uncertainty.h"
+#include "algo/uncertainty/stated.h"
 #include "schema/run_json.h"
 #include "schema/uncertainty/budget_json.h"
 #include "schema/units.h"
@@ -14,7 +15,7 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kMostCost = 20'000;  // a second; 11 targets and all declared: 2,000
+constexpr std::size_t kMostCost = 250'000;  // a second; 11 targets and all declared: 2,000
 
 // The target whose mean position is nearest.
 Result<algo::TargetMean> target_near(const algo::RunBudgets& run, double at_m) {
@@ -38,26 +39,45 @@ Result<std::vector<algo::Figure>> chosen_figures(std::vector<algo::Figure> all,
               "\"" + name + "\" is no figure of a run of this axis; there are " + names);
 }
 
+// A run whose rig cannot be had.
+RunUncertainty noise_of(const Run& run, const Error& error) {
+  Rig nothing_declared;
+  nothing_declared.axis = run.header.axis;
+  RunUncertainty noise = algo::run_uncertainty(nothing_declared, run);
+  noise.why = error.message;
+  return noise;
+}
+
+StatedFigures stated_figures(const Run& run, const Result<algo::RunBudgets>& of_run) {
+  if (!of_run) return {{}, of_run.error().message};
+  if (of_run->cost() > kMostCost)
+    return {{},
+            "it takes more than a second for " + std::to_string(of_run->means().targets.size()) +
+                " targets and all that the rig declares; mdof budget makes it"};
+  StatedFigures stated{of_run->of(algo::figures_of_run(run.header.axis)), ""};
+  std::erase_if(stated.budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
+  if (stated.budgets.empty()) stated.why = "the run has too few solved targets for any figure";
+  return stated;
+}
+
 }  // namespace
 
 RunUncertainty uncertainty_of(const Run& run) {
   const auto rig = rig_of(run.header);
-  if (rig) return algo::run_uncertainty(*rig, run);
-  Rig nothing_declared;
-  nothing_declared.axis = run.header.axis;
-  RunUncertainty noise = algo::run_uncertainty(nothing_declared, run);
-  noise.why = rig.error().message;
-  return noise;
+  return rig ? algo::run_uncertainty(*rig, run) : noise_of(run, rig.error());
 }
 
-std::vector<Budget> figure_budgets(const Run& run) {
-  std::vector<Budget> budgets;
+StatedFigures figure_budgets(const Run& run) {
   const auto rig = rig_of(run.header);
-  const auto of_run = rig ? algo::RunBudgets::create(*rig, run) : tl::unexpected(rig.error());
-  if (!of_run || of_run->cost() > kMostCost) return budgets;
-  budgets = of_run->of(algo::figures_of_run(run.header.axis));
-  std::erase_if(budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
-  return budgets;
+  return rig ? stated_figures(run, algo::RunBudgets::create(*rig, run))
+             : StatedFigures{{}, rig.error().message};
+}
+
+StatedRun stated_run(const Run& run) {
+  const auto rig = rig_of(run.header);
+  if (!rig) return {noise_of(run, rig.error()), {{}, rig.error().message}};
+  algo::StatedUncertainty stated = algo::stated_uncertainty(*rig, run);
+  return {std::move(stated.points), stated_figures(run, stated.figures)};
 }
 
 Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& request) {
@@ -72,17 +92,17 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
     all = algo::errors_at_target(run.header.axis, target.target);
   }
   MDOF_TRY(const auto figures, chosen_figures(std::move(all), request.figure));
-  for (const algo::Figure& figure : figures) {
-    Budget budget = of_run.of(figure);
-    if (!std::isfinite(budget.value)) {
+  std::vector<Budget> budgets = of_run.of(figures);
+  for (std::size_t f = 0; f < figures.size(); ++f) {
+    if (!std::isfinite(budgets[f].value)) {
       if (request.figure.empty()) continue;
       return bad_input("run " + std::to_string(request.run) + " has too few solved targets for " +
-                       figure.name);
+                       figures[f].name);
     }
     if (request.trials.trials > 1)
-      budget.trials =
-          algo::summary_of(of_run.draw({figure}, request.trials).front(), request.trials.seed);
-    found.budgets.push_back(std::move(budget));
+      budgets[f].trials =
+          algo::summary_of(of_run.draw({figures[f]}, request.trials).front(), request.trials.seed);
+    found.budgets.push_back(std::move(budgets[f]));
   }
   if (found.budgets.empty())
     return bad_input("run " + std::to_string(request.run) +

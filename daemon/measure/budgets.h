@@ -21,9 +21,16 @@ namespace mdof::daemon {
 // its first must be among them.
 RunUncertainty uncertainty_of(const Run& run);
 
-// Of the figures that the run has; empty where they cannot be made or would take long (a thousand
-// targets): mdof budget RUN tells why, or makes them.
-std::vector<Budget> figure_budgets(const Run& run);
+// Of the figures that the run has; left out, with the reason, where they cannot be made or would
+// take long: mdof budget RUN makes them however long it takes.
+StatedFigures figure_budgets(const Run& run);
+
+// Both at once, for half the price.
+struct StatedRun {
+  RunUncertainty points;
+  StatedFigures figures;
+};
+StatedRun stated_run(const Run& run);
 
 struct RunBudgetsRequest {
   std::int64_t run = 0;

@@ -45,6 +45,12 @@ struct Budget {
   std::optional<BudgetTrials> trials;
 };
 
+// Of the figures that a run has; none where they are left out.
+struct StatedFigures {
+  std::vector<Budget> budgets;
+  std::string why;  // of being left out, a sentence without a full stop
+};
+
 // What its u is made of: one sentence for people, without a full stop.
 std::string covers_text(const Budget& budget);
 

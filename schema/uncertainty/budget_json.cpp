@@ -45,14 +45,15 @@ void write_members(JsonWriter& json, const Budget& budget) {
 
 }  // namespace
 
-void write_stated(JsonWriter& json, const std::vector<Budget>& budgets) {
-  json.begin_object();
-  for (const Budget& budget : budgets) {
+void write_stated(JsonWriter& json, const StatedFigures& figures) {
+  json.key("uncertainty").begin_object();
+  for (const Budget& budget : figures.budgets) {
     json.key(budget.figure).begin_object();
     write_members(json, budget);
     json.end_object();
   }
   json.end_object();
+  if (!figures.why.empty()) json.field("uncertainty_reason", figures.why);
 }
 
 void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,

@@ -18,8 +18,9 @@ namespace mdof {
 void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
                    const std::optional<double>& tolerance = std::nullopt);
 
-// {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by"}}: what a budget
-// comes to, without its contributors.
-void write_stated(JsonWriter& json, const std::vector<Budget>& budgets);
+// "uncertainty": {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by"}} of
+// an open object: what budgets come to, without their contributors. Where they are left out:
+// "uncertainty_reason" behind it.
+void write_stated(JsonWriter& json, const StatedFigures& figures);
 
 }  // namespace mdof

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "algo/model/small_rotation.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -119,6 +121,14 @@ TEST(Restate, CarriesTheCovarianceAsRepeatedDrawsScatter) {
 TEST(Restate, LeavesTheUnsolvedAlone) {
   const AxisErrors nothing;
   EXPECT_FALSE(restate(nothing, Model::rigid, Axis::x, 0.1, kAtCarriage, kAtFixture).valid);
+}
+
+TEST(SmallRotation, AloneItHasTheSameBits) {
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z})
+    for (int i = -20; i <= 20; ++i) {
+      const Errors5 errors = {0, 0, 0.011 * i, -0.007 * i + 0.01, 0.0123 * i - 0.002};
+      EXPECT_EQ(local_rotation_alone(axis, errors), local_rotation(axis, errors).R_MC);
+    }
 }
 
 }  // namespace

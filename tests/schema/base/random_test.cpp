@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace mdof {
 namespace {
@@ -35,6 +36,22 @@ TEST(Random, GaussianInvertsTheDistributionOutToEightSigma) {
   EXPECT_NEAR(gaussian(0.975), 1.959963984540054, 1e-14);
   EXPECT_GT(uniform(0, 0), 0);
   EXPECT_LT(uniform(~0u, ~0u), 1);
+}
+
+// Of any length, out to both ends.
+TEST(Random, GaussiansAreTheBitsOfOneAfterTheOther) {
+  for (const std::size_t n : {0u, 1u, 63u, 64u, 65u, 20'001u}) {
+    std::vector<double> p(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Philox words = philox({static_cast<std::uint32_t>(i), 0, 0, 0}, n);
+      p[i] = uniform(words[0], words[1]);
+      if (i % 100 == 7) p[i] *= 1e-12;
+      if (i % 100 == 8) p[i] = i % 200 == 8 ? 0.075 : 0.925;
+    }
+    std::vector<double> together = p;
+    gaussians(together);
+    for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(together[i], gaussian(p[i])) << n << " " << p[i];
+  }
 }
 
 }  // namespace

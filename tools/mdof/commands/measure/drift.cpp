@@ -5,22 +5,20 @@
 
 #include "daemon/measure/replay/parked_log.h"
 #include "schema/base/files.h"
-#include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/progress_bar.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/run_tables.h"
-#include "tools/mdof/text/text_table.h"
+#include "tools/mdof/text/analyses/parked_text.h"
 #include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
 
-constexpr double kSecondsPerMinute = 60, kSecondsPerHour = 3600;
-constexpr double kPerHour = 3600e9;  // to nm/h and nrad/h
+constexpr double kSecondsPerHour = 3600;
+constexpr double kPerHour = 3600e9;  // to nm/h
 
 struct DriftCommand {
   std::string log, rig;
@@ -46,159 +44,6 @@ Result<daemon::ParkedRequest> request_of(const DriftCommand& c) {
   return request;
 }
 
-bool is_angle(const daemon::ParkedLog& log, std::size_t series) {
-  return series >= log.probes && error_names(log.axis)[series - log.probes].angle;
-}
-
-// nm/h of a length, urad/h of an angle.
-double shown(const daemon::ParkedLog& log, std::size_t series, double per_s) {
-  return is_angle(log, series) ? to_urad(per_s) * kSecondsPerHour : per_s * kPerHour;
-}
-
-std::string minutes(double s) {
-  return fixed(s / kSecondsPerMinute, 1);
-}
-
-std::string head_of(const daemon::ParkedLog& log, std::size_t series) {
-  const std::string& name = log.readings.series[series].name;
-  return name.substr(0, name.find('_')) + (is_angle(log, series) ? "/(µrad/h)" : "/(nm/h)");
-}
-
-std::string mark_of(algo::DriftVerdict verdict) {
-  if (verdict == algo::DriftVerdict::above) return " !";
-  return verdict == algo::DriftVerdict::undecided ? " ?" : "";
-}
-
-std::string rates_text(const daemon::ParkedLog& log, const algo::WarmUp& found, std::size_t begin,
-                       std::size_t end) {
-  std::vector<std::string> head{"from/min"};
-  for (std::size_t s = begin; s < end; ++s) head.push_back(head_of(log, s));
-  TextTable table(std::move(head));
-  for (std::size_t w = 0; w < found.begin_s.size(); ++w) {
-    std::vector<std::string> row{minutes(found.begin_s[w])};
-    for (std::size_t s = begin; s < end; ++s) {
-      const algo::DriftWindow& window = found.windows[s][w];
-      row.push_back(std::isnan(window.rate_per_s)
-                        ? "-"
-                        : with_u(fixed(shown(log, s, window.rate_per_s), 1),
-                                 fixed(shown(log, s, window.u_rate_per_s), 1)) +
-                              mark_of(window.verdict));
-    }
-    table.add(std::move(row));
-  }
-  return table.text(terminal_columns());
-}
-
-std::string temperature_text(const daemon::ParkedLog& log, const algo::WarmUp& found) {
-  if (found.with_temperature.empty())
-    return "the log has no temperature_C: what drifts with it cannot be told\n";
-  TextTable table({"with temperature", "per °C", "correlation"});
-  for (std::size_t s = 0; s < found.with_temperature.size(); ++s) {
-    const auto& with = found.with_temperature[s];
-    const std::string& name = log.readings.series[s].name;
-    table.add({name.substr(0, name.find('_')),
-               fixed(is_angle(log, s) ? to_urad(with.slope_per_K) : with.slope_per_K * 1e9, 1) +
-                   (is_angle(log, s) ? " µrad" : " nm"),
-               fixed(with.correlation, 3)});
-  }
-  return table.text(terminal_columns());
-}
-
-// The series of the last window that is not below its limit, the furthest above it first.
-std::string what_keeps_it(const daemon::ParkedLog& log, const algo::WarmUp& found) {
-  std::string worst;
-  double most = 0;
-  for (std::size_t s = 0; s < found.windows.size(); ++s) {
-    const double limit = log.readings.series[s].limit_per_s;
-    if (std::isinf(limit)) continue;
-    const algo::DriftWindow& last = found.windows[s].back();
-    if (last.verdict == algo::DriftVerdict::below) continue;
-    if (std::isnan(last.rate_per_s)) return log.readings.series[s].name + " has no readings";
-    const double by = (std::abs(last.rate_per_s) + 2 * last.u_rate_per_s) / limit;
-    if (by <= most) continue;
-    most = by;
-    worst = head_of(log, s).substr(0, head_of(log, s).find('/')) + " drifts by " +
-            with_u(fixed(shown(log, s, last.rate_per_s), 1),
-                   fixed(shown(log, s, last.u_rate_per_s), 1)) +
-            (is_angle(log, s) ? " µrad/h" : " nm/h") +
-            (last.verdict == algo::DriftVerdict::undecided
-                 ? ", too uncertain to tell: take longer windows (--window-s)"
-                 : "");
-  }
-  return worst;
-}
-
-std::string verdict_text(const daemon::ParkedLog& log, const algo::WarmUp& found) {
-  if (!found.limited)
-    return "no limit is given, so that nothing is decided: --limit-nm-per-h, or [drift] "
-           "limit_um_per_h of the rig";
-  if (found.ready_after_s)
-    return "ready after " + minutes(*found.ready_after_s) +
-           " min: from then on every window is below its limit";
-  const std::string what = what_keeps_it(log, found);
-  return what.empty() ? "not ready yet: fewer than " + std::to_string(algo::kFewestBelow) +
-                            " windows at the end are below the limit; record for longer"
-                      : "not ready yet: in the last window " + what;
-}
-
-std::string text_of(const daemon::ParkedLog& log, const algo::WarmUp& found) {
-  std::string out = simulated_notice(log.simulated);
-  out += "axis " + std::string(1, letter(log.axis)) + " parked at " + in_mm(log.position_m) +
-         " mm, " + minutes(log.length_s) + " min, windows of " + minutes(found.window_s) + " min";
-  if (log.limit_m_per_s) out += ", limit " + fixed(*log.limit_m_per_s * kPerHour, 1) + " nm/h";
-  out += "\n\n" + rates_text(log, found, 0, log.probes) + "\n" +
-         rates_text(log, found, log.probes, log.readings.series.size());
-  if (found.limited) out += "! above the limit, ? within two standard uncertainties of it\n";
-  return out + "\n" + temperature_text(log, found) + "\n" +
-         wrapped(verdict_text(log, found), terminal_columns()) + "\n";
-}
-
-void write_series(JsonWriter& json, const daemon::ParkedLog& log, const algo::WarmUp& found,
-                  std::size_t s) {
-  const bool angle = is_angle(log, s);
-  const auto& series = log.readings.series[s];
-  json.begin_object().field(angle ? "limit_urad_per_h" : "limit_nm_per_h",
-                            shown(log, s, series.limit_per_s));
-  if (!found.with_temperature.empty())
-    json.field(angle ? "urad_per_K" : "nm_per_K",
-               (angle ? 1e6 : 1e9) * found.with_temperature[s].slope_per_K)
-        .field("correlation_with_temperature", found.with_temperature[s].correlation);
-  json.key("windows").begin_array();
-  for (const algo::DriftWindow& w : found.windows[s])
-    json.begin_object()
-        .field(angle ? "rate_urad_per_h" : "rate_nm_per_h", shown(log, s, w.rate_per_s))
-        .field(angle ? "u_rate_urad_per_h" : "u_rate_nm_per_h", shown(log, s, w.u_rate_per_s))
-        .field("verdict", to_string(w.verdict))
-        .end_object();
-  json.end_array().end_object();
-}
-
-std::string json_of(const daemon::ParkedLog& log, const algo::WarmUp& found) {
-  JsonWriter json;
-  json.begin_object()
-      .field("axis", std::string_view(std::string(1, letter(log.axis))))
-      .field("simulated", log.simulated)
-      .field("position_mm", to_mm(log.position_m))
-      .field("length_s", log.length_s)
-      .field("window_s", found.window_s)
-      .key("begin_s")
-      .begin_array();
-  for (const double s : found.begin_s) json.value(s);
-  json.end_array().key("ready");
-  found.limited ? json.value(found.ready_after_s.has_value()) : json.null();
-  json.field("ready_after_s", found.ready_after_s.value_or(std::nan("")))
-      .field("says", verdict_text(log, found))
-      .key("series")
-      .begin_object();
-  for (std::size_t s = 0; s < log.readings.series.size(); ++s) {
-    const std::string& name = log.readings.series[s].name;
-    json.key(name.substr(0, name.find('_')));
-    write_series(json, log, found, s);
-  }
-  json.end_object().end_object();
-  return with_warnings(json.take(), log.warnings);
-}
-
 Status drift(const DriftCommand& command) {
   MDOF_TRY(const auto request, request_of(command));
   ProgressBar bar("drift");
@@ -208,9 +53,10 @@ Status drift(const DriftCommand& command) {
            }));
   for (const auto& warning : summarised(log.warnings, command.all_warnings)) warn(warning);
   const algo::WarmUp found = algo::warm_up(log.readings);
-  MDOF_CHECK(command.json ? write_line(json_of(log, found)) : write_out(text_of(log, found)));
+  MDOF_CHECK(command.json ? write_line(parked_json(log, found))
+                          : write_out(parked_text(log, found, terminal_columns())));
   if (!found.limited || found.ready_after_s) return {};
-  return fail(ErrorCode::check, verdict_text(log, found));
+  return fail(ErrorCode::check, parked_verdict(log, found));
 }
 
 Action declare_drift(CLI::App& command) {

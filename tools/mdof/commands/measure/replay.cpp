@@ -135,8 +135,10 @@ Status replay(const ReplayCommand& command) {
   MDOF_TRY(const StatedAt at, asked_reference(command, run));
   run = algo::restate(std::move(run), at);  // what is stored is stated at the fixture
   for (const auto& warning : summarised(run.header.warnings, command.all_warnings)) warn(warning);
-  if (command.json)
-    return write_line(run_json(run, daemon::uncertainty_of(run), daemon::figure_budgets(run)));
+  if (command.json) {
+    const daemon::StatedRun stated = daemon::stated_run(run);
+    return write_line(run_json(run, stated.points, stated.figures));
+  }
   run.header.warnings.clear();  // said already
   return write_out(show_text(run, daemon::uncertainty_of(run), "", terminal_columns()) + "\n" +
                    figures_text(run, terminal_columns()));

@@ -41,7 +41,6 @@ std::string analysis_json(const Run& run, const std::vector<std::string>& probes
   write_straightness_lines(json, lines_of(run));
   json.key("angles");
   write_angles(json, run.angles);
-  json.key("uncertainty");
   write_stated(json, daemon::figure_budgets(run));
   json.key("drift");
   write_drift(json, run, probes, drift_of(run));
@@ -49,9 +48,11 @@ std::string analysis_json(const Run& run, const std::vector<std::string>& probes
   return json.take();
 }
 
-std::string stated_figures_text(const std::vector<Budget>& figures) {
-  if (figures.empty())
-    return "\ntheir uncertainty is not made here; mdof budget makes it or says why not\n";
+std::string stated_figures_text(const StatedFigures& stated) {
+  const std::vector<Budget>& figures = stated.budgets;
+  if (!stated.why.empty())
+    return "\n" + wrapped("Without their uncertainty: " + stated.why + ".", terminal_columns()) +
+           "\n";
   const std::string missing = not_declared_text(figures);
   return "\nof both approaches' mean, with uncertainty (mdof budget has the contributors)\n" +
          budgets_text(figures, terminal_columns()) +

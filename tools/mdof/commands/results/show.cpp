@@ -25,7 +25,8 @@ namespace {
 // is as it was.
 std::string with_lines_hash_and_history(const Run& run, const std::string& sha256,
                                         const std::vector<Deed>& deeds) {
-  std::string json = run_json(run, daemon::uncertainty_of(run), daemon::figure_budgets(run));
+  const daemon::StatedRun stated = daemon::stated_run(run);
+  std::string json = run_json(run, stated.points, stated.figures);
   json.pop_back();
   JsonWriter lines, history;
   write_straightness_lines(lines, algo::straightness_lines(run.header.moving(), run.points));

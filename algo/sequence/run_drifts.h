@@ -1,0 +1,44 @@
+// The drift of each run against the others as a linear function of the errors of their visits.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "algo/linear_algebra/least_squares.h"
+#include "schema/point.h"
+
+namespace mdof::algo {
+
+// Of the least-squares fit error = of the visit (a target from one side) + of the run. Its matrix
+// is made of which visits there are, once for any number of errors.
+class RunDrifts {
+ public:
+  // At least one point.
+  explicit RunDrifts(const std::vector<MeasuredPoint>& points);
+
+  // `errors`: of each point, in any frame and unit. By number of the run, ascending; those of runs
+  // that visits link sum to 0.
+  std::vector<Errors5> of(const std::vector<Errors5>& errors) const;
+  // The number of each point's run.
+  const std::vector<std::size_t>& run_of_points() const { return run_of_; }
+
+ private:
+  struct Entry {
+    std::size_t effect, point;
+  };
+  using Entries = std::vector<Entry>;  // those that share an effect of the other kind
+
+  void decompose(const std::vector<Entries>& shared, std::size_t effects);
+  Eigen::MatrixXd effects(const std::vector<Entries>& shared,
+                          const std::vector<Errors5>& errors) const;
+  void group_linked_runs(std::size_t visits);
+
+  std::vector<std::size_t> run_of_;
+  std::vector<Entries> of_run_, of_visit_;  // their effects are visits, runs
+  std::vector<std::vector<std::size_t>> linked_runs_;
+  bool runs_are_fewer_ = true;
+  std::optional<LeastNorm> fit_;
+};
+
+}  // namespace mdof::algo

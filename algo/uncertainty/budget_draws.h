@@ -1,0 +1,45 @@
+// The random numbers of a budget's trials (JCGM 101 6.4), many trials at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algo/sensitivity/distribution.h"
+#include "algo/sensitivity/random.h"
+#include "schema/rig/uncertainty.h"
+
+namespace mdof::algo {
+
+// A quantity of one standard uncertainty; Student's t where the degrees of freedom are few (6.4.9).
+class OneU {
+ public:
+  explicit OneU(const DeclaredUncertainty& declared);
+  // Normal, or t.
+  explicit OneU(double freedom);
+
+  // Each probability by its quantile.
+  void quantiles(std::span<double> p) const;
+
+ private:
+  bool normal_ = false;
+  QuantileFunction quantile_;
+};
+
+// Quantity after quantity, the same numbers as draw() has.
+class BlockOfDraws {
+ public:
+  // Of the trials first ... first + trials - 1.
+  BlockOfDraws(const Stream& from, std::uint64_t first, std::uint64_t trials);
+  // Of each trial: a probability, or the quantity.
+  std::vector<double> next();
+  std::vector<double> next(const OneU& quantity);
+
+ private:
+  Stream from_;
+  std::uint64_t first_ = 0, quantity_ = 0;
+  std::array<std::vector<double>, 2> pair_;
+};
+
+}  // namespace mdof::algo

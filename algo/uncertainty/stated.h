@@ -1,0 +1,20 @@
+// The uncertainty of a run's points and of its figures at once: both need the shifts of all
+// contributors, which are dear.
+#pragma once
+
+#include <optional>
+
+#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/run_uncertainty.h"
+#include "schema/rig/rig.h"
+#include "schema/run.h"
+
+namespace mdof::algo {
+
+struct StatedUncertainty {
+  RunUncertainty points;       // as run_uncertainty()
+  Result<RunBudgets> figures;  // as RunBudgets::create()
+};
+StatedUncertainty stated_uncertainty(const Rig& rig, const Run& run);
+
+}  // namespace mdof::algo

@@ -1,0 +1,150 @@
+// What is made at once is what is made apart; trials by blocks are those drawn one by one; the
+// sensitivity to the travel is the solver's own.
+#include "algo/uncertainty/stated.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "algo/sensitivity/random.h"
+#include "algo/uncertainty/point_sensitivity.h"
+#include "schema/base/random.h"
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+using test::rig_x_with;
+
+Run uneven_run(const Rig& rig) {
+  SyntheticRun synthetic{.rig = rig};
+  synthetic.truth = [](double d) {
+    return Errors5{1e-5 * std::sin(90 * d), 2e-4 * d, 1e-2 * d, -3e-2 * d, 2e-2 * d};
+  };
+  synthetic.u_reading_m = 5e-9;
+  Run run = synthetic.measure();
+  run.points.erase(run.points.begin() + 4, run.points.begin() + 7);
+  run.points[9].errors.valid = false;
+  return run;
+}
+
+Rig declared_rig() {
+  return rig_x_with("D",
+                    "u_calibration_um = 0.03\nu_sensitivity_ppm = 2000\nu_direction_mrad = 3\n"
+                    "u_position_mm = [0.05, 0.05, 0.05]",
+                    "[encoder]\nu_um = 1\n[installation]\nu_angle_mrad = [2, 2, 2]\n"
+                    "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.05\n"
+                    "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n");
+}
+
+TEST(Stated, AtOnceIsAsApart) {
+  const Rig rig = declared_rig();
+  const auto run = uneven_run(rig);
+  const StatedUncertainty stated = stated_uncertainty(rig, run);
+  const RunUncertainty points = run_uncertainty(rig, run);
+  ASSERT_EQ(stated.points.points.size(), points.points.size());
+  EXPECT_EQ(stated.points.noise_only, points.noise_only);
+  EXPECT_EQ(stated.points.not_declared, points.not_declared);
+  for (std::size_t j = 0; j < points.points.size(); ++j) {
+    if (!run.points[j].errors.valid) continue;
+    EXPECT_EQ(stated.points.points[j].U, points.points[j].U) << j;
+    EXPECT_GT(points.points[j].u[0], points.points[j].u_random[0]) << j;
+  }
+  ASSERT_TRUE(stated.figures);
+  const auto figures = RunBudgets::create(rig, run).value();
+  for (const Figure& figure : figures_of_run(Axis::x)) {
+    const Budget together = stated.figures->of(figure), apart = figures.of(figure);
+    EXPECT_EQ(together.U, apart.U) << figure.name;
+    EXPECT_EQ(together.lines.size(), apart.lines.size());
+    EXPECT_GT(together.u, together.u_random) << figure.name;
+  }
+}
+
+TEST(Stated, WhatCannotBeReckonedIsSaidOfBoth) {
+  const Rig rig = rig_x_with("D", "u_direction_mrad = 300");
+  const StatedUncertainty stated = stated_uncertainty(rig, SyntheticRun{.rig = rig}.measure());
+  EXPECT_TRUE(stated.points.noise_only);
+  EXPECT_NE(stated.points.why.find("u_direction_mrad"), std::string::npos);
+  ASSERT_FALSE(stated.figures);
+  EXPECT_EQ(stated.figures.error().message, stated.points.why);
+  const decltype(uneven_run(rig)) empty;
+  EXPECT_FALSE(stated_uncertainty(rig, empty).figures);
+  EXPECT_TRUE(stated_uncertainty(rig, empty).points.points.empty());
+}
+
+TEST(Stated, ARigThatDeclaresNothingHasNoise) {
+  const Rig rig = rig_x_with("", "");
+  const StatedUncertainty stated = stated_uncertainty(rig, uneven_run(rig));
+  EXPECT_TRUE(stated.points.noise_only);
+  EXPECT_EQ(stated.points.why, "");
+  ASSERT_TRUE(stated.figures);
+  EXPECT_TRUE(stated.figures->of(figures_of_run(Axis::x)[0]).noise_only);
+}
+
+// Trial by trial with the scalar draw() and gaussian(), the parts by differences of the means: more
+// parts than are added at once, and more trials than a block.
+TEST(Stated, TrialsAreThoseOfTheScalarDraws) {
+  const Rig rig = declared_rig();
+  const auto run = uneven_run(rig);
+  const auto budgets = RunBudgets::create(rig, run).value();
+  constexpr std::uint64_t kTrials = 150;
+  const int target = 6;
+  const auto drawn = budgets.draw({error_figure(Axis::x, 0, target)}, {kTrials, 11}, 3).front();
+  const Budget budget = budgets.first_order(error_figure(Axis::x, 0, target));
+  const auto declared = contributors(rig, run).value();
+  ASSERT_EQ(budget.lines.size(), 1 + declared.size());
+  const auto at_target = [&](const std::vector<MeasuredPoint>& points) {
+    for (const TargetMean& m : target_means(run.header.moving(), points, Approach::both))
+      if (m.target == target) return m.named[0];
+    return 0.0;
+  };
+  std::vector<double> parts;
+  for (const Contributor& contributor : declared)
+    for (const PointShifts& part : contributor.parts()) {
+      auto points = run.points;
+      shift(points, part);
+      parts.push_back(at_target(points) - at_target(run.points));
+    }
+  EXPECT_EQ(parts.size() % 4, 3u);  // some are left over
+  double noise_freedom = 0;
+  for (const BudgetLine& line : budget.lines)
+    if (line.key.empty()) noise_freedom = line.freedom;
+  Distribution of_noise;
+  of_noise.kind = Distribution::Kind::t;
+  of_noise.spread = 1;
+  of_noise.dof = noise_freedom;
+  const QuantileFunction noise(of_noise);
+  for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+    double value = budget.value + budget.u_random * noise.at(draw({11, 3}, trial, 0));
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      value += parts[p] * gaussian(draw({11, 3}, trial, p + 1));
+    EXPECT_NEAR(drawn[trial], value, 1e-9 * budget.u) << trial;
+  }
+}
+
+// By the gain, against solutions of the same readings a little further on.
+TEST(Stated, TheSensitivityToTheTravelIsTheSolversOwn) {
+  for (const Rig& rig : {test::rig_x(), test::rig_oblique()}) {
+    const auto run = uneven_run(rig);
+    const Solver solver = Solver::create(rig, Model::rigid).value();
+    const auto found = point_sensitivities(solver, run);
+    constexpr double kStep_m = 1e-5;
+    for (std::size_t j = 0; j < run.points.size(); ++j) {
+      const MeasuredPoint& p = run.points[j];
+      if (!p.errors.valid) continue;
+      const auto at = [&](double travel_m) {
+        return restate(solver.solve(travel_m, p.point.probe_m, p.point.probe_u_m), Model::rigid,
+                       Axis::x, travel_m, kAtCarriage, run.header.stated)
+            .local;
+      };
+      const double d = found[j].travel_m;
+      const Errors5 above = at(d + kStep_m), below = at(d - kStep_m);
+      for (std::size_t e = 0; e < kErrorCount; ++e)
+        EXPECT_NEAR(found[j].by_travel[e], (above[e] - below[e]) / (2 * kStep_m), 1e-8) << j;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mdof::algo

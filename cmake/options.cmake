@@ -13,8 +13,8 @@ target_compile_options(mdof_options INTERFACE
 target_link_options(mdof_options INTERFACE -Wl,-z,relro,-z,now)
 
 # Assertions guard against bugs and stay on in Release.
-set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g1")
-set(CMAKE_C_FLAGS_RELEASE "-O3 -g1")
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1")
+set(CMAKE_C_FLAGS_RELEASE "-O2 -g1")
 if(MDOF_SANITIZE)
   target_compile_definitions(mdof_options INTERFACE MDOF_SANITIZED)
   target_compile_options(mdof_options INTERFACE -fsanitize=${MDOF_SANITIZE}
@@ -32,6 +32,14 @@ find_program(MOLD mold)
 if(MOLD)
   target_link_options(mdof_options INTERFACE -fuse-ld=mold)
 endif()
+
+# For what computes: loops over samples, trials and digits.
+add_library(mdof_hot INTERFACE)
+target_compile_options(mdof_hot INTERFACE $<$<CONFIG:Release>:-O3>)
+
+# For what waits for devices and clients.
+add_library(mdof_waiting INTERFACE)
+target_compile_options(mdof_waiting INTERFACE $<$<CONFIG:Release>:-O1>)
 
 # For what computes nothing (most tests, the command line): it compiles longer than it runs.
 add_library(mdof_cold INTERFACE)

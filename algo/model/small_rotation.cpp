@@ -11,6 +11,17 @@ Eigen::Matrix3d columns_of(const std::array<std::array<double, 3>, 3>& axes) {
   return L;
 }
 
+// A rotation about each axis of the machine.
+struct Turns {
+  Turns(const SinCos& a, const SinCos& b, const SinCos& c) {
+    Rx << 1, 0, 0, 0, a.cos, -a.sin, 0, a.sin, a.cos;
+    Ry << b.cos, 0, b.sin, 0, 1, 0, -b.sin, 0, b.cos;
+    Rz << c.cos, -c.sin, 0, c.sin, c.cos, 0, 0, 0, 1;
+    RzRy = Rz * Ry;
+  }
+  Eigen::Matrix3d Rx, Ry, Rz, RzRy;
+};
+
 }  // namespace
 
 SinCos small_sin_cos(double x) {
@@ -24,22 +35,17 @@ SinCos small_sin_cos(double x) {
 }
 
 Rotation rotation(double ex, double ey, double ez) {
-  const auto [sx, cx] = small_sin_cos(ex);
-  const auto [sy, cy] = small_sin_cos(ey);
-  const auto [sz, cz] = small_sin_cos(ez);
-  Eigen::Matrix3d Rx, Ry, Rz, dRx, dRy, dRz;
-  Rx << 1, 0, 0, 0, cx, -sx, 0, sx, cx;
-  Ry << cy, 0, sy, 0, 1, 0, -sy, 0, cy;
-  Rz << cz, -sz, 0, sz, cz, 0, 0, 0, 1;
-  dRx << 0, 0, 0, 0, -sx, -cx, 0, cx, -sx;
-  dRy << -sy, 0, cy, 0, 0, 0, -cy, 0, -sy;
-  dRz << -sz, -cz, 0, cz, -sz, 0, 0, 0, 0;
-  const Eigen::Matrix3d RzRy = Rz * Ry;
+  const SinCos x = small_sin_cos(ex), y = small_sin_cos(ey), z = small_sin_cos(ez);
+  const Turns by(x, y, z);
+  Eigen::Matrix3d dRx, dRy, dRz;
+  dRx << 0, 0, 0, 0, -x.sin, -x.cos, 0, x.cos, -x.sin;
+  dRy << -y.sin, 0, y.cos, 0, 0, 0, -y.cos, 0, -y.sin;
+  dRz << -z.sin, -z.cos, 0, z.cos, -z.sin, 0, 0, 0, 0;
   Rotation r;
-  r.R_MC = RzRy * Rx;
-  r.dR_MC[0] = RzRy * dRx;
-  r.dR_MC[1] = Rz * dRy * Rx;
-  r.dR_MC[2] = dRz * Ry * Rx;
+  r.R_MC = by.RzRy * by.Rx;
+  r.dR_MC[0] = by.RzRy * dRx;
+  r.dR_MC[1] = by.Rz * dRy * by.Rx;
+  r.dR_MC[2] = dRz * by.Ry * by.Rx;
   return r;
 }
 
@@ -62,15 +68,8 @@ Rotation local_rotation(Axis axis, const Errors5& local) {
 Eigen::Matrix3d local_rotation_alone(Axis axis, const Errors5& local) {
   const Eigen::Matrix3d L = columns_of(local_axes(axis));
   const Eigen::Vector3d e = L * Eigen::Vector3d(local[kEx], local[kEy], local[kEz]);
-  const auto [sx, cx] = small_sin_cos(e.x());
-  const auto [sy, cy] = small_sin_cos(e.y());
-  const auto [sz, cz] = small_sin_cos(e.z());
-  Eigen::Matrix3d Rx, Ry, Rz;
-  Rx << 1, 0, 0, 0, cx, -sx, 0, sx, cx;
-  Ry << cy, 0, sy, 0, 1, 0, -sy, 0, cy;
-  Rz << cz, -sz, 0, sz, cz, 0, 0, 0, 1;
-  const Eigen::Matrix3d RzRy = Rz * Ry;
-  const Eigen::Matrix3d R = RzRy * Rx;
+  const Turns by(small_sin_cos(e.x()), small_sin_cos(e.y()), small_sin_cos(e.z()));
+  const Eigen::Matrix3d R = by.RzRy * by.Rx;
   return L.transpose() * R * L;
 }
 

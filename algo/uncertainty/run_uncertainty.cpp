@@ -48,7 +48,7 @@ void PointUncertainties::add(const Contributor& contributor,
   }
 }
 
-std::vector<ErrorsUncertainty> PointUncertainties::take() const {
+std::vector<ErrorsUncertainty> PointUncertainties::stated() const {
   std::vector<ErrorsUncertainty> points;
   points.reserve(sums_.size());
   for (std::size_t j = 0; j < sums_.size(); ++j) {
@@ -80,7 +80,7 @@ RunUncertainty run_uncertainty(const Rig& rig, const Run& run) {
     if (declared)
       for (const Contributor& contributor : *declared) points.add(contributor, contributor.parts());
   }
-  out.points = points.take();
+  out.points = points.stated();
   return out;
 }
 

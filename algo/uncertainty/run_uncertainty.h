@@ -20,11 +20,11 @@ RunUncertainty run_uncertainty(const Rig& rig, const Run& run);
 // The same step by step, where the contributors are at hand.
 class PointUncertainties {
  public:
-  // Of the noise alone.
+  // Of the noise alone. Keeps a reference to `run`.
   explicit PointUncertainties(const Run& run);
   // `parts`: those of the contributor, made of that run.
   void add(const Contributor& contributor, const std::vector<PointShifts>& parts);
-  std::vector<ErrorsUncertainty> take() const;
+  std::vector<ErrorsUncertainty> stated() const;  // of each point; NaN of one without errors
 
  private:
   // Of one point: the variance of the noise, the sum of u_i², and that of u_i⁴/ν_i (GUM G.2b), of

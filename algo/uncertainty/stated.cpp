@@ -18,7 +18,7 @@ StatedUncertainty stated_uncertainty(const Rig& rig, const Run& run) {
       of_points.add(contributor, parts);
       figures.add(contributor, parts);
     }
-  points.points = of_points.take();
+  points.points = of_points.stated();
   if (!declared) return {std::move(points), tl::unexpected(declared.error())};
   return {std::move(points), std::move(figures)};
 }

@@ -2,8 +2,6 @@
 // contributors, which are dear.
 #pragma once
 
-#include <optional>
-
 #include "algo/uncertainty/budget.h"
 #include "algo/uncertainty/run_uncertainty.h"
 #include "schema/rig/rig.h"

@@ -8,7 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "algo/model/restate.h"
 #include "algo/uncertainty/budget_draws.h"
 #include "algo/uncertainty/coverage.h"
 #include "schema/sample.h"
@@ -36,24 +35,6 @@ double sum_of_squares(const std::vector<double>& values) {
   double sum = 0;
   for (const double v : values) sum += v * v;
   return sum;
-}
-
-// Shares, the largest first, and what follows from all lines.
-void complete(Budget& budget) {
-  std::vector<UncertaintyPart> parts;
-  double square = 0;
-  for (const BudgetLine& line : budget.lines) {
-    square += line.contribution * line.contribution;
-    parts.push_back({std::abs(line.contribution), line.freedom});
-  }
-  budget.u = std::sqrt(square);
-  for (BudgetLine& line : budget.lines)
-    line.share = square > 0 ? line.contribution * line.contribution / square : 0;
-  std::stable_sort(budget.lines.begin(), budget.lines.end(),
-                   [](const BudgetLine& a, const BudgetLine& b) { return a.share > b.share; });
-  budget.freedom = effective_freedom(parts);
-  budget.coverage_factor = coverage_factor(budget.freedom);
-  budget.U = budget.coverage_factor * budget.u;
 }
 
 // Some parts, to be added to the shifts of all trials at once, one after the other: a sum is read
@@ -283,6 +264,23 @@ std::vector<std::vector<double>> RunBudgets::draw(const std::vector<Figure>& fig
   return values;
 }
 
+void complete(Budget& budget) {
+  std::vector<UncertaintyPart> parts;
+  double square = 0;
+  for (const BudgetLine& line : budget.lines) {
+    square += line.contribution * line.contribution;
+    parts.push_back({std::abs(line.contribution), line.freedom});
+  }
+  budget.u = std::sqrt(square);
+  for (BudgetLine& line : budget.lines)
+    line.share = square > 0 ? line.contribution * line.contribution / square : 0;
+  std::stable_sort(budget.lines.begin(), budget.lines.end(),
+                   [](const BudgetLine& a, const BudgetLine& b) { return a.share > b.share; });
+  budget.freedom = effective_freedom(parts);
+  budget.coverage_factor = coverage_factor(budget.freedom);
+  budget.U = budget.coverage_factor * budget.u;
+}
+
 BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed) {
   BudgetTrials summary{trials.size(), seed, 0, 0, 0};
   const auto n = static_cast<double>(trials.size());
@@ -298,62 +296,6 @@ BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed) {
   summary.low = at(0.025);
   summary.high = at(0.975);
   return summary;
-}
-
-namespace {
-
-void add_run(Budget& budget, const Budget& of_run, const std::string& name) {
-  for (const std::string& key : of_run.not_declared)
-    budget.not_declared.push_back(name + " " + key);
-  for (BudgetLine line : of_run.lines) {
-    line.name = name + ", " + line.name;
-    line.contribution = -line.contribution;
-    budget.lines.push_back(std::move(line));
-  }
-}
-
-BudgetLine artefact_line(const SquareArtefact& artefact) {
-  BudgetLine line;
-  line.name = "angle of the square";
-  line.key = "u_artefact_angle_urad";
-  line.distribution = to_string(UncertaintyShape::normal);
-  line.value = artefact.u_rad * 1e6;
-  line.unit = "µrad";
-  line.contribution = artefact.u_rad * (artefact.corner < 0 ? -1 : 1);
-  return line;
-}
-
-}  // namespace
-
-Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
-                                 const Run& run_y, const SquareArtefact& artefact,
-                                 const TrialsRequest& request) {
-  MDOF_TRY(const RunBudgets along_x, RunBudgets::create(rig_x, restate(run_x, kAtFixture)));
-  MDOF_TRY(const RunBudgets along_y, RunBudgets::create(rig_y, restate(run_y, kAtFixture)));
-  const Figure slope_x = slope_figure(Axis::x, 0), slope_y = slope_figure(Axis::y, 0);
-  const Budget x = along_x.of(slope_x), y = along_y.of(slope_y);
-  Budget budget;
-  budget.figure = "EC0Y_urad";
-  budget.value = -y.value - x.value + artefact.corner * artefact.angle_error_rad;
-  budget.u_random = std::hypot(x.u_random, y.u_random);
-  budget.noise_only = x.noise_only && y.noise_only && artefact.u_rad == 0;
-  add_run(budget, x, "X");
-  add_run(budget, y, "Y");
-  if (artefact.u_rad > 0)
-    budget.lines.push_back(artefact_line(artefact));
-  else
-    budget.not_declared.emplace_back("u_artefact_angle_urad");
-  complete(budget);
-  if (request.trials < 2) return budget;
-  std::vector<double> values = along_x.draw({slope_x}, request, 0).front();
-  const std::vector<double> of_y = along_y.draw({slope_y}, request, 1).front();
-  const std::vector<double> of_square =
-      BlockOfDraws({request.seed, 2}, 0, request.trials).next(OneU(kInfinite));
-  for (std::uint64_t t = 0; t < request.trials; ++t)
-    values[t] = -values[t] - of_y[t] + artefact.corner * artefact.angle_error_rad +
-                artefact.u_rad * of_square[t];
-  budget.trials = summary_of(std::move(values), request.seed);
-  return budget;
 }
 
 }  // namespace mdof::algo

@@ -15,7 +15,6 @@
 #include "schema/base/result.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
-#include "schema/squareness.h"
 #include "schema/uncertainty/budget.h"
 
 namespace mdof::algo {
@@ -81,10 +80,7 @@ class RunBudgets {
 // Of at least two trials.
 BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed);
 
-// EC0Y = -slope(EXY) - slope(EYX) + α (DESIGN §3), of budgets of the two runs at the fixture. What
-// the rigs declare is taken as independent between the two runs.
-Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
-                                 const Run& run_y, const SquareArtefact& artefact,
-                                 const TrialsRequest& request = {});
+// What follows from all lines of a budget: u, shares, the largest first, degrees of freedom, k, U.
+void complete(Budget& budget);
 
 }  // namespace mdof::algo

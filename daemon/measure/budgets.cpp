@@ -4,10 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "algo/iso230/parallelism.h"
 #include "algo/separation/square_reversal.h"
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/run_uncertainty.h"
 #include "algo/uncertainty/stated.h"
+#include "algo/uncertainty/two_runs.h"
+#include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "schema/uncertainty/budget_json.h"
 #include "schema/units.h"
@@ -162,6 +165,37 @@ Result<FoundSquareReversal> square_reversal(store::Store& store, const Squarenes
     for (std::string& text : *from)
       if (std::find(to->begin(), to->end(), text) == to->end()) to->push_back(std::move(text));
   return out;
+}
+
+Result<FoundParallelism> find_parallelism(store::Store& store, const ParallelismRequest& request) {
+  MDOF_TRY(const Run a, store.run(request.run_a));
+  MDOF_TRY(const Run b, store.run(request.run_b));
+  MDOF_TRY(Parallelism found, algo::parallelism(a, b, request.partial));
+  MDOF_TRY(const Rig rig_a, rig_of(a.header));
+  MDOF_TRY(const Rig rig_b, rig_of(b.header));
+  MDOF_TRY(auto budgets, algo::parallelism_budgets(rig_a, a, rig_b, b));
+  for (std::size_t i = 0; i < found.planes.size(); ++i)
+    found.planes[i].budget = std::move(budgets[i]);
+  return FoundParallelism{std::move(found), algo::inherited_warnings({&a, &b})};
+}
+
+std::string parallelism_json(const FoundParallelism& found) {
+  const Parallelism& p = found.parallelism;
+  JsonWriter json;
+  json.begin_object();
+  json.field("axis", std::string(1, letter(p.axis)))
+      .field("run_a", p.run_a)
+      .field("run_b", p.run_b);
+  write_reference(json, kAtFixture);
+  json.field("from_mm", to_mm(p.from_m)).field("to_mm", to_mm(p.to_m));
+  json.field("simulated", p.simulated);
+  write_parallelism(json, p);
+  std::vector<Budget> budgets;
+  for (const ParallelismOfPlane& plane : p.planes) budgets.push_back(plane.budget);
+  json.key("figures");
+  write_budgets(json, budgets);
+  json.end_object();
+  return with_warnings(json.take(), found.warnings);
 }
 
 std::string budgets_json(const FoundBudgets& found, const std::optional<double>& tolerance) {

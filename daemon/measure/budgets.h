@@ -10,6 +10,7 @@
 #include "daemon/measure/evaluation.h"
 #include "daemon/store/store.h"
 #include "schema/base/result.h"
+#include "schema/iso230/parallelism.h"
 #include "schema/run.h"
 #include "schema/separation/square_reversal.h"
 #include "schema/uncertainty/budget.h"
@@ -64,6 +65,21 @@ struct FoundSquareReversal {
 };
 Result<FoundSquareReversal> square_reversal(store::Store& store, const SquarenessRequest& first,
                                             const SquarenessRequest& second);
+
+struct ParallelismRequest {
+  std::int64_t run_a = 0, run_b = 0;
+  bool partial = false;  // take partial runs as well
+};
+struct FoundParallelism {
+  Parallelism parallelism;
+  std::vector<std::string> warnings;  // of the runs
+};
+// With its budgets; nothing is stored. Errors: those of algo::parallelism() and of rigs that are
+// not to be had.
+Result<FoundParallelism> find_parallelism(store::Store& store, const ParallelismRequest& request);
+
+// What `mdof parallelism --json` and the RPC say of it.
+std::string parallelism_json(const FoundParallelism& found);
 
 // What `mdof budget --json` and the RPC say of them; `tolerance` as of write_budgets().
 std::string budgets_json(const FoundBudgets& found,

@@ -10,6 +10,7 @@
 #include "algo/model/restate.h"
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/two_runs.h"
 #include "daemon/history.h"
 #include "daemon/paths.h"
 #include "schema/base/toml_reader.h"

@@ -43,6 +43,15 @@ Result<std::string> squareness_budget(Methods& m, const Params& params) {
   return budgets_json(found);
 }
 
+Result<std::string> parallelism(Methods& m, const Params& params) {
+  const ParallelismRequest request{params.integer("run_a"), params.integer("run_b"),
+                                   params.boolean("partial", false)};
+  MDOF_CHECK(check_size(m, request.run_a));
+  MDOF_CHECK(check_size(m, request.run_b));
+  MDOF_TRY(const FoundParallelism found, find_parallelism(m.reader, request));
+  return parallelism_json(found);
+}
+
 }  // namespace
 
 void add_budget_methods(rpc::MethodTable& table, Methods& m) {
@@ -75,6 +84,19 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
        .result = result,
        .example = R"({"run_x": 1, "run_y": 2})",
        .handler = [&m](const Params& p) { return squareness_budget(m, p); }});
+  table.add(
+      {.name = "parallelism.fit",
+       .summary = "Parallelism of two motions along one axis (ISO 230-1), the angle between the "
+                  "reference lines of their straightness, with its budgets. Nothing is stored.",
+       .params = {{"run_a", ParamType::integer, "id of the run that is the datum", true},
+                  {"run_b", ParamType::integer,
+                   "id of the run along the same axis that is compared with it", true},
+                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
+       .result = "parallelism: for both straightness errors and each reference line angle_urad = "
+                 "slope of B - slope of A; from_mm, to_mm: the travel in common; " +
+                 result,
+       .example = R"({"run_a": 1, "run_b": 2})",
+       .handler = [&m](const Params& p) { return parallelism(m, p); }});
 }
 
 }  // namespace mdof::daemon

@@ -79,6 +79,26 @@ void write_squareness_lines(JsonWriter& json, const SquarenessLines& lines) {
   json.end_object();
 }
 
+void write_parallelism(JsonWriter& json, const Parallelism& parallelism) {
+  const auto write_line = [&](const char* reference, const ParallelismLine& line) {
+    json.key(reference)
+        .begin_object()
+        .field("angle_urad", to_urad(line.angle_rad))
+        .field("slope_a_urad", to_urad(line.slope_a_rad))
+        .field("slope_b_urad", to_urad(line.slope_b_rad))
+        .end_object();
+  };
+  json.key("parallelism").begin_object();
+  for (const ParallelismOfPlane& plane : parallelism.planes) {
+    json.key(plane.error).begin_object();
+    write_line("end_point", plane.end_point);
+    write_line("least_squares", plane.least_squares);
+    write_line("minimum_zone", plane.minimum_zone);
+    json.end_object();
+  }
+  json.end_object();
+}
+
 void write_positioning(JsonWriter& json, const Positioning& p, bool angle) {
   const Figures figures(json, angle);
   figures("B", p.B)("B_mean", p.B_mean);

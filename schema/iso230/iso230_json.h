@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "schema/base/json_writer.h"
+#include "schema/iso230/parallelism.h"
 #include "schema/iso230/positioning.h"
 #include "schema/iso230/reference_lines.h"
 
@@ -18,6 +19,10 @@ void write_straightness_lines(JsonWriter& json, const std::vector<StraightnessLi
 
 // {"end_point": {"EC0Y_urad", "slope_EYX_urad", "slope_EXY_urad"}, "least_squares", "minimum_zone"}
 void write_squareness_lines(JsonWriter& json, const SquarenessLines& lines);
+
+// Member of an open object: "parallelism": {"EYX": {"end_point": {"angle_urad", "slope_a_urad",
+// "slope_b_urad"}, "least_squares", "minimum_zone"}, ...}
+void write_parallelism(JsonWriter& json, const Parallelism& parallelism);
 
 // Members of an open object: "B_um", "B_mean_um" ... "A_um", then "targets" with those of each;
 // what is not known is null. `angle`: deviations in rad, keys end in _urad.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "algo/uncertainty/two_runs.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
 

@@ -11,6 +11,7 @@
 #include "algo/model/restate.h"
 #include "algo/uncertainty/budget.h"
 #include "algo/uncertainty/run_uncertainty.h"
+#include "algo/uncertainty/two_runs.h"
 #include "daemon/measure/pipeline.h"
 #include "tests/algo/uncertainty/faulty_fixture.h"
 #include "tests/algo/uncertainty/synthetic_run.h"

@@ -1,0 +1,26 @@
+// Budgets of figures that are made of two runs.
+#pragma once
+
+#include <array>
+
+#include "algo/uncertainty/budget.h"
+#include "schema/base/result.h"
+#include "schema/rig/rig.h"
+#include "schema/run.h"
+#include "schema/squareness.h"
+
+namespace mdof::algo {
+
+// EC0Y = -slope(EXY) - slope(EYX) + α (DESIGN §3), of budgets of the two runs at the fixture. What
+// the rigs declare is taken as independent between the two runs.
+Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
+                                 const Run& run_y, const SquareArtefact& artefact,
+                                 const TrialsRequest& request = {});
+
+// slope of B - slope of A of each of the two straightness errors, at the fixture:
+// "EYX_parallelism_urad". What the rigs declare is taken as independent between the two runs; where
+// it is the same set-up, that part would cancel, and u is too large rather than too small.
+Result<std::array<Budget, 2>> parallelism_budgets(const Rig& rig_a, const Run& run_a,
+                                                  const Rig& rig_b, const Run& run_b);
+
+}  // namespace mdof::algo

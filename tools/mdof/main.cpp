@@ -1,4 +1,4 @@
-// mdof: the command line of the bench (DESIGN §6).
+// mdof: the command line.
 #include <csignal>
 #include <exception>
 #include <filesystem>
@@ -32,7 +32,7 @@ constexpr const char* kExamples =
 
 void declare(CLI::App& app, Action& chosen) {
   app.set_version_flag("--version", daemon::kVersion);
-  app.set_help_flag("-h,--help", "Print this help and end");
+  app.set_help_flag("-h,--help", "Print this help and exit");
   declare_commands(app, chosen);
   app.footer(kExamples);  // last: a command has examples of its own
 }
@@ -50,7 +50,7 @@ int run(int argc, char** argv) {
     return kUsage;
   }
   if (!chosen) {
-    say("mdof: which command? See mdof --help");
+    say("mdof: missing command; see mdof --help");
     return kUsage;
   }
   Status done = check_instruction_set();

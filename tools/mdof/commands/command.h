@@ -20,6 +20,7 @@ struct Command {
   const char* summary;  // its line in the help, without a full stop
   const char* footer;   // at the end of its own help: notes, and "Example:\n  mdof replay ..."
   Action (*declare)(CLI::App& command);  // adds its options; the action runs once they are read
+  const char* section = "";              // of the help; commands.inc says which
 };
 
 std::vector<Command> all_commands();  // in the order of the help

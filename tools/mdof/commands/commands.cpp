@@ -6,9 +6,11 @@
 
 namespace mdof::tools {
 
+#define SECTION(title)
 #define COMMAND(name) Command name##_command();
 #include "tools/mdof/commands/commands.inc"
 #undef COMMAND
+#undef SECTION
 
 namespace {
 
@@ -37,30 +39,38 @@ CLI::App* made_before(CLI::App& app, std::string_view name) {
   return found.empty() ? nullptr : found.front();
 }
 
-CLI::App* group_of(CLI::App& app, const std::string& name) {
+CLI::App* group_of(CLI::App& app, const std::string& name, const char* section) {
   if (auto* group = made_before(app, name)) return group;
   const auto row = std::find_if(std::begin(kGroups), std::end(kGroups),
                                 [&name](const Group& g) { return g.name == name; });
   assert(row != std::end(kGroups) && "a group of commands needs its row");
-  auto* group = app.add_subcommand(name, row->summary)->require_subcommand(1);
+  auto* group = app.add_subcommand(name, row->summary)->require_subcommand(1)->group(section);
   return group->footer(row->footer);
 }
 
 CLI::App* add_command(CLI::App& app, const Command& row) {
   const std::string name = row.name;
   const std::size_t space = name.find(' ');
-  if (space == std::string::npos) return app.add_subcommand(name, row.summary);
-  return group_of(app, name.substr(0, space))->add_subcommand(name.substr(space + 1), row.summary);
+  if (space == std::string::npos) return app.add_subcommand(name, row.summary)->group(row.section);
+  return group_of(app, name.substr(0, space), row.section)
+      ->add_subcommand(name.substr(space + 1), row.summary);
 }
 
 }  // namespace
 
 std::vector<Command> all_commands() {
-  return {
-#define COMMAND(name) name##_command(),
+  std::vector<Command> commands;
+  const char* section = "";
+  const auto add = [&](Command command) {
+    command.section = section;
+    commands.push_back(command);
+  };
+#define SECTION(title) section = title;
+#define COMMAND(name) add(name##_command());
 #include "tools/mdof/commands/commands.inc"
 #undef COMMAND
-  };
+#undef SECTION
+  return commands;
 }
 
 void declare_commands(CLI::App& app, Action& chosen) {

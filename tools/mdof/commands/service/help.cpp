@@ -1,0 +1,38 @@
+// mdof help [COMMAND]: the same as mdof [COMMAND] --help.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/output.h"
+
+namespace mdof::tools {
+namespace {
+
+Status help(CLI::App* app, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    const auto found =
+        app->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
+    if (found.empty())
+      return fail(ErrorCode::usage, "help: \"" + word + "\" is no command of " +
+                                        app->get_display_name() + "; mdof help lists them");
+    app = found.front();
+  }
+  return write_out(app->help());
+}
+
+Action declare_help(CLI::App& command) {
+  const auto words = std::make_shared<std::vector<std::string>>();
+  command.add_option("COMMAND", *words, "Such as replay, or compensation export")->type_name("");
+  return [app = command.get_parent(), words] { return help(app, *words); };
+}
+
+}  // namespace
+
+Command help_command() {
+  return {.name = "help",
+          .summary = "Print the help of mdof or of a command",
+          .footer = "Example:\n  mdof help compensation export",
+          .declare = declare_help};
+}
+
+}  // namespace mdof::tools

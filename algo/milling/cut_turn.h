@@ -1,0 +1,31 @@
+// One turn of an end mill in a steady cut: forces and deflection in equilibrium at every angle.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "algo/milling/cutting_edge.h"
+#include "schema/base/result.h"
+#include "schema/milling/milling_plan.h"
+
+namespace mdof::algo {
+
+struct CutTurn {
+  std::vector<double>
+      turned_rad;  // of tooth 0 at the tip; steps_per_turn, rounded up to a multiple of the teeth
+  std::vector<double> height_m;        // of the elements, from the tip
+  Eigen::MatrixXd fx_N, fy_N;          // on the tool, a row an angle, a column an element
+  std::vector<double> power_W;         // of cutting, by angle
+  double entry_rad = 0, exit_rad = 0;  // of tooth 0 in the lowest element
+  int iterations = 0;                  // of the window with the deflection at its edge
+
+  Eigen::MatrixXd force_N() const;  // both components of the whole tool, a row an angle
+};
+
+// Error (check): no equilibrium was found; names the angle and what to change.
+Result<CutTurn> cut_turn(const MillingPlan& plan);
+
+// Both components of the deflection at a height, a row an angle.
+Eigen::MatrixXd deflection_m(const MillingPlan& plan, const CutTurn& turn, double height_m);
+
+}  // namespace mdof::algo

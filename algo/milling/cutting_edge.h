@@ -1,0 +1,64 @@
+// Where the teeth of an end mill are and how thick their chips are (README.md has the equations). x
+// along the feed, y towards the wall of an up cut; a tooth at the angle φ stands at r (sin φ, cos
+// φ) from the axis. m, rad.
+#pragma once
+
+#include "schema/milling/milling_plan.h"
+
+namespace mdof::algo {
+
+inline constexpr double kHalfTurn_rad = 3.14159265358979323846;
+inline constexpr double kWholeTurn_rad = 2 * kHalfTurn_rad;
+
+// Deflection of the tool at a height: against the feed and towards the wall of an up cut, m.
+struct Deflection {
+  double x = 0, y = 0;
+};
+
+// A chip and how it changes with the deflection now and with that of the tooth that left its
+// surface.
+struct Chip {
+  double thickness = 0;
+  double by_x = 0, by_y = 0;                  // derivatives by the deflection now
+  double by_earlier_x = 0, by_earlier_y = 0;  // by that of `earlier` teeth before
+  int earlier = 1;
+};
+
+// One tooth at one height.
+class CuttingEdge {
+ public:
+  CuttingEdge(const MillingPlan& plan, int tooth, double height_m);
+
+  // φ when tooth 0 has turned to `turned_rad` at the tip, in [0, 2π).
+  double angle(double turned_rad) const;
+  double turned(double angle_rad) const;  // the inverse, in [0, 2π)
+
+  // Of the rigid tool, by the model of the plan; below 0: it does not reach the work.
+  Chip rigid_chip(double angle_rad) const;
+  // With what the deflection model of the plan makes of it.
+  Chip chip(double angle_rad, const Chip& rigid, const Deflection& now,
+            const Deflection& earlier) const;
+
+  // φ at which it leaves (up) or enters (down) the work, Eq. 5, 6, 10 and 11 with their right sign,
+  // for the deflection there.
+  double free_edge(const Deflection& there) const;
+  // φ at which it enters (up) or leaves (down) at the wall.
+  double wall_edge() const;
+
+  // Its place against the axis of the spindle.
+  double x(double angle_rad) const;
+  double y(double angle_rad) const;
+
+ private:
+  double eq8(double angle_rad, double feed, double& by_feed) const;
+  Chip trochoid(double angle_rad) const;
+
+  const MillingPlan& plan_;
+  double lag_rad_;               // by which it is behind tooth 0 at the tip
+  double runout_m_, gamma_rad_;  // size, and angle ahead of this edge
+};
+
+// Of an angle to [0, 2π).
+double wrapped_angle(double angle_rad);
+
+}  // namespace mdof::algo

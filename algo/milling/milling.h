@@ -1,0 +1,50 @@
+// What a micro end mill does: forces, deflection, the wall, and the offset that takes its mean
+// error out. Huo et al., Modeling the influence of tool deflection on cutting force and surface
+// generation in micro-milling, Micromachines 8 (2017) 188; README.md has the equations. SI.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algo/milling/cut_turn.h"
+#include "algo/milling/wall.h"
+
+namespace mdof::algo {
+
+struct WallFigures {
+  double form_m = 0;  // largest - smallest mean over the depth
+  double waviness_tip_m = 0, waviness_root_m = 0;
+  double offset_tip_m = 0, offset_root_m = 0, offset_mean_m = 0;  // outward, + overcut
+  double Ra_tip_m = 0, Ra_root_m = 0;
+};
+
+struct MillingResult {
+  // On the tool: x against the feed, y towards the wall of an up cut. Largest of a turn by size.
+  double x_max_N = 0, y_max_N = 0, x_max_rigid_N = 0, y_max_rigid_N = 0;
+  double x_mean_N = 0, y_mean_N = 0;
+  double deflection_m = 0,
+         deflection_rigid_m = 0;       // at the tip, largest; by the rigid tool's force
+  double entry_rad = 0, exit_rad = 0;  // NaN: tooth 0 does not cut
+  double power_W = 0;                  // mean
+  WallFigures wall;
+  int iterations = 0;
+};
+
+// Error (check): no equilibrium.
+Result<MillingResult> milling(const MillingPlan& plan);
+
+// What to add to the radius of the tool in the controller so that the mean of the wall is where the
+// program has it; the same sign for G41 and G42, since both keep the tool off the wall by the
+// radius.
+struct WearOffset {
+  double offset_m = 0;
+  double u_m = 0;  // standard, first order (GUM 5); NaN: nothing is declared
+  struct Part {
+    const MillingInput* input = nullptr;
+    double contribution_m = 0;
+  };
+  std::vector<Part> parts;  // the largest first
+};
+Result<WearOffset> wear_offset(const DeclaredMillingPlan& declared);
+
+}  // namespace mdof::algo

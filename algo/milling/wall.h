@@ -1,0 +1,24 @@
+// The wall that an end mill leaves, from the paths of its teeth with run-out and deflection
+// (Z-map).
+#pragma once
+
+#include <vector>
+
+#include "algo/milling/cut_turn.h"
+
+namespace mdof::algo {
+
+// One turn of the wall at one height, along the feed: it repeats.
+struct WallLine {
+  double height_m = 0;            // from the tip
+  std::vector<double> outward_m;  // from the nominal wall, + overcut; at equal steps of x
+
+  double mean_m() const;
+  double waviness_m() const;  // largest - smallest
+  double Ra_m() const;        // mean distance from the mean (ISO 21920-2)
+};
+
+// At the tip, in the middle of each element and at the top of the cut.
+std::vector<WallLine> wall_lines(const MillingPlan& plan, const CutTurn& turn);
+
+}  // namespace mdof::algo

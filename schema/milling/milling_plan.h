@@ -1,0 +1,74 @@
+// PLAN.toml of mdof milling: a micro end mill, its run-out, the cut and the force coefficients. SI
+// inside.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "schema/base/result.h"
+
+namespace mdof {
+
+enum class ChipModel { sine, eq8, trochoid };
+enum class DeflectionModel { rigid, paper, steady };
+
+// A cylinder of the beam that stands for the tool, in the order from the holder.
+struct ToolSection {
+  double length_m = 0, diameter_m = 0;
+};
+
+struct MillingPlan {
+  std::string name;
+  std::string force_source;  // where the coefficients are from; empty: not stated
+  // [tool]
+  double diameter_m = 0;
+  int teeth = 0;
+  double helix_rad = 0;
+  std::vector<ToolSection> sections;
+  double youngs_modulus_Pa = 0;
+  // [runout]
+  double runout_m = 0, runout_angle_rad = 0,
+         runout_tilt = 0;  // at the tip; tilt: m per m of height
+  // [cut]
+  bool is_up = true;
+  double spindle_hz = 0, feed_per_tooth_m = 0, radial_depth_m = 0, axial_depth_m = 0;
+  // [force]: of the chip's area, N/m²; of the edge's length, N/m
+  double Kt = 0, Kr = 0, Kte = 0, Kre = 0;
+  // [model]
+  ChipModel chip = ChipModel::eq8;
+  DeflectionModel deflection = DeflectionModel::steady;
+  int elements = 10, steps_per_turn = 3600;
+  double wall_grid_m = 0.05e-6;
+
+  double radius_m() const { return diameter_m / 2; }
+  double overhang_m() const;
+};
+
+// A number of the plan that may have a standard uncertainty: "u_" before its key.
+struct MillingInput {
+  const char* table;
+  const char* key;  // with its unit
+  double MillingPlan::*member;
+  double unit;  // SI of one
+};
+const std::vector<MillingInput>& milling_inputs();
+
+struct DeclaredMillingPlan {
+  MillingPlan plan;
+  std::vector<std::pair<const MillingInput*, double>> u;  // those declared; SI
+};
+
+// Errors name file, line, key and limit; an unknown key is one.
+Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std::string& source);
+
+// The tool and the cut of Huo et al. (2017); what the paper does not give is marked in the text.
+std::string_view micro_end_mill_preset();
+
+const char* to_string(ChipModel model);
+const char* to_string(DeflectionModel model);
+
+}  // namespace mdof

@@ -1,0 +1,230 @@
+#include "algo/milling/milling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/milling/beam.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+MillingPlan preset() {
+  return parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
+}
+
+// One element without helix and run-out: the closed forms hold.
+MillingPlan plain(ChipModel chip, DeflectionModel deflection) {
+  MillingPlan plan = preset();
+  plan.elements = 1;
+  plan.runout_m = plan.helix_rad = 0;
+  plan.chip = chip;
+  plan.deflection = deflection;
+  return plan;
+}
+
+double mean_power_W(const CutTurn& turn) {
+  double sum = 0;
+  for (const double p : turn.power_W) sum += p;
+  return sum / static_cast<double>(turn.power_W.size());
+}
+
+TEST(Beam, IsThatOfTheBooks) {
+  const double E = 600e9, d = 0.4e-3, l = 2e-3, I = kPi * std::pow(d, 4) / 64;
+  const auto C = beam_compliance({{l, d}}, E, {0, 0.5e-3}, {0, 0.5e-3});
+  EXPECT_NEAR(C(0, 0) / (l * l * l / (3 * E * I)), 1, 1e-12);
+  // Eq. 2 of the paper with its letters put right: v² (3 l - v) / 6EI, from both sides.
+  const double v = 1.5e-3;
+  EXPECT_NEAR(C(0, 1) / (v * v * (3 * l - v) / (6 * E * I)), 1, 1e-12);
+  EXPECT_EQ(C(0, 1), C(1, 0));
+  // Two cylinders of one diameter are one; a thick shank adds little.
+  const auto halves = beam_compliance({{0.7e-3, d}, {1.3e-3, d}}, E, {0}, {0});
+  EXPECT_NEAR(halves(0, 0) / C(0, 0), 1, 1e-12);
+  const double L = 3e-3, D = 3e-3, shank = kPi * std::pow(D, 4) / 64;
+  const auto both = beam_compliance({{L, D}, {l, d}}, E, {0}, {0});
+  const double expected =
+      l * l * l / (3 * E * I) + (std::pow(l + L, 3) - l * l * l) / (3 * E * shank);
+  EXPECT_NEAR(both(0, 0) / expected, 1, 1e-12);
+}
+
+TEST(Beam, ShearAddsTwoPercentAtFiveDiameters) {
+  EXPECT_NEAR(shear_share({{5 * 0.4e-3, 0.4e-3}}), 0.020, 0.001);
+  EXPECT_NEAR(shear_share({{20 * 0.4e-3, 0.4e-3}}), 0.0013, 0.0001);
+}
+
+TEST(CuttingEdge, RigidWindowIsThatOfTheCircle) {
+  const MillingPlan plan = plain(ChipModel::sine, DeflectionModel::rigid);
+  const double exit = std::acos((0.25 - 0.3) / 0.25);
+  EXPECT_NEAR(CuttingEdge(plan, 0, 0).free_edge({}), exit, 1e-15);
+  MillingPlan down = plan;
+  down.is_up = false;
+  EXPECT_NEAR(CuttingEdge(down, 0, 0).free_edge({}), kPi - exit, 1e-15);
+  // Drawn into the wall by 3 µm an up cut leaves later, and a down cut enters later.
+  EXPECT_NEAR(CuttingEdge(plan, 0, 0).free_edge({0, 3e-6}), std::acos((-50e-6 - 3e-6) / 250e-6),
+              1e-15);
+  EXPECT_NEAR(CuttingEdge(down, 0, 0).free_edge({0, 3e-6}), std::acos((50e-6 - 3e-6) / 250e-6),
+              1e-15);
+}
+
+// Eq. 8 against the exact trochoid: Bao and Tansel's error is below 0.02 µm without run-out.
+TEST(CuttingEdge, Eq8IsNearTheTrochoid) {
+  for (const int teeth : {2, 4}) {
+    MillingPlan eq8 = plain(ChipModel::eq8, DeflectionModel::rigid);
+    eq8.teeth = teeth;
+    MillingPlan exact = eq8;
+    exact.chip = ChipModel::trochoid;
+    for (double angle = 0.1; angle < 1.7; angle += 0.2)
+      EXPECT_NEAR(CuttingEdge(eq8, 1, 0).rigid_chip(angle).thickness,
+                  CuttingEdge(exact, 1, 0).rigid_chip(angle).thickness, 0.02e-6 * teeth / 2)
+          << teeth << " " << angle;
+    // A microscopic run-out moves both alike, with the sign of each tooth.
+    for (const int tooth : {0, 1}) {
+      const auto moved = [&](MillingPlan plan) {
+        const double before = CuttingEdge(plan, tooth, 0).rigid_chip(1.2).thickness;
+        plan.runout_m = 1e-8;
+        plan.runout_angle_rad = 0.7;
+        return CuttingEdge(plan, tooth, 0).rigid_chip(1.2).thickness - before;
+      };
+      EXPECT_NEAR(moved(eq8), moved(exact), 2e-10) << teeth << " " << tooth;
+      EXPECT_GT(std::abs(moved(exact)), 5e-10);
+    }
+  }
+}
+
+// With a run-out larger than the feed a tooth does not reach the work: the chip of the next one is
+// that of the tooth before it.
+TEST(CuttingEdge, TrochoidLooksAtAllEarlierTeeth) {
+  MillingPlan plan = plain(ChipModel::trochoid, DeflectionModel::rigid);
+  plan.runout_m = 20e-6;
+  plan.runout_angle_rad = 0;
+  EXPECT_LT(CuttingEdge(plan, 1, 0).rigid_chip(kPi / 2).thickness, 0);
+  const Chip chip = CuttingEdge(plan, 0, 0).rigid_chip(kPi / 2);
+  EXPECT_EQ(chip.earlier, 2);
+  EXPECT_NEAR(chip.thickness, 30e-6, 0.5e-6);  // two feeds
+}
+
+TEST(Milling, ForcesOfOneElement) {
+  const auto rigid = *milling(plain(ChipModel::sine, DeflectionModel::rigid));
+  EXPECT_NEAR(rigid.x_max_N, 0.872, 5e-4);
+  EXPECT_NEAR(rigid.y_max_N, 1.066, 5e-4);
+  const auto paper = *milling(plain(ChipModel::eq8, DeflectionModel::paper));
+  EXPECT_NEAR(paper.x_max_N, 0.728, 1e-3);
+  EXPECT_NEAR(paper.y_max_N, 0.988, 5e-3);
+  EXPECT_NEAR(paper.exit_rad * 180 / kPi, 102.3, 0.05);
+  const auto steady = *milling(plain(ChipModel::sine, DeflectionModel::steady));
+  EXPECT_NEAR(steady.x_max_N, 0.872, 5e-4);
+  EXPECT_NEAR(steady.y_max_N, 1.068, 1e-3);
+}
+
+// F = Kt h db, its speed r ω: the mean is exactly Kt times what is removed.
+TEST(Milling, PowerIsThatOfTheRemovedVolume) {
+  for (const bool up : {true, false}) {
+    MillingPlan plan = plain(ChipModel::sine, DeflectionModel::rigid);
+    plan.is_up = up;
+    const double removed = plan.feed_per_tooth_m * plan.teeth * plan.spindle_hz *
+                           plan.radial_depth_m * plan.axial_depth_m;
+    EXPECT_NEAR(mean_power_W(*cut_turn(plan)) / (plan.Kt * removed), 1, 1e-6);
+    plan.elements = 7;
+    plan.helix_rad = 0.5;
+    EXPECT_NEAR(mean_power_W(*cut_turn(plan)) / (plan.Kt * removed), 1, 1e-6);
+  }
+}
+
+TEST(Milling, WindowOfTheTrochoidBeginsBeforeTheWall) {
+  const auto turn = *cut_turn(plain(ChipModel::trochoid, DeflectionModel::rigid));
+  EXPECT_NEAR(turn.entry_rad * 180 / kPi, -1.69, 0.01);
+  EXPECT_NEAR(turn.exit_rad * 180 / kPi, 101.54, 0.01);
+}
+
+TEST(Wall, CuspIsThatOfTheTrochoid) {
+  for (const bool up : {true, false}) {
+    MillingPlan plan = plain(ChipModel::trochoid, DeflectionModel::rigid);
+    plan.is_up = up;
+    const auto result = *milling(plan);
+    EXPECT_NEAR(result.wall.waviness_tip_m, up ? 0.10835e-6 : 0.11695e-6, 0.15e-9);
+    EXPECT_NEAR(result.wall.form_m, 0, 1e-15);
+    // The mean of a parabola of that height lies a third below its top.
+    EXPECT_NEAR(result.wall.offset_tip_m, -result.wall.waviness_tip_m / 3, 0.3e-9);
+  }
+}
+
+// Run-out without deflection: the longer tooth makes the wall, outward by the run-out's component.
+TEST(Wall, RunoutCutsOutward) {
+  MillingPlan plan = plain(ChipModel::trochoid, DeflectionModel::rigid);
+  plan.runout_m = 20e-6;  // tooth 1 does not cut: cusps of two feeds
+  plan.runout_angle_rad = 0;
+  const auto result = *milling(plan);
+  EXPECT_NEAR(result.wall.waviness_tip_m, 4 * 0.10835e-6 * 250 / 270, 0.02e-6);
+  EXPECT_NEAR(result.wall.offset_tip_m, 20e-6 - result.wall.waviness_tip_m / 3, 0.01e-6);
+}
+
+// In equilibrium the deflection is that of the beam under the force of the chip with it.
+TEST(Milling, IsInEquilibriumWhereThePlainIterationDiverges) {
+  for (const bool up : {true, false})
+    for (const DeflectionModel model : {DeflectionModel::paper, DeflectionModel::steady}) {
+      MillingPlan plan = preset();
+      plan.is_up = up;
+      plan.deflection = model;
+      plan.sections.front().length_m = 4e-3;
+      plan.steps_per_turn = 720;
+      const auto result = milling(plan);
+      ASSERT_TRUE(result) << result.error().message;
+      EXPECT_GT(result->deflection_m, 10e-6);
+    }
+  MillingPlan plan = plain(ChipModel::eq8, DeflectionModel::paper);
+  plan.sections.front().length_m = 4e-3;
+  const auto turn = *cut_turn(plan);
+  const auto u = deflection_m(plan, turn, turn.height_m.front());
+  for (std::size_t n = 100; n < 1000; n += 100) {  // tooth 0 alone is in the work
+    const auto row = static_cast<Eigen::Index>(n);
+    const double a = turn.turned_rad[n], f = plan.feed_per_tooth_m - u(row, 0), r = plan.radius_m();
+    const double h = f * std::sin(a) - f * f * std::sin(a) * std::cos(a) / (kPi * r) +
+                     f * f * std::cos(a) * std::cos(a) / (2 * r);
+    const double b = plan.axial_depth_m;
+    EXPECT_NEAR(turn.fx_N(row, 0), h * b * (plan.Kt * std::cos(a) + plan.Kr * std::sin(a)), 1e-6);
+    EXPECT_NEAR(turn.fy_N(row, 0), h * b * (plan.Kt * std::sin(a) - plan.Kr * std::cos(a)), 1e-6);
+  }
+}
+
+TEST(Milling, EdgeForceIsThatOfTheEdgeInTheWork) {
+  MillingPlan plan = plain(ChipModel::sine, DeflectionModel::rigid);
+  const auto without = *cut_turn(plan);
+  plan.Kte = 2e3;
+  plan.Kre = 3e3;
+  const auto with = *cut_turn(plan);
+  const double a = with.turned_rad[900], b = plan.axial_depth_m;  // 90 degrees
+  EXPECT_NEAR(with.fx_N(900, 0) - without.fx_N(900, 0), b * (2e3 * std::cos(a) + 3e3 * std::sin(a)),
+              1e-9);
+  EXPECT_NEAR(with.fy_N(900, 0) - without.fy_N(900, 0), b * (2e3 * std::sin(a) - 3e3 * std::cos(a)),
+              1e-9);
+}
+
+// Longer by the offset, the tool leaves a wall whose mean is where it should be.
+TEST(WearOffset, TakesTheMeanOfTheWallOut) {
+  DeclaredMillingPlan declared{preset(), {}};
+  const auto offset = *wear_offset(declared);
+  const auto result = *milling(declared.plan);
+  EXPECT_EQ(offset.offset_m, result.wall.offset_mean_m);
+  EXPECT_GT(offset.offset_m, 0);  // the tool is drawn into the wall: it cuts too much
+  EXPECT_TRUE(std::isnan(offset.u_m));
+}
+
+TEST(WearOffset, UncertaintyIsThatOfItsInputs) {
+  DeclaredMillingPlan declared{preset(), {}};
+  declared.plan.steps_per_turn = 720;
+  for (const MillingInput& input : milling_inputs())
+    if (std::string(input.key) == "radial_um") declared.u.emplace_back(&input, 0.1e-6);
+  const auto offset = *wear_offset(declared);
+  MillingPlan more = declared.plan, less = declared.plan;
+  more.runout_m += 0.05e-6;
+  less.runout_m -= 0.05e-6;
+  const double slope =
+      (milling(more)->wall.offset_mean_m - milling(less)->wall.offset_mean_m) / 0.1e-6;
+  EXPECT_NEAR(offset.u_m, std::abs(slope) * 0.1e-6, 0.002e-6);
+  EXPECT_GT(offset.u_m, 0.01e-6);
+}
+
+}  // namespace
+}  // namespace mdof::algo

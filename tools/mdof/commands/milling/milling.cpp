@@ -1,0 +1,222 @@
+// mdof milling --preset micro-end-mill | PLAN.toml: forces, deflection and wall of a micro end
+// mill.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
+
+#include "algo/milling/beam.h"
+#include "algo/milling/milling.h"
+#include "schema/base/files.h"
+#include "schema/base/json_writer.h"
+#include "schema/milling/milling_plan.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr const char* kPreset = "micro-end-mill";
+
+struct MillingCommand {
+  std::string plan, preset;
+  bool offset = false, json = false;
+};
+
+// One model of a plan with what it gives.
+struct Milled {
+  MillingPlan plan;
+  algo::MillingResult result;
+  std::optional<algo::WearOffset> offset;
+};
+
+Result<Milled> mill(const DeclaredMillingPlan& declared, bool with_offset) {
+  Milled milled{declared.plan, {}, {}};
+  MDOF_TRY(milled.result, algo::milling(declared.plan));
+  if (with_offset) {
+    MDOF_TRY(milled.offset, algo::wear_offset(declared));
+  }
+  return milled;
+}
+
+double deg(double rad) {
+  return rad / algo::kHalfTurn_rad * 180;
+}
+
+std::string line_to_type(const algo::WearOffset& offset) {
+  return "G10 L13 P1 R" + fixed(to_mm(offset.offset_m), 5);
+}
+
+void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
+  json.field("wear_offset_um", to_um(offset.offset_m)).field("u_wear_offset_um", to_um(offset.u_m));
+  if (offset.parts.empty())
+    json.field("u_reason", "the plan declares no uncertainty, such as u_Kt_N_per_mm2");
+  json.key("contributions").begin_array();
+  for (const auto& part : offset.parts)
+    json.begin_object()
+        .field("name", std::string(part.input->table) + "." + part.input->key)
+        .field("contribution_um", to_um(part.contribution_m))
+        .end_object();
+  json.end_array();
+  json.field("wear_offset_sense", "added to the radius of the tool; the same sign for G41 and G42")
+      .field("wear_offset_line", line_to_type(offset))
+      .field("wear_offset_line_of", "Fanuc, mm; P: number of the offset");
+}
+
+void write_members(JsonWriter& json, const Milled& milled) {
+  const MillingPlan& plan = milled.plan;
+  const algo::MillingResult& r = milled.result;
+  json.key("model")
+      .begin_object()
+      .field("chip", to_string(plan.chip))
+      .field("deflection", to_string(plan.deflection))
+      .end_object();
+  json.key("force_N")
+      .begin_object()
+      .field("x_max", r.x_max_N)
+      .field("y_max", r.y_max_N)
+      .field("x_max_rigid", r.x_max_rigid_N)
+      .field("y_max_rigid", r.y_max_rigid_N)
+      .field("x_mean", r.x_mean_N)
+      .field("y_mean", r.y_mean_N)
+      .end_object();
+  json.field("deflection_um", to_um(r.deflection_m))
+      .field("deflection_rigid_um", to_um(r.deflection_rigid_m))
+      .field("shear_left_out_share", algo::shear_share(plan.sections));
+  json.key("window_deg").begin_array().value(deg(r.entry_rad)).value(deg(r.exit_rad)).end_array();
+  json.field("power_W", r.power_W);
+  json.key("wall")
+      .begin_object()
+      .field("form_um", to_um(r.wall.form_m))
+      .field("waviness_tip_um", to_um(r.wall.waviness_tip_m))
+      .field("waviness_root_um", to_um(r.wall.waviness_root_m))
+      .field("offset_tip_um", to_um(r.wall.offset_tip_m))
+      .field("offset_root_um", to_um(r.wall.offset_root_m))
+      .field("offset_mean_um", to_um(r.wall.offset_mean_m))
+      .field("Ra_tip_um", to_um(r.wall.Ra_tip_m))
+      .field("Ra_root_um", to_um(r.wall.Ra_root_m))
+      .end_object();
+  json.field("iterations", r.iterations);
+  if (milled.offset) write_offset(json, *milled.offset);
+}
+
+// The first with its members outside, each further one under the name of its deflection model.
+std::string milling_json(const std::vector<Milled>& all) {
+  JsonWriter json;
+  json.begin_object().field("name", all.front().plan.name);
+  if (!all.front().plan.force_source.empty())
+    json.field("force_source", all.front().plan.force_source);
+  json.field("simulated", true);
+  write_members(json, all.front());
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    json.key(to_string(all[i].plan.deflection)).begin_object();
+    write_members(json, all[i]);
+    json.end_object();
+  }
+  json.end_object();
+  return json.take();
+}
+
+std::string offset_text(const Milled& milled) {
+  if (!milled.offset) return "";
+  const algo::WearOffset& offset = *milled.offset;
+  const std::string value = in_um(offset.offset_m);
+  std::string text = "radius wear offset (" + std::string(to_string(milled.plan.deflection)) +
+                     "): " + (std::isnan(offset.u_m) ? value : with_u(value, in_um(offset.u_m))) +
+                     " µm, G41 and G42 alike; Fanuc, mm: " + line_to_type(offset) + "\n";
+  if (offset.parts.empty())
+    text += "u is unknown: the plan declares no uncertainty, such as u_Kt_N_per_mm2\n";
+  for (const auto& part : offset.parts)
+    text += "  " + std::string(part.input->table) + "." + part.input->key + ": " +
+            in_um(part.contribution_m) + " µm\n";
+  return text;
+}
+
+std::string milling_text(const std::vector<Milled>& all) {
+  std::vector<std::string> head = {""};
+  for (const Milled& m : all)
+    head.push_back(std::string(to_string(m.plan.chip)) + ", " + to_string(m.plan.deflection));
+  TextTable table(head);
+  const auto row = [&](const char* name, auto&& value) {
+    std::vector<std::string> cells = {name};
+    for (const Milled& m : all) cells.push_back(value(m.result));
+    table.add(cells);
+  };
+  using R = const algo::MillingResult&;
+  row("force x, largest/N", [](R r) { return fixed(r.x_max_N, 4); });
+  row("  of a rigid tool/N", [](R r) { return fixed(r.x_max_rigid_N, 4); });
+  row("force y, largest/N", [](R r) { return fixed(r.y_max_N, 4); });
+  row("  of a rigid tool/N", [](R r) { return fixed(r.y_max_rigid_N, 4); });
+  row("deflection of the tip/µm", [](R r) { return fixed(to_um(r.deflection_m), 3); });
+  row("entry/°", [](R r) { return fixed(deg(r.entry_rad), 2); });
+  row("exit/°", [](R r) { return fixed(deg(r.exit_rad), 2); });
+  row("power/W", [](R r) { return fixed(r.power_W, 4); });
+  row("wall offset at the tip/µm", [](R r) { return in_um(r.wall.offset_tip_m); });
+  row("  at the root/µm", [](R r) { return in_um(r.wall.offset_root_m); });
+  row("form over the depth/µm", [](R r) { return in_um(r.wall.form_m); });
+  row("waviness at the tip/µm", [](R r) { return in_um(r.wall.waviness_tip_m); });
+  row("  at the root/µm", [](R r) { return in_um(r.wall.waviness_root_m); });
+  std::string text = all.front().plan.name;
+  text += (text.empty() ? "" : "\n") + table.text(terminal_columns()) +
+          wrapped(
+              "x against the feed, y towards the wall of an up cut, on the tool; offset outward, "
+              "+ overcut; bending alone, shear would add " +
+                  fixed(100 * algo::shear_share(all.front().plan.sections), 1) + " %",
+              terminal_columns()) +
+          "\n";
+  if (!all.front().plan.force_source.empty())
+    text +=
+        wrapped("force coefficients: " + all.front().plan.force_source, terminal_columns()) + "\n";
+  for (const Milled& m : all) text += offset_text(m);
+  return text;
+}
+
+Status milling(const MillingCommand& o) {
+  if (o.plan.empty() == o.preset.empty())
+    return fail(ErrorCode::usage, "milling needs either PLAN.toml or --preset micro-end-mill");
+  std::string text(micro_end_mill_preset());
+  if (!o.plan.empty()) {
+    MDOF_TRY(text, read_text_file(o.plan));
+  }
+  MDOF_TRY(DeclaredMillingPlan declared,
+           parse_milling_plan(text, o.plan.empty() ? o.preset : o.plan));
+  std::vector<Milled> all;
+  MDOF_TRY(const Milled first, mill(declared, o.offset));
+  all.push_back(first);
+  if (!o.preset.empty()) {  // beside the paper's model the one of a steady cut
+    declared.plan.deflection = DeflectionModel::steady;
+    MDOF_TRY(const Milled steady, mill(declared, o.offset));
+    all.push_back(steady);
+  }
+  return o.json ? write_line(milling_json(all)) : write_out(milling_text(all));
+}
+
+Action declare_milling(CLI::App& command) {
+  const auto o = std::make_shared<MillingCommand>();
+  command.add_option("PLAN", o->plan, "PLAN.toml: tool, run-out, cut, force, model")->type_name("");
+  command
+      .add_option("--preset", o->preset,
+                  "The tool and cut of the paper, by its model and a steady cut")
+      ->check(CLI::IsMember({kPreset}));
+  command.add_flag("--offset", o->offset,
+                   "Also the radius wear offset, with u where it is declared");
+  add_json_flag(command, o->json);
+  return [o] { return milling(*o); };
+}
+
+}  // namespace
+
+Command milling_command() {
+  return {.name = "milling",
+          .summary = "Force, deflection and wall of a micro end mill",
+          .footer =
+              "Examples:\n"
+              "  mdof milling --preset micro-end-mill\n"
+              "  mdof milling plan.toml --offset",
+          .declare = declare_milling};
+}
+
+}  // namespace mdof::tools

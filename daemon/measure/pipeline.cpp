@@ -111,10 +111,26 @@ Status Pipeline::push(SampleBlock& raw) {
   MDOF_CHECK(aligner_.push(raw, frames_));
   if (frames_.size() == 0) return {};
   keep_last(frames_, newest_);
-  dwell_.push(frames_, found_);
+  find_stops();
   if (!options_.keep_points) found_.clear();
-  frames_.time_ns.clear();
   return {};
+}
+
+void Pipeline::find_stops() {
+  dwell_.push(frames_, found_);
+  frames_.time_ns.clear();
+  leave_out_beyond();
+}
+
+void Pipeline::leave_out_beyond() {
+  if (found_.size() <= options_.most_stops) return;
+  beyond_ += found_.size() - options_.most_stops;
+  found_.resize(options_.most_stops);
+}
+
+std::string Pipeline::explain_beyond() const {
+  return "this run has " + std::to_string(found_.size()) + " stops, the most that a run holds; " +
+         std::to_string(beyond_) + " after them are left out: measure them in another run";
 }
 
 std::string Pipeline::explain_unplaced() const {
@@ -284,9 +300,9 @@ void Pipeline::add_plausibility(Run& run) const {
 
 Result<Run> Pipeline::finish() {
   aligner_.flush(frames_);
-  dwell_.push(frames_, found_);
-  frames_.time_ns.clear();
+  find_stops();
   dwell_.flush(found_);
+  leave_out_beyond();
   take_points();
   if (sequence_.points.empty() || !moved()) MDOF_CHECK(explain_nothing());
   Run run;
@@ -302,6 +318,7 @@ Result<Run> Pipeline::finish() {
   run.header.warnings.insert(run.header.warnings.end(), sequence_.warnings.begin(),
                              sequence_.warnings.end());
   if (unplaced_ > 0) run.header.warnings.push_back(explain_unplaced());
+  if (is_full()) run.header.warnings.push_back(explain_beyond());
   for (auto& [probe, why] : aligner_.too_slow()) run.header.warnings.push_back(std::move(why));
   add_plausibility(run);
   run.points = sequence_.points;

@@ -27,6 +27,9 @@
 
 namespace mdof::daemon {
 
+// A run holds no more stops, whose points take some 4 KB of memory each.
+inline constexpr std::size_t kMostStops = 50'000;
+
 struct PipelineOptions {
   Model model = Model::rigid;
   algo::AlignOptions align;
@@ -37,7 +40,8 @@ struct PipelineOptions {
   int repeats = 0;            // a run was asked for so many, both ways; 0: until stopped
   bool remove_drift = false;  // of the errors, where it is significant (algo/drift)
   std::optional<algo::OnTheFlyOptions> on_the_fly;  // replays only: dwells are not looked for
-  EncoderDatum datum;  // of the positions that are pushed: they have it in them
+  EncoderDatum datum;                   // of the positions that are pushed: they have it in them
+  std::size_t most_stops = kMostStops;  // later ones are counted and left out
 
   std::string json() const;  // for the provenance
 };
@@ -59,6 +63,7 @@ class Pipeline {
   // The newest instant, calibrated, for the live view; size 0 before the first.
   const FrameBlock& newest() const { return newest_; }
   bool still() const { return dwell_.still(); }
+  bool is_full() const { return found_.size() >= options_.most_stops; }
   std::optional<std::string> waiting_for() const { return aligner_.waiting_for(); }
   // The errors of the target at one instant, stated at the fixture.
   AxisErrors solve_at(double encoder_m, const std::vector<double>& readings_m,
@@ -73,6 +78,9 @@ class Pipeline {
 
  private:
   Pipeline(Rig rig, PipelineOptions options, algo::Solver solver);
+  void find_stops();
+  void leave_out_beyond();
+  std::string explain_beyond() const;
   void note_break(const SampleBlock& raw);
   std::string explain_unplaced() const;
   void take_points();
@@ -92,6 +100,7 @@ class Pipeline {
   PointCorrections corrections_;
   FrameBlock frames_, newest_;
   std::vector<Point> found_;  // as averaged, not corrected
+  std::size_t beyond_ = 0;    // stops behind most_stops
   std::size_t taken_ = 0;     // of found_: those that sequence_ was made of
   algo::Sequence sequence_;
   std::optional<algo::SequenceTail> tail_;  // goes on from it

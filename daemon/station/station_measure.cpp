@@ -219,6 +219,7 @@ void Station::take_samples(SampleBlock& block) {
   const auto& points = open_->pipeline.points();
   const std::size_t before = open_->stored.size();
   if (!points.empty() && !approach_assumed(points.back())) keep_new_points(points);
+  if (open_->pipeline.is_full()) return finish(RunState::complete, "", {}, {});
   const RunRequest& asked = open_->request;
   const std::size_t all = 2 * asked.targets_m.size() * static_cast<std::size_t>(asked.repeats);
   if (open_->stored.size() == before || open_->stored.size() < all) return;

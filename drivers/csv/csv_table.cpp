@@ -8,8 +8,6 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr std::size_t kMostRows = 10'000'000;  // all are in memory at once
-
 std::string stem_of(const std::string& name) {
   return name.substr(0, name.rfind('_'));
 }
@@ -63,7 +61,7 @@ void put_optional_in_order(CsvTable& table, const std::vector<std::string>& want
 }
 
 Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::size_t>& channels,
-              const std::vector<std::string>& names) {
+              const std::vector<std::string>& names, std::size_t most_rows) {
   const std::size_t before = table.rows();
   for (std::size_t k = 0; k < channels.size(); ++k) {
     const std::vector<double>& value = block.value[channels[k]];
@@ -75,8 +73,8 @@ Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::
                        ": no value (empty or nan); fill it in or take the line out");
     table.columns[k].insert(table.columns[k].end(), value.begin(), value.end());
   }
-  if (table.rows() <= kMostRows) return {};
-  return bad_input(table.source + ": more than " + std::to_string(kMostRows) +
+  if (table.rows() <= most_rows) return {};
+  return bad_input(table.source + ": more than " + std::to_string(most_rows) +
                    " rows; this is no series of targets");
 }
 
@@ -88,7 +86,7 @@ std::string CsvTable::where(std::size_t row) const {
 }
 
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& names,
-                                const std::vector<std::string>& optional) {
+                                const std::vector<std::string>& optional, std::size_t most_rows) {
   CsvRowsOptions options;
   options.kind = CsvKind::table;
   options.limits.bad_lines = 0;
@@ -106,7 +104,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   for (;;) {
     MDOF_TRY(const ReadState state, rows->next(block));
     if (state == ReadState::end) break;
-    MDOF_CHECK(append(table, block, channels, wanted));
+    MDOF_CHECK(append(table, block, channels, wanted, most_rows));
   }
   put_optional_in_order(table, wanted, names.size(), optional);
   return table;

@@ -49,8 +49,8 @@ Error with_remedy(Error error) {
 
 }  // namespace
 
-Result<PositioningCsv> read_positioning_csv(const std::string& path) {
-  auto table = read_csv_table(path, {"target_mm", "direction", "run", "deviation_um"});
+Result<PositioningCsv> read_positioning_csv(const std::string& path, std::size_t most) {
+  auto table = read_csv_table(path, {"target_mm", "direction", "run", "deviation_um"}, {}, most);
   if (!table) return tl::unexpected(with_remedy(std::move(table.error())));
   PositioningCsv csv{table->source, table->simulated, {}};
   Seen seen;

@@ -22,7 +22,7 @@ std::string format_of(const std::string& text) {
 }
 
 Result<ImportedSeries> series_of_positioning(const std::string& path) {
-  MDOF_TRY(const PositioningCsv csv, read_positioning_csv(path));
+  MDOF_TRY(const PositioningCsv csv, read_positioning_csv(path, kMostImportedReadings));
   ImportedSeries series;
   series.simulated = csv.simulated;
   for (const PositioningReading& r : csv.readings)
@@ -32,8 +32,8 @@ Result<ImportedSeries> series_of_positioning(const std::string& path) {
 
 Result<ImportedSeries> series_of_csv(const std::string& path, bool angle) {
   const std::string deviation = angle ? "deviation_urad" : "deviation_um";
-  MDOF_TRY(const CsvTable table,
-           read_csv_table(path, {"position_mm", deviation}, {"direction", "run"}));
+  MDOF_TRY(const CsvTable table, read_csv_table(path, {"position_mm", deviation},
+                                                {"direction", "run"}, kMostImportedReadings));
   const auto &direction = table.columns[2], &run = table.columns[3];
   ImportedSeries series;
   series.simulated = table.simulated;

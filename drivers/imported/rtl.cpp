@@ -44,6 +44,14 @@ std::size_t count_from(std::string_view word, std::size_t most) {
   return static_cast<std::size_t>(*x);
 }
 
+bool contains_word(std::string_view text, std::string_view lower_case) {
+  const auto same = [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + ('a' - 'A')) : a) == b;
+  };
+  return std::search(text.begin(), text.end(), lower_case.begin(), lower_case.end(), same) !=
+         text.end();
+}
+
 // What a line "key : value" has before its first colon, and behind it.
 std::pair<std::string_view, std::string_view> key_and_value(std::string_view line) {
   const std::size_t colon = line.find(':');
@@ -88,6 +96,7 @@ class Rtl {
       return bad_input(source_ + ": has " + std::to_string(series_.readings.size()) +
                        " deviations; Run-count " + std::to_string(run_count_) + " times " +
                        std::to_string(target_count_) + " targets are expected");
+    MDOF_CHECK(check_filled());
     for (ImportedReading& reading : series_.readings)
       reading.position_m = from_mm(targets_[static_cast<std::size_t>(reading.position_m)]);
     return std::move(series_);
@@ -100,8 +109,13 @@ class Rtl {
 
   Status take_about(std::string_view line) {
     const auto [key, value] = key_and_value(line);
-    if (key == "File type" && value.find("ngular") != value.npos)
-      return wrong("a file of angles, whose scale is not public; deviations of lengths are read");
+    // The program that wrote the file: "Linear", "Angular", "Rotary".
+    if (key == "File type" || key == "Owner")
+      for (const char* const angle : {"angular", "rotary"})
+        if (contains_word(value, angle))
+          return wrong(std::string(key) + " \"" + utf8_from_latin1(value) +
+                       "\": a file of angles, whose scale is not public; only deviations of "
+                       "lengths are read. Make a CSV: position_mm,deviation_urad");
     if (!value.empty())
       series_.about.push_back(utf8_from_latin1(key) + ": " + utf8_from_latin1(value));
     return {};
@@ -110,6 +124,7 @@ class Rtl {
   Status take_target_line(std::string_view line) {
     const auto [key, value] = key_and_value(line);
     if (key == "Target-count") {
+      if (target_count_ > 0) return wrong("Target-count again; a file has one list of targets");
       target_count_ = count_from(value, kMostTargets);
       return target_count_ > 0 ? Status() : wrong("Target-count is no number from 1 on");
     }
@@ -131,6 +146,7 @@ class Rtl {
   Status take_run_count(std::string_view line) {
     const auto [key, value] = key_and_value(line);
     if (key != "Run-count") return {};
+    if (run_count_ > 0) return wrong("Run-count again; a file has one set of runs");
     run_count_ = count_from(value, kMostRtlRuns);
     return run_count_ > 0 ? Status() : wrong("Run-count is no number from 1 on");
   }
@@ -150,6 +166,8 @@ class Rtl {
       return wrong("a run from 1 to " + std::to_string(run_count_) + ", a target from 1 to " +
                    std::to_string(target_count_) + " and a deviation in µm are expected");
     MDOF_CHECK(check_way(run, target));
+    if (seen_.size() == kMostImportedReadings)
+      return wrong("more than " + std::to_string(kMostImportedReadings) + " deviations");
     if (!seen_.insert({run, target}).second) return wrong("this run has this target already");
     const bool forward = run % 2 == 1;
     series_.readings.push_back({static_cast<double>(target - 1), forward ? 1 : -1,
@@ -169,6 +187,22 @@ class Rtl {
                  " to " + std::to_string(target) +
                  "; odd runs go forward and even ones backward. Of a test of one direction make a "
                  "CSV: target_mm,direction,run,deviation_um");
+  }
+
+  // Programs write a run that was not measured, as the reverse runs of a test in one direction,
+  // with zeros.
+  Status check_filled() const {
+    std::vector<bool> measured(run_count_ + 1, target_count_ < 2);
+    for (const ImportedReading& r : series_.readings)
+      if (r.deviation != 0)
+        measured[2 * static_cast<std::size_t>(r.run) - (r.direction > 0 ? 1 : 0)] = true;
+    for (std::size_t run = 1; run <= run_count_; ++run)
+      if (!measured[run])
+        return bad_input(source_ + ": run " + std::to_string(run) + " (" +
+                         (run % 2 == 1 ? "forward" : "reverse") +
+                         ") has a deviation of exactly 0 at every target: it was not measured. "
+                         "Write the measured runs as CSV: target_mm,direction,run,deviation_um");
+    return {};
   }
 
   std::string source_, section_;

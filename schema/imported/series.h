@@ -7,6 +7,7 @@
 // name.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -38,6 +39,9 @@ struct ImportedReading {
   int run = 1;           // pass over the targets
   double deviation = 0;  // actual - nominal; m, rad
 };
+
+// Each becomes a point of a run.
+inline constexpr std::size_t kMostImportedReadings = 50'000;
 
 struct ImportedSeries {
   std::string format;  // "csv", "iso230-2", "rtl"

@@ -10,6 +10,15 @@
 namespace mdof {
 namespace {
 
+// A record of five probes has some 2 kB; one with a table of 1,000 linearity pairs for each, 200
+// kB.
+constexpr std::size_t kMostRecords = 16, kMostRecordBytes = std::size_t{256} << 10;
+
+std::string too_many(std::size_t records) {
+  return std::to_string(records) + " calibration records; a rig has at most " +
+         std::to_string(kMostRecords) + ": the newest mounting and sensitivity";
+}
+
 constexpr const char* kRemedy =
     "; make it anew with mdof calibrate, or take the line out of the rig";
 
@@ -60,7 +69,7 @@ Fits fits_of(TomlTable& rig, const std::string& source) {
 
 Result<std::string> read_one(const std::filesystem::path& file, const Fits& rig,
                              const std::string& where) {
-  auto text = read_text_file(file);
+  auto text = read_text_file(file, kMostRecordBytes);
   if (!text) return in_context(where, text.error());
   MDOF_TRY(TomlTable table, TomlTable::parse(*text, file.string()));
   const auto parts = record_parts(*text);
@@ -128,8 +137,11 @@ Result<std::string> load_rig_text(const std::filesystem::path& file) {
   auto table = TomlTable::parse(text, file.string());
   if (!table || table->has("calibration_record")) return text;  // parse_rig() says what is wrong
   const Fits rig = fits_of(*table, file.string());
+  const auto names = names_of(*table);
+  if (names.size() > kMostRecords)
+    return bad_input(table->where("calibration") + ": names " + too_many(names.size()));
   std::string records;
-  for (const std::string& name : names_of(*table)) {
+  for (const std::string& name : names) {
     MDOF_TRY(const std::string record,
              read_one(file.parent_path() / name, rig, table->where("calibration")));
     records += record;
@@ -147,6 +159,13 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
                         "names " + std::to_string(names.size()) + " files, and this text has " +
                             std::to_string(parts.size()) +
                             " calibration records behind it; give the rig as a file");
+  if (parts.size() > kMostRecords)
+    return table.reject("calibration", "names " + too_many(parts.size()));
+  for (const std::string_view part : parts)
+    if (part.size() > kMostRecordBytes)
+      return table.reject("calibration", "a record has " + std::to_string(part.size()) +
+                                             " bytes; at most " + std::to_string(kMostRecordBytes) +
+                                             kRemedy);
   Fits fits{rig.source, rig.name, std::string(1, letter(rig.axis)), {}};
   for (const Probe& probe : rig.probes) fits.probes.push_back(probe.id);
   for (std::size_t i = 0; i < tables.size(); ++i) {

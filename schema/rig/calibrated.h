@@ -15,8 +15,9 @@
 namespace mdof {
 
 // The rig's text with the records that it refers to behind it: what parse_rig() takes and a run
-// keeps. One that refers to none, or has them behind it already, stays as it is. Errors: a file
-// that is no record, was changed since it was made, or is of another rig or other probes.
+// keeps. One that refers to none, or has them behind it already, stays as it is. Errors: more than
+// 16 records, or one of more than 256 KiB; a file that is no regular one, is no record, was changed
+// since it was made, or is of another rig or other probes.
 Result<std::string> load_rig_text(const std::filesystem::path& file);
 
 // Reads `calibration` and the records, for parse_rig(). What a record found takes the place of what

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "drivers/csv/positioning_csv.h"
+
 namespace mdof::drivers {
 namespace {
 
@@ -91,6 +93,19 @@ TEST_F(CsvTableTest, SaysWhichColumnOrUnitIsMeant) {
   expect_error("x_mm,deviation_um\n1,2\n", {":1: no column position_mm among: x_mm, deviation_um"});
   expect_error("position_inch,deviation_um\n1,2\n", {":1:", "position_inch", "unknown unit"});
   expect_error("position_mm,deviation_um,deviation_um\n1,2,3\n", {"there twice"});
+}
+
+TEST_F(CsvTableTest, RowsAndReadingsHaveALimit) {
+  const std::string head = "target_mm,direction,run,deviation_um\n", rows = "1,1,1,1\n2,1,1,1\n";
+  const auto with = [&](const std::string& text) {
+    std::ofstream(path_, std::ios::binary) << text;
+    return read_positioning_csv(path_.string(), 2);
+  };
+  EXPECT_EQ(with(head + rows)->readings.size(), 2u);
+  const auto refused = with(head + rows + "3,1,1,1\n");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("more than 2 rows"), std::string::npos);
+  EXPECT_LE(kMostReadings, 1'000'000u) << "of some 120 bytes each";
 }
 
 TEST_F(CsvTableTest, AFileThatIsNotThereIsAnError) {

@@ -46,9 +46,19 @@ Status OnTheFlyRun::push(SampleBlock& raw) {
   corrections_.push(raw);
   MDOF_CHECK(calibrator_.apply(raw));
   MDOF_CHECK(aligner_.push(raw, frames_));
-  Status taken = fly_.push(frames_);
+  MDOF_CHECK(fly_.push(frames_));
   frames_.time_ns.clear();
-  return taken;
+  return check_room();
+}
+
+Status OnTheFlyRun::check_room() {
+  const auto& passes = fly_.passes();
+  for (; passes_seen_ < passes.size(); ++passes_seen_)
+    points_ += passes[passes_seen_].bins.size() + passes[passes_seen_].left_out.size();
+  if (points_ <= options_.most_stops) return {};
+  return bad_input("more than " + std::to_string(options_.most_stops) +
+                   " points on the fly, the most that a run holds; give a larger --interval-mm, or "
+                   "cut the log into several ones");
 }
 
 // Unlike a stop, a bin has its place from each of its scans.

@@ -23,7 +23,7 @@ class OnTheFlyRun {
   // `options` have on_the_fly, which check_on_the_fly() accepts. Error: Pipeline's.
   static Result<OnTheFlyRun> create(const Rig& rig, const PipelineOptions& options);
 
-  // Uses the block up. Error: Pipeline's, or a pass that is too long.
+  // Uses the block up. Error: Pipeline's, a pass that is too long, or more points than a run holds.
   Status push(SampleBlock& raw);
   // End of the data, as Pipeline::finish(). Error: no bin was passed at a steady speed with scans
   // enough, or none could be solved, with the reason.
@@ -31,6 +31,7 @@ class OnTheFlyRun {
 
  private:
   OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver);
+  Status check_room();
   // Points while the encoder was suspect. Error: there are no others.
   Status leave_suspect_out(algo::Sequence& sequence, std::vector<std::string>& warnings) const;
   void correct(algo::Sequence& sequence) const;
@@ -46,6 +47,7 @@ class OnTheFlyRun {
   PointCorrections corrections_;
   FrameBlock frames_;
   std::uint64_t lost_ = 0;
+  std::size_t passes_seen_ = 0, points_ = 0;  // of fly_
   std::optional<std::int64_t> begin_ns_;
   SuspectEncoder suspect_;
   RunTemperature temperature_;

@@ -299,5 +299,23 @@ TEST(Pipeline, ARigThatCannotSeeAnErrorIsRefusedByName) {
   EXPECT_SAYS(pipeline.error().message, "ECX");
 }
 
+TEST(Pipeline, ARunHoldsSoManyStopsAndSaysHowManyAreLeftOut) {
+  PipelineOptions options;
+  options.most_stops = 7;
+  Pipeline pipeline = pipeline_of(five_probe_rig(), options);
+  SampleBlock block = both_ways().whole();
+  ASSERT_TRUE(pipeline.push(block));
+  EXPECT_TRUE(pipeline.is_full());
+  EXPECT_EQ(pipeline.points().size(), 7u);
+  const auto run = pipeline.finish();
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->points.size(), 7u);
+  EXPECT_SAYS(all_warnings(*run),
+              "this run has 7 stops, the most that a run holds; 3 after them are left out");
+  const auto whole = measured(both_ways());
+  for (std::size_t i = 0; i < 7; ++i)
+    EXPECT_EQ(run->points[i].point.probe_m, whole->points[i].point.probe_m);
+}
+
 }  // namespace
 }  // namespace mdof::daemon

@@ -1,6 +1,7 @@
 #include "schema/base/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -50,6 +51,16 @@ TEST_F(TextFile, ThatIsNoneIsRefusedByName) {
   const auto folder = read_text_file(std::filesystem::temp_directory_path());
   ASSERT_FALSE(folder);
   EXPECT_NE(folder.error().message.find("is a folder"), std::string::npos);
+}
+
+TEST_F(TextFile, APipeOrADeviceIsRefusedAndNotWaitedFor) {
+  ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
+  for (const std::filesystem::path& path : {file_, std::filesystem::path("/dev/zero")}) {
+    const auto refused = read_text_file(path);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find(path.string() + ": is a pipe or a device"),
+              std::string::npos);
+  }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include "schema/rig/calibrated.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -144,6 +146,39 @@ TEST(CalibrationRecord, PartsOfATextEndWhereTheNextBegins) {
   EXPECT_FALSE(is_unchanged(one + "\n"));
   EXPECT_FALSE(is_unchanged(kRecordHead));
   EXPECT_TRUE(record_parts("name = 1\n").empty());
+}
+
+TEST(CalibratedRig, SaysHowManyRecordsAndHowLargeOnesItTakes) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("mdof_records_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const auto loaded = [&](const std::string& names) {
+    std::ofstream(folder / "rig.toml") << "calibration = " << names << "\n" << test::rig_x_toml();
+    const auto text = load_rig_text(folder / "rig.toml");
+    return text ? std::string() : text.error().message;
+  };
+  std::ofstream(folder / "m.toml") << record_text(mounting());
+  EXPECT_EQ(loaded("\"m.toml\""), "");
+  std::string names = "[";
+  for (int i = 0; i < 17; ++i) names += "\"m.toml\", ";
+  EXPECT_NE(loaded(names + "]").find("names 17 calibration records; a rig has at most 16"),
+            std::string::npos);
+  std::ofstream(folder / "large.toml") << record_text(mounting()) << std::string(300'000, '\n');
+  EXPECT_NE(loaded("\"large.toml\"").find("larger than 262144 bytes"), std::string::npos);
+  ASSERT_EQ(::mkfifo((folder / "pipe.toml").c_str(), 0600), 0);
+  EXPECT_NE(loaded("\"pipe.toml\"").find("is a pipe or a device"), std::string::npos);
+  std::filesystem::remove_all(folder);
+
+  std::string behind = "calibration = [";
+  for (int i = 0; i < 17; ++i) behind += "\"m.toml\", ";
+  behind += "]\n" + test::rig_x_toml();
+  for (int i = 0; i < 17; ++i) behind += record_part();
+  const auto many = parse_rig(behind, "rig.toml");
+  ASSERT_FALSE(many);
+  EXPECT_NE(many.error().message.find("17 calibration records"), std::string::npos);
+  const auto large = parse_rig(rig_text() + record_part() + std::string(300'000, '\n'), "rig.toml");
+  ASSERT_FALSE(large);
+  EXPECT_NE(large.error().message.find("at most 262144"), std::string::npos);
 }
 
 }  // namespace

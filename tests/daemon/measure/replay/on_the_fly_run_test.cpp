@@ -72,5 +72,23 @@ TEST(OnTheFlyRun, ASingleSuspectScanSpoilsNothing) {
             run_on_the_fly(to_and_fro())->points.size());
 }
 
+TEST(OnTheFlyRun, MorePointsThanARunHoldsAreRefused) {
+  PipelineOptions options;
+  options.on_the_fly.emplace();
+  options.most_stops = 30;
+  OnTheFlyRun run = OnTheFlyRun::create(five_probe_rig(), options).value();
+  SampleBlock block = to_and_fro();  // some 20 points, of the pass that has ended
+  ASSERT_TRUE(run.push(block));
+  TestAxis far(0);
+  far.move_to(50, 1);
+  far.move_to(0, 1);
+  far.move_to(50, 1);
+  SampleBlock more = far.whole();
+  OnTheFlyRun long_run = OnTheFlyRun::create(five_probe_rig(), options).value();
+  const auto refused = long_run.push(more);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("more than 30 points on the fly"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mdof::daemon

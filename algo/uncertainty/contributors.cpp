@@ -13,13 +13,13 @@
 #include "algo/sensitivity/plan/mounting.h"
 #include "algo/uncertainty/physics_contributors.h"
 #include "algo/uncertainty/point_sensitivity.h"
+#include "algo/uncertainty/statistics/flatness.h"
 #include "schema/base/random.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kDirections = 8;
 constexpr std::size_t kMostEncoderParts = 256;  // more targets: neighbours share one
 constexpr auto kFixture = static_cast<std::size_t>(Part::fixture);
 constexpr std::array<char, 3> kAxisLetters = {'x', 'y', 'z'};
@@ -132,75 +132,43 @@ double middle_s(const MeasuredPoint& p) {
   return (ns_to_s(p.point.begin_ns) + ns_to_s(p.point.end_ns)) / 2;
 }
 
-// The waves 1 ... kFlatnessWaves of `turns` of the longest, as sine and cosine: the later ones by
-// the sums of angles, as a sine is dear.
-struct Waves {
-  explicit Waves(double turns) {
-    sine[0] = sine_of_turns(turns);
-    cosine[0] = sine_of_turns(turns + kQuarterTurn);
-    for (std::size_t w = 1; w < kFlatnessWaves; ++w) {
-      sine[w] = sine[w - 1] * cosine[0] + cosine[w - 1] * sine[0];
-      cosine[w] = cosine[w - 1] * cosine[0] - sine[w - 1] * sine[0];
+// A footprint is that of the mean travel at its target: the visits of a place meet the same height.
+PlaneFootprints plane_footprints(const Basis& basis, std::size_t plane) {
+  const TargetPlane& surface = basis.rig.planes[plane];
+  PlaneFootprints out;
+  out.u_m = surface.u_flatness.u;
+  out.length_m = surface.flatness_length_m;
+  out.points = basis.points.size();
+  struct Travel {
+    double sum_m = 0, visits = 0;
+    std::size_t footprint = 0;
+  };
+  std::map<int, Travel> travels;  // by target
+  const auto& points = basis.points;
+  for (std::size_t j = 0; j < points.size(); ++j)
+    if (points[j].valid) {
+      Travel& at = travels[basis.run.points[j].target];
+      at.sum_m += points[j].travel_m;
+      at.visits += 1;
+    }
+  for (std::size_t k = 0; k < basis.probes(); ++k) {
+    const FixtureProbe& probe = basis.solver.fixture().probes[k];
+    if (probe.plane != plane) continue;
+    for (auto& [target, at] : travels) {
+      at.footprint = out.footprints.size();
+      const double travel_m = at.sum_m / at.visits;
+      out.footprints.push_back({probe.p_MP - travel_m * Eigen::Vector3d::UnitX(), probe.p_MP});
+    }
+    const double reading = 1 / probe.n_C.dot(probe.u_M);
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      if (!points[j].valid) continue;
+      Errors5 by_height = points[j].by_probe[k];
+      for (double& of_error : by_height) of_error *= reading;
+      out.readings.push_back({j, travels.at(basis.run.points[j].target).footprint, by_height});
     }
   }
-  std::array<double, kFlatnessWaves> sine{}, cosine{};
-};
-
-// Of the highest wave of each direction; those of the others go with 1/k².
-double wave_height_m(const TargetPlane& surface) {
-  double norm = 0;
-  for (std::size_t w = 1; w <= kFlatnessWaves; ++w) norm += std::pow(static_cast<double>(w), -4);
-  return surface.u_flatness.u / std::sqrt(norm * kDirections);
+  return out;
 }
-
-// A surface that each probe of the plane meets, as waves of all directions and both phases: the
-// square of all parts is u² at every place.
-class Flatness {
- public:
-  Flatness(const Basis& basis, std::size_t plane)
-      : basis_(basis),
-        plane_(plane),
-        height_m_(wave_height_m(basis.rig.planes[plane])),
-        parts_(2 * kDirections * kFlatnessWaves, PointShifts(basis.points.size())) {
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      const double turns = static_cast<double>(d) / (2.0 * kDirections);
-      along_[d] = sine_of_turns(turns + kQuarterTurn);
-      across_[d] = sine_of_turns(turns);
-    }
-    for (std::size_t j = 0; j < basis.points.size(); ++j)
-      for (std::size_t k = 0; k < basis.probes() && basis.points[j].valid; ++k)
-        if (basis.solver.fixture().probes[k].plane == plane) add(j, k);
-  }
-  std::vector<PointShifts> take() { return std::move(parts_); }
-
- private:
-  void add(std::size_t j, std::size_t k) {
-    const PointSensitivity& point = basis_.points[j];
-    const FixtureProbe& probe = basis_.solver.fixture().probes[k];
-    const double first = probe.p_MP.x() - point.travel_m;
-    const double second =
-        std::abs(probe.n_C.z()) > std::abs(probe.n_C.y()) ? probe.p_MP.y() : probe.p_MP.z();
-    const double reading_m = height_m_ / probe.n_C.dot(probe.u_M);
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      const Waves waves((first * along_[d] + second * across_[d]) /
-                        basis_.rig.planes[plane_].flatness_length_m);
-      for (std::size_t w = 0; w < kFlatnessWaves; ++w) {
-        const double wave_m = reading_m / static_cast<double>((w + 1) * (w + 1));
-        const std::size_t part = 2 * (w * kDirections + d);
-        for (std::size_t e = 0; e < kErrorCount; ++e) {
-          parts_[part][j][e] += point.by_probe[k][e] * wave_m * waves.sine[w];
-          parts_[part + 1][j][e] += point.by_probe[k][e] * wave_m * waves.cosine[w];
-        }
-      }
-    }
-  }
-
-  const Basis& basis_;
-  std::size_t plane_;
-  double height_m_;
-  std::array<double, kDirections> along_{}, across_{};
-  std::vector<PointShifts> parts_;
-};
 
 std::vector<PointShifts> of_encoder(const Basis& basis) {
   std::map<int, std::size_t> part_of;  // by target
@@ -309,8 +277,14 @@ class List {
     const TargetPlane& plane = basis_->rig.planes[i];
     const std::string name =
         plane.id.empty() ? "plane " + std::to_string(i + 1) : "plane " + plane.id;
+    const std::size_t before = list_.size();
     add(name + ": flatness", "u_flatness_um", plane.u_flatness, 1e6, "µm",
-        [i](const Basis& b) { return Flatness(b, i).take(); });
+        [](const Basis&) { return std::vector<PointShifts>(); });
+    if (list_.size() == before) return;
+    list_.back().surface = std::make_shared<const PlaneFootprints>(plane_footprints(*basis_, i));
+    list_.back().parts = [surface = list_.back().surface] {
+      return flatness_parts({surface.get()}).front();
+    };
   }
 
   SharedBasis basis_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "algo/uncertainty/physics_contributors.h"
 #include "algo/uncertainty/point_sensitivity.h"
 #include "algo/uncertainty/statistics/flatness.h"
+#include "algo/uncertainty/statistics/independent_parts.h"
 #include "schema/base/random.h"
 #include "schema/units.h"
 
@@ -184,9 +186,50 @@ std::vector<PointShifts> of_encoder(const Basis& basis) {
   return parts;
 }
 
+PointShifts of_calibration(const Basis& basis, std::size_t probe, double size_m) {
+  return by_one_probe(basis, probe, [&](std::size_t) { return size_m; });
+}
+
+PointShifts of_position(const Basis& basis, std::size_t probe, std::size_t axis, double size_m) {
+  return by_probe_mounting(basis, probe, [&](ProbeDeviation& off, double sign) {
+    off.shift = basis.local(along_axis(axis, sign * size_m));
+  });
+}
+
+// The places and zeros that one calibration found together.
+std::vector<PointShifts> of_covariance(const Basis& basis,
+                                       const CalibrationCovariance& covariance) {
+  std::vector<PointShifts> alone;  // by one standard uncertainty of each
+  std::vector<double> u_m;
+  for (std::size_t i = 0; i < covariance.of.size(); ++i) {
+    u_m.push_back(std::sqrt(covariance.m2[i][i]));
+    PointShifts& shifts = alone.emplace_back(basis.points.size());
+    for (std::size_t k = 0; k < basis.probes() && u_m[i] > 0; ++k) {
+      const std::string& id = basis.rig.probes[k].id;
+      if (covariance.of[i] == zero_name(id)) shifts = of_calibration(basis, k, u_m[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (covariance.of[i] == place_name(id, axis)) shifts = of_position(basis, k, axis, u_m[i]);
+    }
+  }
+  const auto correlation = [&](std::size_t i, std::size_t j) {
+    return u_m[i] > 0 && u_m[j] > 0 ? covariance.m2[i][j] / (u_m[i] * u_m[j]) : 0.0;
+  };
+  const Eigen::MatrixXd rows = independent_parts(alone.size(), correlation, alone.size());
+  std::vector<PointShifts> parts(static_cast<std::size_t>(rows.cols()),
+                                 PointShifts(basis.points.size()));
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      const double of_this = rows(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(p));
+      for (std::size_t j = 0; of_this != 0 && j < parts[p].size(); ++j)
+        for (std::size_t e = 0; e < kErrorCount; ++e) parts[p][j][e] += of_this * alone[i][j][e];
+    }
+  return parts;
+}
+
 class List {
  public:
   explicit List(SharedBasis basis) : basis_(std::move(basis)) {
+    for (const CalibrationRecord& record : basis_->rig.records) add_covariance(record);
     for (std::size_t k = 0; k < basis_->probes(); ++k) add_probe(k);
     add_installation();
     add_drift();
@@ -206,27 +249,38 @@ class List {
                      [basis = basis_, parts] { return parts(*basis); }});
   }
 
+  // Its value is the largest standard uncertainty of them.
+  void add_covariance(const CalibrationRecord& record) {
+    const CalibrationCovariance& covariance = record.covariance;
+    DeclaredUncertainty largest;
+    for (std::size_t i = 0; i < covariance.of.size(); ++i)
+      largest.u = std::max(largest.u, std::sqrt(covariance.m2[i][i]));
+    together_.insert(covariance.of.begin(), covariance.of.end());
+    add("calibration " + record.id + ": places and zeros", "calibration", largest, 1e6, "µm",
+        [covariance](const Basis& b) { return of_covariance(b, covariance); });
+  }
+
   void add_probe(std::size_t k) {
     const Probe& probe = basis_->rig.probes[k];
     const std::string name = "probe " + probe.id + ": ";
     const ProbeUncertainty& u = probe.uncertainty;
-    add(name + "calibration", "u_calibration_um", u.calibration, 1e6, "µm",
-        [k, size = u.calibration.u](const Basis& b) {
-          return std::vector<PointShifts>{by_one_probe(b, k, [&](std::size_t) { return size; })};
-        });
+    if (!together_.contains(zero_name(probe.id)))
+      add(name + "calibration", "u_calibration_um", u.calibration, 1e6, "µm",
+          [k, size = u.calibration.u](const Basis& b) {
+            return std::vector<PointShifts>{of_calibration(b, k, size)};
+          });
     add(name + "sensitivity", "u_sensitivity_ppm", u.sensitivity, 1e6, "ppm",
         [k, size = u.sensitivity.u](const Basis& b) {
           return std::vector<PointShifts>{by_one_probe(
               b, k, [&](std::size_t j) { return size * b.run.points[j].point.probe_m[k]; })};
         });
-    for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (together_.contains(place_name(probe.id, c))) continue;
       add(name + "position " + kAxisLetters[c], "u_position_mm", u.position.component(c), 1e3, "mm",
           [k, c, size = u.position.u[c]](const Basis& b) {
-            return std::vector<PointShifts>{
-                by_probe_mounting(b, k, [&](ProbeDeviation& probe_off, double sign) {
-                  probe_off.shift = b.local(along_axis(c, sign * size));
-                })};
+            return std::vector<PointShifts>{of_position(b, k, c, size)};
           });
+    }
     add(name + "direction", "u_direction_mrad", u.direction, 1e3, "mrad",
         [k, size = u.direction.u](const Basis& b) {
           const auto about = [&](double turns) {
@@ -288,6 +342,7 @@ class List {
   }
 
   SharedBasis basis_;
+  std::set<std::string> together_;  // what has its covariances
   std::vector<Contributor> list_;
 };
 

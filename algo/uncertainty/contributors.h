@@ -28,7 +28,7 @@ struct Contributor {
   std::string unit;    // "ppm"
   // The shifts by one standard uncertainty of it, as independent parts whose squares add: one part,
   // but two for a direction (two axes across it), one a target for the encoder, and those of the
-  // covariance of a flatness (flatness.h).
+  // covariances of a calibration or of the covariance of a flatness (flatness.h).
   std::function<std::vector<PointShifts>()> parts;
   // Of a flatness: several runs over the same plane need their parts made together.
   std::shared_ptr<const PlaneFootprints> surface = nullptr;

@@ -1,9 +1,9 @@
 #include "algo/uncertainty/statistics/flatness.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "algo/sensitivity/plan/draws.h"
+#include "algo/uncertainty/statistics/independent_parts.h"
 #include "schema/base/random.h"
 
 namespace mdof::algo {
@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kSeriesBelow = 16;  // both are right to 3e-11 there
 constexpr int kSeriesTerms = 40, kAsymptoticTerms = 12;
-constexpr double kLeftOver = 1e-10;  // of the largest variance
 constexpr double kPi = 3.14159265358979323846;
 
 // DLMF 10.2.2
@@ -70,32 +69,12 @@ double FlatnessCovariance::semivariogram_m2(double apart_m) const {
 
 Eigen::MatrixXd independent_heights(const FlatnessCovariance& covariance,
                                     const std::vector<Footprint>& footprints) {
-  const auto n = static_cast<Eigen::Index>(footprints.size());
-  const auto most_parts = std::min(n, static_cast<Eigen::Index>(kMostFlatnessParts));
-  const auto at = [&](Eigen::Index i) -> const Footprint& {
-    return footprints[static_cast<std::size_t>(i)];
-  };
-  Eigen::VectorXd variance(n);
-  for (Eigen::Index i = 0; i < n; ++i) variance(i) = zeroed_m2(covariance, at(i), at(i));
-  Eigen::VectorXd left = variance;
-  Eigen::MatrixXd heights = Eigen::MatrixXd::Zero(n, most_parts);
-  const double enough = n > 0 ? kLeftOver * variance.maxCoeff() : 0;
-  Eigen::Index parts = 0;
-  for (; parts < most_parts; ++parts) {
-    Eigen::Index pivot = 0;
-    if (!(left.maxCoeff(&pivot) > enough)) break;
-    auto part = heights.col(parts);
-    for (Eigen::Index i = 0; i < n; ++i) part(i) = zeroed_m2(covariance, at(i), at(pivot));
-    for (Eigen::Index c = 0; c < parts; ++c) part -= heights(pivot, c) * heights.col(c);
-    part /= std::sqrt(left(pivot));
-    for (Eigen::Index i = 0; i < n; ++i) left(i) = std::max(0.0, left(i) - part(i) * part(i));
-    left(pivot) = 0;
-  }
-  heights.conservativeResize(n, parts);
-  if (parts == static_cast<Eigen::Index>(kMostFlatnessParts))
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (variance(i) > left(i)) heights.row(i) *= std::sqrt(variance(i) / (variance(i) - left(i)));
-  return heights;
+  return independent_parts(
+      footprints.size(),
+      [&](std::size_t i, std::size_t j) {
+        return zeroed_m2(covariance, footprints[i], footprints[j]);
+      },
+      kMostFlatnessParts);
 }
 
 std::vector<std::vector<std::vector<Errors5>>> flatness_parts(

@@ -33,10 +33,8 @@ struct Footprint {
   Eigen::Vector3d place, zero;
 };
 
-// The heights of the footprints above those at d = 0 as sums of independent parts: row i times its
-// transpose is the variance at footprint i, row i times row j their covariance. By Cholesky's
-// decomposition with pivoting, which ends where no variance above 1e-10 of the largest is left. At
-// most kMostFlatnessParts columns: beyond them the rows are scaled to their variance.
+// The heights of the footprints above those at d = 0, as independent_parts(): kMostFlatnessParts
+// columns at most.
 inline constexpr std::size_t kMostFlatnessParts = 256;
 Eigen::MatrixXd independent_heights(const FlatnessCovariance& covariance,
                                     const std::vector<Footprint>& footprints);

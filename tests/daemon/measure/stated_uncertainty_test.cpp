@@ -1,7 +1,7 @@
 // Do the stated 95 % intervals hold the truth, from samples through the whole pipeline? Simulated
 // runs along X and Y in five rigs whose every declared contributor was drawn from its distribution:
-// errors of a point, straightness, slope, ranges, EC0Y, table values. MDOF_COVERAGE_RUNS=2000 for figures
-// worth quoting, so many pairs of runs in all.
+// errors of a point, straightness, slope, ranges, EC0Y, table values. MDOF_COVERAGE_RUNS=2000 for
+// figures worth quoting, so many pairs of runs in all.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -153,10 +153,16 @@ double RunBudgets::half_difference(const Figure& figure, const MeanShifts& shift
   return (figure.of(moved(shifts, 1)) - figure.of(moved(shifts, -1))) / 2;
 }
 
-BudgetLine RunBudgets::line(const Figure& figure, const Shifted& shifted) const {
-  const Contributor& c = shifted.contributor;
-  std::vector<double> parts;
-  for (const MeanShifts& part : shifted.parts) parts.push_back(half_difference(figure, part));
+std::vector<RunBudgets::Contribution> RunBudgets::contributions(const Figure& figure) const {
+  std::vector<Contribution> all;
+  for (const Shifted& shifted : shifted_) {
+    Contribution& of = all.emplace_back(Contribution{&shifted.contributor, {}});
+    for (const MeanShifts& part : shifted.parts) of.parts.push_back(half_difference(figure, part));
+  }
+  return all;
+}
+
+BudgetLine RunBudgets::line(const Contributor& c, const std::vector<double>& parts) {
   BudgetLine line;
   line.name = c.name;
   line.key = c.key;
@@ -225,7 +231,8 @@ Budget RunBudgets::first_order(const Figure& figure) const {
   noise.contribution = random.u;
   noise.freedom = random.freedom;
   budget.lines.push_back(noise);
-  for (const Shifted& shifted : shifted_) budget.lines.push_back(line(figure, shifted));
+  for (const auto& [contributor, parts] : contributions(figure))
+    budget.lines.push_back(line(*contributor, parts));
   complete(budget);
   return budget;
 }

@@ -49,6 +49,14 @@ class RunBudgets {
   Budget of(const Figure& figure) const;
   // Of each; the trials are drawn once for all of them.
   std::vector<Budget> of(const std::vector<Figure>& figures) const;
+  // By how much each independent part of each contributor changes the figure, with its sign.
+  struct Contribution {
+    const Contributor* contributor = nullptr;
+    std::vector<double> parts;
+  };
+  std::vector<Contribution> contributions(const Figure& figure) const;
+  // The line of a contributor whose parts contribute so.
+  static BudgetLine line(const Contributor& contributor, const std::vector<double>& parts);
   // The same without trials: U is k u of a range too.
   Budget first_order(const Figure& figure) const;
   // JCGM 101: each figure of many trials, in each of which all contributors are drawn from their
@@ -82,7 +90,6 @@ class RunBudgets {
   std::vector<Drawn> drawn(const std::vector<Figure>& figures, const TrialsRequest& request,
                            std::uint32_t stream) const;
   double half_difference(const Figure& figure, const MeanShifts& shifts) const;
-  BudgetLine line(const Figure& figure, const Shifted& shifted) const;
   Random random_of_targets(const Figure& figure) const;
   Random random_of_runs(const Figure& figure) const;
   Random random_of(const Figure& figure) const;

@@ -14,6 +14,7 @@
 #include "algo/sensitivity/plan/mounting.h"
 #include "algo/uncertainty/physics_contributors.h"
 #include "algo/uncertainty/point_sensitivity.h"
+#include "algo/uncertainty/statistics/common_quantities.h"
 #include "algo/uncertainty/statistics/flatness.h"
 #include "algo/uncertainty/statistics/independent_parts.h"
 #include "schema/base/random.h"
@@ -214,16 +215,7 @@ std::vector<PointShifts> of_covariance(const Basis& basis,
   const auto correlation = [&](std::size_t i, std::size_t j) {
     return u_m[i] > 0 && u_m[j] > 0 ? covariance.m2[i][j] / (u_m[i] * u_m[j]) : 0.0;
   };
-  const Eigen::MatrixXd rows = independent_parts(alone.size(), correlation, alone.size());
-  std::vector<PointShifts> parts(static_cast<std::size_t>(rows.cols()),
-                                 PointShifts(basis.points.size()));
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    for (std::size_t i = 0; i < alone.size(); ++i) {
-      const double of_this = rows(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(p));
-      for (std::size_t j = 0; of_this != 0 && j < parts[p].size(); ++j)
-        for (std::size_t e = 0; e < kErrorCount; ++e) parts[p][j][e] += of_this * alone[i][j][e];
-    }
-  return parts;
+  return combined(independent_parts(alone.size(), correlation, alone.size()), alone);
 }
 
 class List {
@@ -394,6 +386,7 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   std::vector<Contributor> list = List(basis).take();
   for (auto& more : physics_contributors(rig, basis->solver, run, basis->points))
     list.push_back(std::move(more));
+  name_what_goes_with_probes(rig, list);
   return list;
 }
 

@@ -30,6 +30,9 @@ struct Contributor {
   // but two for a direction (two axes across it), one a target for the encoder, and those of the
   // covariances of a calibration or of the covariance of a flatness (flatness.h).
   std::function<std::vector<PointShifts>()> parts;
+  // Of what goes with a probe from set-up to set-up, as its certificate does: two rigs that have
+  // the same here have one quantity. Empty: each set-up has its own.
+  std::string common_as = "";
   // Of a flatness: several runs over the same plane need their parts made together.
   std::shared_ptr<const PlaneFootprints> surface = nullptr;
 };

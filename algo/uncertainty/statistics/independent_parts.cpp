@@ -42,4 +42,18 @@ Eigen::MatrixXd independent_parts(std::size_t quantities,
   return rows;
 }
 
+std::vector<std::vector<Errors5>> combined(const Eigen::MatrixXd& rows,
+                                           const std::vector<std::vector<Errors5>>& alone) {
+  std::vector<std::vector<Errors5>> parts(static_cast<std::size_t>(rows.cols()));
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    parts[p].resize(alone.front().size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      const double of_this = rows(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(p));
+      for (std::size_t j = 0; of_this != 0 && j < parts[p].size(); ++j)
+        for (std::size_t e = 0; e < kErrorCount; ++e) parts[p][j][e] += of_this * alone[i][j][e];
+    }
+  }
+  return parts;
+}
+
 }  // namespace mdof::algo

@@ -4,6 +4,9 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <vector>
+
+#include "schema/axis.h"
 
 namespace mdof::algo {
 
@@ -14,5 +17,10 @@ namespace mdof::algo {
 Eigen::MatrixXd independent_parts(std::size_t quantities,
                                   const std::function<double(std::size_t, std::size_t)>& covariance,
                                   std::size_t most);
+
+// What each independent part does to the points, of what each quantity does by one unit of it alone
+// [quantity][point]: [part][point].
+std::vector<std::vector<Errors5>> combined(const Eigen::MatrixXd& rows,
+                                           const std::vector<std::vector<Errors5>>& alone);
 
 }  // namespace mdof::algo

@@ -101,6 +101,8 @@ class Fit {
   void tell_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
                   const Eigen::MatrixXd& covariance, MountedProbe& out) const;
   double u_of(Eigen::Index unknown, const Unseen& unseen, const Eigen::MatrixXd& covariance) const;
+  void tell_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
+                       MountingCalibration& found) const;
 
   MountingModel model_;
   Eigen::VectorXd pose_, probe_;
@@ -166,6 +168,39 @@ void Fit::tell_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
                     [&](const TraverseReading& reading) { return reading.probe == k; }));
 }
 
+// Of the places along the machine's axes and the zeros that are seen, with the diagonal of u_of().
+void Fit::tell_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
+                          MountingCalibration& found) const {
+  Eigen::MatrixXd all = covariance;
+  for (Eigen::Index i = 0; i < all.rows(); ++i) {
+    const double unseen_part = model_.scale()(i);
+    all(i, i) += unseen.share(i) * unseen_part * unseen_part;
+  }
+  const auto axes = local_axes(rig.axis);
+  std::vector<Eigen::VectorXd> rows;
+  for (std::size_t k = 0; k < rig.probes.size(); ++k) {
+    const MountedProbe& probe = found.probes[k];
+    for (std::size_t m = 0; m < 3 && probe.position_seen; ++m) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(all.rows());
+      for (std::size_t l = 0; l < 3; ++l) {
+        const auto i = static_cast<Eigen::Index>(l);
+        row(unknown_of(k, kPlace1)) += axes[m][l] * model_.along(k, 0)(i);
+        row(unknown_of(k, kPlace2)) += axes[m][l] * model_.along(k, 1)(i);
+      }
+      if (row.norm() < kRankTolerance) continue;  // across the plane
+      found.covariance.of.push_back(place_name(probe.id, m));
+      rows.push_back(std::move(row));
+    }
+    if (!probe.zero_seen) continue;
+    found.covariance.of.push_back(zero_name(probe.id));
+    rows.push_back(Eigen::VectorXd::Unit(all.rows(), unknown_of(k, kZero)));
+  }
+  found.covariance.m2.assign(rows.size(), std::vector<double>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j <= i; ++j)
+      found.covariance.m2[i][j] = found.covariance.m2[j][i] = rows[i].dot(all * rows[j]);
+}
+
 // Residuals that the readings' uncertainties do not explain widen all that follows (Birge).
 void Fit::judge(MountingCalibration& found) const {
   const auto lines = model_.linearised(pose_, probe_);
@@ -194,6 +229,7 @@ MountingFit Fit::result(const Rig& rig, const std::vector<Clamping>& clampings) 
   fit.found.probes.resize(rig.probes.size());
   for (std::size_t k = 0; k < rig.probes.size(); ++k)
     tell_probe(rig, k, unseen, fit.covariance, fit.found.probes[k]);
+  tell_covariance(rig, unseen, fit.covariance, fit.found);
   for (std::size_t i = 0; i < clampings.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const Errors5 a = model_.angles_of(pose_, i), b = model_.angles_of(pose_, j);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algo/iso230/line_fit.h"
 #include "algo/model/fixture.h"
@@ -27,8 +28,72 @@ Result<double> facing(const Rig& rig, std::size_t probe, Axis axis) {
 }
 
 struct Reading {
-  double true_m, read_m;
+  double true_m, read_m, u_m;
 };
+
+// By place along the axis, ascending: visits that are nearer than a fifth of a step.
+std::vector<std::vector<Reading>> visits_of_places(std::vector<Reading> all, double apart_m) {
+  std::sort(all.begin(), all.end(),
+            [](const Reading& a, const Reading& b) { return a.true_m < b.true_m; });
+  const double span_m = all.back().true_m - all.front().true_m;
+  apart_m = std::max(apart_m, 0.2 * span_m / static_cast<double>(all.size() - 1));
+  std::vector<std::vector<Reading>> places;
+  for (const Reading& reading : all) {
+    if (places.empty() || reading.true_m - places.back().front().true_m > apart_m)
+      places.emplace_back();
+    places.back().push_back(reading);
+  }
+  return places;
+}
+
+struct SlopeUncertainty {
+  double u = 0, freedom = std::numeric_limits<double>::infinity();
+};
+
+// `u_encoder_m`: as displacement along the probe.
+SlopeUncertainty slope_uncertainty(const std::vector<std::vector<Reading>>& places, double slope,
+                                   double u_encoder_m) {
+  double n = 0, mean = 0, square = 0;
+  for (const auto& place : places)
+    for (const Reading& visit : place) {
+      n += 1;
+      mean += visit.true_m;
+    }
+  mean /= n;
+  for (const auto& place : places)
+    for (const Reading& visit : place) square += (visit.true_m - mean) * (visit.true_m - mean);
+  double variance = 0;
+  std::vector<double> x, y;
+  for (const auto& place : places) {
+    double lever = 0, true_m = 0, read_m = 0;
+    const auto visits = static_cast<double>(place.size());
+    for (const Reading& visit : place) {
+      const double of_visit = (visit.true_m - mean) / square;
+      lever += of_visit;
+      variance += of_visit * of_visit * visit.u_m * visit.u_m;
+      true_m += visit.true_m / visits;
+      read_m += visit.read_m / visits;
+    }
+    variance += lever * lever * slope * slope * u_encoder_m * u_encoder_m;
+    x.push_back(true_m - mean);
+    y.push_back(read_m);
+  }
+  const double u_left = x.size() > 2 ? least_squares_line(x, y).u_slope : 0;
+  if (u_left * u_left <= variance) return {std::sqrt(variance)};
+  return {u_left, static_cast<double>(x.size()) - 2};
+}
+
+std::vector<std::string> blind_to(const Rig& rig) {
+  std::vector<std::string> sentences = {
+      "the scale of the encoder: its error is in the sensitivity as it is",
+      "the squareness of the axis to the plane and the tilt of the target: 1 mrad by 5 mrad is 5 "
+      "ppm"};
+  if (!rig.uncertainty.encoder.declared())
+    sentences.insert(sentences.begin(),
+                     "an error of the encoder that repeats at each place, beyond what the line "
+                     "leaves: the rig does not declare [encoder] u_um");
+  return sentences;
+}
 
 // In the order of the readings; those of one place as their mean.
 std::vector<Reading> places_of(std::vector<Reading> all, double apart_m) {
@@ -37,13 +102,13 @@ std::vector<Reading> places_of(std::vector<Reading> all, double apart_m) {
   std::vector<Reading> places;
   for (std::size_t i = 0; i < all.size();) {
     std::size_t end = i;
-    Reading sum{0, 0};
+    Reading sum{0, 0, 0};
     for (; end < all.size() && all[end].read_m - all[i].read_m <= apart_m; ++end) {
       sum.true_m += all[end].true_m;
       sum.read_m += all[end].read_m;
     }
     const auto n = static_cast<double>(end - i);
-    places.push_back({sum.true_m / n, sum.read_m / n});
+    places.push_back({sum.true_m / n, sum.read_m / n, 0});
     i = end;
   }
   return places;
@@ -97,7 +162,7 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   std::vector<Reading> all;
   for (const TraverseStop& stop : traverse.stops)
     if (std::isfinite(stop.reading_m[probe]))
-      all.push_back({stop.travel_m * along, stop.reading_m[probe]});
+      all.push_back({stop.travel_m * along, stop.reading_m[probe], stop.u_reading_m[probe]});
   const auto places = places_of(all, kOnePlace * own.range_m);
   const double way_m = places.empty() ? 0 : places.back().read_m - places.front().read_m;
   if (places.size() < kFewest || way_m < kShortest * own.range_m)
@@ -117,7 +182,12 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   SensitivityCalibration found;
   found.id = own.id;
   found.sensitivity_1 = line.slope;
-  found.u_sensitivity_1 = line.u_slope;
+  const SlopeUncertainty u =
+      slope_uncertainty(visits_of_places(all, kOnePlace * own.range_m), line.slope,
+                        std::abs(along) * rig.uncertainty.encoder.u);
+  found.u_sensitivity_1 = u.u;
+  found.freedom = u.freedom;
+  found.not_seen = blind_to(rig);
   found.residual_sd_m = line.residual_sd;
   found.from_m = places.front().read_m;
   found.to_m = places.back().read_m;

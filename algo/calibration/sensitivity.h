@@ -4,6 +4,10 @@
 // With n the normal of the probe's plane and e the axis, a travel x is the displacement
 // z = x (n·e)/(n·u) along the probe's direction u. Reading = a + g z by least squares; a correction
 // is true - reading, and 0 on the line where the reading is 0: the zero stays what it is.
+//
+// u of g is the larger of two: what the noise of the stops and the declared [encoder] u_um make of
+// it, the encoder's error being one at each place however often it is visited; and what the line
+// leaves of the places' means, s/√Σ(z - z̄)², with two degrees of freedom less than places.
 #pragma once
 
 #include <vector>

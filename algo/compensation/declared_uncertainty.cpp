@@ -19,12 +19,31 @@ constexpr std::size_t kMostPoints = 20'000, kMostCost = 1'000'000;
 using PartsOfRuns = std::vector<std::vector<PointShifts>>;
 
 std::string identity(const Contributor& c) {
-  return c.name + " " + c.key + " " + std::to_string(c.declared.u * c.to_unit);
+  return c.name + " " + c.key + " " + std::to_string(c.declared.u * c.to_unit) +
+         (c.surface ? " " + std::to_string(c.surface->length_m) : "");
+}
+
+// One contributor in the runs that have it.
+struct Shared {
+  std::vector<std::size_t> runs;
+  std::vector<Contributor> of_run;
+};
+
+std::vector<std::vector<PointShifts>> parts_of_runs(const Shared& shared) {
+  std::vector<std::vector<PointShifts>> parts;
+  if (!shared.of_run.front().surface) {
+    for (const Contributor& contributor : shared.of_run) parts.push_back(contributor.parts());
+    return parts;
+  }
+  std::vector<const PlaneFootprints*> surfaces;
+  for (const Contributor& contributor : shared.of_run)
+    surfaces.push_back(contributor.surface.get());
+  return flatness_parts(surfaces);
 }
 
 Result<std::map<std::string, PartsOfRuns>> all_contributors(const std::vector<Rig>& rigs,
                                                             const std::vector<Run>& runs) {
-  std::map<std::string, PartsOfRuns> all;
+  std::map<std::string, Shared> declared;
   std::size_t points = 0, parts_in_all = 0;
   for (const Run& run : runs) points += run.points.size();
   const auto too_many = [] {
@@ -33,16 +52,25 @@ Result<std::map<std::string, PartsOfRuns>> all_contributors(const std::vector<Ri
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!rigs[r].declares_uncertainty()) continue;
     if (points > kMostPoints) return too_many();
-    MDOF_TRY(const auto declared, contributors(rigs[r], runs[r]));
-    for (const Contributor& contributor : declared) {
-      auto parts = contributor.parts();
-      PartsOfRuns& of = all[identity(contributor)];
-      if (of.size() < parts.size()) {
-        parts_in_all += parts.size() - of.size();
-        of.resize(parts.size(), std::vector<PointShifts>(runs.size()));
+    MDOF_TRY(const auto of_run, contributors(rigs[r], runs[r]));
+    for (const Contributor& contributor : of_run) {
+      Shared& shared = declared[identity(contributor)];
+      shared.runs.push_back(r);
+      shared.of_run.push_back(contributor);
+    }
+  }
+  std::map<std::string, PartsOfRuns> all;
+  for (const auto& [name, shared] : declared) {
+    auto parts = parts_of_runs(shared);
+    PartsOfRuns& of = all[name];
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (of.size() < parts[i].size()) {
+        parts_in_all += parts[i].size() - of.size();
+        of.resize(parts[i].size(), std::vector<PointShifts>(runs.size()));
       }
       if (parts_in_all * points > kMostCost) return too_many();
-      for (std::size_t p = 0; p < parts.size(); ++p) of[p][r] = std::move(parts[p]);
+      for (std::size_t p = 0; p < parts[i].size(); ++p)
+        of[p][shared.runs[i]] = std::move(parts[i][p]);
     }
   }
   return all;

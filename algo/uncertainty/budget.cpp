@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "algo/uncertainty/budget_draws.h"
 #include "algo/uncertainty/coverage.h"
+#include "algo/uncertainty/statistics/range_interval.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {
@@ -75,19 +77,43 @@ class SomeParts {
   std::size_t n_ = 0, width_ = 0;
 };
 
-// The distance from `value` within which 95 % of the trials lie.
-double distance_of_95_percent(std::vector<double> trials, double value) {
-  for (double& trial : trials) trial = std::abs(trial - value);
-  const auto at =
-      trials.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(trials.size()));
-  std::nth_element(trials.begin(), at, trials.end());
-  return *at;
-}
+// The noise of the means at the targets, and the shift that they share, of the trials of a block.
+class TargetNoise {
+ public:
+  TargetNoise(BlockOfDraws& draws, const Repeatability& random) : random_(random) {
+    const OneU normal(kInfinite);
+    for (std::size_t i = 0; i <= random.u.size(); ++i) drawn_.push_back(draws.next(normal));
+    for_freedom_ = draws.next(normal);
+  }
+  void add_to(MeanErrors& means, std::size_t trial, double factor) const {
+    const double shift = factor * drawn_.back()[trial];
+    for (std::size_t i = 0; i < means.targets.size(); ++i)
+      for (std::size_t k = 0; k < kErrorCount; ++k)
+        means.targets[i].named[k] +=
+            factor * drawn_[i][trial] * random_.u[i][k] + shift * random_.u_shift[k];
+  }
+  // By which normal numbers of one trial become those of Student's t: √(ν/χ²), by Wilson and
+  // Hilferty.
+  double student(std::size_t trial, double freedom) const {
+    if (!std::isfinite(freedom)) return 1;
+    const double variance = 2 / (9 * freedom);
+    const double root = 1 - variance + for_freedom_[trial] * std::sqrt(variance);
+    return std::pow(std::max(root, kLeastRoot), -1.5);
+  }
+
+ private:
+  static constexpr double kLeastRoot = 0.1;
+
+  const Repeatability& random_;
+  std::vector<std::vector<double>> drawn_;  // of each target, and of the shift; by trial
+  std::vector<double> for_freedom_;
+};
 
 }  // namespace
 
 RunBudgets::RunBudgets(const Rig& rig, const Run& run)
     : means_(means_of(run, run.points)),
+      repeatability_(repeatability(run.header.moving(), run.points, means_.targets)),
       changes_(run.header.moving(), run.points),
       runs_(means_of_each_run(run)),
       not_declared_(rig.undeclared_uncertainties()) {}
@@ -127,10 +153,16 @@ double RunBudgets::half_difference(const Figure& figure, const MeanShifts& shift
   return (figure.of(moved(shifts, 1)) - figure.of(moved(shifts, -1))) / 2;
 }
 
-BudgetLine RunBudgets::line(const Figure& figure, const Shifted& shifted) const {
-  const Contributor& c = shifted.contributor;
-  std::vector<double> parts;
-  for (const MeanShifts& part : shifted.parts) parts.push_back(half_difference(figure, part));
+std::vector<RunBudgets::Contribution> RunBudgets::contributions(const Figure& figure) const {
+  std::vector<Contribution> all;
+  for (const Shifted& shifted : shifted_) {
+    Contribution& of = all.emplace_back(Contribution{&shifted.contributor, {}});
+    for (const MeanShifts& part : shifted.parts) of.parts.push_back(half_difference(figure, part));
+  }
+  return all;
+}
+
+BudgetLine RunBudgets::line(const Contributor& c, const std::vector<double>& parts) {
   BudgetLine line;
   line.name = c.name;
   line.key = c.key;
@@ -142,19 +174,27 @@ BudgetLine RunBudgets::line(const Figure& figure, const Shifted& shifted) const 
   return line;
 }
 
-// Degrees of freedom: the visits of all targets less their means, each approach with its own. A
-// single visit's noise is that of many readings.
 RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
-  std::vector<double> parts;
-  double freedom = 0;
-  for (std::size_t i = 0; i < means_.targets.size(); ++i) {
-    MeanShifts alone(means_.targets.size() * kErrorCount);
-    for (std::size_t k = 0; k < kErrorCount; ++k)
-      alone[i * kErrorCount + k] = means_.targets[i].u[k];
-    parts.push_back(half_difference(figure, alone));
-    freedom += std::max(0.0, static_cast<double>(means_.targets[i].n) - 2);
+  const std::size_t targets = means_.targets.size();
+  double square = 0, freedom = kInfinite;
+  bool asked = false;  // whether what the figure is made of is known by the scatter
+  MeanShifts together;
+  for (std::size_t i = 0; i < targets; ++i) {
+    MeanShifts alone(targets * kErrorCount), scattered = alone;
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      alone[i * kErrorCount + k] = repeatability_.u[i][k];
+      if (repeatability_.by_scatter[k]) scattered[i * kErrorCount + k] = repeatability_.u[i][k];
+    }
+    const double part = half_difference(figure, alone);
+    square += part * part;
+    if (part != 0 && !std::exchange(asked, true) && half_difference(figure, scattered) != 0)
+      freedom = repeatability_.freedom;
+    together.insert(together.end(), repeatability_.u_shift.begin(), repeatability_.u_shift.end());
   }
-  return {std::sqrt(sum_of_squares(parts)), freedom > 0 ? freedom : kInfinite};
+  const double shift = std::abs(half_difference(figure, together));
+  const std::array<UncertaintyPart, 2> both = {
+      {{std::sqrt(square), freedom}, {shift, repeatability_.shift_freedom}}};
+  return {std::sqrt(square + shift * shift), effective_freedom(both)};
 }
 
 RunBudgets::Random RunBudgets::random_of_runs(const Figure& figure) const {
@@ -171,7 +211,10 @@ RunBudgets::Random RunBudgets::random_of_runs(const Figure& figure) const {
 
 RunBudgets::Random RunBudgets::random_of(const Figure& figure) const {
   const Random targets = random_of_targets(figure), runs = random_of_runs(figure);
-  return runs.u > targets.u ? runs : targets;
+  const double excess = runs.u * runs.u - targets.u * targets.u;
+  if (!(runs.u * runs.u > kRunsScatterMore * targets.u * targets.u)) return targets;
+  const std::array<UncertaintyPart, 2> both = {{targets.part(), {std::sqrt(excess), runs.freedom}}};
+  return {runs.u, effective_freedom(both), targets.u > 0 ? runs.u / targets.u : 1};
 }
 
 Budget RunBudgets::first_order(const Figure& figure) const {
@@ -188,7 +231,8 @@ Budget RunBudgets::first_order(const Figure& figure) const {
   noise.contribution = random.u;
   noise.freedom = random.freedom;
   budget.lines.push_back(noise);
-  for (const Shifted& shifted : shifted_) budget.lines.push_back(line(figure, shifted));
+  for (const auto& [contributor, parts] : contributions(figure))
+    budget.lines.push_back(line(*contributor, parts));
   complete(budget);
   return budget;
 }
@@ -203,15 +247,15 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
   std::vector<std::size_t> place;  // of each range among the budgets
   for (const Figure& figure : figures) {
     budgets.push_back(first_order(figure));
-    if (!figure.is_range || !(budgets.back().u > 0)) continue;
+    if (!figure.is_range() || !(budgets.back().u > 0)) continue;
     ranges.push_back(figure);
     place.push_back(budgets.size() - 1);
   }
   if (ranges.empty()) return budgets;
-  auto values = draw(ranges, {kTrialsOfU, 1});
+  auto trials = drawn(ranges, {kTrialsOfU, 1}, 0);
   for (std::size_t r = 0; r < ranges.size(); ++r) {
     Budget& budget = budgets[place[r]];
-    budget.U = distance_of_95_percent(std::move(values[r]), budget.value);
+    budget.U = RangeTrials(ranges[r].deviations(means_), std::move(trials[r].changes)).U();
     budget.coverage_factor = budget.U / budget.u;
     budget.U_by_trials = true;
   }
@@ -232,19 +276,24 @@ std::vector<double> RunBudgets::moved_by(BlockOfDraws& draws, std::size_t trials
   return moved;
 }
 
-std::vector<std::vector<double>> RunBudgets::draw(const std::vector<Figure>& figures,
-                                                  const TrialsRequest& request,
-                                                  std::uint32_t stream) const {
+std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figures,
+                                                 const TrialsRequest& request,
+                                                 std::uint32_t stream) const {
   std::vector<Random> random;
   std::map<double, OneU> noise;  // by degrees of freedom: a table of t is dear
+  std::vector<std::vector<double>> measured;
+  bool any_range = false;
   for (const Figure& figure : figures) {
     random.push_back(random_of(figure));
     noise.try_emplace(random.back().freedom, random.back().freedom);
+    measured.push_back(figure.is_range() ? figure.deviations(means_) : std::vector<double>());
+    any_range = any_range || !measured.back().empty();
   }
   std::vector<OneU> quantities;
   for (const Shifted& s : shifted_)
     quantities.push_back(s.parts.size() == 1 ? OneU(s.contributor.declared) : OneU(kInfinite));
-  std::vector<std::vector<double>> values(figures.size(), std::vector<double>(request.trials));
+  std::vector<Drawn> all(figures.size());
+  for (Drawn& of : all) of.values.resize(request.trials);
   for (std::uint64_t first = 0; first < request.trials; first += kTrialsOfBlock) {
     const std::size_t trials = std::min(kTrialsOfBlock, request.trials - first);
     BlockOfDraws draws({request.seed, stream}, first, trials);
@@ -254,14 +303,49 @@ std::vector<std::vector<double>> RunBudgets::draw(const std::vector<Figure>& fig
     std::map<double, std::vector<double>> of_noise;
     for (const auto& [freedom, quantity] : noise)
       quantity.quantiles(of_noise.try_emplace(freedom, uniform).first->second);
+    std::optional<TargetNoise> of_targets;
+    if (any_range) of_targets.emplace(draws, repeatability_);
     for (std::size_t t = 0; t < trials; ++t) {
       const MeanErrors means = moved(std::span(shifts).subspan(t * width, width), 1);
-      for (std::size_t f = 0; f < figures.size(); ++f)
-        values[f][first + t] =
-            figures[f].of(means) + random[f].u * of_noise.at(random[f].freedom)[t];
+      std::optional<MeanErrors> noisy;
+      double by = 0;  // of `noisy`
+      for (std::size_t f = 0; f < figures.size(); ++f) {
+        if (measured[f].empty()) {
+          all[f].values[first + t] =
+              figures[f].of(means) + random[f].u * of_noise.at(random[f].freedom)[t];
+          continue;
+        }
+        const double factor = random[f].widened * of_targets->student(t, random[f].freedom);
+        if (!noisy || factor != by) {
+          noisy = means;
+          of_targets->add_to(*noisy, t, by = factor);
+        }
+        std::vector<double> deviations = figures[f].deviations(*noisy);
+        const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
+        all[f].values[first + t] = *most - *least;
+        for (std::size_t i = 0; i < deviations.size(); ++i)
+          all[f].changes.push_back(deviations[i] - measured[f][i]);
+      }
     }
   }
+  return all;
+}
+
+std::vector<std::vector<double>> RunBudgets::draw(const std::vector<Figure>& figures,
+                                                  const TrialsRequest& request,
+                                                  std::uint32_t stream) const {
+  std::vector<std::vector<double>> values;
+  for (Drawn& of : drawn(figures, request, stream)) values.push_back(std::move(of.values));
   return values;
+}
+
+BudgetTrials RunBudgets::trials(const Figure& figure, const TrialsRequest& request) const {
+  Drawn of = std::move(drawn({figure}, request, 0).front());
+  if (of.changes.empty()) return summary_of(std::move(of.values), request.seed);
+  const RangeTrials range(figure.deviations(means_), std::move(of.changes));
+  const double value = figure.of(means_), U = range.U();
+  return {request.trials, request.seed, range.standard_deviation(), std::max(0.0, value - U),
+          value + U};
 }
 
 void complete(Budget& budget) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -13,13 +14,15 @@
 #include "algo/sensitivity/plan/mounting.h"
 #include "algo/uncertainty/physics_contributors.h"
 #include "algo/uncertainty/point_sensitivity.h"
+#include "algo/uncertainty/statistics/common_quantities.h"
+#include "algo/uncertainty/statistics/flatness.h"
+#include "algo/uncertainty/statistics/independent_parts.h"
 #include "schema/base/random.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kDirections = 8;
 constexpr std::size_t kMostEncoderParts = 256;  // more targets: neighbours share one
 constexpr auto kFixture = static_cast<std::size_t>(Part::fixture);
 constexpr std::array<char, 3> kAxisLetters = {'x', 'y', 'z'};
@@ -132,75 +135,43 @@ double middle_s(const MeasuredPoint& p) {
   return (ns_to_s(p.point.begin_ns) + ns_to_s(p.point.end_ns)) / 2;
 }
 
-// The waves 1 ... kFlatnessWaves of `turns` of the longest, as sine and cosine: the later ones by
-// the sums of angles, as a sine is dear.
-struct Waves {
-  explicit Waves(double turns) {
-    sine[0] = sine_of_turns(turns);
-    cosine[0] = sine_of_turns(turns + kQuarterTurn);
-    for (std::size_t w = 1; w < kFlatnessWaves; ++w) {
-      sine[w] = sine[w - 1] * cosine[0] + cosine[w - 1] * sine[0];
-      cosine[w] = cosine[w - 1] * cosine[0] - sine[w - 1] * sine[0];
+// A footprint is that of the mean travel at its target: the visits of a place meet the same height.
+PlaneFootprints plane_footprints(const Basis& basis, std::size_t plane) {
+  const TargetPlane& surface = basis.rig.planes[plane];
+  PlaneFootprints out;
+  out.u_m = surface.u_flatness.u;
+  out.length_m = surface.flatness_length_m;
+  out.points = basis.points.size();
+  struct Travel {
+    double sum_m = 0, visits = 0;
+    std::size_t footprint = 0;
+  };
+  std::map<int, Travel> travels;  // by target
+  const auto& points = basis.points;
+  for (std::size_t j = 0; j < points.size(); ++j)
+    if (points[j].valid) {
+      Travel& at = travels[basis.run.points[j].target];
+      at.sum_m += points[j].travel_m;
+      at.visits += 1;
+    }
+  for (std::size_t k = 0; k < basis.probes(); ++k) {
+    const FixtureProbe& probe = basis.solver.fixture().probes[k];
+    if (probe.plane != plane) continue;
+    for (auto& [target, at] : travels) {
+      at.footprint = out.footprints.size();
+      const double travel_m = at.sum_m / at.visits;
+      out.footprints.push_back({probe.p_MP - travel_m * Eigen::Vector3d::UnitX(), probe.p_MP});
+    }
+    const double reading = 1 / probe.n_C.dot(probe.u_M);
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      if (!points[j].valid) continue;
+      Errors5 by_height = points[j].by_probe[k];
+      for (double& of_error : by_height) of_error *= reading;
+      out.readings.push_back({j, travels.at(basis.run.points[j].target).footprint, by_height});
     }
   }
-  std::array<double, kFlatnessWaves> sine{}, cosine{};
-};
-
-// Of the highest wave of each direction; those of the others go with 1/k².
-double wave_height_m(const TargetPlane& surface) {
-  double norm = 0;
-  for (std::size_t w = 1; w <= kFlatnessWaves; ++w) norm += std::pow(static_cast<double>(w), -4);
-  return surface.u_flatness.u / std::sqrt(norm * kDirections);
+  return out;
 }
-
-// A surface that each probe of the plane meets, as waves of all directions and both phases: the
-// square of all parts is u² at every place.
-class Flatness {
- public:
-  Flatness(const Basis& basis, std::size_t plane)
-      : basis_(basis),
-        plane_(plane),
-        height_m_(wave_height_m(basis.rig.planes[plane])),
-        parts_(2 * kDirections * kFlatnessWaves, PointShifts(basis.points.size())) {
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      const double turns = static_cast<double>(d) / (2.0 * kDirections);
-      along_[d] = sine_of_turns(turns + kQuarterTurn);
-      across_[d] = sine_of_turns(turns);
-    }
-    for (std::size_t j = 0; j < basis.points.size(); ++j)
-      for (std::size_t k = 0; k < basis.probes() && basis.points[j].valid; ++k)
-        if (basis.solver.fixture().probes[k].plane == plane) add(j, k);
-  }
-  std::vector<PointShifts> take() { return std::move(parts_); }
-
- private:
-  void add(std::size_t j, std::size_t k) {
-    const PointSensitivity& point = basis_.points[j];
-    const FixtureProbe& probe = basis_.solver.fixture().probes[k];
-    const double first = probe.p_MP.x() - point.travel_m;
-    const double second =
-        std::abs(probe.n_C.z()) > std::abs(probe.n_C.y()) ? probe.p_MP.y() : probe.p_MP.z();
-    const double reading_m = height_m_ / probe.n_C.dot(probe.u_M);
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      const Waves waves((first * along_[d] + second * across_[d]) /
-                        basis_.rig.planes[plane_].flatness_length_m);
-      for (std::size_t w = 0; w < kFlatnessWaves; ++w) {
-        const double wave_m = reading_m / static_cast<double>((w + 1) * (w + 1));
-        const std::size_t part = 2 * (w * kDirections + d);
-        for (std::size_t e = 0; e < kErrorCount; ++e) {
-          parts_[part][j][e] += point.by_probe[k][e] * wave_m * waves.sine[w];
-          parts_[part + 1][j][e] += point.by_probe[k][e] * wave_m * waves.cosine[w];
-        }
-      }
-    }
-  }
-
-  const Basis& basis_;
-  std::size_t plane_;
-  double height_m_;
-  std::array<double, kDirections> along_{}, across_{};
-  std::vector<PointShifts> parts_;
-};
 
 std::vector<PointShifts> of_encoder(const Basis& basis) {
   std::map<int, std::size_t> part_of;  // by target
@@ -216,9 +187,41 @@ std::vector<PointShifts> of_encoder(const Basis& basis) {
   return parts;
 }
 
+PointShifts of_calibration(const Basis& basis, std::size_t probe, double size_m) {
+  return by_one_probe(basis, probe, [&](std::size_t) { return size_m; });
+}
+
+PointShifts of_position(const Basis& basis, std::size_t probe, std::size_t axis, double size_m) {
+  return by_probe_mounting(basis, probe, [&](ProbeDeviation& off, double sign) {
+    off.shift = basis.local(along_axis(axis, sign * size_m));
+  });
+}
+
+// The places and zeros that one calibration found together.
+std::vector<PointShifts> of_covariance(const Basis& basis,
+                                       const CalibrationCovariance& covariance) {
+  std::vector<PointShifts> alone;  // by one standard uncertainty of each
+  std::vector<double> u_m;
+  for (std::size_t i = 0; i < covariance.of.size(); ++i) {
+    u_m.push_back(std::sqrt(covariance.m2[i][i]));
+    PointShifts& shifts = alone.emplace_back(basis.points.size());
+    for (std::size_t k = 0; k < basis.probes() && u_m[i] > 0; ++k) {
+      const std::string& id = basis.rig.probes[k].id;
+      if (covariance.of[i] == zero_name(id)) shifts = of_calibration(basis, k, u_m[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (covariance.of[i] == place_name(id, axis)) shifts = of_position(basis, k, axis, u_m[i]);
+    }
+  }
+  const auto correlation = [&](std::size_t i, std::size_t j) {
+    return u_m[i] > 0 && u_m[j] > 0 ? covariance.m2[i][j] / (u_m[i] * u_m[j]) : 0.0;
+  };
+  return combined(independent_parts(alone.size(), correlation, alone.size()), alone);
+}
+
 class List {
  public:
   explicit List(SharedBasis basis) : basis_(std::move(basis)) {
+    for (const CalibrationRecord& record : basis_->rig.records) add_covariance(record);
     for (std::size_t k = 0; k < basis_->probes(); ++k) add_probe(k);
     add_installation();
     add_drift();
@@ -238,27 +241,38 @@ class List {
                      [basis = basis_, parts] { return parts(*basis); }});
   }
 
+  // Its value is the largest standard uncertainty of them.
+  void add_covariance(const CalibrationRecord& record) {
+    const CalibrationCovariance& covariance = record.covariance;
+    DeclaredUncertainty largest;
+    for (std::size_t i = 0; i < covariance.of.size(); ++i)
+      largest.u = std::max(largest.u, std::sqrt(covariance.m2[i][i]));
+    together_.insert(covariance.of.begin(), covariance.of.end());
+    add("calibration " + record.id + ": places and zeros", "calibration", largest, 1e6, "µm",
+        [covariance](const Basis& b) { return of_covariance(b, covariance); });
+  }
+
   void add_probe(std::size_t k) {
     const Probe& probe = basis_->rig.probes[k];
     const std::string name = "probe " + probe.id + ": ";
     const ProbeUncertainty& u = probe.uncertainty;
-    add(name + "calibration", "u_calibration_um", u.calibration, 1e6, "µm",
-        [k, size = u.calibration.u](const Basis& b) {
-          return std::vector<PointShifts>{by_one_probe(b, k, [&](std::size_t) { return size; })};
-        });
+    if (!together_.contains(zero_name(probe.id)))
+      add(name + "calibration", "u_calibration_um", u.calibration, 1e6, "µm",
+          [k, size = u.calibration.u](const Basis& b) {
+            return std::vector<PointShifts>{of_calibration(b, k, size)};
+          });
     add(name + "sensitivity", "u_sensitivity_ppm", u.sensitivity, 1e6, "ppm",
         [k, size = u.sensitivity.u](const Basis& b) {
           return std::vector<PointShifts>{by_one_probe(
               b, k, [&](std::size_t j) { return size * b.run.points[j].point.probe_m[k]; })};
         });
-    for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (together_.contains(place_name(probe.id, c))) continue;
       add(name + "position " + kAxisLetters[c], "u_position_mm", u.position.component(c), 1e3, "mm",
           [k, c, size = u.position.u[c]](const Basis& b) {
-            return std::vector<PointShifts>{
-                by_probe_mounting(b, k, [&](ProbeDeviation& probe_off, double sign) {
-                  probe_off.shift = b.local(along_axis(c, sign * size));
-                })};
+            return std::vector<PointShifts>{of_position(b, k, c, size)};
           });
+    }
     add(name + "direction", "u_direction_mrad", u.direction, 1e3, "mrad",
         [k, size = u.direction.u](const Basis& b) {
           const auto about = [&](double turns) {
@@ -309,11 +323,18 @@ class List {
     const TargetPlane& plane = basis_->rig.planes[i];
     const std::string name =
         plane.id.empty() ? "plane " + std::to_string(i + 1) : "plane " + plane.id;
+    const std::size_t before = list_.size();
     add(name + ": flatness", "u_flatness_um", plane.u_flatness, 1e6, "µm",
-        [i](const Basis& b) { return Flatness(b, i).take(); });
+        [](const Basis&) { return std::vector<PointShifts>(); });
+    if (list_.size() == before) return;
+    list_.back().surface = std::make_shared<const PlaneFootprints>(plane_footprints(*basis_, i));
+    list_.back().parts = [surface = list_.back().surface] {
+      return flatness_parts({surface.get()}).front();
+    };
   }
 
   SharedBasis basis_;
+  std::set<std::string> together_;  // what has its covariances
   std::vector<Contributor> list_;
 };
 
@@ -365,6 +386,7 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   std::vector<Contributor> list = List(basis).take();
   for (auto& more : physics_contributors(rig, basis->solver, run, basis->points))
     list.push_back(std::move(more));
+  name_what_goes_with_probes(rig, list);
   return list;
 }
 

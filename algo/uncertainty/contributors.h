@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "algo/uncertainty/statistics/flatness.h"
 #include "schema/base/result.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
@@ -25,16 +27,20 @@ struct Contributor {
   double to_unit = 1;  // from SI to the unit in which it is shown
   std::string unit;    // "ppm"
   // The shifts by one standard uncertainty of it, as independent parts whose squares add: one part,
-  // but two for a direction (two axes across it), one a target for the encoder, and the waves of a
-  // flatness.
+  // but two for a direction (two axes across it), one a target for the encoder, and those of the
+  // covariances of a calibration or of the covariance of a flatness (flatness.h).
   std::function<std::vector<PointShifts>()> parts;
+  // Of what goes with a probe from set-up to set-up, as its certificate does: two rigs that have
+  // the same here have one quantity. Empty: each set-up has its own.
+  std::string common_as = "";
+  // Of a flatness: several runs over the same plane need their parts made together.
+  std::shared_ptr<const PlaneFootprints> surface = nullptr;
 };
 
 // Of what `rig` declares, in its order; the run is of that rig. What moves or turns a probe counts
 // by what it changes after the zero at d = 0 without errors (DESIGN §3, simulation II): the zero
-// itself is calibration's. A flatness is a random field of waves of the lengths L, L/2, L/3, L/4
-// (weights 1/k², as in a sensitivity study) in eight directions, the same for all visits of a
-// place. Error: a rig that cannot see all five errors, an angle beyond what the models take.
+// itself is calibration's. So does a flatness, a random surface that is the same for all visits of
+// a place. Error: a rig that cannot see all five errors, an angle beyond what the models take.
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run);
 
 // Adds them to the errors of these points.

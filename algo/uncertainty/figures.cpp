@@ -1,6 +1,7 @@
 #include "algo/uncertainty/figures.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "algo/iso230/line_fit.h"
 #include "schema/sample.h"
@@ -23,16 +24,28 @@ std::string name_of(Axis axis, std::size_t named, const char* figure) {
   return std::string(name.name) + figure + (in_urad ? "_urad" : "_um");
 }
 
+Figure range_of(std::string name,
+                std::function<std::vector<double>(const MeanErrors&)> deviations) {
+  auto of = [deviations](const MeanErrors& means) {
+    const std::vector<double> all = deviations(means);
+    if (all.empty()) return kNaN;
+    const auto [least, most] = std::minmax_element(all.begin(), all.end());
+    return *most - *least;
+  };
+  return {std::move(name), std::move(of), std::move(deviations)};
+}
+
 }  // namespace
 
 Figure straightness_figure(Axis axis, std::size_t named) {
-  return {name_of(axis, named, "_straightness"),
-          [named](const MeanErrors& means) {
-            const Series series(means, named);
-            if (!series.has_line()) return kNaN;
-            return deviations_from(series.line(), series.travel_m, series.error).peak_to_valley;
-          },
-          true};
+  return range_of(name_of(axis, named, "_straightness"), [named](const MeanErrors& means) {
+    const Series series(means, named);
+    if (!series.has_line()) return std::vector<double>();
+    const Line line = series.line();
+    std::vector<double> off = series.error;
+    for (std::size_t i = 0; i < off.size(); ++i) off[i] -= line.at(series.travel_m[i]);
+    return off;
+  });
 }
 
 Figure slope_figure(Axis axis, std::size_t named) {
@@ -43,14 +56,10 @@ Figure slope_figure(Axis axis, std::size_t named) {
 }
 
 Figure range_figure(Axis axis, std::size_t named) {
-  return {name_of(axis, named, "_range"),
-          [named](const MeanErrors& means) {
-            const auto values = column(means.targets, named);
-            if (values.size() < 2) return kNaN;
-            const auto [least, most] = std::minmax_element(values.begin(), values.end());
-            return *most - *least;
-          },
-          true};
+  return range_of(name_of(axis, named, "_range"), [named](const MeanErrors& means) {
+    const auto values = column(means.targets, named);
+    return values.size() < 2 ? std::vector<double>() : values;
+  });
 }
 
 Figure error_figure(Axis axis, std::size_t named, int target) {

@@ -18,8 +18,11 @@ struct MeanErrors {
 struct Figure {
   std::string name;                             // with its unit: "EYX_straightness_um"
   std::function<double(const MeanErrors&)> of;  // SI; NaN where these targets do not have it
-  // Between a highest and a lowest: noise makes it larger, and first order does not see that.
-  bool is_range = false;
+  // What the figure is the highest minus the lowest of, linear in the means; none: it is no range.
+  // Noise makes a range larger, and first order does not see that.
+  std::function<std::vector<double>(const MeanErrors&)> deviations = nullptr;
+
+  bool is_range() const { return static_cast<bool>(deviations); }
 };
 
 // `named`: place in error_names(axis).

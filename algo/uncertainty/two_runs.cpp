@@ -1,7 +1,7 @@
 #include "algo/uncertainty/two_runs.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -11,16 +11,93 @@
 namespace mdof::algo {
 namespace {
 
-// `factor`: what the figure has of the run's.
-void add_run(Budget& budget, const Budget& of_run, const std::string& name, double factor) {
-  for (const std::string& key : of_run.not_declared)
-    budget.not_declared.push_back(name + " " + key);
-  for (BudgetLine line : of_run.lines) {
-    line.name = name + ", " + line.name;
-    line.contribution *= factor;
-    budget.lines.push_back(std::move(line));
+// A figure that is the sum of a slope of each of two runs, each with its factor.
+class TwoSlopes {
+ public:
+  struct Of {
+    std::string name;  // "X"
+    const RunBudgets& run;
+    Figure slope;
+    double factor;
+  };
+  TwoSlopes(const Of& a, const Of& b) {
+    for (const Of* of : {&a, &b}) {
+      const Budget budget = of->run.first_order(of->slope);
+      budget_.value += of->factor * budget.value;
+      budget_.u_random = std::hypot(budget_.u_random, budget.u_random);
+      noise_only_ = noise_only_ && budget.noise_only;
+      for (const std::string& key : budget.not_declared)
+        budget_.not_declared.push_back(of->name + " " + key);
+      for (const BudgetLine& line : budget.lines)
+        if (line.key.empty()) add(*of, line, {1, UncertaintyShape::normal, line.freedom});
+    }
+    add_contributions(a, b);
   }
-}
+  // As of all contributions so far.
+  Budget take(bool noise_only) {
+    budget_.noise_only = noise_only_ && noise_only;
+    complete(budget_);
+    return std::move(budget_);
+  }
+  Budget& budget() { return budget_; }
+  // Slopes are linear in what shifts the means: trials are sums of the lines' quantities.
+  std::vector<double> trials(const TrialsRequest& request) const {
+    std::vector<double> values(request.trials, budget_.value);
+    BlockOfDraws draws({request.seed, 0}, 0, request.trials);
+    for (std::size_t i = 0; i < budget_.lines.size(); ++i) {
+      const std::vector<double> drawn = draws.next(OneU(drawn_[i]));
+      for (std::size_t t = 0; t < values.size(); ++t)
+        values[t] += budget_.lines[i].contribution * drawn[t];
+    }
+    return values;
+  }
+  void add(BudgetLine line, const DeclaredUncertainty& drawn) {
+    budget_.lines.push_back(std::move(line));
+    drawn_.push_back({1, drawn.shape, drawn.freedom});
+  }
+
+ private:
+  void add(const Of& of, BudgetLine line, const DeclaredUncertainty& drawn) {
+    line.name = of.name + ", " + line.name;
+    line.contribution *= of.factor;
+    add(std::move(line), drawn);
+  }
+  // The sum of squares of many parts is drawn as a normal number.
+  static DeclaredUncertainty drawn_as(const RunBudgets::Contribution& of) {
+    return of.parts.size() == 1 ? of.contributor->declared : DeclaredUncertainty{1};
+  }
+
+  // What is common to both runs is one quantity: its contributions add with their signs.
+  void add_contributions(const Of& a, const Of& b) {
+    const auto of_a = a.run.contributions(a.slope), of_b = b.run.contributions(b.slope);
+    std::vector<bool> added(of_b.size(), false);
+    for (const auto& one : of_a) {
+      const auto same = std::find_if(of_b.begin(), of_b.end(), [&](const auto& other) {
+        return !one.contributor->common_as.empty() &&
+               one.contributor->common_as == other.contributor->common_as &&
+               one.parts.size() == other.parts.size();
+      });
+      if (same == of_b.end()) {
+        add(a, RunBudgets::line(*one.contributor, one.parts), drawn_as(one));
+        continue;
+      }
+      added[static_cast<std::size_t>(same - of_b.begin())] = true;
+      std::vector<double> parts;
+      for (std::size_t p = 0; p < one.parts.size(); ++p)
+        parts.push_back(a.factor * one.parts[p] + b.factor * same->parts[p]);
+      BudgetLine line = RunBudgets::line(*one.contributor, parts);
+      line.name = a.name + " and " + b.name + ", " + line.name;
+      add(std::move(line), drawn_as(one));
+    }
+    for (std::size_t i = 0; i < of_b.size(); ++i)
+      if (!added[i])
+        add(b, RunBudgets::line(*of_b[i].contributor, of_b[i].parts), drawn_as(of_b[i]));
+  }
+
+  Budget budget_;
+  std::vector<DeclaredUncertainty> drawn_;  // of each line, by 1
+  bool noise_only_ = true;
+};
 
 BudgetLine artefact_line(const SquareArtefact& artefact) {
   BudgetLine line;
@@ -40,29 +117,18 @@ Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& 
                                  const TrialsRequest& request) {
   MDOF_TRY(const RunBudgets along_x, RunBudgets::create(rig_x, restate(run_x, kAtFixture)));
   MDOF_TRY(const RunBudgets along_y, RunBudgets::create(rig_y, restate(run_y, kAtFixture)));
-  const Figure slope_x = slope_figure(Axis::x, 0), slope_y = slope_figure(Axis::y, 0);
-  const Budget x = along_x.of(slope_x), y = along_y.of(slope_y);
-  Budget budget;
-  budget.figure = "EC0Y_urad";
-  budget.value = -y.value - x.value + artefact.corner * artefact.angle_error_rad;
-  budget.u_random = std::hypot(x.u_random, y.u_random);
-  budget.noise_only = x.noise_only && y.noise_only && artefact.u_rad == 0;
-  add_run(budget, x, "X", -1);
-  add_run(budget, y, "Y", -1);
+  TwoSlopes both({"X", along_x, slope_figure(Axis::x, 0), -1},
+                 {"Y", along_y, slope_figure(Axis::y, 0), -1});
+  both.budget().figure = "EC0Y_urad";
+  both.budget().value += artefact.corner * artefact.angle_error_rad;
   if (artefact.u_rad > 0)
-    budget.lines.push_back(artefact_line(artefact));
+    both.add(artefact_line(artefact), {1});
   else
-    budget.not_declared.emplace_back("u_artefact_angle_urad");
-  complete(budget);
-  if (request.trials < 2) return budget;
-  std::vector<double> values = along_x.draw({slope_x}, request, 0).front();
-  const std::vector<double> of_y = along_y.draw({slope_y}, request, 1).front();
-  const std::vector<double> of_square = BlockOfDraws({request.seed, 2}, 0, request.trials)
-                                            .next(OneU(std::numeric_limits<double>::infinity()));
-  for (std::uint64_t t = 0; t < request.trials; ++t)
-    values[t] = -values[t] - of_y[t] + artefact.corner * artefact.angle_error_rad +
-                artefact.u_rad * of_square[t];
-  budget.trials = summary_of(std::move(values), request.seed);
+    both.budget().not_declared.emplace_back("u_artefact_angle_urad");
+  std::vector<double> values;
+  if (request.trials >= 2) values = both.trials(request);
+  Budget budget = both.take(artefact.u_rad == 0);
+  if (!values.empty()) budget.trials = summary_of(std::move(values), request.seed);
   return budget;
 }
 
@@ -73,15 +139,10 @@ Result<std::array<Budget, 2>> parallelism_budgets(const Rig& rig_a, const Run& r
   std::array<Budget, 2> budgets;
   for (std::size_t named = 0; named < budgets.size(); ++named) {
     const Figure slope = slope_figure(run_a.header.axis, named);
-    const Budget a = of_a.of(slope), b = of_b.of(slope);
-    Budget& budget = budgets[named];
-    budget.figure = std::string(error_names(run_a.header.axis)[named].name) + "_parallelism_urad";
-    budget.value = b.value - a.value;
-    budget.u_random = std::hypot(a.u_random, b.u_random);
-    budget.noise_only = a.noise_only && b.noise_only;
-    add_run(budget, a, "A", -1);
-    add_run(budget, b, "B", 1);
-    complete(budget);
+    TwoSlopes both({"A", of_a, slope, -1}, {"B", of_b, slope, 1});
+    both.budget().figure =
+        std::string(error_names(run_a.header.axis)[named].name) + "_parallelism_urad";
+    budgets[named] = both.take(true);
   }
   return budgets;
 }

@@ -12,14 +12,16 @@
 namespace mdof::algo {
 
 // EC0Y = -slope(EXY) - slope(EYX) + α (DESIGN §3), of budgets of the two runs at the fixture. What
-// the rigs declare is taken as independent between the two runs.
+// goes with a probe (Contributor::common_as) is common to both runs and adds with its sign; all
+// else that the rigs declare, the surface of a plane too, is taken as independent between them.
 Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
                                  const Run& run_y, const SquareArtefact& artefact,
                                  const TrialsRequest& request = {});
 
 // slope of B - slope of A of each of the two straightness errors, at the fixture:
-// "EYX_parallelism_urad". What the rigs declare is taken as independent between the two runs; where
-// it is the same set-up, that part would cancel, and u is too large rather than too small.
+// "EYX_parallelism_urad". What goes with a probe is common to both runs; all else that the rigs
+// declare is taken as independent; where it is the same set-up, that part would cancel, and u is
+// too large rather than too small.
 Result<std::array<Budget, 2>> parallelism_budgets(const Rig& rig_a, const Run& run_a,
                                                   const Rig& rig_b, const Run& run_b);
 

@@ -103,8 +103,7 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
                        figures[f].name);
     }
     if (request.trials.trials > 1)
-      budgets[f].trials =
-          algo::summary_of(of_run.draw({figures[f]}, request.trials).front(), request.trials.seed);
+      budgets[f].trials = of_run.trials(figures[f], request.trials);
     found.budgets.push_back(std::move(budgets[f]));
   }
   if (found.budgets.empty())

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::string_view kHashKey = "sha256 = \"";
 constexpr std::size_t kIdDigits = 8;
+constexpr double kUm2 = 1e12;  // in a square metre
 
 // Numbers, strings and lists of TOML are written as those of JSON, to the last bit.
 template <class T>
@@ -60,7 +61,24 @@ std::string probe_text(const CalibratedProbe& probe) {
   if (probe.um_per_V) text += line("um_per_V", *probe.um_per_V);
   if (!probe.linearity.empty()) text += table_of(probe.linearity);
   if (probe.u_sensitivity_1 > 0) text += line("u_sensitivity_ppm", probe.u_sensitivity_1 * 1e6);
+  if (std::isfinite(probe.sensitivity_freedom))
+    text += line("sensitivity_dof", probe.sensitivity_freedom);
   return text;
+}
+
+std::string covariance_text(const CalibrationCovariance& covariance) {
+  if (covariance.of.empty()) return "";
+  JsonWriter names;
+  names.begin_array();
+  for (const std::string& name : covariance.of) names.value(name);
+  std::string text = "covariance_of = " + names.end_array().take() + "\ncovariance_um2 = [\n";
+  for (const auto& row_m2 : covariance.m2) {
+    JsonWriter row;
+    row.begin_array();
+    for (const double m2 : row_m2) row.value(m2 * kUm2);
+    text += "  " + row.end_array().take() + ",\n";
+  }
+  return text + "]\n";
 }
 
 std::string body_text(const CalibrationRecord& record) {
@@ -78,6 +96,7 @@ std::string body_text(const CalibrationRecord& record) {
     }
     text += "]\n";
   }
+  text += covariance_text(record.covariance);
   for (const auto& source : record.sources)
     text += "\n[[calibration_record.source]]\n" + line("file", source.file) +
             line("sha256", source.sha256);
@@ -131,7 +150,34 @@ CalibratedProbe read_probe(TomlTable& table) {
   }
   if (table.has("u_sensitivity_ppm"))
     probe.u_sensitivity_1 = read_u(table, "u_sensitivity_ppm") / 1e6;
+  if (table.has("sensitivity_dof")) {
+    probe.sensitivity_freedom = table.number("sensitivity_dof");
+    if (!(probe.sensitivity_freedom >= 1))
+      table.reject("sensitivity_dof", "must be the degrees of freedom, 1 or more");
+  }
   return probe;
+}
+
+// A row and a column for each name, symmetric, no correlation beyond 1.
+CalibrationCovariance read_covariance(TomlTable& table) {
+  CalibrationCovariance covariance{table.strings("covariance_of"), table.matrix("covariance_um2")};
+  const std::size_t n = covariance.of.size();
+  bool right = covariance.m2.size() == n;
+  for (auto& row : covariance.m2) {
+    right = right && row.size() == n;
+    for (double& m2 : row) m2 /= kUm2;
+  }
+  for (std::size_t i = 0; right && i < n; ++i)
+    for (std::size_t j = 0; right && j <= i; ++j) {
+      const auto& m2 = covariance.m2;
+      right = m2[i][j] == m2[j][i] && m2[i][i] >= 0 &&
+              m2[i][j] * m2[i][j] <= m2[i][i] * m2[j][j] * (1 + 1e-9);
+    }
+  if (right) return covariance;
+  table.reject("covariance_um2",
+               "must be a symmetric matrix with a row and a column for each name of "
+               "covariance_of, and no correlation beyond 1");
+  return {};
 }
 
 std::string read_day(TomlTable& table, const char* key) {
@@ -177,6 +223,8 @@ CalibrationRecord read_record(TomlTable& table) {
   record.freedom = table.integer("freedom", 0);
   record.not_seen = table.strings("not_seen");
   if (table.has("u_together_mm")) record.u_together_m = read_mm(table, "u_together_mm");
+  if (table.has("covariance_of") || table.has("covariance_um2"))
+    record.covariance = read_covariance(table);
   for (auto& source : table.tables("source"))
     record.sources.push_back({source.string("file"), source.string("sha256")});
   for (auto& probe : table.tables("probe")) record.probes.push_back(read_probe(probe));

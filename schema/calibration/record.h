@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@
 #include "schema/axis.h"
 #include "schema/base/result.h"
 #include "schema/base/toml_reader.h"
+#include "schema/calibration/covariance.h"
 
 namespace mdof {
 
@@ -33,6 +35,7 @@ struct CalibratedProbe {
   std::optional<double> um_per_V;
   std::vector<std::array<double, 2>> linearity;  // as in the rig
   double u_sensitivity_1 = 0;
+  double sensitivity_freedom = std::numeric_limits<double>::infinity();  // degrees of freedom
 };
 
 struct CalibrationRecord {
@@ -52,6 +55,8 @@ struct CalibrationRecord {
   std::vector<std::string> not_seen;
   std::optional<Vec3> u_together_m;  // of all probes together, along X, Y, Z
   std::vector<CalibratedProbe> probes;
+  // Of places and zeros of the probes; empty in records of older versions.
+  CalibrationCovariance covariance;
 };
 
 inline constexpr std::string_view kRecordHead = "[[calibration_record]]";

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,10 +12,11 @@
 namespace mdof {
 
 struct SensitivityCalibration {
-  std::string id;              // of the probe
-  double sensitivity_1 = 1;    // reading for a true displacement, by least squares
-  double u_sensitivity_1 = 0;  // from what the line leaves, encoder included
-  double linearity_m = 0;      // the largest that the line leaves
+  std::string id;            // of the probe
+  double sensitivity_1 = 1;  // reading for a true displacement, by least squares
+  double u_sensitivity_1 = 0;
+  double freedom = std::numeric_limits<double>::infinity();  // its degrees of freedom
+  double linearity_m = 0;                                    // the largest that the line leaves
   double residual_sd_m = 0;
   double from_m = 0, to_m = 0;  // readings, displacement
   std::size_t stops = 0;
@@ -23,6 +25,7 @@ struct SensitivityCalibration {
   std::optional<double> um_per_V;
   double offset_um = 0;
   std::vector<std::array<double, 2>> linearity;
+  std::vector<std::string> not_seen;  // what is not in u, one sentence each
 };
 
 }  // namespace mdof

@@ -112,13 +112,29 @@ void apply(const CalibratedProbe& found, Probe& probe) {
     calibration.linearity = found.linearity;
     calibration.polynomial_um.clear();
   }
-  if (found.u_sensitivity_1 > 0) probe.uncertainty.sensitivity = {found.u_sensitivity_1};
+  if (found.u_sensitivity_1 > 0)
+    probe.uncertainty.sensitivity = {found.u_sensitivity_1, UncertaintyShape::normal,
+                                     found.sensitivity_freedom};
   if (!found.offset_um) return;
   move_offset(calibration, *found.offset_um);
   if (!probe.uncertainty.calibration.declared()) probe.uncertainty.calibration = {found.u_offset_m};
 }
 
-void apply(const CalibrationRecord& record, Rig& rig) {
+// What takes the place of what an earlier record found, and the zeros that the rig declares, have
+// their covariances no longer.
+void keep_what_holds(CalibrationRecord& record, Rig& rig) {
+  for (const CalibratedProbe& found : record.probes)
+    for (const Probe& probe : rig.probes) {
+      if (probe.id != found.id) continue;
+      if (probe.uncertainty.calibration.declared()) record.covariance.erase(zero_name(found.id));
+      for (CalibrationRecord& earlier : rig.records)
+        for (std::size_t axis = 0; found.position_m && axis < 3; ++axis)
+          earlier.covariance.erase(place_name(found.id, axis));
+    }
+}
+
+void apply(CalibrationRecord& record, Rig& rig) {
+  keep_what_holds(record, rig);
   for (const CalibratedProbe& found : record.probes)
     for (Probe& probe : rig.probes)
       if (probe.id == found.id) apply(found, probe);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
+#include "algo/uncertainty/coverage.h"
 #include "schema/units.h"
 #include "tests/algo/rigs.h"
 
@@ -37,9 +39,59 @@ TEST(Sensitivity, IsThatOfTheReadingsWithItsUncertainty) {
   double squares = 0;
   for (int i = 0; i < 11; ++i) squares += std::pow(80e-6 * (2.0 * i / 10 - 1), 2);
   EXPECT_NEAR(found->u_sensitivity_1, std::sqrt(sum / 9 / squares), 1e-9);
+  EXPECT_EQ(found->freedom, 9);
   EXPECT_NEAR(found->linearity_m, 20e-9 - mean, 1e-12);
   EXPECT_EQ(found->stops, 11U);
   EXPECT_FALSE(found->um_per_V);
+}
+
+// Eleven places, there and back: white noise, and an error of the encoder that is the same at both
+// visits of a place. How many of 5,000 intervals hold the truth, by the degrees of freedom.
+double held_percent(const std::string& of_rig, double encoder_m, double noise_m, int places) {
+  const Rig rig = test::rig_x_with("", "", of_rig);
+  std::mt19937_64 engine(5);
+  std::normal_distribution<> normal;
+  constexpr int kTrials = 5000;
+  int held = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Traverse traverse = along_z([&](double z) { return z; }, places);
+    for (TraverseStop& stop : traverse.stops) stop.travel_m += encoder_m * normal(engine);
+    const auto there = traverse.stops;
+    traverse.stops.insert(traverse.stops.end(), there.rbegin(), there.rend());
+    for (TraverseStop& stop : traverse.stops) {
+      stop.reading_m[kA] += noise_m * normal(engine);
+      stop.u_reading_m[kA] = noise_m;
+    }
+    const auto found = fit_sensitivity(rig, kA, traverse).value();
+    held +=
+        std::abs(found.sensitivity_1 - 1) <= coverage_factor(found.freedom) * found.u_sensitivity_1;
+  }
+  return 100.0 * held / kTrials;
+}
+
+TEST(Sensitivity, TheEncoderErrsOnceAtEachPlace) {
+  const std::string declared = "[encoder]\nu_um = 0.2\n";
+  // 95 % and three standard deviations of 5,000.
+  for (const int places : {5, 11}) {
+    SCOPED_TRACE(places);
+    EXPECT_GT(held_percent(declared, 0.2e-6, 10e-9, places), 94);
+    EXPECT_GT(held_percent("", 0.2e-6, 10e-9, places), 94);  // seen by what the line leaves
+    EXPECT_GT(held_percent("", 0, 50e-9, places), 94);
+  }
+}
+
+TEST(Sensitivity, WhatItCannotSeeIsSaid) {
+  const auto says = [](const Rig& rig) {
+    const auto found = fit_sensitivity(rig, kA, along_z([](double z) { return z; })).value();
+    std::string all;
+    for (const auto& what : found.not_seen) all += what + "\n";
+    return all;
+  };
+  const std::string bare = says(test::rig_x());
+  for (const char* what : {"scale of the encoder", "squareness", "[encoder] u_um"})
+    EXPECT_NE(bare.find(what), std::string::npos) << what;
+  EXPECT_EQ(says(test::rig_x_with("", "", "[encoder]\nu_um = 0.1\n")).find("u_um"),
+            std::string::npos);
 }
 
 // What is proposed makes the readings true, whichever way the probe counts.

@@ -76,6 +76,24 @@ TEST(DeclaredUncertainty, OneFixtureIsNotMadeBetterByMoreRuns) {
   EXPECT_NEAR(table_of({rig, exact}, false).u_declared[0][3], 0.05e-6, 1e-13);
 }
 
+// Two runs whose targets are some micrometres apart meet the same surface.
+TEST(DeclaredUncertainty, RunsOverOnePlaneShareItsSurface) {
+  const Rig rig = rig_x_with("", "",
+                             "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
+                             "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.1\n");
+  std::vector<mdof::Run> runs = {bent(rig, 1), bent(rig, 2)};
+  for (MeasuredPoint& p : runs[1].points)
+    p.point.position_m += 2e-6 * std::sin(50.0 * static_cast<double>(p.target));
+  TableOptions options;
+  options.remove_slope = false;
+  options.stated = kAtFixture;
+  auto both = build_table(runs, options).value();
+  ASSERT_TRUE(add_declared_uncertainty(both, {rig, rig}, runs, options));
+  const auto one = table_of({rig}, false);
+  for (std::size_t i = 2; i < one.position_m.size(); ++i)
+    EXPECT_NEAR(both.u_declared[0][i] / one.u_declared[0][i], 1, 0.01) << i;
+}
+
 TEST(DeclaredUncertainty, IsInWhatIsReadOfTheTableAndInItsHash) {
   const auto table = table_of({rig_x_with("D", "u_calibration_um = 0.1")}, false);
   for (const TableSide side : {TableSide::forward, TableSide::reverse, TableSide::mean})

@@ -43,7 +43,7 @@ int wanted_runs() {
 std::vector<Figure> figures() {
   std::vector<Figure> all = errors_at_target(Axis::x, 8);
   for (const Figure& figure : figures_of_run(Axis::x))
-    if (!figure.is_range || wanted_runs() > 0) all.push_back(figure);
+    if (!figure.is_range() || wanted_runs() > 0) all.push_back(figure);
   return all;
 }
 

@@ -1,6 +1,6 @@
 // A fixture whose every declared contributor is drawn from its distribution. The faults are made
-// here, by other code than the budget's: probes moved and turned in the fixture itself, flatness by
-// waves of any direction.
+// here, by other code than the budget's: probes moved and turned in the fixture itself, flatness as
+// sums of plane waves (drawn_surface.h).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,6 +12,7 @@
 #include "algo/model/rigid.h"
 #include "schema/rig/rig.h"
 #include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/drawn_surface.h"
 
 namespace mdof::algo::test_faults {
 
@@ -50,7 +51,8 @@ class FaultyFixture {
       gain_.push_back(probe.uncertainty.sensitivity.u * normal());
       drift_m_per_s_.push_back(rig.uncertainty.drift.u * normal());
     }
-    for (const TargetPlane& plane : rig.planes) waves_.push_back(waves_of(plane));
+    for (const TargetPlane& plane : rig.planes)
+      surfaces_.emplace_back(plane.u_flatness.u, plane.flatness_length_m, engine_);
   }
 
   double normal() { return normal_(engine_); }
@@ -65,16 +67,12 @@ class FaultyFixture {
       const double second =
           std::abs(probe.n_C.z()) > std::abs(probe.n_C.y()) ? probe.p_MP.y() : probe.p_MP.z();
       all.push_back(reading * (1 + gain_[k]) + offset_m_[k] + drift_m_per_s_[k] * time_s +
-                    height(waves_[*probe.plane], probe.p_MP.x() - d, second));
+                    surfaces_[*probe.plane].above_zero_m(probe.p_MP.x(), second, d));
     }
     return all;
   }
 
  private:
-  struct Wave {
-    double amplitude_m, along, across, per_m, phase;
-  };
-
   Eigen::Vector3d vector(double u) { return {u * normal(), u * normal(), u * normal()}; }
 
   void misplace() {
@@ -94,35 +92,13 @@ class FaultyFixture {
     }
   }
 
-  // Four waves a plane, amplitudes as 1/k², made to have the declared u.
-  std::vector<Wave> waves_of(const TargetPlane& plane) {
-    std::vector<Wave> all;
-    const double norm = std::sqrt(1 + 1 / 16.0 + 1 / 81.0 + 1 / 256.0);
-    for (int w = 1; w <= 4; ++w) {
-      const double direction = 2 * M_PI * uniform_(engine_);
-      all.push_back({plane.u_flatness.u * std::sqrt(2.0) / (w * w) / norm, std::cos(direction),
-                     std::sin(direction), w / plane.flatness_length_m,
-                     2 * M_PI * uniform_(engine_)});
-    }
-    return all;
-  }
-
-  static double height(const std::vector<Wave>& waves, double first, double second) {
-    double sum = 0;
-    for (const Wave& w : waves)
-      sum += w.amplitude_m *
-             std::sin(2 * M_PI * (first * w.along + second * w.across) * w.per_m + w.phase);
-    return sum;
-  }
-
   const Rig& rig_;
   Fixture nominal_, as_is_;
   Eigen::VectorXd zero_;
   std::mt19937_64 engine_;
   std::normal_distribution<> normal_;
-  std::uniform_real_distribution<> uniform_;
   std::vector<double> offset_m_, gain_, drift_m_per_s_;
-  std::vector<std::vector<Wave>> waves_;
+  std::vector<DrawnSurface> surfaces_;
 };
 
 // At the carriage, local frame, at a travel of d metres.

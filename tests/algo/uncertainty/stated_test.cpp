@@ -106,7 +106,7 @@ TEST(Stated, TrialsAreThoseOfTheScalarDraws) {
       shift(points, part);
       parts.push_back(at_target(points) - at_target(run.points));
     }
-  EXPECT_EQ(parts.size() % 4, 3u);  // some are left over
+  EXPECT_NE(parts.size() % 4, 0u);  // some are left over
   double noise_freedom = 0;
   for (const BudgetLine& line : budget.lines)
     if (line.key.empty()) noise_freedom = line.freedom;

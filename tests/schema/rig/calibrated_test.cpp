@@ -32,6 +32,10 @@ CalibrationRecord mounting() {
   record.probes[1].u_position_m = {1e-6, 2e-6, 0};
   record.probes[1].offset_um = 2.5;
   record.probes[1].u_offset_m = 1e-8;
+  record.probes[1].u_sensitivity_1 = 3e-4;
+  record.probes[1].sensitivity_freedom = 7;
+  record.covariance = {{"B.x", "B.y", "B.zero"},
+                       {{1e-12, 3e-13, -5e-15}, {3e-13, 4e-12, 0}, {-5e-15, 0, 1e-16}}};
   return record;
 }
 
@@ -66,6 +70,34 @@ TEST(CalibratedRig, TakesWhatTheRecordFoundAndKeepsTheRest) {
   const auto notes = rig_notes(rig.text);
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_NE(notes[0].find(rig.records[0].id), std::string::npos);
+}
+
+TEST(CalibratedRig, KeepsTheCovariancesOfWhatItTakes) {
+  const auto covariance = [](const Rig& rig) { return rig.records.at(0).covariance; };
+  const auto all = covariance(with_record());
+  EXPECT_EQ(all.of, mounting().covariance.of);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      EXPECT_NEAR(all.m2.at(i).at(j), mounting().covariance.m2[i][j], 1e-27) << i << j;
+  EXPECT_EQ(with_record().probes[1].uncertainty.sensitivity.freedom, 7);
+  // A zero whose uncertainty the rig declares is known by other means.
+  const auto declared = covariance(with_record("u_calibration_um = 0.5\n"));
+  EXPECT_EQ(declared.of, (std::vector<std::string>{"B.x", "B.y"}));
+  ASSERT_EQ(declared.m2.size(), 2U);
+  EXPECT_EQ(declared.m2[1].size(), 2U);
+}
+
+TEST(CalibratedRig, ACovarianceThatIsNoneIsRefused) {
+  for (const auto& m2 : {std::vector<std::vector<double>>{{1e-12, 2e-12}, {2e-12, 1e-12}},
+                         {{1e-12, 0}, {1e-13, 1e-12}},
+                         {{1e-12}, {1e-12}}}) {
+    CalibrationRecord record = mounting();
+    record.covariance = {{"B.x", "B.y"}, m2};
+    const std::string text = record_text(record);
+    const auto rig = parse_rig(rig_text() + text.substr(text.find(kRecordHead)), "rig.toml");
+    ASSERT_FALSE(rig);
+    EXPECT_NE(rig.error().message.find("covariance_um2"), std::string::npos) << rig.error().message;
+  }
 }
 
 TEST(CalibratedRig, UncertaintiesBelongToWhatWasReplaced) {

@@ -117,6 +117,7 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
   record.chi_square = found.chi_square;
   record.freedom = found.freedom;
   record.not_seen = found.not_seen;
+  record.covariance = found.covariance;
   const Vec3& together = found.u_together_m;
   if (std::all_of(together.begin(), together.end(), [](double u) { return std::isfinite(u); }))
     record.u_together_m = together;

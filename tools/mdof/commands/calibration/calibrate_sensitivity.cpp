@@ -1,5 +1,6 @@
 // mdof calibrate sensitivity LOG: a probe against the encoder of the axis that approaches it.
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "algo/calibration/sensitivity.h"
 #include "daemon/measure/stops.h"
@@ -34,7 +35,10 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
   json.field("date", record.date).field("valid_until", record.valid_until).key("record");
   file.empty() ? json.null() : json.value(file);
   json.field("probe", found.id).field("sensitivity_1", found.sensitivity_1);
-  json.field("u_sensitivity_ppm", found.u_sensitivity_1 * 1e6);
+  json.field("u_sensitivity_ppm", found.u_sensitivity_1 * 1e6).field("dof", found.freedom);
+  json.key("not_seen").begin_array();
+  for (const std::string& what : found.not_seen) json.value(what);
+  json.end_array();
   json.field("from_um", to_um(found.from_m)).field("to_um", to_um(found.to_m));
   json.field("stops", static_cast<std::uint64_t>(found.stops));
   json.field("linearity_um", to_um(found.linearity_m));
@@ -47,14 +51,23 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
   return json.take();
 }
 
+std::string not_in_u(const SensitivityCalibration& found) {
+  std::string text = "\u00b1 is the standard uncertainty u";
+  if (std::isfinite(found.freedom))
+    text += " with " + plain_number(found.freedom, 3) + " degrees of freedom";
+  text += ". It does not include:\n";
+  for (const std::string& what : found.not_seen) text += "- " + what + "\n";
+  return text;
+}
+
 std::string text_of(const SensitivityCalibration& found) {
-  std::string text = "probe " + found.id + ": " +
-                     with_u(fixed(found.sensitivity_1, 6), fixed(found.u_sensitivity_1, 6)) +
-                     " of reading for displacement\n" + std::to_string(found.stops) +
-                     " stops, readings from " + fixed(to_um(found.from_m), 3) + " to " +
-                     fixed(to_um(found.to_m), 3) + " um; the line leaves " +
-                     fixed(to_um(found.linearity_m), 4) + " um at most, sd " +
-                     fixed(to_um(found.residual_sd_m), 4) + " um\nFor the rig:\n";
+  std::string text =
+      "probe " + found.id + ": " +
+      with_u(fixed(found.sensitivity_1, 6), fixed(found.u_sensitivity_1, 6)) +
+      " of reading for displacement\n" + std::to_string(found.stops) + " stops, readings from " +
+      fixed(to_um(found.from_m), 3) + " to " + fixed(to_um(found.to_m), 3) +
+      " um; the line leaves " + fixed(to_um(found.linearity_m), 4) + " um at most, sd " +
+      fixed(to_um(found.residual_sd_m), 4) + " um\n" + not_in_u(found) + "For the rig:\n";
   if (found.um_per_V) text += "um_per_V = " + plain_number(*found.um_per_V, 9) + "\n";
   if (found.um_per_V) text += "offset_um = " + plain_number(found.offset_um, 9) + "\n";
   text += "linearity = [";
@@ -70,6 +83,7 @@ CalibratedProbe as_record(const SensitivityCalibration& found, const Probe& prob
   kept.um_per_V = found.um_per_V;
   kept.linearity = found.linearity;
   kept.u_sensitivity_1 = found.u_sensitivity_1;
+  kept.sensitivity_freedom = found.freedom;
   if (!found.um_per_V) return kept;
   kept.offset_um = found.offset_um;
   kept.u_offset_m = probe.uncertainty.calibration.u;
@@ -96,6 +110,7 @@ Status calibrate(const SensitivityCommand& command) {
   MDOF_TRY(auto record, begin_record("sensitivity", rig, command.record, log.started_utc));
   MDOF_TRY(const auto found, algo::fit_sensitivity(rig, *at, traverse));
   record.sources = {{command.log, log.sha256}};
+  record.not_seen = found.not_seen;
   record.probes = {as_record(found, rig.probes[*at])};
   if (!command.record.out.empty())
     MDOF_CHECK(write_record(command.record.out, record_text(record)));

@@ -1,0 +1,172 @@
+#include "algo/uncertainty/statistics/repeatability.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "algo/sequence/run_drifts.h"
+#include "algo/sequence/uneven_visits.h"
+
+namespace mdof::algo {
+namespace {
+
+struct Visit {
+  int target = 0, run = 0, way = 0;  // way: 1 forward
+  Errors5 error{}, noise{};          // noise: variance
+};
+
+class Decomposition {
+ public:
+  Decomposition(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
+    std::vector<MeasuredPoint> passes;
+    std::vector<Errors5> errors;
+    std::map<int, int> ways;
+    for (const MeasuredPoint& p : points) {
+      if (!counts_in_means(p)) continue;
+      Visit& visit = visits_.emplace_back();
+      visit.target = p.target;
+      visit.run = p.run;
+      visit.way = p.point.direction > 0 ? 1 : 0;
+      visit.error = named_from_local(moving, p.errors.local);
+      const Covariance5 covariance = named_from_local(moving.axis, p.errors.covariance);
+      for (std::size_t k = 0; k < kErrorCount; ++k) visit.noise[k] = covariance[6 * k];
+      errors.push_back(visit.error);
+      passes.push_back(p);
+      passes.back().run = 2 * p.run + visit.way;
+      ++ways[visit.way];
+      ++visits_of_[{visit.target, visit.way}];
+      ++visits_of_run_[visit.run];
+    }
+    if (visits_.empty()) return;
+    const RunDrifts drifts(passes);
+    shifts_ = drifts.of(errors);
+    pass_of_ = drifts.run_of_points();
+    freedom_ = static_cast<double>(visits_.size() - visits_of_.size()) -
+               static_cast<double>(shifts_.size() - ways.size());
+    find_scatter();
+  }
+
+  double freedom() const { return freedom_; }
+  double runs() const { return static_cast<double>(visits_of_run_.size()); }
+
+  // χ²/ν beyond its 80 % point, by the normal distribution.
+  bool by_scatter(std::size_t k) const {
+    return freedom_ > 0 && scatter_[k] > noise_[k] * (1 + 0.84 * std::sqrt(2 / freedom_));
+  }
+
+  // By target: of the mean of both approaches, or of the only one.
+  std::map<int, Errors5> variances() const {
+    std::map<int, Errors5> sums;
+    for (const Visit& visit : visits_) {
+      const double n = (has_both(visit.target) ? 2 : 1) *
+                       static_cast<double>(visits_of_.at({visit.target, visit.way}));
+      Errors5& sum = sums[visit.target];
+      for (std::size_t k = 0; k < kErrorCount; ++k) sum[k] += variance_of(visit, k) / (n * n);
+    }
+    return sums;
+  }
+  bool has_both(int target) const { return has(target, 0) && has(target, 1); }
+  bool has_one_way_only() const {
+    return std::none_of(visits_.begin(), visits_.end(),
+                        [this](const Visit& v) { return has_both(v.target); });
+  }
+
+  // Variance of the mean's shift, without what the scatter of the visits makes of it.
+  Errors5 shift_variance() const {
+    Errors5 variance{};
+    const double n = runs();
+    if (n < 2) return variance;
+    std::map<int, std::pair<Errors5, double>> of_run;
+    for (std::size_t i = 0; i < visits_.size(); ++i) {
+      auto& [sum, count] = of_run[visits_[i].run];
+      for (std::size_t k = 0; k < kErrorCount; ++k) sum[k] += shifts_[pass_of_[i]][k];
+      count += 1;
+    }
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      double square = 0;
+      for (const auto& [run, shift] : of_run) {
+        const double of_this = shift.first[k] / shift.second;
+        square += of_this * of_this;
+      }
+      const double by_scatter = scatter_[k] * n / static_cast<double>(visits_.size());
+      variance[k] = std::max(0.0, square / (n - 1) - by_scatter) / n;
+    }
+    return variance;
+  }
+
+ private:
+  bool has(int target, int way) const { return visits_of_.contains({target, way}); }
+
+  void find_scatter() {
+    std::map<std::pair<int, int>, Errors5> means;
+    std::vector<Errors5> settled;
+    for (std::size_t i = 0; i < visits_.size(); ++i) {
+      Errors5& error = settled.emplace_back(visits_[i].error);
+      Errors5& mean = means[{visits_[i].target, visits_[i].way}];
+      for (std::size_t k = 0; k < kErrorCount; ++k) {
+        error[k] -= shifts_[pass_of_[i]][k];
+        mean[k] += error[k];
+        noise_[k] += visits_[i].noise[k] / static_cast<double>(visits_.size());
+      }
+    }
+    for (auto& [visit, mean] : means)
+      for (double& of_error : mean) of_error /= static_cast<double>(visits_of_.at(visit));
+    for (std::size_t i = 0; i < visits_.size() && freedom_ > 0; ++i)
+      for (std::size_t k = 0; k < kErrorCount; ++k) {
+        const double off = settled[i][k] - means.at({visits_[i].target, visits_[i].way})[k];
+        scatter_[k] += off * off / freedom_;
+      }
+  }
+
+  double variance_of(const Visit& visit, std::size_t k) const {
+    if (!by_scatter(k)) return visit.noise[k];
+    return noise_[k] > 0 ? visit.noise[k] * scatter_[k] / noise_[k] : scatter_[k];
+  }
+
+  std::vector<Visit> visits_;
+  std::map<std::pair<int, int>, int> visits_of_;  // by target and way
+  std::map<int, int> visits_of_run_;
+  std::vector<Errors5> shifts_;       // by pass
+  std::vector<std::size_t> pass_of_;  // by visit
+  Errors5 scatter_{}, noise_{};       // variance of a visit by the residuals, mean of the dwells'
+  double freedom_ = 0;
+};
+
+}  // namespace
+
+Repeatability repeatability(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                            const std::vector<TargetMean>& means) {
+  Repeatability found;
+  std::vector<MeasuredPoint> counted;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(counted), counts_in_means);
+  if (any_run_lacks_visits(counted)) {
+    double freedom = 0;
+    for (const TargetMean& mean : means) {
+      found.u.push_back(mean.u);
+      freedom += std::max(0.0, static_cast<double>(mean.n) - 2);
+    }
+    if (freedom > 0) found.freedom = freedom;
+    found.by_scatter.fill(true);
+    return found;
+  }
+  const Decomposition visits(moving, counted);
+  const bool one_way = visits.has_one_way_only();
+  const std::map<int, Errors5> variances = visits.variances();
+  for (const TargetMean& mean : means) {
+    Errors5& u = found.u.emplace_back(mean.u);
+    if (!one_way && !visits.has_both(mean.target)) continue;
+    const Errors5& variance = variances.at(mean.target);
+    for (std::size_t k = 0; k < kErrorCount; ++k) u[k] = std::sqrt(variance[k]);
+  }
+  if (visits.freedom() > 0) found.freedom = visits.freedom();
+  for (std::size_t k = 0; k < kErrorCount; ++k) found.by_scatter[k] = visits.by_scatter(k);
+  const Errors5 shift = visits.shift_variance();
+  for (std::size_t k = 0; k < kErrorCount; ++k) found.u_shift[k] = std::sqrt(shift[k]);
+  if (visits.runs() > 1) found.shift_freedom = visits.runs() - 1;
+  return found;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,31 @@
+// What the visits of a run show of its random errors: what is independent from visit to visit, and
+// shifts that all targets of a pass have in common, which cancel where a figure takes differences.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "algo/iso230/target_means.h"
+#include "schema/point.h"
+
+namespace mdof::algo {
+
+struct Repeatability {
+  std::vector<Errors5> u;  // of the means at the targets, independent of each other; named
+  // Of those errors whose u is by the scatter; a dwell's noise is that of many readings.
+  double freedom = std::numeric_limits<double>::infinity();
+  std::array<bool, kErrorCount> by_scatter{};
+  Errors5 u_shift{};  // of all means together
+  double shift_freedom = std::numeric_limits<double>::infinity();
+};
+
+// `means`: target_means() of both approaches of these points. By least squares error = of the
+// target and its approach + of the pass: the scatter that this leaves, over all targets together,
+// is the variance of a visit where it is larger than the noise of its dwell, by more than one in
+// five logs have by chance. The shift is that of
+// the passes from run to run. Where runs lack visits: u of the means as it is, no shift.
+Repeatability repeatability(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                            const std::vector<TargetMean>& means);
+
+}  // namespace mdof::algo

@@ -1,0 +1,32 @@
+// Covariances of what one calibration found together.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace mdof {
+
+// "A.x": the place of probe A along X, "A.zero": its zero; all of them lengths.
+struct CalibrationCovariance {
+  std::vector<std::string> of;
+  std::vector<std::vector<double>> m2;  // symmetric, a row and a column each
+
+  void erase(const std::string& quantity) {
+    const auto at = std::find(of.begin(), of.end(), quantity);
+    if (at == of.end()) return;
+    const auto i = at - of.begin();
+    of.erase(at);
+    m2.erase(m2.begin() + i);
+    for (auto& row : m2) row.erase(row.begin() + i);
+  }
+};
+inline std::string place_name(const std::string& probe, std::size_t axis) {
+  return probe + "." + std::string(1, "xyz"[axis]);
+}
+inline std::string zero_name(const std::string& probe) {
+  return probe + ".zero";
+}
+
+}  // namespace mdof

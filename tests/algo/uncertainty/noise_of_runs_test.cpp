@@ -1,0 +1,128 @@
+// Noise alone, drawn at each reading: do the stated intervals hold the truth of an axis that is
+// perfect, or bent; and what a drift of the level does to figures in which it cancels.
+// MDOF_COVERAGE_RUNS=1000 for figures worth quoting.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/statistics/range_interval.h"
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kNoise_m = 40e-9;
+
+struct Held {
+  int inside = 0, all = 0;
+  double percent() const { return 100.0 * inside / all; }
+};
+
+int wanted() {
+  const char* runs = std::getenv("MDOF_COVERAGE_RUNS");
+  return runs ? std::atoi(runs) : 150;
+}
+
+Errors5 bend(double d, double height_m, double angle_rad) {
+  const double s = std::sin(2 * M_PI * d / 0.040), c = std::cos(2 * M_PI * d / 0.040);
+  return {height_m * s, height_m * c, angle_rad * s, angle_rad * c, angle_rad * s};
+}
+
+// Of all figures, by name: those that hold the truth of the same axis without noise.
+std::map<std::string, Held> held(int runs, double height_m, double angle_rad) {
+  const Rig rig = test::rig_x_with("", "");
+  std::mt19937_64 engine(99);
+  std::normal_distribution<> normal(0, kNoise_m);
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = runs};
+  synthetic.truth = [&](double d) { return bend(d, height_m, angle_rad); };
+  const RunBudgets exact(rig, synthetic.measure());
+  synthetic.u_reading_m = kNoise_m;
+  synthetic.added = [&](std::size_t, double, double, double) { return normal(engine); };
+  std::map<std::string, Held> all;
+  const std::vector<Figure> figures = figures_of_run(Axis::x);
+  for (int i = 0; i < wanted(); ++i) {
+    const auto budgets = RunBudgets(rig, synthetic.measure()).of(figures);
+    for (std::size_t f = 0; f < figures.size(); ++f) {
+      Held& of = all[figures[f].name];
+      ++of.all;
+      of.inside += std::abs(budgets[f].value - figures[f].of(exact.means())) <= budgets[f].U;
+    }
+  }
+  return all;
+}
+
+void expect_held(const std::map<std::string, Held>& all) {
+  const double three_sd = 65 / std::sqrt(wanted());
+  for (const auto& [figure, of] : all) {
+    std::printf("%-22s %5.1f %%\n", figure.c_str(), of.percent());
+    EXPECT_GT(of.percent(), 95 - three_sd) << figure;
+  }
+}
+
+TEST(NoiseOfRuns, APerfectAxisMayBePerfect) {
+  for (const int runs : {1, 3}) {
+    SCOPED_TRACE(runs);
+    expect_held(held(runs, 0, 0));
+  }
+}
+
+// Straightness of 100 nm and 2 µm in noise of 28 nm and 16 nm at a target.
+TEST(NoiseOfRuns, ABentAxisIsAsBentAsItIs) {
+  for (const int runs : {1, 3})
+    for (const double height_m : {50e-9, 1e-6}) {
+      SCOPED_TRACE(runs);
+      expect_held(held(runs, height_m, 100 * height_m));
+    }
+}
+
+// A range says no more than it must: of a form far above the noise it is ± 1.96 √2 u.
+TEST(NoiseOfRuns, ARangeFarAboveTheNoiseHasTheUncertaintyOfItsEnds) {
+  std::mt19937_64 engine(3);
+  std::normal_distribution<> normal;
+  std::vector<double> changes;
+  for (int i = 0; i < 3 * 20000; ++i) changes.push_back(normal(engine));
+  EXPECT_NEAR(RangeTrials({0, 50, 100}, changes).U(), 1.96 * std::sqrt(2.0), 0.05);
+  // At 0 the range of three normal numbers, whose 95 % point is 3.31 (the studentized range).
+  EXPECT_NEAR(RangeTrials({0, 0, 0}, changes).U(), 3.31, 0.05);
+  EXPECT_NEAR(RangeTrials({0, 1, 3}, changes).U(), 3.31, 0.05);  // which holds 0 and more
+}
+
+// Probes D and E go up and down together from pass to pass: 200 nm of level, nothing of the slope.
+TEST(NoiseOfRuns, ADriftOfTheLevelIsNotInTheSlope) {
+  const Rig rig = test::rig_x_with("", "");
+  std::mt19937_64 engine(5);
+  std::normal_distribution<> normal;
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
+  constexpr double kLevel_m = 200e-9, kWhite_m = 1e-9;
+  synthetic.u_reading_m = kWhite_m;
+  const Figure slope = slope_figure(Axis::x, 0), error = error_figure(Axis::x, 0, 5);
+  double square = 0, U_sum = 0, error_square = 0, u_error_square = 0;
+  constexpr int kRuns = 200;
+  for (int i = 0; i < kRuns; ++i) {
+    std::map<int, double> level;  // by pass of nine points, ten seconds each
+    for (int pass = 0; pass < 6; ++pass) level[pass] = kLevel_m * normal(engine);
+    synthetic.added = [&](std::size_t k, double, double, double time_s) {
+      const int pass = static_cast<int>((time_s - 5) / 90);
+      return kWhite_m * normal(engine) + (k == 3 || k == 4 ? level[pass] : 0.0);
+    };
+    const RunBudgets budgets(rig, synthetic.measure());
+    const Budget of_slope = budgets.of(slope), of_error = budgets.of(error);
+    square += of_slope.value * of_slope.value / kRuns;
+    U_sum += of_slope.U / kRuns;
+    error_square += of_error.value * of_error.value / kRuns;
+    u_error_square += of_error.u * of_error.u / kRuns;
+  }
+  const double spread = 1.96 * std::sqrt(square);
+  std::printf("U of the slope / true spread: %.3f\n", U_sum / spread);
+  EXPECT_LT(U_sum / spread, 1.3);
+  EXPECT_GT(U_sum / spread, 0.85);
+  // At a target it stays.
+  EXPECT_NEAR(std::sqrt(u_error_square / error_square), 1, 0.2);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -21,7 +21,8 @@ struct sqlite3_stmt;
 namespace mdof::sqlite {
 
 enum class OpenMode {
-  read_only,   // writes nothing, but that a half-written transaction of a killed program is undone
+  read_only,   // of a database in use; writes nothing into it
+  snapshot,    // a file of anybody as it is now: nothing is written to it, nor beside it
   read_write,  // the file must exist
   create,      // read_write, made where absent
 };

@@ -103,6 +103,7 @@ Result<Store> Store::open(const fs::path& file, Access access, StoreOptions opti
   Store store(std::move(lock), std::move(connection), access);
   MDOF_CHECK(store.end_interrupted_runs());
   MDOF_CHECK(store.lock_.claim_open_runs());
+  store.connection_.watch_journal();
   return store;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "schema/base/database_files.h"
+#include "schema/base/journal_watch.h"
 
 namespace mdof::sqlite {
 
@@ -18,6 +19,7 @@ struct Session {
   sqlite3* database = nullptr;
   std::map<std::string, sqlite3_stmt*, std::less<>> statements;
   std::optional<PrivateCopy> copy;  // what is open; `file` is what it was made from
+  std::optional<JournalWatch> watch;
 
   ~Session() {
     for (const auto& [text, statement] : statements) sqlite3_finalize(statement);
@@ -112,24 +114,6 @@ int open_flags(OpenMode mode) {
   }
   return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
 }
-
-// Once a rollback is done SQLite deletes the super-journal that the journal names: any file that
-// this process may delete. mdof makes no such journals, so it opens and deletes none, whoever swaps
-// a journal after check_journal().
-int open_no_super_journal(sqlite3_vfs* vfs, const char* name, sqlite3_file* file, int flags,
-                          int* out_flags) {
-  file->pMethods = nullptr;
-  if (flags & SQLITE_OPEN_SUPER_JOURNAL) return SQLITE_CANTOPEN;
-  auto* real = sqlite3_vfs_find("unix");
-  return real->xOpen(vfs, name, file, flags, out_flags);
-}
-
-const bool kGuarded = [] {
-  static sqlite3_vfs guard = *sqlite3_vfs_find("unix");
-  guard.zName = "unix-no-super-journal";
-  guard.xOpen = open_no_super_journal;
-  return sqlite3_vfs_register(&guard, 1) == SQLITE_OK;
-}();
 
 int rollback(sqlite3* database) {
   return sqlite3_get_autocommit(database)
@@ -267,7 +251,7 @@ Connection& Connection::operator=(Connection&&) noexcept = default;
 Connection::~Connection() = default;
 
 Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int busy_timeout_ms) {
-  assert(kGuarded);
+  guard_files();
   MDOF_CHECK(check_journal(file));
   auto session = std::make_unique<Session>();
   session->file = file;
@@ -327,6 +311,14 @@ tl::unexpected<Error> Connection::error(std::string_view doing) const {
   return error_of(*session_, doing);
 }
 
+void Connection::watch_journal() {
+  session_->watch.emplace(session_->database, session_->file);
+}
+
+std::string Connection::journal_fault() {
+  return session_->watch ? session_->watch->fault() : "";
+}
+
 const fs::path& Connection::file() const {
   return session_->file;
 }
@@ -339,6 +331,7 @@ sqlite3* Connection::handle() const {
 Transaction::Transaction(Session& session) : session_(&session) {}
 
 Result<Transaction> Transaction::begin(Connection& connection) {
+  if (const std::string fault = connection.journal_fault(); !fault.empty()) return io_error(fault);
   MDOF_CHECK(connection.execute("BEGIN IMMEDIATE"));
   return Transaction(*connection.session_);
 }
@@ -357,7 +350,9 @@ Status Transaction::commit() {
     session_ = nullptr;
     return error;
   }
-  session_ = nullptr;
+  Session& session = *std::exchange(session_, nullptr);
+  // Before it is acknowledged: what went into a -wal that is gone is lost with this process.
+  if (session.watch && !session.watch->is_kept()) return io_error(session.watch->fault());
   return {};
 }
 

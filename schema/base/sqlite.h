@@ -86,6 +86,11 @@ class Connection {
   Result<std::int64_t> integer(std::string_view sql);  // first column of the first row; none: 0
   std::int64_t last_insert_rowid() const;
 
+  // From now on -wal and -shm are watched (journal_watch.h): no transaction begins, and none is
+  // acknowledged, that the next program would not find.
+  void watch_journal();
+  std::string journal_fault();  // why nothing can be written any more; empty: it can
+
   // The last error as an Error: "FILE: cannot DOING: ... (SQLITE_FULL). Remedy".
   tl::unexpected<Error> error(std::string_view doing) const;
   const std::filesystem::path& file() const;

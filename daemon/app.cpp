@@ -13,6 +13,7 @@
 #include "daemon/station/hotplug.h"
 #include "daemon/systemd/notify.h"
 #include "daemon/version.h"
+#include "schema/base/journal_watch.h"
 #include "schema/base/json_writer.h"
 
 namespace mdof::daemon {
@@ -267,6 +268,7 @@ App::App(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 App::~App() = default;
 
 Result<std::unique_ptr<App>> App::create(Config config) {
+  sqlite::survive_cut_shm();
   auto parts = std::make_unique<Parts>(std::move(config));
   parts->heed_signals();
   MDOF_CHECK(parts->open_store());

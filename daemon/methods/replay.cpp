@@ -7,6 +7,7 @@
 
 #include "daemon/methods/methods.h"
 #include "daemon/methods/replayer.h"
+#include "schema/base/database_files.h"
 #include "schema/base/json_writer.h"
 
 namespace mdof::daemon {
@@ -37,6 +38,10 @@ Status check_log(const Params& params, const std::string& path) {
     return io_error(path + ": " + std::strerror(errno) +
                     "; mdofd reads the log itself: put it where its user can read it");
   if (!S_ISREG(file.st_mode)) return bad_input(path + ": is no file");
+  if (sqlite::is_open_for_writing(file))
+    return fail(ErrorCode::conflict, path +
+                                         ": mdofd itself is writing this file (its database, or a "
+                                         "recording under way); replay a recording that has ended");
   if (may_read(*who, file)) return {};
   return io_error(path + ": is not yours to read; check its owner and mode");
 }

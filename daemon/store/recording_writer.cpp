@@ -74,6 +74,7 @@ Result<Connection> begin_file(const fs::path& file, const RecordingHeader& heade
                               sqlite::Durability durability) {
   MDOF_TRY(Connection connection, Connection::open(file, sqlite::OpenMode::read_write));
   MDOF_CHECK(set_up(connection, header, durability));
+  connection.watch_journal();
   return connection;
 }
 

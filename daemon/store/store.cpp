@@ -1,5 +1,8 @@
 #include "daemon/store/store.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include "daemon/store/file/migrate.h"
 #include "schema/sql/sql.h"
 
@@ -41,8 +44,16 @@ Status check_one_name(const fs::path& file) {
                    "other names, or copy the file where a copy is wanted");
 }
 
+// Another user's database that no mdof writes now is a foreign file: to read it with a -shm of our
+// own beside it would write where that user may.
+OpenMode way_to_read(const fs::path& file) {
+  struct stat now {};
+  const bool foreign = ::stat(file.c_str(), &now) == 0 && now.st_uid != ::geteuid();
+  return foreign && !WriterLock::held(file) ? OpenMode::snapshot : OpenMode::read_only;
+}
+
 Result<Connection> open_reader(const fs::path& file, int busy_timeout_ms) {
-  MDOF_TRY(Connection connection, Connection::open(file, OpenMode::read_only, busy_timeout_ms));
+  MDOF_TRY(Connection connection, Connection::open(file, way_to_read(file), busy_timeout_ms));
   MDOF_CHECK(check_kind(connection, known_version()));
   MDOF_CHECK(check_one_name(file));
   return connection;
@@ -92,6 +103,7 @@ Result<Store> Store::open(const fs::path& file, Access access, StoreOptions opti
   Store store(std::move(lock), std::move(connection), access);
   MDOF_CHECK(store.end_interrupted_runs());
   MDOF_CHECK(store.lock_.claim_open_runs());
+  store.connection_.watch_journal();
   return store;
 }
 

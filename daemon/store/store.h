@@ -154,6 +154,9 @@ class Store {
   Result<std::vector<std::string>> verify();
 
   const std::filesystem::path& file() const { return connection_.file(); }
+  // Of a store that writes: why nothing is stored any more, as -wal or -shm is not what it was
+  // (schema/base/journal_watch.h); empty: it is.
+  std::string journal_fault() { return connection_.journal_fault(); }
 
  private:
   Store(WriterLock lock, sqlite::Connection connection, Access access)

@@ -176,6 +176,8 @@ void Storekeeper::watch_database() {
     reason +=
         " under mdofd, so nothing can be stored: put it back, or restart mdofd to go on with "
         "what is there now";
+  else if (store_ && !(reason = store_->journal_fault()).empty())
+    reason += "; nothing more is stored: restart mdofd";
   {
     const std::lock_guard guard(fault_mutex_);
     if (reason == lost_) return;

@@ -41,7 +41,7 @@ Status RecordingLog::open() {
   std::error_code ec;
   if (!std::filesystem::exists(file_, ec))
     return fail(ErrorCode::not_found, file_.string() + ": no such recording; check the name");
-  MDOF_TRY(Connection connection, Connection::open(file_, sqlite::OpenMode::read_only));
+  MDOF_TRY(Connection connection, Connection::open(file_, sqlite::OpenMode::snapshot));
   connection_.emplace(std::move(connection));
   MDOF_CHECK(check_kind());
   MDOF_CHECK(read_header());

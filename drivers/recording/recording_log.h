@@ -1,5 +1,5 @@
 // A recording (schema/recording/recording.h) as a driver: what it read live it gives again, chunk
-// by chunk, bit for bit. Writes nothing, neither to the file nor, for a sealed one, beside it.
+// by chunk, bit for bit. Writes nothing, neither to the file nor beside it.
 #pragma once
 
 #include <cstdint>

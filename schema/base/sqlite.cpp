@@ -5,6 +5,10 @@
 
 #include <limits>
 #include <map>
+#include <optional>
+
+#include "schema/base/database_files.h"
+#include "schema/base/journal_watch.h"
 
 namespace mdof::sqlite {
 
@@ -14,6 +18,8 @@ struct Session {
   fs::path file;
   sqlite3* database = nullptr;
   std::map<std::string, sqlite3_stmt*, std::less<>> statements;
+  std::optional<PrivateCopy> copy;  // what is open; `file` is what it was made from
+  std::optional<JournalWatch> watch;
 
   ~Session() {
     for (const auto& [text, statement] : statements) sqlite3_finalize(statement);
@@ -67,28 +73,20 @@ tl::unexpected<Error> error_of(const Session& session, std::string_view doing) {
   return io_error(text + " (SQLite error " + std::to_string(extended) + ")");
 }
 
-// A transaction that a killed program left half written is to be rolled back before anybody reads.
-bool journal_waits(const fs::path& file) {
-  std::error_code ec, none;
-  const fs::path real = fs::canonical(file, ec);  // it lies beside the file that a link leads to
-  const auto bytes = fs::file_size((ec ? file : real).string() + "-journal", none);
-  return !none && bytes > 0;
-}
-
-// Opened for writing and read once: SQLite then rolls back what is not whole. What hinders it is
-// told by whoever reads after that.
-void recover(const fs::path& file, int busy_timeout_ms) {
-  auto connection = Connection::open(file, OpenMode::read_write, busy_timeout_ms);
-  if (connection) (void)connection->integer("SELECT count(*) FROM sqlite_master");
-}
+// Never the other way round: to read a file that is not ours must not change it, nor what is beside
+// it (with a -journal beside it SQLite would write, and delete the file that the journal names).
+enum class Reading { shared, unchanging, copied };
 
 // A reader needs the -shm file beside a database in WAL mode, and makes it. Where the folder does
 // not let it, and nothing waits in a -wal file, the database cannot change under us.
-bool needs_immutable(const fs::path& file) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  std::error_code ec;
-  const auto wal_bytes = fs::file_size(file.string() + "-wal", ec);
-  return (ec || wal_bytes == 0) && !journal_waits(file) && access(folder.c_str(), W_OK) != 0;
+Reading way_to_read(const fs::path& file, OpenMode mode) {
+  if (is_open_for_writing(file)) return Reading::shared;  // here: its locks must stay
+  if (has_journal(file)) return Reading::copied;
+  const bool foreign = mode == OpenMode::snapshot;
+  const fs::path folder = beside(file, "").parent_path();
+  if (!foreign && access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return Reading::shared;
+  if (!has_wal(file)) return Reading::unchanging;
+  return !foreign && is_shared(file) ? Reading::shared : Reading::copied;
 }
 
 std::string immutable_uri(const fs::path& file) {
@@ -107,6 +105,7 @@ std::string immutable_uri(const fs::path& file) {
 int open_flags(OpenMode mode) {
   switch (mode) {
     case OpenMode::read_only:
+    case OpenMode::snapshot:
       return SQLITE_OPEN_READONLY;
     case OpenMode::read_write:
       return SQLITE_OPEN_READWRITE;
@@ -252,17 +251,30 @@ Connection& Connection::operator=(Connection&&) noexcept = default;
 Connection::~Connection() = default;
 
 Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int busy_timeout_ms) {
-  if (mode == OpenMode::read_only && journal_waits(file)) recover(file, busy_timeout_ms);
+  guard_files();
+  MDOF_CHECK(check_journal(file));
   auto session = std::make_unique<Session>();
   session->file = file;
-  const bool immutable = mode == OpenMode::read_only && needs_immutable(file);
-  const std::string name = immutable ? immutable_uri(file) : file.string();
-  const int flags = open_flags(mode) | SQLITE_OPEN_NOMUTEX | (immutable ? SQLITE_OPEN_URI : 0);
+  std::string name = file.string();
+  int flags = open_flags(mode) | SQLITE_OPEN_NOMUTEX;
+  const bool reads = mode == OpenMode::read_only || mode == OpenMode::snapshot;
+  const Reading reading = reads ? way_to_read(file, mode) : Reading::shared;
+  if (reading == Reading::copied) {
+    MDOF_TRY(PrivateCopy copy, PrivateCopy::make(file, busy_timeout_ms));
+    session->copy.emplace(std::move(copy));
+    name = session->copy->file().string();
+    flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX;  // to roll back, or take from the -wal
+  } else if (reading == Reading::unchanging) {
+    name = immutable_uri(file);
+    flags |= SQLITE_OPEN_URI;
+  }
   if (sqlite3_open_v2(name.c_str(), &session->database, flags, nullptr) != SQLITE_OK)
     return error_of(*session, "open");
   sqlite3_extended_result_codes(session->database, 1);
   sqlite3_busy_timeout(session->database, busy_timeout_ms);
-  return Connection(std::move(session));
+  Connection connection(std::move(session));
+  if (reading == Reading::copied) MDOF_CHECK(connection.execute("PRAGMA query_only = ON"));
+  return connection;
 }
 
 Status Connection::execute(const std::string& sql) {
@@ -299,6 +311,14 @@ tl::unexpected<Error> Connection::error(std::string_view doing) const {
   return error_of(*session_, doing);
 }
 
+void Connection::watch_journal() {
+  session_->watch.emplace(session_->database, session_->file);
+}
+
+std::string Connection::journal_fault() {
+  return session_->watch ? session_->watch->fault() : "";
+}
+
 const fs::path& Connection::file() const {
   return session_->file;
 }
@@ -311,6 +331,7 @@ sqlite3* Connection::handle() const {
 Transaction::Transaction(Session& session) : session_(&session) {}
 
 Result<Transaction> Transaction::begin(Connection& connection) {
+  if (const std::string fault = connection.journal_fault(); !fault.empty()) return io_error(fault);
   MDOF_CHECK(connection.execute("BEGIN IMMEDIATE"));
   return Transaction(*connection.session_);
 }
@@ -329,7 +350,9 @@ Status Transaction::commit() {
     session_ = nullptr;
     return error;
   }
-  session_ = nullptr;
+  Session& session = *std::exchange(session_, nullptr);
+  // Before it is acknowledged: what went into a -wal that is gone is lost with this process.
+  if (session.watch && !session.watch->is_kept()) return io_error(session.watch->fault());
   return {};
 }
 

@@ -21,7 +21,8 @@ struct sqlite3_stmt;
 namespace mdof::sqlite {
 
 enum class OpenMode {
-  read_only,   // writes nothing, but that a half-written transaction of a killed program is undone
+  read_only,   // of a database in use; writes nothing into it
+  snapshot,    // a file of anybody as it is now: nothing is written to it, nor beside it
   read_write,  // the file must exist
   create,      // read_write, made where absent
 };
@@ -84,6 +85,11 @@ class Connection {
   Result<Statement> prepare(std::string_view sql);     // cached by its text; not twice at a time
   Result<std::int64_t> integer(std::string_view sql);  // first column of the first row; none: 0
   std::int64_t last_insert_rowid() const;
+
+  // From now on -wal and -shm are watched (journal_watch.h): no transaction begins, and none is
+  // acknowledged, that the next program would not find.
+  void watch_journal();
+  std::string journal_fault();  // why nothing can be written any more; empty: it can
 
   // The last error as an Error: "FILE: cannot DOING: ... (SQLITE_FULL). Remedy".
   tl::unexpected<Error> error(std::string_view doing) const;

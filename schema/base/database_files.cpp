@@ -1,0 +1,221 @@
+#include "schema/base/database_files.h"
+
+#include <fcntl.h>
+#include <sys/sendfile.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+namespace mdof::sqlite {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Descriptor {
+ public:
+  explicit Descriptor(const fs::path& file, int flags = O_RDONLY | O_NONBLOCK | O_NOFOLLOW)
+      : fd_(::open(file.c_str(), flags | O_CLOEXEC, 0600)) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int fd() const { return fd_; }
+  // 0: it is no regular file, or cannot be read.
+  off_t size() const {
+    struct stat now {};
+    return fd_ >= 0 && ::fstat(fd_, &now) == 0 && S_ISREG(now.st_mode) ? now.st_size : 0;
+  }
+
+ private:
+  int fd_;
+};
+
+tl::unexpected<Error> failed(const fs::path& file, const char* doing) {
+  return io_error(file.string() + ": cannot " + doing + ": " + std::strerror(errno));
+}
+
+std::string bytes_at(const Descriptor& file, off_t offset, std::size_t count) {
+  std::string bytes(count, '\0');
+  const auto got = ::pread(file.fd(), bytes.data(), count, offset);
+  bytes.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  return bytes;
+}
+
+// https://www.sqlite.org/fileformat2.html#the_write_ahead_log: header of 32 bytes, then frames.
+constexpr off_t kWalHeader = 32;
+
+// What SQLite locks of a database (os_unix.c): readers hold all of the one, and who moves the -wal
+// into the database the other, of -shm; who has -shm open holds the third.
+struct Range {
+  off_t begin, count;
+};
+constexpr Range kSharedBytes{0x40000002, 510};
+constexpr Range kCheckpointByte{121, 1};
+constexpr Range kShmInUseByte{128, 1};
+
+struct flock lock_on(const Range& range, short type) {
+  struct flock lock {};
+  lock.l_type = type;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = range.begin;
+  lock.l_len = range.count;
+  return lock;
+}
+
+// Held until the descriptor is closed. A file system without locks has nobody to wait for.
+bool share(const Descriptor& file, const Range& range) {
+  struct flock lock = lock_on(range, F_RDLCK);
+  return ::fcntl(file.fd(), F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
+}
+
+Status copy_bytes(const Descriptor& from, const fs::path& name, const fs::path& to) {
+  const Descriptor out(to, O_WRONLY | O_CREAT | O_EXCL);
+  if (out.fd() < 0) return failed(to, "create the private copy");
+  off_t at = 0;
+  for (off_t left = from.size(); left > 0;) {
+    const auto piece = static_cast<std::size_t>(std::min<off_t>(left, off_t{1} << 30));
+    const ssize_t done = ::sendfile(out.fd(), from.fd(), &at, piece);
+    if (done < 0) return failed(name, "copy it to a private folder (TMPDIR names another)");
+    if (done == 0) break;
+    left -= done;
+  }
+  return {};
+}
+
+// Half of what is free, so that a hostile file fills no disk.
+Status check_room(const fs::path& database, off_t bytes, const fs::path& folder) {
+  struct statvfs disk {};
+  if (::statvfs(folder.c_str(), &disk) != 0) return failed(folder, "ask for its free space");
+  const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize / 2;
+  if (static_cast<std::uint64_t>(bytes) <= room) return {};
+  return io_error(database.string() +
+                  ": has changes in its journal, and must be copied to be read; " +
+                  "the copy needs " + std::to_string(bytes >> 20) +
+                  " MB, and half of the room in " + folder.string() + " is " +
+                  std::to_string(room >> 20) + " MB: set TMPDIR to a folder with more room");
+}
+
+enum class Copied { yes, busy };
+
+// Consistent, because nobody writes into the database meanwhile: a rollback transaction needs all
+// of the shared bytes, a checkpoint its own. The -wal may grow; only one that is begun anew is
+// refused.
+Result<Copied> copy_once(const fs::path& database, const fs::path& to) {
+  const Descriptor file(database, O_RDONLY | O_NONBLOCK);
+  const Descriptor shm(beside(database, "-shm"));
+  const Descriptor journal(beside(database, "-journal")), wal(beside(database, "-wal"));
+  if (file.fd() < 0) return failed(database, "open it");
+  if (!share(file, kSharedBytes)) return Copied::busy;
+  if (shm.fd() >= 0 && !share(shm, kCheckpointByte)) return Copied::busy;
+  MDOF_CHECK(check_room(database, file.size() + journal.size() + wal.size(), to.parent_path()));
+  MDOF_CHECK(copy_bytes(file, database, to));
+  if (journal.size() > 0)
+    MDOF_CHECK(copy_bytes(journal, beside(database, "-journal"), to.string() + "-journal"));
+  if (wal.size() <= kWalHeader) return Copied::yes;
+  const std::string header = bytes_at(wal, 0, kWalHeader);
+  MDOF_CHECK(copy_bytes(wal, beside(database, "-wal"), to.string() + "-wal"));
+  return bytes_at(wal, 0, kWalHeader) == header ? Copied::yes : Copied::busy;
+}
+
+}  // namespace
+
+fs::path beside(const fs::path& database, const char* ending) {
+  std::error_code ec;
+  const fs::path real = fs::canonical(database, ec);
+  return (ec ? database : real).string() + ending;
+}
+
+// Its end: length of the name (4 bytes), checksum of the name (4), the magic number of a journal
+// (8).
+Status check_journal(const fs::path& database) {
+  constexpr std::string_view kMagic{"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8};
+  const fs::path name = beside(database, "-journal");
+  if (!has_journal(database)) return {};
+  const Descriptor journal(name);
+  const off_t size = journal.size();
+  if (size < 16) return {};
+  const std::string end = bytes_at(journal, size - 16, 16);
+  if (end.size() != 16 || end.substr(8) != kMagic || end.substr(0, 4) == std::string(4, '\0'))
+    return {};
+  return bad_input(name.string() +
+                   ": names a super-journal, which mdof never makes and which SQLite would delete; "
+                   "the database is not read. Remove the journal, or restore both from a copy");
+}
+
+// As SQLite: one whose first byte is 0 has been used up.
+bool has_journal(const fs::path& database) {
+  const Descriptor journal(beside(database, "-journal"));
+  return journal.size() > 0 && bytes_at(journal, 0, 1) != std::string(1, '\0');
+}
+
+bool has_wal(const fs::path& database) {
+  return Descriptor(beside(database, "-wal")).size() > kWalHeader;
+}
+
+bool is_shared(const fs::path& database) {
+  const Descriptor shm(beside(database, "-shm"));
+  if (shm.fd() < 0) return false;
+  struct flock question = lock_on(kShmInUseByte, F_WRLCK);
+  return ::fcntl(shm.fd(), F_OFD_GETLK, &question) == 0 && question.l_type != F_UNLCK;
+}
+
+bool is_open_for_writing(const struct stat& file) {
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator("/proc/self/fd", ec)) {
+    const int fd = std::atoi(entry.path().filename().c_str());
+    struct stat mine {};
+    if (::fstat(fd, &mine) != 0 || mine.st_dev != file.st_dev || mine.st_ino != file.st_ino)
+      continue;
+    if (const int flags = ::fcntl(fd, F_GETFL); flags >= 0 && (flags & O_ACCMODE) != O_RDONLY)
+      return true;
+  }
+  return bool(ec);  // where it cannot be known, it may be
+}
+
+bool is_open_for_writing(const fs::path& file) {
+  struct stat now {};
+  return ::stat(file.c_str(), &now) == 0 && is_open_for_writing(now);
+}
+
+// ---- PrivateCopy ----
+
+Result<PrivateCopy> PrivateCopy::make(const fs::path& database, int timeout_ms) {
+  std::error_code ec;
+  std::string folder = (fs::temp_directory_path(ec) / "mdof-copy-XXXXXX").string();
+  if (ec || !::mkdtemp(folder.data()))
+    return failed(folder, "make a private folder (TMPDIR names another place)");
+  PrivateCopy copy{fs::path(folder)};
+  constexpr int kStepMs = 10;
+  for (int waited_ms = 0;; waited_ms += kStepMs) {
+    MDOF_TRY(const Copied done, copy_once(database, copy.file()));
+    if (done == Copied::yes) return copy;
+    for (const char* ending : {"", "-journal", "-wal"})
+      fs::remove(copy.file().string() + ending, ec);
+    if (waited_ms >= timeout_ms)
+      return fail(ErrorCode::conflict, database.string() +
+                                           ": another program writes it all the time, so that it "
+                                           "cannot be copied; try again when it is done");
+    std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
+  }
+}
+
+PrivateCopy::PrivateCopy(PrivateCopy&& other) noexcept
+    : folder_(std::exchange(other.folder_, fs::path())) {}
+
+PrivateCopy::~PrivateCopy() {
+  std::error_code ignored;
+  if (!folder_.empty()) fs::remove_all(folder_, ignored);
+}
+
+}  // namespace mdof::sqlite

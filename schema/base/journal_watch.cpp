@@ -1,0 +1,222 @@
+#include "schema/base/journal_watch.h"
+
+#include <signal.h>
+#include <sqlite3.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+
+#include "schema/base/database_files.h"
+
+namespace mdof::sqlite {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kShmRegion = 32 * 1024;  // bytes that SQLite maps at a time
+
+// What SQLite has mapped of -shm files. Read by a signal handler: no lock, no memory.
+std::array<std::atomic<void*>, 4096> mapped;
+std::atomic<bool> shm_was_cut{false};
+static_assert(std::atomic<void*>::is_always_lock_free);
+
+void note_mapped(void* region) {
+  for (auto& place : mapped) {
+    void* nothing = nullptr;
+    if (place.load() == region || place.compare_exchange_strong(nothing, region)) return;
+  }
+}
+
+// Bytes 0xff: no checksum of a header fits, and no search in a hash table ends (SQLITE_CORRUPT). In
+// one step, so that no thread sees a table that is empty.
+void replace_by_damage(void* region) {
+  void* damage =
+      ::mmap(nullptr, kShmRegion, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (damage == MAP_FAILED) return;
+  std::memset(damage, 0xff, kShmRegion);
+  ::mremap(damage, kShmRegion, kShmRegion, MREMAP_MAYMOVE | MREMAP_FIXED, region);
+}
+
+void on_bus_error(int signal, siginfo_t* info, void*) {
+  const int before = errno;
+  const auto* at = static_cast<const char*>(info->si_addr);
+  const auto holds = [at](const std::atomic<void*>& place) {
+    const auto* region = static_cast<const char*>(place.load());
+    return region && at >= region && at < region + kShmRegion;
+  };
+  if (std::none_of(mapped.begin(), mapped.end(), holds)) {
+    ::signal(signal, SIG_DFL);  // another fault: it comes again, and ends the process
+    return;
+  }
+  shm_was_cut = true;
+  for (const auto& place : mapped)
+    if (void* region = place.load()) replace_by_damage(region);
+  errno = before;
+}
+
+sqlite3_io_methods noting_methods;                 // the real ones, but for xShmMap
+const sqlite3_io_methods* real_methods = nullptr;  // of a database on an ordinary disk
+
+int map_and_note(sqlite3_file* file, int page, int size, int extend, void volatile** region) {
+  const int code = real_methods->xShmMap(file, page, size, extend, region);
+  if (code == SQLITE_OK && *region && size == kShmRegion) note_mapped(const_cast<void*>(*region));
+  return code;
+}
+
+int open_guarded(sqlite3_vfs*, const char* name, sqlite3_file* file, int flags, int* out_flags) {
+  file->pMethods = nullptr;
+  if (flags & SQLITE_OPEN_SUPER_JOURNAL) return SQLITE_CANTOPEN;
+  auto* real = sqlite3_vfs_find("unix");
+  const int code = real->xOpen(real, name, file, flags, out_flags);
+  if (!file->pMethods || !(flags & SQLITE_OPEN_MAIN_DB)) return code;
+  static const bool once = [file] {
+    real_methods = file->pMethods;
+    noting_methods = *real_methods;
+    noting_methods.xShmMap = map_and_note;
+    return true;
+  }();
+  if (once && file->pMethods == real_methods) file->pMethods = &noting_methods;
+  return code;
+}
+
+// The index of a -wal: how many of its frames are committed, and what a page of it has.
+struct WalIndex {
+  std::uint32_t frames = 0, page_bytes = 0;
+  bool operator==(const WalIndex&) const = default;
+};
+
+// Of the header at the beginning of -shm, https://www.sqlite.org/walformat.html. None: not mapped.
+bool read_index(sqlite3* database, WalIndex& index) {
+  sqlite3_file* file = nullptr;
+  void volatile* region = nullptr;
+  if (sqlite3_file_control(database, "main", SQLITE_FCNTL_FILE_POINTER, &file) != SQLITE_OK ||
+      !file || !file->pMethods || file->pMethods->iVersion < 2 ||
+      file->pMethods->xShmMap(file, 0, kShmRegion, 0, &region) != SQLITE_OK || !region)
+    return false;
+  const auto* bytes = static_cast<const volatile char*>(region);
+  std::uint16_t page = 0;
+  for (unsigned i = 0; i < sizeof page; ++i) reinterpret_cast<char*>(&page)[i] = bytes[14 + i];
+  for (unsigned i = 0; i < sizeof index.frames; ++i)
+    reinterpret_cast<char*>(&index.frames)[i] = bytes[16 + i];
+  index.page_bytes = page == 1 ? 65536 : page;
+  return true;
+}
+
+// What -wal has at least.
+off_t bytes_of(const WalIndex& index) {
+  constexpr off_t kHeader = 32, kFrameHeader = 24;
+  if (index.frames == 0) return 0;
+  return kHeader + off_t{index.frames} * (kFrameHeader + off_t{index.page_bytes});
+}
+
+}  // namespace
+
+void guard_files() {
+  static const bool done = [] {
+    static sqlite3_vfs guard = *sqlite3_vfs_find("unix");
+    guard.zName = "unix-guarded";
+    guard.xOpen = open_guarded;
+    return sqlite3_vfs_register(&guard, 1) == SQLITE_OK;
+  }();
+  assert(done);
+  (void)done;
+}
+
+namespace {
+[[maybe_unused]] const bool guarded_from_the_start = (guard_files(), true);
+}
+
+void survive_cut_shm() {
+  struct sigaction action {};
+  action.sa_sigaction = on_bus_error;
+  action.sa_flags = SA_SIGINFO | SA_NODEFER;
+  ::sigaction(SIGBUS, &action, nullptr);
+}
+
+// ---- JournalWatch ----
+
+JournalWatch::JournalWatch(sqlite3* database, const fs::path& file)
+    : database_(database), wal_(beside(file, "-wal")), shm_(beside(file, "-shm")) {
+  off_t ignored = 0;
+  (void)identify(wal_, wal_identity_, ignored);
+  (void)identify(shm_, shm_identity_, ignored);
+}
+
+bool JournalWatch::identify(const fs::path& file, Identity& identity, off_t& bytes) {
+  struct stat now {};
+  if (::stat(file.c_str(), &now) != 0) return false;
+  identity = {now.st_dev, now.st_ino};
+  bytes = now.st_size;
+  return true;
+}
+
+const std::string& JournalWatch::fault() {
+  if (!fault_.empty()) return fault_;
+  Identity now;
+  off_t bytes = 0;
+  if (!identify(shm_, now, bytes))
+    note(shm_.string() + " was deleted", false);
+  else if (now != shm_identity_)
+    note(shm_.string() + " was replaced by another file", false);
+  else if (bytes < kShmRegion || shm_was_cut)
+    note(shm_.string() + " was cut short", false);
+  else if (!identify(wal_, now, bytes))
+    note(wal_.string() + " was deleted", false);
+  else if (now != wal_identity_)
+    note(wal_.string() + " was replaced by another file", true);
+  else if (is_cut(bytes))
+    lose(wal_.string() + " was cut short");
+  return fault_;
+}
+
+// A program may take all of it into the database and empty it; the index then says so.
+bool JournalWatch::is_cut(off_t bytes) {
+  WalIndex before, after;
+  while (read_index(database_, before) && bytes < bytes_of(before)) {
+    Identity now;
+    if (!identify(wal_, now, bytes) || !read_index(database_, after) || before == after)
+      return bytes < bytes_of(before);
+  }
+  return false;
+}
+
+bool JournalWatch::is_kept() {
+  return fault().empty() || moved_;
+}
+
+// Close neither moves nor deletes what has the name now.
+void JournalWatch::leave_files_alone() {
+  sqlite3_db_config(database_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+}
+
+void JournalWatch::note(std::string what, bool foreign_wal) {
+  int in_wal = 0, in_database = 0;
+  moved_ = sqlite3_wal_checkpoint_v2(database_, "main", SQLITE_CHECKPOINT_FULL, &in_wal,
+                                     &in_database) == SQLITE_OK &&
+           in_wal == in_database;
+  leave_files_alone();
+  if (!moved_) return lose(std::move(what));
+  fault_ = std::move(what) + "; what was stored until then is kept in the database itself";
+  if (!foreign_wal) return;
+  // It would be taken into the database when that is next opened.
+  std::error_code ec;
+  const fs::path aside = wal_.string() + ".foreign";
+  fs::rename(wal_, aside, ec);
+  fault_ += ec ? "; remove " + wal_.string() + " before the database is next opened"
+               : "; that file is " + aside.string() + " now";
+}
+
+void JournalWatch::lose(std::string what) {
+  leave_files_alone();
+  fault_ = std::move(what) + "; what was stored last, up to some minutes, may be lost with it";
+}
+
+}  // namespace mdof::sqlite

@@ -1,5 +1,6 @@
 #include "daemon/app.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
@@ -11,6 +12,7 @@
 #include "daemon/station/check_start.h"
 #include "daemon/station/clock_watch.h"
 #include "daemon/station/hotplug.h"
+#include "daemon/store/file/told_head.h"
 #include "daemon/systemd/notify.h"
 #include "daemon/version.h"
 #include "schema/base/journal_watch.h"
@@ -87,6 +89,7 @@ struct App::Parts {
     for (auto& station : stations) station->begin_stopping();
     replayer.reset();
     stations.clear();
+    reader.reset();  // before the writer, which then leaves one plain file
     keeper.reset();
   }
   Status open_store();
@@ -99,6 +102,7 @@ struct App::Parts {
   Status listen();
   void watch();
   void watch_clock();
+  void watch_reader();
   void watch_hotplug();
 
   ClockWatch clock;
@@ -124,6 +128,10 @@ Status App::Parts::open_store() {
       if (now.state == "ok") read_anew();
       tell(kRunTopic, storage_json(now));
     });
+  };
+  events.head_changed = [](const store::ChainHead& head) {
+    std::fprintf(stderr, "chain of hashes: link %lld, %s\n", static_cast<long long>(head.link),
+                 head.sha256.c_str());
   };
   MDOF_TRY(keeper, Storekeeper::start({config.database, config.durability, config.commit_interval},
                                       std::move(events)));
@@ -197,6 +205,9 @@ Status App::Parts::listen() {
                                               std::chrono::steady_clock::now()});
   methods->replayer = replayer.get();
   MDOF_TRY(methods->generation, reader->generation());
+  // Never back, though what raised it is lost.
+  methods->generation =
+      std::max(methods->generation, store::read_told_head(config.database).generation);
   add_all_methods(table, *methods);
   MDOF_TRY(const auto handed_over, systemd::take_listen_sockets());
   for (const int fd : handed_over) MDOF_CHECK(server.listen_fd(fd));
@@ -225,8 +236,17 @@ void App::Parts::watch() {
       if (all) systemd::feed_watchdog();
     });
   }
-  loop.call_every(std::chrono::seconds(1), [this] { watch_clock(); });
+  loop.call_every(std::chrono::seconds(1), [this] {
+    watch_clock();
+    watch_reader();
+  });
   watch_hotplug();
+}
+
+void App::Parts::watch_reader() {
+  if (reader->damage().empty()) return;
+  keeper->note_damage(reader->damage());
+  read_anew();
 }
 
 void App::Parts::watch_clock() {

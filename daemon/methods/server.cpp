@@ -42,6 +42,9 @@ std::string server_info(const Methods& m) {
   const StorageState storage = m.keeper.storage();
   json.field("storage", storage.state).key("storage_reason");
   storage.reason.empty() ? json.null() : json.value(storage.reason);
+  const store::ChainHead head = m.keeper.chain_head();
+  json.key("chain").begin_object().field("link", head.link).field("sha256", head.sha256);
+  json.end_object();
   json.key("axes").begin_array();
   for (const auto& station : m.stations) {
     json.begin_object()
@@ -166,13 +169,15 @@ Result<ActiveTables> load_active(store::Store& store) {
 }
 
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
-  table.add({.name = "server.info",
-             .summary = "Version, uptime, axes and the compensation generation in force.",
-             .result =
-                 "identity of the daemon; axes with their devices, the run under way and what "
-                 "the positions of the encoder are counted from: datum (absolute, none, "
-                 "configured, set, index), offset_mm, note",
-             .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
+  table.add(
+      {.name = "server.info",
+       .summary = "Version, uptime, axes and the compensation generation in force.",
+       .result =
+           "identity of the daemon; chain: link and sha256 of the head of the chain of "
+           "hashes, for mdof verify --head; axes with their devices, the run under way and what "
+           "the positions of the encoder are counted from: datum (absolute, none, "
+           "configured, set, index), offset_mm, note",
+       .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add({.name = "device.list",
              .summary = "Every device with its axis, state, last error, channels and counts.",
              .result = "devices",

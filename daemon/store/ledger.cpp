@@ -163,18 +163,31 @@ Status check_all(Connection& connection, std::vector<std::string>& findings, Wan
 
 Status add_link(Connection& connection, Fact fact, std::int64_t row) {
   const FactKind& kind = kind_of(fact);
-  std::string previous;
-  {
-    MDOF_TRY(Statement last,
-             connection.prepare("SELECT sha256 FROM ledger ORDER BY id DESC LIMIT 1"));
-    MDOF_TRY(const bool found, last.step());
-    if (found) previous = last.text(0);
-  }
-  MDOF_TRY(const auto sha256, link_of(connection, previous, kind, row));
+  MDOF_TRY(const ChainHead head, chain_head(connection));
+  MDOF_TRY(const auto sha256, link_of(connection, head.sha256, kind, row));
   if (!sha256) return damaged(connection, finding(kind, row, kGone));
   MDOF_TRY(Statement insert,
            connection.prepare("INSERT INTO ledger (fact, row, sha256) VALUES (?, ?, ?)"));
   return insert.bind(std::string_view(kind.name)).bind(row).bind(std::string_view(*sha256)).run();
+}
+
+Result<ChainHead> chain_head(Connection& connection) {
+  MDOF_TRY(Statement last,
+           connection.prepare("SELECT id, sha256 FROM ledger ORDER BY id DESC LIMIT 1"));
+  MDOF_TRY(const bool found, last.step());
+  return found ? ChainHead{last.integer(0), std::string(last.text(1))} : ChainHead{};
+}
+
+Result<bool> has_link(Connection& connection, const ChainHead& head) {
+  if (head.link == 0) return true;
+  MDOF_TRY(Statement link,
+           connection.prepare("SELECT 1 FROM ledger NOT INDEXED WHERE id = ? AND sha256 = ?"));
+  return link.bind(head.link).bind(std::string_view(head.sha256)).step();
+}
+
+Result<bool> has_hash(Connection& connection, const std::string& sha256) {
+  MDOF_TRY(Statement link, connection.prepare("SELECT 1 FROM ledger NOT INDEXED WHERE sha256 = ?"));
+  return link.bind(std::string_view(sha256)).step();
 }
 
 Status link_old_facts(Connection& connection) {

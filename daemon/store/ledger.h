@@ -22,6 +22,13 @@ namespace mdof::store {
 
 inline constexpr int kLedgerSchema = 8;  // the migration that made it
 
+// The last link of a chain: its number, from 1, and its hash, which depends on all before it.
+struct ChainHead {
+  std::int64_t link = 0;  // 0: none yet
+  std::string sha256;
+  bool operator==(const ChainHead&) const = default;
+};
+
 enum class Fact { run, run_end, squareness, table, activation, deactivation, deed, encoder_datum };
 
 // Within the transaction that stored the fact.
@@ -29,6 +36,11 @@ Status add_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
 // Links all facts of a database from before it had a ledger; of deeds and encoder data there were
 // none.
 Status link_old_facts(sqlite::Connection& connection);
+
+Result<ChainHead> chain_head(sqlite::Connection& connection);
+// Whether it is still the head or a link on the way to it: nothing was cut off or calculated anew.
+Result<bool> has_link(sqlite::Connection& connection, const ChainHead& head);
+Result<bool> has_hash(sqlite::Connection& connection, const std::string& sha256);
 
 // Error (bad_input): the fact is not what was stored, or has no link.
 Status check_link(sqlite::Connection& connection, Fact fact, std::int64_t row);

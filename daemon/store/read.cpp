@@ -207,6 +207,39 @@ Result<MeasuredPoint> Store::point_of(Statement& row) {
 
 Result<std::vector<MeasuredPoint>> Store::points(std::int64_t run, std::int64_t offset,
                                                  std::int64_t count) {
+  MDOF_TRY(auto list, read_points(run, offset, count));
+  MDOF_CHECK(check_points(run, std::max<std::int64_t>(offset, 0), list));
+  return list;
+}
+
+// A page alone has no hash. So the whole run is checked once, and each row is remembered.
+Status Store::check_points(std::int64_t run, std::int64_t offset,
+                           const std::vector<MeasuredPoint>& points) {
+  MDOF_TRY(const std::string stored, stored_sha256(run));
+  if (stored.empty()) return {};  // it is being measured
+  MDOF_CHECK(check_link(connection_, Fact::run_end, run));
+  if (checked_.run != run || checked_.sha256 != stored) {
+    CheckedRows now{run, stored, {}};
+    MDOF_TRY(const std::string sha256, hash_rows(run, &now.rows));
+    if (sha256 != stored) return other_rows(run);
+    checked_ = std::move(now);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t row = static_cast<std::size_t>(offset) + i;
+    if (row < checked_.rows.size() && row_hash(points[i]) == checked_.rows[row]) continue;
+    checked_ = {};
+    return other_rows(run);
+  }
+  return {};
+}
+
+tl::unexpected<Error> Store::other_rows(std::int64_t run) const {
+  return bad_input(file().string() + ": run " + std::to_string(run) +
+                   ": its result rows are not those that were stored; replay its recording");
+}
+
+Result<std::vector<MeasuredPoint>> Store::read_points(std::int64_t run, std::int64_t offset,
+                                                      std::int64_t count) {
   MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
   MDOF_TRY(Statement rows, connection_.prepare(kPoints));
   rows.bind(run).bind(std::max<std::int64_t>(offset, 0)).bind(count);
@@ -257,23 +290,29 @@ Result<std::vector<AngleFigure>> Store::angles(std::int64_t run) {
 Result<Run> Store::run(std::int64_t run) {
   Run whole;
   MDOF_TRY(whole.header, run_header(run));
-  MDOF_TRY(whole.points, points(run, 0, -1));  // a negative limit is none
+  MDOF_TRY(whole.points, read_points(run, 0, -1));  // a negative limit is none
   MDOF_TRY(whole.straightness, straightness(run));
   MDOF_TRY(whole.angles, angles(run));
   MDOF_TRY(whole.plausibility, plausibility(run));
   MDOF_TRY(const std::string stored, stored_sha256(run));
   if (stored.empty() || stored == store::result_sha256(whole)) return whole;
-  return bad_input(file().string() + ": run " + std::to_string(run) +
-                   ": its result rows are not those that were stored; replay its recording");
+  return other_rows(run);
 }
 
 Result<std::string> Store::result_sha256(std::int64_t run) {
+  return hash_rows(run, nullptr);
+}
+
+Result<std::string> Store::hash_rows(std::int64_t run, std::vector<std::uint64_t>* rows) {
   MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
   ResultHash hash;
   constexpr std::int64_t kPage = 4096;
   for (std::int64_t offset = 0;; offset += kPage) {
-    MDOF_TRY(const auto page, points(run, offset, kPage));
-    for (const MeasuredPoint& point : page) hash.add(point);
+    MDOF_TRY(const auto page, read_points(run, offset, kPage));
+    for (const MeasuredPoint& point : page) {
+      hash.add(point);
+      if (rows) rows->push_back(row_hash(point));
+    }
     if (page.size() < kPage) break;
   }
   MDOF_TRY(const auto straight, straightness(run));

@@ -98,6 +98,12 @@ std::string ResultHash::hex() const {
   return hash_.hex();
 }
 
+std::uint64_t row_hash(const MeasuredPoint& point) {
+  ResultHash hash;
+  hash.add(point);
+  return std::stoull(hash.hex().substr(0, 16), nullptr, 16);
+}
+
 std::string result_sha256(const Run& run) {
   ResultHash hash;
   for (const MeasuredPoint& point : run.points) hash.add(point);

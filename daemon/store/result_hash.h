@@ -14,6 +14,7 @@
 //   angle         s error_key, s approach, d start_rad, d min_rad, d max_rad
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "schema/base/sha256.h"
@@ -34,5 +35,7 @@ class ResultHash {
 };
 
 std::string result_sha256(const Run& run);
+// The beginning of the SHA-256 of one row, as above.
+std::uint64_t row_hash(const MeasuredPoint& point);
 
 }  // namespace mdof::store

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "daemon/store/file/writer_lock.h"
+#include "daemon/store/ledger.h"
 #include "daemon/store/study/study_record.h"
 #include "schema/base/result.h"
 #include "schema/base/sqlite.h"
@@ -93,7 +94,8 @@ class Store {
                                            std::optional<Axis> axis = std::nullopt);
   Result<std::int64_t> count_runs(std::optional<Axis> axis = std::nullopt);
   Result<std::optional<std::int64_t>> superseded_by(std::int64_t run);  // the last that does
-  // Rows offset ... offset + count - 1 in the order measured, as many as there are.
+  // Rows offset ... offset + count - 1 in the order measured, as many as there are. Of a run that
+  // has ended each is checked by the run's hash: the first call reads all of its rows.
   Result<std::vector<MeasuredPoint>> points(std::int64_t run, std::int64_t offset,
                                             std::int64_t count);
   Result<std::int64_t> count_points(std::int64_t run);
@@ -152,11 +154,20 @@ class Store {
   // every run's result rows and of every study's figures and checkpoint. One sentence a finding;
   // none: sound.
   Result<std::vector<std::string>> verify();
+  // The head of the chain of hashes, and whether a head of before is still in it.
+  Result<ChainHead> chain_head() { return store::chain_head(connection_); }
+  Result<bool> has_hash(const std::string& sha256) { return store::has_hash(connection_, sha256); }
+  // Error (bad_input): the chain no longer has the head that mdofd told last (file/told_head.h).
+  Status check_told_head();
+  Status check_head(const ChainHead& told);
 
   const std::filesystem::path& file() const { return connection_.file(); }
   // Of a store that writes: why nothing is stored any more, as -wal or -shm is not what it was
   // (schema/base/journal_watch.h); empty: it is.
   std::string journal_fault() { return connection_.journal_fault(); }
+  // What SQLite said last of a damaged file; empty: nothing.
+  const std::string& damage() const { return connection_.damage(); }
+  std::int64_t changes() const { return connection_.changes(); }  // rows written by this store
 
  private:
   Store(WriterLock lock, sqlite::Connection connection, Access access)
@@ -189,6 +200,12 @@ class Store {
   Result<std::vector<std::string>> texts(std::string_view json_array);
   Result<std::string> stored_sha256(std::int64_t run);
   Status check_run(std::int64_t run);
+  Result<std::vector<MeasuredPoint>> read_points(std::int64_t run, std::int64_t offset,
+                                                 std::int64_t count);
+  Result<std::string> hash_rows(std::int64_t run, std::vector<std::uint64_t>* rows);
+  tl::unexpected<Error> other_rows(std::int64_t run) const;
+  Status check_points(std::int64_t run, std::int64_t offset,
+                      const std::vector<MeasuredPoint>& points);
   Status mark_damage(RunHeader& header);
   Status check_exists(std::string_view sql, const char* what, std::int64_t id);
   // plausibility_read.cpp
@@ -219,6 +236,13 @@ class Store {
   sqlite::Connection connection_;
   Access access_;
   std::map<std::int64_t, std::int64_t> open_runs_;  // run begun here -> its next row
+  // Of the run whose points were asked for last: its hash as stored, which its rows had, and the
+  // beginning of the hash of each row.
+  struct CheckedRows {
+    std::int64_t run = 0;
+    std::string sha256;
+    std::vector<std::uint64_t> rows;
+  } checked_;
 };
 
 }  // namespace mdof::store

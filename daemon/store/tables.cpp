@@ -319,6 +319,7 @@ Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const 
 // Which of all activations counts depends on every one of them, so that all are checked; an index
 // that is damaged could hide one.
 Result<ActiveTable> Store::active(Axis axis) {
+  MDOF_CHECK(check_told_head());
   MDOF_CHECK(check_activations(connection_));
   MDOF_TRY(Statement row,
            connection_.prepare(

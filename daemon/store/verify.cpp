@@ -1,4 +1,5 @@
 // Store: is everything as it was stored?
+#include "daemon/store/file/told_head.h"
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 #include "schema/base/sha256.h"
@@ -20,7 +21,25 @@ Result<std::vector<std::string>> Store::verify() {
 }
 
 Status Store::verify_ledger(std::vector<std::string>& findings) {
-  return store::verify_ledger(connection_, findings);
+  MDOF_CHECK(store::verify_ledger(connection_, findings));
+  return check_told_head();
+}
+
+Status Store::check_told_head() {
+  return check_head(read_told_head(file()).head);
+}
+
+Status Store::check_head(const ChainHead& told) {
+  MDOF_TRY(const bool found, store::has_link(connection_, told));
+  if (found) return {};
+  MDOF_TRY(const ChainHead now, chain_head());
+  return bad_input(file().string() + ": its chain of hashes has no link " +
+                   std::to_string(told.link) + " of hash " + told.sha256 +
+                   " any more, which mdofd told last, and ends at link " +
+                   std::to_string(now.link) +
+                   ": what was stored last is gone, or was changed. Restore the database; or, to "
+                   "go on with this one, remove " +
+                   told_head_file(file()).string());
 }
 
 Status Store::verify_file(std::vector<std::string>& findings) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "daemon/store/file/told_head.h"
 #include "daemon/storekeeper/storage_errors.h"
 
 namespace mdof::daemon {
@@ -62,6 +63,9 @@ Result<std::unique_ptr<Storekeeper>> Storekeeper::start(const Options& options, 
   else
     keeper->full_ = not_writable(database.error());
   keeper->opened_ = keeper->store_.has_value();
+  keeper->begin_chain();
+  keeper->watch_database();
+  keeper->tell_head();
   keeper->thread_ = std::thread([k = keeper.get()] { k->work(); });
   return keeper;
 }
@@ -83,6 +87,7 @@ void Storekeeper::work() {
   auto next_commit = std::chrono::steady_clock::now() + options_.commit_interval;
   while (!queue_.closed_and_empty()) {
     if (const auto job = queue_.pop(std::min(options_.commit_interval, kLongestPop))) (*job)();
+    tell_head();
     const auto now = std::chrono::steady_clock::now();
     last_turn_.store(now);
     if (now < next_commit) continue;
@@ -117,6 +122,7 @@ void Storekeeper::open_again() {
   if (!opened) return set(full_, not_writable(opened.error()));
   store_.emplace(std::move(*opened));
   database_ = store::FileWatch(options_.database);
+  begin_chain();
   {
     const std::lock_guard guard(fault_mutex_);
     opened_ = true;
@@ -148,6 +154,7 @@ StorageState Storekeeper::storage() const {
   if (!lost_.empty()) return {"lost", lost_};
   if (!full_.empty()) return {"full", full_};
   if (!held_.empty()) return {"held", held_};
+  if (!damaged_.empty()) return {"damaged", damaged_};
   return {};
 }
 
@@ -162,12 +169,55 @@ void Storekeeper::watch_files() {
   if (now - files_watched_ < kBetweenLooks) return;
   files_watched_ = now;
   watch_database();
+  tell_head();
+  if (store_ && !store_->damage().empty()) set(damaged_, store_->damage());
   note_space();
   for (auto& [run, recording] : recordings_) {
     const std::string lost = recording.file.fault();
     if (!lost.empty())
       events_.failed(run, Error{ErrorCode::io, lost + " while the run was being recorded"});
   }
+}
+
+// What another program did to the chain since its head was told.
+std::string Storekeeper::chain_fault() {
+  if (!store_) return {};
+  const Status whole = store_->check_head(told_);
+  if (whole || whole.error().code != ErrorCode::bad_input) return {};
+  return whole.error().message + ", and restart mdofd; until then nothing is stored";
+}
+
+// One that no longer has what was told before is not told anew: see watch_database().
+void Storekeeper::begin_chain() {
+  if (!store_) return;
+  const std::lock_guard guard(fault_mutex_);
+  told_ = store::read_told_head(options_.database).head;
+  changes_told_ = -1;
+}
+
+void Storekeeper::tell_head() {
+  if (!store_ || !lost_.empty() || store_->changes() == changes_told_) return;
+  changes_told_ = store_->changes();
+  const auto head = store_->chain_head();
+  if (!head || *head == told_ || !store_->check_head(told_)) return;
+  // With less durability a power cut may take what was told, which is no fault then.
+  const auto generation = store_->generation();
+  if (options_.durability == store::Durability::full && generation) {
+    const Status written = store::write_told_head(options_.database, {*head, *generation});
+    if (!written) note_full(written.error());
+  }
+  if (events_.head_changed) events_.head_changed(*head);
+  const std::lock_guard guard(fault_mutex_);
+  told_ = *head;
+}
+
+store::ChainHead Storekeeper::chain_head() const {
+  const std::lock_guard guard(fault_mutex_);
+  return told_;
+}
+
+void Storekeeper::note_damage(const std::string& what) {
+  queue_.push_always([this, what] { set(damaged_, what); });
 }
 
 void Storekeeper::watch_database() {
@@ -178,6 +228,8 @@ void Storekeeper::watch_database() {
         "what is there now";
   else if (store_ && !(reason = store_->journal_fault()).empty())
     reason += "; nothing more is stored: restart mdofd";
+  else
+    reason = chain_fault();
   {
     const std::lock_guard guard(fault_mutex_);
     if (reason == lost_) return;

@@ -40,7 +40,8 @@ struct RunEnding {
   std::optional<Deed> deed = std::nullopt;
 };
 
-// How it is with storing: "ok"; "lost": the database was deleted, replaced or cut short under us;
+// How it is with storing: "ok"; "lost": the database, its -wal or -shm was deleted, replaced or cut
+// short under us, or its chain of hashes was; "damaged": SQLite found damage in it;
 // "full": the disk takes nothing (it is full, or may not be written); "held": a foreign program
 // holds the database, and points wait.
 struct StorageState {
@@ -68,6 +69,8 @@ class Storekeeper {
     std::function<void(std::int64_t run, const Error& error)> failed;
     // The database is not what it was any more, or is again; see storage().
     std::function<void(const StorageState& now)> storage_changed = nullptr;
+    // The chain of hashes has another head; also once at the start.
+    std::function<void(const store::ChainHead& head)> head_changed = nullptr;
   };
 
   // Opens the database and starts the thread. One that can be read but not written now is taken as
@@ -103,6 +106,10 @@ class Storekeeper {
   std::string fault() const;
   // Why a run whose measuring has ended stands as open; empty: it does not.
   std::string why_open(std::int64_t run) const;
+  // The head of the chain of hashes, as told last.
+  store::ChainHead chain_head() const;
+  // Thread-safe: a reader found damage in the database. Says so until mdofd ends.
+  void note_damage(const std::string& what);
   std::uint64_t dropped_blocks() const { return queue_.dropped(); }
   std::uint64_t dropped_points() const { return dropped_points_.load(); }  // of append_points()
   // When the thread last came round; for the watchdog.
@@ -118,6 +125,9 @@ class Storekeeper {
   void commit_recordings();
   void watch_files();
   void watch_database();
+  std::string chain_fault();
+  void begin_chain();
+  void tell_head();
   void end_what_can_be();
   Result<std::int64_t> begin(NewRun& run);
   Result<std::int64_t> begin_or_clear(NewRun& run);
@@ -172,10 +182,12 @@ class Storekeeper {
   store::FileWatch database_;
   std::chrono::steady_clock::time_point files_watched_{};
   std::chrono::steady_clock::time_point tried_{};
-  mutable std::mutex fault_mutex_;  // guards the next five
-  std::string lost_, full_, held_;
+  mutable std::mutex fault_mutex_;  // guards the next seven
+  std::string lost_, full_, held_, damaged_;
+  store::ChainHead told_;
   bool opened_ = false;
   std::map<std::int64_t, std::string> open_because_;
+  std::int64_t changes_told_ = -1;  // of the database, when its head was told
   std::vector<Unended> unended_;
   std::deque<Points> waiting_points_;  // for a foreign program to let go of the database
   std::size_t waiting_count_ = 0;      // points in them

@@ -20,6 +20,7 @@ struct Session {
   std::map<std::string, sqlite3_stmt*, std::less<>> statements;
   std::optional<PrivateCopy> copy;  // what is open; `file` is what it was made from
   std::optional<JournalWatch> watch;
+  mutable std::string damage;
 
   ~Session() {
     for (const auto& [text, statement] : statements) sqlite3_finalize(statement);
@@ -68,7 +69,9 @@ tl::unexpected<Error> error_of(const Session& session, std::string_view doing) {
   for (const Advice& advice : kAdvice) {
     if (advice.code != code) continue;
     text += " (" + std::string(advice.name) + ", " + std::to_string(extended) + "). ";
-    return fail(advice.meaning, text + advice.remedy);
+    text += advice.remedy;
+    if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) session.damage = text;
+    return fail(advice.meaning, text);
   }
   return io_error(text + " (SQLite error " + std::to_string(extended) + ")");
 }
@@ -305,6 +308,14 @@ Result<std::int64_t> Connection::integer(std::string_view sql) {
 
 std::int64_t Connection::last_insert_rowid() const {
   return sqlite3_last_insert_rowid(session_->database);
+}
+
+std::int64_t Connection::changes() const {
+  return sqlite3_total_changes64(session_->database);
+}
+
+const std::string& Connection::damage() const {
+  return session_->damage;
 }
 
 tl::unexpected<Error> Connection::error(std::string_view doing) const {

@@ -85,6 +85,8 @@ class Connection {
   Result<Statement> prepare(std::string_view sql);     // cached by its text; not twice at a time
   Result<std::int64_t> integer(std::string_view sql);  // first column of the first row; none: 0
   std::int64_t last_insert_rowid() const;
+  std::int64_t changes() const;       // rows written since it was opened
+  const std::string& damage() const;  // the last error that says the file is damaged; empty: none
 
   // From now on -wal and -shm are watched (journal_watch.h): no transaction begins, and none is
   // acknowledged, that the next program would not find.

@@ -2,6 +2,7 @@
 """What happens to the database while mdofd has it: links to it, other databases, its end; and lists of what it holds.
 
 usage: database_test.py MDOFD MDOF"""
+import contextlib
 import os
 import shutil
 import sqlite3
@@ -109,6 +110,142 @@ class Database(unittest.TestCase):
             event = watcher.next_note()["params"]["value"]
             if event.get("type") == "storage" and reason in event["text"]:
                 return
+
+    def acknowledged(self):
+        """A run and a table in force that are in the -wal file alone: rows, and what is in force."""
+        run = self.replayed()
+        self.client.call("compensation.activate", despite_warnings=True,
+                         table=self.client.call("compensation.build", runs=[run])["table"])
+        return self.client.points(run), self.client.call("compensation.status")
+
+    def after_a_kill(self):
+        self.daemon.kill()
+        self.client = self.daemon.start()
+        run = self.client.call("run.list")["runs"][0]["run"]
+        return self.client.points(run), self.client.call("compensation.status")
+
+    # To close it once more would drop the locks of SQLite, and the next program that closes it delete the -wal.
+    def test_the_own_files_are_never_opened_a_second_time(self):
+        before = self.acknowledged()
+        hard, soft = (os.path.join(self.folder.name, name) for name in ("hard", "soft"))
+        os.link(self.daemon.database, hard)
+        os.symlink(self.daemon.database + "-shm", soft)
+        run = self.client.call("run.start", axis="X")["run"]
+        recording = self.client.call("run.get", run=run)["recording"]["path"]
+        for path in (*(self.daemon.database + end for end in ("", "-wal", "-shm")), hard, soft, recording, recording + "-shm"):
+            with open(RIG["X"]) as rig:
+                self.refused("mdofd itself is writing this file", "run.replay", path=path, rig=rig.read())
+        os.remove(hard)
+        self.client.call("run.stop", run=run, abort=True)
+        subprocess.run([sys.executable, "-c", "import sqlite3, sys; c = sqlite3.connect(sys.argv[1]); "
+                        "c.execute('SELECT count(*) FROM run').fetchone(); c.close()", self.daemon.database], check=True)
+        self.assertEqual(self.client.call("server.info")["storage"], "ok")
+        self.daemon.kill()
+        self.client = self.daemon.start()
+        self.assertEqual(self.client.points(1), before[0])
+        self.assertEqual(self.client.call("compensation.status"), before[1])
+
+    def test_a_wal_or_shm_that_is_gone_is_noticed_and_nothing_acknowledged_is_lost(self):
+        def replace(path):
+            shutil.copy(path, path + ".other")
+            os.rename(path + ".other", path)
+        spoils = {"-wal was deleted": lambda db: os.remove(db + "-wal"), "-wal was replaced": lambda db: replace(db + "-wal"),
+                  "-shm was deleted": lambda db: os.remove(db + "-shm"), "-shm was replaced": lambda db: replace(db + "-shm"),
+                  "-shm was cut short": lambda db: os.truncate(db + "-shm", 0)}
+        for reason, spoil in spoils.items():
+            with self.subTest(reason):
+                before = self.acknowledged()
+                spoil(self.daemon.database)
+                told = self.lost()
+                self.assertIn(reason, told)
+                self.assertIn("is kept in the database itself", told)
+                self.refused(reason, "run.start", axis="X")
+                self.refused(reason, "compensation.deactivate", axis="X")
+                self.assertEqual(self.client.call("compensation.status"), before[1])
+                self.client.call("run.list")
+                self.assertEqual(self.after_a_kill(), before)
+                self.assertEqual(self.client.call("server.info")["storage"], "ok")
+
+    # What is lost cannot be had back; it must not look as if it had never been.
+    def test_what_is_lost_with_a_wal_is_told_and_no_older_table_is_served(self):
+        self.acknowledged()
+        self.daemon.stop()  # that is in the database itself
+        self.client = self.daemon.start()
+        status = self.acknowledged()[1]
+        self.head_told()
+        os.truncate(self.daemon.database + "-wal", 0)
+        told = self.lost()
+        self.assertIn("-wal was cut short", told)
+        self.assertIn("may be lost", told)
+        self.daemon.kill()
+        self.client = self.daemon.start()
+        told = self.lost()
+        self.assertIn("which mdofd told last", told)
+        now = self.client.call("compensation.status")
+        self.assertEqual(now["axes"], {})
+        self.assertEqual(now["generation"], status["generation"])
+        code, _, err = mdof("compensation", "show", "--db", self.daemon.database)
+        self.assertEqual(code, 3)
+        self.assertIn("which mdofd told last", err)
+        self.daemon.stop()
+        os.remove(self.daemon.database + ".head")  # as the message says
+        self.client = self.daemon.start()
+        self.assertEqual(self.client.call("server.info")["storage"], "ok")
+        self.assertIn("X", self.client.call("compensation.status")["axes"])
+
+    def head_told(self):
+        with contextlib.closing(sqlite3.connect(self.daemon.database)) as database:
+            last, = database.execute("SELECT max(id) FROM ledger").fetchone()
+        while (chain := self.client.call("server.info")["chain"])["link"] < last:
+            pass
+        return chain
+
+    def test_a_chain_that_is_cut_or_calculated_anew_is_noticed(self):
+        def cut(database):
+            database.execute("DELETE FROM activation WHERE generation = (SELECT max(generation) FROM activation)")
+            database.execute("DELETE FROM deed WHERE id = (SELECT max(id) FROM deed)")
+            database.execute("DELETE FROM ledger WHERE id > (SELECT max(id) - 2 FROM ledger)")
+
+        def calculate_anew(database):  # of the last link alone; one that fits would look the same to the head
+            database.execute("UPDATE ledger SET sha256 = ? WHERE id = (SELECT max(id) FROM ledger)", ("0" * 64,))
+        for spoil in (cut, calculate_anew):
+            for under_mdofd in (False, True):
+                with self.subTest(spoil.__name__, under_mdofd=under_mdofd):
+                    self.acknowledged()
+                    chain = self.head_told()
+                    with open(self.daemon.log.name) as journal:
+                        self.assertIn(f"chain of hashes: link {chain['link']}, {chain['sha256']}", journal.read())
+                    if not under_mdofd:
+                        self.daemon.stop()
+                    self.assertEqual(mdof("verify", "--db", self.daemon.database, "--head", chain["sha256"])[0], 0)
+                    with contextlib.closing(sqlite3.connect(self.daemon.database)) as database, database:
+                        for table in ("activation", "deed", "ledger"):
+                            for what in ("update", "delete"):
+                                database.execute(f"DROP TRIGGER IF EXISTS {table}_no_{what}")
+                        spoil(database)
+                    if not under_mdofd:
+                        self.client = self.daemon.start()
+                        self.assertEqual(self.client.call("compensation.status")["axes"], {})
+                    self.assertIn(f"no link {chain['link']} of hash {chain['sha256']}", self.lost())
+                    self.refused("which mdofd told last", "run.start", axis="X")
+                    code, _, err = mdof("verify", "--db", self.daemon.database, "--head", chain["sha256"])
+                    self.assertEqual(code, 1)
+                    self.assertIn("(--head)", err)
+                    self.daemon.stop()
+                    for name in os.listdir(self.daemon.folder):
+                        if name.startswith("mdof.db"):
+                            os.remove(os.path.join(self.daemon.folder, name))
+                    self.client = self.daemon.start()
+
+    def test_changed_rows_are_not_served_page_by_page(self):
+        run = self.replayed()
+        self.client.call("run.points", run=run, offset=0, count=2)
+        with sqlite3.connect(self.daemon.database) as database:
+            database.execute("DROP TRIGGER point_no_update")
+            database.execute("UPDATE point SET dy_m = dy_m + 1e-6 WHERE run = ? AND row = 3", (run,))
+        self.client.call("run.points", run=run, offset=0, count=2)
+        self.refused("not those that were stored", "run.points", run=run, offset=2, count=2)
+        self.refused("not those that were stored", "run.points", run=run, offset=0, count=2)  # the run is suspect now
 
     def test_a_run_under_way_fails_with_that_reason(self):
         watcher = Client(self.daemon.socket)

@@ -3,6 +3,7 @@
 signal that comes when a terminal is closed ends a run in good order.
 
 usage: storage_test.py MDOFD MDOF"""
+import contextlib
 import os
 import signal
 import sqlite3
@@ -99,6 +100,52 @@ class SmallDisk(unittest.TestCase):
         new = client.call("run.start", axis="X")["run"]
         client.call("run.stop", run=new, abort=True)
         client.call("compensation.deactivate", axis="X")
+
+    def remount(self, how):
+        subprocess.run(["mount", "-o", f"remount,{how}", self.disk], check=True)
+
+    def test_a_disk_that_is_read_only_at_the_start_is_written_once_it_can_be(self):
+        status, run = self.cut_off(self.daemon.start())
+        self.assertGreater(os.path.getsize(self.daemon.database + "-wal"), 0)
+        for companion in ("kept", "gone"):
+            with self.subTest(shm=companion):
+                self.remount("ro")
+                client = self.daemon.start()
+                self.assertEqual(client.call("compensation.status"), status)
+                self.wait_for_storage(client, "full")
+                points = client.points(1)
+                self.assertGreater(len(points), 0)
+                self.remount("rw")
+                self.wait_for_storage(client, "ok")
+                new = client.call("run.start", axis="X")["run"]
+                client.call("run.stop", run=new, abort=True)
+                for _ in range(30):
+                    self.assertEqual(client.points(1), points)
+                    self.assertEqual(client.call("run.list")["runs"][0]["run"], new)
+                self.assertEqual(client.call("run.get", run=run)["state"], "aborted")
+                self.assertEqual(client.call("server.info")["storage"], "ok")
+                self.daemon.kill()
+                os.remove(self.daemon.database + "-shm")
+
+    def test_damage_that_a_call_meets_is_told_as_the_state_of_storage(self):
+        client = self.daemon.start()
+        log = os.path.join(self.folder.name, "log.csv")
+        write_log(log)
+        with open(RIG["X"]) as rig:
+            client.call("run.replay", path=log, rig=rig.read())
+        self.daemon.stop()
+        with contextlib.closing(sqlite3.connect(self.daemon.database)) as database:
+            database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+            root, = database.execute("SELECT rootpage FROM sqlite_schema WHERE name = 'point'").fetchone()
+            page, = database.execute("PRAGMA page_size").fetchone()
+        client = self.daemon.start()
+        with open(self.daemon.database, "r+b") as database:
+            database.seek((root - 1) * page)
+            database.write(b"\xff" * page)
+        with self.assertRaises(RpcError) as refusal:
+            client.points(1)
+        self.assertIn("SQLITE_CORRUPT", str(refusal.exception))
+        self.assertIn("SQLITE_CORRUPT", self.wait_for_storage(client, "damaged"))
 
     def test_a_run_that_a_full_disk_refuses_leaves_no_empty_recording(self):
         client = self.daemon.start()

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <regex>
 
+#include "daemon/store/file/told_head.h"
 #include "daemon/store/store.h"
 #include "tests/daemon/store/fixtures.h"
 
@@ -154,6 +155,64 @@ TEST_F(LedgerTest, EveryFactIsCheckedWhenItIsServedAndByVerify) {
     EXPECT_FALSE(c.served(*store)) << c.change;
     EXPECT_TRUE(found_by_verify(store)) << c.change;
   }
+}
+
+// A chain that fits again, of other facts: nothing in the database tells it from the true one.
+TEST_F(LedgerTest, AChainCalculatedAnewHasNotTheHeadThatWasTold) {
+  store_all();
+  ChainHead told;
+  std::int64_t generation = 0;
+  {
+    auto store = reader();
+    told = store->chain_head().value();
+    generation = store->generation().value();
+    ASSERT_TRUE(store->check_told_head()) << "nothing was told";
+    EXPECT_GT(told.link, 0);
+  }
+  ASSERT_TRUE(write_told_head(file_, {told, generation}));
+  EXPECT_TRUE(reader()->active(Axis::x));
+  EXPECT_TRUE(reader()->verify()->empty());
+  {  // an ordinary change goes on from it
+    ASSERT_TRUE(writer()->add_run(make_run(4)));
+    auto store = reader();
+    EXPECT_NE(store->chain_head()->link, told.link);
+    EXPECT_TRUE(store->check_told_head());
+    EXPECT_TRUE(store->has_hash(told.sha256).value());
+  }
+  const std::string whole = contents(file_);
+  {
+    auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
+    ASSERT_TRUE(
+        db->execute("DROP TRIGGER activation_no_update; DROP TRIGGER ledger_no_delete; "
+                    "UPDATE activation SET compensation_table = 1 WHERE "
+                    "compensation_table = 2; DELETE FROM ledger"));
+    ASSERT_TRUE(link_old_facts(*db));
+  }
+  auto store = reader();
+  EXPECT_FALSE(store->has_hash(told.sha256).value());
+  for (const Status& noticed :
+       {store->check_told_head(), Status(store->active(Axis::x).map([](auto&&) {}))}) {
+    ASSERT_FALSE(noticed);
+    EXPECT_TRUE(contains(noticed.error().message, "which mdofd told last"))
+        << noticed.error().message;
+  }
+  EXPECT_EQ(store->verify()->size(), 1u) << store->verify()->front();
+  fs::remove(told_head_file(file_));
+  EXPECT_TRUE(reader()->verify()->empty()) << "the chain itself fits";
+  EXPECT_EQ(reader()->active(Axis::x)->table.id, 1);
+}
+
+TEST_F(LedgerTest, RowsThatWereChangedAreServedOnNoPage) {
+  std::int64_t run = 0;
+  { run = writer()->add_run(make_run(22)).value(); }
+  auto store = reader();
+  const auto page = store->points(run, 10, 5).value();
+  ASSERT_EQ(page.size(), 5u);
+  EXPECT_EQ(page[0].target, make_run(22).points[10].target);
+  tamper("DROP TRIGGER point_no_update; UPDATE point SET ez_rad = ez_rad + 1e-9 WHERE row = 12");
+  EXPECT_TRUE(store->points(run, 0, 10));  // those are as they were
+  EXPECT_FALSE(store->points(run, 10, 5));
+  EXPECT_FALSE(reader()->points(run, 0, 10)) << "of a run that is not what was stored";
 }
 
 TEST_F(LedgerTest, ADamagedRunIsListedAsFailedAndSaysWhy) {

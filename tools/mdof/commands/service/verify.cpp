@@ -14,9 +14,13 @@ namespace mdof::tools {
 namespace {
 
 struct VerifyCommand {
-  std::string database, recording;
+  std::string database, recording, head;
   bool json = false;
 };
+
+bool is_sha256(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
 
 // What was found wrong, and what cannot be checked; a file that cannot be judged is an error.
 using daemon::SourceCheck;
@@ -26,10 +30,16 @@ void add(const std::vector<std::string>& more, std::vector<std::string>& to) {
 }
 
 // The database itself, then the files that its runs were made from.
-Status verify_database(const std::string& option, SourceCheck& check) {
+Status verify_database(const std::string& option, const std::string& head, SourceCheck& check,
+                       store::ChainHead& now) {
   MDOF_TRY(store::Store store, open_to_read(option));
+  if (const auto of_chain = store.chain_head()) now = *of_chain;
   MDOF_TRY(const auto findings, store.verify());
   add(findings, check.findings);
+  MDOF_TRY(const bool has_head, head.empty() ? Result<bool>(true) : store.has_hash(head));
+  if (!has_head)
+    check.findings.push_back("the chain of hashes has no link of the hash " + head +
+                             " (--head): what was stored until then was cut off or changed");
   const auto sources = daemon::verify_sources(store);
   // A database that is damaged has said so above, and may not tell its files.
   if (!sources) return findings.empty() ? Status(tl::unexpected(sources.error())) : Status();
@@ -57,35 +67,57 @@ void write_texts(JsonWriter& json, const char* key, const std::vector<std::strin
   json.end_array();
 }
 
-std::string verify_json(const SourceCheck& check) {
+std::string head_text(const store::ChainHead& head) {
+  return "link " + std::to_string(head.link) + ", " + head.sha256;
+}
+
+std::string verify_json(const SourceCheck& check, const store::ChainHead& head) {
   JsonWriter json;
   json.begin_object().field("sound", check.findings.empty());
   write_texts(json, "findings", check.findings);
   write_texts(json, "notes", check.notes);
+  json.key("head");
+  head.link > 0 ? json.value(head.sha256) : json.null();
   json.end_object();
   return json.take();
 }
 
 Status verify(const VerifyCommand& command) {
+  if (!command.head.empty() && !is_sha256(command.head))
+    return fail(
+        ErrorCode::usage,
+        "verify: --head \"" + command.head +
+            "\" is not a SHA-256 of 64 digits 0-9 a-f; mdofd tells it in its journal and in "
+            "server.info");
   SourceCheck check;
+  store::ChainHead head;
   if (!command.recording.empty()) MDOF_CHECK(verify_recording(command.recording, check));
   if (command.recording.empty() || !command.database.empty())
-    MDOF_CHECK(verify_database(command.database, check));
-  if (command.json) MDOF_CHECK(write_line(verify_json(check)));
+    MDOF_CHECK(verify_database(command.database, command.head, check, head));
+  if (command.json) MDOF_CHECK(write_line(verify_json(check, head)));
   for (const auto& note : check.notes) say("note: " + note);
   for (const auto& finding : check.findings) say(finding);
   if (!check.findings.empty())
     return fail(ErrorCode::check, "verify: " + std::to_string(check.findings.size()) +
                                       " finding(s); restore what is named above from a copy");
-  return command.json ? Status() : write_line("sound: every checksum and reference holds");
+  if (command.json) return {};
+  if (head.link > 0) say("head of the chain of hashes: " + head_text(head));
+  return write_line("sound: every checksum and reference holds");
 }
 
 Action declare_verify(CLI::App& command) {
   const auto o = std::make_shared<VerifyCommand>();
   add_database_option(command, o->database);
+  auto* recording = command
+                        .add_option("--recording", o->recording,
+                                    "Check this recording instead (or, with --db, too)")
+                        ->type_name("FILE.mdofrec");
   command
-      .add_option("--recording", o->recording, "Check this recording instead (or, with --db, too)")
-      ->type_name("FILE.mdofrec");
+      .add_option("--head", o->head,
+                  "A hash that mdofd told (journal, server.info): find out whether what was stored "
+                  "until then was cut off or changed")
+      ->type_name("HASH")
+      ->excludes(recording);
   add_json_flag(command, o->json);
   return [o] { return verify(*o); };
 }

@@ -115,6 +115,69 @@ TEST(Diagonals, PredictionLeansTheSameWay) {
   EXPECT_NEAR((*d)[1].range_m, (*d)[1].deviation_m.back(), 1e-15);
 }
 
+// From a corner that is not the zero of its axes: both diagonals begin and end at the corners.
+TEST(Diagonals, GoFromCornerToCorner) {
+  Machine m;
+  m.frames.resize(2);
+  m.frames[0].id = "X";
+  m.frames[1].id = "Y";
+  m.frames[1].direction = 1;
+  for (auto& f : m.frames) f.kind = FrameKind::linear;
+  m.frames[0].range = {-0.1, 0.2};
+  m.frames[1].range = {0.05, 0.45};
+  // EYY grows with Y: at Y = 0.05 m 5 µm, at 0.45 m 45 µm; along a diagonal of 0.5 m 4/5 of it.
+  m.frames[1].error[1] = {{0.05, 0.45}, {5e-6, 45e-6}, {}, {}, {}};
+  const auto d = plane_diagonals(m, 0, 1, 4, MachineApproach::forward);
+  ASSERT_TRUE(d) << d.error().message;
+  for (const Diagonal& one : *d) {
+    ASSERT_EQ(one.position_m.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) {
+      EXPECT_NEAR(one.position_m[i], 0.125 * static_cast<double>(i), 1e-15);
+      EXPECT_NEAR(one.deviation_m[i], 8e-6 * static_cast<double>(i), 1e-15);
+    }
+    EXPECT_NEAR(one.range_m, 32e-6, 1e-15);
+    EXPECT_TRUE(one.beyond.empty());
+  }
+  const auto none = plane_diagonals(m, 0, 2, 4, MachineApproach::mean);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("no axis Z"), std::string::npos);
+}
+
+TEST(PlaneMap, HasAllPointsOfTheRangeUpToAMillion) {
+  Machine m;
+  m.frames.resize(2);
+  m.frames[0].id = "X";
+  m.frames[1].id = "Y";
+  m.frames[1].direction = 1;
+  for (auto& f : m.frames) f.kind = FrameKind::linear;
+  m.frames[0].range = {-0.1, 0.2};
+  m.frames[1].range = {0.05, 0.45};
+  m.frames[0].error[1] = {{-0.1, 0.2}, {-3e-6, 6e-6}, {}, {}, {}};
+  PlaneMapRequest request;
+  request.step_m = 0.1;
+  const auto map = plane_map(m, request);
+  ASSERT_TRUE(map) << map.error().message;
+  ASSERT_EQ(map->first_m.size(), 4U);
+  ASSERT_EQ(map->second_m.size(), 5U);
+  ASSERT_EQ(map->points.size(), 20U);
+  EXPECT_NEAR(map->first_m[1], 0, 1e-15);
+  EXPECT_NEAR(map->second_m[4], 0.45, 1e-15);
+  EXPECT_EQ(map->points[6].first_m, map->first_m[2]);  // the first axis runs fastest
+  EXPECT_EQ(map->points[6].second_m, map->second_m[1]);
+  const MapExtreme extreme = extreme_of(*map, 1);
+  EXPECT_NEAR(extreme.value, 6e-6, 1e-15);
+  EXPECT_EQ(extreme.point % 4, 3U);  // of any row
+  EXPECT_NEAR(extreme.range, 9e-6, 1e-15);
+  // 998 steps and two more a side are a million; a step more a side is refused, before its time.
+  m.frames[0].range = m.frames[1].range = {0, 1};
+  request.step_m = 1 / 998.5;
+  const auto refused = plane_map(m, request);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("a million points"), std::string::npos);
+  request.step_m = 0.2;
+  EXPECT_EQ(plane_map(m, request)->points.size(), 36U);
+}
+
 // A disc that leans by turns a and b about X and Y, as points of a plane; a wobble of the table and
 // a saddle of the linear axes upon it.
 CircleReadings circle(double a, double b, double noise_m, std::mt19937& source, bool known) {

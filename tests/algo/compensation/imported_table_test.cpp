@@ -1,0 +1,124 @@
+#include "algo/compensation/imported_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+// Positioning of X at 0, 10 and 20 mm, `repeats` readings from each side.
+Run imported(std::int64_t id, int repeats, double declared_m = 0) {
+  mdof::Run run;
+  run.header.id = id;
+  run.header.axis = Axis::x;
+  run.header.provenance.recording_kind = "imported";
+  run.header.provenance.recording_sha256 = std::to_string(id);
+  run.header.provenance.model = "EXX";
+  for (int j = 0; j < repeats; ++j)
+    for (const int direction : {1, -1})
+      for (int i = 0; i < 3; ++i) {
+        MeasuredPoint& p = run.points.emplace_back();
+        p.target_m = 10e-3 * i;
+        p.point.direction = direction;
+        p.point.probe_m = {1e-6 * (i + 0.1 * direction + 0.01 * j)};
+        if (declared_m > 0) p.point.probe_u_m = {declared_m};
+      }
+  return run;
+}
+
+std::string refusal(const std::vector<mdof::Run>& runs) {
+  const auto table = build_positioning_table(runs);
+  return table ? "" : table.error().message;
+}
+
+TEST(ImportedTable, MeansAndTheirUncertaintyByHand) {
+  const auto table = build_positioning_table({imported(3, 3, 0.1e-6), imported(4, 1, 0.3e-6)});
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->runs, (std::vector<std::int64_t>{3, 4}));
+  EXPECT_FALSE(table->simulated);
+  ASSERT_EQ(table->position_m.size(), 3U);
+  const PositioningErrors& along = table->positioning;
+  for (std::size_t i = 0; i < 3; ++i) {
+    // 0, 0.01, 0.02 and 0 µm: mean 0.0075, s 0.009574, s/√4.
+    EXPECT_NEAR(along.forward[i], 1e-6 * (static_cast<double>(i) + 0.1075), 1e-18);
+    EXPECT_NEAR(along.reverse[i], 1e-6 * (static_cast<double>(i) - 0.0925), 1e-18);
+    EXPECT_NEAR(along.u_forward[i], 0.0047871e-6, 1e-12);
+    EXPECT_NEAR(along.u_reverse[i], 0.0047871e-6, 1e-12);
+    EXPECT_EQ(along.u_declared[i], 0.3e-6);
+    EXPECT_TRUE(std::isnan(table->forward[0][i]));
+  }
+  EXPECT_TRUE(positioning_notes({imported(3, 3)}).empty());
+}
+
+TEST(ImportedTable, OneReadingHasNoRepeatability) {
+  mdof::Run run = imported(1, 1);
+  std::erase_if(run.points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
+  const auto table = build_positioning_table({run});
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(std::isnan(table->positioning.u_forward[0]));
+  EXPECT_TRUE(std::isnan(table->positioning.reverse[0]));
+  EXPECT_TRUE(table->positioning.u_declared.empty());
+  ASSERT_EQ(positioning_notes({run}).size(), 1U);
+  EXPECT_NE(positioning_notes({run})[0].find("repeatability is not known"), std::string::npos);
+  for (MeasuredPoint& p : run.points) p.point.direction = 0;
+  EXPECT_NE(positioning_notes({run})[0].find("from which side"), std::string::npos);
+  const auto unknown = build_positioning_table({run});
+  EXPECT_EQ(unknown->positioning.forward, unknown->positioning.reverse);
+}
+
+TEST(ImportedTable, RefusesRunsThatDoNotGoTogether) {
+  const mdof::Run first = imported(1, 2), second = imported(2, 2);
+  EXPECT_EQ(refusal({first, second}), "");
+  EXPECT_NE(refusal({}).find("at least one run"), std::string::npos);
+  mdof::Run other = second;
+  other.header.simulated = true;
+  EXPECT_NE(refusal({first, other}).find("run 2 is simulated"), std::string::npos);
+  EXPECT_NE(refusal({other, first}).find("run 2 is simulated"), std::string::npos);
+  mdof::Run both = first;
+  both.header.simulated = true;
+  const auto simulated = build_positioning_table({both, other});
+  ASSERT_TRUE(simulated);
+  EXPECT_TRUE(simulated->simulated);
+  other = second;
+  other.header.axis = Axis::y;
+  EXPECT_NE(refusal({first, other}).find("run 2 is of axis Y"), std::string::npos);
+  other = second;
+  other.header.provenance.model = "EYX";
+  EXPECT_NE(refusal({first, other}).find("imported EYX"), std::string::npos);
+  other = second;
+  other.header.provenance.recording_kind = "csv";
+  EXPECT_NE(refusal({first, other}).find("measured by mdof"), std::string::npos);
+  other = second;
+  other.header.provenance.recording_sha256 = "1";
+  EXPECT_NE(refusal({first, other}).find("run 1 and run 2 are of the same file"),
+            std::string::npos);
+  other = second;
+  other.points[1].target_m = 10.001e-3;
+  EXPECT_NE(refusal({first, other}).find("run 2 has a target at 10.001 mm"), std::string::npos);
+  other = first;
+  std::erase_if(other.points, [](const MeasuredPoint& p) { return p.target_m > 0; });
+  EXPECT_NE(refusal({other}).find("has one target"), std::string::npos);
+}
+
+TEST(ImportedTable, TheNearestTarget) {
+  const std::vector<double> targets = {0, 10e-3, 30e-3};
+  for (const auto& [at_m, place] : {std::pair{-5e-3, 0},
+                                    {0.0, 0},
+                                    {4.9e-3, 0},
+                                    {5.1e-3, 1},
+                                    {10e-3, 1},
+                                    {19.9e-3, 1},
+                                    {20.1e-3, 2},
+                                    {30e-3, 2},
+                                    {90e-3, 2}})
+    EXPECT_EQ(target_at(targets, at_m), static_cast<std::size_t>(place)) << at_m;
+  EXPECT_EQ(imported_targets({{.position_m = 10e-3},
+                              {.position_m = 0},
+                              {.position_m = 10.00005e-3},
+                              {.position_m = 10.0002e-3}}),
+            (std::vector<double>{0, 10e-3, 10.0002e-3}));
+}
+
+}  // namespace
+}  // namespace mdof::algo

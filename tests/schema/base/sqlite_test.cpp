@@ -9,7 +9,7 @@
 #include <fstream>
 #include <map>
 
-#include "schema/base/database_files.h"
+#include "schema/base/database/files.h"
 
 namespace mdof::sqlite {
 namespace {

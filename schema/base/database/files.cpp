@@ -1,4 +1,4 @@
-#include "schema/base/database_files.h"
+#include "schema/base/database/files.h"
 
 #include <fcntl.h>
 #include <sys/sendfile.h>

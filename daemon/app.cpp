@@ -15,7 +15,7 @@
 #include "daemon/store/file/told_head.h"
 #include "daemon/systemd/notify.h"
 #include "daemon/version.h"
-#include "schema/base/journal_watch.h"
+#include "schema/base/database/journal_watch.h"
 #include "schema/base/json_writer.h"
 
 namespace mdof::daemon {

@@ -7,7 +7,7 @@
 
 #include "daemon/methods/methods.h"
 #include "daemon/methods/replayer.h"
-#include "schema/base/database_files.h"
+#include "schema/base/database/files.h"
 #include "schema/base/json_writer.h"
 
 namespace mdof::daemon {

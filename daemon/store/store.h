@@ -163,7 +163,7 @@ class Store {
 
   const std::filesystem::path& file() const { return connection_.file(); }
   // Of a store that writes: why nothing is stored any more, as -wal or -shm is not what it was
-  // (schema/base/journal_watch.h); empty: it is.
+  // (schema/base/database/journal_watch.h); empty: it is.
   std::string journal_fault() { return connection_.journal_fault(); }
   // What SQLite said last of a damaged file; empty: nothing.
   const std::string& damage() const { return connection_.damage(); }

@@ -7,8 +7,8 @@
 #include <map>
 #include <optional>
 
-#include "schema/base/database_files.h"
-#include "schema/base/journal_watch.h"
+#include "schema/base/database/files.h"
+#include "schema/base/database/journal_watch.h"
 
 namespace mdof::sqlite {
 

@@ -1,4 +1,4 @@
-#include "schema/base/journal_watch.h"
+#include "schema/base/database/journal_watch.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,15 +1,17 @@
 #include "schema/base/sqlite.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <map>
 
-#include "schema/base/database_files.h"
+#include "schema/base/database/files.h"
 
 namespace mdof::sqlite {
 namespace {
@@ -193,6 +195,56 @@ TEST_F(ForeignDatabase, WhatThisProcessHasOpenForWritingIsKnownByAnyName) {
   std::ofstream(folder_ / "other").flush();
   EXPECT_FALSE(is_open_for_writing(folder_ / "other"));
   EXPECT_FALSE(is_open_for_writing(folder_ / "absent"));
+}
+
+// Whether another process finds SQLite's lock of a reader on the file.
+bool is_locked(const fs::path& file) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int fd = ::open(file.c_str(), O_RDWR);
+    struct flock lock {};
+    lock.l_type = F_WRLCK;
+    lock.l_start = 0x40000002;
+    lock.l_len = 510;
+    _exit(fd >= 0 && ::fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  return status == 0;
+}
+
+TEST_F(ForeignDatabase, NoNameOfTheOwnFileDropsItsLocks) {
+  auto own = Connection::open(file_, OpenMode::read_write);
+  ASSERT_TRUE(own->execute("PRAGMA journal_mode = WAL; INSERT INTO t VALUES (10)"));
+  const fs::path foreign = folder_ / "foreign";
+  fs::create_hard_link(file_, folder_ / "hard");
+  for (const char* ending : {"-wal", "-shm", "-journal"}) {
+    ASSERT_TRUE(Connection::open(foreign, OpenMode::create)->execute("CREATE TABLE t (x)"));
+    fs::create_hard_link(file_, foreign.string() + ending);
+    for (const OpenMode mode : {OpenMode::snapshot, OpenMode::read_only})
+      (void)Connection::open(foreign, mode);
+    EXPECT_TRUE(is_locked(file_)) << ending;
+    for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(foreign.string() + end);
+  }
+  for (const char* name : {"theirs.db", "theirs.db-wal", "theirs.db-shm", "hard"}) {
+    EXPECT_EQ(open_foreign(folder_ / name, 0), -1) << name;
+    EXPECT_EQ(errno, EBUSY) << name;
+  }
+  EXPECT_TRUE(is_locked(file_));
+  ::close(::open(file_.c_str(), O_RDONLY));  // the fault itself
+  EXPECT_FALSE(is_locked(file_));
+}
+
+TEST(OpenForeign, NeverWaitsForAFifo) {
+  std::string name = (fs::temp_directory_path() / "mdof-fifo-XXXXXX").string();
+  ASSERT_TRUE(mkdtemp(name.data()));
+  const fs::path fifo = fs::path(name) / "fifo", link = fs::path(name) / "link";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(open_foreign(fifo, 0), -1);
+  EXPECT_EQ(errno, EINVAL);
+  fs::create_symlink(fifo, link);
+  EXPECT_EQ(open_foreign(link, O_NOFOLLOW), -1);
+  fs::remove_all(name);
 }
 
 }  // namespace

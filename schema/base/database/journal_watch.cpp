@@ -1,4 +1,4 @@
-#include "schema/base/journal_watch.h"
+#include "schema/base/database/journal_watch.h"
 
 #include <signal.h>
 #include <sqlite3.h>
@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "schema/base/database_files.h"
+#include "schema/base/database/files.h"
 
 namespace mdof::sqlite {
 

@@ -1,4 +1,4 @@
-#include "schema/base/database_files.h"
+#include "schema/base/database/files.h"
 
 #include <fcntl.h>
 #include <sys/sendfile.h>
@@ -23,8 +23,7 @@ namespace {
 
 class Descriptor {
  public:
-  explicit Descriptor(const fs::path& file, int flags = O_RDONLY | O_NONBLOCK | O_NOFOLLOW)
-      : fd_(::open(file.c_str(), flags | O_CLOEXEC, 0600)) {}
+  explicit Descriptor(int fd) : fd_(fd) {}
   ~Descriptor() {
     if (fd_ >= 0) ::close(fd_);
   }
@@ -40,6 +39,11 @@ class Descriptor {
  private:
   int fd_;
 };
+
+// Beside a database nothing may be a link.
+int open_beside(const fs::path& database, const char* ending) {
+  return open_foreign(beside(database, ending), O_NOFOLLOW);
+}
 
 tl::unexpected<Error> failed(const fs::path& file, const char* doing) {
   return io_error(file.string() + ": cannot " + doing + ": " + std::strerror(errno));
@@ -80,7 +84,7 @@ bool share(const Descriptor& file, const Range& range) {
 }
 
 Status copy_bytes(const Descriptor& from, const fs::path& name, const fs::path& to) {
-  const Descriptor out(to, O_WRONLY | O_CREAT | O_EXCL);
+  const Descriptor out(::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
   if (out.fd() < 0) return failed(to, "create the private copy");
   off_t at = 0;
   for (off_t left = from.size(); left > 0;) {
@@ -112,9 +116,9 @@ enum class Copied { yes, busy };
 // of the shared bytes, a checkpoint its own. The -wal may grow; only one that is begun anew is
 // refused.
 Result<Copied> copy_once(const fs::path& database, const fs::path& to) {
-  const Descriptor file(database, O_RDONLY | O_NONBLOCK);
-  const Descriptor shm(beside(database, "-shm"));
-  const Descriptor journal(beside(database, "-journal")), wal(beside(database, "-wal"));
+  const Descriptor file(open_foreign(database, 0));
+  const Descriptor shm(open_beside(database, "-shm"));
+  const Descriptor journal(open_beside(database, "-journal")), wal(open_beside(database, "-wal"));
   if (file.fd() < 0) return failed(database, "open it");
   if (!share(file, kSharedBytes)) return Copied::busy;
   if (shm.fd() >= 0 && !share(shm, kCheckpointByte)) return Copied::busy;
@@ -142,7 +146,7 @@ Status check_journal(const fs::path& database) {
   constexpr std::string_view kMagic{"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8};
   const fs::path name = beside(database, "-journal");
   if (!has_journal(database)) return {};
-  const Descriptor journal(name);
+  const Descriptor journal(open_beside(database, "-journal"));
   const off_t size = journal.size();
   if (size < 16) return {};
   const std::string end = bytes_at(journal, size - 16, 16);
@@ -155,16 +159,16 @@ Status check_journal(const fs::path& database) {
 
 // As SQLite: one whose first byte is 0 has been used up.
 bool has_journal(const fs::path& database) {
-  const Descriptor journal(beside(database, "-journal"));
+  const Descriptor journal(open_beside(database, "-journal"));
   return journal.size() > 0 && bytes_at(journal, 0, 1) != std::string(1, '\0');
 }
 
 bool has_wal(const fs::path& database) {
-  return Descriptor(beside(database, "-wal")).size() > kWalHeader;
+  return Descriptor(open_beside(database, "-wal")).size() > kWalHeader;
 }
 
 bool is_shared(const fs::path& database) {
-  const Descriptor shm(beside(database, "-shm"));
+  const Descriptor shm(open_beside(database, "-shm"));
   if (shm.fd() < 0) return false;
   struct flock question = lock_on(kShmInUseByte, F_WRLCK);
   return ::fcntl(shm.fd(), F_OFD_GETLK, &question) == 0 && question.l_type != F_UNLCK;
@@ -186,6 +190,20 @@ bool is_open_for_writing(const struct stat& file) {
 bool is_open_for_writing(const fs::path& file) {
   struct stat now {};
   return ::stat(file.c_str(), &now) == 0 && is_open_for_writing(now);
+}
+
+int open_foreign(const fs::path& file, int flags) {
+  // What O_PATH opens is not opened for reading: to close it drops no lock.
+  const Descriptor name(::open(file.c_str(), O_PATH | O_CLOEXEC | flags));
+  struct stat now {};
+  if (name.fd() < 0 || ::fstat(name.fd(), &now) != 0) return -1;
+  const bool regular = S_ISREG(now.st_mode);
+  if (!regular || is_open_for_writing(now)) {
+    errno = regular ? EBUSY : EINVAL;
+    return -1;
+  }
+  const std::string same = "/proc/self/fd/" + std::to_string(name.fd());
+  return ::open(same.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
 }
 
 // ---- PrivateCopy ----

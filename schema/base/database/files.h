@@ -36,6 +36,11 @@ bool is_shared(const std::filesystem::path& database);
 bool is_open_for_writing(const struct stat& file);
 bool is_open_for_writing(const std::filesystem::path& file);
 
+// A descriptor for reading of what the name means at this moment, never waiting; -1 and errno:
+// EBUSY: this process writes the file, and it was not opened; EINVAL: it is no regular file.
+// `flags`: O_NOFOLLOW, or 0.
+int open_foreign(const std::filesystem::path& file, int flags);
+
 // Database, -journal and -wal as they are at one moment, in a folder of mode 0700 that is removed
 // with the copy.
 class PrivateCopy {

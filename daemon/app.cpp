@@ -80,6 +80,7 @@ struct App::Parts {
   SharedDevices shared_devices;
   std::vector<std::unique_ptr<Station>> stations;
   std::unique_ptr<Replayer> replayer;
+  std::unique_ptr<QueryThread> query;
   std::unique_ptr<Methods> methods;
   rpc::MethodTable table;
   rpc::Service service;
@@ -88,6 +89,7 @@ struct App::Parts {
   ~Parts() {
     for (auto& station : stations) station->begin_stopping();
     replayer.reset();
+    query.reset();
     stations.clear();
     reader.reset();  // before the writer, which then leaves one plain file
     keeper.reset();
@@ -147,6 +149,7 @@ Status App::Parts::open_store() {
 void App::Parts::read_anew() {
   auto opened = store::Store::open(config.database, store::Access::read_only);
   if (opened) *reader = std::move(*opened);
+  if (query) query->open_again();
 }
 
 void App::Parts::start_stations() {
@@ -200,7 +203,9 @@ Status App::Parts::listen() {
   service.add_topic(
       {.name = kRunTopic, .event = true, .min_interval = std::chrono::milliseconds(0)});
   replayer = std::make_unique<Replayer>(*keeper);
-  methods = std::make_unique<Methods>(Methods{loop, *keeper, *reader, stations, active,
+  MDOF_TRY(auto opened, store::Store::open(config.database, store::Access::read_only));
+  query = std::make_unique<QueryThread>(loop.executor(), config.database, std::move(opened));
+  methods = std::make_unique<Methods>(Methods{loop, *keeper, *reader, *query, stations, active,
                                               config.database.string(), utc_now(),
                                               std::chrono::steady_clock::now()});
   methods->replayer = replayer.get();

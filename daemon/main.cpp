@@ -1,17 +1,41 @@
 // mdofd: the measuring daemon. See daemon/README.md.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <system_error>
 
 #include "daemon/app.h"
+#include "daemon/methods/replayer.h"
 #include "daemon/station/check_start.h"
 #include "daemon/version.h"
 #include "schema/base/instruction_set.h"
 
 namespace {
+
+constexpr int kEndingSignals[] = {SIGTERM, SIGINT, SIGHUP};
+
+void end_at_once(int) {
+  ::_exit(0);
+}
+
+void set_ending_signals(void (*handler)(int)) {
+  for (const int signal : kEndingSignals) {
+    struct sigaction now {};
+    ::sigaction(signal, nullptr, &now);
+    if (now.sa_handler != SIG_IGN) std::signal(signal, handler);  // ignored: as under nohup
+  }
+}
+
+// Before anything else: until the event loop takes these signals (App::create) nothing is open that
+// has to be closed, so that one who asks for the end gets it at once, and as a success.
+[[gnu::constructor(101)]] void end_on_early_signals() {
+  set_ending_signals(end_at_once);
+}
 
 int failed(const mdof::Error& error) {
   std::fprintf(stderr, "mdofd: %s\n", error.message.c_str());
@@ -35,6 +59,9 @@ int run(const std::string& config_file, bool check_only) {
   auto app = mdof::daemon::App::create(std::move(*config));
   if (!app) return failed(app.error());
   (*app)->run();
+  app->reset();
+  // A thread still waits for a file whose file system does not answer, and would use what goes now.
+  if (mdof::daemon::Replayer::was_left_behind()) std::_Exit(0);
   return 0;
 }
 
@@ -54,6 +81,7 @@ int main(int argc, char** argv) try {
     const int code = cli.exit(e);
     return code == 0 ? 0 : 2;
   }
+  if (check_only) set_ending_signals(SIG_DFL);  // a check that was cut off has found nothing sound
   return run(config_file, check_only);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "mdofd: %s\n", e.what());

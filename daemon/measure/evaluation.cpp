@@ -120,14 +120,14 @@ std::vector<std::string> table_notes(const std::vector<Run>& runs) {
   return notes;
 }
 
-namespace {
-
-Status store_built(store::Store& store, CompensationTable& table, const std::optional<Deed>& deed) {
+Status store_table(store::Store& store, CompensationTable& table, const std::optional<Deed>& deed) {
   table.created_utc = utc_now();
   table.sha256 = table_sha256(table);
   MDOF_TRY(table.id, store.add_table(table, deed));
   return {};
 }
+
+namespace {
 
 // Of imported runs: the first is one.
 Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& request) {
@@ -137,7 +137,6 @@ Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& re
     runs.push_back(std::move(run));
   }
   MDOF_TRY(CompensationTable table, algo::build_positioning_table(runs));
-  MDOF_CHECK(store_built(store, table, request.deed));
   auto notes = table_notes(runs);
   for (auto& note : algo::positioning_notes(runs)) notes.push_back(std::move(note));
   return BuiltTable{std::move(table), algo::inherited_warnings(algo::all_of(runs)),
@@ -147,6 +146,12 @@ Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& re
 }  // namespace
 
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request) {
+  MDOF_TRY(BuiltTable built, calculate_table(store, request));
+  MDOF_CHECK(store_table(store, built.table, request.deed));
+  return built;
+}
+
+Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& request) {
   MDOF_CHECK(check_table_runs(store, request.runs));
   if (!request.runs.empty()) {
     MDOF_TRY(const RunHeader first, store.run_header(request.runs.front()));
@@ -174,7 +179,6 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
   }
   MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
-  MDOF_CHECK(store_built(store, table, request.deed));
   MDOF_TRY(auto warnings, table_warnings(runs));
   if (!declared)
     warnings.push_back("its u is noise and repeatability only, without what the rigs declare: " +
@@ -183,6 +187,15 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
 }
 
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request) {
+  MDOF_CHECK(check_activation(store, request));
+  return activate_checked(store, request);
+}
+
+Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request) {
+  return store.activate(request.table, actor_text(request.deed.by), request.deed.utc, request.deed);
+}
+
+Status check_activation(store::Store& store, const ActivationRequest& request) {
   MDOF_TRY(const CompensationTable table, store.table(request.table));
   if (table_sha256(table) != table.sha256)
     return bad_input(store.file().string() + ": compensation table " + std::to_string(table.id) +
@@ -202,9 +215,7 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
   warnings.insert(warnings.end(), of_table.begin(), of_table.end());
   const auto now = store.active(table.axis);
   const bool in_force = now && now->table.id == request.table;
-  if (warnings.empty() || in_force || request.despite_warnings)
-    return store.activate(request.table, actor_text(request.deed.by), request.deed.utc,
-                          request.deed);
+  if (warnings.empty() || in_force || request.despite_warnings) return {};
   return fail(ErrorCode::conflict,
               "table " + std::to_string(request.table) + " is made of runs with " +
                   std::to_string(warnings.size()) +
@@ -215,7 +226,21 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
                   "\"despite_warnings\": true");
 }
 
+Status store_squareness(store::Store& store, Squareness& squareness,
+                        const std::optional<Deed>& deed) {
+  squareness.created_utc = utc_now();
+  MDOF_TRY(squareness.id, store.add_squareness(squareness, deed));
+  return {};
+}
+
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
+  MDOF_TRY(FittedSquareness fitted, calculate_squareness(store, request));
+  MDOF_CHECK(store_squareness(store, fitted.squareness, request.deed));
+  return fitted;
+}
+
+Result<FittedSquareness> calculate_squareness(store::Store& store,
+                                              const SquarenessRequest& request) {
   MDOF_TRY(const Run x, store.run(request.run_x));
   MDOF_TRY(const Run y, store.run(request.run_y));
   MDOF_TRY(const Rig rig_x, rig_of(x.header));
@@ -223,8 +248,6 @@ Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessReq
   MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
   MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
   MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact));
-  s.created_utc = utc_now();
-  MDOF_TRY(s.id, store.add_squareness(s, request.deed));
   return FittedSquareness{std::move(s), std::move(budget), algo::inherited_warnings({&x, &y})};
 }
 

@@ -41,6 +41,9 @@ struct BuiltTable {
 };
 // Built and stored. Errors: those of algo::build_table(); runs of rigs with other machines.
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request);
+// The two parts of that: what takes long, from a store that may be read-only, and storing.
+Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& request);
+Status store_table(store::Store& store, CompensationTable& table, const std::optional<Deed>& deed);
 
 // What a table inherits of its runs beside warnings.
 std::vector<std::string> table_notes(const std::vector<Run>& runs);
@@ -54,6 +57,9 @@ struct ActivationRequest {
 // warnings, or whose encoder had no datum, unless that is asked for: a controller sees numbers
 // only.
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request);
+// The two parts of that: what may refuse it, from a store that may be read-only, and storing.
+Status check_activation(store::Store& store, const ActivationRequest& request);
+Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request);
 
 struct SquarenessRequest {
   std::int64_t run_x = 0, run_y = 0;
@@ -69,6 +75,11 @@ struct FittedSquareness {
 // Fitted and stored. Errors: those of algo::artefact_of(), algo::squareness() and
 // algo::squareness_budget().
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request);
+// The two parts of that: what takes long, from a store that may be read-only, and storing.
+Result<FittedSquareness> calculate_squareness(store::Store& store,
+                                              const SquarenessRequest& request);
+Status store_squareness(store::Store& store, Squareness& squareness,
+                        const std::optional<Deed>& deed);
 // The same of one that is stored.
 Result<FittedSquareness> stored_squareness(store::Store& store, const Squareness& squareness);
 

@@ -1,4 +1,4 @@
-// run.budget, squareness.budget.
+// run.budget, squareness.budget, parallelism.fit.
 #include "daemon/measure/budgets.h"
 
 #include "daemon/methods/methods.h"
@@ -10,46 +10,52 @@ namespace {
 using rpc::Params;
 using rpc::ParamType;
 
-constexpr std::int64_t kMostPoints = 5'000;  // some 0.2 s of the loop; 110 points: 0.02 s
+constexpr std::int64_t kMostPoints = 5'000;  // some 0.2 s; 110 points: 0.02 s
 
-// The loop reckons it, and has other clients.
-Status check_size(Methods& m, std::int64_t run) {
-  MDOF_TRY(const std::int64_t points, m.reader.count_points(run));
+// The thread "query" calculates it, and has other clients.
+Status check_size(store::Store& store, std::int64_t run) {
+  MDOF_TRY(const std::int64_t points, store.count_points(run));
   if (points <= kMostPoints) return {};
   return bad_input("run " + std::to_string(run) + " has " + std::to_string(points) +
                    " points, too many for a budget by a call (at most " +
                    std::to_string(kMostPoints) + "); mdof budget makes it");
 }
 
-Result<std::string> run_budget(Methods& m, const Params& params) {
+Result<QueryThread::Work> run_budget(Methods&, const Params& params) {
   RunBudgetsRequest request;
   request.run = params.integer("run");
   request.figure = params.string("figure");
   if (params.has("at_mm")) request.at_m = from_mm(params.number("at_mm"));
   MDOF_TRY(request.reference, reference_param(params));
-  MDOF_CHECK(check_size(m, request.run));
-  MDOF_TRY(const FoundBudgets found, run_budgets(m.reader, request));
-  return budgets_json(found);
+  return [request](store::Store& store) -> Result<std::string> {
+    MDOF_CHECK(check_size(store, request.run));
+    MDOF_TRY(const FoundBudgets found, run_budgets(store, request));
+    return budgets_json(found);
+  };
 }
 
-Result<std::string> squareness_budget(Methods& m, const Params& params) {
+Result<QueryThread::Work> squareness_budget(Methods&, const Params& params) {
   SquarenessRequest request;
   request.run_x = params.integer("run_x");
   request.run_y = params.integer("run_y");
   request.partial = params.boolean("partial", false);
-  MDOF_CHECK(check_size(m, request.run_x));
-  MDOF_CHECK(check_size(m, request.run_y));
-  MDOF_TRY(const FoundBudgets found, squareness_budgets(m.reader, request, {}));
-  return budgets_json(found);
+  return [request](store::Store& store) -> Result<std::string> {
+    MDOF_CHECK(check_size(store, request.run_x));
+    MDOF_CHECK(check_size(store, request.run_y));
+    MDOF_TRY(const FoundBudgets found, squareness_budgets(store, request, {}));
+    return budgets_json(found);
+  };
 }
 
-Result<std::string> parallelism(Methods& m, const Params& params) {
+Result<QueryThread::Work> parallelism(Methods&, const Params& params) {
   const ParallelismRequest request{params.integer("run_a"), params.integer("run_b"),
                                    params.boolean("partial", false)};
-  MDOF_CHECK(check_size(m, request.run_a));
-  MDOF_CHECK(check_size(m, request.run_b));
-  MDOF_TRY(const FoundParallelism found, find_parallelism(m.reader, request));
-  return parallelism_json(found);
+  return [request](store::Store& store) -> Result<std::string> {
+    MDOF_CHECK(check_size(store, request.run_a));
+    MDOF_CHECK(check_size(store, request.run_b));
+    MDOF_TRY(const FoundParallelism found, find_parallelism(store, request));
+    return parallelism_json(found);
+  };
 }
 
 }  // namespace
@@ -73,7 +79,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                         reference},
              .result = result,
              .example = R"({"run": 1, "figure": "EYX_straightness_um"})",
-             .handler = [&m](const Params& p) { return run_budget(m, p); }});
+             .handler = on_query(m, run_budget)});
   table.add(
       {.name = "squareness.budget",
        .summary = "The uncertainty budget of EC0Y of a run along X and one along Y; the "
@@ -83,7 +89,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                   {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
        .result = result,
        .example = R"({"run_x": 1, "run_y": 2})",
-       .handler = [&m](const Params& p) { return squareness_budget(m, p); }});
+       .handler = on_query(m, squareness_budget)});
   table.add(
       {.name = "parallelism.fit",
        .summary = "Parallelism of two motions along one axis (ISO 230-1), the angle between the "
@@ -96,7 +102,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                  "slope of B - slope of A; from_mm, to_mm: the travel in common; " +
                  result,
        .example = R"({"run_a": 1, "run_b": 2})",
-       .handler = [&m](const Params& p) { return parallelism(m, p); }});
+       .handler = on_query(m, parallelism)});
 }
 
 }  // namespace mdof::daemon

@@ -52,54 +52,60 @@ void build(Methods& m, const Params& params, Reply reply) {
   auto request = read_table_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
   request->deed = deed_of(params, "compensation.build");
-  answer_from_store(
-      m, std::move(reply), [request = *request](store::Store& store) -> Result<std::string> {
-        MDOF_TRY(const BuiltTable built, build_table(store, request));
-        JsonWriter json;
-        json.begin_object();
-        write_table_members(json, built.table);
-        json.end_object();
-        return with_texts(with_warnings(json.take(), built.warnings), "notes", built.notes);
+  answer_with_change(
+      m, std::move(reply), [request = *request](store::Store& reader) -> Result<Change> {
+        MDOF_TRY(auto calculated, calculate_table(reader, request));
+        return [built = std::move(calculated),
+                deed = request.deed](store::Store& store) mutable -> Result<std::string> {
+          MDOF_CHECK(store_table(store, built.table, deed));
+          JsonWriter json;
+          json.begin_object();
+          write_table_members(json, built.table);
+          json.end_object();
+          return with_texts(with_warnings(json.take(), built.warnings), "notes", built.notes);
+        };
       });
 }
 
-// Stores the change first, then puts it in force for everybody at once on the main thread, then
-// answers `reply_members` with the generation.
-void change_what_is_in_force(Methods& m, Reply reply, std::string reply_members,
-                             std::function<Result<store::Activation>(store::Store&)> change) {
-  if (const std::string lost = m.keeper.fault(); !lost.empty()) return reply(io_error(lost));
-  auto shared = std::make_shared<Reply>(std::move(reply));
-  const bool posted = m.keeper.post([&m, shared, members = std::move(reply_members),
-                                     change = std::move(change)](store::Store& store) {
-    const auto done = change(store);
-    if (!done) return (*shared)(tl::unexpected(done.error()));
-    auto tables = load_active(store);
-    if (!tables) return (*shared)(tl::unexpected(tables.error()));
-    m.loop.post([&m, members, done = *done, tables = std::move(*tables), shared] {
+// Stores the change first, then puts it in force for everybody at once on the main thread; the
+// answer, `reply_members` with the generation, comes there after it.
+Change change_what_is_in_force(Methods& m, std::string reply_members,
+                               std::function<Result<store::Activation>(store::Store&)> change) {
+  return [&m, members = std::move(reply_members),
+          change = std::move(change)](store::Store& store) -> Result<std::string> {
+    MDOF_TRY(const auto done, change(store));
+    MDOF_TRY(auto tables, load_active(store));
+    m.loop.post([&m, done, tables = std::move(tables)] {
       m.active = tables;
       if (done.changed) m.generation = done.generation;
-      (*shared)(activation_json(members, done));
     });
-  });
-  if (!posted) (*shared)(io_error("the store is behind with its work; try again"));
+    return activation_json(members, done);
+  };
 }
 
 void activate(Methods& m, const Params& params, Reply reply) {
   const ActivationRequest request{params.integer("table"),
                                   params.boolean("despite_warnings", false),
                                   deed_of(params, "compensation.activate")};
-  change_what_is_in_force(
-      m, std::move(reply), "\"table\":" + std::to_string(request.table),
-      [request](store::Store& store) { return activate_table(store, request); });
+  answer_with_change(m, std::move(reply), [&m, request](store::Store& reader) -> Result<Change> {
+    MDOF_CHECK(check_activation(reader, request));
+    return change_what_is_in_force(
+        m, "\"table\":" + std::to_string(request.table),
+        [request](store::Store& store) { return activate_checked(store, request); });
+  });
 }
 
 void deactivate(Methods& m, const Params& params, Reply reply) {
   const auto axis = axis_param(params);
   if (!axis) return reply(tl::unexpected(axis.error()));
-  change_what_is_in_force(
-      m, std::move(reply), std::string("\"axis\":\"") + letter(*axis) + "\"",
-      [axis = *axis, deed = deed_of(params, "compensation.deactivate")](store::Store& store) {
-        return store.deactivate(axis, actor_text(deed.by), deed.utc, deed);
+  answer_with_change(
+      m, std::move(reply),
+      [&m, axis = *axis,
+       deed = deed_of(params, "compensation.deactivate")](store::Store&) -> Result<Change> {
+        return change_what_is_in_force(
+            m, std::string("\"axis\":\"") + letter(axis) + "\"", [axis, deed](store::Store& store) {
+              return store.deactivate(axis, actor_text(deed.by), deed.utc, deed);
+            });
       });
 }
 

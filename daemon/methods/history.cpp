@@ -12,16 +12,18 @@ using rpc::Params;
 
 constexpr std::int64_t kMaxDeedsPage = 200;
 
-Result<std::string> list_history(Methods& m, const Params& params) {
+Result<QueryThread::Work> list_history(Methods&, const Params& params) {
   const rpc::ListPage page = list_page_of(params, kMaxDeedsPage);
-  MDOF_TRY(const auto deeds, m.reader.list_deeds(page.offset, page.count));
-  MDOF_TRY(const auto total, m.reader.count_deeds());
-  JsonWriter json;
-  json.begin_object().field("total", total).field("offset", page.offset).key("history");
-  json.begin_array();
-  append_page(json, deeds, deed_json);
-  json.end_array().end_object();
-  return json.take();
+  return [page](store::Store& store) -> Result<std::string> {
+    MDOF_TRY(const auto deeds, store.list_deeds(page.offset, page.count));
+    MDOF_TRY(const auto total, store.count_deeds());
+    JsonWriter json;
+    json.begin_object().field("total", total).field("offset", page.offset).key("history");
+    json.begin_array();
+    append_page(json, deeds, deed_json);
+    json.end_array().end_object();
+    return json.take();
+  };
 }
 
 }  // namespace
@@ -36,7 +38,7 @@ void add_history_methods(rpc::MethodTable& table, Methods& m) {
                  "(what it was done to), utc, uid, gid, pid, user; detail, where there is more "
                  "to say",
              .example = R"({"offset": 0, "count": 20})",
-             .handler = [&m](const Params& p) { return list_history(m, p); }});
+             .handler = on_query(m, list_history)});
 }
 
 }  // namespace mdof::daemon

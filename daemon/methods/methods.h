@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "daemon/history.h"
+#include "daemon/methods/query_thread.h"
 #include "daemon/methods/replayer.h"
 #include "daemon/rpc/method_table.h"
 #include "daemon/rpc/net/event_loop.h"
@@ -28,7 +29,8 @@ using ActiveTables = std::array<std::shared_ptr<const store::ActiveTable>, 3>;
 struct Methods {
   rpc::EventLoop& loop;
   Storekeeper& keeper;   // all writing
-  store::Store& reader;  // read-only, of the main thread
+  store::Store& reader;  // read-only, of the main thread: for little and short work
+  QueryThread& query;    // all other reading, and calculating
   std::vector<std::unique_ptr<Station>>& stations;
   ActiveTables& active;
   std::string database;
@@ -53,9 +55,21 @@ Deed deed_of(const rpc::Params& params, std::string name);  // by the caller, no
 Result<Axis> axis_param(const rpc::Params& params);
 Result<Reference> reference_param(const rpc::Params& params);  // not given: the fixture
 Result<Station*> station_of(Methods& m, Axis axis);
-// Runs `work` with the writable store on its thread; answers with its JSON.
-void answer_from_store(Methods& m, rpc::Reply reply,
-                       std::function<Result<std::string>(store::Store&)> work);
+// A handler of two parts: `read`(m, params) takes the parameters on the loop and gives the work
+// that makes the answer on the thread "query".
+template <class Read>
+rpc::AsyncHandler on_query(Methods& m, Read read) {
+  return [&m, read](const rpc::Params& params, rpc::Reply reply) {
+    Result<QueryThread::Work> work = read(m, params);
+    if (!work) return reply(tl::unexpected(work.error()));
+    m.query.answer(std::move(reply), std::move(*work));
+  };
+}
+// What somebody calculates on the thread "query" and then writes with the writable store, on its
+// thread. One such change at a time is in the queue of the store, which measuring needs as well.
+using Change = std::function<Result<std::string>(store::Store&)>;
+void answer_with_change(Methods& m, rpc::Reply reply,
+                        std::function<Result<Change>(store::Store& reader)> calculate);
 Result<ActiveTables> load_active(store::Store& store);
 
 }  // namespace mdof::daemon

@@ -1,13 +1,7 @@
 // run.replay.
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-
+#include "daemon/methods/client_file.h"
 #include "daemon/methods/methods.h"
 #include "daemon/methods/replayer.h"
-#include "schema/base/database/files.h"
 #include "schema/base/json_writer.h"
 
 namespace mdof::daemon {
@@ -19,33 +13,6 @@ using rpc::Reply;
 
 constexpr rpc::Bounds kPositive = {.least = 0, .most = 1e9};
 
-// The daemon reads on behalf of the caller: nothing that the caller may not read. A log of the
-// daemon's own group is open to who may use the socket.
-bool may_read(const rpc::Credentials& who, const struct stat& file) {
-  if (who.uid == 0 || who.uid == ::geteuid()) return true;
-  if (who.uid == file.st_uid) return (file.st_mode & S_IRUSR) != 0;
-  if (file.st_gid == who.gid || file.st_gid == ::getegid()) return (file.st_mode & S_IRGRP) != 0;
-  return (file.st_mode & S_IROTH) != 0;
-}
-
-Status check_log(const Params& params, const std::string& path) {
-  const auto who = params.caller().credentials();
-  if (!who) return fail(ErrorCode::usage, "run.replay: only over the Unix socket");
-  if (!path.starts_with('/'))
-    return fail(ErrorCode::usage, "path \"" + path + "\" must be absolute");
-  struct stat file {};
-  if (::stat(path.c_str(), &file) != 0)
-    return io_error(path + ": " + std::strerror(errno) +
-                    "; mdofd reads the log itself: put it where its user can read it");
-  if (!S_ISREG(file.st_mode)) return bad_input(path + ": is no file");
-  if (sqlite::is_open_for_writing(file))
-    return fail(ErrorCode::conflict, path +
-                                         ": mdofd itself is writing this file (its database, or a "
-                                         "recording under way); replay a recording that has ended");
-  if (may_read(*who, file)) return {};
-  return io_error(path + ": is not yours to read; check its owner and mode");
-}
-
 std::optional<double> optional_number(const Params& params, const char* name) {
   return params.has(name) ? std::optional(params.number(name)) : std::nullopt;
 }
@@ -53,7 +20,6 @@ std::optional<double> optional_number(const Params& params, const char* name) {
 Result<ReplayRequest> read_replay_request(const Params& params) {
   ReplayRequest request;
   request.log = params.string("path");
-  MDOF_CHECK(check_log(params, request.log));
   request.rig_text = params.string("rig");
   if (params.has("rig")) request.rig_source = params.string("rig_source", "rig");
   request.model = params.string("model");
@@ -74,11 +40,14 @@ Result<ReplayRequest> read_replay_request(const Params& params) {
 }
 
 void replay_log(Methods& m, const Params& params, Reply reply) {
+  const auto who = params.caller().credentials();
+  if (!who) return reply(fail(ErrorCode::usage, "run.replay: only over the Unix socket"));
   auto request = read_replay_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
   if (!m.replayer) return reply(io_error("this daemon replays no logs"));
   auto shared = std::make_shared<Reply>(std::move(reply));
-  m.replayer->start(std::move(*request), deed_of(params, "run.replay"),
+  const FileUser user{who->uid, who->gid, params.caller().further_groups()};
+  m.replayer->start(std::move(*request), user, deed_of(params, "run.replay"),
                     [shared](const Result<std::int64_t>& id) {
                       if (!id) return (*shared)(tl::unexpected(id.error()));
                       JsonWriter json;

@@ -1,42 +1,96 @@
 #include "daemon/methods/replayer.h"
 
+#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <memory>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
 
 namespace mdof::daemon {
 namespace {
 
 constexpr int kNiceness = 10;  // after everything that measures
+constexpr std::chrono::seconds kPatience{2};
+
+std::atomic<bool> left_behind{false};
+
+Result<Run> replay_file(ReplayRequest request, const FileUser& user,
+                        const ProgressCallback& progress) {
+  MDOF_TRY(const ClientFile opened, open_for(user, request.log));
+  request.opened = {opened.file.get(), opened.wal.get()};
+  return replay(request, progress);
+}
 
 }  // namespace
 
-Replayer::~Replayer() {
-  stopping_ = true;
-  if (thread_.joinable()) thread_.join();
+struct Replayer::Shared {
+  explicit Shared(Storekeeper& to) : keeper(to) {}
+
+  void work(const ReplayRequest& request, const FileUser& user, const Deed& deed, const Done& done);
+  void store(Result<Run> run, const Deed& deed, const Done& done);
+
+  std::atomic<bool> busy{false}, stopping{false};
+  std::mutex mutex;  // guards the next two
+  std::condition_variable ended;
+  bool working = false;
+  Storekeeper& keeper;  // only under the mutex and before `stopping`: it goes after that
+};
+
+void Replayer::Shared::work(const ReplayRequest& request, const FileUser& user, const Deed& deed,
+                            const Done& done) {
+  ::pthread_setname_np(::pthread_self(), "replay");
+  // Linux: of this thread alone.
+  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
+  auto run = replay_file(request, user, [this](const Progress&) { return !stopping; });
+  const std::lock_guard lock(mutex);
+  busy = false;  // before the answer: who has it may ask for the next
+  if (!stopping) store(std::move(run), deed, done);
+  working = false;
+  ended.notify_all();
 }
 
-void Replayer::start(ReplayRequest request, const Deed& deed, Done done) {
-  if (busy_.exchange(true))
+void Replayer::Shared::store(Result<Run> run, const Deed& deed, const Done& done) {
+  if (!run) return done(tl::unexpected(run.error()));
+  const auto whole = std::make_shared<Run>(std::move(*run));
+  const bool posted =
+      keeper.post([whole, deed, done](store::Store& store) { done(store.add_run(*whole, deed)); });
+  if (!posted) done(io_error("the store is behind with its work; try again"));
+}
+
+Replayer::Replayer(Storekeeper& keeper) : shared_(std::make_shared<Shared>(keeper)) {}
+
+Replayer::~Replayer() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->stopping = true;
+  const bool done = shared_->ended.wait_for(lock, kPatience, [this] { return !shared_->working; });
+  lock.unlock();
+  if (!thread_.joinable()) return;
+  if (done) {
+    thread_.join();
+  } else {
+    left_behind = true;
+    thread_.detach();
+  }
+}
+
+bool Replayer::was_left_behind() {
+  return left_behind;
+}
+
+void Replayer::start(ReplayRequest request, const FileUser& user, const Deed& deed, Done done) {
+  if (shared_->busy.exchange(true))
     return done(
         fail(ErrorCode::conflict, "another log is being replayed; try again when it is done"));
   if (thread_.joinable()) thread_.join();  // it has done its work, or is about to have
-  thread_ = std::thread([this, request = std::move(request), deed, done = std::move(done)] {
-    work(request, deed, done);
-  });
-}
-
-void Replayer::work(const ReplayRequest& request, const Deed& deed, const Done& done) {
-  // Linux: of this thread alone.
-  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
-  auto run = replay(request, [this](const Progress&) { return !stopping_; });
-  busy_ = false;  // before the answer: who has it may ask for the next
-  if (!run) return done(tl::unexpected(run.error()));
-  const auto shared = std::make_shared<Run>(std::move(*run));
-  const bool posted = keeper_.post(
-      [shared, deed, done](store::Store& store) { done(store.add_run(*shared, deed)); });
-  if (!posted) done(io_error("the store is behind with its work; try again"));
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->working = true;
+  }
+  thread_ = std::thread([shared = shared_, request = std::move(request), user, deed,
+                         done = std::move(done)] { shared->work(request, user, deed, done); });
 }
 
 }  // namespace mdof::daemon

@@ -199,20 +199,26 @@ void explain(const Methods& m, RunHeader& header) {
   if (!why.empty()) header.warnings.push_back(std::move(why));
 }
 
-Result<std::string> list_runs(Methods& m, const Params& params) {
-  const rpc::ListPage page = list_page_of(params, kMaxRunsPage);
-  std::optional<Axis> axis;
-  if (params.has("axis")) {
-    MDOF_TRY(axis, axis_param(params));
-  }
-  MDOF_TRY(auto headers, m.reader.list_runs(page.offset, page.count, axis));
+Result<std::string> runs_json(const Methods& m, store::Store& store, rpc::ListPage page,
+                              std::optional<Axis> axis) {
+  MDOF_TRY(auto headers, store.list_runs(page.offset, page.count, axis));
   for (RunHeader& header : headers) explain(m, header);
-  MDOF_TRY(const auto total, m.reader.count_runs(axis));
+  MDOF_TRY(const auto total, store.count_runs(axis));
   JsonWriter json;
   json.begin_object().field("total", total).field("offset", page.offset).key("runs").begin_array();
   append_page(json, headers, header_item);
   json.end_array().end_object();
   return json.take();
+}
+
+Result<QueryThread::Work> list_runs(Methods& m, const Params& params) {
+  std::optional<Axis> axis;
+  if (params.has("axis")) {
+    MDOF_TRY(axis, axis_param(params));
+  }
+  return [&m, page = list_page_of(params, kMaxRunsPage), axis](store::Store& store) {
+    return runs_json(m, store, page, axis);
+  };
 }
 
 std::string run_json(const Run& run, const RunHeader& header, const std::vector<Deed>& deeds,
@@ -233,27 +239,31 @@ std::string run_json(const Run& run, const RunHeader& header, const std::vector<
   return json.take();
 }
 
-Result<std::string> get_run(Methods& m, const Params& params) {
-  MDOF_TRY(const Reference reference, reference_param(params));
-  const std::int64_t id = params.integer("run");
-  MDOF_TRY(const std::int64_t points, m.reader.count_points(id));
+Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::int64_t id,
+                                   Reference reference) {
+  MDOF_TRY(const std::int64_t points, store.count_points(id));
   if (points > kMaxRunPoints)
     return bad_input("run " + std::to_string(id) + " has " + std::to_string(points) +
                      " points, too many for one call; mdof show " + std::to_string(id) +
                      " reads them");
-  MDOF_TRY(auto run, run_stated_at(m.reader, id, reference));
+  MDOF_TRY(auto run, run_stated_at(store, id, reference));
   explain(m, run.header);
-  MDOF_TRY(const auto deeds, m.reader.deeds_of_run(id));
+  MDOF_TRY(const auto deeds, store.deeds_of_run(id));
   std::string whole = run_json(run, run.header, deeds, kMaxVisits);
   return whole.size() <= kPageBytes ? whole : run_json(run, shortened(run.header), deeds, 0);
 }
 
-Result<std::string> run_points(Methods& m, const Params& params) {
-  const rpc::ListPage page = list_page_of(params, kMaxPointsPage);
-  const std::int64_t id = params.integer("run");
+Result<QueryThread::Work> get_run(Methods& m, const Params& params) {
   MDOF_TRY(const Reference reference, reference_param(params));
-  MDOF_TRY(const auto total, m.reader.count_points(id));
-  MDOF_TRY(const Run run, points_stated_at(m.reader, id, page.offset, page.count, reference));
+  return [&m, id = params.integer("run"), reference](store::Store& store) {
+    return whole_run_json(m, store, id, reference);
+  };
+}
+
+Result<std::string> points_json(store::Store& store, std::int64_t id, rpc::ListPage page,
+                                Reference reference) {
+  MDOF_TRY(const auto total, store.count_points(id));
+  MDOF_TRY(const Run run, points_stated_at(store, id, page.offset, page.count, reference));
   const RunUncertainty uncertainty = uncertainty_of(run);
   JsonWriter json;
   json.begin_object()
@@ -271,6 +281,12 @@ Result<std::string> run_points(Methods& m, const Params& params) {
   });
   json.end_array().end_object();
   return json.take();
+}
+
+Result<QueryThread::Work> run_points(Methods&, const Params& params) {
+  MDOF_TRY(const Reference reference, reference_param(params));
+  return [id = params.integer("run"), page = list_page_of(params, kMaxPointsPage),
+          reference](store::Store& store) { return points_json(store, id, page, reference); };
 }
 
 }  // namespace
@@ -340,7 +356,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                         {"axis", ParamType::string, "of this axis only", false}},
              .result = "total, runs: header and provenance of each",
              .example = R"({"offset": 0, "count": 10})",
-             .handler = [&m](const Params& p) { return list_runs(m, p); }});
+             .handler = on_query(m, list_runs)});
   table.add({.name = "run.get",
              .summary = "A run without its points: header, provenance, straightness, angles, "
                         "plausibility, who started and stopped it.",
@@ -349,7 +365,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                  "the run; straightness in um, slopes and angles in urad; n_ij is null where it "
                  "is too long for a reply",
              .example = R"({"run": 1})",
-             .handler = [&m](const Params& p) { return get_run(m, p); }});
+             .handler = on_query(m, get_run)});
   table.add({.name = "run.points",
              .summary = "The points of a run in the order measured, a page at a time.",
              .params = {run, offset, count_param(kMaxPointsPage), reference},
@@ -357,7 +373,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                  "total, u_covers, points: position_mm, five errors in um and urad, u, u_random, "
                  "U, k, nu_eff (null: infinite), flags",
              .example = R"({"run": 1, "offset": 0, "count": 20})",
-             .handler = [&m](const Params& p) { return run_points(m, p); }});
+             .handler = on_query(m, run_points)});
 }
 
 }  // namespace mdof::daemon

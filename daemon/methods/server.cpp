@@ -38,7 +38,8 @@ std::string server_info(const Methods& m) {
       .field("database", ec ? m.database : database.string())
       .field("generation", m.generation)
       .field("store_jobs_dropped", m.keeper.dropped_blocks())
-      .field("store_points_dropped", m.keeper.dropped_points());
+      .field("store_points_dropped", m.keeper.dropped_points())
+      .field("calls_refused", m.query.refused());
   const StorageState storage = m.keeper.storage();
   json.field("storage", storage.state).key("storage_reason");
   storage.reason.empty() ? json.null() : json.value(storage.reason);
@@ -123,14 +124,15 @@ Result<Station*> station_of(Methods& m, Axis axis) {
                                         "; add an [[axis]] to mdofd.toml");
 }
 
-void answer_from_store(Methods& m, rpc::Reply reply,
-                       std::function<Result<std::string>(store::Store&)> work) {
+void answer_with_change(Methods& m, rpc::Reply reply,
+                        std::function<Result<Change>(store::Store& reader)> calculate) {
   if (const std::string lost = m.keeper.fault(); !lost.empty()) return reply(io_error(lost));
-  // std::function wants copies: the one right to answer is shared with the job alone.
-  auto shared = std::make_shared<rpc::Reply>(std::move(reply));
-  const bool posted = m.keeper.post(
-      [shared, work = std::move(work)](store::Store& store) { (*shared)(work(store)); });
-  if (!posted) (*shared)(io_error("the store is behind with its work; try again"));
+  m.query.answer(
+      std::move(reply),
+      [&m, calculate = std::move(calculate)](store::Store& reader) -> Result<std::string> {
+        MDOF_TRY(Change change, calculate(reader));
+        return m.keeper.run(std::move(change));
+      });
 }
 
 Result<ActiveTables> load_active(store::Store& store) {

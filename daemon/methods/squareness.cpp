@@ -19,9 +19,13 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   if (params.has("u_artefact_urad"))
     request.given.u_rad = from_urad(params.number("u_artefact_urad"));
   request.deed = deed_of(params, "squareness.fit");
-  answer_from_store(m, std::move(reply), [request](store::Store& store) -> Result<std::string> {
-    MDOF_TRY(const FittedSquareness fitted, fit_squareness(store, request));
-    return with_warnings(squareness_json(fitted.squareness, fitted.budget), fitted.warnings);
+  answer_with_change(m, std::move(reply), [request](store::Store& reader) -> Result<Change> {
+    MDOF_TRY(auto found, calculate_squareness(reader, request));
+    return [fitted = std::move(found),
+            deed = request.deed](store::Store& store) mutable -> Result<std::string> {
+      MDOF_CHECK(store_squareness(store, fitted.squareness, deed));
+      return with_warnings(squareness_json(fitted.squareness, fitted.budget), fitted.warnings);
+    };
   });
 }
 

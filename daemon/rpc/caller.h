@@ -6,6 +6,7 @@
 #include <chrono>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "schema/base/result.h"
 
@@ -26,7 +27,8 @@ class Caller {
   // Who to name in the audit of a writing method; nothing for a TCP client.
   virtual std::optional<Credentials> credentials() const = 0;
   virtual bool may_write() const = 0;
-  virtual bool in_group(gid_t group) const = 0;  // not where there are no credentials
+  virtual bool in_group(gid_t group) const = 0;           // not where there are no credentials
+  virtual std::vector<gid_t> further_groups() const = 0;  // beside that of the credentials
 
   // Until unsubscribe or the end of the connection; again on the same topic: the new interval
   // holds. Errors: not_found (topic), usage (interval below the topic's minimum, too many).

@@ -22,6 +22,10 @@ class Reply {
 
   void operator()(Result<std::string> result);
 
+  // Who asked: the same for all calls of one client, expired once it has gone. Not after the
+  // answer.
+  std::weak_ptr<const void> client() const;
+
  private:
   std::unique_ptr<Slot> slot_;  // empty once answered
 };

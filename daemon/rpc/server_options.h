@@ -23,7 +23,7 @@ struct ServerOptions {
 
   // Of a client.
   std::size_t max_unsent_bytes = 1024 * 1024;  // no request is begun whose reply may not fit
-  std::size_t requests_per_turn = 64;          // then the other clients have theirs
+  std::chrono::microseconds turn{100};         // then the other clients have theirs
   std::size_t max_subscriptions = 32;
   std::size_t max_queued_events = 64;  // a subscription to events; then the oldest are dropped
   milliseconds request_timeout{5000};  // for a whole line, from its first byte
@@ -33,7 +33,7 @@ struct ServerOptions {
 
   // Of the server.
   std::size_t max_connections = 64;
-  std::size_t max_connections_of_user = 32;  // of one uid; all TCP clients count as one
+  std::size_t max_connections_of_user = 32;  // of one uid, over Unix and TCP sockets together
   // Of max_connections one is kept for this group, that of the machine's control: whoever else has
   // all the others.
   std::optional<gid_t> kept_for_group;

@@ -4,6 +4,7 @@
 #include <sys/statvfs.h>
 
 #include <algorithm>
+#include <future>
 
 #include "daemon/store/file/told_head.h"
 #include "daemon/storekeeper/storage_errors.h"
@@ -275,6 +276,20 @@ bool Storekeeper::post(Job job) {
   return queue_.try_push([this, job = std::move(job)] {
     if (store_) job(*store_);  // else refused before: see fault()
   });
+}
+
+Result<std::string> Storekeeper::run(std::function<Result<std::string>(store::Store&)> job) {
+  auto promise = std::make_shared<std::promise<Result<std::string>>>();
+  auto result = promise->get_future();
+  if (!post([promise = std::move(promise), job = std::move(job)](store::Store& store) {
+        promise->set_value(job(store));
+      }))
+    return io_error("the store is behind with its work; try again");
+  try {
+    return result.get();
+  } catch (const std::future_error&) {  // destroyed without being run: see post()
+    return io_error("nothing can be stored now: " + storage().reason);
+  }
 }
 
 Result<store::RecordingWriter> Storekeeper::create_recording(const NewRun& run) const {

@@ -83,6 +83,8 @@ class Storekeeper {
   using Job = std::function<void(store::Store&)>;
   // False: the queue is full or closing; the job is not kept.
   bool post(Job job);
+  // Waits for its result. Errors: those of the job, a full or closing queue, no store to write to.
+  Result<std::string> run(std::function<Result<std::string>(store::Store&)> job);
   // Errors as RecordingWriter::create(). Whoever calls it may write until it is a run's.
   Result<store::RecordingWriter> create_recording(const NewRun& run) const;
   bool begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done);

@@ -20,7 +20,11 @@ std::string text_of(int error) {
   return std::strerror(error);
 }
 
-Result<int> open_descriptor(const std::string& path) {
+Result<int> open_descriptor(const std::string& path, int given) {
+  if (given >= 0) {
+    (void)::lseek(given, 0, SEEK_SET);  // of a pipe there is no other place
+    return ::fcntl(given, F_DUPFD_CLOEXEC, 0);
+  }
   if (path == "-") return ::dup(STDIN_FILENO);
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor >= 0) return descriptor;
@@ -30,8 +34,9 @@ Result<int> open_descriptor(const std::string& path) {
 
 }  // namespace
 
-Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::string& path, bool hash) {
-  MDOF_TRY(const int descriptor, open_descriptor(path));
+Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::string& path, bool hash,
+                                                     int given) {
+  MDOF_TRY(const int descriptor, open_descriptor(path, given));
   const std::string name = path == "-" ? "standard input" : path;
   if (descriptor < 0) return io_error(name + ": cannot be read: " + text_of(errno));
   struct stat state {};

@@ -128,7 +128,8 @@ CsvRows::~CsvRows() = default;
 
 Result<std::unique_ptr<CsvRows>> CsvRows::open(const std::string& path,
                                                const CsvRowsOptions& options) {
-  MDOF_TRY(std::unique_ptr<ByteSource> source, ByteSource::open(path, options.sha256));
+  MDOF_TRY(std::unique_ptr<ByteSource> source,
+           ByteSource::open(path, options.sha256, options.descriptor));
   auto reading = std::make_unique<Reading>(std::move(source), options);
   MDOF_CHECK(reading->start(options));
   return std::unique_ptr<CsvRows>(new CsvRows(std::move(reading)));

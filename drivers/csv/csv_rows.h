@@ -21,6 +21,7 @@ struct CsvRowsOptions {
   CsvLimits limits;                                // bad_lines = 0 where rows must map one to one
   bool sha256 = true;                              // costs as much time as parsing, on another core
   std::size_t chunk_bytes = std::size_t{1} << 18;  // no effect on what comes out
+  int descriptor = -1;  // read from its beginning instead of opening the path; the caller's
 };
 
 // Thread-bound but for bytes(). Where there is something to be done beside parsing (hashing,

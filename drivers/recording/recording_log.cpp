@@ -1,5 +1,7 @@
 #include "drivers/recording/recording_log.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -33,15 +35,26 @@ RecordingLog::RecordingLog(std::string name, std::filesystem::path file) : file_
   info_.description = "recording " + file_.string();
 }
 
+RecordingLog::RecordingLog(std::string name, std::filesystem::path file, Descriptors descriptors)
+    : RecordingLog(std::move(name), std::move(file)) {
+  descriptors_ = descriptors;
+}
+
+Result<Connection> RecordingLog::connect() const {
+  if (descriptors_.file >= 0)
+    return Connection::open_descriptors(file_, descriptors_.file, descriptors_.wal);
+  std::error_code ec;
+  if (!std::filesystem::exists(file_, ec))
+    return fail(ErrorCode::not_found, file_.string() + ": no such recording; check the name");
+  return Connection::open(file_, sqlite::OpenMode::snapshot);
+}
+
 Status RecordingLog::open() {
   connection_.reset();
   seal_.reset();
   warnings_.clear();
   next_ = 1;
-  std::error_code ec;
-  if (!std::filesystem::exists(file_, ec))
-    return fail(ErrorCode::not_found, file_.string() + ": no such recording; check the name");
-  MDOF_TRY(Connection connection, Connection::open(file_, sqlite::OpenMode::snapshot));
+  MDOF_TRY(Connection connection, connect());
   connection_.emplace(std::move(connection));
   MDOF_CHECK(check_kind());
   MDOF_CHECK(read_header());
@@ -236,8 +249,15 @@ std::vector<std::int64_t> RecordingLog::chunk_numbers() {
   return numbers;
 }
 
+constexpr std::string_view kMagic{"SQLite format 3\0", 16};
+
+bool is_recording(int descriptor) {
+  std::string beginning(kMagic.size(), '\0');
+  const ssize_t got = ::pread(descriptor, beginning.data(), beginning.size(), 0);
+  return got == static_cast<ssize_t>(beginning.size()) && beginning == kMagic;
+}
+
 bool is_recording(const std::string& path) {
-  constexpr std::string_view kMagic{"SQLite format 3\0", 16};
   std::string beginning(kMagic.size(), '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));

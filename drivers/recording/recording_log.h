@@ -23,6 +23,12 @@ namespace mdof::drivers {
 class RecordingLog : public Driver {
  public:
   RecordingLog(std::string name, std::filesystem::path file);
+  // Of descriptors that are open already, of the file and of the -wal beside it (-1: none); they
+  // stay the caller's and outlive it.
+  struct Descriptors {
+    int file = -1, wal = -1;
+  };
+  RecordingLog(std::string name, std::filesystem::path file, Descriptors descriptors);
 
   DeviceInfo info() const override { return info_; }
   Status open() override;
@@ -38,6 +44,7 @@ class RecordingLog : public Driver {
   Progress progress() const;  // in chunks
 
  private:
+  Result<sqlite::Connection> connect() const;
   Status check_kind();
   Status read_header();
   Status read_seal();
@@ -53,6 +60,7 @@ class RecordingLog : public Driver {
   std::vector<std::int64_t> chunk_numbers();
 
   std::filesystem::path file_;
+  Descriptors descriptors_;
   DeviceInfo info_;
   std::optional<sqlite::Connection> connection_;
   RecordingHeader header_;
@@ -64,5 +72,6 @@ class RecordingLog : public Driver {
 
 // Whether the file begins as a recording does (SQLite's magic); what cannot be read does not.
 bool is_recording(const std::string& path);
+bool is_recording(int descriptor);
 
 }  // namespace mdof::drivers

@@ -10,6 +10,8 @@
 #include "schema/base/database/files.h"
 #include "schema/base/database/journal_watch.h"
 
+#include "schema/base/sqlite/sqlite_descriptors.h"
+
 namespace mdof::sqlite {
 
 namespace fs = std::filesystem;
@@ -277,6 +279,19 @@ Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int bus
   sqlite3_busy_timeout(session->database, busy_timeout_ms);
   Connection connection(std::move(session));
   if (reading == Reading::copied) MDOF_CHECK(connection.execute("PRAGMA query_only = ON"));
+  return connection;
+}
+
+Result<Connection> Connection::open_descriptors(const fs::path& name, int database, int wal) {
+  auto session = std::make_unique<Session>();
+  session->file = name;
+  if (sqlite3_open_v2(descriptors_name(database, wal).c_str(), &session->database,
+                      SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX, descriptors_vfs()) != SQLITE_OK)
+    return error_of(*session, "open");
+  sqlite3_extended_result_codes(session->database, 1);
+  Connection connection(std::move(session));
+  // So that the index of the -wal is in memory, and what is sorted as well.
+  MDOF_CHECK(connection.execute("PRAGMA locking_mode = EXCLUSIVE; PRAGMA temp_store = MEMORY"));
   return connection;
 }
 

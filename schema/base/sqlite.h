@@ -77,6 +77,9 @@ class Connection {
  public:
   static Result<Connection> open(const std::filesystem::path& file, OpenMode mode,
                                  int busy_timeout_ms = 5000);
+  // To read a database through descriptors, as in sqlite_descriptors.h; `name` is for messages.
+  static Result<Connection> open_descriptors(const std::filesystem::path& name, int database,
+                                             int wal);
   Connection(Connection&&) noexcept;
   Connection& operator=(Connection&&) noexcept;
   ~Connection();

@@ -1,5 +1,6 @@
 #include "drivers/recording/recording_log.h"
 
+#include <fcntl.h>
 #include <sched.h>
 #include <sys/mount.h>
 #include <sys/wait.h>
@@ -122,6 +123,39 @@ TEST_F(RecordingTest, KeepsDevicesAndLostScansApart) {
   while (log.read(b, milliseconds(0)).value() == ReadState::more)
     seen.push_back({b.device, b.lost});
   EXPECT_EQ(seen, (decltype(seen){{"b", 0}, {"a", 0}, {"b", 10}}));
+}
+
+// Of a writer that was cut off: its last chunks are in the -wal alone.
+TEST_F(RecordingTest, IsReadThroughDescriptorsWhateverHasItsNameNow) {
+  const fs::path copy = folder_ / "copy.mdofrec", wal = copy.string() + "-wal";
+  {
+    auto writer = RecordingWriter::create(file_, header());
+    ASSERT_TRUE(writer->append(block(0, 1000)));
+    ASSERT_EQ(writer->commit().value(), 1);
+    fs::copy_file(file_, copy);
+    fs::copy_file(file_.string() + "-wal", wal);
+  }
+  const int file_fd = ::open(copy.c_str(), O_RDONLY), wal_fd = ::open(wal.c_str(), O_RDONLY);
+  for (const fs::path& name : {copy, wal}) {
+    fs::remove(name);
+    std::ofstream(name) << "something else";
+  }
+  EXPECT_TRUE(is_recording(file_fd));
+  RecordingLog log("replay", copy, {file_fd, wal_fd});
+  const Status opened = log.open();
+  ASSERT_TRUE(opened) << opened.error().message;
+  EXPECT_EQ(log.info().channels.size(), 2u);
+  SampleBlock b;
+  ASSERT_EQ(log.read(b, milliseconds(0)).value(), ReadState::more);
+  EXPECT_EQ(b.time_ns, block(0, 1000).time_ns);
+  EXPECT_EQ(b.value, block(0, 1000).value);
+  EXPECT_EQ(log.read(b, milliseconds(0)).value(), ReadState::end);
+  ASSERT_EQ(log.warnings().size(), 1u);  // not sealed
+  EXPECT_FALSE(RecordingLog("replay", copy, {file_fd, -1}).open()) << "all of it is in the -wal";
+  ::close(file_fd);
+  ::close(wal_fd);
+  for (const fs::path& name : {copy, wal}) EXPECT_EQ(fs::file_size(name), 14u);
+  EXPECT_FALSE(fs::exists(copy.string() + "-shm"));
 }
 
 TEST_F(RecordingTest, AnUnsealedFileReadsUpToTheLastCommitWithAWarning) {

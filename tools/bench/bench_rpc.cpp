@@ -91,7 +91,9 @@ struct Bench {
   store::Store reader = must(store::Store::open(folder / "mdof.db", store::Access::read_only));
   std::vector<std::unique_ptr<daemon::Station>> stations;
   daemon::ActiveTables active = table_in_force();
-  daemon::Methods methods{loop, *keeper, reader, stations, active, "", "", Clock::now()};
+  daemon::QueryThread query{loop.executor(), folder / "mdof.db",
+                            must(store::Store::open(folder / "mdof.db", store::Access::read_only))};
+  daemon::Methods methods{loop, *keeper, reader, query, stations, active, "", "", Clock::now()};
   MethodTable table{"bench", "1"};
   Service service{loop.executor(), table};
   LineServer server{loop, service};

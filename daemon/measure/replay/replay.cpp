@@ -123,14 +123,18 @@ Provenance provenance_of(const ReplayLog& log, const Rig& rig, const PipelineOpt
 
 }  // namespace
 
-Result<ReplayLog> ReplayLog::open(const std::string& path) {
+Result<ReplayLog> ReplayLog::open(const std::string& path, Descriptors opened) {
   ReplayLog log(path);
-  if (path != "-" && drivers::is_recording(path)) {
-    auto recording = std::make_unique<drivers::RecordingLog>("recording", path);
+  const bool recorded = opened.file >= 0 ? drivers::is_recording(opened.file)
+                                         : path != "-" && drivers::is_recording(path);
+  if (recorded) {
+    auto recording = std::make_unique<drivers::RecordingLog>("recording", path, opened);
     log.recording_ = recording.get();
     log.driver_ = std::move(recording);
   } else {
-    auto csv = std::make_unique<drivers::CsvLog>(path);
+    drivers::CsvRowsOptions options;
+    options.descriptor = opened.file;
+    auto csv = std::make_unique<drivers::CsvLog>(path, options);
     log.csv_ = csv.get();
     log.driver_ = std::move(csv);
   }

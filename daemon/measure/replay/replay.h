@@ -21,8 +21,11 @@ namespace mdof::daemon {
 class ReplayLog {
  public:
   // A recording by the first bytes of the file (SQLite's), else CSV, plain or gzip. "-" is CSV from
-  // the standard input. Errors are the drivers'.
-  static Result<ReplayLog> open(const std::string& path);
+  // the standard input. Errors are the drivers'. With descriptors that are open already (of a CSV
+  // file as well) `path` is for messages alone, and no file is opened.
+  using Descriptors = drivers::RecordingLog::Descriptors;
+  static Result<ReplayLog> open(const std::string& path, Descriptors opened);
+  static Result<ReplayLog> open(const std::string& path) { return open(path, {}); }
 
   drivers::Driver& driver() { return *driver_; }
   const std::string& path() const { return path_; }

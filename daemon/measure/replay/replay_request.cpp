@@ -111,7 +111,7 @@ Result<Rig> rig_of(const ReplayRequest& request, const ReplayLog& log) {
 }  // namespace
 
 Result<Run> replay(const ReplayRequest& request, const ProgressCallback& progress) {
-  MDOF_TRY(ReplayLog log, ReplayLog::open(request.log));
+  MDOF_TRY(ReplayLog log, ReplayLog::open(request.log, request.opened));
   MDOF_TRY(const Rig rig, rig_of(request, log));
   MDOF_TRY(auto asked, options_of(request, log));
   MDOF_TRY(const auto options, delayed(std::move(asked), request, log, rig));

@@ -11,6 +11,7 @@ namespace mdof::daemon {
 
 struct ReplayRequest {
   std::string log;                   // a file, or "-" for CSV from the standard input
+  ReplayLog::Descriptors opened;     // where it is open already, for as long as the replay lasts
   std::string rig_text, rig_source;  // source empty: the log's own
   std::string model, note;           // model empty: as it was measured
   std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;

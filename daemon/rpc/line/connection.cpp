@@ -3,7 +3,6 @@
 #include <poll.h>
 #include <sys/socket.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <utility>
 
@@ -13,6 +12,18 @@
 
 namespace mdof::rpc {
 namespace {
+
+// A request line or a header: a page in a browser can send them with lines of its own behind them,
+// which must not be run. No request of ours begins so.
+bool is_http(std::string_view line) {
+  constexpr std::string_view kToken =
+      "!#$%&'*+-.^_`|~0123456789"
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  const auto end = line.find_first_not_of(kToken);
+  if (end == 0 || end == std::string_view::npos) return false;
+  return line[end] == ':' || (line[end] == ' ' && line.find(" HTTP/", end) != line.npos) ||
+         (line[end] == ' ' && line.substr(end + 1).starts_with('/'));
+}
 
 bool hung_up(int socket) {
   pollfd entry{socket, 0, 0};
@@ -44,41 +55,49 @@ void Connection::send(std::string_view message) {
 }
 
 void Connection::wake() {
-  if (pump_posted_ || state_ == State::closed) return;
-  pump_posted_ = true;
-  server_.loop->post([self = shared_from_this()] {
-    self->pump_posted_ = false;
-    self->pump();
-  });
+  if (state_ == State::closed || std::exchange(has_turn_, true)) return;
+  server_.ask_for_turn(shared_from_this());
+}
+
+void Connection::take_turn() {
+  has_turn_ = false;
+  if (state_ == State::closed) return;
+  if (std::exchange(readable_, false)) receive();
+  if (state_ == State::open) run_lines();
+  pump();
 }
 
 void Connection::pump() {
-  if (state_ == State::open) run_lines();
   flush();
   send_due();
   wait();
 }
 
+// At least one request or member of a batch, so that it goes on however short a turn is.
 void Connection::run_lines() {
-  std::size_t left = server_.service.options().requests_per_turn;
-  while (state_ == State::open && left > 0 && session_->has_room()) {
-    const auto line = input_.next();
-    if (!line) return;
-    line_since_.reset();
-    take_line(*line, left);
+  const auto until = Clock::now() + server_.service.options().turn;
+  while (state_ == State::open && session_->has_room() && next_line()) {
+    take_line(until);
+    if (Clock::now() > until) return;
   }
 }
 
-void Connection::take_line(const LineBuffer::Line& line, std::size_t& left) {
+bool Connection::next_line() {
+  if (!line_) line_ = input_.next();
+  return line_.has_value();
+}
+
+void Connection::take_line(Clock::time_point until) {
+  line_since_.reset();
+  const auto line = *std::exchange(line_, std::nullopt);
   if (line.too_long)
     return refuse("a request line may have " +
                   std::to_string(server_.service.options().max_line_bytes) + " bytes");
-  if (line.text.empty()) {  // as a line end too many leaves it
-    --left;
-    return;
-  }
+  if (!session_->peer().credentials && is_http(line.text))
+    return refuse("this is no HTTP server: on TCP a line of HTTP ends the connection");
+  if (line.text.empty()) return;      // as a line end too many leaves it
   std::string& out = output_.text();  // whole lines
-  left -= std::min(left, session_->handle(line.text, out));
+  if (!session_->handle(line.text, out, until)) line_ = line;
   if (!out.empty() && out.back() != '\n') out += '\n';
 }
 
@@ -113,10 +132,16 @@ void Connection::wait() {
   }
   if (!session_->has_room())
     return line_since_.reset();  // the line waits for us, not we for the line
-  if (input_.has_line()) return wake();
+  if (line_ || input_.has_line()) return go_on();
   if (finished()) return close();
   if (input_.partial() && !line_since_) line_since_ = Clock::now();
   wait_readable();
+}
+
+// A client that has closed both ways takes no reply any more: what it sent last, as a notification,
+// has had its turn, and what does not fit into that is not run.
+void Connection::go_on() {
+  hung_up(socket_.native_handle()) ? close() : wake();
 }
 
 bool Connection::finished() {
@@ -127,13 +152,12 @@ bool Connection::finished() {
 void Connection::wait_readable() {
   if (reading_ || input_ended_) return;
   reading_ = true;
-  if (state_ == State::draining) input_.discard();
-  const auto space = input_.space();
-  socket_.async_read_some(asio::buffer(space.data(), space.size()),
-                          [self = shared_from_this()](const std::error_code& error, std::size_t n) {
-                            self->reading_ = false;
-                            self->received(error, n);
-                          });
+  socket_.async_wait(asio::posix::stream_descriptor::wait_read,
+                     [self = shared_from_this()](const std::error_code& error) {
+                       self->reading_ = false;
+                       self->readable_ = true;
+                       if (!error) self->wake();
+                     });
 }
 
 void Connection::wait_writable() {
@@ -142,16 +166,18 @@ void Connection::wait_writable() {
   socket_.async_wait(asio::posix::stream_descriptor::wait_write,
                      [self = shared_from_this()](const std::error_code& error) {
                        self->writing_ = false;
-                       if (!error) self->pump();
+                       if (!error) self->wake();
                      });
 }
 
-void Connection::received(const std::error_code& error, std::size_t bytes) {
-  if (state_ == State::closed) return;
-  if (error && error != asio::error::eof) return close();
-  input_.received(bytes);
-  if (error) input_ended();
-  pump();
+void Connection::receive() {
+  if (state_ == State::draining) input_.discard();
+  const auto space = input_.space();
+  const ssize_t got = ::recv(socket_.native_handle(), space.data(), space.size(), MSG_DONTWAIT);
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;  // waits again
+  if (got < 0) return close();
+  input_.received(static_cast<std::size_t>(got));
+  if (got == 0) input_ended();
 }
 
 void Connection::input_ended() {
@@ -203,7 +229,7 @@ void Connection::check_times(Clock::time_point now) {
   if (stalled_since_ && now - *stalled_since_ > options.stall_timeout)
     return drop("it took none of " + std::to_string(output_.unsent()) + " unsent bytes for " +
                 std::to_string(options.stall_timeout.count()) + " ms");
-  if (input_ended_ && hung_up(socket_.native_handle())) return close();
+  if ((input_ended_ || !reading_) && !has_turn_ && hung_up(socket_.native_handle())) return close();
   if (!session_->is_idle(now)) return;
   session_->end_idle();
   drain();

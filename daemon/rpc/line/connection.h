@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "daemon/rpc/fair_order.h"
 #include "daemon/rpc/line/line_buffer.h"
 #include "daemon/rpc/net/asio.h"
 #include "daemon/rpc/net/outbox.h"
@@ -18,8 +19,9 @@ namespace mdof::rpc {
 
 struct ServerCore;
 
-// Thread-bound: the loop. All progress is made in pump(); whatever else happens asks for a pump, so
-// that a handler never runs inside another.
+// Thread-bound: the loop. All that takes time (receiving, requests, sending) is done in
+// take_turn(), which the server calls in an order that is fair; whatever else happens asks for a
+// turn, so that a handler never runs inside another.
 class Connection final : public Transport, public std::enable_shared_from_this<Connection> {
  public:
   using Clock = std::chrono::steady_clock;
@@ -30,7 +32,8 @@ class Connection final : public Transport, public std::enable_shared_from_this<C
   void start(std::shared_ptr<Session> session);
   void turn_away(std::string_view why);
 
-  void pump();
+  void take_turn();
+  FairShare& share() { return share_; }
   void check_times(Clock::time_point now);
   void close();  // at once; the server forgets it
 
@@ -43,27 +46,32 @@ class Connection final : public Transport, public std::enable_shared_from_this<C
  private:
   enum class State { open, draining, closed };
 
+  void pump();
   void run_lines();
-  void take_line(const LineBuffer::Line& line, std::size_t& left);
+  bool next_line();
+  void take_line(Clock::time_point until);
   void flush();
   void send_due();
   void wait();
   void wait_readable();
   void wait_writable();
-  void received(const std::error_code& error, std::size_t bytes);
+  void receive();
   void input_ended();
   void refuse(std::string_view why);
   void drain();
   void drop(const std::string& why);
   bool finished();
+  void go_on();
 
   ServerCore& server_;
   asio::posix::stream_descriptor socket_;
   std::shared_ptr<Session> session_;  // until closed: it has a place as long as it is held
   LineBuffer input_;
+  std::optional<LineBuffer::Line> line_;  // being taken; valid as nothing is read meanwhile
   Outbox output_;
   State state_ = State::open;
-  bool reading_ = false, writing_ = false, pump_posted_ = false;
+  FairShare share_;
+  bool reading_ = false, writing_ = false, readable_ = false, has_turn_ = false;
   bool input_ended_ = false, shut_down_ = false;
   std::optional<Clock::time_point> line_since_;     // a line has begun and not ended
   std::optional<Clock::time_point> stalled_since_;  // unsent output, and the client takes none

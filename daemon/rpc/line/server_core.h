@@ -23,6 +23,7 @@ struct ServerCore : std::enable_shared_from_this<ServerCore> {
   void adopt(int socket);  // a connected client, or one too many
   void forget(const Connection& connection);
   void wake_subscribers_at(Clock::time_point when);
+  void ask_for_turn(std::shared_ptr<Connection> connection);
 
   std::shared_ptr<EventLoop::Core> loop;
   Service& service;
@@ -31,7 +32,12 @@ struct ServerCore : std::enable_shared_from_this<ServerCore> {
  private:
   void sweep();
   void wake_subscribers();
+  void post_turns();
+  void give_turns();
 
+  FairOrder<std::shared_ptr<Connection>> order_;  // who has a request to run
+  bool turns_posted_ = false, again_ = false;
+  const Connection* in_turn_ = nullptr;
   asio::steady_timer sweep_timer_;
   bool sweeping_ = false;
   asio::steady_timer due_timer_;

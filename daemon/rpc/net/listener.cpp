@@ -10,7 +10,7 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr int kAcceptsPerTurn = 16;
+constexpr int kAcceptsPerTurn = 4;
 constexpr auto kPause = std::chrono::milliseconds(100);
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 namespace mdof::rpc {
 
-Peer peer_of(int socket);  // of a Unix socket; nothing is known of a TCP client
+// Of a Unix socket its credentials; of a TCP client whose socket it is, where the kernel tells
+// that.
+Peer peer_of(int socket);
 
 }  // namespace mdof::rpc

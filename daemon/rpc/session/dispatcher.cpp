@@ -24,11 +24,14 @@ struct Dispatcher::Parser {
     Caller& caller;
     std::weak_ptr<ReplySink> sink;
     std::string& out;
+    BegunBatch& batch;
+    Clock::time_point until;
   };
 
   Handled handle(const Message& message);
   Handled handle_single(const Message& message, const simdjson::dom::element& parsed);
   Handled handle_batch(const Message& message, const simdjson::dom::array& batch);
+  bool begin_batch(const Message& message, std::size_t members) const;
   void call_member(const Message& message, const Request& request,
                    const std::shared_ptr<Exchange>& exchange);
   // The row and its checked parameters (in `values`), or what is wrong with the request.
@@ -115,7 +118,7 @@ Handled Dispatcher::Parser::handle_single(const Message& message,
   if (method && sync == nullptr) {
     auto exchange = std::make_shared<Exchange>(limits(), 1, false, message.sink);
     call_member(message, request, exchange);
-    return {1, !exchange->seal(message.out)};
+    return {!exchange->seal(message.out), false};
   }
   if (method) {
     const Result<std::string> result = (*sync)(Params(values, message.caller));
@@ -129,19 +132,32 @@ Handled Dispatcher::Parser::handle_single(const Message& message,
 
 Handled Dispatcher::Parser::handle_batch(const Message& message,
                                          const simdjson::dom::array& batch) {
-  const std::size_t members = batch.size();
+  BegunBatch& begun = message.batch;
+  if (!begun.exchange && !begin_batch(message, batch.size())) return {};
+  std::size_t i = 0;
+  bool called = false;
+  for (const simdjson::dom::element member : batch) {
+    const std::size_t number = i++;
+    if (number < begun.next) continue;
+    if (called && Clock::now() > message.until) return {false, true};
+    call_member(message, read_request(member, {message.text, number}, options.max_id_bytes),
+                begun.exchange);
+    called = true;
+    begun.next = i;
+  }
+  return {!std::exchange(begun, {}).exchange->seal(message.out), false};
+}
+
+bool Dispatcher::Parser::begin_batch(const Message& message, std::size_t members) const {
   if (members == 0 || members > options.max_batch) {
     append_error(message.out, "null", kInvalidRequest, "Invalid Request",
                  members == 0 ? ""
                               : "a batch may have " + std::to_string(options.max_batch) +
                                     " members: send it in parts");
-    return {};
+    return false;
   }
-  auto exchange = std::make_shared<Exchange>(limits(), members, true, message.sink);
-  std::size_t i = 0;
-  for (const simdjson::dom::element member : batch)
-    call_member(message, read_request(member, {message.text, i++}, options.max_id_bytes), exchange);
-  return {members, !exchange->seal(message.out)};
+  message.batch = {std::make_shared<Exchange>(limits(), members, true, message.sink), 0};
+  return true;
 }
 
 void Dispatcher::Parser::call_member(const Message& message, const Request& request,
@@ -169,8 +185,8 @@ Dispatcher::Dispatcher(std::shared_ptr<Executor> executor, const MethodTable& ta
 Dispatcher::~Dispatcher() = default;
 
 Handled Dispatcher::handle(std::string_view message, Caller& caller, std::weak_ptr<ReplySink> sink,
-                           std::string& out) {
-  return parser_->handle({message, caller, std::move(sink), out});
+                           std::string& out, BegunBatch& batch, Clock::time_point until) {
+  return parser_->handle({message, caller, std::move(sink), out, batch, until});
 }
 
 }  // namespace mdof::rpc

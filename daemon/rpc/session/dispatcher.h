@@ -2,6 +2,7 @@
 // Private header.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -13,9 +14,15 @@
 
 namespace mdof::rpc {
 
+// A batch of which not all members have been called yet.
+struct BegunBatch {
+  std::shared_ptr<Exchange> exchange;  // none: no batch is under way
+  std::size_t next = 0;                // member
+};
+
 struct Handled {
-  std::size_t requests = 1;  // in this message
-  bool open = false;         // the reply comes later, through the sink
+  bool open = false;   // the reply comes later, through the sink
+  bool begun = false;  // of a batch there is more to call
 };
 
 // Thread-bound: the loop. Not reentrant: a handler must not bring about another handle().
@@ -25,10 +32,13 @@ class Dispatcher {
              const ServerOptions& options);
   ~Dispatcher();
 
+  using Clock = std::chrono::steady_clock;
+
   // `message` is followed by kPadding readable bytes of any value. Appends the reply to `out` where
-  // it is known at once; it never has a line end in it.
+  // it is known at once; it never has a line end in it. No member of a batch is called after
+  // `until`, but the first: the same message with the same `batch` then goes on with it.
   Handled handle(std::string_view message, Caller& caller, std::weak_ptr<ReplySink> sink,
-                 std::string& out);
+                 std::string& out, BegunBatch& batch, Clock::time_point until);
 
   static constexpr std::size_t kPadding = 64;
 

@@ -102,6 +102,11 @@ Reply::~Reply() {
   });
 }
 
+std::weak_ptr<const void> Reply::client() const {
+  assert(slot_ && "the call was answered");
+  return slot_->exchange->sink();
+}
+
 void Reply::operator()(Result<std::string> result) {
   assert(slot_ && "a call is answered once");
   const auto executor = slot_->executor;

@@ -40,6 +40,8 @@ class Exchange {
   // (nothing for notifications alone); false: the sink gets it later.
   bool seal(std::string& out);
 
+  const std::weak_ptr<ReplySink>& sink() const { return sink_; }
+
   // What a member that is still to be answered keeps of the reply, less its id.
   static constexpr std::size_t kReserveBytes = 160;
 

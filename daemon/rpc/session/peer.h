@@ -14,6 +14,9 @@ namespace mdof::rpc {
 struct Peer {
   std::optional<Credentials> credentials = {};  // nothing where the kernel does not tell: TCP
   std::vector<gid_t> further_groups = {};       // beside that of the credentials
+  // Of a TCP client of this machine: whose socket it is. Counts for places and gives no right, as
+  // that of a Unix socket does.
+  std::optional<uid_t> socket_owner = {};
 
   bool is_member(gid_t group) const {  // never without credentials
     const auto& further = further_groups;

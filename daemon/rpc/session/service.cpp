@@ -17,12 +17,11 @@ ServerOptions consistent(ServerOptions o) {
   o.max_batch = std::clamp<std::size_t>(o.max_batch, 1, o.max_reply_bytes / member - 1);
   o.max_depth = std::max<std::size_t>(o.max_depth, 4);
   o.max_connections = std::max<std::size_t>(o.max_connections, 2);
-  o.requests_per_turn = std::max<std::size_t>(o.requests_per_turn, 1);
   return o;
 }
 
 std::optional<uid_t> uid_of(const Peer& peer) {
-  return peer.credentials ? std::optional(peer.credentials->uid) : std::nullopt;
+  return peer.credentials ? std::optional(peer.credentials->uid) : peer.socket_owner;
 }
 
 std::string user_has_all(const Peer& peer, const ServerOptions& o) {

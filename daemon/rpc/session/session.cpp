@@ -32,11 +32,12 @@ bool Session::has_room() const {
          options.max_unsent_bytes;
 }
 
-std::size_t Session::handle(std::string_view message, std::string& out) {
+bool Session::handle(std::string_view message, std::string& out, Clock::time_point until) {
   active_ = Clock::now();
-  const Handled handled = parts_.dispatcher.handle(message, *this, weak_from_this(), out);
+  const Handled handled =
+      parts_.dispatcher.handle(message, *this, weak_from_this(), out, batch_, until);
   open_exchanges_ += handled.open ? 1 : 0;
-  return handled.requests;
+  return !handled.begun;
 }
 
 void Session::finish(std::string_view reply) {
@@ -57,7 +58,7 @@ std::optional<Session::Clock::time_point> Session::send_due(Clock::time_point no
 }
 
 bool Session::awaits_nothing() const {
-  return open_exchanges_ == 0 && subscriptions.empty();
+  return open_exchanges_ == 0 && !batch_.exchange && subscriptions.empty();
 }
 
 bool Session::is_idle(Clock::time_point now) const {

@@ -54,8 +54,10 @@ class Session final : public Caller,
   bool has_room() const;
   // Takes one message, followed by Dispatcher::kPadding readable bytes; only with has_room() and
   // before end(). Appends the reply to `out` where it is known at once; a later one goes to
-  // Transport::send. Gives the number of requests in it.
-  std::size_t handle(std::string_view message, std::string& out);
+  // Transport::send. False: it is a batch that was not done by `until`; the same message has to
+  // be given again, before any other.
+  bool handle(std::string_view message, std::string& out,
+              Clock::time_point until = Clock::time_point::max());
   // Sends the notifications that are due, up to about a reply's bytes. Gives when the next is.
   std::optional<Clock::time_point> send_due(Clock::time_point now);
 
@@ -75,6 +77,7 @@ class Session final : public Caller,
   std::optional<Credentials> credentials() const override { return peer_.credentials; }
   bool may_write() const override;
   bool in_group(gid_t group) const override { return peer_.is_member(group); }
+  std::vector<gid_t> further_groups() const override { return peer_.further_groups; }
   Status subscribe(std::string_view topic, std::chrono::milliseconds interval) override;
   Status unsubscribe(std::string_view topic) override;
   void finish(std::string_view reply) override;
@@ -87,6 +90,7 @@ class Session final : public Caller,
   const Peer peer_;
   Transport& transport_;
   bool ended_ = false;
+  BegunBatch batch_;
   std::size_t open_exchanges_ = 0;  // messages whose reply comes later
   Clock::time_point active_;        // a request came, or was answered
 };

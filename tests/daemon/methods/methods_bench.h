@@ -31,6 +31,9 @@ class BenchCaller final : public rpc::Caller {
   std::optional<rpc::Credentials> credentials() const override { return who; }
   bool may_write() const override { return writes; }
   bool in_group(gid_t wanted) const override { return group == wanted; }
+  std::vector<gid_t> further_groups() const override {
+    return group ? std::vector{*group} : std::vector<gid_t>();
+  }
   Status subscribe(std::string_view topic, std::chrono::milliseconds interval) override {
     subscribed.emplace_back(topic, interval);
     return {};
@@ -50,16 +53,25 @@ class MethodsBench {
                    {[](std::int64_t, std::int64_t) {}, [](std::int64_t, const Error&) {}})
                    .value()),
         reader(store::Store::open(folder / "mdof.db", store::Access::read_only).value()),
-        methods{loop,   *keeper,
-                reader, stations,
-                active, (folder / "mdof.db").string(),
-                "now",  std::chrono::steady_clock::now()},
+        query(std::make_unique<QueryThread>(
+            loop.executor(), folder / "mdof.db",
+            store::Store::open(folder / "mdof.db", store::Access::read_only).value())),
+        methods{loop,
+                *keeper,
+                reader,
+                *query,
+                stations,
+                active,
+                (folder / "mdof.db").string(),
+                "now",
+                std::chrono::steady_clock::now()},
         table("mdofd", "1") {
     add_all_methods(table, methods);
     dispatcher = std::make_unique<rpc::Dispatcher>(loop.executor(), table, options);
   }
   ~MethodsBench() {
     replayer.reset();
+    query.reset();
     stations.clear();
     keeper.reset();
   }
@@ -69,9 +81,11 @@ class MethodsBench {
     std::string padded(message), out;
     padded.append(rpc::Dispatcher::kPadding, '}');
     const auto sink = std::make_shared<Sink>();
-    const bool open =
-        dispatcher->handle(std::string_view(padded).substr(0, message.size()), caller, sink, out)
-            .open;
+    rpc::BegunBatch batch;
+    const bool open = dispatcher
+                          ->handle(std::string_view(padded).substr(0, message.size()), caller, sink,
+                                   out, batch, rpc::Dispatcher::Clock::time_point::max())
+                          .open;
     while (open && !sink->reply) turn();
     if (open) out = *sink->reply;
     return out;
@@ -87,6 +101,7 @@ class MethodsBench {
   std::vector<std::unique_ptr<Station>> stations;
   ActiveTables active;
   std::unique_ptr<Replayer> replayer;
+  std::unique_ptr<QueryThread> query;
   Methods methods;
   rpc::MethodTable table;
   rpc::ServerOptions options;

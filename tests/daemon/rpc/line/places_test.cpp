@@ -1,4 +1,6 @@
 // Who gets one of the connections: nobody has them all, and the machine's control always has one.
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -46,6 +48,30 @@ TEST(Places, OneUserHasNotThemAllAndIsToldSo) {
   clients.pop_back();
   ASSERT_TRUE(server.connections_become(2));
   EXPECT_EQ(refusal(server), "");
+}
+
+RawClient tcp_client(std::uint16_t port) {
+  Descriptor fd(::socket(AF_INET, SOCK_STREAM, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(port);
+  EXPECT_EQ(::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  return RawClient(std::move(fd));
+}
+
+TEST(Places, OneUserHasNotMoreOverTwoTransports) {
+  TestServer server(limits(3));
+  const auto port = server.server->listen_tcp("127.0.0.1", 0);
+  ASSERT_TRUE(port.has_value());
+  server.start();
+  const auto clients = clients_of(server, 2);
+  RawClient third = tcp_client(*port);
+  EXPECT_EQ(third.ask(kAsk), kAnswer);
+  EXPECT_NE(refusal(server).find(" has 3 connections"), std::string::npos);
+  const std::string why = tcp_client(*port).line();
+  EXPECT_NE(why.find("uid " + std::to_string(::getuid()) + " has 3 connections"), std::string::npos)
+      << why;
 }
 
 // Another user's process, which tells by its exit code whether it got in.

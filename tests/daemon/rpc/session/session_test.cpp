@@ -121,6 +121,26 @@ TEST_F(Sessions, ABatchHasOneReplyAtOnce) {
   EXPECT_TRUE(session->awaits_nothing());
 }
 
+TEST_F(Sessions, ABatchThatTakesLongIsDoneInParts) {
+  const auto session = admit();
+  std::string message = "[" + call("one", 1) + "," + call("later", 2) + "," + call("one", 3) + "]";
+  const std::size_t bytes = message.size();
+  message.append(Dispatcher::kPadding, '}');
+  const std::string_view batch = std::string_view(message).substr(0, bytes);
+  const Time over = Session::Clock::now() - 1s;
+  std::string out;
+  EXPECT_FALSE(session->handle(batch, out, over));
+  EXPECT_FALSE(session->awaits_nothing());
+  EXPECT_TRUE(replies.empty());
+  EXPECT_FALSE(session->handle(batch, out, over));
+  ASSERT_EQ(replies.size(), 1u);
+  answer(0, "22");  // before the last member is called
+  EXPECT_TRUE(session->handle(batch, out, over));
+  EXPECT_EQ(out, "[" + result("1", 1) + "," + result("22", 2) + "," + result("1", 3) + "]");
+  EXPECT_TRUE(transport.sent.empty());
+  EXPECT_TRUE(session->awaits_nothing());
+}
+
 TEST_F(Sessions, ALateReplyGoesToTheTransportInALaterTurn) {
   const auto session = admit();
   EXPECT_EQ(ask(*session, call("later", 7)), "");

@@ -101,8 +101,9 @@ Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command,
     return fail(ErrorCode::conflict,
                 "mdofd holds the database and cannot read the standard input of this program; "
                 "write the log to a file, or name another database with --db");
-  std::error_code ec;
-  const std::string path = std::filesystem::absolute(request.log, ec);
+  std::error_code ec, none;
+  std::string path = std::filesystem::canonical(request.log, none);  // mdofd follows no link
+  if (none) path = std::filesystem::absolute(request.log, ec);
   const auto reply = mdofd.call("run.replay", params_of(request, path), kReplayPatience);
   if (!reply) return in_context("mdofd", reply.error());
   simdjson::dom::parser parser;

@@ -1,0 +1,117 @@
+#include "daemon/methods/query_thread.h"
+
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <utility>
+
+namespace mdof::daemon {
+namespace {
+
+constexpr int kQueryNiceness = 10;  // after everything that measures
+constexpr std::chrono::milliseconds kEntry{1};
+
+}  // namespace
+
+QueryThread::QueryThread(std::shared_ptr<rpc::Executor> loop, std::filesystem::path database,
+                         store::Store store)
+    : loop_(std::move(loop)),
+      database_(std::move(database)),
+      self_(std::make_shared<QueryThread*>(this)),
+      store_(std::move(store)),
+      thread_([this] { work(); }) {}
+
+QueryThread::~QueryThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  handed_over_.notify_all();
+  thread_.join();
+}
+
+void QueryThread::answer(rpc::Reply reply, Work work) {
+  Key key = reply.client();
+  if (!clients_.contains(key)) admit(key);
+  Client& client = clients_.at(key);
+  if (client.calls.size() >= kMostOfClient) {
+    ++refused_;
+    return reply(fail(ErrorCode::conflict,
+                      std::to_string(kMostOfClient) +
+                          " calls of this connection wait for the database already; ask again when "
+                          "some of them are answered"));
+  }
+  client.calls.push_back({std::move(reply), std::move(work)});
+  if (client.calls.size() == 1) order_.add(std::move(key), client.share);
+  if (!served_) hand_over();
+}
+
+// Before there is another client, so that there are never more than are connected.
+void QueryThread::admit(const Key& client) {
+  order_.remove_if([](const Key& key) { return key.expired(); });
+  std::erase_if(clients_, [this](const auto& entry) {
+    const bool served =
+        served_ && !served_->owner_before(entry.first) && !entry.first.owner_before(*served_);
+    return entry.first.expired() && !served;
+  });
+  order_.charge(clients_[client].share, kEntry);  // who comes anew each time is not first each time
+}
+
+// A client waits for a turn as long as it has calls, also while the thread has one of them.
+void QueryThread::hand_over() {
+  while (!order_.empty()) {
+    const Key key = order_.take();
+    if (key.expired()) {
+      clients_.erase(key);
+      continue;
+    }
+    Client& client = clients_.at(key);
+    Call call = std::move(client.calls.front());
+    call.open_again = std::exchange(open_again_, false);
+    served_ = key;
+    {
+      const std::lock_guard lock(mutex_);
+      next_ = std::move(call);
+    }
+    return handed_over_.notify_all();
+  }
+}
+
+void QueryThread::done(Cost cost) {
+  const Key key = *std::exchange(served_, std::nullopt);
+  Client& client = clients_.at(key);
+  order_.charge(client.share, cost);
+  client.calls.pop_front();  // what is left of it after it was handed over
+  if (!client.calls.empty()) order_.add(key, client.share);
+  hand_over();
+}
+
+void QueryThread::work() {
+  ::pthread_setname_np(::pthread_self(), "query");
+  // Linux: of this thread alone.
+  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kQueryNiceness);
+  for (;;) {
+    std::unique_lock lock(mutex_);
+    handed_over_.wait(lock, [this] { return stopping_ || next_; });
+    if (stopping_) return;
+    Call call = *std::exchange(next_, std::nullopt);
+    lock.unlock();
+    serve(std::move(call));
+  }
+}
+
+void QueryThread::serve(Call call) {
+  if (call.open_again) {
+    auto opened = store::Store::open(database_, store::Access::read_only);
+    if (opened) store_ = std::move(*opened);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  call.reply(call.work(store_));
+  const Cost cost = std::chrono::steady_clock::now() - begin;
+  loop_->dispatch([self = std::weak_ptr(self_), cost] {
+    if (const auto here = self.lock()) (*here)->done(cost);
+  });
+}
+
+}  // namespace mdof::daemon

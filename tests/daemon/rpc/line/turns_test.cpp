@@ -1,0 +1,163 @@
+// The one thread that all requests run on: nobody has it for longer than a turn while others wait.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+
+#include <atomic>
+
+#include "tests/daemon/rpc/rpc_fixture.h"
+
+namespace mdof::rpc::test {
+namespace {
+
+const std::string kCount = R"({"jsonrpc":"2.0","method":"count","id":1})";
+const std::string kSpin = R"({"jsonrpc":"2.0","method":"spin","id":2})";
+const std::string kSpinUntold = R"({"jsonrpc":"2.0","method":"spin"})";
+constexpr int kMany = 60;
+
+// `count` tells how often `spin` has been run, which takes 3 ms.
+class Turns : public ::testing::Test {
+ protected:
+  Turns() : server_(quick_to_look()) {
+    server_.table.add({.name = "spin",
+                       .summary = "Takes long.",
+                       .result = "1",
+                       .handler = [this](const Params&) -> Result<std::string> {
+                         for (const auto end = Clock::now() + 3ms; Clock::now() < end;) {
+                         }
+                         ++spins_;
+                         return "1";
+                       }});
+    server_.table.add({.name = "count",
+                       .summary = "Counts.",
+                       .result = "how many",
+                       .handler = [this](const Params&) -> Result<std::string> {
+                         return std::to_string(spins_);
+                       }});
+  }
+  static ServerOptions quick_to_look() {
+    ServerOptions options;
+    options.drain_timeout = 40ms;  // one looks at the clients eight times as often
+    return options;
+  }
+  // How many of `kMany` were run when another client, who asks after the first, has its answer.
+  int run_before_another(const std::string& many) {
+    RawClient greedy(server_.path), other(server_.path);
+    other.ask(kCount);
+    greedy.send(many);
+    while (spins_ == 0) std::this_thread::yield();
+    return std::stoi(at(other.ask(kCount), "/result"));
+  }
+
+  std::atomic<int> spins_ = 0;
+  TestServer server_;
+};
+
+TEST_F(Turns, RequestsInARowLetOthersIn) {
+  server_.start();
+  std::string many;
+  for (int i = 0; i < kMany; ++i) many += kSpin + "\n";
+  EXPECT_LT(run_before_another(many), kMany / 2);
+}
+
+TEST_F(Turns, ABatchLetsOthersInBetweenItsMembers) {
+  server_.start();
+  std::string many = "[" + kSpin;
+  for (int i = 1; i < kMany; ++i) many += "," + kSpin;
+  EXPECT_LT(run_before_another(many + "]\n"), kMany / 2);
+}
+
+TEST_F(Turns, ABatchInPartsHasOneReplyAndWhatFollowsComesAfterIt) {
+  server_.start();
+  RawClient client(server_.path);
+  std::string batch = "[" + kSpin;
+  for (int i = 1; i < 5; ++i) batch += "," + kSpin;
+  client.send(batch + "]\n" + kCount + "\n");
+  const std::string reply = client.line();
+  std::string expected = "[";
+  for (int i = 0; i < 5; ++i)
+    expected += std::string(i > 0 ? "," : "") + R"({"jsonrpc":"2.0","result":1,"id":2})";
+  EXPECT_EQ(reply, expected + "]");
+  EXPECT_EQ(at(client.line(), "/result"), "5");
+}
+
+// With notifications, as nothing is sent that would show that nobody is there.
+TEST_F(Turns, WhatAClientLeftThatHasGoneIsNotRun) {
+  server_.start();
+  {
+    RawClient client(server_.path);
+    std::string many;
+    for (int i = 0; i < 10 * kMany; ++i) many += kSpinUntold + "\n";
+    client.send(many);
+    while (spins_ == 0) std::this_thread::yield();
+  }
+  ASSERT_TRUE(server_.connections_become(0));
+  EXPECT_LT(spins_, 5 * kMany);
+}
+
+TEST_F(Turns, WhatAClientSentJustBeforeItWentIsRun) {
+  server_.start();
+  for (int i = 1; i <= 20; ++i) {
+    RawClient(server_.path).send(kSpinUntold + "\n");
+    for (const auto end = Clock::now() + 20s; spins_ < i && Clock::now() < end;)
+      std::this_thread::yield();
+    ASSERT_EQ(spins_, i);
+  }
+}
+
+class Http : public Turns {
+ protected:
+  RawClient tcp_client() {
+    const auto port = server_.server->listen_tcp("127.0.0.1", 0);
+    server_.start();
+    Descriptor fd(::socket(AF_INET, SOCK_STREAM, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(port.value());
+    EXPECT_EQ(::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    return RawClient(std::move(fd));
+  }
+  void expect_closed_unrun(const std::string& head) {
+    RawClient client = tcp_client();
+    client.send(head + "\r\n\r\n" + kSpin + "\n" + kSpin + "\n");
+    const std::string why = client.line();
+    EXPECT_EQ(at(why, "/error/code"), "-32600") << why;
+    EXPECT_NE(why.find("HTTP"), std::string::npos) << why;
+    EXPECT_EQ(client.line(), "<closed>");
+    EXPECT_EQ(spins_, 0);
+  }
+};
+
+TEST_F(Http, ThePostOfAPageRunsNothing) {
+  expect_closed_unrun("POST / HTTP/1.1\r\nHost: 127.0.0.1:7341\r\nContent-Type: text/plain");
+}
+TEST_F(Http, AnotherMethodRunsNothing) {
+  expect_closed_unrun("patch http://127.0.0.1:7341/x HTTP/1.1");
+}
+TEST_F(Http, AnOldGetRunsNothing) {
+  expect_closed_unrun("GET /");
+}
+TEST_F(Http, AHeaderRunsNothing) {
+  expect_closed_unrun("X-Requested-With: mdof");
+}
+
+TEST_F(Http, OtherTextIsAParseErrorAndTheConnectionStays) {
+  RawClient client = tcp_client();
+  for (const char* text :
+       {"hello", "hello world", "1", "true ", "get", ": x", "\"POST / HTTP/1.1"}) {
+    const std::string reply = client.ask(text);
+    EXPECT_NE(at(reply, "/error/code"), "") << text;
+    EXPECT_EQ(reply.find("HTTP"), std::string::npos) << text;
+  }
+  EXPECT_EQ(at(client.ask(kCount), "/result"), "0");
+}
+
+TEST_F(Http, OnAUnixSocketNoPageCanSendItAndItIsAParseError) {
+  server_.start();
+  RawClient client(server_.path);
+  EXPECT_EQ(at(client.ask("POST / HTTP/1.1"), "/error/code"), "-32700");
+  EXPECT_EQ(at(client.ask(kCount), "/result"), "0");
+}
+
+}  // namespace
+}  // namespace mdof::rpc::test

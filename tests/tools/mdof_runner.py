@@ -3,6 +3,8 @@ import gzip
 import json
 import os
 import pathlib
+import resource
+import signal
 import subprocess
 
 MDOF = os.environ["MDOF"]
@@ -14,6 +16,16 @@ def run(*arguments, stdin=None, env=None):
     """(exit code, standard output, standard error)."""
     done = subprocess.run([MDOF, *map(str, arguments)], input=stdin, capture_output=True,
                           timeout=600, env={**os.environ, **(env or {})})
+    return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+
+def run_on_full_disk(*arguments, free_bytes):
+    """As run(), where no file can grow beyond so many bytes; SQLite needs 32 KiB beside a database."""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (free_bytes, free_bytes))
+
+    done = subprocess.run([MDOF, *map(str, arguments)], capture_output=True, timeout=600, preexec_fn=limit)
     return done.returncode, done.stdout.decode(), done.stderr.decode()
 
 

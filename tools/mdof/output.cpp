@@ -1,6 +1,5 @@
 #include "tools/mdof/output.h"
 
-#include <simdjson.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,11 +8,12 @@
 #include <cstring>
 #include <string>
 
+#include "schema/base/output/printable.h"
 #include "tools/mdof/exit_code.h"
 
 namespace mdof::tools {
 
-Status write_out(std::string_view text) {
+Status write_commands(std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = ::write(STDOUT_FILENO, text.data(), text.size());
     if (n < 0 && errno == EINTR) continue;
@@ -27,19 +27,17 @@ Status write_out(std::string_view text) {
   return {};
 }
 
+Status write_out(std::string_view text) {
+  if (is_printable(text)) return write_commands(text);
+  return write_commands(text.starts_with('{') ? printable_json(text) : printable(text));
+}
+
 Status write_line(std::string_view text) {
   return write_out(std::string(text) + '\n');
 }
 
-// A message may quote a damaged file: nothing of that may reach a terminal as a command.
 void say(std::string_view message) {
-  const bool utf8 = simdjson::validate_utf8(message.data(), message.size());
-  std::string line(message);
-  for (char& c : line) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f || (byte >= 0x80 && !utf8)) c = '?';
-  }
-  std::fprintf(stderr, "%s\n", line.c_str());
+  std::fprintf(stderr, "%s\n", printable(message).c_str());
 }
 
 void warn(std::string_view message) {

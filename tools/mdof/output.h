@@ -1,4 +1,6 @@
-// The two ways out: results to the standard output, messages for people to the standard error.
+// The two ways out: results to the standard output, messages for people to the standard error. Free
+// text of others may be in both: what a terminal would take as a command is written as "?", or as
+// an escape where the text is a JSON document.
 #pragma once
 
 #include <string_view>
@@ -11,6 +13,8 @@ namespace mdof::tools {
 // with success: nobody is left to tell.
 Status write_out(std::string_view text);
 Status write_line(std::string_view text);  // and a line end
+// As it is, for a screen's own control characters; free text in it has to be printable().
+Status write_commands(std::string_view text);
 
 void say(std::string_view message);   // a line on the standard error
 void warn(std::string_view message);  // the same, marked as a warning

@@ -271,7 +271,7 @@ TEST_F(Plots, NeedAFolderThatCanBeWritten) {
   fs::create_directories(folder_ / "histogram-EYX_um.svg" / "full");
   const Status no_file = write_study_plots(study(), folder_);
   ASSERT_FALSE(no_file);
-  EXPECT_NE(no_file.error().message.find("histogram-EYX_um.svg: the plot cannot be written"),
+  EXPECT_NE(no_file.error().message.find("histogram-EYX_um.svg: cannot be written"),
             std::string::npos);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);  // nothing half-written
 }

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <sstream>
+
+#include "schema/base/output/output_files.h"
 
 namespace mdof::tools {
 namespace {
@@ -120,15 +120,17 @@ Result<fs::path> allow_address(const fs::path& units, const std::string& address
   const fs::path folder = units / "mdofd.service.d", file = folder / ("network-" + name + ".conf");
   std::error_code failed;
   fs::create_directories(folder, failed);
-  errno = failed.value();
-  std::ofstream out;
-  if (!failed) out.open(file);
-  out << "# By mdof setup network: mdofd may reach this device.\n[Service]\nIPAddressAllow="
-      << address << "\n";
-  out.close();
-  if (out) return file;
-  const std::string why = std::strerror(errno);
-  return io_error(file.string() + ": " + why +
+  Status written;
+  if (failed)
+    written = io_error(folder.string() + ": " + failed.message());
+  else
+    written = write_file(file,
+                         "# By mdof setup network: mdofd may reach this device.\n[Service]\n"
+                         "IPAddressAllow=" +
+                             address + "\n",
+                         Existing::replace);
+  if (written) return file;
+  return io_error(written.error().message +
                   "; systemd's folder belongs to root: sudo mdof setup network " + address);
 }
 

@@ -17,7 +17,7 @@ constexpr std::size_t kLabel = 11;  // "recording  "
 
 std::string labelled(std::string label, const std::string& text, std::size_t width) {
   label.resize(kLabel, ' ');
-  return wrapped(label + text, width, kLabel) + "\n";
+  return wrapped(label + one_line(text), width, kLabel) + "\n";
 }
 
 std::string temperature_text(const Temperature& read) {

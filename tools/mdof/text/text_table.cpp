@@ -45,6 +45,7 @@ TextTable::TextTable(std::vector<std::string> head, std::size_t keys)
 
 void TextTable::add(std::vector<std::string> row) {
   assert(row.size() == rows_.front().size());
+  for (std::string& cell : row) cell = one_line(std::move(cell));
   rows_.push_back(std::move(row));
 }
 
@@ -146,6 +147,12 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
     }
   }
   return out;
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  return text;
 }
 
 std::string fixed(double x, int decimals) {

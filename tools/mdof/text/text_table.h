@@ -38,6 +38,9 @@ class TextTable {
 // can be copied. Every line but the first begins with `indent` spaces; no line end after the last.
 std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
 
+// Line ends and tabs of free text as spaces: a note cannot look like another row.
+std::string one_line(std::string text);
+
 // Never "-0.00"; a number too long for a column has an exponent; not finite: "-".
 std::string fixed(double x, int decimals);
 std::string in_mm(double x_m);                                       // 4 decimals

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "daemon/paths.h"
 #include "daemon/version.h"
+#include "schema/base/output/output_files.h"
 #include "schema/units.h"
 
 namespace mdof::tools {
@@ -63,15 +63,11 @@ Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
 
 Status write_record(const std::string& file, const std::string& text) {
   std::error_code ec;
-  if (std::filesystem::exists(file, ec))
+  if (std::filesystem::exists(std::filesystem::symlink_status(file, ec)))
     return fail(ErrorCode::usage, file +
                                       ": is there already, and a record is never changed; give "
                                       "another name with --out");
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) return io_error(file + ": cannot be written; check the folder and its space");
-  return {};
+  return write_file(file, text, Existing::refuse);
 }
 
 double offset_um_with(const Probe& probe, double zero_m) {

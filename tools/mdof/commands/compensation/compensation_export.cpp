@@ -1,11 +1,9 @@
 // mdof compensation export: tables as the files of a machine's controller.
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 
+#include "schema/base/output/output_files.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/compensation/exported.h"
@@ -61,19 +59,11 @@ bool is_angle(const std::string& error) {
   return error.size() > 1 && std::string_view("ABC").find(error[1]) != std::string_view::npos;
 }
 
-Status write_file(const fs::path& file, const std::string& text) {
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << text << std::flush;
-  if (stream) return {};
-  return io_error(file.string() + ": cannot be written: " + std::strerror(errno ? errno : EIO));
-}
-
 // All or none: files of two exports beside each other would be a table of their own.
 Status check_free(const std::vector<fs::path>& files) {
   std::error_code ec;
   for (const fs::path& file : files)
-    if (fs::exists(file, ec))
+    if (fs::exists(fs::symlink_status(file, ec)))
       return fail(ErrorCode::usage,
                   file.string() + ": is there already; another --out, or --overwrite");
   return {};
@@ -87,11 +77,14 @@ Result<std::vector<std::string>> write_files(const ExportTablesCommand& command,
   std::error_code ec;
   fs::create_directories(command.folder, ec);
   if (ec) return io_error(command.folder + ": cannot be made: " + ec.message());
+  OutputFiles out(command.overwrite ? Existing::replace : Existing::refuse);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    MDOF_CHECK(write_file(paths[i], files.files[i].text));
+    MDOF_TRY(const std::size_t file, out.add(paths[i]));
+    MDOF_CHECK(out.write(file, files.files[i].text));
     names.push_back(paths[i].string());
   }
+  MDOF_CHECK(out.publish());
   return names;
 }
 

@@ -1,10 +1,9 @@
 // mdof export RECORDING: raw samples of a recording as CSV, for other programs.
 #include <CLI/CLI.hpp>
-#include <cstring>
-#include <fstream>
 #include <map>
 
 #include "drivers/recording/recording_log.h"
+#include "schema/base/output/output_files.h"
 #include "schema/rig/rig.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/csv/log_csv.h"
@@ -15,34 +14,10 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kStandardOutput = "-";
+constexpr auto kToStandardOutput = static_cast<std::size_t>(-1);
 
 struct ExportCommand {
   std::string recording, csv = kStandardOutput, rig;
-};
-
-// One file, or the standard output.
-class Out {
- public:
-  static Result<Out> open(const std::string& file) {
-    Out out(file);
-    if (file != kStandardOutput) out.stream_.open(file, std::ios::binary | std::ios::trunc);
-    if (!out.stream_) return out.failed("created");
-    return out;
-  }
-  Status write(const std::string& text) {
-    if (file_ == kStandardOutput) return write_out(text);
-    stream_ << text << std::flush;
-    return stream_ ? Status() : failed("written");
-  }
-
- private:
-  explicit Out(std::string file) : file_(std::move(file)) {}
-  tl::unexpected<Error> failed(const char* what) const {
-    return io_error(file_ + ": cannot be " + what + ": " + std::strerror(errno) +
-                    "; name a file in a folder that may be written and has room");
-  }
-  std::string file_;
-  std::ofstream stream_;
 };
 
 // "OUT.csv", or "OUT-counter.csv" where there are several devices.
@@ -59,12 +34,18 @@ class Export {
   Export(const ExportCommand& command, drivers::RecordingLog& log) : command_(command), log_(log) {}
 
   Status run() {
+    if (!command_.rig.empty()) {
+      MDOF_TRY(const std::size_t rig, files_.add(command_.rig));
+      MDOF_CHECK(files_.write(rig, log_.rig_text()));
+    }
     SampleBlock block;
     for (;;) {
       MDOF_TRY(const auto state, log_.read(block, {}));
       if (block.scans() > 0) MDOF_CHECK(take(block));
       if (state == drivers::ReadState::end) break;
     }
+    MDOF_CHECK(files_.publish());
+    for (const auto& name : names_) say(name);
     for (const auto& warning : log_.warnings()) warn(warning);
     tell_what_csv_cannot();
     return {};
@@ -72,26 +53,32 @@ class Export {
 
  private:
   Status take(const SampleBlock& block) {
-    MDOF_TRY(Out* const out, file_for(block));
     text_.clear();
+    MDOF_TRY(const std::size_t file, file_for(block));
     append_log_csv(text_, block);
     marked_ += marked_values(block);
     lost_ += block.lost;
-    return out->write(text_);
+    return file == kToStandardOutput ? write_out(text_) : files_.write(file, text_);
   }
 
-  Result<Out*> file_for(const SampleBlock& block) {
-    if (const auto found = files_.find(block.device); found != files_.end()) return &found->second;
+  // Begins text_ with the head where the file is a new one.
+  Result<std::size_t> file_for(const SampleBlock& block) {
+    if (const auto found = file_of_.find(block.device); found != file_of_.end())
+      return found->second;
     const bool one = block.channels.size() == log_.info().channels.size();
-    if (!one && command_.csv == kStandardOutput)
+    const bool to_standard_output = command_.csv == kStandardOutput;
+    if (!one && to_standard_output)
       return fail(ErrorCode::usage, command_.recording +
                                         ": has several devices, each with its own times, and a "
                                         "CSV file each; name one with --csv OUT.csv");
-    const std::string file = one ? command_.csv : file_of(command_.csv, block.device);
-    MDOF_TRY(Out out, Out::open(file));
-    MDOF_CHECK(out.write(log_csv_head(comments(block.device), block.channels)));
-    if (file != kStandardOutput) say(file);
-    return &files_.emplace(block.device, std::move(out)).first->second;
+    std::size_t file = kToStandardOutput;
+    if (!to_standard_output) {
+      const std::string name = one ? command_.csv : file_of(command_.csv, block.device);
+      MDOF_TRY(file, files_.add(name));
+      names_.push_back(name);
+    }
+    text_ = log_csv_head(comments(block.device), block.channels);
+    return file_of_.emplace(block.device, file).first->second;
   }
 
   std::vector<std::string> comments(const std::string& device) const {
@@ -109,13 +96,15 @@ class Export {
            " values are over range, suspect or stale; a CSV log cannot say which");
     if (lost_ > 0)
       warn(std::to_string(lost_) + " scans were lost in recording; there the times have a gap");
-    if (files_.size() > 1)
+    if (file_of_.size() > 1)
       say("a file each device: their times are of one clock, but mdof replay takes the recording");
   }
 
   const ExportCommand& command_;
   drivers::RecordingLog& log_;
-  std::map<std::string, Out> files_;
+  OutputFiles files_{Existing::replace};
+  std::map<std::string, std::size_t> file_of_;  // by device
+  std::vector<std::string> names_;
   std::string text_;
   std::uint64_t marked_ = 0, lost_ = 0;
 };
@@ -123,10 +112,6 @@ class Export {
 Status export_recording(const ExportCommand& command) {
   drivers::RecordingLog log("recording", command.recording);
   MDOF_CHECK(log.open());
-  if (!command.rig.empty()) {
-    MDOF_TRY(Out rig, Out::open(command.rig));
-    MDOF_CHECK(rig.write(log.rig_text()));
-  }
   return Export(command, log).run();
 }
 

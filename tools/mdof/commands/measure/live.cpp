@@ -96,7 +96,7 @@ Status print_updates(rpc::Client& client, const LiveCommand& command) {
     const auto update = next_update(client, command);
     if (Interrupt::requested()) return {};
     if (!update) return tl::unexpected(update.error());
-    MDOF_CHECK(command.ndjson ? write_line(update->json) : write_out(screen.next(*update)));
+    MDOF_CHECK(command.ndjson ? write_line(update->json) : write_commands(screen.next(*update)));
   }
   return {};
 }

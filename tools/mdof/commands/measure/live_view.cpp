@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "schema/base/output/printable.h"
 #include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/text_table.h"
@@ -143,8 +144,8 @@ std::string range_bar(double um, double range_um, std::size_t width) {
 }
 
 std::string LiveScreen::next(const LiveUpdate& update) {
-  if (!terminal_) return log_entry(update, columns_);
-  blocks_[update.axis] = block(update, columns_);
+  if (!terminal_) return printable(log_entry(update, columns_));
+  blocks_[update.axis] = printable(block(update, columns_));
   std::string all;
   for (const auto& [axis, lines] : blocks_) all += lines;
   const std::string up = lines_ > 0 ? "\x1b[" + std::to_string(lines_) + "A" : "";

@@ -1,0 +1,167 @@
+#include "schema/base/output/output_files.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace mdof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostNames = 100;  // of temporary files that an ended program can have left behind
+
+tl::unexpected<Error> not_written(const fs::path& path, int error, const char* more = "") {
+  return io_error(path.string() + ": cannot be written: " + std::strerror(error) + more +
+                  "; name a file in a folder that may be written and has room");
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+bool is_direct(const struct stat& status) {
+  return S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode);
+}
+
+// Of the file that is there; none: there is none. Error: it must not be replaced.
+Result<std::optional<struct stat>> existing_file(const fs::path& path, Existing existing) {
+  struct stat itself {
+  }, target{};
+  if (::lstat(path.c_str(), &itself) != 0) {
+    if (errno == ENOENT) return std::nullopt;
+    return not_written(path, errno);
+  }
+  if (::stat(path.c_str(), &target) == 0 && is_direct(target)) return target;
+  if (existing == Existing::refuse)
+    return fail(ErrorCode::usage, path.string() + ": is there already; name another file");
+  if (S_ISLNK(itself.st_mode))
+    return io_error(path.string() +
+                    ": cannot be written: it is a symbolic link, which is not written through; "
+                    "name the file itself");
+  if (!S_ISREG(itself.st_mode))
+    return io_error(path.string() + ": cannot be written: it is no regular file; name another one");
+  return itself;
+}
+
+Status write_all(int descriptor, std::string_view text, const fs::path& path) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(descriptor, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return not_written(path, errno);
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return {};
+}
+
+Status flush_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool flushed = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL ||
+                                           errno == ENOTSUP);  // there is nothing to flush
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (flushed) return {};
+  return not_written(folder, error, " (the files are there, but a power cut may lose them)");
+}
+
+}  // namespace
+
+OutputFiles::~OutputFiles() {
+  for (const File& file : files_) {
+    if (file.descriptor >= 0) ::close(file.descriptor);
+    if (file.stage == Stage::written) ::unlink(file.temporary.c_str());
+  }
+}
+
+Result<std::size_t> OutputFiles::add(const fs::path& path) {
+  MDOF_TRY(const auto before, existing_file(path, existing_));
+  File file;
+  file.path = path;
+  file.replaces = before.has_value();
+  if (before && is_direct(*before)) {
+    file.stage = Stage::direct;
+    file.descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file.descriptor < 0) return not_written(path, errno);
+    files_.push_back(std::move(file));
+    return files_.size() - 1;
+  }
+  errno = EEXIST;
+  for (int i = 0; file.descriptor < 0 && errno == EEXIST && i < kMostNames; ++i) {
+    file.temporary = folder_of(path) / ("." + path.filename().string() + "." +
+                                        std::to_string(::getpid()) + "-" + std::to_string(i));
+    file.descriptor =
+        ::open(file.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  }
+  if (file.descriptor < 0) return not_written(path, errno);
+  if (before) {  // only root may give it to its owner again
+    const bool is_given = ::fchown(file.descriptor, before->st_uid, before->st_gid) == 0;
+    ::fchmod(file.descriptor, before->st_mode & (is_given ? 0777 : 0755));
+  }
+  files_.push_back(std::move(file));
+  return files_.size() - 1;
+}
+
+Status OutputFiles::write(std::size_t file, std::string_view text) {
+  return write_all(files_[file].descriptor, text, files_[file].path);
+}
+
+Status OutputFiles::publish() {
+  for (File& file : files_) {
+    if (file.stage != Stage::direct && ::fsync(file.descriptor) != 0)
+      return not_written(file.path, errno);
+    if (::close(std::exchange(file.descriptor, -1)) != 0) return not_written(file.path, errno);
+  }
+  std::set<fs::path> folders;
+  for (File& file : files_) {
+    if (file.stage == Stage::direct) continue;
+    if (auto renamed = rename(file); !renamed) return tl::unexpected(undone(renamed.error()));
+    folders.insert(folder_of(file.path));
+  }
+  for (const File& file : files_)
+    if (file.stage == Stage::exchanged) ::unlink(file.temporary.c_str());
+  for (const fs::path& folder : folders) MDOF_CHECK(flush_folder(folder));
+  return {};
+}
+
+Status OutputFiles::rename(File& file) {
+  const auto rename_with = [&](unsigned flags) {
+    return ::renameat2(AT_FDCWD, file.temporary.c_str(), AT_FDCWD, file.path.c_str(), flags) == 0;
+  };
+  if (rename_with(file.replaces ? RENAME_EXCHANGE : RENAME_NOREPLACE)) {
+    file.stage = file.replaces ? Stage::exchanged : Stage::created;
+    return {};
+  }
+  // File systems that can neither exchange nor refuse.
+  if ((errno != EINVAL && errno != ENOSYS) || !rename_with(0)) return not_written(file.path, errno);
+  file.stage = file.replaces ? Stage::replaced : Stage::created;
+  return {};
+}
+
+// Takes back what was renamed before the error.
+Error OutputFiles::undone(Error error) {
+  for (File& file : files_) {
+    if (file.stage == Stage::created) ::unlink(file.path.c_str());
+    if (file.stage == Stage::exchanged && ::renameat2(AT_FDCWD, file.temporary.c_str(), AT_FDCWD,
+                                                      file.path.c_str(), RENAME_EXCHANGE) == 0)
+      file.stage = Stage::written;
+    if (file.stage == Stage::replaced || file.stage == Stage::exchanged)
+      error.message += "; " + file.path.string() + " is new already: export all files again";
+  }
+  return error;
+}
+
+Status write_file(const fs::path& path, std::string_view text, Existing existing) {
+  OutputFiles files(existing);
+  MDOF_TRY(const std::size_t file, files.add(path));
+  MDOF_CHECK(files.write(file, text));
+  return files.publish();
+}
+
+}  // namespace mdof

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "algo/model/clearance.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
 #include "schema/units.h"
@@ -72,6 +73,12 @@ Status write_record(const std::string& file, const std::string& text) {
   out.close();
   if (!out) return io_error(file + ": cannot be written; check the folder and its space");
   return {};
+}
+
+std::string hazard_of(const Rig& rig, Axis axis) {
+  const auto motions = algo::motion_clearances(rig);
+  if (!motions) return "";
+  return algo::clearance_text((*motions)[static_cast<std::size_t>(axis)]) + ". ";
 }
 
 double offset_um_with(const Probe& probe, double zero_m) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "schema/severity.h"
+
 namespace mdof {
 
 // One row of the matrix n_ij: how many points with errors there are of a target, in each run.
@@ -17,8 +19,9 @@ struct TargetVisits {
 // A stop that belongs to no target.
 struct StopLeftOut {
   double position_m = 0;
-  std::int64_t begin_ns = 0;  // of its average
-  std::string reason;         // "the axis was parked there when the log began"
+  std::int64_t begin_ns = 0;               // of its average
+  std::string reason;                      // "the axis was parked there when the log began"
+  Severity severity = Severity::doubtful;  // of the reason; not stored
 };
 
 struct ProbeFigures {

@@ -21,6 +21,8 @@ struct TableOptions {
   Chain machine;
 };
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
+// Of what uneven_visits_of() says.
+inline constexpr const char* kOverAllRuns = "over all its runs, counted on from one to the next";
 // What their table makes up for, as uneven_visits_text(); "": nothing. Errors: other targets.
 Result<std::string> uneven_visits_of(const std::vector<Run>& runs);
 

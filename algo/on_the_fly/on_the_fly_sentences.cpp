@@ -9,6 +9,7 @@
 #include "algo/plausibility/sentences.h"
 #include "algo/points/dwell_notice.h"
 #include "schema/base/number/number_text.h"
+#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -175,8 +176,9 @@ std::vector<std::string> OnTheFly::warnings() const {
   append_summarised(all, amid, "bins that were left out");
   const Speeds speeds = speeds_of(passes_);
   if (speeds.max_m_s > (1 + kOtherSpeed) * speeds.min_m_s)
-    all.push_back("the axis went at " + mm_s(speeds.min_m_s) + " to " + mm_s(speeds.max_m_s) +
-                  ": a delay that is not declared acts by the speed of each point");
+    all.push_back(information("the axis went at " + mm_s(speeds.min_m_s) + " to " +
+                              mm_s(speeds.max_m_s) +
+                              ": a delay that is not declared acts by the speed of each point"));
   const auto found = lags();
   for (std::size_t k = 0; k < found.size(); ++k)
     if (found[k].significant && std::abs(found[k].delay_s) > kBriefDelay_s)
@@ -194,7 +196,7 @@ std::vector<std::string> OnTheFly::statements() const {
                                     [](const PassBins& pass) { return !pass.bins.empty(); });
   const std::size_t unsteady = count_left_out(passes_, BinFault::speed_changes);
   const double bin_mm = to_mm(grid_.bin_m());
-  std::string first =
+  const std::string first =
       "measured on the fly: " + std::to_string(passes) +
       (passes == 1 ? " pass at " : " passes at ") + mm_s(speeds.mean_m_s()) + " (" +
       plain_number(to_mm(speeds.min_m_s), 4) + " to " + plain_number(to_mm(speeds.max_m_s), 4) +
@@ -202,14 +204,14 @@ std::vector<std::string> OnTheFly::statements() const {
       " mm about its target; " + std::to_string(unsteady) +
       " bins in which the axis changed its speed are left out; errors that change within " +
       plain_number(kSeenWave * bin_mm, 3) + " mm are read too small";
-  return {std::move(first),
-          "what motion adds: the readings scatter about the parabolas by " +
-              scatter_text(passes_, probes_) +
-              " nm rms (noise and vibration, in u); vibration slower than " +
-              plain_number(2 * speeds.mean_m_s() / grid_.bin_m(), 3) +
-              " Hz looks like form and only shows between runs",
-          lag_text(lags(), probes_) +
-              "; neither the uncertainty of a delay nor forces of motion are in u"};
+  return {information(first),
+          information("what motion adds: the readings scatter about the parabolas by " +
+                      scatter_text(passes_, probes_) +
+                      " nm rms (noise and vibration, in u); vibration slower than " +
+                      plain_number(2 * speeds.mean_m_s() / grid_.bin_m(), 3) +
+                      " Hz looks like form and only shows between runs"),
+          information(lag_text(lags(), probes_) +
+                      "; neither the uncertainty of a delay nor forces of motion are in u")};
 }
 
 }  // namespace mdof::algo

@@ -10,6 +10,7 @@
 #include "algo/points/ranges_text.h"
 #include "algo/sequence/shifted_targets.h"
 #include "algo/sequence/uneven_visits.h"
+#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -63,7 +64,13 @@ class Holes {
   Texts told() {
     Texts out;
     never_visited(out);
-    put(out, missing(), &Holes::missing_text, "no visit at");
+    // What the log does not have because it began or ended in the midst of a pass, nobody missed.
+    Cells holes, beyond;
+    for (const Cell& cell : missing()) (beyond_the_log(cell) ? beyond : holes).push_back(cell);
+    put(out, holes, &Holes::missing_text, "no visit at");
+    Texts known;
+    put(known, beyond, &Holes::missing_text, "no visit at");
+    for (const std::string& text : known) out.push_back(information(text));
     Cells twice, unsolved;
     for (const auto& [cell, n] : visits_.seen)
       if (n > 1) twice.push_back(cell);
@@ -97,6 +104,19 @@ class Holes {
     if (sequence_.cycle != Cycle::pendulum) return true;
     return !(cell.direction > 0 && cell.target == 1) &&
            !(cell.direction < 0 && cell.target == sequence_.targets);
+  }
+  bool beyond_the_log(const Cell& cell) const {
+    if (!sequence_.by_passes) return false;
+    const auto in_pass_of = [&](const MeasuredPoint& p) {
+      return cell.run == p.run && cell.direction == p.point.direction;
+    };
+    const MeasuredPoint &first = sequence_.points.front(), &last = sequence_.points.back();
+    if (in_pass_of(first) && (first.target - cell.target) * cell.direction > 0) return true;
+    if (in_pass_of(last) && (cell.target - last.target) * cell.direction > 0) return true;
+    const bool begun = std::any_of(visits_.seen.begin(), visits_.seen.end(), [&](const auto& v) {
+      return v.first.run == cell.run && v.first.direction == cell.direction;
+    });
+    return !begun && cell.run == last.run && last.point.direction == first.point.direction;
   }
   Cells missing() const {
     Cells cells;
@@ -170,9 +190,10 @@ void tell_found_late(const RunToJudge& run, Texts& out) {
     if (!first_pass.contains(t)) late.push_back(t);
   if (late.empty() || late.back() == run.sequence.targets || late.size() > first_pass.size())
     return;
-  out.push_back(numbered("target", late) +
-                " found only after the first pass: the numbers of the targets above changed then "
-                "(give targets_mm to fix them)");
+  out.push_back(
+      information(numbered("target", late) +
+                  " found only after the first pass: the numbers of the targets above changed then "
+                  "(give targets_mm to fix them)"));
 }
 
 void tell_lost_stops(const RunToJudge& run, Texts& out) {
@@ -224,18 +245,18 @@ void tell_shifted_targets(const RunToJudge& run, Texts& out) {
   const auto shifted = find_shifted_targets(run.sequence);
   if (!shifted) return;
   const std::int64_t begin_ns = run.sequence.points.front().point.begin_ns;
-  out.push_back(
+  out.push_back(invalid(
       with_number("%.3f s after the first stop began ", ns_to_s(shifted->time_ns - begin_ns)) +
       with_number("all targets lie %+.4f mm further: ", to_mm(shifted->shift_m)) +
       "the encoder's count jumped, its datum was set anew, or the axis was sent elsewhere; "
-      "positions before and after do not belong together, measure again");
+      "positions before and after do not belong together, measure again"));
 }
 
 void tell_one_turn(const RunToJudge& run, Texts& out) {
   if (run.sequence.cycle != Cycle::pendulum || run.sequence.runs > 1) return;
-  out.push_back(
+  out.push_back(information(
       "the axis turned at its end target, which has a visit from one side only: taken for a "
-      "pendulum cycle; to have both, let the axis run beyond the end targets");
+      "pendulum cycle; to have both, let the axis run beyond the end targets"));
 }
 
 void tell_uneven(const RunToJudge& run, Texts& out) {

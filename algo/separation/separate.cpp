@@ -13,6 +13,7 @@
 #include "algo/separation/unseen.h"
 #include "algo/uncertainty/chi_square.h"
 #include "schema/base/number/number_text.h"
+#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -118,10 +119,11 @@ SeenSeries seen_part(const Equations& e, const Solution& solution, Index from,
 }
 
 std::string contradiction(double chi_square, std::size_t freedom) {
-  return "the set-ups contradict each other: chi-square is " + plain_number(chi_square) + " with " +
-         std::to_string(freedom) +
-         " degrees of freedom, which noise alone hardly ever gives; check shifts and turns, "
-         "whether the machine repeats, and u of the readings";
+  return invalid(
+      "the set-ups contradict each other: chi-square is " + plain_number(chi_square) + " with " +
+      std::to_string(freedom) +
+      " degrees of freedom, which noise alone hardly ever gives; check shifts and turns, "
+      "whether the machine repeats, and u of the readings");
 }
 
 // u of each reading, by which u of the results is made.

@@ -64,15 +64,17 @@ void tell_left_out(Sequence& sequence) {
   for (const auto& reason : reasons) {
     std::string where;
     std::size_t count = 0;
+    Severity severity = Severity::doubtful;
     for (const auto& stop : sequence.left_out) {
       if (stop.reason != reason) continue;
+      severity = stop.severity;
       if (count++ < kMostNamed) where += (where.empty() ? "" : ", ") + millimetres(stop.position_m);
     }
     if (count > kMostNamed) where += ", ...";
     const std::string what =
         count == 1 ? "a stop at " + where + " was" : std::to_string(count) + " stops were";
-    sequence.warnings.push_back(what + " left out (" + reason + ")" +
-                                (count == 1 ? "" : ": at " + where));
+    sequence.warnings.push_back(with_severity(
+        severity, what + " left out (" + reason + ")" + (count == 1 ? "" : ": at " + where)));
   }
 }
 

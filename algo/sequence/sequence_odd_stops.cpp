@@ -154,11 +154,18 @@ void judge_start(std::vector<Place>& places) {
   if (places.back().parked && off_grid(intervals.back())) places.back().kept = false;
 }
 
-std::string reason(const std::vector<Place>& places, std::size_t at) {
+struct Reason {
+  std::string text;
+  Severity severity;
+};
+
+// Before the first target, after the last and beyond the end ones an axis may stop as it likes.
+Reason reason(const std::vector<Place>& places, std::size_t at) {
+  constexpr Severity kHarmless = Severity::information;
   const Place& p = places[at];
-  if (p.parked) return "the axis was parked there when the log began";
-  if (p.visits() == 1 && p.first) return "visited once, before the first target";
-  if (p.visits() == 1 && p.last) return "visited once, at the end of the log";
+  if (p.parked) return {"the axis was parked there when the log began", kHarmless};
+  if (p.visits() == 1 && p.first) return {"visited once, before the first target", kHarmless};
+  if (p.visits() == 1 && p.last) return {"visited once, at the end of the log", kHarmless};
   const auto kept = [](const Place& q) { return q.kept; };
   const auto here = places.begin() + static_cast<std::ptrdiff_t>(at);
   const bool inside =
@@ -168,8 +175,8 @@ std::string reason(const std::vector<Place>& places, std::size_t at) {
       : p.forward > 0 && p.reverse > 0
           ? "visited " + std::to_string(p.visits()) + " times"
           : "visited " + std::to_string(p.visits()) + " times, from one side only";
-  return visits +
-         (inside ? ", between targets: a pause" : ", beyond the end target: a turning point");
+  if (inside) return {visits + ", between targets: a pause", Severity::doubtful};
+  return {visits + ", beyond the end target: a turning point", kHarmless};
 }
 
 }  // namespace
@@ -196,8 +203,9 @@ std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
   for (MeasuredPoint& p : points) {
     const auto at = static_cast<std::size_t>(p.target) - 1;
     p.target = number[at];
-    if (p.target == 0)
-      left_out.push_back({p.point.position_m, p.point.begin_ns, reason(places, at)});
+    if (p.target != 0) continue;
+    const Reason why = reason(places, at);
+    left_out.push_back({p.point.position_m, p.point.begin_ns, why.text, why.severity});
   }
   std::erase_if(points, [](const MeasuredPoint& p) { return p.target == 0; });
   targets_m = std::move(kept_m);

@@ -124,7 +124,8 @@ std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& poin
   if (!has_flag(parked.point, kApproachAssumed) || !again || !went_away(next.point)) return {};
   std::vector<StopLeftOut> left_out = {
       {parked.point.position_m, parked.point.begin_ns,
-       "the axis was parked there when the log began, and then came to the same target"}};
+       "the axis was parked there when the log began, and then came to the same target",
+       Severity::information}};
   points.erase(points.begin());
   return left_out;
 }

@@ -8,6 +8,7 @@
 
 #include "algo/points/ranges_text.h"
 #include "algo/sequence/run_drifts.h"
+#include "schema/severity.h"
 
 namespace mdof::algo {
 namespace {
@@ -96,7 +97,8 @@ std::string uneven_visits_text(const std::vector<MeasuredPoint>& points) {
     text = numbered("run", lacking) + " lack" + (lacking.size() == 1 ? "s" : "") +
            " visits that others have: means, slopes and squareness are made without the drift "
            "between the runs";
-  if (one_sided.empty() || from.directions.size() == 1) return text;
+  if (one_sided.empty() || from.directions.size() == 1)
+    return text.empty() ? text : information(text);  // it is made up for, and in u
   if (!text.empty()) text += "; ";
   if (!from.any_from_both)
     return text +

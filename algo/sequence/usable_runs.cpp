@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "schema/severity.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -93,7 +95,7 @@ std::vector<std::string> inherited_warnings(const Runs& runs) {
     if (run->header.state == RunState::partial)
       warnings.push_back("made from " + name_of(*run) + ", which is partial");
     for (const std::string& warning : run->header.warnings)
-      warnings.push_back(name_of(*run) + ": " + warning);
+      warnings.push_back(said_of(name_of(*run), warning));
   }
   return warnings;
 }

@@ -12,11 +12,12 @@
 #include "algo/uncertainty/budget.h"
 #include "algo/uncertainty/two_runs.h"
 #include "daemon/history.h"
+#include "daemon/measure/gate/gate.h"
 #include "daemon/paths.h"
 #include "schema/base/toml_reader.h"
 #include "schema/imported/series.h"
-#include "schema/rig/rig_notes.h"
 #include "schema/run_json.h"
+#include "schema/severity.h"
 
 namespace mdof::daemon {
 
@@ -64,8 +65,7 @@ Result<std::vector<std::string>> table_warnings(const std::vector<Run>& runs) {
   auto warnings = algo::inherited_warnings(algo::all_of(runs));
   if (runs.size() < 2) return warnings;
   MDOF_TRY(std::string uneven, algo::uneven_visits_of(runs));
-  if (!uneven.empty())
-    warnings.push_back("over all its runs, counted on from one to the next: " + std::move(uneven));
+  if (!uneven.empty()) warnings.push_back(said_of(algo::kOverAllRuns, uneven));
   return warnings;
 }
 
@@ -95,28 +95,11 @@ Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& ru
 
 }  // namespace
 
-namespace {
-
-std::string note_of(const Run& run, const std::string& note) {
-  return "run " + std::to_string(run.header.id) + ": " + note;
-}
-
-// Of a run a missing datum is a note; of a table in force it is a correction at another place. That
-// its rig was calibrated and its readings corrected is no doubt.
-std::vector<std::string> doubts_of_table(const std::vector<Run>& runs) {
-  std::vector<std::string> doubts = table_notes(runs);
-  for (const Run& run : runs)
-    for (const std::string& good : rig_notes(run.header.provenance.rig_text))
-      std::erase(doubts, note_of(run, good));
-  return doubts;
-}
-
-}  // namespace
-
 std::vector<std::string> table_notes(const std::vector<Run>& runs) {
   std::vector<std::string> notes;
   for (const Run& run : runs)
-    for (const auto& note : run.header.notes) notes.push_back(note_of(run, note));
+    for (const auto& note : run.header.notes)
+      notes.push_back("run " + std::to_string(run.header.id) + ": " + note);
   return notes;
 }
 
@@ -137,10 +120,11 @@ Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& re
     runs.push_back(std::move(run));
   }
   MDOF_TRY(CompensationTable table, algo::build_positioning_table(runs));
+  MDOF_CHECK(algo::check_limits(table, request.limits));
   auto notes = table_notes(runs);
   for (auto& note : algo::positioning_notes(runs)) notes.push_back(std::move(note));
   return BuiltTable{std::move(table), algo::inherited_warnings(algo::all_of(runs)),
-                    std::move(notes)};
+                    std::move(notes), doubts_of(runs)};
 }
 
 }  // namespace
@@ -178,24 +162,30 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
     rigs.push_back(rig);
   }
   MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
+  MDOF_CHECK(algo::check_limits(table, request.limits));
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
   MDOF_TRY(auto warnings, table_warnings(runs));
   if (!declared)
     warnings.push_back("its u is noise and repeatability only, without what the rigs declare: " +
                        declared.error().message);
-  return BuiltTable{std::move(table), std::move(warnings), table_notes(runs)};
+  MDOF_TRY(auto doubts, doubts_of_table(store, table));
+  return BuiltTable{std::move(table), std::move(warnings), table_notes(runs), std::move(doubts)};
 }
 
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request) {
-  MDOF_CHECK(check_activation(store, request));
-  return activate_checked(store, request);
+  MDOF_TRY(const store::Marks marks, check_activation(store, request));
+  return activate_checked(store, request, marks);
 }
 
-Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request) {
-  return store.activate(request.table, actor_text(request.deed.by), request.deed.utc, request.deed);
+Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request,
+                                           const store::Marks& marks) {
+  MDOF_TRY(auto done, store.activate(request.table, actor_text(request.deed.by), request.deed.utc,
+                                     request.deed));
+  done.marks = marks;
+  return done;
 }
 
-Status check_activation(store::Store& store, const ActivationRequest& request) {
+Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request) {
   MDOF_TRY(const CompensationTable table, store.table(request.table));
   if (table_sha256(table) != table.sha256)
     return bad_input(store.file().string() + ": compensation table " + std::to_string(table.id) +
@@ -206,24 +196,11 @@ Status check_activation(store::Store& store, const ActivationRequest& request) {
                 "table " + std::to_string(table.id) + " holds " + positioning_name(table.axis) +
                     ", which mdofd does not serve: the controller has it from a file, mdof "
                     "compensation export");
-  std::vector<Run> runs(table.runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    MDOF_TRY(runs[i], store.run(table.runs[i]));
-  }
-  std::vector<std::string> warnings = doubts_of_table(runs);
-  MDOF_TRY(const auto of_table, table_warnings(runs));
-  warnings.insert(warnings.end(), of_table.begin(), of_table.end());
+  MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);
   const bool in_force = now && now->table.id == request.table;
-  if (warnings.empty() || in_force || request.despite_warnings) return {};
-  return fail(ErrorCode::conflict,
-              "table " + std::to_string(request.table) + " is made of runs with " +
-                  std::to_string(warnings.size()) +
-                  (warnings.size() == 1 ? " warning or note" : " warnings or notes") +
-                  ", so that it is not put in force: " + warnings.front() +
-                  (warnings.size() > 1 ? "; and more: see each run, mdof show RUN" : "") +
-                  ". If they do no harm, ask with --despite-warnings, in the call with "
-                  "\"despite_warnings\": true");
+  if (!in_force) MDOF_CHECK(check_gate(judged, request.consent, "it is not put in force"));
+  return store::Marks{judged.simulated, !judged.doubts.empty()};
 }
 
 Status store_squareness(store::Store& store, Squareness& squareness,

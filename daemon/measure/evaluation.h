@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "algo/compensation/table_limits.h"
 #include "algo/iso230/squareness.h"
+#include "daemon/measure/gate/gate.h"
 #include "daemon/store/store.h"
 #include "schema/base/result.h"
 #include "schema/compensation_table.h"
@@ -33,13 +35,16 @@ struct TableRequest {
   bool partial = false;                     // take partial runs as well
   std::optional<Reference> reference;       // none: at the rig's tool point, else at the fixture
   std::optional<Deed> deed = std::nullopt;  // who asks
+  algo::TableLimits limits = {};
 };
 struct BuiltTable {
   CompensationTable table;
   std::vector<std::string> warnings;  // of the runs it is made from
   std::vector<std::string> notes;     // likewise
+  std::vector<std::string> doubts;    // what of these keeps it from a controller
 };
-// Built and stored. Errors: those of algo::build_table(); runs of rigs with other machines.
+// Built and stored. Errors: those of algo::build_table() and algo::check_limits(); runs of rigs
+// with other machines.
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request);
 // The two parts of that: what takes long, from a store that may be read-only, and storing.
 Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& request);
@@ -50,16 +55,17 @@ std::vector<std::string> table_notes(const std::vector<Run>& runs);
 
 struct ActivationRequest {
   std::int64_t table = 0;
-  bool despite_warnings = false;
+  Consent consent;
   Deed deed;  // who asks
 };
-// Puts the table in force. Refuses one that is not what its hash says. Refuses one whose runs carry
-// warnings, or whose encoder had no datum, unless that is asked for: a controller sees numbers
-// only.
+// Puts the table in force. Refuses one that is not what its hash says, and what check_gate()
+// refuses: a controller sees numbers only.
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request);
-// The two parts of that: what may refuse it, from a store that may be read-only, and storing.
-Status check_activation(store::Store& store, const ActivationRequest& request);
-Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request);
+// The two parts of that: what may refuse it, from a store that may be read-only, with the marks of
+// the table; and storing.
+Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request);
+Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request,
+                                           const store::Marks& marks);
 
 struct SquarenessRequest {
   std::int64_t run_x = 0, run_y = 0;

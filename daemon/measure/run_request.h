@@ -17,6 +17,7 @@ struct CutOffRun {
   std::int64_t id = 0;
   std::filesystem::path recording;
   EncoderDatum datum = {};  // of its positions
+  std::string started_utc = {};
 };
 
 struct RunRequest {

@@ -45,6 +45,10 @@ Result<TableRequest> read_table_request(const Params& params) {
   if (params.has("reference")) {
     MDOF_TRY(request.reference, reference_param(params));
   }
+  const double um = params.number("limit_um", 0), slope = params.number("limit_um_per_mm", 0);
+  MDOF_TRY(request.limits,
+           algo::TableLimits::asked(params.has("limit_um") ? &um : nullptr,
+                                    params.has("limit_um_per_mm") ? &slope : nullptr));
   return request;
 }
 
@@ -61,7 +65,7 @@ void build(Methods& m, const Params& params, Reply reply) {
           JsonWriter json;
           json.begin_object();
           write_table_members(json, built.table);
-          json.end_object();
+          json.field("doubtful", !built.doubts.empty()).end_object();
           return with_texts(with_warnings(json.take(), built.warnings), "notes", built.notes);
         };
       });
@@ -84,14 +88,15 @@ Change change_what_is_in_force(Methods& m, std::string reply_members,
 }
 
 void activate(Methods& m, const Params& params, Reply reply) {
-  const ActivationRequest request{params.integer("table"),
-                                  params.boolean("despite_warnings", false),
-                                  deed_of(params, "compensation.activate")};
+  const ActivationRequest request{
+      params.integer("table"),
+      {params.boolean("simulated", false), params.boolean("despite_warnings", false)},
+      deed_of(params, "compensation.activate")};
   answer_with_change(m, std::move(reply), [&m, request](store::Store& reader) -> Result<Change> {
-    MDOF_CHECK(check_activation(reader, request));
+    MDOF_TRY(const store::Marks marks, check_activation(reader, request));
     return change_what_is_in_force(
         m, "\"table\":" + std::to_string(request.table),
-        [request](store::Store& store) { return activate_checked(store, request); });
+        [request, marks](store::Store& store) { return activate_checked(store, request, marks); });
   });
 }
 
@@ -116,7 +121,8 @@ std::string status(const Methods& m) {
     if (!active) continue;
     json.key(std::string(1, letter(active->table.axis))).begin_object();
     write_table_members(json, active->table);
-    json.field("generation", active->generation)
+    json.field("doubtful", active->doubtful)
+        .field("generation", active->generation)
         .field("activated_utc", active->activated_utc)
         .field("activated_by", active->actor)
         .end_object();
@@ -135,7 +141,11 @@ Result<std::string> grid(const Methods& m, const Params& params) {
   JsonWriter json;
   json.begin_object();
   write_table_members(json, active->table);
-  json.field("generation", active->generation).field("offset", offset).key("points").begin_array();
+  json.field("doubtful", active->doubtful)
+      .field("generation", active->generation)
+      .field("offset", offset)
+      .key("points")
+      .begin_array();
   const auto total = static_cast<std::int64_t>(active->table.position_m.size());
   std::vector<std::int64_t> rows(
       static_cast<std::size_t>(std::clamp<std::int64_t>(total - offset, 0, count)));
@@ -200,6 +210,7 @@ Result<std::string> at(const Methods& m, const Params& params) {
   write_values(json, "u", table.axis, value.u);
   json.field("inside", value.inside)
       .field("simulated", table.simulated)
+      .field("doubtful", active->doubtful)
       .field("table", table.id)
       .field("generation", active->generation)
       .end_object();
@@ -221,22 +232,30 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                   {"reference", ParamType::string,
                    "where straightness is stated: fixture, carriage or tool [the rig's tool point, "
                    "else the fixture]",
-                   false}},
+                   false},
+                  {"limit_um", ParamType::number,
+                   "largest value of the table (angles: urad) [1000 um, 10000 urad]", false},
+                  {"limit_um_per_mm", ParamType::number,
+                   "largest slope of the table (angles: urad/mm) [50 um/mm, 500 urad/mm]", false}},
        .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
-                 "warnings, notes",
+                 "simulated, doubtful, warnings, notes",
        .example = R"({"runs": [1]})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
-  table.add({.name = "compensation.activate",
-             .summary = "Puts a stored table in force on its axis, at once and for everybody.",
-             .params = {{"table", ParamType::integer, "id of the table", true},
-                        {"despite_warnings", ParamType::boolean,
-                         "also one whose runs carry warnings", false, "false"}},
-             .result = "table, generation, changed: false where it was in force already",
-             .example = R"({"table": 1})",
-             .writes = true,
-             .approves = true,
-             .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
+  table.add(
+      {.name = "compensation.activate",
+       .summary = "Puts a stored table in force on its axis, at once and for everybody.",
+       .params = {{"table", ParamType::integer, "id of the table", true},
+                  {"simulated", ParamType::boolean, "also one of simulated data", false, "false"},
+                  {"despite_warnings", ParamType::boolean,
+                   "also one whose runs carry warnings that are no mere information", false,
+                   "false"}},
+       .result = "table, generation, changed: false where it was in force already; "
+                 "simulated, doubtful",
+       .example = R"({"table": 1})",
+       .writes = true,
+       .approves = true,
+       .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
   table.add({.name = "compensation.deactivate",
              .summary = "Takes the table in force on an axis out of force: none is from then on.",
              .params = {axis},
@@ -247,20 +266,22 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
              .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
   table.add({.name = "compensation.status",
              .summary = "The tables in force by axis, with the generation that tells of a change.",
-             .result = "generation; axes: table, runs, range, sense, simulated, who and when",
+             .result = "generation; axes: table, runs, range, sense, simulated, doubtful, who and "
+                       "when",
              .handler = [&m](const Params&) -> Result<std::string> { return status(m); }});
-  table.add(
-      {.name = "compensation.grid",
-       .summary = "The grid of the table in force, a page at a time: errors, forward and "
-                  "reverse apart.",
-       .params = {axis,
-                  offset_param(),
-                  count_param(kMaxGridPage),
-                  {"generation", ParamType::integer,
-                   "of the pages before: error -32001 if it has changed", false}},
-       .result = "table members, generation, points: errors (actual - nominal) in um and urad",
-       .example = R"({"axis": "X", "offset": 0, "count": 20})",
-       .handler = [&m](const Params& p) { return grid(m, p); }});
+  table.add({.name = "compensation.grid",
+             .summary = "The grid of the table in force, a page at a time: errors, forward and "
+                        "reverse apart.",
+             .params = {axis,
+                        offset_param(),
+                        count_param(kMaxGridPage),
+                        {"generation", ParamType::integer,
+                         "of the pages before: error -32001 if it has changed", false}},
+             .result =
+                 "table members, doubtful, generation, points: errors (actual - nominal) in um and "
+                 "urad",
+             .example = R"({"axis": "X", "offset": 0, "count": 20})",
+             .handler = [&m](const Params& p) { return grid(m, p); }});
   table.add({.name = "compensation.at",
              .summary = "The correction at a position: linear between grid points, the end value "
                         "outside, and it says so.",
@@ -271,7 +292,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
              .result =
                  "error in um and urad; correction, to be added to the command, null with "
                  "correction_reason where its sign is not known; u; inside: that approach was "
-                 "measured there; simulated; generation",
+                 "measured there; simulated; doubtful: its runs carry warnings; generation",
              .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
              .handler = [&m](const Params& p) { return at(m, p); }});
 }

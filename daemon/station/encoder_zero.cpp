@@ -35,14 +35,16 @@ std::string lost_note(const DatumSetting& said, bool since_start, const EncoderD
 }  // namespace
 
 EncoderZero::EncoderZero(const std::vector<drivers::DriverSpec>& devices,
-                         std::optional<DatumSetting> before, std::optional<double> um_per_V)
-    : um_per_V_(um_per_V), last_(std::move(before)) {
+                         std::optional<DatumSetting> before, std::optional<double> um_per_V,
+                         std::string utc)
+    : um_per_V_(um_per_V), since_utc_(std::move(utc)), last_(std::move(before)) {
   for (const auto& device : devices) {
     const auto& ids = device.channels;
     const bool all = ids.empty();
     if (!all && std::find(ids.begin(), ids.end(), kEncoderChannel) == ids.end()) continue;
     if (!all) device_ = device.name;
     if (device.encoder.counts) {
+      counts_ = true;
       datum_.kind = EncoderDatum::Kind::none;
       datum_.device = device.name;
     }
@@ -154,9 +156,16 @@ Result<EncoderDatum> EncoderZero::put(const DatumSetting& setting, const std::st
   return datum_;
 }
 
-void EncoderZero::lose(const std::string& device) {
+bool EncoderZero::counts_on_since(const std::string& utc) const {
+  const std::lock_guard lock(mutex_);
+  return !counts_ || utc >= since_utc_;
+}
+
+void EncoderZero::lose(const std::string& device, const std::string& utc) {
   const std::lock_guard lock(mutex_);
   if (device != device_ || datum_.kind == EncoderDatum::Kind::absolute) return;
+  since_utc_ = utc;
+  counts_ = true;
   found_ = false;
   if (datum_.kind == EncoderDatum::Kind::index) datum_.offset_m = 0;  // of counts from the mark
   datum_.kind = EncoderDatum::Kind::none;

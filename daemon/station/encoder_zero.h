@@ -26,10 +26,10 @@ struct EncoderState {
 class EncoderZero {
  public:
   // `um_per_V`: of an encoder that gives volts. `before`: what was said last before this program
-  // began, which it does not hold any more.
+  // began, which it does not hold any more. `utc`: now, since when its count is watched.
   explicit EncoderZero(const std::vector<drivers::DriverSpec>& devices,
                        std::optional<DatumSetting> before = std::nullopt,
-                       std::optional<double> um_per_V = std::nullopt);
+                       std::optional<double> um_per_V = std::nullopt, std::string utc = "");
 
   // Adds the offset to the encoder's values of `block`, where it has any, and keeps what it shows.
   void apply(SampleBlock& block);
@@ -38,14 +38,17 @@ class EncoderZero {
   Result<DatumSetting> find(Axis axis, double position_m, const std::string& utc);
   // It holds from now on. Error (conflict): its device has been without power since it was found.
   Result<EncoderDatum> put(const DatumSetting& setting, const std::string& by);
-  // Its device counts from elsewhere now.
-  void lose(const std::string& device);
+  // Its device counts from elsewhere since `utc`.
+  void lose(const std::string& device, const std::string& utc = "");
   // Its device counts from its reference mark from now on, whatever held before. False: it is not
   // the one that gives the encoder, or not asked to look for a mark.
   bool pass_mark(const std::string& device, const std::string& utc);
 
   EncoderDatum datum() const;
   EncoderState state() const;
+  // Has it counted from one place since then? False where nobody knows: before this program or
+  // before its device was without power. An encoder that does not count has no such doubt.
+  bool counts_on_since(const std::string& utc) const;
   // The device that gives the encoder; "": not known before it gave some.
   std::string device() const;
 
@@ -56,6 +59,8 @@ class EncoderZero {
   const std::optional<double> um_per_V_;
   mutable std::mutex mutex_;
   EncoderDatum datum_;             // guarded by mutex_
+  bool counts_ = false;            // guarded by mutex_
+  std::string since_utc_;          // of its count; guarded by mutex_
   std::string device_;             // guarded by mutex_
   std::optional<double> index_m_;  // where the axis is at its encoder's reference mark
   // What was said last, before this program or since. Guarded by mutex_.

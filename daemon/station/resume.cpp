@@ -60,28 +60,50 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   request.note = header.note;
   request.targets_m = options->sequence.targets_m;
   request.repeats = options->repeats;
-  request.resumes = CutOffRun{run, header.provenance.recording_path, options->datum};
+  request.resumes =
+      CutOffRun{run, header.provenance.recording_path, options->datum, header.started_utc};
   for (const std::string& warning : header.warnings)  // of a run that had gone on before
     if (warning.starts_with(kGoesOn)) request.warnings.push_back(warning);
+  const std::string until_then = datum_text(options->datum);
   request.warnings.push_back(
       std::string(kGoesOn) + std::to_string(run) +
       ", which ended early: whether the encoder kept its zero and the machine its temperature in "
-      "between is not known");
+      "between is not known" +
+      (until_then.empty() ? "" : "; its positions until then: " + until_then));
   return request;
 }
 
-Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now) {
+Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool counts_on) {
   using Kind = EncoderDatum::Kind;
   const EncoderDatum& of_run = cut_off.datum;
-  if (of_run.kind != Kind::index && now.kind != Kind::index) return {};
-  if (of_run.kind == now.kind && of_run.offset_m == now.offset_m) return {};
-  if (now.kind != Kind::index)
+  const bool alike = of_run.kind == now.kind && of_run.offset_m == now.offset_m;
+  if (of_run.kind == Kind::index || now.kind == Kind::index) {
+    if (alike) return {};
+    if (now.kind != Kind::index)
+      return refused(cut_off.id,
+                     "its positions are counted from the reference mark of the encoder, and those "
+                     "of the axis are not now: drive it over the mark first, or start a new run");
     return refused(cut_off.id,
-                   "its positions are counted from the reference mark of the encoder, and those of "
-                   "the axis are not now: drive it over the mark first, or start a new run");
+                   "since it ended the axis went over its reference mark, and its positions are "
+                   "counted from elsewhere than those of the run; start a new run");
+  }
+  const bool in_machine = of_run.kind == Kind::set || of_run.kind == Kind::configured;
+  if (in_machine && now.kind == Kind::set) return {};  // each says where the axis stands
+  if (alike && counts_on) return {};
+  if (of_run.kind == Kind::none)
+    return refused(cut_off.id,
+                   "its encoder had no datum, and whether it has counted on since is not known: "
+                   "positions of the run and of now may lie apart. Say where the axis stands "
+                   "(mdof encoder set AXIS POSITION_MM) and start a new run");
+  if (of_run.kind == Kind::absolute && now.kind != Kind::none)
+    return refused(cut_off.id,
+                   "its positions are as the device shows them, and those of the axis are not now; "
+                   "start a new run");
   return refused(cut_off.id,
-                 "since it ended the axis went over its reference mark, and its positions are "
-                 "counted from elsewhere than those of the run; start a new run");
+                 "its positions are the machine's (" + datum_text(of_run) +
+                     "), and whether the encoder still counts from there is not known: "
+                     "its datum was lost since. Bring the axis to a known "
+                     "place, say where it is (mdof encoder set AXIS POSITION_MM), then go on");
 }
 
 Result<std::int64_t> record_again(const CutOffRun& cut_off, const Storekeeper& keeper, NewRun& run,

@@ -23,9 +23,9 @@ namespace mdof::daemon {
 Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
                                      const AxisConfig& axis);
 
-// Error (conflict): the positions of one are counted from the encoder's reference mark and those of
-// the other, `now`, are not. One run has one datum.
-Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now);
+// One run has one datum. Error (conflict): a position of the run and the same number `now` are, or
+// may be, two places. `counts_on`: as of EncoderZero::counts_on_since() the run's beginning.
+Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool counts_on);
 
 // Reads the recording of `cut_off` into `pipeline` and, block by block, into `run.begun`, which it
 // makes. Gives the time of the last scan. Errors: as of a recording that is read or written; io

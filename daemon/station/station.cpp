@@ -40,7 +40,7 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
       shared_(std::make_shared<Shared>(std::move(events))),
       measure_turn_(steady_clock::now()),
       zero_(config_.devices, config_.live() ? std::move(before) : std::nullopt,
-            config_.rig.encoder_um_per_V) {
+            config_.rig.encoder_um_per_V, utc_now()) {
   SharedDevices alone;
   for (const auto& device : config_.devices)
     acquisitions_.push_back(device.part.empty() ? std::make_unique<Acquisition>(device, sink())
@@ -165,7 +165,8 @@ NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& o
 
 void Station::start_run(const RunRequest& request, const RunDone& done) {
   if (request.resumes) {
-    const Status same = check_same_datum(*request.resumes, zero_.datum());
+    const bool counts_on = zero_.counts_on_since(request.resumes->started_utc);
+    const Status same = check_same_datum(*request.resumes, zero_.datum(), counts_on);
     if (!same) return done(tl::unexpected(same.error()));
   }
   std::int64_t none = 0;

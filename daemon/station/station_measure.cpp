@@ -16,6 +16,7 @@
 #include "schema/rig/calibrated.h"
 #include "schema/rig/rig_check.h"
 #include "schema/run_json.h"
+#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -160,7 +161,7 @@ void Station::handle(Item& item) {
       if (!open_ || open_->id != item.run) return;
       return finish(RunState::failed, item.reason, item.source, {});
     case Item::Kind::trouble:
-      if (item.trouble->kind == Trouble::Kind::suspect) zero_.lose(item.trouble->device);
+      if (item.trouble->kind == Trouble::Kind::suspect) zero_.lose(item.trouble->device, utc_now());
       if (open_) open_->troubles.add(*item.trouble);
       return;
     case Item::Kind::datum:
@@ -299,8 +300,8 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
   // Else as it turned out: complete or partial.
   if (state != RunState::complete) run.header.state = state;
   if (run.header.state == RunState::partial && config_.recorded())
-    run.header.warnings.emplace_back(
-        "this run is partial; to go on with it: mdof record --resume RUN");
+    run.header.warnings.push_back(
+        information("this run is partial; to go on with it: mdof record --resume RUN"));
   run.header.provenance.recording_sha256 = source.sha256;
   run.header.warnings.insert(run.header.warnings.end(), source.warnings.begin(),
                              source.warnings.end());

@@ -55,15 +55,23 @@ struct ActiveTable {
   std::int64_t generation = 0;
   std::string actor;
   std::string activated_utc;
+  bool doubtful = false;  // by its runs; whoever reads it for a client says so
+};
+
+// What a controller is to be told of a table.
+struct Marks {
+  bool simulated = false, doubtful = false;
 };
 
 // What came of activate() or deactivate().
 struct Activation {
   std::int64_t generation = 0;
-  bool changed = false;  // false: it was so already, and is of that generation
+  bool changed = false;                       // false: it was so already, and is of that generation
+  std::optional<Marks> marks = std::nullopt;  // of the table that was activated
 };
 
-// {`members`,"generation":7,"changed":true}: `members` say of what, as JSON.
+// {`members`,"generation":7,"changed":true}, with "simulated" and "doubtful" of a table: `members`
+// say of what, as JSON.
 std::string activation_json(const std::string& members, const Activation& activation);
 
 // Thread-bound. A message names the file; not_found names the run or table that is not there.

@@ -252,8 +252,12 @@ Result<std::vector<CompensationTable>> Store::list_tables(std::int64_t offset, s
 }
 
 std::string activation_json(const std::string& members, const Activation& activation) {
+  const auto truth = [](bool x) { return std::string(x ? "true" : "false"); };
+  std::string marks;
+  if (const auto& m = activation.marks)
+    marks = ",\"simulated\":" + truth(m->simulated) + ",\"doubtful\":" + truth(m->doubtful);
   return "{" + members + ",\"generation\":" + std::to_string(activation.generation) +
-         ",\"changed\":" + (activation.changed ? "true" : "false") + "}";
+         ",\"changed\":" + truth(activation.changed) + marks + "}";
 }
 
 namespace {

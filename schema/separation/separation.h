@@ -73,6 +73,8 @@ struct SeparationRecord {
   bool simulated = false;
   std::string created_utc;
   Separation result;
+  bool doubtful = false;           // by its runs, or by itself
+  std::vector<std::string> marks;  // what a file of it says first: SIMULATED, DOUBTFUL
 };
 
 }  // namespace mdof

@@ -70,6 +70,7 @@ std::string separation_json(const SeparationRecord& record) {
       .field("moves", record.sides.moves())
       .field("travel", record.sides.travel())
       .field("simulated", record.simulated)
+      .field("doubtful", record.doubtful)
       .field("created_utc", record.created_utc);
   write_sources(json, record);
   write_fit(json, record.result);

@@ -31,7 +31,8 @@ class ActivationTest : public ::testing::Test {
   }
   Result<store::Activation> activated() {
     const auto id = store_->add_table(table_).value();
-    return activate_table(*store_, {id, true, deed_now("compensation.activate", this_process())});
+    return activate_table(*store_,
+                          {id, {false, true}, deed_now("compensation.activate", this_process())});
   }
 
   std::filesystem::path folder_;

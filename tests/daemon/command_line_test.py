@@ -223,7 +223,7 @@ class TheSame(unittest.TestCase):
         self.assertEqual(first, "table 1 is in force, generation 1\n")
         self.assertEqual(self.both("compensation", "activate", 1), "table 1 is already in force, generation 1\n")
         self.assertEqual(json.loads(self.both("compensation", "activate", 2, "--json")),
-                         {"table": 2, "generation": 2, "changed": True})
+                         {"table": 2, "generation": 2, "changed": True, "simulated": False, "doubtful": False})
         for form in ((), ("--json",), ("--csv",)):
             self.both("compensation", "show", *form)
         self.both("compensation", "list")

@@ -25,6 +25,7 @@ TARGETS = [0, 2, 4.1, 6.2]
 MACHINE = '[machine]\nchain = "w-Y-X-b-Z-t"\n'
 # A run that begins in a stop has the warning that this stop was too short.
 MAYBE_BEGUN_IN_A_STOP = {"despite_warnings": True}
+SIMULATED = {"simulated": True, **MAYBE_BEGUN_IN_A_STOP}
 FACTOR = {"EYX_um": -1, "EZX_um": 1}
 
 
@@ -78,7 +79,9 @@ class EndToEnd(unittest.TestCase):
         self.assertIn("periodic error", str(header["warnings"]))
         table = self.client.call("compensation.build", runs=[run])["table"]
         with self.assertRaisesRegex(RpcError, "not put in force: .*despite_warnings"):
-            self.client.call("compensation.activate", table=table)
+            self.client.call("compensation.activate", table=table, simulated=True)
+        with self.assertRaisesRegex(RpcError, "is simulated.*simulated"):
+            self.client.call("compensation.activate", table=table, despite_warnings=True)
         for key in ("straightness", "angles", "state", "note", "options", "warnings"):
             self.assertEqual(again[key], header[key])
         self.assertEqual(again["recording"]["sha256"], header["recording"]["sha256"])
@@ -130,7 +133,8 @@ class EndToEnd(unittest.TestCase):
         built = self.client.call("compensation.build", runs=[run])
         self.assertTrue(built["simulated"])
         before = self.client.call("server.info")["generation"]
-        active = self.client.call("compensation.activate", table=built["table"], **MAYBE_BEGUN_IN_A_STOP)
+        active = self.client.call("compensation.activate", table=built["table"], **SIMULATED)
+        self.assertTrue(active["simulated"])
         self.assertGreater(active["generation"], before)
         grid = self.client.call("compensation.grid", axis="X")
         self.assertEqual([round(p["position_mm"], 3) for p in grid["points"]], TARGETS)
@@ -182,7 +186,7 @@ class EndToEnd(unittest.TestCase):
     def test_a_table_survives_a_restart(self):
         run = self.measured(axis="X", targets_mm=TARGETS, repeats=1)
         table = self.client.call("compensation.build", runs=[run])["table"]
-        self.client.call("compensation.activate", table=table, **MAYBE_BEGUN_IN_A_STOP)
+        self.client.call("compensation.activate", table=table, **SIMULATED)
         before = self.client.call("compensation.at", axis="X", position_mm=3)
         self.daemon.stop()
         type(self).client = self.daemon.start()

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/paths.h"
 
 namespace mdof::tools {
@@ -17,6 +18,27 @@ void add_csv_and_json_flags(CLI::App& command, bool& csv, bool& json) {
 
 void add_all_warnings_flag(CLI::App& command, bool& all) {
   command.add_flag("--all-warnings", all, "Also those that are like three before");
+}
+
+Result<algo::TableLimits> LimitOptions::limits() const {
+  return algo::TableLimits::asked(um ? &*um : nullptr, um_per_mm ? &*um_per_mm : nullptr);
+}
+
+void add_limit_options(CLI::App& command, LimitOptions& limits) {
+  command
+      .add_option("--limit-um", limits.um,
+                  "Largest value that is taken (angles: urad) [default: 1000 um, 10000 urad]")
+      ->type_name("UM");
+  command
+      .add_option("--limit-um-per-mm", limits.um_per_mm,
+                  "Largest slope that is taken (angles: urad/mm) [default: 50 um/mm, 500 urad/mm]")
+      ->type_name("UM");
+}
+
+void add_consent_flags(CLI::App& command, daemon::Consent& consent, const std::string& what) {
+  command.add_flag("--simulated", consent.simulated, "Also " + what + " of simulated data");
+  command.add_flag("--despite-warnings", consent.despite_warnings,
+                   "Also " + what + " whose runs carry warnings (information is none)");
 }
 
 void add_database_option(CLI::App& command, std::string& database) {

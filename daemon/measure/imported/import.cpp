@@ -11,6 +11,7 @@
 #include "drivers/imported/imported_file.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
+#include "schema/sample.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -59,6 +60,28 @@ std::vector<std::string> doubts(const ImportedSeries& series, const ImportedErro
           plain_number(to_mm(step)) + " mm between targets: are they in um?"};
 }
 
+// Each reading by itself; slopes between the means of targets, as a table would have them.
+Status check_readings(const ImportedSeries& series, const ImportRequest& request,
+                      const ImportedError& error, const std::vector<double>& targets) {
+  for (const ImportedReading& r : series.readings)
+    MDOF_CHECK(algo::check_limits(series.source + ": " + error.name, error.angle, {r.position_m},
+                                  {r.deviation}, request.limits));
+  for (const int direction : {1, 0, -1}) {
+    std::vector<double> sum(targets.size(), 0.0), n(targets.size(), 0.0), mean;
+    for (const ImportedReading& r : series.readings) {
+      if (r.direction != direction) continue;
+      const std::size_t at = algo::target_at(targets, r.position_m);
+      sum[at] += r.deviation;
+      n[at] += 1;
+    }
+    for (std::size_t i = 0; i < targets.size(); ++i)
+      mean.push_back(n[i] > 0 ? sum[i] / n[i] : kNaN);
+    MDOF_CHECK(algo::check_limits(series.source + ": " + error.name, error.angle, targets, mean,
+                                  request.limits));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Run> imported_run(const ImportRequest& request) {
@@ -86,6 +109,7 @@ Result<Run> imported_run(const ImportRequest& request) {
                        options_json(request, error, series),
                        ""};
   const std::vector<double> targets = algo::imported_targets(series.readings);
+  MDOF_CHECK(check_readings(series, request, error, targets));
   header.warnings = doubts(series, error, targets);
   for (const ImportedReading& r : series.readings)
     run.points.push_back(point_of(r, targets, request, error));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "algo/compensation/table_limits.h"
 #include "schema/base/result.h"
 #include "schema/imported/series.h"
 #include "schema/run.h"
@@ -17,10 +18,11 @@ struct ImportRequest {
   std::string format;          // as of read_imported_file(); empty: told by the file
   std::optional<double> u_si;  // standard uncertainty of a deviation, common to all; m or rad
   std::string note;
+  algo::TableLimits limits = {};
 };
 
 // Complete, not stored. Errors: those of imported_error() and read_imported_file(); an uncertainty
-// that is none.
+// that is none; deviations beyond the limits, or means of targets whose slope is.
 Result<Run> imported_run(const ImportRequest& request);
 
 }  // namespace mdof::daemon

@@ -65,6 +65,8 @@ class Trial {
     }
     return largest;
   }
+  // False: no place lies within what was measured and what was written.
+  bool judges_anything() const { return !places().empty(); }
   // |E dE/dx| of the correction's own place, where it moves the axis that was measured.
   double second_order() const {
     if (!machine_.own) return 0;
@@ -137,6 +139,10 @@ double zero_of(const Series& s, const ExportOptions& options) {
   return s.factor * mean_error_at(s, *options.home_m);
 }
 
+double most_residual(const ExportOptions& options) {
+  return options.residual_m + options.tolerance_m;
+}
+
 CheckedError judged(const Format& format, const CompensationTable& table, const Series& measured,
                     const AppliedCorrection& applied, const Export& exported,
                     const ExportOptions& options) {
@@ -152,8 +158,10 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
     if (written.error == e.error) thinning = written.largest_deviation;
   e.before = trial.residual(0, false, e.one_way);
   e.residual = trial.residual(1, false, e.one_way);
-  e.bound = thinning + format.quantum_m + trial.second_order() + kRounding_m;
-  e.cancels = e.residual <= e.bound;
+  const double step = format.quantum_m + kRounding_m;
+  e.bound = std::min({thinning + trial.second_order() + step, most_residual(options),
+                      std::max(options.residual_share * e.before, step)});
+  e.cancels = trial.judges_anything() && e.residual <= e.bound;
   e.controls.push_back(
       control_of("wrong sign", trial.residual(-1, false, e.one_way), e.bound, 2 * e.before));
   if (!e.one_way)
@@ -182,6 +190,8 @@ Result<Check> check_export(const Format& format, const std::vector<CompensationT
                            const Export& exported, const ExportOptions& options) {
   MDOF_TRY(const auto applied, format.read(exported.files));
   Check check;
+  check.most_residual_m = most_residual(options);
+  check.share = options.residual_share;
   for (const AppliedCorrection& one : applied) {
     const CompensationTable* table = table_of(tables, one.along);
     const auto series = table ? series_of(*table) : std::vector<Series>();

@@ -23,15 +23,17 @@ struct CheckedError {
   bool one_way = false;  // the controller holds one value for both approaches: their mean is judged
   double before = 0;     // largest error without the correction, m or rad
   double residual = 0;   // with it, both approaches, on the grid and between
-  double bound = 0;      // thinning, step of the numbers, and second order
+  // Thinning, step of the numbers and second order; at most what ExportOptions allows.
+  double bound = 0;
   bool cancels = false;
   std::vector<Control> controls;
 };
 
 struct Check {
   std::vector<CheckedError> errors;
-  std::vector<std::string> not_judged;  // written, but nobody knows which way its correction goes
-  bool passed() const;                  // of what could be judged
+  std::vector<std::string> not_judged;    // written, but nobody knows which way its correction goes
+  double most_residual_m = 0, share = 0;  // as of ExportOptions, the tolerance in it
+  bool passed() const;                    // of what could be judged
 };
 
 // Of what `format` wrote of these tables. Each error is the table's own, joined by straight lines.

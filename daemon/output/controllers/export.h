@@ -30,9 +30,12 @@ struct Series {
 };
 
 struct ExportOptions {
-  double tolerance_m = 0;          // points are left out within it; 0: none is. Of angles in rad
-  bool cut_range = false;          // the longest range without a missing value, instead of refusing
-  std::optional<double> home_m;    // the correction is 0 there (mean of both approaches)
+  double tolerance_m = 0;        // points are left out within it; 0: none is. Of angles in rad
+  bool cut_range = false;        // the longest range without a missing value, instead of refusing
+  std::optional<double> home_m;  // the correction is 0 there (mean of both approaches)
+  // What may be left with the correction: no more than this beside the tolerance, of angles in rad,
+  // and no more than this share of what there was; a step of the controller's numbers is always.
+  double residual_m = 1e-6, residual_share = 0.2;
   std::vector<std::string> marks;  // what a reader of the files has to be told
 };
 

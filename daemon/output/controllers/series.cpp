@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "algo/compensation/thinning.h"
 #include "schema/base/number/number_text.h"
@@ -137,12 +140,33 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
   return {};
 }
 
+namespace {
+
+// For comments of controllers: a mark quotes what a run says, and nothing of it may be a line of
+// its own or a letter that the controller does not know.
+std::string one_plain_line(std::string_view text) {
+  constexpr std::pair<std::string_view, std::string_view> kPlain[] = {
+      {"µ", "u"}, {"±", "+-"}, {"°", " deg"}};
+  std::string line;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto* known = std::find_if(std::begin(kPlain), std::end(kPlain), [&](const auto& p) {
+      return text.substr(i).starts_with(p.first);
+    });
+    const bool plain = text[i] >= 0x20 && text[i] < 0x7f;
+    line += known != std::end(kPlain) ? known->second : plain ? text.substr(i, 1) : "?";
+    i += known != std::end(kPlain) ? known->first.size() : 1;
+  }
+  return line;
+}
+
+}  // namespace
+
 std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
                                     const std::string& sense) {
   std::vector<std::string> lines{"mdof compensation table " + std::to_string(table.id) + ", axis " +
                                      letter(table.axis) + ", made " + table.created_utc,
                                  "sha256 of the table " + table.sha256, "sense: " + sense};
-  for (const std::string& mark : options.marks) lines.push_back(mark);
+  for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
   return lines;
 }
 

@@ -93,7 +93,8 @@ TEST(Plausibility, NamesAHole) {
   for (const int t : {1, 2, 4, 5, 6, 7}) m.visit(t, 2, 1);
   m.beyond(7, 1), m.reverse(2);
   const Judged judged = judge(m);
-  EXPECT_EQ(judged.all(), "target 3 (10.2000 mm): no forward visit in run 2\nrun 2" + kLevelled);
+  EXPECT_EQ(judged.all(),
+            "target 3 (10.2000 mm): no forward visit in run 2\ninformation: run 2" + kLevelled);
   EXPECT_EQ(judged.figures.n_ij[2].forward, (std::vector<int>{1, 0}));
 }
 
@@ -103,7 +104,7 @@ TEST(Plausibility, NamesAVisitThatGaveNoErrors) {
   const Judged judged = judge(m, {}, [](std::size_t i) { return i != 8; });
   EXPECT_EQ(judged.all(),
             "target 6 (25.1000 mm): the reverse visit in run 1 gave no errors (probe A is lost)\n"
-            "run 1" +
+            "information: run 1" +
                 kLevelled);
   EXPECT_EQ(judged.figures.n_ij[5].reverse, (std::vector<int>{0, 1}));
 }
@@ -115,16 +116,17 @@ TEST(Plausibility, SaysWhatARunThatEndedEarlyLacks) {
   m.beyond(7, 1);
   m.visit(7, 2, -1), m.visit(6, 2, -1);
   EXPECT_EQ(judge(m).all(),
-            "target 1 (0.0000 mm): no reverse visit in run 2\n"
-            "target 2 (5.0000 mm): no reverse visit in run 2\n"
-            "target 3 (10.2000 mm): no reverse visit in run 2\n"
-            "target 4 (14.9000 mm): no reverse visit in run 2\n"
-            "target 5 (20.0000 mm): no reverse visit in run 2\nrun 2" +
+            "information: target 1 (0.0000 mm): no reverse visit in run 2\n"
+            "information: target 2 (5.0000 mm): no reverse visit in run 2\n"
+            "information: target 3 (10.2000 mm): no reverse visit in run 2\n"
+            "information: target 4 (14.9000 mm): no reverse visit in run 2\n"
+            "information: target 5 (20.0000 mm): no reverse visit in run 2\ninformation: run 2" +
                 kLevelled);
   Machine shorter;
   shorter.standard(1);
   shorter.forward(2);
-  EXPECT_EQ(judge(shorter).all(), "run 2, reverse: no visit at any target\nrun 2" + kLevelled);
+  EXPECT_EQ(judge(shorter).all(),
+            "information: run 2, reverse: no visit at any target\ninformation: run 2" + kLevelled);
 }
 
 TEST(Plausibility, NamesADoubledVisit) {
@@ -211,7 +213,8 @@ TEST(Plausibility, APendulumLacksNothingAtItsEnds) {
     return judge(m).all();
   };
   EXPECT_EQ(pendulum(0), "");
-  EXPECT_EQ(pendulum(4), "target 4 (14.9000 mm): no reverse visit in run 2\nrun 2" + kLevelled);
+  EXPECT_EQ(pendulum(4),
+            "target 4 (14.9000 mm): no reverse visit in run 2\ninformation: run 2" + kLevelled);
 }
 
 // ---- units ----

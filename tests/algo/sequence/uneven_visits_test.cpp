@@ -88,13 +88,14 @@ TEST(UnevenVisits, AreTold) {
   EXPECT_EQ(told(1, [](const Visit& v) { return v.direction > 0 || v.target > 4; }),
             "targets 1 to 4 were" + reversal);
   EXPECT_EQ(told(3, [](const Visit& v) { return v.run < 3 || v.target < 8; }),
-            "run 3 lacks" + drift);
+            "information: run 3 lacks" + drift);
   EXPECT_EQ(told(3,
                  [](const Visit& v) {
                    return v.run == 1 ? v.target != 13 || v.direction > 0 : v.target < 8;
                  }),
             "runs 2, 3 lack" + drift + "; target 13 was" + reversal);
-  EXPECT_EQ(told(2, [](const Visit& v) { return v.run != v.target; }), "runs 1, 2 lack" + drift);
+  EXPECT_EQ(told(2, [](const Visit& v) { return v.run != v.target; }),
+            "information: runs 1, 2 lack" + drift);
 }
 
 TEST(UnevenVisits, BacklashOfTargetsFromOneSideDoesNotTiltTheMean) {
@@ -159,7 +160,8 @@ TEST(UnevenVisits, ATableOfRunsWithOtherTargetsHasNoStep) {
     EXPECT_NEAR(table.u_forward[0][i], 5e-6, 1e-8);
   }
   EXPECT_EQ(uneven_visits_of({longer, longer}).value(), "");
-  EXPECT_TRUE(uneven_visits_of({longer, shorter}).value().starts_with("run 2 lacks visits"));
+  EXPECT_TRUE(
+      uneven_visits_of({longer, shorter}).value().starts_with("information: run 2 lacks visits"));
 }
 
 TEST(UnevenVisits, NoTargetFromBothSidesIsTold) {

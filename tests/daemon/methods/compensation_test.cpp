@@ -137,6 +137,51 @@ TEST_F(CompensationMethods, OutOfForceNothingIsServed) {
   EXPECT_EQ(history.at("/result/history/0/deed"), "\"compensation.deactivate\"") << history.text();
 }
 
+// A measured table in force is not replaced by a simulated one unasked, and every reply says so.
+TEST_F(CompensationMethods, ASimulatedTableIsPutInForceOnlyWhenAskedForAndMarked) {
+  activate();
+  simulated_ = true;
+  const std::string run = std::to_string(add_run());
+  ASSERT_EQ(call("compensation.build", R"({"runs":[)" + run + "]}").at("/result/simulated"),
+            "true");
+  const Answer refused = call("compensation.activate", R"({"table":2,"despite_warnings":true})");
+  EXPECT_EQ(refused.code(), rpc::kChanged) << refused.text();
+  EXPECT_SAID(refused.message(), "is simulated");
+  EXPECT_SAID(refused.message(), R"(\"simulated\": true)");
+  EXPECT_EQ(call("compensation.status").at("/result/axes/X/table"), "1");
+  const Answer done =
+      call("compensation.activate", R"({"table":2,"simulated":true,"despite_warnings":true})");
+  EXPECT_EQ(done.at("/result/simulated"), "true") << done.text();
+  EXPECT_EQ(value_at(5, 1).at("/result/simulated"), "true");
+  EXPECT_EQ(call("compensation.status").at("/result/axes/X/simulated"), "true");
+}
+
+TEST_F(CompensationMethods, ADoubtfulTableInForceIsMarkedInEveryReply) {
+  for (const bool whole : {true, false}) {
+    const std::string run = std::to_string(add_run('X', whole ? "a" : "b", whole));
+    const Answer built = call("compensation.build", R"({"partial":true,"runs":[)" + run + "]}");
+    const std::string doubtful = built.at("/result/doubtful");
+    EXPECT_TRUE(whole || doubtful == "true") << built.text();
+    const Answer done = call("compensation.activate", R"({"despite_warnings":true,"table":)" +
+                                                          built.at("/result/table") + "}");
+    EXPECT_EQ(done.at("/result/doubtful"), doubtful) << done.text();
+    EXPECT_EQ(value_at(5, 1).at("/result/doubtful"), doubtful);
+    EXPECT_EQ(call("compensation.status").at("/result/axes/X/doubtful"), doubtful);
+    EXPECT_EQ(call("compensation.grid", R"({"axis":"X"})").at("/result/doubtful"), doubtful);
+  }
+}
+
+TEST_F(CompensationMethods, ATableBeyondItsLimitsIsNotBuilt) {
+  add_run();
+  const Answer refused = call("compensation.build", R"({"runs":[1],"limit_um":0.01})");
+  EXPECT_EQ(refused.code(), rpc::kBadInput) << refused.text();
+  EXPECT_SAID(refused.message(), "0.01 um, the limit");
+  EXPECT_SAID(refused.message(), "limit_um");
+  EXPECT_EQ(call("compensation.build", R"({"runs":[1],"limit_um":1e9})").code(),
+            rpc::kInvalidParams);
+  EXPECT_EQ(call("compensation.build", R"({"runs":[1]})").code(), 0);
+}
+
 TEST_F(CompensationMethods, WhatHasWarningsIsPutInForceOnlyWhenAskedFor) {
   add_run('X', "", false);
   call("compensation.build", R"({"runs":[1],"partial":true})");

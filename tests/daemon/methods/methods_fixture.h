@@ -83,6 +83,7 @@ class MethodsTest : public FedStation {
     run.header.provenance.rig_text = rig.text;
     run.header.provenance.model = "rigid";
     if (!whole) run.header.state = RunState::partial;
+    run.header.simulated = simulated_;
     std::promise<std::int64_t> id;
     EXPECT_TRUE(bench_->keeper->post(
         [&](store::Store& store) { id.set_value(store.add_run(run).value()); }));
@@ -92,6 +93,7 @@ class MethodsTest : public FedStation {
 
   std::unique_ptr<MethodsBench> bench_;
   int runs_ = 0;
+  bool simulated_ = false;  // those that are added from now on
 };
 
 }  // namespace mdof::daemon

@@ -96,6 +96,21 @@ TEST(EncoderZero, WhatWasFoundBeforeThePowerWentIsNotPut) {
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
 }
 
+TEST(EncoderZero, ItsCountGoesOnFromItsStartOrItsLastLoss) {
+  EncoderZero zero({counting()}, std::nullopt, std::nullopt, "2026-11-23T07:00:00.000Z");
+  EXPECT_FALSE(zero.counts_on_since("2026-11-23T06:59:59.999Z"));
+  EXPECT_TRUE(zero.counts_on_since("2026-11-23T07:00:00.000Z"));
+  SampleBlock block = resting_at(3);
+  zero.apply(block);
+  zero.lose("t7", "2026-11-23T08:00:00.000Z");
+  EXPECT_FALSE(zero.counts_on_since("2026-11-23T07:30:00.000Z"));
+  EXPECT_TRUE(zero.counts_on_since("2026-11-23T08:00:01.000Z"));
+  auto absolute = counting();
+  absolute.encoder.counts = false;
+  EXPECT_TRUE(EncoderZero({absolute}, std::nullopt, std::nullopt, "2026-11-23T07:00:00.000Z")
+                  .counts_on_since(""));
+}
+
 TEST(EncoderZero, WhatARestartForgotIsTold) {
   EXPECT_TRUE(begins_with(EncoderZero({counting()}).state().note, "the encoder (device \"t7\")"));
   const std::string lost =

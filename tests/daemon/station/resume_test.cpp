@@ -45,5 +45,49 @@ TEST(Continuation, EachDeviceSaysOnceThatScansWereLost) {
   EXPECT_EQ(lost, (std::vector<std::uint64_t>{1, 1, 0, 0}));
 }
 
+EncoderDatum datum(EncoderDatum::Kind kind, double offset_m) {
+  return {kind, offset_m, "t7", "2026-11-23T07:00:00Z", "me"};
+}
+
+std::string why_not(const EncoderDatum& of_run, const EncoderDatum& now, bool counts_on) {
+  const Status same = check_same_datum({7, "", of_run, ""}, now, counts_on);
+  return same ? "goes on" : same.error().message;
+}
+
+// Places 10 mm apart under one number are not mixed.
+TEST(SameDatum, ALostOneIsSetAgainFirst) {
+  using Kind = EncoderDatum::Kind;
+  for (const Kind known : {Kind::set, Kind::configured}) {
+    const std::string why = why_not(datum(known, 0.03), datum(Kind::none, 0), false);
+    EXPECT_NE(why.find("run 7 cannot go on"), std::string::npos) << why;
+    EXPECT_NE(why.find("mdof encoder set"), std::string::npos) << why;
+    EXPECT_NE(why.find("30 mm"), std::string::npos) << why;
+    // Set anew its count may begin elsewhere: the positions are the machine's again.
+    EXPECT_EQ(why_not(datum(known, 0.03), datum(Kind::set, 0.04), false), "goes on");
+  }
+  EXPECT_EQ(why_not(datum(Kind::set, 0.03), datum(Kind::set, 0.03), true), "goes on");
+}
+
+TEST(SameDatum, WithoutOneItGoesOnOnlyInTheSameCount) {
+  using Kind = EncoderDatum::Kind;
+  const EncoderDatum none = datum(Kind::none, 0);
+  EXPECT_EQ(why_not(none, none, true), "goes on");
+  EXPECT_NE(why_not(none, none, false).find("start a new run"), std::string::npos);
+  EXPECT_NE(why_not(none, datum(Kind::set, 0.01), true).find("start a new run"), std::string::npos);
+  // offset_mm holds for the count that it was meant for.
+  const EncoderDatum configured = datum(Kind::configured, 0.01);
+  EXPECT_EQ(why_not(configured, configured, true), "goes on");
+  EXPECT_NE(why_not(configured, configured, false).find("mdof encoder set"), std::string::npos);
+}
+
+TEST(SameDatum, WhatKnowsItsPositionsGoesOnUnlessSomebodyMovedThem) {
+  const EncoderDatum absolute;
+  EXPECT_EQ(why_not(absolute, absolute, true), "goes on");
+  EXPECT_NE(why_not(absolute, datum(EncoderDatum::Kind::set, 0.01), true).find("start a new run"),
+            std::string::npos);
+  EXPECT_NE(why_not(datum(EncoderDatum::Kind::set, 0.01), absolute, true).find("encoder set"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace mdof::daemon

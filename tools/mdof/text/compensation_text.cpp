@@ -75,10 +75,11 @@ std::string state_of(std::int64_t generation) {
 
 }  // namespace
 
-std::string table_document(const CompensationTable& t, std::int64_t generation) {
+std::string table_document(const CompensationTable& t, std::int64_t generation, bool doubtful) {
   JsonWriter json;
   json.begin_object();
   write_table_members(json, t);
+  json.field("doubtful", doubtful);
   write_state(json, generation);
   json.key("points").begin_array();
   for (std::size_t i = 0; i < t.position_m.size(); ++i) write_table_row(json, t, i);

@@ -9,8 +9,8 @@
 
 namespace mdof::tools {
 
-// `generation`: 0 where the table is not in force.
-std::string table_document(const CompensationTable& table, std::int64_t generation);
+// `generation`: 0 where the table is not in force; `doubtful`: by its runs.
+std::string table_document(const CompensationTable& table, std::int64_t generation, bool doubtful);
 std::string table_text(const CompensationTable& table, std::int64_t generation);
 
 std::string list_document(const std::vector<CompensationTable>& tables,

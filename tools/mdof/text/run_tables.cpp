@@ -6,6 +6,7 @@
 
 #include "daemon/measure/replay/request_json.h"
 #include "schema/axis.h"
+#include "schema/severity.h"
 #include "tools/mdof/text/plausibility_text.h"
 #include "tools/mdof/text/text_table.h"
 #include "tools/mdof/text/warnings.h"
@@ -14,6 +15,12 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::size_t kLabel = 11;  // "recording  "
+
+const char* label_of(Severity severity) {
+  return severity == Severity::information ? "note"
+         : severity == Severity::invalid   ? "INVALID"
+                                           : "warning";
+}
 
 std::string labelled(std::string label, const std::string& text, std::size_t width) {
   label.resize(kLabel, ' ');
@@ -113,7 +120,7 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   if (h.temperature) out += labelled("at", temperature_text(*h.temperature), width);
   out += labelled("software", from.software_version, width);
   for (const auto& warning : summarised(h.warnings, all_warnings))
-    out += labelled("warning", warning, width);
+    out += labelled(label_of(severity_of(warning)), std::string(words_of_sentence(warning)), width);
   for (const auto& note : h.notes) out += labelled("note", note, width);
   if (!result_sha256.empty()) out += labelled("sha256", result_sha256, width);
   return out;

@@ -3,6 +3,8 @@
 #include <cctype>
 #include <map>
 
+#include "schema/severity.h"
+
 namespace mdof::tools {
 namespace {
 
@@ -31,8 +33,9 @@ std::vector<std::string> summarised(const std::vector<std::string>& warnings, bo
     const std::size_t of_kind = count[kind], turn = ++seen[kind];
     if (of_kind <= kKept + 1 || turn <= kKept) kept.push_back(warning);
     if (of_kind > kKept + 1 && turn == kKept)
-      kept.push_back("and " + std::to_string(of_kind - kKept) +
-                     " more like it; --all-warnings shows them");
+      kept.push_back(with_severity(
+          severity_of(warning),
+          "and " + std::to_string(of_kind - kKept) + " more like it; --all-warnings shows them"));
   }
   return kept;
 }

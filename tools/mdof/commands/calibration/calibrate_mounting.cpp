@@ -74,9 +74,9 @@ Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& 
   for (const Point& stop : found.stops)
     traverse.stops.push_back({sign * stop.position_m, stop.probe_m, stop.probe_u_m});
   if (traverse.stops.size() < 2)
-    return bad_input(log.file +
-                     ": has one stop only, which shows no slope; stop at two places or "
-                     "more, some mm apart");
+    return bad_input(log.file + ": has one stop only, which shows no slope. " +
+                     hazard_of(rig, log.axis) +
+                     "Stop at two places or more, as far apart as that allows");
   return traverse;
 }
 
@@ -184,9 +184,14 @@ Command calibrate_mounting_command() {
   return {.name = "calibrate mounting",
           .summary = "Find where the probes sit, from a target clamped at several tilts",
           .footer =
+              "HAZARD: a traverse along an axis along which probes measure drives the target's\n"
+              "face into them: on a rig of X, a traverse of Y into D and E, whose range may end\n"
+              "after 100 um. A tilt comes nearer by 1 um for each mm and mrad. First, for each\n"
+              "rig: mdof clearance RIG.toml. Take the probes that it names out of the way, or\n"
+              "leave that traverse out.\n"
               "Clamp the target at three tilts or more, some mrad each, about different axes,\n"
-              "each tilt with its opposite. At each, move X and Y by some mm with five stops\n"
-              "or more, and record each traverse as a log of its own.\n"
+              "each tilt with its opposite. At each, move the axes that pass by all probes by\n"
+              "some mm with five stops or more, and record each traverse as a log of its own.\n"
               "Example:\n"
               "  mdof calibrate mounting X=x1.csv,Y=y1.csv X=x2.csv,Y=y2.csv X=x3.csv,Y=y3.csv \\\n"
               "    --rig rig_X.toml --out mounting.toml",

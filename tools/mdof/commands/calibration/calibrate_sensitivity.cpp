@@ -139,6 +139,8 @@ Command calibrate_sensitivity_command() {
   return {.name = "calibrate sensitivity",
           .summary = "Find a probe's sensitivity against the encoder of the approaching axis",
           .footer =
+              "HAZARD: the target is moved towards the probe itself: go by small steps, stay\n"
+              "within the range, and see where it ends first: mdof clearance RIG.toml, mdof live.\n"
               "Move the target towards the probe in steps over its range, and stop at each.\n"
               "What the encoder's scale is wrong by is in the result.\n"
               "Example:\n"

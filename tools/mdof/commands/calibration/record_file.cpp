@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "algo/model/clearance.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
 #include "schema/base/output/output_files.h"
@@ -68,6 +69,12 @@ Status write_record(const std::string& file, const std::string& text) {
                                       ": is there already, and a record is never changed; give "
                                       "another name with --out");
   return write_file(file, text, Existing::refuse);
+}
+
+std::string hazard_of(const Rig& rig, Axis axis) {
+  const auto motions = algo::motion_clearances(rig);
+  if (!motions) return "";
+  return algo::clearance_text((*motions)[static_cast<std::size_t>(axis)]) + ". ";
 }
 
 double offset_um_with(const Probe& probe, double zero_m) {

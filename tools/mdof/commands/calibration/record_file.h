@@ -27,6 +27,9 @@ Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
 // Error: the file is there already: a record is never changed.
 Status write_record(const std::string& file, const std::string& text);
 
+// What a motion of the target along this axis may touch, as a sentence before one that asks for it.
+std::string hazard_of(const Rig& rig, Axis axis);
+
 // Key of the rig's offset for a zero that was found: a gap's raw reading counts the other way.
 double offset_um_with(const Probe& probe, double zero_m);
 

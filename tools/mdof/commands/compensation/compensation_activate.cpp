@@ -15,18 +15,20 @@ namespace {
 struct ActivateCommand {
   std::string database, socket;
   std::int64_t table = 0;
-  bool despite_warnings = false, json = false;
+  daemon::Consent consent;
+  bool json = false;
 };
 
 Result<std::string> activated(const ActivateCommand& command) {
   const std::string table = "\"table\":" + std::to_string(command.table);
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
-  const std::string despite = command.despite_warnings ? ",\"despite_warnings\":true" : "";
-  if (mdofd) return mdofd->call("compensation.activate", "{" + table + despite + "}");
+  const std::string consent =
+      std::string(command.consent.simulated ? ",\"simulated\":true" : "") +
+      (command.consent.despite_warnings ? ",\"despite_warnings\":true" : "");
+  if (mdofd) return mdofd->call("compensation.activate", "{" + table + consent + "}");
   MDOF_TRY(store::Store store, open_to_write(command.database));
   const Deed deed = daemon::deed_now("compensation.activate", daemon::this_process());
-  MDOF_TRY(const auto done,
-           daemon::activate_table(store, {command.table, command.despite_warnings, deed}));
+  MDOF_TRY(const auto done, daemon::activate_table(store, {command.table, command.consent, deed}));
   return store::activation_json(table, done);
 }
 
@@ -41,8 +43,7 @@ Action declare_activate(CLI::App& command) {
   const auto o = std::make_shared<ActivateCommand>();
   add_database_option(command, o->database);
   command.add_option("TABLE", o->table, "Number of the table")->required()->type_name("");
-  command.add_flag("--despite-warnings", o->despite_warnings,
-                   "Also a table whose runs carry warnings");
+  add_consent_flags(command, o->consent, "a table");
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return activate(*o); };

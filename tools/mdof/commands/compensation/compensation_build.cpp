@@ -22,6 +22,7 @@ struct BuildCommand {
   std::vector<std::string> words;                 // runs as they were given
   std::vector<std::int64_t> runs;
   bool keep_slope = false, partial = false, json = false, all_warnings = false;
+  LimitOptions limits;
 };
 
 Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
@@ -31,6 +32,7 @@ Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
                                command.partial,
                                {},
                                daemon::deed_now("compensation.build", daemon::this_process())};
+  MDOF_TRY(request.limits, command.limits.limits());
   if (!command.reference.empty())
     reference_from(command.reference, request.reference.emplace());  // the option takes no other
   return daemon::build_table(store, request);
@@ -46,6 +48,8 @@ Result<daemon::BuiltTable> build_there(rpc::Client& mdofd, const BuildCommand& c
   if (command.keep_slope) params.field("keep_slope", true);
   if (!command.reference.empty()) params.field("reference", command.reference);
   if (command.partial) params.field("partial", true);
+  if (command.limits.um) params.field("limit_um", *command.limits.um);
+  if (command.limits.um_per_mm) params.field("limit_um_per_mm", *command.limits.um_per_mm);
   params.end_object();
   MDOF_TRY(const std::string reply, mdofd.call("compensation.build", params.text()));
   simdjson::dom::parser parser;
@@ -55,6 +59,7 @@ Result<daemon::BuiltTable> build_there(rpc::Client& mdofd, const BuildCommand& c
   built.notes = texts(json, "notes");
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(built.table, store.table(integer(json, "table").value_or(0)));
+  MDOF_TRY(built.doubts, daemon::doubts_of_table(store, built.table));
   return built;
 }
 
@@ -71,18 +76,18 @@ Status build(const BuildCommand& asked) {
   MDOF_CHECK(choose_runs(command));
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
-  const auto& [table, warnings, notes] = built;
+  const auto& [table, warnings, notes, doubts] = built;
   for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
   for (const auto& note : notes) say("note: " + note);
-  MDOF_CHECK(command.json ? write_line(with_texts(with_warnings(table_document(table, 0), warnings),
-                                                  "notes", notes))
-                          : write_out(table_text(table, 0)));
-  if (table.has_positioning()) {
-    say("stored; a controller gets it by: mdof compensation export " + std::to_string(table.id));
-    return {};
-  }
-  say("stored; put it in force with: mdof compensation activate " + std::to_string(table.id) +
-      (warnings.empty() && notes.empty() ? "" : " --despite-warnings"));
+  const std::string document = table_document(table, 0, !doubts.empty());
+  MDOF_CHECK(command.json
+                 ? write_line(with_texts(with_warnings(document, warnings), "notes", notes))
+                 : write_out(table_text(table, 0)));
+  const std::string named = std::to_string(table.id) + (table.simulated ? " --simulated" : "") +
+                            (doubts.empty() ? "" : " --despite-warnings");
+  say(table.has_positioning()
+          ? "stored; a controller gets it by: mdof compensation export " + named
+          : "stored; put it in force with: mdof compensation activate " + named);
   return {};
 }
 
@@ -96,6 +101,7 @@ Action declare_build(CLI::App& command) {
   command.add_flag("--partial", o->partial, "Take partial runs as well");
   add_reference_option(command, o->reference)
       ->description("fixture, carriage or tool [default: the rig's tool point, else the fixture]");
+  add_limit_options(command, o->limits);
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   add_all_warnings_flag(command, o->all_warnings);

@@ -92,7 +92,9 @@ std::string exported_json(const ExportedTables& exported, const std::vector<std:
   JsonWriter json;
   json.begin_object().field("format", exported.format->name).field("sense", exported.format->sense);
   json.field("source", exported.format->source);
-  json.field("sign_confirmed", exported.format->sign_confirmed).key("tables").begin_array();
+  json.field("sign_confirmed", exported.format->sign_confirmed);
+  json.field("simulated", exported.simulated).field("doubtful", exported.doubtful);
+  json.key("tables").begin_array();
   for (const auto& table : exported.tables) json.value(table.id);
   json.end_array();
   write_strings(json, "files", names);

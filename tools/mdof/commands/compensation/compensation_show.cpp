@@ -1,6 +1,7 @@
 // mdof compensation show: a table, by default the one in force.
 #include <CLI/CLI.hpp>
 
+#include "daemon/measure/gate/gate.h"
 #include "schema/axis.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/compensation/in_force.h"
@@ -9,6 +10,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/text/compensation_text.h"
+#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -42,9 +44,19 @@ Status show(const ShowTableCommand& command) {
   if (generation == 0)
     warn("table " + std::to_string(table.id) + " of axis " + letter(table.axis) +
          " is not in force");
+  // A run that cannot be read is a doubt, too.
+  const auto doubts = daemon::doubts_of_table(store, table);
+  const bool doubtful = !doubts || !doubts->empty();
+  if (!doubts) warn(doubts.error().message);
+  for (const auto& doubt : summarised(doubts.value_or(std::vector<std::string>()))) warn(doubt);
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");
-  if (command.csv) return write_out(table_csv(table));
-  return command.json ? write_line(table_document(table, generation))
+  std::string marks;
+  for (const auto& mark :
+       daemon::marks_of({"table " + std::to_string(table.id), table.simulated,
+                         doubts.value_or(std::vector<std::string>{"a run of it cannot be read"})}))
+    marks += "# " + mark + "\n";
+  if (command.csv) return write_out(marks + table_csv(table));
+  return command.json ? write_line(table_document(table, generation, doubtful))
                       : write_out(table_text(table, generation));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "schema/base/json_writer.h"
+#include "schema/base/number/number_text.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/compensation/in_force.h"
@@ -26,24 +27,28 @@ Status check_request(const ExportRequest& request) {
     return fail(ErrorCode::usage, "which table? Give its number; mdof compensation list has them");
   if (!std::isfinite(request.tolerance_um) || !std::isfinite(request.home_mm))
     return fail(ErrorCode::usage, "--tolerance-um and --home-mm must be finite numbers");
+  if (!(request.residual_um > 0 && request.residual_um <= 1000))
+    return fail(ErrorCode::usage, "--residual-um must be above 0 and at most 1000");
+  if (!(request.residual_percent > 0 && request.residual_percent <= 100))
+    return fail(ErrorCode::usage, "--residual-percent must be above 0 and at most 100");
   return {};
 }
 
 // What nobody may take for a measured table in force is refused, or marked where it is asked for.
-Status judge_table(const CompensationTable& table, std::int64_t generation,
-                   const ExportRequest& request, std::vector<std::string>& marks) {
+Status judge_table(store::Store& store, const CompensationTable& table,
+                   const ExportRequest& request, ExportedTables& out) {
   const std::string name = "table " + std::to_string(table.id);
   if (table_sha256(table) != table.sha256)
     return bad_input(name + " is not what was built (its hash differs); build it again");
   if (table.without_stated_point)
     return bad_input(name + " does not say at which point it holds; build it again from its runs");
-  if (table.simulated) {
-    if (!request.simulated)
-      return bad_input(name +
-                       " is simulated: no machine was measured; --simulated exports it, and "
-                       "says so in the file");
-    marks.push_back("SIMULATED: " + name + ": no machine was measured");
-  }
+  MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
+  MDOF_CHECK(daemon::check_gate(judged, request.consent, "it is not exported"));
+  auto& marks = out.options.marks;
+  for (auto& mark : daemon::marks_of(judged)) marks.push_back(std::move(mark));
+  out.simulated = out.simulated || judged.simulated;
+  out.doubtful = out.doubtful || !judged.doubts.empty();
+  MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   // Positioning is never in force: mdofd does not serve it.
   if (generation > 0 || table.has_positioning()) return {};
   if (!request.not_in_force)
@@ -77,12 +82,21 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
       .add_option("--tolerance-um", request.tolerance_um,
                   "Leave out points that straight lines come as near to as this (angles: urad)")
       ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--residual-um", request.residual_um,
+                  "Most that may be left of an error beside the tolerance (angles: urad)")
+      ->capture_default_str();
+  command
+      .add_option("--residual-percent", request.residual_percent,
+                  "Most that may be left of an error, in percent of it")
+      ->capture_default_str();
+  add_limit_options(command, request.limits);
   auto* home = command.add_option("--home-mm", request.home_mm,
                                   "Where the axis is homed: the correction is made 0 there");
   home->each([&request](const std::string&) { request.home_given = true; });
   command.add_flag("--cut-range", request.cut_range,
                    "Of a table with missing values, the longest range without");
-  command.add_flag("--simulated", request.simulated, "Also a simulated table, marked as such");
+  add_consent_flags(command, request.consent, "a table, marked as such,");
   command.add_flag("--not-in-force", request.not_in_force,
                    "Also a table that is not in force, marked as such");
   command.add_flag("--unverified-sign", request.unverified_sign,
@@ -95,14 +109,17 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   ExportedTables out;
   MDOF_TRY(out.format, controllers::format_named(request.format));
   out.options.tolerance_m = from_um(request.tolerance_um);
+  out.options.residual_m = from_um(request.residual_um);
+  out.options.residual_share = request.residual_percent / 100;
   out.options.cut_range = request.cut_range;
+  MDOF_TRY(const algo::TableLimits limits, request.limits.limits());
   if (request.home_given) out.options.home_m = from_mm(request.home_mm);
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
   MDOF_TRY(store::Store store, open_to_read(request.database));
   for (const std::int64_t id : request.tables) {
     MDOF_TRY(CompensationTable table, store.table(id));
-    MDOF_TRY(const std::int64_t generation, generation_of(store, table));
-    MDOF_CHECK(judge_table(table, generation, request, out.options.marks));
+    MDOF_CHECK(judge_table(store, table, request, out));
+    MDOF_CHECK(algo::check_limits(table, limits));
     out.tables.push_back(std::move(table));
   }
   MDOF_TRY(out.files, out.format->write(out.tables, out.options));
@@ -125,7 +142,9 @@ void write_control(JsonWriter& json, const CheckedError& e, const Control& contr
 
 std::string check_json(const controllers::Check& check) {
   JsonWriter json;
-  json.begin_object().field("passed", check.passed()).key("errors").begin_array();
+  json.begin_object().field("passed", check.passed());
+  json.field("most_residual_um", check.most_residual_m * 1e6);
+  json.field("most_residual_percent", check.share * 100).key("errors").begin_array();
   for (const CheckedError& e : check.errors) {
     const std::string unit = e.angle ? "_urad" : "_um";
     json.begin_object().field("error", e.error).field("cancels", e.cancels);
@@ -155,7 +174,10 @@ std::string check_text(const controllers::Check& check) {
                fixed(e.before * 1e6, 4), fixed(e.residual * 1e6, 4), fixed(e.bound * 1e6, 4),
                e.cancels ? "yes" : "NO", seen});
   }
-  std::string text = table.text();
+  std::string text = table.text() + "allowed: at most " +
+                     plain_number(check.most_residual_m * 1e6) + " µm (µrad) and " +
+                     plain_number(check.share * 100) +
+                     " % of before; --residual-um, --residual-percent\n";
   for (const std::string& error : check.not_judged)
     text += error + ": not judged: which way its correction goes is not known\n";
   return text;

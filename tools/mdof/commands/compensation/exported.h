@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/controllers/check.h"
 #include "schema/base/result.h"
+#include "tools/mdof/options.h"
 
 namespace CLI {
 class App;
@@ -18,21 +20,24 @@ namespace mdof::tools {
 struct ExportRequest {
   std::string database, format;
   std::vector<std::int64_t> tables;
-  double tolerance_um = 0, home_mm = 0;
-  bool home_given = false, cut_range = false, simulated = false, not_in_force = false,
-       unverified_sign = false;
+  double tolerance_um = 0, home_mm = 0, residual_um = 1, residual_percent = 20;
+  LimitOptions limits;
+  bool home_given = false, cut_range = false, not_in_force = false, unverified_sign = false;
+  daemon::Consent consent;
 };
 void add_export_options(CLI::App& command, ExportRequest& request);
 
 struct ExportedTables {
   const controllers::Format* format = nullptr;
   std::vector<CompensationTable> tables;
+  bool simulated = false, doubtful = false;  // any of the tables
   controllers::ExportOptions options;
   controllers::Export files;
   controllers::Check check;
 };
-// Errors: a format, an option or a table that is not there; a table that is simulated, not in force
-// or whose sign is not confirmed, unless that is asked for; what the format cannot hold.
+// Errors: a format, an option or a table that is not there; a table that is simulated, doubtful,
+// not in force or whose sign is not confirmed, unless that is asked for; what the format cannot
+// hold.
 Result<ExportedTables> exported_tables(const ExportRequest& request);
 
 std::string check_json(const controllers::Check& check);

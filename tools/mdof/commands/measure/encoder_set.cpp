@@ -49,7 +49,10 @@ Action declare_encoder_set(CLI::App& command) {
 Command encoder_set_command() {
   return {.name = "encoder set",
           .summary = "Say where the axis stands now",
-          .footer = "Example:\n  mdof encoder set X 12.5",
+          .footer =
+              "HAZARD: before the axis is driven to a known place with the fixture mounted, see\n"
+              "which motions drive the target into a probe: mdof clearance RIG.toml.\n"
+              "Example:\n  mdof encoder set X 12.5",
           .declare = declare_encoder_set};
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "daemon/history.h"
+#include "daemon/measure/gate/gate.h"
 #include "daemon/measure/imported/import.h"
 #include "schema/imported/series.h"
 #include "schema/units.h"
@@ -21,6 +22,8 @@ struct ImportCommand {
   std::string database, axis;
   daemon::ImportRequest request;
   std::optional<double> u_um, u_urad;
+  LimitOptions limits;
+  daemon::Consent consent;
   bool json = false;
 };
 
@@ -57,7 +60,11 @@ Status take_u(ImportCommand& command) {
 Status import(ImportCommand command) {
   command.request.axis = *axis_from(command.axis);  // the option takes no other
   MDOF_CHECK(take_u(command));
+  MDOF_TRY(command.request.limits, command.limits.limits());
   MDOF_TRY(Run run, daemon::imported_run(command.request));
+  MDOF_CHECK(
+      daemon::check_gate({command.request.file, false, daemon::doubts_among(run.header.warnings)},
+                         command.consent, "it is not stored"));
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id,
            store.add_run(run, daemon::deed_now("run.import", daemon::this_process())));
@@ -93,6 +100,9 @@ Action declare_import(CLI::App& command) {
       ->check([](const std::string& note) {
         return std::string(note.size() <= 1024 ? "" : "a note has at most 1024 bytes");
       });
+  add_limit_options(command, o->limits);
+  command.add_flag("--despite-warnings", o->consent.despite_warnings,
+                   "Also a file that is doubtful");
   add_database_option(command, o->database);
   add_json_flag(command, o->json);
   return [o] { return import(*o); };

@@ -77,7 +77,8 @@ Command separate_reversal_command() {
               "target that was turned about the axis that moves.\n"
               "Examples:\n"
               "  mdof separate reversal 4 5 --surface side --probe D\n"
-              "  mdof separate reversal a.csv b.csv --surface side --rig-toml >> rig_X.toml",
+              "  mdof separate reversal a.csv b.csv --moves target --surface side --rig-toml \\\n"
+              "    >> rig_X.toml",
           .declare = declare_separate_reversal};
 }
 

@@ -91,8 +91,8 @@ Command separate_shift_command() {
           "the axis that moves, and not shifted, only offset and slope remain unseen.\n"
           "Examples:\n"
           "  mdof separate shift 4 5 6 --shift-mm 0 5 15 --surface top\n"
-          "  mdof separate shift a.csv b.csv c.csv --shift-mm 0 5 0 --turned 3 --surface side "
-          "--json",
+          "  mdof separate shift a.csv b.csv c.csv --shift-mm 0 5 0 --turned 3 "
+          "--moves target --surface side --json",
       .declare = declare_separate_shift};
 }
 

@@ -15,8 +15,14 @@ namespace mdof::tools {
 namespace {
 
 // The map is subtracted as it is: what is unseen would be taken to be flat.
-Status check_map(const SeparationRecord& record, const OutputOptions& options) {
-  if (!options.rig_toml || options.despite_unseen || record.result.target.whole()) return {};
+Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
+                 const OutputOptions& options) {
+  if (!options.rig_toml) return {};
+  if (const Status passed =
+          check_gate(judged, options.consent, "there is nothing to put into a rig");
+      !passed)
+    return fail(ErrorCode::check, passed.error().message);
+  if (options.despite_unseen || record.result.target.whole()) return {};
   return fail(ErrorCode::check,
               "these set-ups do not see all of the target's height (" +
                   unseen_text(record.result.target) +
@@ -41,6 +47,7 @@ void add_output_options(CLI::App& command, OutputOptions& o) {
   auto* toml = command.add_flag("--rig-toml", o.rig_toml,
                                 "Print the target's height as a [[plane]] of a rig");
   toml->excludes(command.get_option("--csv"))->excludes(command.get_option("--json"));
+  add_consent_flags(command, o.consent, "a map");
   command
       .add_flag("--despite-unseen", o.despite_unseen,
                 "Print it though more than offset and slope is unseen")
@@ -56,8 +63,14 @@ Status separate_and_print(LoadedSources loaded, const char* method, const Output
   record.result = std::move(*separated);
   auto& warnings = loaded.warnings;
   warnings.insert(warnings.end(), record.result.warnings.begin(), record.result.warnings.end());
+  auto& doubts = loaded.doubts;
+  doubts.insert(doubts.end(), warnings.begin(), warnings.end());
   for (const auto& warning : summarised(warnings, options.all_warnings)) warn(warning);
-  MDOF_CHECK(check_map(record, options));
+  const daemon::Judged judged{"this separation", record.simulated,
+                              daemon::doubts_among(loaded.doubts)};
+  MDOF_CHECK(check_map(record, judged, options));
+  record.marks = daemon::marks_of(judged);
+  record.doubtful = !judged.doubts.empty();
   if (options.rig_toml) return write_out(separation_plane_toml(record));
   if (options.csv) return write_out(separation_csv(record));
   if (options.json) return write_line(with_warnings(separation_json(record), warnings));

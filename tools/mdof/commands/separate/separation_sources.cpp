@@ -74,6 +74,10 @@ Status add_file(const SourceOptions& options, const std::string& file, LoadedSou
 Result<LoadedSources> load_files(const SourceOptions& options) {
   if (!options.probe.empty())
     return fail(ErrorCode::usage, "--probe is for runs; a file has one series only");
+  if (options.moves.empty())
+    return fail(ErrorCode::usage,
+                "missing option --moves: a file does not say which body the axis moves, target or "
+                "fixture, and the sign of the target's height depends on it");
   const Sides sides{options.moves == "fixture", options.travel == "-"};
   LoadedSources loaded = nothing_yet(options, {*axis_from(options.axis), sides});
   loaded.request.at.place_m = from_mm(options.at_mm);
@@ -174,6 +178,7 @@ Result<LoadedSources> load_runs(const SourceOptions& options) {
   std::vector<Vec3> probe_at;
   for (const Run& run : runs) MDOF_CHECK(add_run(store, run, options, loaded, probe_at));
   loaded.warnings = algo::inherited_warnings(algo::all_of(runs));
+  for (const std::string& note : daemon::datum_doubts(runs)) loaded.doubts.push_back(note);
   loaded.record.probe = options.probe;
   if (!probe_at.empty()) {
     loaded.request.at.place_m = probe_at[0][static_cast<std::size_t>(loaded.record.axis)];
@@ -212,9 +217,9 @@ void add_source_options(CLI::App& command, SourceOptions& o) {
   const auto of_files = [&o](CLI::Option* option) {
     return option->each([&o](const std::string&) { o.sides_given = true; });
   };
-  of_files(command.add_option("--moves", o.moves, "Of files, as in a rig: target or fixture"))
-      ->check(CLI::IsMember({"target", "fixture"}))
-      ->capture_default_str();
+  of_files(command.add_option("--moves", o.moves,
+                              "Of files, which body the axis moves: target or fixture"))
+      ->check(CLI::IsMember({"target", "fixture"}));
   of_files(command.add_option("--travel", o.travel, "Of files, as in a rig: + or -"))
       ->check(CLI::IsMember({"+", "-"}))
       ->capture_default_str();

@@ -18,8 +18,8 @@ namespace mdof::tools {
 struct SourceOptions {
   std::vector<std::string> sources;  // numbers of runs or latest, else names of files
   std::string surface, turned_about, database;
-  std::string probe;                                       // runs
-  std::string axis = "X", moves = "target", travel = "+";  // files
+  std::string probe;                            // runs
+  std::string axis = "X", moves, travel = "+";  // files
   bool axis_given = false, sides_given = false;
   double at_mm = 0;
   std::optional<double> u_um;
@@ -34,6 +34,7 @@ struct LoadedSources {
   algo::SeparationRequest request;
   SeparationRecord record;            // without its result
   std::vector<std::string> warnings;  // of the runs, and what they have in them
+  std::vector<std::string> doubts;    // of the runs, beside these: an encoder without datum
 };
 
 // Errors: files beside runs, runs of several axes or sides, a rig that subtracts a height map

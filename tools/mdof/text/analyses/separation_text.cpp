@@ -75,11 +75,18 @@ double mean_u(const SeenSeries& series) {
   return std::sqrt(sum / static_cast<double>(series.u_m.size()));
 }
 
+// The words by which mdof knows a file of simulated data again stay as they are.
+std::string marks_text(const SeparationRecord& record) {
+  std::string text = record.simulated ? "# simulated data: no machine was measured\n" : "";
+  for (const std::string& mark : record.marks) text += "# " + mark + "\n";
+  return text;
+}
+
 std::string provenance_comment(const SeparationRecord& record) {
   std::string text = "# Height of the " + std::string(to_string(record.surface)) +
                      " surface of the target, separated from the machine's " + record.error +
                      " (mdof separate " + record.method + ", " + record.created_utc + ")\n";
-  if (record.simulated) text += "# simulated data: no machine was measured\n";
+  text += marks_text(record);
   if (!record.probe.empty()) text += "# as probe " + record.probe + " alone reads it\n";
   for (const SeparationSource& s : record.sources) {
     std::string name = s.name;
@@ -129,7 +136,7 @@ std::string separation_csv(const SeparationRecord& record) {
   };
   add("machine", record.result.machine);
   add("target", record.result.target);
-  return csv.take();
+  return marks_text(record) + csv.take();
 }
 
 std::string separation_plane_toml(const SeparationRecord& record) {

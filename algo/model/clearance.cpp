@@ -1,0 +1,80 @@
+#include "algo/model/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algo/model/fixture.h"
+#include "schema/base/number/number_text.h"
+#include "schema/rig/physics.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kPassesBy = 1e-4;  // of the travel: 100 um over a metre
+
+// Of the surface along the probe's line, for the target's travel along + of a machine axis.
+double approach_of(const FixtureProbe& probe, const Vec3& along) {
+  const Eigen::Vector3d v(along[0], along[1], along[2]);
+  return probe.n_C.dot(v) / probe.n_C.dot(probe.u_M);
+}
+
+ProbeInTheWay in_the_way(const Rig& rig, std::size_t k, double approach) {
+  const Probe& probe = rig.probes[k];
+  ProbeInTheWay out{probe.id, probe.range_m / 2 / std::abs(approach), {}, 0};
+  double standoff_m = rig.physics ? rig.physics->probes.at(k).standoff_m : 0;
+  if (!(standoff_m > 0) && probe.calibration.reads_gap)
+    standoff_m = from_um(probe.calibration.offset_um);  // what it reads at the nominal surface
+  if (standoff_m > 0) out.contact_m = standoff_m / std::abs(approach);
+  // A gap that is known, or read, is that of a probe which stands where its direction points.
+  if (standoff_m > 0 || probe.calibration.reads_gap) out.towards = approach > 0 ? 1 : -1;
+  return out;
+}
+
+std::string um(double m) {
+  return plain_number(to_um(m)) + " um";
+}
+
+}  // namespace
+
+Result<std::array<MotionClearance, 3>> motion_clearances(const Rig& rig) {
+  MDOF_TRY(const Fixture fixture, make_fixture(rig));
+  std::array<MotionClearance, 3> all;
+  for (std::size_t a = 0; a < 3; ++a) {
+    all[a].axis = static_cast<Axis>(a);
+    Vec3 along{};
+    along[a] = 1;
+    along = to_local(rig.axis, along);
+    for (std::size_t k = 0; k < fixture.probes.size(); ++k) {
+      const double approach = approach_of(fixture.probes[k], along);
+      if (std::abs(approach) > kPassesBy) all[a].probes.push_back(in_the_way(rig, k, approach));
+    }
+  }
+  return all;
+}
+
+std::string clearance_text(const MotionClearance& motion) {
+  const std::string axis(1, letter(motion.axis));
+  if (motion.probes.empty())
+    return axis +
+           " passes by all probes: a target that is tilted by 1 mrad comes nearer to them by "
+           "1 um for each mm of travel";
+  std::string ids, senses, contact;
+  double least_m = motion.probes.front().range_m;
+  for (const ProbeInTheWay& probe : motion.probes) {
+    ids += (ids.empty() ? "" : ", ") + probe.id;
+    least_m = std::min(least_m, probe.range_m);
+    senses += (senses.empty() ? "" : ", ") + probe.id +
+              (probe.towards == 0  ? " either way"
+               : probe.towards > 0 ? " along +" + axis
+                                   : " along -" + axis);
+    if (probe.contact_m)
+      contact += (contact.empty() ? "; contact with " : ", ") + probe.id + " after " +
+                 um(*probe.contact_m);
+  }
+  return "HAZARD: " + axis + " drives the target's face into the probes " + ids + " (" + senses +
+         "): the range ends after " + um(least_m) + contact +
+         "; do not move further, or take them out of the way first";
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,73 @@
+#include "algo/compensation/table_limits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+std::string refusal(bool angle, std::vector<double> values, const TableLimits& limits = {}) {
+  const Status done = check_limits("EXX forward", angle, {0, 0.01, 0.04}, values, limits);
+  return done ? "" : done.error().message;
+}
+
+void expect_said(const std::string& text, std::initializer_list<const char*> parts) {
+  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST(TableLimits, ValueAndSlopeUpToTheLimitPass) {
+  EXPECT_EQ(refusal(false, {0, 0.5e-3, 1e-3}), "");  // 50 um/mm, 1 mm
+  EXPECT_EQ(refusal(true, {0, 5e-3, 10e-3}), "");
+  EXPECT_EQ(refusal(false, {kNaN, kNaN, kNaN}), "");
+}
+
+TEST(TableLimits, WhatIsBeyondIsNamedWithItsPlaceTheLimitAndTheOption) {
+  expect_said(refusal(false, {0, 0.2e-3, 1.01e-3}),
+              {"EXX forward", "1010 um at 40 mm", "1000 um, the limit", "--limit-um"});
+  expect_said(refusal(false, {0, 0.51e-3, 0.5e-3}),
+              {"51 um/mm from 0 mm to 10 mm", "limit is 50 um/mm", "--limit-um-per-mm"});
+  expect_said(refusal(true, {0, -5.1e-3, 0}), {"-510 urad/mm", "500 urad/mm"});
+  expect_said(refusal(false, {0, kNaN, -2.4e-3}), {"-2400 um at 40 mm"});
+  expect_said(refusal(false, {0, 1e302, 0}), {"at 10 mm", "the limit"});
+  expect_said(refusal(false, {0, std::numeric_limits<double>::infinity(), 0}), {"at 10 mm"});
+  // Over a hole in between.
+  expect_said(refusal(true, {-9e-3, kNaN, 9.9e-3 + 3e-3}), {"the limit"});
+}
+
+TEST(TableLimits, AreRaisedByTheirOptionsAndNotBeyondReason) {
+  const double um = 3000, slope = 200;
+  const auto raised = TableLimits::asked(&um, &slope);
+  ASSERT_TRUE(raised);
+  EXPECT_EQ(refusal(false, {0, 1.9e-3, 2.9e-3}, *raised), "");
+  expect_said(refusal(false, {0, 1.9e-3, 3.1e-3}, *raised), {"3100 um"});
+  for (const double wrong : {0.0, -1.0, 1e6, std::numeric_limits<double>::infinity(), kNaN}) {
+    EXPECT_FALSE(TableLimits::asked(&wrong, nullptr)) << wrong;
+    EXPECT_FALSE(TableLimits::asked(nullptr, &wrong)) << wrong;
+  }
+}
+
+TEST(TableLimits, HoldForEachErrorOfATableBothWays) {
+  const auto refused = [](auto spoil) {
+    CompensationTable table;
+    table.position_m = {0, 0.01};
+    for (auto* group : {&table.forward, &table.reverse}) group->fill({0, 1e-6});
+    spoil(table);
+    const Status done = check_limits(table, {});
+    return done ? "" : done.error().message;
+  };
+  EXPECT_EQ(refused([](auto&) {}), "");
+  expect_said(refused([](auto& t) { t.forward[0][1] = 2e-3; }), {"EYX forward: 2000 um"});
+  expect_said(refused([](auto& t) { t.reverse[4][0] = 0.02; }), {"ECX reverse: 20000 urad"});
+  expect_said(refused([](auto& t) {
+                t.positioning.forward = {0, 1e-6};
+                t.positioning.reverse = {0, 6e-4};
+              }),
+              {"EXX reverse: changes by 60 um/mm"});
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,77 @@
+#include "algo/model/clearance.h"
+
+#include <gtest/gtest.h>
+
+namespace mdof::algo {
+namespace {
+
+// The default fixture of X: A, B, C look along Z at the top, D, E along Y at the side.
+std::string probe(const std::string& id, const std::string& position, const std::string& measures,
+                  const std::string& more = "") {
+  return "[[probe]]\nid = \"" + id + "\"\nposition_mm = " + position + "\n" + measures +
+         "\nrange_um = 200\n" + more;
+}
+
+Rig rig_of(const std::string& side, const std::string& axis = "X", const std::string& more = "") {
+  const std::string text = "name = \"r\"\naxis = \"" + axis + "\"\n" +
+                           probe("A", "[10, 0, 0]", "measures = \"+Z\"") +
+                           probe("B", "[0, 10, 0]", "measures = \"+Z\"") +
+                           probe("C", "[0, -10, 0]", "measures = \"+Z\"") +
+                           probe("D", "[0, 15, 20]", "measures = \"" + side + "\"", more) +
+                           probe("E", "[10, 15, 20]", "measures = \"" + side + "\"", more);
+  return parse_rig(text, "rig.toml").value();
+}
+
+std::string ids(const MotionClearance& motion) {
+  std::string all;
+  for (const auto& probe : motion.probes) all += probe.id;
+  return all;
+}
+
+TEST(Clearance, TheSideProbesAreInTheWayOfYAndTheTopOnesOfZ) {
+  const auto motions = motion_clearances(rig_of("+Y")).value();
+  EXPECT_EQ(ids(motions[0]), "");
+  EXPECT_EQ(ids(motions[1]), "DE");
+  EXPECT_EQ(ids(motions[2]), "ABC");
+  for (const auto& probe : motions[1].probes) {
+    EXPECT_NEAR(probe.range_m, 100e-6, 1e-12);
+    EXPECT_EQ(probe.towards, 0);  // of a displacement nobody knows from which side
+    EXPECT_FALSE(probe.contact_m);
+  }
+  const std::string y = clearance_text(motions[1]);
+  EXPECT_EQ(y.substr(0, 7), "HAZARD:");
+  EXPECT_NE(y.find("D, E (D either way, E either way): the range ends after 100 um"),
+            std::string::npos)
+      << y;
+  EXPECT_EQ(clearance_text(motions[0]).find("HAZARD"), std::string::npos);
+}
+
+TEST(Clearance, AGapAndAStandoffTellTheSenseAndTheContact) {
+  auto motions =
+      motion_clearances(rig_of("-Y", "X", "sensing_radius_mm = 2\nstandoff_um = 250\n")).value();
+  ASSERT_EQ(ids(motions[1]), "DE");
+  EXPECT_EQ(motions[1].probes[0].towards, -1);
+  EXPECT_NEAR(motions[1].probes[0].contact_m.value(), 250e-6, 1e-12);
+  EXPECT_NE(clearance_text(motions[1]).find("D along -Y"), std::string::npos);
+  EXPECT_NE(clearance_text(motions[1]).find("contact with D after 250 um"), std::string::npos);
+  motions = motion_clearances(rig_of("+Y", "X", "reads = \"gap\"\noffset_um = 100\n")).value();
+  EXPECT_EQ(motions[1].probes[0].towards, 1);
+  EXPECT_NEAR(motions[1].probes[0].contact_m.value(), 100e-6, 1e-12);
+}
+
+// A rig of Y is turned into its local frame and back.
+TEST(Clearance, IsOfTheMachinesAxesWhicheverAxisMoves) {
+  std::string text = "name = \"r\"\naxis = \"Y\"\n";
+  text += probe("A", "[0, 10, 0]", "measures = \"+Z\"") +
+          probe("B", "[-10, 0, 0]", "measures = \"+Z\"") +
+          probe("C", "[10, 0, 0]", "measures = \"+Z\"") +
+          probe("D", "[-15, 0, 20]", "measures = \"-X\"") +
+          probe("E", "[-15, 10, 20]", "measures = \"-X\"");
+  const auto motions = motion_clearances(parse_rig(text, "rig.toml").value()).value();
+  EXPECT_EQ(ids(motions[0]), "DE");
+  EXPECT_EQ(ids(motions[1]), "");
+  EXPECT_EQ(ids(motions[2]), "ABC");
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -56,6 +56,9 @@ class FaultyFixture {
   }
 
   double normal() { return normal_(engine_); }
+  // The scale errors go with the probes to another set-up.
+  const std::vector<double>& gains() const { return gain_; }
+  void take_gains(const std::vector<double>& gains) { gain_ = gains; }
 
   // Of all probes, without noise; `errors`: of the carriage, local frame.
   std::vector<double> readings_m(double d, const Errors5& errors, double time_s) const {

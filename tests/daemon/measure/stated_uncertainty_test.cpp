@@ -114,6 +114,7 @@ class MeasuredAxis {
     return run;
   }
   double normal() { return fixture_.normal(); }
+  FaultyFixture& fixture() { return fixture_; }
 
  private:
   std::vector<double> readings_at(double mm) const {
@@ -220,11 +221,14 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
   std::map<Axis, Rig> rigs, faulty;
   std::map<Axis, Run> runs;
   double slopes = 0, square = 0;
+  std::vector<double> gains;  // the probes of X are those of Y
   for (const Axis axis : {Axis::x, Axis::y}) {
     faulty[axis] = rigs[axis] = rig_of(of, axis);
     if (!tell_calibration)
       for (Probe& probe : rigs[axis].probes) probe.uncertainty.calibration.u = 0;
     MeasuredAxis machine(rigs[axis], faulty[axis], kind, 2 * seed + (axis == Axis::y ? 1 : 0));
+    if (axis == Axis::y) machine.fixture().take_gains(gains);
+    gains = machine.fixture().gains();
     Run& run = runs[axis] = machine.measure();
     ASSERT_EQ(run.points.size(), 2u * kRepeats * kTargets_mm.size());
     const Run truth = true_run(rigs[axis]);
@@ -235,7 +239,11 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
       square = 1e-6 * kSquare_urad * machine.normal();
     } else {
       const auto slope = algo::slope_figure(axis, 0);
-      slopes += slope.of(algo::RunBudgets::create(rigs[axis], truth).value().means());
+      const double true_slope =
+          slope.of(algo::RunBudgets::create(rigs[axis], truth).value().means());
+      const Budget of_y = algo::RunBudgets::create(rigs[axis], run).value().of(slope);
+      count(coverage, slope.name, of_y.value, true_slope, of_y.U);
+      slopes += true_slope;
     }
   }
   const SquareArtefact artefact{0, 1e-6 * kSquare_urad, -1};

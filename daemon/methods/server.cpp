@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "algo/compensation/between_targets.h"
 #include "daemon/methods/methods.h"
 #include "daemon/station/live_json.h"
 #include "daemon/version.h"
@@ -156,6 +157,7 @@ Result<ActiveTables> load_active(store::Store& store) {
       continue;
     }
     if (active) {
+      algo::add_curvatures(active->table);  // compensation.at is asked often
       tables[static_cast<std::size_t>(axis)] =
           std::make_shared<const store::ActiveTable>(std::move(*active));
     } else if (active.error().code != ErrorCode::not_found) {

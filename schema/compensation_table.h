@@ -42,15 +42,23 @@ struct CompensationTable {
   // By what the rigs declare: common to both approaches, the larger of the two. Empty: they declare
   // nothing, or the table is older than this.
   std::array<std::vector<double>, 5> u_declared;
+  // Of each interval, for u between its targets (algo/compensation/between_targets.h). Not stored:
+  // they follow from the values; empty until they are made.
+  std::array<std::vector<double>, 5> curvature_forward, curvature_reverse;
   PositioningErrors positioning;  // empty: not measured. Of imported runs
   // Built when tables did not say at which point they hold (at the carriage, in fact), nor which
   // way a correction goes: not to be served.
   bool without_stated_point = false;
+  // Keys that the rigs of its runs leave open: u is too small by what they would add. Not stored:
+  // the runs' rigs tell.
+  std::vector<std::string> not_declared;
   std::string created_utc;
   std::string sha256;  // of the canonical JSON of the above
 
   bool has_declared() const { return !u_declared.front().empty(); }
   bool has_positioning() const { return !positioning.forward.empty(); }
+  // As of is_noise_only(Budget) of schema/uncertainty/budget.h, of all its values.
+  bool noise_only() const;
   // Combined standard uncertainty of a named error at a position, of an approach.
   double u_of(const std::array<std::vector<double>, 5>& u_random, std::size_t named,
               std::size_t row) const {
@@ -58,5 +66,10 @@ struct CompensationTable {
                           : u_random[named][row];
   }
 };
+
+// What its u covers: one sentence for people, without a full stop.
+std::string covers_text(const CompensationTable& table);
+// Names the keys that this rig of one of its runs leaves open.
+void add_not_declared(CompensationTable& table, const std::vector<std::string>& keys);
 
 }  // namespace mdof

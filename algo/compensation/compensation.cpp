@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/compensation/between_targets.h"
 #include "algo/iso230/line_fit.h"
 #include "algo/iso230/target_means.h"
 #include "algo/model/restate.h"
@@ -199,31 +200,85 @@ Result<std::string> uneven_visits_of(const std::vector<Run>& runs) {
   return uneven_visits_text(points);
 }
 
+namespace {
+
+// Of an approach.
+struct Side {
+  const std::array<std::vector<double>, 5>&values, &u, &curvature;
+};
+
+// Where a series has its nearest values on either side of a position; the same one twice at it,
+// and where there is none on one side.
+struct Neighbours {
+  std::size_t below = 0, above = 0;
+};
+
+Neighbours neighbours(const std::vector<double>& x, const std::vector<double>& y, double at,
+                      const Place& place) {
+  std::size_t below = place.below, above = std::min(place.below + 1, y.size() - 1);
+  if (place.share == 0.0 && std::isfinite(y[below])) return {below, below};
+  if (place.share == 1.0 && std::isfinite(y[above])) return {above, above};
+  while (below > 0 && !(std::isfinite(y[below]) && x[below] <= at)) --below;
+  while (above + 1 < y.size() && !(std::isfinite(y[above]) && x[above] >= at)) ++above;
+  if (!std::isfinite(y[below]) || x[below] > at) below = above;
+  if (!std::isfinite(y[above]) || x[above] < at) above = below;
+  return {below, above};
+}
+
+// Of one error of one approach; NaN where it has no value at all.
+struct ValueOfSide {
+  double error = kNaN, u = kNaN, u_interpolation = kNaN;
+};
+
+ValueOfSide value_of(const CompensationTable& table, const Side& side, std::size_t k, double at,
+                     const Place& place) {
+  const auto& x = table.position_m;
+  const auto& y = side.values[k];
+  const Neighbours near = neighbours(x, y, at, place);
+  if (!std::isfinite(y[near.below])) return {};
+  ValueOfSide value{interpolate(x, y, at, place), 0, 0};
+  const double curvature = near.below == near.above    ? 0
+                           : side.curvature[k].empty() ? curvatures(x, y, side.u[k])[place.below]
+                                                       : side.curvature[k][place.below];
+  value.u = std::max(side.u[k][near.below], side.u[k][near.above]);
+  value.u_interpolation = 0.5 * (at - x[near.below]) * (x[near.above] - at) * curvature;
+  return value;
+}
+
+}  // namespace
+
 TableValue table_at(const CompensationTable& table, double position_m, TableSide side) {
   TableValue value;
   const auto& x = table.position_m;
   value.inside = measured_there(table, position_m, side);
   const Place place = place_on(x, position_m);
-  const auto at = [&](const std::vector<double>& y) {
-    return interpolate(x, y, position_m, place);
-  };
   const auto declared = [&](std::size_t k) {
-    return table.has_declared() ? at(table.u_declared[k]) : 0.0;
+    if (!table.has_declared()) return 0.0;
+    const auto& u = table.u_declared[k];
+    const double above = u[std::min(place.below + 1, u.size() - 1)];
+    return place.share == 0.0   ? u[place.below]
+           : place.share == 1.0 ? above
+                                : std::max(u[place.below], above);
   };
+  const Side forward{table.forward, table.u_forward, table.curvature_forward};
+  const Side reverse{table.reverse, table.u_reverse, table.curvature_reverse};
   for (std::size_t k = 0; k < 5; ++k) {
-    const bool forward = side != TableSide::reverse, reverse = side != TableSide::forward;
-    const double f = forward ? at(table.forward[k]) : kNaN;
-    const double r = reverse ? at(table.reverse[k]) : kNaN;
-    if (std::isfinite(f) && std::isfinite(r)) {
-      const double u_f = at(table.u_forward[k]), u_r = at(table.u_reverse[k]);
-      value.error[k] = 0.5 * (f + r);
-      value.u[k] = std::hypot(0.5 * std::sqrt(u_f * u_f + u_r * u_r), declared(k));
+    const auto f =
+        side == TableSide::reverse ? ValueOfSide{} : value_of(table, forward, k, position_m, place);
+    const auto r =
+        side == TableSide::forward ? ValueOfSide{} : value_of(table, reverse, k, position_m, place);
+    double u_random = 0;
+    if (std::isfinite(f.error) && std::isfinite(r.error)) {
+      value.error[k] = 0.5 * (f.error + r.error);
+      value.u_interpolation[k] = 0.5 * (f.u_interpolation + r.u_interpolation);
+      u_random = 0.5 * std::sqrt(f.u * f.u + r.u * r.u);
     } else {
-      const bool take_forward = forward && (std::isfinite(f) || !reverse);
-      value.error[k] = take_forward ? f : r;
-      value.u[k] =
-          std::hypot(at(take_forward ? table.u_forward[k] : table.u_reverse[k]), declared(k));
+      const ValueOfSide& one = std::isfinite(f.error) ? f : r;
+      value.error[k] = one.error;
+      value.u_interpolation[k] = one.u_interpolation;
+      u_random = one.u;
     }
+    value.u[k] = std::hypot(u_random, declared(k), value.u_interpolation[k]);
   }
   return value;
 }

@@ -26,10 +26,13 @@ inline constexpr const char* kOverAllRuns = "over all its runs, counted on from 
 // What their table makes up for, as uneven_visits_text(); "": nothing. Errors: other targets.
 Result<std::string> uneven_visits_of(const std::vector<Run>& runs);
 
-// The errors at a position: linear between grid points, the end value held outside and said so.
+// The errors at a position: linear between grid points, the end value held outside and said so. u
+// between two targets is the larger of theirs and what interpolation does, of an axis that bends
+// between them as it does about them.
 struct TableValue {
   Errors5 error{};  // named; NaN where the table has no value
   Errors5 u{};
+  Errors5 u_interpolation{};  // of it; 0 at the targets and where an end value is held
   // Within what was measured of this approach (of both, for the mean). false: the end value is
   // held, or the other approach's value is given.
   bool inside = true;

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "algo/compensation/between_targets.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/methods/methods.h"
 #include "daemon/station/live_json.h"
@@ -165,6 +166,7 @@ Result<ActiveTables> load_active(store::Store& store) {
       // A run that cannot be read any more is a doubt, too.
       const auto doubts = doubts_of_table(store, active->table);
       active->doubtful = !doubts || !doubts->empty();
+      algo::add_curvatures(active->table);  // compensation.at is asked often
       tables[static_cast<std::size_t>(axis)] =
           std::make_shared<const store::ActiveTable>(std::move(*active));
     } else if (active.error().code != ErrorCode::not_found) {

@@ -1,0 +1,84 @@
+#include "algo/compensation/between_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kRoughest = 4;
+constexpr std::size_t kFewestOfRoughness = 7;  // values: three second differences over two steps
+
+struct Finite {
+  std::vector<double> x, y, u;
+};
+
+Finite finite_of(const std::vector<double>& x, const std::vector<double>& y,
+                 const std::vector<double>& u) {
+  Finite finite;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(y[i])) continue;
+    finite.x.push_back(x[i]);
+    finite.y.push_back(y[i]);
+    finite.u.push_back(std::isfinite(u[i]) ? u[i] : 0);
+  }
+  return finite;
+}
+
+// Of the curvature at i by the values `step` before and behind it: its square, less what noise adds
+// to it.
+double square_at(const Finite& f, std::size_t i, std::size_t step) {
+  const std::size_t before = i - step, behind = i + step;
+  const double of_before = 2 / ((f.x[i] - f.x[before]) * (f.x[behind] - f.x[before]));
+  const double of_behind = 2 / ((f.x[behind] - f.x[i]) * (f.x[behind] - f.x[before]));
+  const double of_middle = of_before + of_behind;
+  const double curvature = of_before * f.y[before] - of_middle * f.y[i] + of_behind * f.y[behind];
+  const double noise = std::pow(of_before * f.u[before], 2) + std::pow(of_middle * f.u[i], 2) +
+                       std::pow(of_behind * f.u[behind], 2);
+  return curvature * curvature - noise;
+}
+
+// Of the places first ... last that have `step` values on either side; 0 where noise explains it.
+double mean_square(const Finite& f, std::size_t first, std::size_t last, std::size_t step) {
+  first = std::max(first, step);
+  last = std::min(last, f.x.size() - 1 - step);
+  double sum = 0;
+  for (std::size_t i = first; i <= last; ++i) sum += square_at(f, i, step);
+  return last < first ? 0 : std::max(0.0, sum / static_cast<double>(last - first + 1));
+}
+
+double roughness(const Finite& f) {
+  if (f.x.size() < kFewestOfRoughness) return kRoughest;
+  const double one = mean_square(f, 0, f.x.size() - 1, 1),
+               two = mean_square(f, 0, f.x.size() - 1, 2);
+  return two > 0 ? std::clamp(std::sqrt(one / two), 1.0, kRoughest) : kRoughest;
+}
+
+}  // namespace
+
+std::vector<double> curvatures(const std::vector<double>& position_m,
+                               const std::vector<double>& values, const std::vector<double>& u) {
+  std::vector<double> all(std::max<std::size_t>(position_m.size(), 1) - 1, kNaN);
+  const Finite f = finite_of(position_m, values, u);
+  if (f.x.size() < 3) return all;
+  const double rough = roughness(f), everywhere = mean_square(f, 0, f.x.size() - 1, 1);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto above = std::upper_bound(f.x.begin(), f.x.end(), position_m[i]) - f.x.begin();
+    const auto right = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1));
+    const double near = mean_square(f, right < 2 ? 0 : right - 2, right + 1, 1);
+    all[i] = rough * std::sqrt(std::max(near, everywhere));
+  }
+  return all;
+}
+
+void add_curvatures(CompensationTable& table) {
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    table.curvature_forward[k] = curvatures(table.position_m, table.forward[k], table.u_forward[k]);
+    table.curvature_reverse[k] = curvatures(table.position_m, table.reverse[k], table.u_reverse[k]);
+  }
+}
+
+}  // namespace mdof::algo

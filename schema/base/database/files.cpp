@@ -181,8 +181,8 @@ bool is_open_for_writing(const struct stat& file) {
     struct stat mine {};
     if (::fstat(fd, &mine) != 0 || mine.st_dev != file.st_dev || mine.st_ino != file.st_ino)
       continue;
-    if (const int flags = ::fcntl(fd, F_GETFL); flags >= 0 && (flags & O_ACCMODE) != O_RDONLY)
-      return true;
+    const int flags = ::fcntl(fd, F_GETFL);
+    if (flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && !(flags & O_APPEND)) return true;
   }
   return bool(ec);  // where it cannot be known, it may be
 }

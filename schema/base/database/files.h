@@ -29,7 +29,8 @@ bool has_wal(const std::filesystem::path& database);
 bool is_shared(const std::filesystem::path& database);
 
 // Whether this process has the file open for writing, by whatever name or link: its own database,
-// -wal or -shm, or a recording under way. To close any other descriptor of such a file (also one of
+// -wal or -shm, or a recording under way. One that is open for appending alone counts for nothing,
+// as SQLite has no lock by it. To close any other descriptor of such a file (also one of
 // open(2), or one that a client passed) drops the locks that SQLite has on it, and another program
 // may then delete a -wal that is in use. Ask before the file is opened; a descriptor of open(2)
 // with O_PATH drops nothing and answers the question without a race.

@@ -17,6 +17,7 @@
 #include "daemon/version.h"
 #include "schema/base/database/journal_watch.h"
 #include "schema/base/json_writer.h"
+#include "schema/base/output/printable.h"
 
 namespace mdof::daemon {
 namespace {
@@ -117,7 +118,8 @@ Status App::Parts::open_store() {
   };
   events.failed = [this](std::int64_t run, const Error& error) {
     loop.post([this, run, error] {
-      std::fprintf(stderr, "run %lld: %s\n", static_cast<long long>(run), error.message.c_str());
+      std::fprintf(stderr, "run %lld: %s\n", static_cast<long long>(run),
+                   printable(error.message).c_str());
       for (auto& station : stations) {
         if (station->run() == run) station->storage_failed(run, error);
       }
@@ -188,14 +190,14 @@ void App::Parts::tell(const char* topic, const std::string& json, std::string_vi
   if (told) return;
   const auto now = std::chrono::steady_clock::now();
   if (const auto text = journal.admit(std::string("publish ") + topic, told.error().message, now))
-    std::fprintf(stderr, "%s\n", text->c_str());
+    std::fprintf(stderr, "%s\n", printable(*text).c_str());
 }
 
 void App::Parts::to_journal(Axis axis, const Trouble& trouble) {
   const std::string line = std::string("axis ") + letter(axis) + ": " + trouble_line(trouble);
   const std::string key = std::string(1, letter(axis)) + to_string(trouble.kind) + trouble.device;
   if (const auto text = journal.admit(key, line, std::chrono::steady_clock::now()))
-    std::fprintf(stderr, "%s\n", text->c_str());
+    std::fprintf(stderr, "%s\n", printable(*text).c_str());
 }
 
 Status App::Parts::listen() {

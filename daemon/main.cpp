@@ -14,6 +14,7 @@
 #include "daemon/station/check_start.h"
 #include "daemon/version.h"
 #include "schema/base/instruction_set.h"
+#include "schema/base/output/printable.h"
 
 namespace {
 
@@ -38,7 +39,7 @@ void set_ending_signals(void (*handler)(int)) {
 }
 
 int failed(const mdof::Error& error) {
-  std::fprintf(stderr, "mdofd: %s\n", error.message.c_str());
+  std::fprintf(stderr, "mdofd: %s\n", mdof::printable(error.message).c_str());
   return error.code == mdof::ErrorCode::io ? 4 : error.code == mdof::ErrorCode::usage ? 2 : 3;
 }
 

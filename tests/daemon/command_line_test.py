@@ -60,6 +60,21 @@ class Stop(CommandLine):
             self.assertIn(message, err)
 
 
+class FreeText(CommandLine):
+    def test_control_characters_reach_no_terminal(self):
+        config = os.path.join(self.folder.name, "hostile.toml")
+        with open(config, "w") as f:
+            f.write('[[axis]]\nrig = "none\\u001b[2J.toml"\n')
+        done = subprocess.run([MDOFD, "--check-config", "--config", config], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("none?[2J.toml", done.stderr)
+        self.client.call("run.start", axis="X", note="\x1b]0;owned\x07")
+        code, out, err = mdof("status", *self.at[2:])
+        self.assertEqual(code, 0, err)
+        self.assertIn("?]0;owned?", out)
+        self.assertNotIn("\x1b", out + err + done.stderr)
+
+
 class Record(CommandLine):
     def test_ends_with_what_show_prints_and_fits_the_terminal(self):
         # Complete or not: it is shown.

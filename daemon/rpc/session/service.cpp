@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "schema/base/output/printable.h"
+
 namespace mdof::rpc {
 namespace {
 
@@ -98,7 +100,7 @@ void Service::log(const std::string& line) const {
   if (options_.log)
     options_.log(line);
   else
-    std::fprintf(stderr, "rpc: %s\n", line.c_str());
+    std::fprintf(stderr, "rpc: %s\n", printable(line).c_str());
 }
 
 }  // namespace mdof::rpc

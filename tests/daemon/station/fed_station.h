@@ -219,9 +219,9 @@ class FedStation : public ::testing::Test {
     feed_ = std::make_shared<Feed>();
     auto spec = fed_by(feed_, live);
     spec.encoder.index_mm = index_mm;
-    station_ = std::make_unique<Station>(AxisConfig{five_probe_rig(), {std::move(spec)}},
-                                         PipelineOptions(), "# mdofd.toml of a test\n",
-                                         folder_ / "recordings", *keeper_, events_.sink());
+    station_ = std::make_unique<Station>(AxisConfig{five_probe_rig(), {std::move(spec)}}, options_,
+                                         "# mdofd.toml of a test\n", folder_ / "recordings",
+                                         *keeper_, events_.sink());
   }
   // Begins a run, or goes on with one.
   Result<std::int64_t> start(const RunRequest& request = {}) {
@@ -251,6 +251,7 @@ class FedStation : public ::testing::Test {
     return all;
   }
 
+  PipelineOptions options_;
   std::filesystem::path folder_;
   std::unique_ptr<Storekeeper> keeper_;
   Events events_;  // outlives the station

@@ -67,6 +67,18 @@ TEST_F(StationTest, ARunHasThePointsOfItsSamplesAndAReplayOfItsRecordingTheSameB
   EXPECT_EQ(log->sha256(), run.header.provenance.recording_sha256);
 }
 
+TEST_F(StationTest, ARunEndsByItselfWhenItIsFull) {
+  options_.most_stops = 3;
+  make_station();
+  const auto id = start();
+  give(axis_);
+  ASSERT_FALSE(events_.wait_for({"\"ended\""}).empty());
+  EXPECT_EQ(station_->run(), 0);
+  const mdof::Run run = stored(*id);
+  EXPECT_EQ(run.points.size(), 3u);
+  EXPECT_SAYS(warnings(run), "this run has 3 stops, the most that a run holds");
+}
+
 TEST_F(StationTest, APointIsToldOnceItIsOnTheDiskAndTheEndAfterAll) {
   const auto id = start(both_ways_once());
   give(axis_, 0, 1400);  // three stops, the third under way

@@ -94,6 +94,19 @@ TEST(LiveScreen, DrawsAgainInPlaceOnATerminal) {
   EXPECT_TRUE(second.starts_with("\x1b[" + std::to_string(lines) + "A"));
 }
 
+TEST(LiveScreen, ShowsNoControlCharactersOfADevice) {
+  std::string update = kUpdate;
+  const auto at = update.find("\"A\"");
+  ASSERT_NE(at, std::string::npos);
+  update.replace(at, 3, "\"A\\u001b[2J\\u009b\"");
+  for (const bool terminal : {false, true}) {
+    LiveScreen screen(terminal, 80);
+    const std::string shown = screen.next(*read_update(update));
+    EXPECT_EQ(shown.find("\x1b[2J"), std::string::npos);
+    EXPECT_NE(shown.find("A?[2J?"), std::string::npos) << shown;
+  }
+}
+
 TEST(JsonText, ShowsMembersAndTables) {
   EXPECT_EQ(readable(R"({"a":1,"b":{"c":"x"},"d":[{"e":1,"f":null},{"e":20}],"g":[]})"),
             "a: 1\nb.c: x\ng: -\n\nd\n e  f\n--  -\n 1  -\n20\n");

@@ -223,6 +223,13 @@ Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessReq
   MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
   MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
   MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact));
+  MDOF_TRY(const auto before, store.squareness_of(request.run_x, request.run_y));
+  for (const Squareness& stored : before) {
+    s.id = stored.id;
+    s.created_utc = stored.created_utc;
+    if (s == stored)
+      return FittedSquareness{stored, std::move(budget), algo::inherited_warnings({&x, &y})};
+  }
   s.created_utc = utc_now();
   MDOF_TRY(s.id, store.add_squareness(s, request.deed));
   return FittedSquareness{std::move(s), std::move(budget), algo::inherited_warnings({&x, &y})};

@@ -13,6 +13,7 @@ struct SquareArtefact {
   double u_rad = 0;  // standard uncertainty
   // +1: the corner is the one at +X +Y or at -X -Y, -1: at -X +Y or at +X -Y; 0: not known
   int corner = 0;
+  bool operator==(const SquareArtefact&) const = default;
 };
 
 // EC0Y: the angle from +X to +Y is 90° + EC0Y. All of it stated at the fixture.
@@ -33,6 +34,7 @@ struct Squareness {
   SquareArtefact artefact;
   bool simulated = false;
   std::string created_utc;
+  bool operator==(const Squareness&) const = default;
 };
 
 }  // namespace mdof

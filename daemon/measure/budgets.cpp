@@ -10,6 +10,7 @@
 #include "algo/uncertainty/run_uncertainty.h"
 #include "algo/uncertainty/stated.h"
 #include "algo/uncertainty/two_runs.h"
+#include "schema/base/number/number_text.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "schema/uncertainty/budget_json.h"
@@ -20,14 +21,24 @@ namespace {
 
 constexpr std::size_t kMostCost = 250'000;  // a second; 11 targets and all declared: 2,000
 
-// The target whose mean position is nearest.
-Result<algo::TargetMean> target_near(const algo::RunBudgets& run, double at_m) {
-  const algo::TargetMean* nearest = nullptr;
-  for (const auto& mean : run.means().targets)
-    if (!nearest || std::abs(mean.position_m - at_m) < std::abs(nearest->position_m - at_m))
-      nearest = &mean;
-  if (nearest) return *nearest;
-  return bad_input("the run has no target with errors, so that there is nothing to budget");
+// The target whose mean position is nearest. Beyond the ends, by more than half of the largest
+// interval, there is none.
+Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t id, double at_m) {
+  const auto& targets = run.means().targets;  // ascending
+  if (targets.empty())
+    return bad_input("the run has no target with errors, so that there is nothing to budget");
+  double interval_m = 0;
+  const algo::TargetMean* nearest = &targets.front();
+  for (std::size_t i = 1; i < targets.size(); ++i) {
+    interval_m = std::max(interval_m, targets[i].position_m - targets[i - 1].position_m);
+    if (std::abs(targets[i].position_m - at_m) < std::abs(nearest->position_m - at_m))
+      nearest = &targets[i];
+  }
+  const double first_m = targets.front().position_m, last_m = targets.back().position_m;
+  if (at_m >= first_m - interval_m / 2 && at_m <= last_m + interval_m / 2) return *nearest;
+  return bad_input(plain_number(to_mm(at_m)) + " mm is beyond the travel of run " +
+                   std::to_string(id) + ", whose targets are from " + plain_number(to_mm(first_m)) +
+                   " to " + plain_number(to_mm(last_m)) + " mm; give a position between them");
 }
 
 Result<std::vector<algo::Figure>> chosen_figures(std::vector<algo::Figure> all,
@@ -90,7 +101,7 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
   FoundBudgets found{run.header.stated, {}, {}, run.header.warnings, run.header.simulated};
   std::vector<algo::Figure> all = algo::figures_of_run(run.header.axis);
   if (request.at_m) {
-    MDOF_TRY(const auto target, target_near(of_run, *request.at_m));
+    MDOF_TRY(const auto target, target_near(of_run, request.run, *request.at_m));
     found.at_m = target.position_m;
     all = algo::errors_at_target(run.header.axis, target.target);
   }

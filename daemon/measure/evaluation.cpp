@@ -205,6 +205,12 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
 
 Status store_squareness(store::Store& store, Squareness& squareness,
                         const std::optional<Deed>& deed) {
+  MDOF_TRY(const auto before, store.squareness_of(squareness.run_x, squareness.run_y));
+  for (const Squareness& stored : before) {
+    squareness.id = stored.id;
+    squareness.created_utc = stored.created_utc;
+    if (squareness == stored) return {};
+  }
   squareness.created_utc = utc_now();
   MDOF_TRY(squareness.id, store.add_squareness(squareness, deed));
   return {};

@@ -78,8 +78,8 @@ struct FittedSquareness {
   Budget budget;  // of EC0Y
   std::vector<std::string> warnings;
 };
-// Fitted and stored. Errors: those of algo::artefact_of(), algo::squareness() and
-// algo::squareness_budget().
+// Fitted, and stored unless the same fit is stored already. Errors: those of algo::artefact_of(),
+// algo::squareness() and algo::squareness_budget().
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request);
 // The two parts of that: what takes long, from a store that may be read-only, and storing.
 Result<FittedSquareness> calculate_squareness(store::Store& store,

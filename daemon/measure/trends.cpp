@@ -48,14 +48,27 @@ struct Chosen {
   std::vector<std::string> left_out, warnings;
 };
 
-// Of one kind, that of the newest, unless they are to be mixed.
+// That of the newest run. Where it has too few values for a chart, the newest kind of the same rig
+// that has enough: one run on the fly, or with another model, hides no chart.
+const RunHeader& newest_of_chart(const std::vector<RunHeader>& runs) {
+  std::map<std::string, std::size_t> count;
+  for (const RunHeader& run : runs) ++count[kind_of(run)];
+  const std::string& rig = runs.back().provenance.rig_text;
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run)
+    if (run->provenance.rig_text == rig && count[kind_of(*run)] > algo::kFewestOfBaseline)
+      return *run;
+  return runs.back();
+}
+
+// Of one kind, unless they are to be mixed.
 void choose_kind(Chosen& chosen, bool mixed) {
   if (chosen.runs.empty()) return;
-  const std::string kind = kind_of(chosen.runs.back());
+  const RunHeader newest_of_kind = newest_of_chart(chosen.runs);
+  const std::string kind = kind_of(newest_of_kind);
   std::vector<std::int64_t> others;
   for (const RunHeader& run : chosen.runs)
     if (kind_of(run) != kind) others.push_back(run.id);
-  const std::string newest = "run " + std::to_string(chosen.runs.back().id);
+  const std::string newest = "run " + std::to_string(newest_of_kind.id);
   if (mixed) {
     leave_out(chosen.warnings, others, "taken, though its rig or model is not that of " + newest);
     return;
@@ -74,7 +87,8 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
     MDOF_TRY(const auto page, store.list_runs(offset, kRunsPage, axis));  // newest first
     for (const RunHeader& run : page) {
       MDOF_TRY(const auto by, store.superseded_by(run.id));
-      const std::string& recording = run.provenance.recording_sha256;
+      std::string recording = run.provenance.recording_sha256;
+      if (!recording.empty() && !mixed) recording += kind_of(run);  // one run a recording and chart
       if (is_imported(run))
         imported.push_back(run.id);
       else if (by)

@@ -35,7 +35,7 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
   table.add(
       {.name = "squareness.fit",
        .summary = "Squareness EC0Y of a run along X and one along Y, stored with its "
-                  "standard uncertainty.",
+                  "standard uncertainty. The same fit is stored once.",
        .params = {{"run_x", ParamType::integer, "id of the run along X", true},
                   {"run_y", ParamType::integer, "id of the run along Y", true},
                   {"artefact_angle_error_urad", ParamType::number,

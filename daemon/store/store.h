@@ -115,6 +115,8 @@ class Store {
   Result<std::int64_t> add_squareness(const Squareness& squareness,
                                       const std::optional<Deed>& deed = std::nullopt);
   Result<std::vector<Squareness>> list_squareness(std::int64_t offset, std::int64_t count);
+  // Of these two runs, newest first.
+  Result<std::vector<Squareness>> squareness_of(std::int64_t run_x, std::int64_t run_y);
 
   // ---- compensation tables ----
   Result<std::int64_t> add_table(const CompensationTable& table,
@@ -215,6 +217,7 @@ class Store {
   Status check_points(std::int64_t run, std::int64_t offset,
                       const std::vector<MeasuredPoint>& points);
   Status mark_damage(RunHeader& header);
+  Result<std::vector<Squareness>> checked_squareness(sqlite::Statement& rows);
   Status check_exists(std::string_view sql, const char* what, std::int64_t id);
   // plausibility_read.cpp
   Result<std::optional<Plausibility>> plausibility(std::int64_t run);

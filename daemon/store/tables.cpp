@@ -105,7 +105,7 @@ Status read_statement(const Statement& row, CompensationTable& t) {
   return {};
 }
 
-Squareness squareness_of(const Statement& row) {
+Squareness squareness_from(const Statement& row) {
   Squareness s;
   s.id = row.integer(0);
   s.run_x = row.integer(1);
@@ -155,11 +155,23 @@ Result<std::vector<Squareness>> Store::list_squareness(std::int64_t offset, std:
   MDOF_TRY(Statement rows, connection_.prepare("SELECT * FROM squareness ORDER BY id DESC "
                                                "LIMIT ?2 OFFSET ?1"));
   rows.bind(offset).bind(count);
+  return checked_squareness(rows);
+}
+
+Result<std::vector<Squareness>> Store::squareness_of(std::int64_t run_x, std::int64_t run_y) {
+  MDOF_TRY(Statement rows,
+           connection_.prepare("SELECT * FROM squareness WHERE run_x = ? AND run_y = ? "
+                               "ORDER BY id DESC"));
+  rows.bind(run_x).bind(run_y);
+  return checked_squareness(rows);
+}
+
+Result<std::vector<Squareness>> Store::checked_squareness(Statement& rows) {
   std::vector<Squareness> list;
   for (;;) {
     MDOF_TRY(const bool row, rows.step());
     if (!row) return list;
-    list.push_back(squareness_of(rows));
+    list.push_back(squareness_from(rows));
     MDOF_CHECK(check_link(connection_, Fact::squareness, list.back().id));
   }
 }

@@ -37,7 +37,7 @@ std::string not_writable(const Error& error) {
 
 // What is there can be served, though nothing can be stored.
 bool can_only_be_read(const Storekeeper::Options& options, const Error& why) {
-  if (why.code != ErrorCode::io) return false;
+  if (why.code != ErrorCode::io || is_busy(Status(tl::unexpected(why)))) return false;
   return store::Store::open(options.database, store::Access::read_only).has_value();
 }
 
@@ -47,7 +47,7 @@ Result<store::Store> open_patiently(const Storekeeper::Options& options) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
   for (;;) {
     auto opened = open_database(options);
-    const bool held = !opened && opened.error().code == ErrorCode::conflict;
+    const bool held = is_busy(opened) || (!opened && opened.error().code == ErrorCode::conflict);
     if (!held || std::chrono::steady_clock::now() > end) return opened;
   }
 }

@@ -56,7 +56,7 @@ constexpr Advice kAdvice[] = {
     {SQLITE_IOERR, "SQLITE_IOERR", ErrorCode::io,
      "The disk reported an error: check its health and free space (also quotas) and the system "
      "log."},
-    {SQLITE_BUSY, "SQLITE_BUSY", ErrorCode::conflict,
+    {SQLITE_BUSY, "SQLITE_BUSY", ErrorCode::io,
      "Another program holds the database: try again when it is done."},
     {SQLITE_TOOBIG, "SQLITE_TOOBIG", ErrorCode::bad_input, "A value is too large to be stored."},
     {SQLITE_CONSTRAINT, "SQLITE_CONSTRAINT", ErrorCode::bad_input,

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "daemon/version.h"
+#include "tools/mdof/exit_code.h"
 #include "tools/mdof_simulate/plan.h"
 
 namespace {
@@ -36,7 +37,14 @@ int main(int argc, char** argv) try {
   app.footer(
       "Example:\n  mdof-simulate devices.toml\nThe keys: mdof-simulate(1) or "
       "tools/mdof_simulate/README.md");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "mdof-simulate: %s; see mdof-simulate --help\n", error.what());
+    return mdof::tools::kUsage;
+  }
   std::signal(SIGPIPE, SIG_IGN);
   struct sigaction action = {};
   action.sa_handler = end;
@@ -45,8 +53,8 @@ int main(int argc, char** argv) try {
   const mdof::Status done = serve(plan, host);
   if (done) return 0;
   std::fprintf(stderr, "mdof-simulate: %s\n", done.error().message.c_str());
-  return done.error().code == mdof::ErrorCode::io ? 4 : 3;
+  return mdof::tools::exit_code_of(done.error().code);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "mdof-simulate: %s\n", e.what());
-  return 4;
+  return mdof::tools::kDeviceOrIo;
 }

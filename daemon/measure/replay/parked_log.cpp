@@ -178,16 +178,17 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   parked.warnings = log.warnings();
   const double per_step =
       request.window_s.value_or(parked.length_s / kWindowsOfLog) / algo::kStepsOfWindow;
-  // Down, so that a twelfth of a log fits in it twelve times.
+  // Down, so that a twelfth of a log fits in it twelve times. Of a window that is longer than the
+  // log there is none, however long it is.
   const auto together =
-      static_cast<std::size_t>(std::max(1.0, std::floor(per_step / kShortStep_s + 1e-9)));
+      static_cast<std::size_t>(std::clamp(std::floor(per_step / kShortStep_s + 1e-9), 1.0,
+                                          static_cast<double>(reader.encoder.size() + 1)));
   const std::size_t steps = reader.encoder.size() / together;
   if (steps < algo::kStepsOfWindow)
-    return bad_input(log.path() + ": has " + plain_number(parked.length_s) +
-                     " s, and a window takes " +
-                     plain_number(static_cast<double>(together) * kShortStep_s *
-                                  static_cast<double>(algo::kStepsOfWindow)) +
-                     " s; record for longer, or give a shorter --window-s (1 s at least)");
+    return bad_input(
+        log.path() + ": has " + plain_number(parked.length_s) + " s, and a window takes " +
+        plain_number(std::max(per_step, kShortStep_s) * static_cast<double>(algo::kStepsOfWindow)) +
+        " s; record for longer, or give a shorter --window-s (1 s at least)");
   parked.readings.step_s = static_cast<double>(together) * kShortStep_s;
   const auto encoder_m = reader.encoder.means(together, steps);
   MDOF_CHECK(check_parked(log.path(), encoder_m));

@@ -6,6 +6,7 @@
 #include "daemon/measure/config.h"
 #include "daemon/measure/delays.h"
 #include "daemon/paths.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -80,7 +81,12 @@ Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog
   options.align.max_gap_s = request.max_gap_s.value_or(options.align.max_gap_s);
   if (!request.targets_mm.empty()) options.sequence.targets_m.clear();
   for (const double t : request.targets_mm) options.sequence.targets_m.push_back(from_mm(t));
-  std::sort(options.sequence.targets_m.begin(), options.sequence.targets_m.end());
+  auto& targets_m = options.sequence.targets_m;
+  std::sort(targets_m.begin(), targets_m.end());
+  if (const auto twice = std::adjacent_find(targets_m.begin(), targets_m.end());
+      twice != targets_m.end())
+    return fail(ErrorCode::usage, "targets_mm has " + plain_number(to_mm(*twice), 9) +
+                                      " mm twice; give each target once");
   MDOF_CHECK(ask_on_the_fly(request, options));
   return options;
 }

@@ -30,8 +30,7 @@ Status refuse_beside_daemon(const std::string& command, const std::string& socke
   const auto runs = daemon_runs(socket);
   if (!runs) return in_context(command + ": whether mdofd holds the devices", runs.error());
   if (!*runs) return {};
-  return fail(ErrorCode::conflict,
-              command + ": mdofd runs (" + socket +
+  return io_error(command + ": mdofd runs (" + socket +
                   ") and holds the devices, which this command would open itself; see mdof device "
                   "list and mdof live, or stop mdofd first");
 }

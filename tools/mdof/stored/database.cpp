@@ -9,18 +9,35 @@ Result<std::filesystem::path> database_path(const std::string& option) {
   return option.empty() ? daemon::default_database() : std::filesystem::path(option);
 }
 
+namespace {
+
+// A FIFO would be waited for, and a folder is no disk error.
+Result<std::filesystem::path> database_file(const std::string& option) {
+  MDOF_TRY(auto file, database_path(option));
+  std::error_code ec;
+  if (std::filesystem::exists(file, ec) && !std::filesystem::is_regular_file(file, ec))
+    return bad_input(file.string() + ": is a " +
+                     (std::filesystem::is_directory(file, ec) ? "folder" : "pipe or device") +
+                     ", not a database; name its file");
+  return file;
+}
+
+}  // namespace
+
 Result<store::Store> open_to_read(const std::string& option) {
-  MDOF_TRY(const auto file, database_path(option));
+  MDOF_TRY(const auto file, database_file(option));
   return store::Store::open(file, store::Access::read_only);
 }
 
 Result<store::Store> open_to_write(const std::string& option) {
-  MDOF_TRY(const auto file, database_path(option));
-  return store::Store::open(file, store::Access::read_write);
+  MDOF_TRY(const auto file, database_file(option));
+  auto store = store::Store::open(file, store::Access::read_write);
+  if (!store && store.error().code == ErrorCode::conflict) return io_error(store.error().message);
+  return store;
 }
 
 Result<bool> somebody_writes(const std::string& option) {
-  MDOF_TRY(const auto file, database_path(option));
+  MDOF_TRY(const auto file, database_file(option));
   return store::WriterLock::held(file);
 }
 

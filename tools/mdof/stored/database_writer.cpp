@@ -49,8 +49,8 @@ std::string writer_of(const fs::path& database) {
 }
 
 tl::unexpected<Error> held(const fs::path& database, const std::string& but) {
-  return fail(ErrorCode::conflict,
-              database.string() + ": is being written by " + writer_of(database) + ", and " + but);
+  return io_error(database.string() + ": is being written by " + writer_of(database) + ", and " +
+                  but);
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
   raw.quality.clear();
   MDOF_CHECK(calibrator_.apply(raw));
   count_over_range(raw);
+  out.encoder_m = raw.value[encoder_];
   for (auto& column : out.local) column.resize(raw.scans());
   solver_.small_angle() && !corrects() ? solve_columns(raw, out) : solve_singly(raw, out);
   rows_ += raw.scans();

@@ -19,6 +19,7 @@ namespace mdof::tools {
 // One value a row in each column; m and rad in the axis' local frame, of the target, at the
 // carriage (Eq. 2-12); all NaN where not solved.
 struct SolvedRows {
+  std::vector<double> encoder_m;
   std::array<std::vector<double>, kErrorCount> local;
   std::size_t size() const { return local[0].size(); }
 };

@@ -56,14 +56,23 @@ void add_axis_of_latest(CLI::App& command, std::string& axis) {
 
 Result<std::int64_t> run_number(store::Store& store, const std::string& run,
                                 std::optional<Axis> axis) {
-  return run == kLatest ? latest(store, axis) : Result<std::int64_t>(number_of(run));
+  if (run == kLatest) return latest(store, axis);
+  const std::int64_t id = number_of(run);
+  if (axis) {
+    MDOF_TRY(const RunHeader header, store.run_header(id));
+    if (header.axis != *axis)
+      return bad_input("run " + run + " is of axis " + letter(header.axis) + ", not of axis " +
+                       letter(*axis) + "; give a run of it (mdof runs --axis " + letter(*axis) +
+                       ")");
+  }
+  return id;
 }
 
 Result<std::int64_t> run_number(const std::string& database, const std::string& run,
                                 std::optional<Axis> axis) {
-  if (run != kLatest) return number_of(run);
+  if (run != kLatest && !axis) return number_of(run);
   MDOF_TRY(store::Store store, open_to_read(database));
-  return latest(store, axis);
+  return run_number(store, run, axis);
 }
 
 }  // namespace mdof::tools

@@ -26,7 +26,8 @@ CLI::Option* add_run_argument(CLI::App& command, const char* name, std::string& 
 CLI::Option* add_run_arguments(CLI::App& command, std::vector<std::string>& runs, const char* what);
 void add_axis_of_latest(CLI::App& command, std::string& axis);
 
-// The number; of "latest" that of the newest run (of `axis`, where given) that has ended.
+// The number; of "latest" that of the newest run (of `axis`, where given) that has ended. Error
+// bad_input: the run is of another axis.
 Result<std::int64_t> run_number(store::Store& store, const std::string& run,
                                 std::optional<Axis> axis = std::nullopt);
 

@@ -10,13 +10,15 @@
 #include <deque>
 
 #include "schema/base/number/number.h"
+#include "schema/units.h"
 #include "tools/mdof/output.h"
 
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kMostOfAKey = 16;  // ,"EYX_um":
-constexpr std::size_t kMostOfARow = 5 * (kDouble17Size + kMostOfAKey) + 8;
+constexpr std::size_t kMostOfAKey = 16;                  // ,"EYX_um":
+constexpr std::size_t kColumnsOfARow = 1 + kErrorCount;  // the position first
+constexpr std::size_t kMostOfARow = kColumnsOfARow * (kDouble17Size + kMostOfAKey) + 8;
 constexpr std::size_t kAtOnce = 8;
 constexpr std::size_t kBlocks = 4;
 constexpr int kPipeBytes = 1 << 20;
@@ -30,15 +32,23 @@ double in_key_unit(const ErrorName& name, const SolvedRows& rows, std::size_t ro
   return to_key_unit(name.sign * rows.local[name.local][row]) + 0.0;  // -0 is 0
 }
 
+// As it was read, not as it is once it has been in metres: the picometre beside it, if that is all.
+double in_written_mm(double encoder_m) {
+  const double mm = to_mm(encoder_m), written = std::round(mm * 1e9) / 1e9;
+  return (std::abs(written - mm) < 4e-16 * std::abs(mm) ? written : mm) + 0.0;
+}
+
 }  // namespace
 
 ErrorRows::ErrorRows(RowForm form, const MovingAxis& moving, Model model)
     : form_(form), names_(error_names(moving.axis)), filled_(kBlocks), free_(kBlocks) {
   for (std::size_t i = 0; i < kBlocks; ++i) free_.try_push({});
   for (ErrorName& name : names_) name.sign *= moving.sides.error_sign();
-  for (std::size_t k = 0; k < 5; ++k) {
-    json_keys_[k] = std::string(k == 0 ? "{\"" : ",\"") + names_[k].key + "\":";
-    head_ += std::string(k == 0 ? "" : ",") + names_[k].key;
+  json_keys_[0] = "{\"encoder_mm\":";
+  head_ = "encoder_mm";
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    json_keys_[1 + k] = std::string(",\"") + names_[k].key + "\":";
+    head_ += std::string(",") + names_[k].key;
   }
   head_ += '\n';
   if (form == RowForm::json) {
@@ -93,15 +103,17 @@ Status ErrorRows::write_all() {
   return form_ == RowForm::json ? write_out("]}\n") : Status();
 }
 
-// The texts of up to kAtOnce rows, error by error; empty where the row is not solved.
+// The texts of up to kAtOnce rows, column by column; errors are empty where the row is not solved.
 struct ErrorRows::Texts {
-  std::array<std::array<DoubleText, kAtOnce>, 5> of;
+  std::array<std::array<DoubleText, kAtOnce>, kColumnsOfARow> of;
 
   void fill(const std::array<ErrorName, 5>& names, const SolvedRows& rows, std::size_t begin,
             std::size_t n) {
     std::array<double, kAtOnce> x;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      for (std::size_t j = 0; j < n; ++j) x[j] = in_key_unit(names[k], rows, begin + j);
+    for (std::size_t k = 0; k < kColumnsOfARow; ++k) {
+      for (std::size_t j = 0; j < n; ++j)
+        x[j] = k == 0 ? in_written_mm(rows.encoder_m[begin + j])
+                      : in_key_unit(names[k - 1], rows, begin + j);
       write_doubles_17(x.data(), n, of[k].data());
       for (std::size_t j = 0; j < n; ++j) of[k][j].size = std::isfinite(x[j]) ? of[k][j].size : 0;
     }
@@ -119,7 +131,7 @@ char* ErrorRows::append_csv(const SolvedRows& rows, char* out) const {
     const std::size_t n = std::min(kAtOnce, rows.size() - begin);
     texts.fill(names_, rows, begin, n);
     for (std::size_t j = 0; j < n; ++j) {
-      for (std::size_t k = 0; k < names_.size(); ++k) {
+      for (std::size_t k = 0; k < kColumnsOfARow; ++k) {
         out = texts.append(out, k, j);
         *out++ = ',';
       }
@@ -137,7 +149,7 @@ char* ErrorRows::append_json(const SolvedRows& rows, char* out) {
     for (std::size_t j = 0; j < n; ++j) {
       if (!first_row_) *out++ = ',';
       first_row_ = false;
-      for (std::size_t k = 0; k < names_.size(); ++k) {
+      for (std::size_t k = 0; k < kColumnsOfARow; ++k) {
         out = append(out, json_keys_[k]);
         out = texts.of[k][j].size > 0 ? texts.append(out, k, j) : append(out, "null");
       }

@@ -15,9 +15,10 @@
 namespace mdof::tools {
 
 enum class RowForm {
-  csv,   // a header of the error keys, then a line a row; empty fields where it is not solved
-  json,  // {"axis", "model", "reference", "rows": [{"EYX_um": ...}, ...]}; null where it is not
+  csv,   // a header: encoder_mm and the error keys; a line a row, empty errors where it is not
          // solved
+  json,  // {"axis", "model", "reference", "rows": [{"encoder_mm": ..., "EYX_um": ...}, ...]}; null
+         // where it is not solved
 };
 
 // Thread-bound, but for its own thread "write rows". Memory: a few blocks.
@@ -42,7 +43,7 @@ class ErrorRows {
 
   const RowForm form_;
   std::array<ErrorName, 5> names_;        // with the sign of the moving body
-  std::array<std::string, 5> json_keys_;  // {"EYX_um":
+  std::array<std::string, 6> json_keys_;  // {"encoder_mm": ,"EYX_um":
   std::string head_;
   bool first_row_ = true;
   std::vector<char> text_;

@@ -133,6 +133,7 @@ algo::MachineApproach approach_from(const std::string& name) {
 
 Result<algo::Command> command_from(const Machine& machine, const std::string& text) {
   algo::Command command{};
+  std::string given;
   const auto words = CLI::detail::split(text, ',');
   const bool named = text.find('=') != std::string::npos;
   if (!named && words.size() != 3) return tl::unexpected(number_in("", text).error());
@@ -144,6 +145,10 @@ Result<algo::Command> command_from(const Machine& machine, const std::string& te
     if (!frame || frame->kind == FrameKind::fixed)
       return bad_input("the chain " + machine.chain.text + " has no axis " + letter +
                        "; name those that it has, such as X=10,Y=20");
+    if (given.find(letter) != std::string::npos)
+      return fail(ErrorCode::usage,
+                  "\"" + text + "\" gives axis " + letter + " twice; give it once");
+    given += letter;
     command[kAxisLetters.find(letter)] = position_from_written(*frame, x);
   }
   return command;

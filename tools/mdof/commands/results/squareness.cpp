@@ -24,8 +24,6 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::int64_t kNewest = 1000;  // of these one is what mdofd has just stored
-
 struct SquarenessCommand {
   std::string database, socket, word_x, word_y;
   std::int64_t run_x = 0, run_y = 0;
@@ -104,8 +102,8 @@ Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessC
   const auto json = parser.parse(simdjson::padded_string(reply));
   const auto id = integer(json, "squareness");
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const auto newest, store.list_squareness(0, kNewest));
-  for (const auto& s : newest)
+  MDOF_TRY(const auto stored, store.squareness_of(command.run_x, command.run_y));
+  for (const auto& s : stored)
     if (s.id == id) return daemon::stored_squareness(store, s);
   return io_error("mdofd stored a squareness that its database does not have: " + reply);
 }
@@ -131,7 +129,7 @@ Action declare_squareness(CLI::App& command) {
   command.add_option("--artefact-urad", o->artefact_urad,
                      "Angle error of the square [default: of the rigs]");
   command.add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   command.add_flag("--partial", o->partial, "Take partial runs as well");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);

@@ -177,9 +177,13 @@ Status trend(const TrendCommand& command) {
   if (command.csv)
     for (const daemon::Trend& of : found)
       for (const std::string& why : of.left_out) warn(of.figure + ": left out: " + why);
-  return command.csv    ? write_out(csv_of(found))
-         : command.json ? write_line(json_of(found))
-                        : write_out(text_of(found));
+  MDOF_CHECK(command.csv    ? write_out(csv_of(found))
+             : command.json ? write_line(json_of(found))
+                            : write_out(text_of(found)));
+  std::string moved;
+  for (const daemon::Trend& of : found)
+    if (of.chart && of.chart->moved) moved += (moved.empty() ? "" : "; ") + sentence_of(of);
+  return moved.empty() ? Status() : fail(ErrorCode::check, moved);
 }
 
 Action declare_trend(CLI::App& command) {
@@ -202,6 +206,7 @@ Command trend_command() {
           .summary = "Chart squareness and other figures over the stored runs",
           .footer =
               "Squareness is that of the stored fits (mdof squareness).\n"
+              "Exit code 1: a figure has moved.\n"
               "Examples:\n"
               "  mdof trend --figure EC0Y_urad\n"
               "  mdof trend --axis X --csv > trend_X.csv",

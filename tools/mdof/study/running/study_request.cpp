@@ -149,7 +149,9 @@ Status add_tolerance(const std::string& key_value, algo::AdaptiveTolerance& tole
     return fail(ErrorCode::usage, "--tolerance: \"" + key_value +
                                       "\" is no OUTPUT=NUMBER, the number finite and above 0, "
                                       "such as EBX_urad=0.01");
-  tolerance.absolute[key_value.substr(0, equals)] = x;
+  if (!tolerance.absolute.emplace(key_value.substr(0, equals), x).second)
+    return fail(ErrorCode::usage,
+                "--tolerance: " + key_value.substr(0, equals) + " is given twice; give it once");
   return {};
 }
 

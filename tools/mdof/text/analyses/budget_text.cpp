@@ -31,8 +31,10 @@ std::string significant(double x) {
   return fixed(x, std::clamp(digits, 0, 9));
 }
 
+// Effective ones are no whole number, and k is of them as they are.
 std::string freedom_text(double freedom) {
-  return freedom < 1000 ? fixed(freedom, 0) : "many";
+  const bool whole = freedom == std::round(freedom);
+  return freedom < 1000 ? fixed(freedom, whole || freedom >= 100 ? 0 : 2) : "many";
 }
 
 std::string percent(double share) {

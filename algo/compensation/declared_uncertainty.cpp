@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "algo/drift/removed_drift.h"
 #include "algo/model/restate.h"
 #include "algo/uncertainty/contributors.h"
 
@@ -18,7 +19,9 @@ constexpr std::size_t kMostPoints = 20'000, kMostCost = 1'000'000;
 // Of one contributor: its parts, each with the shifts of every run; a run without it has none.
 using PartsOfRuns = std::vector<std::vector<PointShifts>>;
 
-std::string identity(const Contributor& c) {
+// What is seen in a run itself is of that run alone.
+std::string identity(const Contributor& c, std::size_t run) {
+  if (c.key.empty()) return std::to_string(run) + " " + c.name;
   return c.name + " " + c.key + " " + std::to_string(c.declared.u * c.to_unit) +
          (c.surface ? " " + std::to_string(c.surface->length_m) : "");
 }
@@ -50,11 +53,11 @@ Result<std::map<std::string, PartsOfRuns>> all_contributors(const std::vector<Ri
     return bad_input("the runs have too many points for what their rigs declare");
   };
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    if (!rigs[r].declares_uncertainty()) continue;
+    if (!rigs[r].declares_uncertainty() && !asked_to_remove_drift(runs[r].header)) continue;
     if (points > kMostPoints) return too_many();
     MDOF_TRY(const auto of_run, contributors(rigs[r], runs[r]));
     for (const Contributor& contributor : of_run) {
-      Shared& shared = declared[identity(contributor)];
+      Shared& shared = declared[identity(contributor, r)];
       shared.runs.push_back(r);
       shared.of_run.push_back(contributor);
     }

@@ -15,8 +15,9 @@ namespace mdof::algo {
 // of the runs, one each. The table is built again with each contributor's shift: so what is common
 // to all points cancels where the table takes differences (the line, the first angle). A
 // contributor that several rigs declare alike is the same fixture's: it shifts their runs together.
-// Nothing is set where no rig declares anything. Errors: those of contributors(); so many points
-// and contributors that it would take long.
+// Nothing is set where no rig declares anything and no drift was removed. What the removal of a
+// drift adds is in it, too. Errors: those of contributors(); so many points and contributors that
+// it would take long.
 Status add_declared_uncertainty(CompensationTable& table, const std::vector<Rig>& rigs,
                                 const std::vector<Run>& runs, const TableOptions& options);
 

@@ -2,9 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
-#include "algo/linear_algebra/least_squares.h"
 #include "algo/linear_algebra/spectra.h"
 
 namespace mdof::algo {
@@ -38,23 +38,19 @@ DriftDesign::DriftDesign(std::vector<TimedVisit> visits) : visits_(std::move(vis
   const auto n = static_cast<Eigen::Index>(visits_.size());
   Eigen::MatrixXd all(n, kMostOrders);
   for (Eigen::Index i = 0; i < n; ++i)
-    all.row(i) = polynomials(visits_[static_cast<std::size_t>(i)].time_s, kMostOrders).transpose();
-  mean_ = all.colwise().mean().transpose();
-  all.rowwise() -= mean_.transpose();
+    all.row(i) = legendre(visits_[static_cast<std::size_t>(i)].time_s, kMostOrders).transpose();
+  const Eigen::RowVectorXd mean = all.colwise().mean();
+  all.rowwise() -= mean;
   const Eigen::MatrixXd between = centred(all);
   const auto places = static_cast<double>(visits_of_place_.size());
   const auto left = [&](int orders) { return static_cast<double>(n) - places - orders; };
   while (orders_ < kMostOrders && left(orders_ + 1) >= kFewestFreedom &&
          least_share(between, all, orders_ + 1) >= kFewestSeen)
     ++orders_;
-  if (orders_ == 0) return;
-  freedom_ = left(orders_);
-  auto [Q, R] = thin_qr(between.leftCols(orders_));
-  basis_ = std::move(Q);
-  root_ = std::move(R);
+  if (orders_ > 0) freedom_ = left(orders_);
 }
 
-Eigen::VectorXd DriftDesign::polynomials(double time_s, int orders) const {
+Eigen::VectorXd DriftDesign::legendre(double time_s, int orders) const {
   const double x = std::clamp(2 * (time_s - begin_s_) / length_s_ - 1, -1.0, 1.0);
   Eigen::VectorXd p(orders);
   double before = 1, now = x;
@@ -77,17 +73,48 @@ Eigen::MatrixXd DriftDesign::centred(const Eigen::MatrixXd& y) const {
   return out;
 }
 
-Eigen::MatrixXd DriftDesign::scores(const Eigen::MatrixXd& y) const {
-  return basis_.transpose() * centred(y);
+DriftRows DriftDesign::rows(const Eigen::MatrixXd& y) const {
+  std::vector<std::size_t> in_time(visits_.size());
+  std::iota(in_time.begin(), in_time.end(), std::size_t{0});
+  std::stable_sort(in_time.begin(), in_time.end(), [&](std::size_t a, std::size_t b) {
+    return visits_[a].time_s < visits_[b].time_s;
+  });
+  const auto n = static_cast<Eigen::Index>(visits_.size());
+  Eigen::MatrixXd all(n, orders_ + y.cols());
+  for (Eigen::Index i = 0; i < n; ++i)
+    all.row(i).head(orders_) = polynomials(visits_[static_cast<std::size_t>(i)].time_s).transpose();
+  all.rightCols(y.cols()) = y;
+  all = centred(all);
+  const std::size_t each = (visits_of_place_.size() + kMostPlaces - 1) / kMostPlaces;
+  DriftRows rows;
+  rows.places = (visits_of_place_.size() + each - 1) / each;
+  Eigen::MatrixXd means(n, all.cols());
+  std::vector<double> counts;
+  for (const std::size_t i : in_time) {
+    const std::size_t place = visits_[i].place / each;
+    if (each == 1 || rows.place.empty() || rows.place.back() != place) {
+      means.row(static_cast<Eigen::Index>(rows.place.size())).setZero();
+      rows.place.push_back(place);
+      rows.time_s.push_back(0);
+      counts.push_back(0);
+    }
+    counts.back() += 1;
+    rows.time_s.back() += (visits_[i].time_s - rows.time_s.back()) / counts.back();
+    const auto row = static_cast<Eigen::Index>(rows.place.size()) - 1;
+    means.row(row) += (all.row(static_cast<Eigen::Index>(i)) - means.row(row)) / counts.back();
+  }
+  const auto of = static_cast<Eigen::Index>(rows.place.size());
+  rows.polynomials = means.topLeftCorner(of, orders_);
+  rows.y = means.topRightCorner(of, y.cols());
+  return rows;
 }
 
-Eigen::MatrixXd DriftDesign::residuals(const Eigen::MatrixXd& y) const {
-  return centred(y) - basis_ * scores(y);
+double DriftRows::freedom() const {
+  return static_cast<double>(polynomials.rows() - polynomials.cols()) - static_cast<double>(places);
 }
 
-Eigen::VectorXd DriftDesign::shapes(double time_s) const {
-  const Eigen::VectorXd p = polynomials(time_s, orders_) - mean_.head(orders_);
-  return root_.transpose().triangularView<Eigen::Lower>().solve(p);
+Eigen::VectorXd DriftDesign::polynomials(double time_s) const {
+  return legendre(time_s, orders_) - legendre(begin_s_, orders_);
 }
 
 }  // namespace mdof::algo

@@ -17,37 +17,44 @@ struct TimedVisit {
   double time_s = 0;
 };
 
+// What noise that lasts is estimated from, in the order of time. Of many places neighbours share a
+// row, the mean of those that were visited one after the other: the time grows with places².
+struct DriftRows {
+  std::vector<double> time_s;
+  std::vector<std::size_t> place;
+  std::size_t places = 0;
+  Eigen::MatrixXd polynomials, y;  // without the means of their places
+
+  double freedom() const;  // of what the highest order leaves
+};
+
 class DriftDesign {
  public:
   static constexpr double kFewestSeen = 0.02;
   static constexpr int kMostOrders = 6, kFewestFreedom = 4;
+  static constexpr std::size_t kMostPlaces = 48;  // of DriftRows
 
   explicit DriftDesign(std::vector<TimedVisit> visits);
 
   int orders() const { return orders_; }       // 0: no drift can be told from the form of the axis
-  double freedom() const { return freedom_; }  // of what the highest order leaves
+  double freedom() const { return freedom_; }  // of what the highest order leaves of all visits
   const std::vector<TimedVisit>& visits() const { return visits_; }
+  double begin_s() const { return begin_s_; }            // of the first visit
+  double end_s() const { return begin_s_ + length_s_; }  // of the last visit
 
-  // `y` (visits × series) without the means of its places.
-  Eigen::MatrixXd centred(const Eigen::MatrixXd& y) const;
-  // (orders × series). Each row is independent of the others and has the variance of `y`; a drift
-  // of order n is shapes(t) · scores, the first n of both.
-  Eigen::MatrixXd scores(const Eigen::MatrixXd& y) const;
-  // What the highest order leaves of centred(y).
-  Eigen::MatrixXd residuals(const Eigen::MatrixXd& y) const;
-  // Their mean over all visits is 0: a drift leaves the mean of a run as it is. Before the first
-  // visit they are those of the first, after the last those of the last.
-  Eigen::VectorXd shapes(double time_s) const;
+  DriftRows rows(const Eigen::MatrixXd& y) const;  // `y`: visits × series; where orders() > 0
+  // Of each order, 0 at the first visit, where the system was zeroed. Before the first visit they
+  // are those of the first, after the last those of the last.
+  Eigen::VectorXd polynomials(double time_s) const;
 
  private:
-  Eigen::VectorXd polynomials(double time_s, int orders) const;
+  Eigen::VectorXd legendre(double time_s, int orders) const;
+  Eigen::MatrixXd centred(const Eigen::MatrixXd& y) const;
 
   std::vector<TimedVisit> visits_;
   std::vector<double> visits_of_place_;
   double begin_s_ = 0, length_s_ = 0, freedom_ = 0;
   int orders_ = 0;
-  Eigen::VectorXd mean_;          // of the polynomials over the visits
-  Eigen::MatrixXd basis_, root_;  // centred polynomials = basis_ (orthonormal) · root_ (upper)
 };
 
 }  // namespace mdof::algo

@@ -53,7 +53,9 @@ std::string removed_sentence(const RunDrift& drift, const MovingAxis& moving) {
   if (!drift.not_seen.empty()) return "no drift was removed: " + drift.not_seen;
   std::string text = changes_text(drift, moving, false);
   text = text.empty() ? "no drift was removed: none is significant"
-                      : "drift removed: " + text + "; its uncertainty is in that of each point";
+                      : "drift removed: " + text +
+                            "; errors refer to the first point, and the uncertainty of the drift "
+                            "is in that of each point and figure";
   if (const auto steps = changes_text(drift, moving, true); !steps.empty())
     text += "; changes that may be steps from run to run as well were left: " + steps;
   return text;

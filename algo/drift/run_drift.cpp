@@ -156,7 +156,7 @@ bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
     const MeasuredPoint& p = *points[static_cast<std::size_t>(i)];
     y(i, 0) = p.errors.local[k];
     drift(i, 0) = p.point.direction;
-    drift.row(i).tail(order) = fit.design().shapes(time_of_s(p)).head(order).transpose();
+    drift.row(i).tail(order) = fit.design().polynomials(time_of_s(p)).head(order).transpose();
     steps(i, static_cast<Eigen::Index>(groups.pass[static_cast<std::size_t>(i)])) = 1;
   }
   const double least = static_cast<double>(n) * kLeastScatter_m * kLeastScatter_m;
@@ -211,14 +211,32 @@ std::vector<MeasuredPoint> DriftOfRun::without(std::vector<MeasuredPoint> points
   for (MeasuredPoint& p : points) {
     if (!p.errors.valid) continue;
     const Eigen::VectorXd drift = fit_->drift(time_of_s(p));
-    const Eigen::MatrixXd covariance = fit_->covariance(time_of_s(p));
-    for (Eigen::Index a = 0; a < kErrorCount; ++a) {
-      p.errors.local[static_cast<std::size_t>(a)] -= drift(a);
-      for (Eigen::Index b = 0; b < kErrorCount; ++b)
-        p.errors.covariance[static_cast<std::size_t>(a * kErrorCount + b)] += covariance(a, b);
-    }
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      p.errors.local[k] -= drift(static_cast<Eigen::Index>(k));
   }
   return points;
+}
+
+double DriftOfRun::freedom() const {
+  return fit_ ? fit_->freedom() : 0;
+}
+
+std::vector<std::vector<Errors5>> DriftOfRun::removal_shifts(
+    const std::vector<MeasuredPoint>& points) const {
+  if (!fit_) return {};
+  std::vector<double> time_s;
+  for (const MeasuredPoint& p : points) time_s.push_back(time_of_s(p));
+  const std::vector<Eigen::MatrixXd> all = DriftFit(*fit_).parts(time_s);
+  std::vector<std::vector<Errors5>> parts(static_cast<std::size_t>(all.front().cols()),
+                                          std::vector<Errors5>(points.size()));
+  for (std::size_t j = 0; j < points.size(); ++j)
+    for (std::size_t part = 0; part < parts.size() && points[j].errors.valid; ++part)
+      for (std::size_t k = 0; k < kErrorCount; ++k)
+        parts[part][j][k] = all[j](static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(part));
+  std::erase_if(parts, [](const std::vector<Errors5>& part) {
+    return std::all_of(part.begin(), part.end(), [](const Errors5& e) { return e == Errors5{}; });
+  });
+  return parts;
 }
 
 }  // namespace mdof::algo

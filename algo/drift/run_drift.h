@@ -44,9 +44,14 @@ class DriftOfRun {
   explicit DriftOfRun(const std::vector<MeasuredPoint>& points);
 
   const RunDrift& found() const { return found_; }
-  // The points without the significant drifts of their errors; the uncertainty of these is added to
-  // their covariances. The mean over the points stays.
+  // The points without the significant drifts of their errors since the first point, where the
+  // system was zeroed; what a drift did before is in all points.
   std::vector<MeasuredPoint> without(std::vector<MeasuredPoint> points) const;
+  // Where these points are what without() left: by how much each may be wrong for that, as
+  // independent parts whose squares add, with freedom() degrees of freedom. Which drifts were taken
+  // is seen in the points: of those nothing is left.
+  std::vector<std::vector<Errors5>> removal_shifts(const std::vector<MeasuredPoint>& points) const;
+  double freedom() const;
 
  private:
   RunDrift found_;

@@ -2,49 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "algo/sensitivity/plan/functions.h"
+#include "schema/base/random.h"
 
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostCorrelation = 0.9;
-constexpr double kLeastNoise2 = 1e-24;  // (1 pm)²: of readings without any noise
+constexpr double kLeastNoise2 = 1e-24;                // (1 pm)²: of readings without any noise
+constexpr double kNearlyAsLikely = 4, kAsLikely = 2;  // of -2 log of the likelihood
+constexpr double kTaken = 1e-6;      // of the sd of a score, which rounding leaves of one
+constexpr Eigen::Index kWaves = 12;  // of the slow noise over a log, half a period and more
+constexpr double kPi = 3.14159265358979323846;
 
-// Of neighbours in time; below 0 it would make a variance smaller, and is taken for 0.
-double correlation_of_neighbours(const std::vector<TimedVisit>& visits,
-                                 const Eigen::VectorXd& residual) {
-  std::vector<std::size_t> in_time(visits.size());
-  std::iota(in_time.begin(), in_time.end(), std::size_t{0});
-  std::stable_sort(in_time.begin(), in_time.end(), [&](std::size_t a, std::size_t b) {
-    return visits[a].time_s < visits[b].time_s;
-  });
-  double both = 0, square = 0;
-  for (std::size_t i = 0; i < in_time.size(); ++i) {
-    const double now = residual(static_cast<Eigen::Index>(in_time[i]));
-    square += now * now;
-    if (i > 0) both += now * residual(static_cast<Eigen::Index>(in_time[i - 1]));
-  }
-  return square > 0 ? std::clamp(both / square, 0.0, kMostCorrelation) : 0.0;
+// Lower L of L Lᵀ = S; what rounding makes negative is 0.
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& S) {
+  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(S.rows(), S.rows());
+  for (Eigen::Index a = 0; a < S.rows(); ++a)
+    for (Eigen::Index b = 0; b <= a; ++b) {
+      const double left = S(a, b) - root.row(a).head(b).dot(root.row(b).head(b));
+      if (a == b)
+        root(a, a) = std::sqrt(std::max(left, 0.0));
+      else if (root(b, b) > 0)
+        root(a, b) = left / root(b, b);
+    }
+  return root;
 }
 
-// Covariance of one reading of each series by what the fit leaves.
-Eigen::MatrixXd noise_of(const DriftDesign& design, const Eigen::MatrixXd& residuals,
-                         const Eigen::VectorXd& noise2) {
-  Eigen::MatrixXd noise = residuals.transpose() * residuals / design.freedom();
-  Eigen::VectorXd larger(noise.rows());
-  for (Eigen::Index k = 0; k < noise.rows(); ++k) {
-    const double r = correlation_of_neighbours(design.visits(), residuals.col(k));
-    const double wanted = std::max({noise(k, k) * (1 + r) / (1 - r), noise2(k), kLeastNoise2});
-    larger(k) = noise(k, k) > kLeastNoise2 ? std::sqrt(wanted / noise(k, k)) : 0;
-    if (larger(k) == 0) noise(k, k) = wanted;
-  }
-  for (Eigen::Index a = 0; a < noise.rows(); ++a)
-    for (Eigen::Index b = 0; b < noise.rows(); ++b)
-      if (a != b || larger(a) > 0) noise(a, b) *= larger(a) * larger(b);
-  return noise;
+int highest_significant(const WeighedFit& fit, Eigen::Index series, double least) {
+  auto order = static_cast<int>(fit.scores.rows());
+  while (order > 0 && std::abs(fit.scores(order - 1, series)) <= least) --order;
+  return order;
 }
 
 }  // namespace
@@ -61,66 +50,129 @@ double critical_t(double probability, double freedom) {
 DriftFit::DriftFit(DriftDesign design, const Eigen::MatrixXd& y, const Eigen::VectorXd& noise2)
     : design_(std::move(design)), series_(static_cast<std::size_t>(y.cols())) {
   if (design_.orders() == 0) return;
-  scores_ = design_.scores(y);
-  noise_ = noise_of(design_, design_.residuals(y), noise2);
+  const DriftRows rows = design_.rows(y);
+  if (rows.freedom() < DriftDesign::kFewestFreedom) return;
+  freedom_ = rows.freedom();
+  std::vector<WeighedFit> fits;
+  for (const SlowNoise& noise : slow_noises(rows.time_s))
+    if (WeighedFit fit = weighed_fit(rows, noise); fit.solved) fits.push_back(std::move(fit));
+  if (fits.empty()) return;
+  const Eigen::VectorXd size = fits.front().left.diagonal().cwiseMax(kLeastNoise2).cwiseSqrt();
+  correlation_ =
+      root_of(size.asDiagonal().inverse() * fits.front().left * size.asDiagonal().inverse());
   const double tests = design_.orders() * static_cast<double>(y.cols());
-  const double t = critical_t(kDriftLevel / tests, design_.freedom());
-  for (Eigen::Index k = 0; k < y.cols(); ++k) series_[static_cast<std::size_t>(k)] = tested(k, t);
+  const double t = critical_t(kDriftLevel / tests, freedom_);
+  for (Eigen::Index k = 0; k < y.cols(); ++k) estimate(k, fits, noise2(k), t);
 }
 
-SeriesDrift DriftFit::tested(Eigen::Index k, double critical_t) const {
-  const double sd = std::sqrt(noise_(k, k));
-  const auto earlier = [](const TimedVisit& a, const TimedVisit& b) { return a.time_s < b.time_s; };
-  const auto& visits = design_.visits();
-  const auto [first, last] = std::minmax_element(visits.begin(), visits.end(), earlier);
-  const Eigen::VectorXd whole = design_.shapes(last->time_s) - design_.shapes(first->time_s);
-  SeriesDrift out;
-  out.least_found = critical_t * sd * std::abs(whole(0));
-  out.order = design_.orders();
-  while (out.order > 0 && std::abs(scores_(out.order - 1, k)) <= critical_t * sd) --out.order;
-  if (out.order == 0) return out;
-  const auto drift = [&](const Eigen::VectorXd& shapes) {
-    return shapes.head(out.order).dot(scores_.col(k).head(out.order));
+void DriftFit::estimate(Eigen::Index k, const std::vector<WeighedFit>& fits, double noise2,
+                        double critical_t) {
+  std::vector<double> unlikely;
+  for (const WeighedFit& fit : fits)
+    unlikely.push_back(fit.unlikeliness(k, freedom_, kLeastNoise2));
+  const auto likeliest = std::min_element(unlikely.begin(), unlikely.end());
+  const auto sd_of = [&](const WeighedFit& fit) {
+    return std::sqrt(std::max({fit.left(k, k) / freedom_, noise2, kLeastNoise2}));
   };
-  out.change = drift(whole);
-  out.u_change = sd * whole.head(out.order).norm();
-  double low = 0, high = 0;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
-    const double here = drift(design_.shapes(visits[i].time_s));
-    low = i == 0 ? here : std::min(low, here);
-    high = i == 0 ? here : std::max(high, here);
+  const Eigen::VectorXd whole = design_.polynomials(design_.end_s());
+  int order = design_.orders();
+  double least_found = 0, largest_u = 0;
+  const WeighedFit* taken = nullptr;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (unlikely[i] > *likeliest + kNearlyAsLikely) continue;
+    const double sd = sd_of(fits[i]), least = critical_t * sd;
+    const Eigen::VectorXd shapes = fits[i].shapes(whole);
+    order = std::min(order, highest_significant(fits[i], k, least));
+    least_found = std::max(least_found, least * std::abs(shapes(0)));
+    if (unlikely[i] > *likeliest + kAsLikely || sd * shapes.norm() <= largest_u) continue;
+    largest_u = sd * shapes.norm();
+    taken = &fits[i];
+  }
+  estimates_.push_back({taken->scores.col(k), taken->root, sd_of(*taken), taken->noise, {}, {}});
+  series_[static_cast<std::size_t>(k)] = described(estimates_.back(), order);
+  series_[static_cast<std::size_t>(k)].least_found = least_found;
+  const WeighedFit& best = fits[static_cast<std::size_t>(likeliest - unlikely.begin())];
+  if (order > 0)
+    series_[static_cast<std::size_t>(k)].u_change = sd_of(best) * best.shapes(whole).norm();
+}
+
+// Waves over the log, cosines of m half periods, in which the slow noise is independent (nearly; of
+// its spectrum 2 τ/(1 + ω²τ²)), and what they do to the scores. The rest of the scores is of white
+// noise.
+void DriftFit::split_noise(Estimate& of) const {
+  const auto n = static_cast<Eigen::Index>(design_.visits().size());
+  Eigen::MatrixXd y(n, kWaves);
+  for (Eigen::Index i = 0; i < n; ++i)
+    y.row(i) = waves(of, design_.visits()[static_cast<std::size_t>(i)].time_s).transpose();
+  of.of_waves = weighed_fit(design_.rows(y), of.noise).scores;
+  of.of_white = root_of(of.sd * of.sd * Eigen::MatrixXd::Identity(of.root.rows(), of.root.rows()) -
+                        of.of_waves * of.of_waves.transpose());
+}
+
+Eigen::VectorXd DriftFit::waves(const Estimate& of, double time_s) const {
+  const double length_s = design_.end_s() - design_.begin_s();
+  const double part = std::clamp((time_s - design_.begin_s()) / length_s, 0.0, 1.0);
+  Eigen::VectorXd waves = Eigen::VectorXd::Zero(kWaves);
+  for (Eigen::Index m = 1; m <= kWaves && of.noise.share > 0; ++m) {
+    const double turn = kPi * static_cast<double>(m) * of.noise.correlation_s / length_s;
+    const double variance =
+        2 * of.noise.share * of.noise.correlation_s / length_s / (1 + turn * turn);
+    const double cosine = sine_of_turns(0.25 + static_cast<double>(m) * part / 2);
+    waves(m - 1) = of.sd * std::sqrt(2 * variance) * (cosine - 1);
+  }
+  return waves;
+}
+
+Eigen::VectorXd DriftFit::shapes(const Estimate& of, double time_s) const {
+  return of.root.transpose().triangularView<Eigen::Lower>().solve(design_.polynomials(time_s));
+}
+
+SeriesDrift DriftFit::described(const Estimate& of, int order) const {
+  SeriesDrift out;
+  out.order = order;
+  if (order == 0) return out;
+  out.change = shapes(of, design_.end_s()).dot(of.scores);
+  double low = 0, high = 0;  // at the first visit
+  for (const TimedVisit& visit : design_.visits()) {
+    const double here = shapes(of, visit.time_s).dot(of.scores);
+    low = std::min(low, here);
+    high = std::max(high, here);
   }
   out.range = high - low;
   return out;
 }
 
-int DriftFit::removed_order(Eigen::Index k) const {
-  const SeriesDrift& of = series_[static_cast<std::size_t>(k)];
-  return of.steps ? 0 : of.order;
-}
-
 Eigen::VectorXd DriftFit::drift(double time_s) const {
-  const auto n = static_cast<Eigen::Index>(series_.size());
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
-  if (design_.orders() == 0) return out;
-  const Eigen::VectorXd shapes = design_.shapes(time_s);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const int order = removed_order(k);
-    out(k) = shapes.head(order).dot(scores_.col(k).head(order));
-  }
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(series_.size()));
+  for (std::size_t k = 0; k < estimates_.size(); ++k)
+    if (series_[k].significant() && !series_[k].steps)
+      out(static_cast<Eigen::Index>(k)) = shapes(estimates_[k], time_s).dot(estimates_[k].scores);
   return out;
 }
 
-Eigen::MatrixXd DriftFit::covariance(double time_s) const {
-  const auto n = static_cast<Eigen::Index>(series_.size());
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
-  if (design_.orders() == 0) return out;
-  const Eigen::VectorXd shapes = design_.shapes(time_s);
-  for (Eigen::Index a = 0; a < n; ++a)
-    for (Eigen::Index b = 0; b < n; ++b)
-      out(a, b) =
-          noise_(a, b) * shapes.head(std::min(removed_order(a), removed_order(b))).squaredNorm();
-  return out;
+bool DriftFit::taken(std::size_t series) const {
+  const Estimate& of = estimates_[series];
+  return (of.scores.array().abs() < kTaken * of.sd).all();
+}
+
+std::vector<Eigen::MatrixXd> DriftFit::parts(const std::vector<double>& time_s) {
+  const auto n = static_cast<Eigen::Index>(series_.size()), each = design_.orders() + kWaves;
+  std::vector<Eigen::MatrixXd> parts(time_s.size(), Eigen::MatrixXd::Zero(n, n * each));
+  for (std::size_t a = 0; a < estimates_.size(); ++a) {
+    if (!taken(a)) continue;
+    Estimate& of = estimates_[a];
+    split_noise(of);
+    const auto row = static_cast<Eigen::Index>(a);
+    for (std::size_t j = 0; j < time_s.size(); ++j) {
+      const Eigen::VectorXd here = shapes(of, time_s[j]);
+      Eigen::VectorXd by(each);
+      by.head(design_.orders()) = of.of_white.transpose() * here;
+      by.tail(kWaves) = waves(of, time_s[j]) - of.of_waves.transpose() * here;
+      for (Eigen::Index i = 0; i < each; ++i)
+        parts[j].row(row).segment(i * n, n) = by(i) * correlation_.row(row);
+    }
+  }
+  return parts;
 }
 
 }  // namespace mdof::algo

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algo/drift/drift_design.h"
+#include "algo/drift/slow_noise.h"
 
 namespace mdof::algo {
 
@@ -13,7 +14,7 @@ namespace mdof::algo {
 inline constexpr double kDriftLevel = 0.01;
 
 struct SeriesDrift {
-  int order = 0;                    // of the polynomial in time; 0: none is significant
+  int order = 0;                    // the highest that is significant; 0: none
   double change = 0, u_change = 0;  // from the first visit to the last
   double range = 0;                 // highest - lowest at the visits
   double least_found = 0;           // a steady change of this size or more is significant
@@ -22,27 +23,46 @@ struct SeriesDrift {
 };
 
 // `y`: visits × series; `noise2`: of each series the mean u² of its readings, which the scatter of
-// the residuals is not taken below. Orders are tested from the highest down, each at kDriftLevel /
-// (orders × series), with the variance that the highest leaves; where its residuals follow each
-// other, as of a drift that no polynomial meets, it is taken larger, by (1 + r)/(1 - r).
+// the residuals is not taken below. Noise may last from one visit to the next, and nobody knows for
+// how long: a drift is significant only if it is by every noise (slow_noise.h) that the log makes
+// nearly as likely as the likeliest; by that one it is estimated. Orders are tested from the
+// highest down, each at kDriftLevel / (orders × series), with the variance that the highest leaves.
 class DriftFit {
  public:
   DriftFit(DriftDesign design, const Eigen::MatrixXd& y, const Eigen::VectorXd& noise2);
 
   const DriftDesign& design() const { return design_; }
+  double freedom() const { return freedom_; }
   const std::vector<SeriesDrift>& series() const { return series_; }
   void take_for_steps(std::size_t series) { series_[series].steps = true; }
-  // Of each series what is to be taken from a reading at that time, and its covariance: 0 where no
-  // drift is significant, or it is one of steps.
+  // Of each series what is to be taken from a reading at that time, against the first visit; 0
+  // where no drift is significant, or it is one of steps.
   Eigen::VectorXd drift(double time_s) const;
-  Eigen::MatrixXd covariance(double time_s) const;
+  // Where such drifts were taken from the readings before: by how much these may be wrong at each
+  // of the times, as columns whose squares add, series × columns. Whether one was taken is seen:
+  // its scores are 0. What lasts of the noise is in it, as the fit has taken a part of that, too.
+  std::vector<Eigen::MatrixXd> parts(const std::vector<double>& time_s);
 
  private:
-  SeriesDrift tested(Eigen::Index series, double critical_t) const;
-  int removed_order(Eigen::Index series) const;
+  struct Estimate {  // of one series
+    Eigen::VectorXd scores;
+    Eigen::MatrixXd root;
+    double sd = 0;  // of a score
+    SlowNoise noise;
+    Eigen::MatrixXd of_waves, of_white;  // what these make of the scores
+  };
+  void estimate(Eigen::Index series, const std::vector<WeighedFit>& fits, double noise2,
+                double critical_t);
+  void split_noise(Estimate& of) const;
+  Eigen::VectorXd waves(const Estimate& of, double time_s) const;
+  SeriesDrift described(const Estimate& of, int order) const;
+  Eigen::VectorXd shapes(const Estimate& of, double time_s) const;
+  bool taken(std::size_t series) const;
 
   DriftDesign design_;
-  Eigen::MatrixXd scores_, noise_;  // orders × series; covariance of one reading of each series
+  double freedom_ = 0;
+  Eigen::MatrixXd correlation_;  // lower root of the correlation of the series' noise
+  std::vector<Estimate> estimates_;
   std::vector<SeriesDrift> series_;
 };
 

@@ -16,6 +16,8 @@ constexpr double kSlowest_hz = 2;  // of a log in seconds
 constexpr double kFastest_hz = 2e6;
 constexpr double kLargestFixture_m = 0.5;
 constexpr double kSmallestFixture_m = 0.5e-3;
+constexpr double kNarrowFixture_m = 5e-3;  // five probes have no room in less
+constexpr double kWideFixture_m = 0.15, kWideByTravel = 5;
 constexpr double kQuietest_m = 0.5e-9;  // sd of any amplifier
 constexpr double kNoisiest = 2.5e-3;    // sd in parts of the range
 constexpr double kNoisiest_m = 1e-6;
@@ -80,7 +82,7 @@ void judge_probes(const Rig& rig, const Plausibility& figures, Texts& out) {
                 with_number("%.3g um)", -0.5 * to_um(first->min_m + first->max_m)));
 }
 
-void judge_fixture(const Rig& rig, Texts& out) {
+void judge_fixture(const Rig& rig, double travel_m, Texts& out) {
   double size_m = 0, origin_m = 0;
   for (const Probe& a : rig.probes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -92,6 +94,14 @@ void judge_fixture(const Rig& rig, Texts& out) {
   if (std::max(size_m, origin_m) > kLargestFixture_m)
     out.push_back("the fixture reaches " + with_number("%.4g m", std::max(size_m, origin_m)) +
                   ": position_mm in the rig seems to be in um");
+  else if (size_m > std::max(kWideFixture_m, kWideByTravel * travel_m))
+    out.push_back("the probes are " + with_number("%.4g mm", to_mm(size_m)) +
+                  " apart and the axis travels " + with_number("%.4g mm", to_mm(travel_m)) +
+                  ": are the lengths of position_mm in the rig ten times too large?");
+  if (size_m < kNarrowFixture_m && size_m >= kSmallestFixture_m)
+    out.push_back("the probes are only " + with_number("%.4g mm", to_mm(size_m)) +
+                  " apart, where five of them have no room: position_mm in the rig seems to be in "
+                  "cm");
   if (size_m < kSmallestFixture_m)
     out.push_back("the probes are only " + with_number("%.4g mm", to_mm(size_m)) +
                   " apart: position_mm in the rig seems to be in m");
@@ -122,7 +132,7 @@ std::vector<std::string> warnings_of_units(const Rig& rig, const Plausibility& f
   if (!encoder.empty()) out.push_back(encoder);
   judge_time(figures, out);
   judge_probes(rig, figures, out);
-  judge_fixture(rig, out);
+  judge_fixture(rig, figures.encoder_max_m - figures.encoder_min_m, out);
   return out;
 }
 

@@ -223,7 +223,9 @@ Budget RunBudgets::first_order(const Figure& figure) const {
   budget.value = figure.of(means_);
   const Random random = random_of(figure);
   budget.u_random = random.u;
-  budget.noise_only = shifted_.empty();
+  budget.noise_only =
+      std::all_of(shifted_.begin(), shifted_.end(),
+                  [](const Shifted& shifted) { return shifted.contributor.key.empty(); });
   budget.not_declared = not_declared_;
   BudgetLine noise;
   noise.name = "noise and repeatability";

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "algo/drift/removed_drift.h"
 #include "algo/model/small_rotation.h"
 #include "algo/model/solver.h"
 #include "algo/sensitivity/plan/mounting.h"
@@ -374,7 +375,8 @@ Status check_angles(const Rig& rig) {
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   if (run.points.empty())
     return bad_input(name_of(run) + " has no points, so that there is nothing to budget");
-  if (!rig.declares_uncertainty()) return std::vector<Contributor>{};
+  std::vector<Contributor> removed = removed_drift(run);
+  if (!rig.declares_uncertainty()) return removed;
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
   MDOF_TRY(Solver solver, Solver::create(rig, model));
@@ -387,6 +389,7 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   for (auto& more : physics_contributors(rig, basis->solver, run, basis->points))
     list.push_back(std::move(more));
   name_what_goes_with_probes(rig, list);
+  for (auto& more : removed) list.push_back(std::move(more));
   return list;
 }
 

@@ -22,7 +22,7 @@ using PointShifts = std::vector<Errors5>;
 // points of the run, and so cancels where a figure takes differences of points.
 struct Contributor {
   std::string name;  // "probe A: sensitivity"
-  std::string key;   // as the rig declares it: "u_sensitivity_ppm"
+  std::string key;   // as the rig declares it: "u_sensitivity_ppm"; empty: seen in the run itself
   DeclaredUncertainty declared;
   double to_unit = 1;  // from SI to the unit in which it is shown
   std::string unit;    // "ppm"
@@ -37,7 +37,7 @@ struct Contributor {
   std::shared_ptr<const PlaneFootprints> surface = nullptr;
 };
 
-// Of what `rig` declares, in its order; the run is of that rig. What moves or turns a probe counts
+// Of what `rig` declares, in its order, and of a removed drift; the run is of that rig. What moves or turns a probe counts
 // by what it changes after the zero at d = 0 without errors (DESIGN §3, simulation II): the zero
 // itself is calibration's. So does a flatness, a random surface that is the same for all visits of
 // a place. Error: a rig that cannot see all five errors, an angle beyond what the models take.

@@ -73,10 +73,10 @@ RunUncertainty run_uncertainty(const Rig& rig, const Run& run) {
   RunUncertainty out;
   out.not_declared = rig.undeclared_uncertainties();
   PointUncertainties points(run);
-  if (rig.declares_uncertainty() && !run.points.empty()) {
+  if (!run.points.empty()) {
     const auto declared = contributors(rig, run);
     if (!declared) out.why = declared.error().message;
-    out.noise_only = !declared;
+    out.noise_only = !declared || !rig.declares_uncertainty();
     if (declared)
       for (const Contributor& contributor : *declared) points.add(contributor, contributor.parts());
   }

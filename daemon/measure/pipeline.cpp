@@ -9,6 +9,7 @@
 #include "algo/model/restate.h"
 #include "algo/plausibility/map_cover.h"
 #include "algo/plausibility/plausibility.h"
+#include "algo/plausibility/visit_step.h"
 #include "algo/points/flags.h"
 #include "daemon/measure/completeness.h"
 #include "daemon/measure/drift_treatment.h"
@@ -326,6 +327,8 @@ Result<Run> Pipeline::finish() {
   auto more = dwell_.warnings(found_);
   const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_.sides);
   if (const auto contradiction = residuals.warning(run.points)) more.push_back(*contradiction);
+  for (auto& sentence : algo::warnings_of_repeats(rig_, run.points))
+    more.push_back(std::move(sentence));
   run.header.warnings.insert(run.header.warnings.end(), more.begin(), more.end());
   treat_drift(rig_, options_.remove_drift, run);
   judge(run);

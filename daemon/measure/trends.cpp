@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "algo/drift/removed_drift.h"
 #include "algo/uncertainty/budget.h"
 #include "daemon/measure/evaluation.h"
 #include "schema/imported/series.h"
@@ -21,8 +22,7 @@ constexpr std::array kAxes = {Axis::x, Axis::y, Axis::z};
 
 // What two runs must have alike to be in one chart.
 std::string kind_of(const RunHeader& run) {
-  const bool without_drift =
-      run.provenance.options_json.find("\"remove_drift\":true") != std::string::npos;
+  const bool without_drift = algo::asked_to_remove_drift(run);
   const bool on_the_fly = run.provenance.options_json.find("\"on_the_fly\":") != std::string::npos;
   return run.provenance.model + (without_drift ? " without drift " : " ") +
          (on_the_fly ? "on the fly " : "") + run.provenance.rig_text;

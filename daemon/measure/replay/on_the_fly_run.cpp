@@ -6,6 +6,7 @@
 #include "algo/iso230/straightness.h"
 #include "algo/plausibility/map_cover.h"
 #include "algo/plausibility/plausibility.h"
+#include "algo/plausibility/visit_step.h"
 #include "daemon/measure/completeness.h"
 #include "daemon/measure/drift_treatment.h"
 #include "daemon/measure/points/point_solver.h"
@@ -135,6 +136,7 @@ Result<Run> OnTheFlyRun::finish() {
   corrections_.tell(solver_, as_read, run);
   if (const auto contradiction = residuals.warning(run.points))
     run.header.warnings.push_back(*contradiction);
+  append(run.header.warnings, algo::warnings_of_repeats(rig_, run.points));
   treat_drift(rig_, options_.remove_drift, run);
   const auto missing = what_is_missing(sequence.targets_m, options_.repeats, run.points);
   run.header.state = missing.empty() ? RunState::complete : RunState::partial;

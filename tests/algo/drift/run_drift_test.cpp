@@ -103,8 +103,8 @@ TEST(RunDrift, WithoutNoiseAStraightDriftIsFoundToTheLastPicometre) {
 }
 
 // Noise whose neighbours in time follow each other (r = 0.6) looks like a drift to a fit that takes
-// them for independent: 144 of these 400 would be given one, and 51 are. It is not told wholly.
-TEST(RunDrift, NoiseThatFollowsItselfIsSeldomerADrift) {
+// them for independent: 144 of these 400 would be given one.
+TEST(RunDrift, NoiseThatFollowsItselfIsNoDrift) {
   int found = 0;
   constexpr int kSeeds = 400;
   for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
@@ -123,7 +123,7 @@ TEST(RunDrift, NoiseThatFollowsItselfIsSeldomerADrift) {
     log.drift = [&](double t) { return slow[static_cast<std::size_t>(t / 2 + 0.5)]; };
     found += DriftOfRun(log.points()).found().errors[kDy].significant();
   }
-  EXPECT_LE(found, kSeeds / 6);
+  EXPECT_LE(found, kSeeds / 100);
 }
 
 TEST(RunDrift, UncertaintyIsTheScatterOverManySeeds) {
@@ -140,7 +140,7 @@ TEST(RunDrift, UncertaintyIsTheScatterOverManySeeds) {
     square += (of.change - 200e-9) * (of.change - 200e-9) / kSeeds;
     stated += of.u_change * of.u_change / kSeeds;
   }
-  EXPECT_NEAR(std::sqrt(stated / square), 1.07, 0.13);  // neighbours' correlation makes it larger
+  EXPECT_NEAR(std::sqrt(stated / square), 1.15, 0.2);
 }
 
 TEST(RunDrift, ALogWithoutDriftIsGivenNoneMoreOftenThanStated) {
@@ -284,20 +284,29 @@ TEST(RunDrift, OfOneDirectionADriftMayBeSteps) {
   EXPECT_FALSE(drift.found().removable());
 }
 
-TEST(RunDrift, ItsUncertaintyIsAddedToTheCovariance) {
+TEST(RunDrift, ItsUncertaintyGrowsFromTheStartOn) {
   Log log;
   log.noise_m = kNoise;
   log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
   const auto points = log.points();
   const DriftOfRun drift(points);
   const auto after = drift.without(points);
-  const double u_first = std::sqrt(after.front().errors.covariance[0]);
-  const double u_last = std::sqrt(after.back().errors.covariance[0]);
-  // Of order 1 the drift is straight, and its mean over the points is 0: each end has half.
-  ASSERT_EQ(drift.found().errors[kDy].order, 1);
-  EXPECT_NEAR(u_first, drift.found().errors[kDy].u_change / 2, 1e-13);
-  EXPECT_NEAR(u_last, u_first, 1e-13);
-  EXPECT_EQ(after.front().errors.covariance[6], 0);  // δz has none
+  const DriftOfRun again(after);
+  EXPECT_FALSE(again.found().significant());
+  const auto shifts = again.removal_shifts(after);
+  const auto u_at = [&](std::size_t point, std::size_t error) {
+    double square = 0;
+    for (const auto& part : shifts) square += part[point][error] * part[point][error];
+    return std::sqrt(square);
+  };
+  EXPECT_NEAR(u_at(0, kDy), 0, 1e-20);
+  EXPECT_GT(u_at(after.size() - 1, kDy), 0.3 * kNoise);
+  EXPECT_LT(u_at(after.size() - 1, kDy), 3 * kNoise);
+  EXPECT_GT(u_at(after.size() / 2, kDy), 0);
+  EXPECT_EQ(u_at(after.size() - 1, kDz), 0);  // none was taken from δz
+  EXPECT_EQ(again.freedom(), 78 - 26 - 6);
+  EXPECT_TRUE(drift.removal_shifts(points).empty());  // it is still in them
+  EXPECT_EQ(after.back().errors.covariance, points.back().errors.covariance);
 }
 
 TEST(RunDrift, PointsWithoutErrorsTellNothingAndStayAsTheyAre) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "algo/plausibility/plausibility.h"
+#include "tests/algo/rigs.h"
 
 namespace mdof::algo {
 namespace {
@@ -102,7 +103,8 @@ TEST(UnitsLimits, AGapWithoutOffset) {
 
 TEST(UnitsLimits, OfTheFixture) {
   for (const auto& [size_m, said] :
-       {std::pair(0.49e-3, 1u), std::pair(0.51e-3, 0u), std::pair(0.49, 0u), std::pair(0.51, 1u)}) {
+       {std::pair(0.49e-3, 1u), std::pair(0.51e-3, 1u), std::pair(4.9e-3, 1u),
+        std::pair(5.1e-3, 0u), std::pair(0.299, 0u), std::pair(0.301, 1u), std::pair(0.51, 1u)}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Rig rig = rig_of_gap();
       for (std::size_t k = 0; k < 5; ++k) {
@@ -111,8 +113,24 @@ TEST(UnitsLimits, OfTheFixture) {
       }
       EXPECT_EQ(said_of(figures(), rig), said) << size_m << " along " << axis;
       for (auto& probe : rig.probes) probe.position_m[axis] -= 0.6;  // far from the origin
-      EXPECT_EQ(said_of(figures(), rig), size_m < 0.5e-3 ? 2u : 1u) << size_m;
+      EXPECT_EQ(said_of(figures(), rig), size_m < 5e-3 ? 2u : 1u) << size_m;
     }
+  }
+}
+
+// A default fixture of 35 mm whose positions were written in cm, and in tenths of a mm.
+TEST(UnitsLimits, LengthsTenTimesTooSmallAndTooLarge) {
+  for (const auto& [factor, says] : {std::pair(0.1, "seems to be in cm"), std::pair(1.0, ""),
+                                     std::pair(10.0, "ten times too large")}) {
+    Rig rig = test::rig_x();
+    for (auto& probe : rig.probes)
+      for (double& x : probe.position_m) x *= factor;
+    Plausibility p = figures();
+    p.encoder_max_m = 40e-3;
+    const auto said = warnings_of_units(rig, p);
+    ASSERT_EQ(said.size(), *says == '\0' ? 0u : 1u) << factor;
+    if (said.empty()) continue;
+    EXPECT_NE(said[0].find(says), std::string::npos) << said[0];
   }
 }
 

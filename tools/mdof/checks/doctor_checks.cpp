@@ -229,6 +229,30 @@ std::vector<Diagnosis> check_sysfs_files(const Machine& machine, std::optional<g
   return all;
 }
 
+Diagnosis check_set_up(const Rig& rig) {
+  const std::string what = "set-up of axis " + std::string(1, letter(rig.axis)) + ": ";
+  const char* const remedy =
+      "check it by hand once: push the target towards each probe in turn (that probe alone must "
+      "change, with the sign of its direction, by the size of the push); tilt the target by a "
+      "known "
+      "angle about each axis; move the axis by a known length (the encoder must count it, in its "
+      "sense)";
+  if (rig.probes.size() > 5)
+    return {
+        Level::good,
+        what + std::to_string(rig.probes.size()) +
+            " probes contradict each other where one is exchanged, turned or has a wrong gain or "
+            "position, and the run warns; a reversed encoder, the sign or gain of all probes and "
+            "a common factor of all lengths remain unseen",
+        remedy};
+  return {Level::good,
+          what +
+              "five probes never contradict each other: exchanged or turned probes, a wrong sign "
+              "or gain, wrong positions, the rig of another axis and a reversed encoder give other "
+              "errors without any warning",
+          remedy};
+}
+
 const char* to_string(Level level) {
   return level == Level::good ? "ok" : level == Level::doubtful ? "doubtful" : "WRONG";
 }

@@ -44,6 +44,10 @@ std::vector<Diagnosis> check_sysfs_files(const Machine& machine, std::optional<g
 // The group that the packaged service is in; none: it is not installed.
 std::optional<gid_t> service_group();
 
+// What the readings of a rig's probes cannot reveal, and the check by hand that can; of rigs with
+// more than five probes what their residuals reveal.
+Diagnosis check_set_up(const Rig& rig);
+
 const char* to_string(Diagnosis::Level level);  // "ok", "doubtful", "WRONG"
 
 }  // namespace mdof::tools

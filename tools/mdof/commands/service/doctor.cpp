@@ -127,6 +127,7 @@ std::vector<Diagnosis> examine(const DoctorCommand& command) {
   }
   all.push_back({Level::good, "configuration: " + command.config, ""});
   all.push_back(check_storage(*config));
+  for (const auto& axis : config->axes) all.push_back(check_set_up(axis.rig));
   add(check_network(machine, *config));
   add(check_devices(*config, configured_socket(*config, command.socket)));
   return all;

@@ -1,0 +1,185 @@
+#include "algo/plausibility/visit_step.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "algo/linear_algebra/least_squares.h"
+#include "algo/plausibility/sentences.h"
+#include "algo/points/flags.h"
+#include "algo/sensitivity/plan/functions.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kStepsOfScatter = 6, kLogRatioToSmooth = 10;
+constexpr double kLeastStep_m = 1e-9;
+constexpr double kFewestOfStep = 2;   // Σ before · after/all over the places: four places or more
+constexpr double kFewestFreedom = 4;  // of what places and a step leave
+constexpr Eigen::Index kSmooth = 6;   // orders of the smooth change
+constexpr std::size_t kFewestCopies = 6;
+
+using Visits = std::vector<const MeasuredPoint*>;
+
+// In the order of time, of those that have this probe's reading.
+Visits visits_of(const std::vector<MeasuredPoint>& points, std::size_t probe) {
+  Visits visits;
+  for (const MeasuredPoint& p : points)
+    if (p.point.direction != 0 && !std::isnan(p.point.probe_m[probe])) visits.push_back(&p);
+  return visits;
+}
+
+// Without the means of their places.
+class AtPlaces {
+ public:
+  explicit AtPlaces(const Visits& visits) {
+    std::map<std::pair<int, int>, Eigen::Index> places;
+    for (const MeasuredPoint* p : visits) {
+      const std::pair key(p->target, p->point.direction);
+      place_.push_back(places.emplace(key, static_cast<Eigen::Index>(places.size())).first->second);
+    }
+    count_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places.size()));
+    for (const Eigen::Index place : place_) count_(place) += 1;
+  }
+  Eigen::Index places() const { return count_.size(); }
+  Eigen::Index of(std::size_t visit) const { return place_[visit]; }
+  double visits(Eigen::Index place) const { return count_(place); }
+  Eigen::MatrixXd centred(Eigen::MatrixXd y) const {
+    Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(count_.size(), y.cols());
+    for (std::size_t i = 0; i < place_.size(); ++i)
+      mean.row(place_[i]) += y.row(static_cast<Eigen::Index>(i)) / count_(place_[i]);
+    for (std::size_t i = 0; i < place_.size(); ++i)
+      y.row(static_cast<Eigen::Index>(i)) -= mean.row(place_[i]);
+    return y;
+  }
+
+ private:
+  std::vector<Eigen::Index> place_;
+  Eigen::VectorXd count_;
+};
+
+struct Jump {
+  std::size_t visit = 0;  // the first after it
+  double size = 0, explains = 0;
+};
+
+// The single step that leaves least of `y`, centred.
+Jump largest_jump(const AtPlaces& at, const Eigen::VectorXd& y) {
+  Eigen::VectorXd after = Eigen::VectorXd::Zero(at.places());
+  double sum = 0, weight = 0;
+  Jump best;
+  for (auto i = static_cast<std::size_t>(y.size()); i-- > 1;) {
+    const Eigen::Index place = at.of(i);
+    const double n = at.visits(place);
+    weight -= after(place) * (n - after(place)) / n;
+    after(place) += 1;
+    weight += after(place) * (n - after(place)) / n;
+    sum += y(static_cast<Eigen::Index>(i));
+    if (weight < kFewestOfStep || sum * sum / weight <= best.explains) continue;
+    best = {i, sum / weight, sum * sum / weight};
+  }
+  return best;
+}
+
+double left_by_smooth(const AtPlaces& at, const Visits& visits, const Eigen::VectorXd& y) {
+  const double begin = ns_to_s(visits.front()->point.begin_ns);
+  const double length = ns_to_s(visits.back()->point.begin_ns) - begin;
+  if (!(length > 0)) return 0;
+  Eigen::MatrixXd powers(y.size(), kSmooth);
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    const double time_s = ns_to_s(visits[static_cast<std::size_t>(i)]->point.begin_ns);
+    const double x = 2 * (time_s - begin) / length - 1;
+    for (Eigen::Index k = 0; k < kSmooth; ++k) powers(i, k) = k == 0 ? x : powers(i, k - 1) * x;
+  }
+  const Eigen::MatrixXd columns = at.centred(std::move(powers));
+  return (y - columns * LeastNorm(columns).solve(y)).squaredNorm();
+}
+
+// Found by the dwells already.
+bool stepped_before(const Visits& visits, const std::string& id) {
+  return std::any_of(visits.begin(), visits.end(),
+                     [&](const MeasuredPoint* p) { return has_flag(p->point, "step:" + id); });
+}
+
+std::string visit_text(const MeasuredPoint& p) {
+  return "run " + std::to_string(p.run) + ", target " + std::to_string(p.target) + " (" +
+         (p.point.direction > 0 ? "forward" : "reverse") + ")";
+}
+
+// Whether all probes read the same, to the last bit, at both. Readings without noise repeat.
+bool same_readings(const Point& a, const Point& b) {
+  return a.probe_m == b.probe_m && a.position_m == b.position_m &&
+         std::all_of(a.probe_u_m.begin(), a.probe_u_m.end(), [](double u) { return u > 0; });
+}
+
+std::string copied_sentence(const std::vector<MeasuredPoint>& points) {
+  std::map<std::pair<int, int>, std::vector<const MeasuredPoint*>> before;
+  std::size_t copies = 0;
+  for (const MeasuredPoint& p : points) {
+    auto& same_place = before[{p.target, p.point.direction}];
+    copies += std::any_of(same_place.begin(), same_place.end(), [&](const MeasuredPoint* other) {
+      return same_readings(p.point, other->point);
+    });
+    same_place.push_back(&p);
+  }
+  if (copies < kFewestCopies || 4 * copies < points.size()) return "";
+  return std::to_string(copies) + " of " + std::to_string(points.size()) +
+         " points have the readings of an earlier visit to the last digit: the log contains the "
+         "same "
+         "measurement twice; readings that count twice make the uncertainty too small; remove the "
+         "copy";
+}
+
+}  // namespace
+
+std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoint>& points) {
+  std::vector<VisitStep> steps;
+  for (std::size_t k = 0; k < rig.probes.size(); ++k) {
+    const Visits visits = visits_of(points, k);
+    if (visits.empty() || stepped_before(visits, rig.probes[k].id)) continue;
+    const AtPlaces at(visits);
+    const double freedom =
+        static_cast<double>(visits.size()) - static_cast<double>(at.places()) - 2;
+    if (freedom < kFewestFreedom) continue;
+    Eigen::VectorXd y(static_cast<Eigen::Index>(visits.size()));
+    double noise2 = kLeastStep_m * kLeastStep_m / (kStepsOfScatter * kStepsOfScatter);
+    for (std::size_t i = 0; i < visits.size(); ++i) {
+      y(static_cast<Eigen::Index>(i)) = visits[i]->point.probe_m[k];
+      const double u = visits[i]->point.probe_u_m[k];
+      if (u > 0) noise2 = std::max(noise2, u * u);
+    }
+    y = at.centred(y);
+    const Jump jump = largest_jump(at, y);
+    const double sd2 = std::max((y.squaredNorm() - jump.explains) / freedom, noise2);
+    if (std::abs(jump.size) < kStepsOfScatter * std::sqrt(sd2)) continue;
+    const double smooth2 = left_by_smooth(at, visits, y) / freedom;
+    if (!(smooth2 > sd2) || 0.5 * freedom * natural_log(smooth2 / sd2) < kLogRatioToSmooth)
+      continue;
+    const auto point = static_cast<std::size_t>(visits[jump.visit] - points.data());
+    steps.push_back({k, point, jump.size, std::sqrt(sd2)});
+  }
+  return steps;
+}
+
+std::vector<std::string> warnings_of_repeats(const Rig& rig,
+                                             const std::vector<MeasuredPoint>& points) {
+  Texts out;
+  std::map<std::size_t, std::string> probes;  // by the point after the step
+  for (const VisitStep& step : visit_steps(rig, points)) {
+    std::string& text = probes[step.point];
+    text += (text.empty() ? "" : ", ") + rig.probes[step.probe].id + " by " +
+            with_number("%+.4f µm", to_um(step.size_m));
+  }
+  for (const auto& [point, text] : probes)
+    out.push_back("readings changed between two visits and stayed changed from " +
+                  visit_text(points[point]) + " on: " + text +
+                  "; the errors before and after are not of one set-up: check the mounts of the "
+                  "probes, the fixture and the target, and measure again");
+  if (auto copied = copied_sentence(points); !copied.empty()) out.push_back(std::move(copied));
+  return out;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,32 @@
+// What the visits of a run tell of its probes: a reading that moved between two visits and stayed
+// there, and readings that come twice.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "schema/point.h"
+#include "schema/rig/rig.h"
+
+namespace mdof::algo {
+
+struct VisitStep {
+  std::size_t probe = 0;
+  std::size_t point = 0;  // the first after the step
+  double size_m = 0;
+  double sd_m = 0;  // of single readings about the mean of their place, without the step
+};
+
+// Of each probe the likeliest single step, where it is six times what the readings scatter without
+// it and explains them e¹⁰ times better than any smooth change, a polynomial of order 6 over time:
+// a drift, or noise that lasts, is none. A place is a target with its approach; those that are
+// visited once tell nothing. Smaller ones than what a dwell shows (probe_watch.h) are found; those
+// that it found are left out.
+std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoint>& points);
+
+// Each one sentence; none: nothing looks wrong.
+std::vector<std::string> warnings_of_repeats(const Rig& rig,
+                                             const std::vector<MeasuredPoint>& points);
+
+}  // namespace mdof::algo

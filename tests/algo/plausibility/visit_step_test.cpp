@@ -1,0 +1,128 @@
+#include "algo/plausibility/visit_step.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "tests/algo/rigs.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr int kTargets = 13;
+constexpr double kNoise = 20e-9, kStop_s = 2;
+
+// Three runs there and back, five probes; `more`: what is added to probe E at each stop, m.
+std::vector<MeasuredPoint> log_of(std::uint64_t seed, const std::function<double(int)>& more,
+                                  int runs = 3) {
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<> normal;
+  std::vector<MeasuredPoint> points;
+  for (int n = 0; n < 2 * kTargets * runs; ++n) {
+    MeasuredPoint& p = points.emplace_back();
+    const int in_run = n % (2 * kTargets);
+    p.run = 1 + n / (2 * kTargets);
+    p.target = in_run < kTargets ? in_run + 1 : 2 * kTargets - in_run;
+    p.point.position_m = p.target_m = 5e-3 * p.target;
+    p.point.direction = in_run < kTargets ? 1 : -1;
+    p.point.begin_ns = p.point.end_ns = static_cast<std::int64_t>(1e9 * kStop_s * n);
+    for (int k = 0; k < 5; ++k) {
+      p.point.probe_m.push_back(5e-6 * std::sin(p.target + k) + 80e-9 * p.point.direction +
+                                kNoise * normal(engine) + (k == 4 ? more(n) : 0));
+      p.point.probe_u_m.push_back(0.2 * kNoise);
+    }
+  }
+  return points;
+}
+
+double zero(int) {
+  return 0;
+}
+
+TEST(VisitStep, NamesTheProbeAndTheVisit) {
+  const Rig rig = test::rig_x();
+  for (const int at : {15, 26, 40, 70})  // in a run, between two, near the end
+    for (const double size : {200e-9, -200e-9}) {
+      const auto points = log_of(7, [=](int n) { return n >= at ? size : 0; });
+      const auto steps = visit_steps(rig, points);
+      ASSERT_EQ(steps.size(), 1U) << at;
+      EXPECT_EQ(steps[0].probe, 4U);
+      EXPECT_NEAR(static_cast<double>(steps[0].point), at, 1);
+      EXPECT_NEAR(steps[0].size_m, size, 20e-9);
+      EXPECT_NEAR(steps[0].sd_m, kNoise, 5e-9);
+    }
+  const auto said = warnings_of_repeats(rig, log_of(7, [](int n) { return n >= 40 ? 2e-7 : 0; }));
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].find("from run 2, target 12 (reverse) on: E by +0."), std::string::npos)
+      << said[0];
+}
+
+TEST(VisitStep, ProbesThatStepTogetherAreOneSentence) {
+  auto points = log_of(9, [](int n) { return n >= 30 ? 300e-9 : 0; });
+  for (std::size_t n = 30; n < points.size(); ++n) points[n].point.probe_m[1] -= 400e-9;
+  const auto said = warnings_of_repeats(test::rig_x(), points);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].find(": B by -0."), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find(", E by +0."), std::string::npos) << said[0];
+}
+
+TEST(VisitStep, WhatChangesSlowlyIsNone) {
+  const Rig rig = test::rig_x();
+  int found = 0, logs = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    std::mt19937_64 engine(1000 + seed);
+    std::normal_distribution<> normal;
+    std::vector<double> walk = {0}, lasting = {0}, passes;
+    for (int n = 0; n < 2 * kTargets * 3; ++n) {
+      walk.push_back(walk.back() + 2 * kNoise * normal(engine));
+      lasting.push_back(0.82 * lasting.back() + 3 * kNoise * normal(engine));
+      if (n % kTargets == 0) passes.push_back(4 * kNoise * normal(engine));
+    }
+    const double length = 2.0 * kTargets * 3;
+    for (const std::function<double(int)>& of :
+         {std::function<double(int)>(zero),
+          std::function<double(int)>([&](int n) { return walk[static_cast<std::size_t>(n)]; }),
+          std::function<double(int)>([&](int n) { return lasting[static_cast<std::size_t>(n)]; }),
+          std::function<double(int)>(
+              [&](int n) { return passes[static_cast<std::size_t>(n / kTargets)]; }),
+          std::function<double(int)>([=](int n) { return 600e-9 * n / length; }),
+          std::function<double(int)>([=](int n) { return 600e-9 * std::exp(-3 * n / length); })}) {
+      ++logs;
+      found += !visit_steps(rig, log_of(seed, of)).empty();
+    }
+  }
+  std::printf("steps found in %d of %d logs without one\n", found, logs);
+  EXPECT_LE(found, logs / 100);
+}
+
+TEST(VisitStep, WhatTheDwellsFoundIsNotSaidAgain) {
+  auto points = log_of(7, [](int n) { return n >= 40 ? 200e-9 : 0; });
+  points[40].point.flags = {"step:E"};
+  EXPECT_TRUE(visit_steps(test::rig_x(), points).empty());
+  EXPECT_TRUE(visit_steps(test::rig_x(), {}).empty());
+  // One run visits each place once.
+  EXPECT_TRUE(visit_steps(test::rig_x(), log_of(
+                                             7, [](int n) { return n >= 15 ? 2e-7 : 0; }, 1))
+                  .empty());
+}
+
+TEST(VisitStep, ASecondCopyOfTheSameRun) {
+  auto points = log_of(3, zero, 1);
+  const auto once = points;
+  for (MeasuredPoint p : once) {
+    p.run = 2;
+    p.point.begin_ns += 100'000'000'000;
+    points.push_back(p);
+  }
+  const auto said = warnings_of_repeats(test::rig_x(), points);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].find("26 of 52 points"), 0U) << said[0];
+  EXPECT_TRUE(warnings_of_repeats(test::rig_x(), log_of(3, zero)).empty());
+  for (MeasuredPoint& p : points) p.point.probe_u_m.assign(5, 0);  // without noise they repeat
+  EXPECT_TRUE(warnings_of_repeats(test::rig_x(), points).empty());
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -381,8 +381,7 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   model_from(run.header.provenance.model, model);
   MDOF_TRY(Solver solver, Solver::create(rig, model));
   auto points = point_sensitivities(solver, run);
-  const auto basis =
-      std::make_shared<const Basis>(Basis{rig, std::move(solver), run, std::move(points)});
+  const SharedBasis basis(new Basis{rig, std::move(solver), run, std::move(points)});
   MDOF_CHECK(check_run(*basis));
   MDOF_CHECK(check_angles(basis->rig));
   std::vector<Contributor> list = List(basis).take();

@@ -146,5 +146,26 @@ TEST_F(WatchedJournal, ACutShmEndsNoProcessThatSaysSo) {
   }
 }
 
+// In the midst of reading: an index that is empty would give the pages of before.
+TEST_F(WatchedJournal, ACutShmGivesNoReaderAnOlderPage) {
+  const int status = in_child([&] {
+    survive_cut_shm();
+    auto db = writer();
+    auto reader = Connection::open(file_, OpenMode::read_only);
+    if (!db.execute("CREATE TABLE u (x, filler); WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT "
+                    "i + 1 FROM n WHERE i < 300) INSERT INTO u SELECT 1, zeroblob(3000) FROM n; "
+                    "PRAGMA wal_checkpoint(TRUNCATE); PRAGMA wal_autocheckpoint = 0; "
+                    "UPDATE u SET x = 2") ||
+        !reader->execute("BEGIN; SELECT count(*) FROM t"))
+      return false;
+    fs::resize_file(shm_, 0);
+    const auto sum = reader->integer("SELECT sum(x) FROM u");
+    return !sum || *sum == 600;
+  });
+  EXPECT_EQ(status, 0);
+  auto after = Connection::open(file_, OpenMode::read_write);
+  EXPECT_EQ(after->integer("SELECT sum(x) FROM u").value_or(-1), 600);
+}
+
 }  // namespace
 }  // namespace mdof::sqlite

@@ -71,13 +71,11 @@ std::string head_text(const store::ChainHead& head) {
   return "link " + std::to_string(head.link) + ", " + head.sha256;
 }
 
-std::string verify_json(const SourceCheck& check, const store::ChainHead& head) {
+std::string verify_json(const SourceCheck& check) {
   JsonWriter json;
   json.begin_object().field("sound", check.findings.empty());
   write_texts(json, "findings", check.findings);
   write_texts(json, "notes", check.notes);
-  json.key("head");
-  head.link > 0 ? json.value(head.sha256) : json.null();
   json.end_object();
   return json.take();
 }
@@ -94,7 +92,7 @@ Status verify(const VerifyCommand& command) {
   if (!command.recording.empty()) MDOF_CHECK(verify_recording(command.recording, check));
   if (command.recording.empty() || !command.database.empty())
     MDOF_CHECK(verify_database(command.database, command.head, check, head));
-  if (command.json) MDOF_CHECK(write_line(verify_json(check, head)));
+  if (command.json) MDOF_CHECK(write_line(verify_json(check)));
   for (const auto& note : check.notes) say("note: " + note);
   for (const auto& finding : check.findings) say(finding);
   if (!check.findings.empty())

@@ -76,7 +76,7 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
   command
       .add_option("--tolerance-um", request.tolerance_um,
                   "Leave out points that straight lines come as near to as this (angles: urad)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   auto* home = command.add_option("--home-mm", request.home_mm,
                                   "Where the axis is homed: the correction is made 0 there");
   home->each([&request](const std::string&) { request.home_given = true; });

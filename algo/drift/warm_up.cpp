@@ -37,6 +37,16 @@ DriftVerdict verdict_of(double rate, double u, double limit) {
   return std::abs(rate) - kCoverage * u > limit ? DriftVerdict::above : DriftVerdict::undecided;
 }
 
+bool never_changes(const ParkedSeries& series) {
+  double first = kNothing;
+  for (const double x : series.value) {
+    if (std::isnan(x)) continue;
+    if (std::isnan(first)) first = x;
+    if (x != first) return false;
+  }
+  return true;
+}
+
 DriftWindow window_of(const ParkedSeries& series, double step_s, std::size_t begin) {
   const auto time_s = [&](std::size_t i) { return static_cast<double>(i - begin) * step_s; };
   const Line line = line_of(series.value, time_s, begin, begin + kStepsOfWindow);
@@ -63,6 +73,8 @@ std::optional<double> ready_after(const ParkedReadings& readings, const WarmUp& 
       if (found.windows[s][w].verdict != DriftVerdict::below) first = std::max(first, w + 1);
   }
   if (!found.limited || first + kFewestBelow > found.begin_s.size()) return std::nullopt;
+  const double below_s = static_cast<double>(found.begin_s.size() - first) * found.window_s;
+  if (below_s < kShortestBelow_s) return std::nullopt;
   return found.begin_s[first];
 }
 
@@ -90,8 +102,11 @@ WarmUp warm_up(const ParkedReadings& readings) {
     found.begin_s.push_back(static_cast<double>(begin) * readings.step_s);
   for (const ParkedSeries& series : readings.series) {
     auto& windows = found.windows.emplace_back();
-    for (std::size_t w = 0; w < found.begin_s.size(); ++w)
+    const bool constant = never_changes(series);
+    for (std::size_t w = 0; w < found.begin_s.size(); ++w) {
       windows.push_back(window_of(series, readings.step_s, w * kStepsOfWindow));
+      if (constant) windows.back().verdict = DriftVerdict::unknown;
+    }
     found.limited = found.limited || !std::isinf(series.limit_per_s);
     if (!readings.temperature_C.empty())
       found.with_temperature.push_back(with_temperature(readings, series));

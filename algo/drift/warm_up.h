@@ -23,7 +23,9 @@ struct ParkedReadings {
   std::vector<double> temperature_C;  // likewise, or empty: nobody read it
 };
 
-// `undecided`: the limit lies within two standard uncertainties. `unknown`: too few readings.
+// `undecided`: the limit lies within two standard uncertainties. `unknown`: too few readings, or
+// the reading of the whole log never changes: of a dead probe, or of one whose step hides the
+// drift.
 enum class DriftVerdict { below, above, undecided, unknown };
 const char* to_string(DriftVerdict verdict);
 
@@ -43,11 +45,12 @@ struct WarmUp {
   std::vector<WithTemperature> with_temperature;  // [series]; empty: no temperature
   bool limited = false;                           // any series has a limit
   // From then on every window of every series with a limit is below it, and there are at least
-  // kFewestBelow of them. None: not ready, or not limited.
+  // kFewestBelow of them, which last kShortestBelow_s. None: not ready, or not limited.
   std::optional<double> ready_after_s;
 };
 
 inline constexpr std::size_t kFewestBelow = 3, kStepsOfWindow = 10, kFewestSteps = 6;
+inline constexpr double kShortestBelow_s = 600;  // thermal drift has time constants of minutes
 
 // Windows of kStepsOfWindow steps, one after the other; the last steps that fill none are left out.
 // A rate is the slope of the least-squares line through a window's readings, its u by their scatter

@@ -313,7 +313,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                   {"to_mm", ParamType::number, "the last one is not beyond this", false},
                   {"interval_mm", ParamType::number, "between two targets", false},
                   {"jitter_mm", ParamType::number, "each is moved by up to this", false, "0"},
-                  {"seed", ParamType::integer, "of the jitter", false, "1"},
+                  {"seed", ParamType::integer, "of the jitter", false, "1", {.least = 0}},
                   {"scale_period_um",
                    ParamType::number,
                    "signal period of the encoder's scale: a warning where the intervals hide its "

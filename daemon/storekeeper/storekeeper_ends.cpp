@@ -36,7 +36,8 @@ store::RunEnd provisional_of(store::RunEnd whole, const char* where) {
   whole.straightness.clear();
   whole.angles.clear();
   whole.plausibility.reset();
-  whole.warnings.push_back(std::string("once all was known the points turned out otherwise; ") +
+  whole.warnings.push_back(std::string("targets and points were numbered again when all stops were "
+                                       "known; ") +
                            where);
   return whole;
 }

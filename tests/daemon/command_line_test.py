@@ -80,9 +80,28 @@ class Record(CommandLine):
         # Complete or not: it is shown.
         _, out, _ = mdof("record", "--axis", "X", "--for-s", 6, "--socket", self.daemon.socket)
         run = self.client.call("run.list")["runs"][0]["run"]
+        self.assertEqual(re.search(r"^run (\d+), axis X", out, re.MULTILINE)[1], str(run))
         self.assertEqual(out, self.done("show", run, "--db", self.daemon.database))
         self.assertIn("EYX/µm", out)
         self.assertEqual([line for line in out.splitlines() if len(line) > 80 and " /" not in line], [])
+
+
+    def test_names_the_run_that_has_the_result(self):
+        # Begun on the way back, the first targets get other numbers once lower ones are seen.
+        for attempt in range(12):
+            time.sleep(0.3 * attempt)  # at another place of the cycle
+            _, _, err = mdof("record", "--axis", "X", "--for-s", 3.5, "--socket", self.daemon.socket)
+            newest = self.client.call("run.list", count=1)["runs"][0]
+            if newest["supersedes"]:
+                break
+        before = newest["supersedes"]
+        self.assertIsNotNone(before)
+        self.assertIn(f"run {newest['run']} is the result", err)
+        self.assertIn(f"it supersedes run {before}", err)
+        self.assertRegex(self.done("runs", "--db", self.daemon.database),
+                         rf"(?m)^ *{before} +X +superseded by {newest['run']} ")
+        _, _, err = mdof("show", before, "--db", self.daemon.database)
+        self.assertIn(f"run {newest['run']} supersedes this run", err)
 
 
 class Replay(CommandLine):
@@ -164,7 +183,7 @@ class Holder(CommandLine):
     def test_the_daemon_of_another_database_is_asked_for_nothing(self):
         crossed = ("--db", self.daemon.database, "--socket", self.other.socket)
         code, _, err = mdof("replay", LOG["X"], "--rig", RIG["X"], *crossed)
-        self.assertEqual(code, 3)
+        self.assertEqual(code, 4)
         self.assertIn(f"{self.daemon.database}: is being written by mdofd (process {self.daemon.process.pid})", err)
         self.assertIn(f"holds {self.other.database}", err)
         for client in (self.client, self.client_of_other):
@@ -173,7 +192,7 @@ class Holder(CommandLine):
     def test_no_daemon_at_the_socket(self):
         code, _, err = mdof("replay", LOG["X"], "--rig", RIG["X"], "--db", self.daemon.database,
                             "--socket", os.path.join(self.folder.name, "none"))
-        self.assertEqual(code, 3)
+        self.assertEqual(code, 4)
         self.assertIn("no mdofd answers at", err)
         self.assertIn(f"process {self.daemon.process.pid}", err)
 

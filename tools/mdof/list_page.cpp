@@ -2,12 +2,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/mdof/options.h"
+
 namespace mdof::tools {
 
 void add_page_options(CLI::App& command, ListPage& page) {
-  command.add_option("--offset", page.offset, "Leave out so many")->check(CLI::NonNegativeNumber);
+  command.add_option("--offset", page.offset, "Leave out so many")->check(not_negative_number());
   command.add_option("--count", page.count, "At most")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative_number())
       ->capture_default_str();
 }
 

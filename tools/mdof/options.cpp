@@ -1,11 +1,30 @@
 #include "tools/mdof/options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
 
 #include "daemon/measure/gate/gate.h"
 #include "daemon/paths.h"
+#include "schema/base/number/number_text.h"
 
 namespace mdof::tools {
+namespace {
+
+// `right`: of a finite number; `must`: what others are told.
+CLI::Validator number_that(const std::function<bool(double)>& right, const std::string& must,
+                           const std::string& in_help) {
+  return {[=](const std::string& word) {
+            double x = std::numeric_limits<double>::quiet_NaN();
+            if (!CLI::detail::lexical_cast(word, x)) return "\"" + word + "\" is no number";
+            if (!std::isfinite(x)) return word + " is not a finite number";
+            return right(x) ? std::string() : word + " must be " + must;
+          },
+          in_help};
+}
+
+}  // namespace
 
 void add_json_flag(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "Print one JSON document");
@@ -75,6 +94,24 @@ CLI::Option* add_reference_option(CLI::App& command, std::string& reference) {
                   "Where straightness is stated: fixture, carriage or tool")
       ->check(CLI::IsMember({"fixture", "carriage", "tool"}))
       ->type_name("POINT");
+}
+
+CLI::Validator finite_number() {
+  return number_that([](double) { return true; }, "", "");
+}
+
+CLI::Validator positive_number() {
+  return number_that([](double x) { return x > 0; }, "greater than 0", "POSITIVE");
+}
+
+CLI::Validator not_negative_number() {
+  return number_that([](double x) { return x >= 0; }, "0 or greater", "NONNEGATIVE");
+}
+
+CLI::Validator number_in(double least, double most) {
+  const std::string range = plain_number(least) + " to " + plain_number(most);
+  return number_that([=](double x) { return x >= least && x <= most; }, "from " + range,
+                     "in [" + range + "]");
 }
 
 }  // namespace mdof::tools

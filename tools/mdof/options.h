@@ -10,6 +10,7 @@
 namespace CLI {
 class App;
 class Option;
+class Validator;
 }  // namespace CLI
 
 namespace mdof::daemon {
@@ -35,5 +36,11 @@ void add_only_axis_option(CLI::App& command, std::string& axis);  // X, Y or Z
 void add_model_option(CLI::App& command, std::string& model);     // one of the three names
 // One of the names of schema/rig/reference.h.
 CLI::Option* add_reference_option(CLI::App& command, std::string& reference);
+
+// What an option's number may be. Those of CLI11 take nan and print limits of 309 digits.
+CLI::Validator finite_number();
+CLI::Validator positive_number();
+CLI::Validator not_negative_number();
+CLI::Validator number_in(double least, double most);
 
 }  // namespace mdof::tools

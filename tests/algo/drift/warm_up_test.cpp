@@ -22,6 +22,11 @@ ParkedReadings readings(std::size_t steps, double step_s, double limit_nm_per_h,
   return r;
 }
 
+// Some noise and no drift.
+double steady(double s) {
+  return 0.01 * std::sin(1.3 * s);
+}
+
 // 2 µm in the end, with a time constant of 20 min: the rate is 6000 exp(-t / 20 min) nm/h, and
 // under 100 nm/h after 20 min · ln 60 = 81.9 min. Of windows of 5 min that from 80 min has the mean
 // rate 98 ± 1 nm/h, within two u of the limit, and that from 85 min 76 nm/h.
@@ -41,11 +46,24 @@ TEST(WarmUp, LogsThatEndTooSoonAreNotReady) {
   EXPECT_FALSE(warm_up(readings(30 * 10, 30, 100, [](double s) {
                  return -2000 * std::exp(-s / 1200) + (s > 8000 ? 1 : 0) * (s - 8000);
                })).ready_after_s);
-  EXPECT_FALSE(warm_up(readings(29, 30, 100, [](double) { return 0; })).ready_after_s);
-  EXPECT_TRUE(warm_up(readings(30, 30, 100, [](double) { return 0; })).ready_after_s);
-  EXPECT_FALSE(warm_up(readings(0, 30, 100, [](double) { return 0; })).ready_after_s);
+  EXPECT_FALSE(warm_up(readings(29, 30, 100, steady)).ready_after_s);
+  EXPECT_TRUE(warm_up(readings(30, 30, 100, steady)).ready_after_s);
+  EXPECT_FALSE(warm_up(readings(0, 30, 100, steady)).ready_after_s);
   const auto infinity = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(warm_up(readings(60, 30, infinity, [](double) { return 0; })).ready_after_s);
+  EXPECT_FALSE(warm_up(readings(60, 30, infinity, steady)).ready_after_s);
+}
+
+TEST(WarmUp, SecondsTellNothingOfMinutes) {
+  EXPECT_FALSE(warm_up(readings(40, 0.1, 1e6, steady)).ready_after_s);
+  EXPECT_FALSE(warm_up(readings(59, 10, 1e4, steady)).ready_after_s);
+  EXPECT_TRUE(warm_up(readings(60, 10, 1e4, steady)).ready_after_s);
+}
+
+// A dead probe drifts least of all.
+TEST(WarmUp, AReadingThatNeverChangesIsNotJudged) {
+  const WarmUp w = warm_up(readings(60, 30, 100, [](double) { return 1.5; }));
+  EXPECT_EQ(w.windows[0][0].verdict, DriftVerdict::unknown);
+  EXPECT_FALSE(w.ready_after_s);
 }
 
 // By hand: 0 0 ... but the last of 10 is 1 nm: slope = 4.5 / 82.5 of a step, residuals' square
@@ -65,7 +83,7 @@ TEST(WarmUp, NoiseLeavesItUndecided) {
 }
 
 TEST(WarmUp, ReadingsThatAreMissing) {
-  auto r = readings(40, 30, 100, [](double) { return 1; });
+  auto r = readings(40, 30, 100, steady);
   for (std::size_t i = 0; i < 4; ++i) r.series[0].value[i] = std::nan("");
   EXPECT_EQ(warm_up(r).windows[0][0].verdict, DriftVerdict::below);
   r.series[0].value[4] = std::nan("");

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
 
 namespace mdof::tools {
 
@@ -56,6 +57,12 @@ CLI::App* add_command(CLI::App& app, const Command& row) {
       ->add_subcommand(name.substr(space + 1), row.summary);
 }
 
+// CLI11 takes nan and inf for numbers, and no command does.
+void refuse_nan_and_inf(CLI::App& command) {
+  for (CLI::Option* option : command.get_options())
+    if (option->get_type_name().starts_with("FLOAT")) option->check(finite_number());
+}
+
 }  // namespace
 
 std::vector<Command> all_commands() {
@@ -76,7 +83,9 @@ std::vector<Command> all_commands() {
 void declare_commands(CLI::App& app, Action& chosen) {
   for (const Command& row : all_commands()) {
     auto* command = add_command(app, row)->footer(row.footer);
-    command->callback([action = row.declare(*command), &chosen] { chosen = action; });
+    const Action action = row.declare(*command);
+    refuse_nan_and_inf(*command);
+    command->callback([action, &chosen] { chosen = action; });
   }
 }
 

@@ -62,7 +62,7 @@ void declare_trials(CLI::App& command, SensitivityCommand& o) {
       ->needs(adaptive)
       ->type_name("KEY=VALUE");
   command.add_option("--trial", o.trial, "Show this trial alone, what was drawn and what came out")
-      ->check(CLI::Range(0.0, kMostTrials))
+      ->check(number_in(0, kMostTrials))
       ->type_name("INDEX");
   o.threads = default_threads();
   command.add_option("--threads", o.threads, "The figures do not depend on it")

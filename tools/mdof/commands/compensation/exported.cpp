@@ -81,7 +81,7 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
   command
       .add_option("--tolerance-um", request.tolerance_um,
                   "Leave out points that straight lines come as near to as this (angles: urad)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   command
       .add_option("--residual-um", request.residual_um,
                   "Most that may be left of an error beside the tolerance (angles: urad)")

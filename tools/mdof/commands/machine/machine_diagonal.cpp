@@ -213,7 +213,7 @@ Action declare_machine_diagonal(CLI::App& command) {
                   "CSV to compare with: diagonal (1, 2), position_mm, deviation_um")
       ->type_name("FILE.csv");
   command.add_option("--u-um", o->u_um, "Standard uncertainty of each measured line")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   add_approach_option(command, o->approach);
   add_json_flag(command, o->json);
   return [o] { return machine_diagonal(*o); };

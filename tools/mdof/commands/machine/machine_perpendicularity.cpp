@@ -122,7 +122,7 @@ Action declare_machine_perpendicularity(CLI::App& command) {
       ->type_name("");
   command.add_option("--radius-mm", o->radius_mm, "Of the circle")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--harmonics", o->harmonics, "That are told apart")
       ->check(CLI::Range(1, 50))
       ->capture_default_str();

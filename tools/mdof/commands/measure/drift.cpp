@@ -68,11 +68,11 @@ Action declare_drift(CLI::App& command) {
   command
       .add_option("--limit-nm-per-h", o->limit_nm_per_h,
                   "Most that probes and straightness errors may drift [default: of the rig]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--limit-urad-per-h", o->limit_urad_per_h, "Likewise the angles")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--window-s", o->window_s, "Of each rate [default: a twelfth of the log]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   add_all_warnings_flag(command, o->all_warnings);
   add_json_flag(command, o->json);
   return [o] { return drift(*o); };

@@ -93,8 +93,8 @@ Action declare_import(CLI::App& command) {
   command
       .add_option("--u-um", o->u_um,
                   "Standard uncertainty of each deviation (the laser, its alignment, temperature)")
-      ->check(CLI::NonNegativeNumber);
-  command.add_option("--u-urad", o->u_urad, "The same of an angle")->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
+  command.add_option("--u-urad", o->u_urad, "The same of an angle")->check(not_negative_number());
   command.add_option("--note", o->request.note, "Kept with the run; at most 1024 bytes")
       ->type_name("TEXT")
       ->check([](const std::string& note) {

@@ -110,7 +110,7 @@ Action declare_live(CLI::App& command) {
   const auto o = std::make_shared<LiveCommand>();
   command.add_option("--axis", o->axis, "Only this axis")->check(CLI::IsMember({"X", "Y", "Z"}));
   command.add_option("--count", o->count, "End after so many updates [default: never]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--interval-ms", o->interval_ms, "Between two updates")
       ->check(CLI::Range(20, 60000))
       ->capture_default_str();

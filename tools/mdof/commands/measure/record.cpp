@@ -179,6 +179,9 @@ Status record(RecordCommand command) {
       " is measuring; Ctrl-C ends and evaluates it");
   const Interrupt interrupt;
   MDOF_TRY(const std::int64_t id, follow(client, run, command));
+  if (id != run)
+    say("run " + std::to_string(id) + " is the result, with targets numbered when all stops were " +
+        "known; it supersedes run " + std::to_string(run));
   JsonWriter params;
   params.begin_object().field("run", id).end_object();
   MDOF_TRY(const std::string result, client.call("run.get", params.text()));
@@ -194,15 +197,17 @@ Action declare_record(CLI::App& command) {
   command.add_option("--to-mm", o->to_mm, "No target beyond this");
   command.add_option("--interval-mm", o->interval_mm, "Between two targets");
   command.add_option("--jitter-mm", o->jitter_mm, "Each target is moved by up to this");
-  command.add_option("--seed", o->seed, "Of the jitter")->capture_default_str();
+  command.add_option("--seed", o->seed, "Of the jitter")
+      ->check(not_negative_number())
+      ->capture_default_str();
   command.add_option("--scale-period-um", o->scale_period_um,
                      "Signal period of the scale: warns where the intervals hide its error");
   command.add_option("--resume", o->resume, "Goes on with this run, which ended early")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->excludes(axis);
   command.add_option("--repeats", o->repeats, "Ends by itself after so many, both ways")
       ->check(CLI::Range(1, 10000));
-  command.add_option("--for-s", o->for_s, "Ends after so many seconds")->check(CLI::PositiveNumber);
+  command.add_option("--for-s", o->for_s, "Ends after so many seconds")->check(positive_number());
   command.add_option("--note", o->note, "For people");
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);

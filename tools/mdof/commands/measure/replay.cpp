@@ -150,12 +150,12 @@ void add_on_the_fly_options(CLI::App& command, ReplayCommand& o) {
       "--on-the-fly", o.on_the_fly,
       "The axis moves all the time: each point is of the readings about its target");
   command.add_option("--interval-mm", o.interval_mm, "On the fly: from target to target [1]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->needs(on_the_fly);
   command
       .add_option("--bin-mm", o.bin_mm,
                   "On the fly: length about a target [the interval, at most 1]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->needs(on_the_fly);
   command.add_option("--from-mm", o.from_mm, "On the fly: the first target [as the axis goes]")
       ->needs(on_the_fly);
@@ -184,15 +184,15 @@ Action declare_replay(CLI::App& command) {
                   "Nominal positions [default: as recorded, else recognised]")
       ->delimiter(',');
   command.add_option("--tolerance-um", o->tolerance_um, "Encoder at rest; 0: by itself")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   command.add_option("--settle-s", o->settle_s, "Left out at the start of a stop [0.1]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   command.add_option("--min-length-s", o->min_length_s, "Averaged of a stop at least [0.1]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--max-gap-s", o->max_gap_s, "No interpolation into a longer gap [0.05]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--lag-bound-s", o->lag_bound_s, "A probe silent for longer is given up [3]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_flag("--remove-drift", o->remove_drift,
                    "Take a significant drift from the errors; its uncertainty is added");
   add_on_the_fly_options(command, *o);

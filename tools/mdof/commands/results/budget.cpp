@@ -106,6 +106,7 @@ Action declare_budget(CLI::App& command) {
   command.add_option("--figure", o->figure, "One figure whole, such as EYX_straightness_um")
       ->type_name("NAME");
   command.add_option("--at", o->at_mm, "Of the five errors at the target nearest to this position")
+      ->check(finite_number())
       ->type_name("MM");
   command.add_option("--tolerance", o->tolerance,
                      "Most that the figure may be, in its unit: conform, not conform or undecided "
@@ -114,12 +115,14 @@ Action declare_budget(CLI::App& command) {
       .add_option("--trials", o->trials.trials,
                   "Draw so many Monte Carlo trials beside the budget (JCGM 101)")
       ->check(CLI::Range(std::uint64_t{2}, kMostTrials));
-  command.add_option("--seed", o->trials.seed, "Of the trials")->capture_default_str();
+  command.add_option("--seed", o->trials.seed, "Of the trials")
+      ->check(not_negative_number())
+      ->capture_default_str();
   add_reference_option(command, o->reference)->capture_default_str();
   command.add_option("--artefact-urad", o->artefact_urad,
                      "Angle error of the square [default: of the rigs]");
   command.add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   command.add_flag("--partial", o->partial, "Take partial runs as well");
   add_database_option(command, o->database);
   add_all_warnings_flag(command, o->all_warnings);

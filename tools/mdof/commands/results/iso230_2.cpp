@@ -135,17 +135,17 @@ Action declare_iso230_2(CLI::App& command) {
   command
       .add_option("--scale-period-mm", o->scale_period_mm,
                   "Warn where all intervals are whole periods of the scale")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       .add_option(
           "--device-limit-um", o->device_limit_um,
           "Limit (±) of the measuring device's error over the travel, for U by ISO/TR 230-9")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative_number())
       ->excludes(run);
   command
       .add_option("--drift-um", o->drift_um,
                   "E_VE: range of the readings of the axis at rest, over as long as the test took")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative_number())
       ->excludes(run);
   add_database_option(command, o->database);
   add_json_flag(command, o->json);

@@ -33,11 +33,17 @@ std::string runs_json(const std::vector<RunHeader>& runs, std::int64_t total) {
   return json.take();
 }
 
-std::string runs_text(const std::vector<RunHeader>& runs, std::int64_t total) {
+// The end of a run that another one supersedes is of no use; which one that is.
+std::string state_of(store::Store& store, const RunHeader& run) {
+  const auto by = store.superseded_by(run.id);
+  return by && *by ? "superseded by " + std::to_string(**by) : to_string(run.state);
+}
+
+std::string runs_text(store::Store& store, const std::vector<RunHeader>& runs, std::int64_t total) {
   TextTable table({"run", "axis", "state", "started", "model", "scans", "data", "log", "note"});
   for (const auto& h : runs) {
     const auto& from = h.provenance;
-    table.add({std::to_string(h.id), std::string(1, letter(h.axis)), to_string(h.state),
+    table.add({std::to_string(h.id), std::string(1, letter(h.axis)), state_of(store, h),
                h.started_utc, from.model, std::to_string(h.scans),
                h.simulated      ? "SIMULATED"
                : is_imported(h) ? "imported"
@@ -52,7 +58,8 @@ Status list_runs(const RunsCommand& command) {
   const auto axis = axis_from(command.axis);
   MDOF_TRY(const auto runs, store.list_runs(command.page.offset, command.page.count, axis));
   MDOF_TRY(const auto total, store.count_runs(axis));
-  return command.json ? write_line(runs_json(runs, total)) : write_out(runs_text(runs, total));
+  return command.json ? write_line(runs_json(runs, total))
+                      : write_out(runs_text(store, runs, total));
 }
 
 Action declare_runs(CLI::App& command) {

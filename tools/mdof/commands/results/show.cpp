@@ -60,6 +60,9 @@ Status show(const ChosenRun& choice) {
   MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
   if (choice.json) return write_line(with_lines_hash_and_history(run, sha256, deeds));
   const std::size_t width = terminal_columns();
+  MDOF_TRY(const auto by, store.superseded_by(run.header.id));
+  if (by)
+    warn("run " + std::to_string(*by) + " supersedes this run; mdof show " + std::to_string(*by));
   const std::string drift = drift_notice(run, drift_of(run).found, width);
   return write_out(show_text(run, daemon::uncertainty_of(run), sha256, width, choice.all_warnings) +
                    (drift.empty() ? "" : "\n" + drift) + history_text(deeds, width));

@@ -40,7 +40,7 @@ Action declare_probe(CLI::App& command) {
   const auto o = std::make_shared<ProbeCommand>();
   add_device_choice(command, o->choice);
   command.add_option("--for-s", o->for_s, "Seconds to read")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(number_in(0.1, 3600))
       ->capture_default_str();
   add_json_flag(command, o->json);
   return [o] { return probe(*o); };

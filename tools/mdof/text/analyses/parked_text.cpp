@@ -81,11 +81,16 @@ std::string what_keeps_it(const daemon::ParkedLog& log, const algo::WarmUp& foun
     if (std::isinf(limit)) continue;
     const algo::DriftWindow& last = found.windows[s].back();
     if (last.verdict == algo::DriftVerdict::below) continue;
-    if (std::isnan(last.rate_per_s)) return log.readings.series[s].name + " has no readings";
+    if (std::isnan(last.rate_per_s))
+      return "in the last window " + log.readings.series[s].name + " has no readings";
+    if (last.verdict == algo::DriftVerdict::unknown)
+      return log.readings.series[s].name +
+             " never changes in the whole log: check the probe, its cable and its resolution";
     const double by = (std::abs(last.rate_per_s) + 2 * last.u_rate_per_s) / limit;
     if (by <= most) continue;
     most = by;
-    worst = head_of(log, s).substr(0, head_of(log, s).find('/')) + " drifts by " +
+    worst = "in the last window " + head_of(log, s).substr(0, head_of(log, s).find('/')) +
+            " drifts by " +
             with_u(fixed(shown(log, s, last.rate_per_s), 1),
                    fixed(shown(log, s, last.u_rate_per_s), 1)) +
             (is_angle(log, s) ? " µrad/h" : " nm/h") +
@@ -106,9 +111,11 @@ std::string parked_verdict(const daemon::ParkedLog& log, const algo::WarmUp& fou
     return "ready after " + minutes(*found.ready_after_s) +
            " min: from then on every window is below its limit";
   const std::string what = what_keeps_it(log, found);
-  return what.empty() ? "not ready yet: fewer than " + std::to_string(algo::kFewestBelow) +
-                            " windows at the end are below the limit; record for longer"
-                      : "not ready yet: in the last window " + what;
+  return "not ready yet: " +
+         (what.empty() ? "the windows at the end that are below the limit are fewer than " +
+                             std::to_string(algo::kFewestBelow) + " or last less than " +
+                             minutes(algo::kShortestBelow_s) + " min; record for longer"
+                       : what);
 }
 
 std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found,

@@ -49,9 +49,10 @@ double RangeTrials::U() const {
   const double range = highest_ - lowest_;
   const double most = distance_of_95_percent(0);
   if (most >= range) return most;
+  const double as_measured = distance_of_95_percent(range);
   const auto excess = [&](double U) { return distance_of_95_percent(range - U) - U; };
   double low = 0, high = most;
-  double below = excess(low), above = excess(high);
+  double below = as_measured, above = excess(high);
   if (above >= 0) return most + above;
   for (int step = 0, side = 0; step < kInversionSteps && below > 0; ++step) {
     const double U = (low * above - high * below) / (above - below);
@@ -68,7 +69,7 @@ double RangeTrials::U() const {
       side = -1;
     }
   }
-  return high;
+  return std::max(high, as_measured);
 }
 
 double RangeTrials::standard_deviation() const {

@@ -11,7 +11,8 @@ namespace mdof::algo {
 //   P(|range(t + change) - T| <= c(T)) = 95 %,  U = R - T where R - T = c(T),
 // over the trials of the change. The true deviations t of the range T are the measured ones, those
 // near an end brought together: clamped so that (R - T)/2 is cut off at both ends. So the bias is
-// in U; where c(0) >= R, U is c(0) and the interval holds 0.
+// in U; where c(0) >= R, U is c(0) and the interval holds 0. U is at least c(R), of the deviations
+// as measured: errors that are alike at neighbours vary less at a flat end than at a pointed one.
 class RangeTrials {
  public:
   // `changes`: trial after trial, as many as `measured` each; at least one trial.

@@ -39,11 +39,21 @@ inline std::string of_rig(double drift_um_per_h, const char* side_normal) {
          side_normal + "\"\nu_flatness_um = 0.02\n";
 }
 
+// The streams of neighbouring seeds of std::mt19937_64 are related: seed 2 k and 2 k + 1 gave
+// slopes of X and Y whose correlation was -0.3.
+inline std::mt19937_64 well_mixed(std::uint64_t seed) {
+  std::seed_seq mixed{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+  return std::mt19937_64(mixed);
+}
+
 class FaultyFixture {
  public:
   // Of what `rig` declares, all of it normal.
   FaultyFixture(const Rig& rig, std::uint64_t seed)
-      : rig_(rig), nominal_(make_fixture(rig).value()), as_is_(nominal_), engine_(seed) {
+      : rig_(rig),
+        nominal_(make_fixture(rig).value()),
+        as_is_(nominal_),
+        engine_(well_mixed(seed)) {
     misplace();
     zero_ = rigid_readings(as_is_, 0, Errors5{}) - rigid_readings(nominal_, 0, Errors5{});
     for (const Probe& probe : rig.probes) {

@@ -91,6 +91,16 @@ TEST(NoiseOfRuns, ARangeFarAboveTheNoiseHasTheUncertaintyOfItsEnds) {
   EXPECT_NEAR(RangeTrials({0, 1, 3}, changes).U(), 3.31, 0.05);  // which holds 0 and more
 }
 
+// Only the highest point errs, 2.2 above its neighbour: cut by half of U it would fall to it, and
+// 95 % of the trials would lie within 1.64.
+TEST(NoiseOfRuns, ARangeIsNoBetterKnownThanAsMeasured) {
+  std::mt19937_64 engine(4);
+  std::normal_distribution<> normal;
+  std::vector<double> changes(3 * 20000);
+  for (std::size_t i = 2; i < changes.size(); i += 3) changes[i] = normal(engine);
+  EXPECT_NEAR(RangeTrials({0, 97.8, 100}, changes).U(), 1.96, 0.04);
+}
+
 // Probes D and E go up and down together from pass to pass: 200 nm of level, nothing of the slope.
 TEST(NoiseOfRuns, ADriftOfTheLevelIsNotInTheSlope) {
   const Rig rig = test::rig_x_with("", "");

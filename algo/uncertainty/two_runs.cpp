@@ -46,7 +46,6 @@ Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& 
   budget.figure = "EC0Y_urad";
   budget.value = -y.value - x.value + artefact.corner * artefact.angle_error_rad;
   budget.u_random = std::hypot(x.u_random, y.u_random);
-  budget.noise_only = x.noise_only && y.noise_only && artefact.u_rad == 0;
   add_run(budget, x, "X", -1);
   add_run(budget, y, "Y", -1);
   if (artefact.u_rad > 0)
@@ -78,7 +77,6 @@ Result<std::array<Budget, 2>> parallelism_budgets(const Rig& rig_a, const Run& r
     budget.figure = std::string(error_names(run_a.header.axis)[named].name) + "_parallelism_urad";
     budget.value = b.value - a.value;
     budget.u_random = std::hypot(a.u_random, b.u_random);
-    budget.noise_only = a.noise_only && b.noise_only;
     add_run(budget, a, "A", -1);
     add_run(budget, b, "B", 1);
     complete(budget);

@@ -192,20 +192,23 @@ std::string parallelism_json(const FoundParallelism& found) {
   write_parallelism(json, p);
   std::vector<Budget> budgets;
   for (const ParallelismOfPlane& plane : p.planes) budgets.push_back(plane.budget);
+  write_covers(json, budgets);
   json.key("figures");
   write_budgets(json, budgets);
   json.end_object();
   return with_warnings(json.take(), found.warnings);
 }
 
-std::string budgets_json(const FoundBudgets& found, const std::optional<double>& tolerance) {
+std::string budgets_json(const FoundBudgets& found, const std::optional<Decision>& decision) {
   JsonWriter json;
   json.begin_object();
   write_reference(json, found.stated);
   json.key("at_mm");
   found.at_m ? json.value(to_mm(*found.at_m)) : json.null();
-  json.field("coverage", 0.95).field("simulated", found.simulated).key("figures");
-  write_budgets(json, found.budgets, tolerance);
+  json.field("coverage", 0.95).field("simulated", found.simulated);
+  write_covers(json, found.budgets);
+  json.key("figures");
+  write_budgets(json, found.budgets, decision);
   json.end_object();
   return with_warnings(json.take(), found.warnings);
 }

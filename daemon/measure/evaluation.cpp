@@ -174,6 +174,7 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
   }
   MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
+  for (const Rig& rig : rigs) add_not_declared(table, rig.undeclared_uncertainties());
   MDOF_CHECK(store_built(store, table, request.deed));
   MDOF_TRY(auto warnings, table_warnings(runs));
   if (!declared)
@@ -215,6 +216,27 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
                   "\"despite_warnings\": true");
 }
 
+namespace {
+
+// Sets the combined standard uncertainties of `s`.
+Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& x, const Run& y) {
+  MDOF_TRY(const Rig rig_x, rig_of(x.header));
+  MDOF_TRY(const Rig rig_y, rig_of(y.header));
+  MDOF_TRY(Budget whole, algo::squareness_budget(rig_x, x, rig_y, y, s.artefact));
+  const auto slope_of = [](const Rig& rig, const Run& run, Axis axis) -> Result<Budget> {
+    MDOF_TRY(const auto budgets, algo::RunBudgets::create(rig, algo::restate(run, kAtFixture)));
+    return budgets.of(algo::slope_figure(axis, 0));
+  };
+  MDOF_TRY(Budget slope_x, slope_of(rig_x, x, Axis::x));
+  MDOF_TRY(Budget slope_y, slope_of(rig_y, y, Axis::y));
+  s.u_EC0Y_rad = whole.u;
+  s.u_slope_EYX_rad = slope_x.u;
+  s.u_slope_EXY_rad = slope_y.u;
+  return std::vector{std::move(whole), std::move(slope_x), std::move(slope_y)};
+}
+
+}  // namespace
+
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
   MDOF_TRY(const Run x, store.run(request.run_x));
   MDOF_TRY(const Run y, store.run(request.run_y));
@@ -222,19 +244,18 @@ Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessReq
   MDOF_TRY(const Rig rig_y, rig_of(y.header));
   MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
   MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
-  MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact));
+  MDOF_TRY(auto budgets, state_uncertainty(s, x, y));
   s.created_utc = utc_now();
   MDOF_TRY(s.id, store.add_squareness(s, request.deed));
-  return FittedSquareness{std::move(s), std::move(budget), algo::inherited_warnings({&x, &y})};
+  return FittedSquareness{std::move(s), std::move(budgets), algo::inherited_warnings({&x, &y})};
 }
 
-Result<FittedSquareness> stored_squareness(store::Store& store, const Squareness& squareness) {
+Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness) {
   MDOF_TRY(const Run x, store.run(squareness.run_x));
   MDOF_TRY(const Run y, store.run(squareness.run_y));
-  MDOF_TRY(const Rig rig_x, rig_of(x.header));
-  MDOF_TRY(const Rig rig_y, rig_of(y.header));
-  MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, squareness.artefact));
-  return FittedSquareness{squareness, std::move(budget), algo::inherited_warnings({&x, &y})};
+  MDOF_TRY(auto budgets, state_uncertainty(squareness, x, y));
+  return FittedSquareness{std::move(squareness), std::move(budgets),
+                          algo::inherited_warnings({&x, &y})};
 }
 
 }  // namespace mdof::daemon

@@ -63,13 +63,13 @@ struct SquarenessRequest {
 };
 struct FittedSquareness {
   Squareness squareness;
-  Budget budget;  // of EC0Y
+  std::vector<Budget> budgets;  // of EC0Y, then of EYX_slope_urad and EXY_slope_urad
   std::vector<std::string> warnings;
 };
 // Fitted and stored. Errors: those of algo::artefact_of(), algo::squareness() and
 // algo::squareness_budget().
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request);
-// The same of one that is stored.
-Result<FittedSquareness> stored_squareness(store::Store& store, const Squareness& squareness);
+// The same of one that is stored, its uncertainties made anew.
+Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness);
 
 }  // namespace mdof::daemon

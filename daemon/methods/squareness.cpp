@@ -21,7 +21,7 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   request.deed = deed_of(params, "squareness.fit");
   answer_from_store(m, std::move(reply), [request](store::Store& store) -> Result<std::string> {
     MDOF_TRY(const FittedSquareness fitted, fit_squareness(store, request));
-    return with_warnings(squareness_json(fitted.squareness, fitted.budget), fitted.warnings);
+    return with_warnings(squareness_json(fitted.squareness, fitted.budgets), fitted.warnings);
   });
 }
 

@@ -11,6 +11,7 @@
 #include "algo/model/small_rotation.h"
 #include "algo/model/solver.h"
 #include "algo/sensitivity/plan/mounting.h"
+#include "algo/uncertainty/effects/model_contributor.h"
 #include "algo/uncertainty/physics_contributors.h"
 #include "algo/uncertainty/point_sensitivity.h"
 #include "schema/base/random.h"
@@ -353,9 +354,11 @@ Status check_angles(const Rig& rig) {
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   if (run.points.empty())
     return bad_input(name_of(run) + " has no points, so that there is nothing to budget");
-  if (!rig.declares_uncertainty()) return std::vector<Contributor>{};
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
+  std::vector<Contributor> of_model;
+  if (auto left_out = model_contributor(rig, run, model)) of_model.push_back(std::move(*left_out));
+  if (!rig.declares_uncertainty()) return of_model;
   MDOF_TRY(Solver solver, Solver::create(rig, model));
   auto points = point_sensitivities(solver, run);
   const auto basis =
@@ -365,6 +368,7 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   std::vector<Contributor> list = List(basis).take();
   for (auto& more : physics_contributors(rig, basis->solver, run, basis->points))
     list.push_back(std::move(more));
+  for (auto& more : of_model) list.push_back(std::move(more));
   return list;
 }
 

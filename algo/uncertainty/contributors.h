@@ -34,7 +34,8 @@ struct Contributor {
 // by what it changes after the zero at d = 0 without errors (DESIGN §3, simulation II): the zero
 // itself is calibration's. A flatness is a random field of waves of the lengths L, L/2, L/3, L/4
 // (weights 1/k², as in a sensitivity study) in eight directions, the same for all visits of a
-// place. Error: a rig that cannot see all five errors, an angle beyond what the models take.
+// place. Of a run by `simplified` what that model leaves out, last. Error: a rig that cannot see
+// all five errors, an angle beyond what the models take.
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run);
 
 // Adds them to the errors of these points.

@@ -37,7 +37,9 @@ struct StraightnessFigure {
   std::string error_key;  // "EYX_um"
   std::string approach;   // "forward", "reverse", "mean"
   double slope_least_squares_rad = 0, slope_end_point_rad = 0;
-  double u_slope_least_squares_rad = 0;
+  // Of the fitted slope, by what the line leaves of the errors: how well a line describes the axis,
+  // not how well its slope is known.
+  double form_rad = 0;
   double straightness_least_squares_m = 0, straightness_end_point_m = 0;  // peak to valley
   double peak_position_m = 0, valley_position_m = 0;  // of the least-squares residuals
 };

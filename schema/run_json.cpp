@@ -179,12 +179,21 @@ void write_header_members(JsonWriter& json, const RunHeader& h) {
   write_strings(json, "notes", h.notes);
 }
 
-void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures) {
+const Budget* budget_of_slope(const std::vector<Budget>& budgets,
+                              const StraightnessFigure& figure) {
+  if (figure.approach != "mean") return nullptr;
+  return find_budget(budgets, figure.error_key.substr(0, 3) + "_slope_urad");
+}
+
+void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures,
+                        const std::vector<Budget>& budgets) {
   write_by_key(json, figures, [&](const StraightnessFigure& f) {
+    const Budget* budget = budget_of_slope(budgets, f);
     json.field("least_squares_um", to_um(f.straightness_least_squares_m))
         .field("end_point_um", to_um(f.straightness_end_point_m))
         .field("slope_least_squares_urad", plain(to_urad(f.slope_least_squares_rad)))
-        .field("u_slope_least_squares_urad", known_u(to_urad(f.u_slope_least_squares_rad)))
+        .field("u_slope_least_squares_urad", known_u(budget ? to_urad(budget->u) : 0))
+        .field("form_urad", plain(to_urad(f.form_rad)))
         .field("slope_end_point_urad", plain(to_urad(f.slope_end_point_rad)))
         .field("peak_mm", plain(to_mm(f.peak_position_m)))
         .field("valley_mm", plain(to_mm(f.valley_position_m)));
@@ -211,7 +220,7 @@ std::string run_json(const Run& run, const RunUncertainty& uncertainty,
     write_point(json, run.header.moving(), run.points[j], uncertainty.points[j]);
   json.end_array();
   json.key("straightness");
-  write_straightness(json, run.straightness);
+  write_straightness(json, run.straightness, figures.budgets);
   json.key("angles");
   write_angles(json, run.angles);
   write_stated(json, figures);
@@ -221,7 +230,8 @@ std::string run_json(const Run& run, const RunUncertainty& uncertainty,
   return json.take();
 }
 
-std::string squareness_json(const Squareness& s, const Budget& budget) {
+std::string squareness_json(const Squareness& s, const std::vector<Budget>& budgets) {
+  const Budget& budget = budgets.front();
   JsonWriter json;
   json.begin_object()
       .field("squareness", s.id)
@@ -232,9 +242,8 @@ std::string squareness_json(const Squareness& s, const Budget& budget) {
       .field("u_random_EC0Y_urad", to_urad(budget.u_random))
       .field("U_EC0Y_urad", to_urad(budget.U))
       .field("k", budget.coverage_factor)
-      .field("nu_eff", budget.freedom)
-      .field("u_covers", covers_text(budget));
-  write_strings(json, "u_not_declared", budget.not_declared);
+      .field("nu_eff", budget.freedom);
+  write_covers(json, {budget});
   json.field("form_urad", to_urad(s.form_rad))
       .field("reference", to_string(Reference::fixture))
       .field("slope_EYX_urad", to_urad(s.slope_EYX_rad))
@@ -246,6 +255,7 @@ std::string squareness_json(const Squareness& s, const Budget& budget) {
   json.key("artefact_corner");
   s.artefact.corner == 0 ? json.null()
                          : json.value(s.artefact.corner > 0 ? "+X +Y or -X -Y" : "-X +Y or +X -Y");
+  write_stated(json, {budgets, ""});
   json.field("slopes_over", "travel of the moving body along + of the axis")
       .field("sense", "the angle from +X to +Y is 90 deg + EC0Y")
       .field("simulated", s.simulated)
@@ -307,12 +317,7 @@ void write_hashed_members(JsonWriter& json, const CompensationTable& t) {
 
 void write_table_members(JsonWriter& json, const CompensationTable& t) {
   write_hashed_members(json, t);
-  if (t.has_positioning())
-    json.field("u_covers", t.has_declared() ? "repeatability and what was declared at import"
-                                            : "repeatability only");
-  else
-    json.field("u_covers", t.has_declared() ? "noise, repeatability and what the rigs declare"
-                                            : "noise and repeatability only");
+  write_covers(json, covers_text(t), t.not_declared);
 }
 
 std::string table_json(const CompensationTable& t) {

@@ -28,12 +28,17 @@ void write_header_members(JsonWriter& json, const RunHeader& header);
 std::string run_json(const Run& run, const RunUncertainty& uncertainty,
                      const StatedFigures& figures);
 
-// {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}
-void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures);
+// {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}. "form_urad": how well a
+// line describes the axis. The slope of the mean has the u of its budget, where it is among these.
+void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures,
+                        const std::vector<Budget>& budgets = {});
+// The budget of its slope by least squares; none: it is not among them, which have those of the
+// mean of both approaches.
+const Budget* budget_of_slope(const std::vector<Budget>& budgets, const StraightnessFigure& figure);
 void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 
-// `budget`: of EC0Y.
-std::string squareness_json(const Squareness& squareness, const Budget& budget);
+// `budgets`: of EC0Y, then of the slopes.
+std::string squareness_json(const Squareness& squareness, const std::vector<Budget>& budgets);
 
 // A JSON object with one member more, a list of texts: `name`, or "warnings".
 std::string with_texts(std::string json, const std::string& name,
@@ -44,7 +49,7 @@ std::string with_warnings(std::string json, const std::vector<std::string>& warn
 void write_table_row(JsonWriter& json, const CompensationTable& table, std::size_t row);
 // What holds for the whole table; the members of an open object.
 void write_table_members(JsonWriter& json, const CompensationTable& table);
-// What of the table is hashed: its members but "u_covers", then "points".
+// What of the table is hashed: its members but "u_covers" and "u_not_declared", then "points".
 std::string table_json(const CompensationTable& table);
 // SHA-256 of table_json() before the table has an id, a hash and a date: of what it says.
 std::string table_sha256(CompensationTable table);

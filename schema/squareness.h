@@ -22,7 +22,8 @@ struct Squareness {
   std::int64_t id = 0;  // 0 until stored
   std::int64_t run_x = 0, run_y = 0;
   double EC0Y_rad = 0;
-  // Standard uncertainty: noise and repeatability of both slopes, and the artefact.
+  // Combined standard uncertainties, as their budgets have them; what algo::squareness() makes is
+  // of noise, repeatability and the artefact alone.
   double u_EC0Y_rad = 0;
   // How crooked the axes are: √(s_X² + s_Y²), s the standard deviation of a fitted slope that
   // follows from the residuals of its line. It says how well one angle describes such axes, not how

@@ -22,7 +22,7 @@ StraightnessFigure figure_of(const MovingAxis& moving, std::size_t index, Approa
   f.error_key = error_names(moving.axis)[index].key;
   f.approach = to_string(approach);
   f.slope_least_squares_rad = fitted.slope;
-  f.u_slope_least_squares_rad = fitted.u_slope;
+  f.form_rad = fitted.u_slope;
   f.slope_end_point_rad = ends.slope;
   f.straightness_least_squares_m = from_fitted.peak_to_valley;
   f.straightness_end_point_m = deviations_from(ends, x, y).peak_to_valley;

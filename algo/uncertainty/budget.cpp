@@ -223,9 +223,6 @@ Budget RunBudgets::first_order(const Figure& figure) const {
   budget.value = figure.of(means_);
   const Random random = random_of(figure);
   budget.u_random = random.u;
-  budget.noise_only =
-      std::all_of(shifted_.begin(), shifted_.end(),
-                  [](const Shifted& shifted) { return shifted.contributor.key.empty(); });
   budget.not_declared = not_declared_;
   BudgetLine noise;
   noise.name = "noise and repeatability";
@@ -365,6 +362,7 @@ void complete(Budget& budget) {
   budget.freedom = effective_freedom(parts);
   budget.coverage_factor = coverage_factor(budget.freedom);
   budget.U = budget.coverage_factor * budget.u;
+  budget.noise_only = is_noise_only(budget);
 }
 
 BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed) {

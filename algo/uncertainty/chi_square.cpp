@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <limits>
 
+#include "algo/linear_algebra/least_squares.h"
 #include "algo/model/rigid.h"
 #include "algo/points/flags.h"
+#include "algo/uncertainty/effects/reading_covariance.h"
 #include "schema/sample.h"
 #include "schema/units.h"
 
@@ -18,8 +20,9 @@ constexpr const char* kFlag = "residual";
 // χ² at 1 - 1e-6 for 1, 2 ... degrees of freedom.
 constexpr std::array<double, 11> kLimits = {23.928, 27.631, 30.665, 33.377, 35.888, 38.258,
                                             40.522, 42.701, 44.811, 46.863, 48.866};
-constexpr double kLinearity = 1e-4;  // of the range
-constexpr double kLever_m = 0.02;    // that makes an angle a length
+constexpr double kLinearity = 1e-4;   // of the range
+constexpr double kLever_m = 0.02;     // that makes an angle a length
+constexpr double kLeastPart = 1e-11;  // of the largest variance: less is rounding
 
 bool flagged(const MeasuredPoint& p) {
   return has_flag(p.point, kFlag);
@@ -61,6 +64,40 @@ Agreement agreement(const Solver& solver, double travel_m, const std::vector<dou
   return result;
 }
 
+Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
+                    const Eigen::MatrixXd& covariance, const AxisErrors& errors) {
+  if (!errors.valid || solver.model() != Model::rigid) return {};
+  std::vector<Eigen::Index> used;
+  for (std::size_t k = 0; k < readings_m.size(); ++k)
+    if (std::isfinite(readings_m[k])) used.push_back(static_cast<Eigen::Index>(k));
+  const auto n = static_cast<Eigen::Index>(used.size());
+  if (n <= 5) return {};
+  const Eigen::VectorXd model = rigid_readings(solver.fixture(), travel_m, errors.local);
+  const Eigen::MatrixXd all = rigid_jacobian(solver.fixture(), travel_m, errors.local);
+  Eigen::MatrixXd jacobian(n, 5), tied(n, n);
+  Eigen::VectorXd left(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index k = used[static_cast<std::size_t>(i)];
+    left(i) = readings_m[static_cast<std::size_t>(k)] - model(k);
+    for (Eigen::Index j = 0; j < 5; ++j) jacobian(i, j) = all(k, j);
+    for (Eigen::Index j = 0; j < n; ++j)
+      tied(i, j) = covariance(k, used[static_cast<std::size_t>(j)]);
+  }
+  const Eigen::MatrixXd seen = LeastSquares(jacobian).basis();
+  const Eigen::MatrixXd unseen = Eigen::MatrixXd::Identity(n, n) - seen * seen.transpose();
+  const Eigen::VectorXd contradiction = unseen * left;
+  const Eigen::MatrixXd of_it = unseen * tied * unseen;
+  return {static_cast<int>(n) - 5,
+          contradiction.dot(LeastNorm(of_it, kLeastPart).solve(contradiction))};
+}
+
+Residuals::Residuals(const Solver& solver, const std::vector<double>& range_m, const Rig& rig,
+                     std::int64_t start_ns)
+    : Residuals(solver, range_m, rig.sides) {
+  if (rig.declares_uncertainty()) rig_ = &rig;
+  start_ns_ = start_ns;
+}
+
 Residuals::Residuals(const Solver& solver, const std::vector<double>& range_m, const Sides& sides)
     : solver_(solver), sides_(sides) {
   for (const double range : range_m) linearity_m_.push_back(kLinearity * range / std::sqrt(3.0));
@@ -75,9 +112,22 @@ std::vector<double> Residuals::allowed(const std::vector<double>& u_m) const {
 void Residuals::test(MeasuredPoint& p) const {
   const Point& point = p.point;
   if (point.probe_m.size() <= 5) return;
-  const Agreement found = agreement(solver_, sides_.target_travel_m(point.position_m),
-                                    point.probe_m, allowed(point.probe_u_m), p.errors);
-  if (!found.explained() && !flagged(p)) p.point.flags.emplace_back(kFlag);
+  if (!explained(p, point.probe_m, p.errors) && !flagged(p)) p.point.flags.emplace_back(kFlag);
+}
+
+// By noise and linearity alone, which costs little; where that does not do, by what is declared
+// too.
+bool Residuals::explained(const MeasuredPoint& p, const std::vector<double>& readings_m,
+                          const AxisErrors& errors) const {
+  const double travel_m = sides_.target_travel_m(p.point.position_m);
+  const std::vector<double> u_m = allowed(p.point.probe_u_m);
+  if (agreement(solver_, travel_m, readings_m, u_m, errors).explained()) return true;
+  if (!rig_) return false;
+  Eigen::MatrixXd covariance = declared_covariance(
+      *rig_, solver_, travel_m, errors.local, readings_m, ns_to_s(p.point.begin_ns - start_ns_));
+  for (std::size_t k = 0; k < u_m.size(); ++k)
+    covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) += u_m[k] * u_m[k];
+  return agreement(solver_, travel_m, readings_m, covariance, errors).explained();
 }
 
 // Infinite where the others contradict each other too. Else the mean square distance of the errors
@@ -91,8 +141,7 @@ double Residuals::misfit_without(std::size_t probe, const MeasuredPoint& p,
   const std::vector<double> u_m = allowed(p.point.probe_u_m);
   const AxisErrors errors = solver_.solve(travel_m, readings_m, u_m);
   if (!errors.valid) return std::numeric_limits<double>::infinity();
-  const Agreement others = agreement(solver_, travel_m, readings_m, u_m, errors);
-  if (!others.explained()) return std::numeric_limits<double>::infinity();
+  if (!explained(p, readings_m, errors)) return std::numeric_limits<double>::infinity();
   double sum = 0;
   std::size_t n = 0;
   for (const MeasuredPoint& other : all) {

@@ -1,12 +1,15 @@
 // Do more probes than five agree with each other as well as their uncertainties say?
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "algo/model/solver.h"
 #include "schema/point.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::algo {
 
@@ -23,20 +26,31 @@ double chi_square_limit(int freedom);
 Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
                     const std::vector<double>& u_m, const AxisErrors& errors);
 
+// The same with a covariance of the readings, m², which may tie probes together: χ² of what of the
+// readings no five errors could explain. `travel_m` and `errors` are where the model is made
+// linear.
+Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
+                    const Eigen::MatrixXd& covariance, const AxisErrors& errors);
+
 // Flags the points whose residual is not explained ("residual") and says so in one sentence that
 // names the most suspect probe: the one without which χ² is least or, where six probes leave
 // nothing to test without one, without which the errors come nearest to those of the other points
-// of the target. As long as a rig states no uncertainty of its probes, each is allowed a linearity
-// of 1e-4 of its range (rectangular) beside its noise. Only for the rigid model: the others use
-// five probes.
+// of the target. Beside its noise each probe is allowed a linearity of 1e-4 of its range
+// (rectangular), and all of them what the rig declares not to know. Only for the rigid model: the
+// others use five probes.
 class Residuals {
  public:
   Residuals(const Solver& solver, const std::vector<double>& range_m, const Sides& sides = {});
+  // `start_ns`: of the run's first point, from which its drift counts. Keeps references.
+  Residuals(const Solver& solver, const std::vector<double>& range_m, const Rig& rig,
+            std::int64_t start_ns);
   // Right after a point was solved, its errors still those of the carriage.
   void test(MeasuredPoint& point) const;
   std::optional<std::string> warning(const std::vector<MeasuredPoint>& points) const;
 
  private:
+  bool explained(const MeasuredPoint& point, const std::vector<double>& readings_m,
+                 const AxisErrors& errors) const;
   std::vector<double> allowed(const std::vector<double>& u_m) const;
   std::optional<std::size_t> suspect(const std::vector<const MeasuredPoint*>& bad,
                                      const std::vector<MeasuredPoint>& all) const;
@@ -46,6 +60,8 @@ class Residuals {
   const Solver& solver_;
   Sides sides_;
   std::vector<double> linearity_m_;
+  const Rig* rig_ = nullptr;  // that declares something
+  std::int64_t start_ns_ = 0;
 };
 
 }  // namespace mdof::algo

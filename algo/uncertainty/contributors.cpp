@@ -13,6 +13,7 @@
 #include "algo/model/small_rotation.h"
 #include "algo/model/solver.h"
 #include "algo/sensitivity/plan/mounting.h"
+#include "algo/uncertainty/effects/model_contributor.h"
 #include "algo/uncertainty/physics_contributors.h"
 #include "algo/uncertainty/point_sensitivity.h"
 #include "algo/uncertainty/statistics/common_quantities.h"
@@ -375,10 +376,11 @@ Status check_angles(const Rig& rig) {
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   if (run.points.empty())
     return bad_input(name_of(run) + " has no points, so that there is nothing to budget");
-  std::vector<Contributor> removed = removed_drift(run);
-  if (!rig.declares_uncertainty()) return removed;
+  std::vector<Contributor> own = removed_drift(run);  // what does not need the rig to declare it
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
+  if (auto left_out = model_contributor(rig, run, model)) own.push_back(std::move(*left_out));
+  if (!rig.declares_uncertainty()) return own;
   MDOF_TRY(Solver solver, Solver::create(rig, model));
   auto points = point_sensitivities(solver, run);
   const SharedBasis basis(new Basis{rig, std::move(solver), run, std::move(points)});
@@ -388,7 +390,7 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   for (auto& more : physics_contributors(rig, basis->solver, run, basis->points))
     list.push_back(std::move(more));
   name_what_goes_with_probes(rig, list);
-  for (auto& more : removed) list.push_back(std::move(more));
+  for (auto& more : own) list.push_back(std::move(more));
   return list;
 }
 

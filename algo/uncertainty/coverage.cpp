@@ -8,21 +8,56 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kTail = 0.025;
-constexpr double kNormal = 1.959963984540054;  // Φ⁻¹(0.975)
-constexpr double kAlmostNormal = 1e7;          // degrees of freedom; k differs by less than 1e-6
+// What of Student's t lies beyond a quantile, and where it is of the normal distribution and of one
+// degree of freedom, between which it always lies.
+struct Tail {
+  double probability, of_normal, below_all, above_all;
+};
+constexpr Tail kTwoSided = {0.025, 1.959963984540054, 1.9, 13};  // 12.71
+constexpr Tail kOneSided = {0.05, 1.6448536269514722, 1.6, 7};   // 6.31
+constexpr double kAlmostNormal = 1e7;  // degrees of freedom; k differs by less than 1e-6
 constexpr double kManyFreedom = 200;
 constexpr double kSettled = 1e-13;
 constexpr int kMostSteps = 100;
 
 // Student's t by its expansion in 1/ν (Cornish and Fisher; Abramowitz and Stegun 26.7.5): below
 // 1e-8 of k from 200 degrees of freedom on. Every point of a run asks for five of them.
-double by_expansion(double freedom) {
-  constexpr double z = kNormal, z2 = z * z;
-  constexpr double first = z * (z2 + 1) / 4;
-  constexpr double second = z * ((5 * z2 + 16) * z2 + 3) / 96;
-  constexpr double third = z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
+double by_expansion(double z, double freedom) {
+  const double z2 = z * z;
+  const double first = z * (z2 + 1) / 4;
+  const double second = z * ((5 * z2 + 16) * z2 + 3) / 96;
+  const double third = z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
   return z + (first + (second + third / freedom) / freedom) / freedom;
+}
+
+// The root of the tail's probability by regula falsi (Illinois), which never leaves its bracket: a
+// tenth of the steps of a bisection.
+double quantile(double freedom, const Tail& tail) {
+  if (!(freedom < kAlmostNormal)) return tail.of_normal;
+  if (freedom >= kManyFreedom) return by_expansion(tail.of_normal, freedom);
+  const auto excess = [&](double k) { return t_upper_tail(k, freedom) - tail.probability; };
+  double low = tail.below_all, high = tail.above_all;
+  double above = excess(low), below = excess(high);
+  double k = low;
+  for (int step = 0, side = 0; step < kMostSteps && high - low > kSettled * high; ++step) {
+    k = (low * below - high * above) / (below - above);
+    const double at = excess(k);
+    if (at == 0) break;
+    if (at > 0) {
+      if (k - low < kSettled * k) break;
+      low = k;
+      above = at;
+      if (side == 1) below /= 2;
+      side = 1;
+    } else {
+      if (high - k < kSettled * k) break;
+      high = k;
+      below = at;
+      if (side == -1) above /= 2;
+      side = -1;
+    }
+  }
+  return k;
 }
 
 }  // namespace
@@ -45,34 +80,12 @@ double effective_freedom(std::span<const UncertaintyPart> parts) {
   return effective_freedom(square, fourth);
 }
 
-// The root of the tail's probability by regula falsi (Illinois), which never leaves its bracket: a
-// tenth of the steps of a bisection.
 double coverage_factor(double freedom) {
-  if (!(freedom < kAlmostNormal)) return kNormal;
-  if (freedom >= kManyFreedom) return by_expansion(freedom);
-  const auto excess = [&](double k) { return t_upper_tail(k, freedom) - kTail; };
-  double low = 1.9, high = 13;  // t of infinitely many degrees of freedom is 1.96, of one 12.71
-  double above = excess(low), below = excess(high);
-  double k = low;
-  for (int step = 0, side = 0; step < kMostSteps && high - low > kSettled * high; ++step) {
-    k = (low * below - high * above) / (below - above);
-    const double at = excess(k);
-    if (at == 0) break;
-    if (at > 0) {
-      if (k - low < kSettled * k) break;
-      low = k;
-      above = at;
-      if (side == 1) below /= 2;
-      side = 1;
-    } else {
-      if (high - k < kSettled * k) break;
-      high = k;
-      below = at;
-      if (side == -1) above /= 2;
-      side = -1;
-    }
-  }
-  return k;
+  return quantile(freedom, kTwoSided);
+}
+
+double one_sided_factor(double freedom) {
+  return quantile(freedom, kOneSided);
 }
 
 }  // namespace mdof::algo

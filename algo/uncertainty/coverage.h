@@ -19,5 +19,7 @@ double fourth_by(double u_square, double freedom);  // u⁴ / ν
 // G.2, which truncates them to the next lower integer; here they stay as they are).
 // Infinite: 1.960.
 double coverage_factor(double freedom);
+// t such that 95 % of that distribution lie below t. Infinite: 1.645.
+double one_sided_factor(double freedom);
 
 }  // namespace mdof::algo

@@ -73,14 +73,15 @@ RunUncertainty run_uncertainty(const Rig& rig, const Run& run) {
   RunUncertainty out;
   out.not_declared = rig.undeclared_uncertainties();
   PointUncertainties points(run);
+  out.declares = rig.declares_uncertainty();
   if (!run.points.empty()) {
     const auto declared = contributors(rig, run);
     if (!declared) out.why = declared.error().message;
-    out.noise_only = !declared || !rig.declares_uncertainty();
     if (declared)
       for (const Contributor& contributor : *declared) points.add(contributor, contributor.parts());
   }
   out.points = points.stated();
+  out.noise_only = is_noise_only(out);
   return out;
 }
 

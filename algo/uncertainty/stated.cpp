@@ -10,7 +10,7 @@ StatedUncertainty stated_uncertainty(const Rig& rig, const Run& run) {
   PointUncertainties of_points(run);
   RunBudgets figures(rig, run);
   const auto declared = contributors(rig, run);
-  points.noise_only = !declared || !rig.declares_uncertainty();
+  points.declares = rig.declares_uncertainty();
   if (!declared && !run.points.empty()) points.why = declared.error().message;
   if (declared)
     for (const Contributor& contributor : *declared) {
@@ -19,6 +19,7 @@ StatedUncertainty stated_uncertainty(const Rig& rig, const Run& run) {
       figures.add(contributor, parts);
     }
   points.points = of_points.stated();
+  points.noise_only = is_noise_only(points);
   if (!declared) return {std::move(points), tl::unexpected(declared.error())};
   return {std::move(points), std::move(figures)};
 }

@@ -25,7 +25,6 @@ class TwoSlopes {
       const Budget budget = of->run.first_order(of->slope);
       budget_.value += of->factor * budget.value;
       budget_.u_random = std::hypot(budget_.u_random, budget.u_random);
-      noise_only_ = noise_only_ && budget.noise_only;
       for (const std::string& key : budget.not_declared)
         budget_.not_declared.push_back(of->name + " " + key);
       for (const BudgetLine& line : budget.lines)
@@ -34,8 +33,7 @@ class TwoSlopes {
     add_contributions(a, b);
   }
   // As of all contributions so far.
-  Budget take(bool noise_only) {
-    budget_.noise_only = noise_only_ && noise_only;
+  Budget take() {
     complete(budget_);
     return std::move(budget_);
   }
@@ -96,7 +94,6 @@ class TwoSlopes {
 
   Budget budget_;
   std::vector<DeclaredUncertainty> drawn_;  // of each line, by 1
-  bool noise_only_ = true;
 };
 
 BudgetLine artefact_line(const SquareArtefact& artefact) {
@@ -127,7 +124,7 @@ Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& 
     both.budget().not_declared.emplace_back("u_artefact_angle_urad");
   std::vector<double> values;
   if (request.trials >= 2) values = both.trials(request);
-  Budget budget = both.take(artefact.u_rad == 0);
+  Budget budget = both.take();
   if (!values.empty()) budget.trials = summary_of(std::move(values), request.seed);
   return budget;
 }
@@ -142,7 +139,7 @@ Result<std::array<Budget, 2>> parallelism_budgets(const Rig& rig_a, const Run& r
     TwoSlopes both({"A", of_a, slope, -1}, {"B", of_b, slope, 1});
     both.budget().figure =
         std::string(error_names(run_a.header.axis)[named].name) + "_parallelism_urad";
-    budgets[named] = both.take(true);
+    budgets[named] = both.take();
   }
   return budgets;
 }

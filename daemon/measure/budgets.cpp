@@ -113,8 +113,7 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
       return bad_input("run " + std::to_string(request.run) + " has too few solved targets for " +
                        figures[f].name);
     }
-    if (request.trials.trials > 1)
-      budgets[f].trials = of_run.trials(figures[f], request.trials);
+    if (request.trials.trials > 1) budgets[f].trials = of_run.trials(figures[f], request.trials);
     found.budgets.push_back(std::move(budgets[f]));
   }
   if (found.budgets.empty())
@@ -202,20 +201,23 @@ std::string parallelism_json(const FoundParallelism& found) {
   write_parallelism(json, p);
   std::vector<Budget> budgets;
   for (const ParallelismOfPlane& plane : p.planes) budgets.push_back(plane.budget);
+  write_covers(json, budgets);
   json.key("figures");
   write_budgets(json, budgets);
   json.end_object();
   return with_warnings(json.take(), found.warnings);
 }
 
-std::string budgets_json(const FoundBudgets& found, const std::optional<double>& tolerance) {
+std::string budgets_json(const FoundBudgets& found, const std::optional<Decision>& decision) {
   JsonWriter json;
   json.begin_object();
   write_reference(json, found.stated);
   json.key("at_mm");
   found.at_m ? json.value(to_mm(*found.at_m)) : json.null();
-  json.field("coverage", 0.95).field("simulated", found.simulated).key("figures");
-  write_budgets(json, found.budgets, tolerance);
+  json.field("coverage", 0.95).field("simulated", found.simulated);
+  write_covers(json, found.budgets);
+  json.key("figures");
+  write_budgets(json, found.budgets, decision);
   json.end_object();
   return with_warnings(json.take(), found.warnings);
 }

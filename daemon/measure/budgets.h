@@ -14,6 +14,7 @@
 #include "schema/run.h"
 #include "schema/separation/square_reversal.h"
 #include "schema/uncertainty/budget.h"
+#include "schema/uncertainty/conformity.h"
 #include "schema/uncertainty/run_uncertainty.h"
 
 namespace mdof::daemon {
@@ -81,8 +82,8 @@ Result<FoundParallelism> find_parallelism(store::Store& store, const Parallelism
 // What `mdof parallelism --json` and the RPC say of it.
 std::string parallelism_json(const FoundParallelism& found);
 
-// What `mdof budget --json` and the RPC say of them; `tolerance` as of write_budgets().
+// What `mdof budget --json` and the RPC say of them; `decision` as of write_budgets().
 std::string budgets_json(const FoundBudgets& found,
-                         const std::optional<double>& tolerance = std::nullopt);
+                         const std::optional<Decision>& decision = std::nullopt);
 
 }  // namespace mdof::daemon

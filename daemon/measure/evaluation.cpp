@@ -164,6 +164,7 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
   MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
   MDOF_CHECK(algo::check_limits(table, request.limits));
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
+  for (const Rig& rig : rigs) add_not_declared(table, rig.undeclared_uncertainties());
   MDOF_TRY(auto warnings, table_warnings(runs));
   if (!declared)
     warnings.push_back("its u is noise and repeatability only, without what the rigs declare: " +
@@ -216,6 +217,27 @@ Status store_squareness(store::Store& store, Squareness& squareness,
   return {};
 }
 
+namespace {
+
+// Sets the combined standard uncertainties of `s`.
+Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& x, const Run& y) {
+  MDOF_TRY(const Rig rig_x, rig_of(x.header));
+  MDOF_TRY(const Rig rig_y, rig_of(y.header));
+  MDOF_TRY(Budget whole, algo::squareness_budget(rig_x, x, rig_y, y, s.artefact));
+  const auto slope_of = [](const Rig& rig, const Run& run, Axis axis) -> Result<Budget> {
+    MDOF_TRY(const auto budgets, algo::RunBudgets::create(rig, algo::restate(run, kAtFixture)));
+    return budgets.of(algo::slope_figure(axis, 0));
+  };
+  MDOF_TRY(Budget slope_x, slope_of(rig_x, x, Axis::x));
+  MDOF_TRY(Budget slope_y, slope_of(rig_y, y, Axis::y));
+  s.u_EC0Y_rad = whole.u;
+  s.u_slope_EYX_rad = slope_x.u;
+  s.u_slope_EXY_rad = slope_y.u;
+  return std::vector{std::move(whole), std::move(slope_x), std::move(slope_y)};
+}
+
+}  // namespace
+
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
   MDOF_TRY(FittedSquareness fitted, calculate_squareness(store, request));
   MDOF_CHECK(store_squareness(store, fitted.squareness, request.deed));
@@ -230,17 +252,16 @@ Result<FittedSquareness> calculate_squareness(store::Store& store,
   MDOF_TRY(const Rig rig_y, rig_of(y.header));
   MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
   MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
-  MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact));
-  return FittedSquareness{std::move(s), std::move(budget), algo::inherited_warnings({&x, &y})};
+  MDOF_TRY(auto budgets, state_uncertainty(s, x, y));
+  return FittedSquareness{std::move(s), std::move(budgets), algo::inherited_warnings({&x, &y})};
 }
 
-Result<FittedSquareness> stored_squareness(store::Store& store, const Squareness& squareness) {
+Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness) {
   MDOF_TRY(const Run x, store.run(squareness.run_x));
   MDOF_TRY(const Run y, store.run(squareness.run_y));
-  MDOF_TRY(const Rig rig_x, rig_of(x.header));
-  MDOF_TRY(const Rig rig_y, rig_of(y.header));
-  MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, squareness.artefact));
-  return FittedSquareness{squareness, std::move(budget), algo::inherited_warnings({&x, &y})};
+  MDOF_TRY(auto budgets, state_uncertainty(squareness, x, y));
+  return FittedSquareness{std::move(squareness), std::move(budgets),
+                          algo::inherited_warnings({&x, &y})};
 }
 
 }  // namespace mdof::daemon

@@ -75,7 +75,7 @@ struct SquarenessRequest {
 };
 struct FittedSquareness {
   Squareness squareness;
-  Budget budget;  // of EC0Y
+  std::vector<Budget> budgets;  // of EC0Y, then of EYX_slope_urad and EXY_slope_urad
   std::vector<std::string> warnings;
 };
 // Fitted, and stored unless the same fit is stored already. Errors: those of algo::artefact_of(),
@@ -86,7 +86,7 @@ Result<FittedSquareness> calculate_squareness(store::Store& store,
                                               const SquarenessRequest& request);
 Status store_squareness(store::Store& store, Squareness& squareness,
                         const std::optional<Deed>& deed);
-// The same of one that is stored.
-Result<FittedSquareness> stored_squareness(store::Store& store, const Squareness& squareness);
+// The same of one that is stored, its uncertainties made anew.
+Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness);
 
 }  // namespace mdof::daemon

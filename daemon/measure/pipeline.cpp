@@ -163,10 +163,15 @@ const std::vector<MeasuredPoint>& Pipeline::points() {
   return sequence_.points;
 }
 
+// Drift counts from the first stop.
+algo::Residuals Pipeline::residuals() const {
+  return {solver_, probe_ranges_m(rig_), rig_, found_.empty() ? 0 : found_.front().begin_ns};
+}
+
 // A long run grows by one point at a time: only the new point is put in its place and solved. The
 // whole sequence is recognised again whenever it has grown by a quarter, and at the end.
 void Pipeline::take_new_points() {
-  const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_.sides);
+  const algo::Residuals residuals = this->residuals();
   std::vector<Point> fresh(found_.begin() + static_cast<std::ptrdiff_t>(taken_), found_.end());
   dwell_.mark(fresh);
   std::copy(fresh.begin(), fresh.end(), found_.begin() + static_cast<std::ptrdiff_t>(taken_));
@@ -194,7 +199,7 @@ void Pipeline::take_points() {
   unplaced_ = found_.size() - placed.size();
   corrections_.apply(solver_, placed);
   sequence_ = algo::recognise_sequence(placed, options_.sequence);
-  const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_.sides);
+  const algo::Residuals residuals = this->residuals();
   for (auto& p : sequence_.points) solve_point(solver_, rig_, residuals, p);
 }
 
@@ -325,7 +330,7 @@ Result<Run> Pipeline::finish() {
   run.points = sequence_.points;
   corrections_.tell(solver_, found_, run);
   auto more = dwell_.warnings(found_);
-  const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_.sides);
+  const algo::Residuals residuals = this->residuals();
   if (const auto contradiction = residuals.warning(run.points)) more.push_back(*contradiction);
   for (auto& sentence : algo::warnings_of_repeats(rig_, run.points))
     more.push_back(std::move(sentence));

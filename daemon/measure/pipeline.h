@@ -85,6 +85,7 @@ class Pipeline {
   std::string explain_unplaced() const;
   void take_points();
   void take_new_points();
+  algo::Residuals residuals() const;
   bool moved() const;
   Status explain_nothing() const;
   Status judge_dead_probes(std::vector<std::string>& warnings) const;

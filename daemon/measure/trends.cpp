@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "algo/drift/removed_drift.h"
@@ -114,16 +115,29 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
   return chosen;
 }
 
+void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& started_utc,
+               const Budget& budget, bool u_is_known) {
+  trend.values.push_back({std::move(runs), started_utc, budget.value,
+                          u_is_known ? budget.u : std::nan(""), budget.u_random});
+  trend.u_covers = covers_text(budget);
+  trend.noise_only = budget.noise_only;
+  trend.u_not_declared = budget.not_declared;
+}
+
 // Of all wanted figures at once: a run is read once.
 Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>& trends,
                const std::vector<algo::Figure>& figures) {
   MDOF_TRY(const Run run, run_stated_at(store, header.id, Reference::fixture));
   MDOF_TRY(const Rig rig, rig_of(run.header));
-  const algo::RunBudgets budgets(rig, run);  // a chart has noise and repeatability alone
+  const auto whole = algo::RunBudgets::create(rig, run);
+  const algo::RunBudgets noise(rig, run);
+  const std::string run_name = "run " + std::to_string(header.id);
   for (std::size_t f = 0; f < figures.size(); ++f) {
-    const Budget budget = budgets.first_order(figures[f]);
+    const Budget budget = (whole ? *whole : noise).first_order(figures[f]);
+    if (!whole)
+      trends[f].warnings.push_back(run_name + ": its u is not known: " + whole.error().message);
     if (std::isfinite(budget.value))
-      trends[f].values.push_back({{header.id}, header.started_utc, budget.value, budget.u_random});
+      add_value(trends[f], {header.id}, header.started_utc, budget, whole.has_value());
     else
       leave_out(trends[f].left_out, {header.id}, "has too few solved targets for this figure");
   }
@@ -139,7 +153,7 @@ Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
   MDOF_TRY(const Chosen chosen, choose(store, axis, request.mixed));
   std::vector<Trend> of_axis;
   for (const algo::Figure& figure : figures)
-    of_axis.push_back({figure.name, {}, {}, chosen.left_out, chosen.warnings});
+    of_axis.push_back({figure.name, {}, {}, chosen.left_out, chosen.warnings, {}, false, {}});
   for (const RunHeader& run : chosen.runs) MDOF_CHECK(add_run(store, run, of_axis, figures));
   for (Trend& trend : of_axis)
     if (!trend.values.empty() || !request.figure.empty() || request.axis)
@@ -154,7 +168,8 @@ Status add_squareness(store::Store& store, const TrendRequest& request, std::vec
   std::map<std::int64_t, const RunHeader*> allowed;
   for (const auto* chosen : {&x, &y})
     for (const RunHeader& run : chosen->runs) allowed[run.id] = &run;
-  Trend trend{kSquareness, {}, {}, {}, {}};
+  Trend trend{kSquareness, {}, {}, {}, {}, {}, false, {}};
+  std::vector<Squareness> fits;
   for (const auto* chosen : {&x, &y}) {
     trend.left_out.insert(trend.left_out.end(), chosen->left_out.begin(), chosen->left_out.end());
     trend.warnings.insert(trend.warnings.end(), chosen->warnings.begin(), chosen->warnings.end());
@@ -173,10 +188,7 @@ Status add_squareness(store::Store& store, const TrendRequest& request, std::vec
         others.push_back(s.id);
         continue;
       }
-      const RunHeader* last =
-          std::max(allowed[s.run_x], allowed[s.run_y],
-                   [](const auto* a, const auto* b) { return earlier(*a, *b); });
-      trend.values.push_back({{s.run_x, s.run_y}, last->started_utc, s.EC0Y_rad, s.u_EC0Y_rad});
+      fits.push_back(s);
     }
     if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
   }
@@ -184,9 +196,16 @@ Status add_squareness(store::Store& store, const TrendRequest& request, std::vec
     trend.left_out.push_back(std::to_string(others.size()) +
                              " fits with another artefact angle than the newest (--mixed takes "
                              "them)");
-  std::sort(trend.values.begin(), trend.values.end(), [](const TrendValue& a, const TrendValue& b) {
-    return std::pair(a.started_utc, a.runs) < std::pair(b.started_utc, b.runs);
+  const auto started = [&](const Squareness& s) {
+    return std::max(allowed[s.run_x]->started_utc, allowed[s.run_y]->started_utc);
+  };
+  std::sort(fits.begin(), fits.end(), [&](const Squareness& a, const Squareness& b) {
+    return std::tuple(started(a), a.run_x, a.run_y) < std::tuple(started(b), b.run_x, b.run_y);
   });
+  for (const Squareness& s : fits) {
+    MDOF_TRY(const FittedSquareness fitted, stored_squareness(store, s));
+    add_value(trend, {s.run_x, s.run_y}, started(s), fitted.budgets.front(), true);
+  }
   if (!trend.values.empty() || !request.figure.empty()) out.push_back(std::move(trend));
   return {};
 }
@@ -215,7 +234,7 @@ Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& reque
     if (!request.axis || *request.axis == axis) MDOF_CHECK(add_axis(store, axis, request, out));
   for (Trend& trend : out) {
     std::vector<algo::ChartValue> values;
-    for (const TrendValue& v : trend.values) values.push_back({v.value, v.u});
+    for (const TrendValue& v : trend.values) values.push_back({v.value, v.u_random});
     trend.chart = algo::control_chart(values, request.baseline);
   }
   return out;

@@ -23,7 +23,9 @@ struct TrendRequest {
 struct TrendValue {
   std::vector<std::int64_t> runs;  // one, or the two of a squareness
   std::string started_utc;         // of the last of them
-  double value = 0, u = 0;         // SI; u: noise and repeatability
+  // SI. u: combined, NaN where it cannot be made; u_random: of it noise and repeatability, by which
+  // the chart judges, for what rigs declare is alike in all runs.
+  double value = 0, u = 0, u_random = 0;
 };
 struct Trend {
   std::string figure;
@@ -31,6 +33,10 @@ struct Trend {
   std::optional<algo::Chart> chart;   // none: too few values
   std::vector<std::string> left_out;  // sentences: which runs, and why
   std::vector<std::string> warnings;  // what is mixed
+  // Of u of the newest value, as of its budget.
+  std::string u_covers;
+  bool noise_only = false;
+  std::vector<std::string> u_not_declared;
 };
 
 // At the fixture. Complete, measured runs that nothing supersedes, of one recording the newest, of

@@ -11,6 +11,7 @@
 #include "schema/base/json_page.h"
 #include "schema/rig/correction.h"
 #include "schema/run_json.h"
+#include "schema/uncertainty/run_uncertainty.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -208,6 +209,8 @@ Result<std::string> at(const Methods& m, const Params& params) {
   write_values(json, "error", table.axis, value.error);
   write_correction(json, table, value.error);
   write_values(json, "u", table.axis, value.u);
+  write_values(json, "u_interpolation", table.axis, value.u_interpolation);
+  write_covers(json, covers_text(table) + "; between targets interpolation", table.not_declared);
   json.field("inside", value.inside)
       .field("simulated", table.simulated)
       .field("doubtful", active->doubtful)

@@ -24,7 +24,7 @@ void squareness(Methods& m, const Params& params, Reply reply) {
     return [fitted = std::move(found),
             deed = request.deed](store::Store& store) mutable -> Result<std::string> {
       MDOF_CHECK(store_squareness(store, fitted.squareness, deed));
-      return with_warnings(squareness_json(fitted.squareness, fitted.budget), fitted.warnings);
+      return with_warnings(squareness_json(fitted.squareness, fitted.budgets), fitted.warnings);
     };
   });
 }

@@ -79,9 +79,9 @@ void ResultHash::add(const StraightnessFigure& figure) {
   put(row_, std::string_view(figure.error_key));
   put(row_, std::string_view(figure.approach));
   for (const double x :
-       {figure.slope_least_squares_rad, figure.slope_end_point_rad,
-        figure.u_slope_least_squares_rad, figure.straightness_least_squares_m,
-        figure.straightness_end_point_m, figure.peak_position_m, figure.valley_position_m})
+       {figure.slope_least_squares_rad, figure.slope_end_point_rad, figure.form_rad,
+        figure.straightness_least_squares_m, figure.straightness_end_point_m,
+        figure.peak_position_m, figure.valley_position_m})
     put(row_, x);
   hash_.update(row_);
 }

@@ -8,6 +8,7 @@
 #include "daemon/store/bytes.h"
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
+#include "schema/rig/rig.h"
 
 namespace mdof::store {
 
@@ -235,6 +236,11 @@ Result<CompensationTable> Store::table_of(Statement& row) {
   set_series(table, *parts, errors);
   MDOF_CHECK(read_statement(row, table));
   MDOF_TRY(table.runs, sources(table.id));
+  for (const std::int64_t run : table.runs) {
+    MDOF_TRY(const RunHeader header, run_header(run));
+    if (const auto rig = parse_rig(header.provenance.rig_text, "its rig"))
+      add_not_declared(table, rig->undeclared_uncertainties());
+  }
   return table;
 }
 

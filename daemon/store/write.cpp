@@ -243,7 +243,7 @@ Status Store::insert_figures(std::int64_t run, const RunEnd& end) {
     straight.bind(run).bind(row++);
     straight.bind(std::string_view(f.error_key)).bind(std::string_view(f.approach));
     straight.bind(f.slope_least_squares_rad).bind(f.slope_end_point_rad);
-    straight.bind(f.u_slope_least_squares_rad).bind(f.straightness_least_squares_m);
+    straight.bind(f.form_rad).bind(f.straightness_least_squares_m);
     straight.bind(f.straightness_end_point_m).bind(f.peak_position_m).bind(f.valley_position_m);
     MDOF_CHECK(straight.run());
   }

@@ -24,8 +24,8 @@ void add_undeclared_air(const RigPhysics& physics, std::vector<std::string>& key
     const std::string key = air_quantities()[q].key;
     if (!physics.dielectric && !physics.air->run[q]) keys.push_back("[air] " + key);
     if (!physics.dielectric) continue;
-    if (!physics.air->u_run[q].declared()) keys.push_back("u_" + key);
-    if (!physics.air->u_calibration[q].declared()) keys.push_back("u_calibration_" + key);
+    if (!physics.air->u_run[q].known()) keys.push_back("u_" + key);
+    if (!physics.air->u_calibration[q].known()) keys.push_back("u_calibration_" + key);
   }
 }
 
@@ -36,12 +36,12 @@ std::vector<std::string> undeclared_physics(const Rig& rig) {
   if (!rig.physics) return keys;
   const RigPhysics& physics = *rig.physics;
   if (physics.asked &&
-      of_any_probe(physics, [](const ProbePhysics& p) { return !p.u_linearity.declared(); }))
+      of_any_probe(physics, [](const ProbePhysics& p) { return !p.u_linearity.known(); }))
     keys.emplace_back("u_linearity_um");
   if (of_any_probe(physics, [&](const ProbePhysics& p) { return !p.tilts(); }))
     keys.emplace_back("sensing_radius_mm and standoff_um");
   if (of_any_probe(physics,
-                   [&](const ProbePhysics& p) { return p.tilts() && !p.u_tilt_factor.declared(); }))
+                   [&](const ProbePhysics& p) { return p.tilts() && !p.u_tilt_factor.known(); }))
     keys.emplace_back("u_tilt_factor");
   if (physics.knows_air())
     add_undeclared_air(physics, keys);

@@ -267,41 +267,43 @@ std::optional<std::size_t> Rig::probe_index(std::string_view id) const {
 
 namespace {
 
-// Of a key of uncertainty.h: is it declared wherever the rig could have it, and is it anywhere?
+// Of a key of uncertainty.h: is it known wherever the rig could have it, and does it add anything?
 struct DeclaredKey {
   const char* key;
   bool everywhere, somewhere;
 };
 
-template <class Items, class Declared>
-DeclaredKey declared_key(const char* key, const Items& items, Declared declared) {
-  return {key, !items.empty() && std::all_of(items.begin(), items.end(), declared),
-          std::any_of(items.begin(), items.end(), declared)};
+// `of(item)`: the item's declared uncertainty.
+template <class Items, class Of>
+DeclaredKey declared_key(const char* key, const Items& items, Of of) {
+  return {key,
+          !items.empty() && std::all_of(items.begin(), items.end(),
+                                        [&](const auto& item) { return of(item).known(); }),
+          std::any_of(items.begin(), items.end(),
+                      [&](const auto& item) { return of(item).declared(); })};
 }
 
-DeclaredKey declared_key(const char* key, bool declared) {
-  return {key, declared, declared};
+template <class Declared>
+DeclaredKey declared_key(const char* key, const Declared& of) {
+  return {key, of.known(), of.declared()};
 }
 
 std::vector<DeclaredKey> declared_keys(const Rig& rig) {
-  const auto any = [](const DeclaredUncertainty3& three) {
-    return three.u[0] > 0 || three.u[1] > 0 || three.u[2] > 0;
-  };
-  const auto of_probes = [&](const char* key, auto declared) {
+  const auto of_probes = [&](const char* key, auto of) {
     return declared_key(key, rig.probes,
-                        [&](const Probe& probe) { return declared(probe.uncertainty); });
+                        [of](const Probe& probe) { return probe.uncertainty.*of; });
   };
   const RigUncertainty& u = rig.uncertainty;
-  return {of_probes("u_calibration_um", [](const auto& p) { return p.calibration.declared(); }),
-          of_probes("u_sensitivity_ppm", [](const auto& p) { return p.sensitivity.declared(); }),
-          of_probes("u_position_mm", [&](const auto& p) { return any(p.position); }),
-          of_probes("u_direction_mrad", [](const auto& p) { return p.direction.declared(); }),
+  return {of_probes("u_calibration_um", &ProbeUncertainty::calibration),
+          of_probes("u_sensitivity_ppm", &ProbeUncertainty::sensitivity),
+          of_probes("u_position_mm", &ProbeUncertainty::position),
+          of_probes("u_direction_mrad", &ProbeUncertainty::direction),
           declared_key("u_flatness_um", rig.planes,
-                       [](const TargetPlane& plane) { return plane.u_flatness.declared(); }),
-          declared_key("[encoder] u_um", u.encoder.declared()),
-          declared_key("u_angle_mrad", any(u.installation_angle)),
-          declared_key("u_offset_mm", any(u.installation_offset)),
-          declared_key("u_um_per_h", u.drift.declared())};
+                       [](const TargetPlane& plane) { return plane.u_flatness; }),
+          declared_key("[encoder] u_um", u.encoder),
+          declared_key("u_angle_mrad", u.installation_angle),
+          declared_key("u_offset_mm", u.installation_offset),
+          declared_key("u_um_per_h", u.drift)};
 }
 
 }  // namespace

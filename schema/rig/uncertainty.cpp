@@ -93,7 +93,7 @@ DeclaredUncertainty read_uncertainty(TomlTable& table, std::string_view key, dou
   const Declared declared = read(table, key);
   if (declared.u.empty()) return {};
   if (declared.u.size() != 1) table.reject(key, "must be one number");
-  return {declared.u[0] * to_si, declared.shape, declared.freedom};
+  return {declared.u[0] * to_si, declared.shape, declared.freedom, declared.u[0] == 0};
 }
 
 DeclaredUncertainty3 read_uncertainty3(TomlTable& table, std::string_view key, double to_si) {
@@ -104,6 +104,7 @@ DeclaredUncertainty3 read_uncertainty3(TomlTable& table, std::string_view key, d
     table.reject(key, "must be three numbers, along X, Y and Z, or one for all three");
   for (std::size_t k = 0; k < 3; ++k)
     three.u[k] = declared.u[std::min(k, declared.u.size() - 1)] * to_si;
+  three.zero = !three.declared();
   return three;
 }
 

@@ -1,5 +1,6 @@
 // Standard uncertainties that a rig declares (GUM 4.3, type B; DESIGN §6). All are optional: what
-// is not declared is 0 here and named as missing where a result is stated.
+// is not declared is 0 here and named as missing where a result is stated. A declared 0 is a
+// statement as well: what is known to add nothing is not missing.
 #pragma once
 
 #include <limits>
@@ -15,16 +16,21 @@ enum class UncertaintyShape { normal, rectangular, triangular, u_shaped };
 const char* to_string(UncertaintyShape shape);
 
 struct DeclaredUncertainty {
-  double u = 0;  // standard uncertainty, SI; 0: not declared
+  double u = 0;  // standard uncertainty, SI
   UncertaintyShape shape = UncertaintyShape::normal;
   double freedom = std::numeric_limits<double>::infinity();  // degrees of freedom, GUM G.4
+  bool zero = false;  // the rig says that it adds nothing: the key is there, with 0
   bool declared() const { return u > 0; }
+  bool known() const { return declared() || zero; }
 };
 // Of three components along the machine's axes, each independent of the others.
 struct DeclaredUncertainty3 {
   Vec3 u{};
   UncertaintyShape shape = UncertaintyShape::normal;
   double freedom = std::numeric_limits<double>::infinity();
+  bool zero = false;  // of all three
+  bool declared() const { return u[0] > 0 || u[1] > 0 || u[2] > 0; }
+  bool known() const { return declared() || zero; }
   DeclaredUncertainty component(std::size_t k) const { return {u[k], shape, freedom}; }
 };
 

@@ -48,6 +48,7 @@ void write_fit(JsonWriter& json, const Separation& fit) {
       .field("residual_um", to_um(fit.residual_m))
       .field("k", kSeparationCoverage)
       .field("u_from", fit.u_reason)
+      .field("u_covers", fit.u_reason)
       .field("not_in_it", not_in_separation_u());
 }
 

@@ -1,25 +1,64 @@
 #include "schema/uncertainty/budget.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mdof {
+namespace {
+
+// No target was visited again, so that the noise is known within stops alone: it has no degrees of
+// freedom of repeats.
+bool is_of_one_visit(const Budget& budget) {
+  return std::any_of(budget.lines.begin(), budget.lines.end(), [](const BudgetLine& line) {
+    return line.key.empty() && line.name.ends_with("noise and repeatability") &&
+           line.contribution > 0 && std::isinf(line.freedom);
+  });
+}
+
+}  // namespace
+
+bool is_noise_only(double u, double u_declared) {
+  constexpr double kSeen = 0.01;  // of u
+  return !(u_declared > kSeen * u);
+}
+
+bool is_noise_only(const Budget& budget) {
+  double square = 0;
+  for (const BudgetLine& line : budget.lines)
+    if (!line.key.empty()) square += line.contribution * line.contribution;
+  return !budget.not_declared.empty() && is_noise_only(budget.u, std::sqrt(square));
+}
+
+bool declares(const Budget& budget) {
+  return std::any_of(budget.lines.begin(), budget.lines.end(),
+                     [](const BudgetLine& line) { return !line.key.empty(); });
+}
 
 std::string covers_text(const Budget& budget) {
-  return budget.noise_only ? "noise and repeatability only: no uncertainties are declared"
-                           : "noise, repeatability and what is declared";
+  const std::string slow =
+      is_of_one_visit(budget) ? "; of a single run: noise slower than a stop is not in it" : "";
+  if (!budget.noise_only) return "noise, repeatability and what is declared" + slow;
+  return std::string("noise and repeatability only: ") +
+         (declares(budget) ? "what is declared adds nothing to it"
+                           : "no uncertainties are declared") +
+         slow;
 }
 
-const char* to_string(Conformity conformity) {
-  return conformity == Conformity::conform       ? "conform"
-         : conformity == Conformity::not_conform ? "not conform"
-                                                 : "undecided";
+std::string covers_text(const std::vector<Budget>& budgets) {
+  const auto best = std::find_if(budgets.begin(), budgets.end(),
+                                 [](const Budget& budget) { return !budget.noise_only; });
+  return budgets.empty() ? "" : covers_text(best == budgets.end() ? budgets.front() : *best);
 }
 
-Conformity conformity(const Budget& budget, double limit) {
-  const double size = std::abs(budget.value);
-  if (size + budget.U <= limit) return Conformity::conform;
-  if (size - budget.U > limit) return Conformity::not_conform;
-  return Conformity::undecided;  // and where nothing is known: NaN
+bool are_noise_only(const std::vector<Budget>& budgets) {
+  return !budgets.empty() && std::all_of(budgets.begin(), budgets.end(),
+                                         [](const Budget& budget) { return budget.noise_only; });
+}
+
+const Budget* find_budget(const std::vector<Budget>& budgets, std::string_view figure) {
+  const auto found = std::find_if(budgets.begin(), budgets.end(),
+                                  [&](const Budget& budget) { return budget.figure == figure; });
+  return found == budgets.end() ? nullptr : &*found;
 }
 
 }  // namespace mdof

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mdof {
@@ -38,7 +39,8 @@ struct Budget {
   double coverage_factor = 0;  // k for 95 %, Student's t
   double U = 0;                // k u
   bool U_by_trials = false;    // U is that of Monte Carlo, and k = U / u
-  bool noise_only = false;     // the rig declares nothing
+  // What rigs declare adds nothing to u: they declare nothing, or nothing that this figure shows.
+  bool noise_only = false;
   // Keys of the rig that are not declared: U is too small by what they would add.
   std::vector<std::string> not_declared;
   std::vector<BudgetLine> lines;  // the largest first
@@ -51,12 +53,22 @@ struct StatedFigures {
   std::string why;  // of being left out, a sentence without a full stop
 };
 
+// Nothing that rigs declare is seen in u: below a hundredth of it, u is the same in two digits.
+bool is_noise_only(double u, double u_declared);
+// The same of a budget's lines.
+bool is_noise_only(const Budget& budget);
+
+// A line of it is of a rig's key.
+bool declares(const Budget& budget);
+
 // What its u is made of: one sentence for people, without a full stop.
 std::string covers_text(const Budget& budget);
+// Of several figures of the same rigs: what that covers which covers most.
+std::string covers_text(const std::vector<Budget>& budgets);
+// Each of them; false of none at all.
+bool are_noise_only(const std::vector<Budget>& budgets);
 
-// ISO 14253-1: what may be said of a figure that must be at most `limit` in size.
-enum class Conformity { conform, not_conform, undecided };
-const char* to_string(Conformity conformity);  // "conform", "not conform", "undecided"
-Conformity conformity(const Budget& budget, double limit);
+// The budget of this name; none: it is not among them.
+const Budget* find_budget(const std::vector<Budget>& budgets, std::string_view figure);
 
 }  // namespace mdof

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "schema/axis.h"
+#include "schema/uncertainty/run_uncertainty.h"
 
 namespace mdof {
 namespace {
@@ -56,19 +57,22 @@ void write_stated(JsonWriter& json, const StatedFigures& figures) {
   if (!figures.why.empty()) json.field("uncertainty_reason", figures.why);
 }
 
+void write_covers(JsonWriter& json, const std::vector<Budget>& budgets) {
+  write_covers(json, covers_text(budgets),
+               budgets.empty() ? std::vector<std::string>() : budgets.front().not_declared);
+}
+
 void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
-                   const std::optional<double>& tolerance) {
+                   const std::optional<Decision>& decision) {
   json.begin_object();
   for (const Budget& budget : budgets) {
     json.key(budget.figure).begin_object();
     write_members(json, budget);
-    json.field("noise_only", budget.noise_only);
+    json.field("noise_only", budget.noise_only).field("u_covers", covers_text(budget));
     json.key("not_declared").begin_array();
     for (const std::string& key : budget.not_declared) json.value(key);
     json.end_array();
-    if (tolerance)
-      json.field("tolerance", to_key_unit(*tolerance))
-          .field("conformity", to_string(conformity(budget, *tolerance)));
+    if (decision) write_decision(json, *decision);
     json.key("contributors").begin_array();
     for (const BudgetLine& line : budget.lines) write_line(json, line);
     json.end_array();

@@ -6,21 +6,26 @@
 
 #include "schema/base/json_writer.h"
 #include "schema/uncertainty/budget.h"
+#include "schema/uncertainty/conformity.h"
 
 namespace mdof {
 
 // {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by", "noise_only",
-// "not_declared", "contributors": [{"contributor", "key", "value", "unit", "distribution",
-// "sensitivity", "contribution", "share", "dof"}]}}, values in the unit of the figure's name.
+// "u_covers", "not_declared", "contributors": [{"contributor", "key", "value", "unit",
+// "distribution", "sensitivity", "contribution", "share", "dof"}]}}, values in the unit of the
+// figure's name.
 // Infinite degrees of freedom are null, and so is the sensitivity to what is seen in the run
-// itself. With trials: "trials": {"trials", "seed", "u", "low", "high"}. With a tolerance:
-// "tolerance" and "conformity", by ISO 14253-1.
+// itself. With trials: "trials": {"trials", "seed", "u", "low", "high"}. With a decision, of each:
+// write_decision().
 void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
-                   const std::optional<double>& tolerance = std::nullopt);
+                   const std::optional<Decision>& decision = std::nullopt);
 
 // "uncertainty": {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by"}} of
 // an open object: what budgets come to, without their contributors. Where they are left out:
 // "uncertainty_reason" behind it.
 void write_stated(JsonWriter& json, const StatedFigures& figures);
+
+// As write_covers() of runs: of these figures.
+void write_covers(JsonWriter& json, const std::vector<Budget>& budgets);
 
 }  // namespace mdof

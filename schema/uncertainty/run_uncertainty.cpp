@@ -1,6 +1,9 @@
 #include "schema/uncertainty/run_uncertainty.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "schema/uncertainty/budget.h"
 
 namespace mdof {
 namespace {
@@ -26,14 +29,31 @@ Errors5 in_key_unit(const Errors5& u) {
 
 std::string covers_text(const RunUncertainty& uncertainty) {
   if (!uncertainty.why.empty()) return "noise only: " + uncertainty.why;
-  return uncertainty.noise_only ? "noise only: the rig declares no uncertainties"
-                                : "noise and what the rig declares";
+  if (!uncertainty.noise_only) return "noise and what the rig declares";
+  return uncertainty.declares ? "noise only: what the rig declares adds nothing to it"
+                              : "noise only: the rig declares no uncertainties";
+}
+
+bool is_noise_only(const RunUncertainty& uncertainty) {
+  if (!uncertainty.why.empty() || !uncertainty.declares) return true;
+  if (uncertainty.not_declared.empty()) return false;
+  for (const ErrorsUncertainty& point : uncertainty.points)
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      const double square = point.u[k] * point.u[k] - point.u_random[k] * point.u_random[k];
+      if (!is_noise_only(point.u[k], std::sqrt(std::max(0.0, square)))) return false;
+    }
+  return true;
+}
+
+void write_covers(JsonWriter& json, const std::string& covers,
+                  const std::vector<std::string>& not_declared) {
+  json.field("u_covers", covers).key("u_not_declared").begin_array();
+  for (const std::string& key : not_declared) json.value(key);
+  json.end_array();
 }
 
 void write_covers(JsonWriter& json, const RunUncertainty& uncertainty) {
-  json.field("u_covers", covers_text(uncertainty)).key("u_not_declared").begin_array();
-  for (const std::string& key : uncertainty.not_declared) json.value(key);
-  json.end_array();
+  write_covers(json, covers_text(uncertainty), uncertainty.not_declared);
 }
 
 void write_uncertainty(JsonWriter& json, Axis axis, const ErrorsUncertainty& uncertainty) {

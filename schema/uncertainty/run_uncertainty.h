@@ -20,14 +20,20 @@ struct ErrorsUncertainty {
 
 struct RunUncertainty {
   std::vector<ErrorsUncertainty> points;  // one a point of the run
-  // Nothing but noise is in it: the rig declares nothing, or `why` what it declares could not be
-  // reckoned.
+  // Nothing but noise is seen in any u: the rig declares nothing, or nothing that shows, or `why`
+  // what it declares could not be reckoned.
   bool noise_only = true;
+  bool declares = false;
   std::string why;
   std::vector<std::string> not_declared;  // keys of the rig: u is too small by what they would add
 };
 
+// As of is_noise_only(Budget) of schema/uncertainty/budget.h, of all points.
+bool is_noise_only(const RunUncertainty& uncertainty);
+
 // "u_covers" and "u_not_declared" of an open object.
+void write_covers(JsonWriter& json, const std::string& covers,
+                  const std::vector<std::string>& not_declared);
 void write_covers(JsonWriter& json, const RunUncertainty& uncertainty);
 // One sentence for people, without a full stop.
 std::string covers_text(const RunUncertainty& uncertainty);

@@ -118,7 +118,9 @@ Result<Run> OnTheFlyRun::finish() {
   std::vector<Point> as_read;
   for (const MeasuredPoint& p : sequence.points) as_read.push_back(p.point);
   correct(sequence);
-  const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_.sides);
+  const std::int64_t start_ns =
+      sequence.points.empty() ? 0 : sequence.points.front().point.begin_ns;
+  const algo::Residuals residuals(solver_, probe_ranges_m(rig_), rig_, start_ns);
   MDOF_CHECK(solve(sequence, residuals));
   run.header.axis = rig_.axis;
   run.header.sides = rig_.sides;

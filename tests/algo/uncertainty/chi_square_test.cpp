@@ -1,10 +1,16 @@
 // Seven and six probes that agree, and one that does not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "algo/model/fixture.h"
 #include "algo/points/dwell.h"
 #include "algo/sequence/sequence.h"
 #include "algo/uncertainty/chi_square.h"
 #include "tests/algo/stepping_log.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
 
 namespace mdof::algo {
 namespace {
@@ -104,6 +110,81 @@ TEST(ChiSquare, NamesTheProbeThatContradictsTheOthers) {
       for (const auto& p : result.points)
         EXPECT_EQ(has_flag(p.point, "residual"), p.run > 1) << bad;
     }
+  }
+}
+
+// Probes that stand, and are scaled, otherwise than the rig believes, as much as it declares.
+struct DeclaredFaults {
+  static constexpr double kShift_m = 0.1e-3, kScale = 1e-3;
+  Rig rig = rig_of(7);
+
+  DeclaredFaults() {
+    for (Probe& probe : rig.probes) {
+      probe.uncertainty.position.u = {kShift_m, kShift_m, kShift_m};
+      probe.uncertainty.sensitivity.u = kScale;
+    }
+  }
+  // `bad_m`: what probe F reads too much at every second target.
+  std::vector<MeasuredPoint> measure(std::uint64_t seed, const Rig* declares, double bad_m) const {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    Fixture fixture = make_fixture(rig).value();
+    std::vector<double> scale;
+    for (FixtureProbe& probe : fixture.probes) {
+      const bool top = std::abs(probe.n_C.z()) > 0.5;
+      probe.p_MP += kShift_m * Eigen::Vector3d(normal(random), top ? normal(random) : 0,
+                                               top ? 0 : normal(random));
+      scale.push_back(kScale * normal(random));
+    }
+    SyntheticRun synthetic{.rig = rig, .runs = 1, .stated = kAtCarriage, .fixture = fixture};
+    synthetic.truth = [](double d) {
+      return Errors5{1e-3 * d, -8e-4 * d, 2e-2 * d, 1e-2 * d, -2e-2 * d};
+    };
+    synthetic.added = [&](std::size_t k, double d, double reading_m, double) {
+      const bool second = static_cast<int>(std::lround(d / 5e-3)) % 2 == 1;
+      return scale[k] * reading_m + 5e-9 * normal(random) + (k == 5 && second ? bad_m : 0);
+    };
+    synthetic.u_reading_m = 5e-9;
+    std::vector<MeasuredPoint> points = synthetic.measure().points;
+    const Solver solver = Solver::create(rig, Model::rigid).value();
+    const std::vector<double> range_m(7, 200e-6);
+    const Residuals residuals =
+        declares ? Residuals(solver, range_m, *declares, points.front().point.begin_ns)
+                 : Residuals(solver, range_m);
+    for (MeasuredPoint& p : points) residuals.test(p);
+    return points;
+  }
+};
+
+std::size_t accused(const std::vector<MeasuredPoint>& points) {
+  return static_cast<std::size_t>(std::count_if(
+      points.begin(), points.end(), [](const auto& p) { return has_flag(p.point, "residual"); }));
+}
+
+// The residual's covariance has what the rig declares: good runs are not accused, bad ones are.
+TEST(ChiSquare, WhatTheRigDeclaresAccusesNobody) {
+  const DeclaredFaults faults;
+  int without = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    EXPECT_EQ(accused(faults.measure(seed, &faults.rig, 0)), 0u) << seed;
+    without += accused(faults.measure(seed, nullptr, 0)) > 0 ? 1 : 0;
+    EXPECT_GE(accused(faults.measure(seed, &faults.rig, 5e-6)), 8u) << seed;
+  }
+  EXPECT_GT(without, 15);  // the control
+}
+
+// Of independent readings both ways come to one χ², where the errors are those of least squares.
+TEST(ChiSquare, WithACovarianceOfTheReadingsAlone) {
+  const DeclaredFaults faults;
+  const Solver solver = Solver::create(faults.rig, Model::rigid).value();
+  for (const MeasuredPoint& p : faults.measure(3, nullptr, 0)) {
+    const double travel_m = p.point.position_m;
+    const std::vector<double> u_m(7, 5e-9);
+    const Eigen::MatrixXd covariance = 25e-18 * Eigen::MatrixXd::Identity(7, 7);
+    const Agreement one = agreement(solver, travel_m, p.point.probe_m, u_m, p.errors);
+    const Agreement other = agreement(solver, travel_m, p.point.probe_m, covariance, p.errors);
+    EXPECT_EQ(one.freedom, other.freedom);
+    EXPECT_NEAR(one.chi_square / other.chi_square, 1, 1e-3);
   }
 }
 

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "schema/uncertainty/budget.h"
-
 namespace mdof::algo {
 namespace {
 
@@ -49,20 +47,12 @@ TEST(Coverage, EqualPartsAddTheirFreedom) {
   EXPECT_EQ(effective_freedom(std::vector<UncertaintyPart>{}), kInfinite);
 }
 
-TEST(Coverage, AFigureIsJudgedByItsInterval) {
-  Budget budget;
-  budget.U = 0.2;
-  const auto of = [&](double value) {
-    budget.value = value;
-    return conformity(budget, 1.0);
-  };
-  EXPECT_EQ(of(0.79), Conformity::conform);
-  EXPECT_EQ(of(-0.79), Conformity::conform);
-  EXPECT_EQ(of(0.81), Conformity::undecided);
-  EXPECT_EQ(of(1.19), Conformity::undecided);
-  EXPECT_EQ(of(1.21), Conformity::not_conform);
-  EXPECT_EQ(of(-1.21), Conformity::not_conform);
-  EXPECT_EQ(of(std::nan("")), Conformity::undecided);
+// scipy.stats.t.ppf(0.95, ν).
+TEST(Coverage, OneSided) {
+  const std::pair<double, double> table[] = {{1, 6.313752},   {2, 2.919986},        {5, 2.015048},
+                                             {30, 1.697261},  {199, 1.652547},      {200, 1.652508},
+                                             {1e6, 1.644855}, {kInfinite, 1.644854}};
+  for (const auto& [freedom, t] : table) EXPECT_NEAR(one_sided_factor(freedom), t, 2e-6) << freedom;
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ double known_u(double u) {
 }
 
 void add_point(CsvText& csv, const MovingAxis& moving, const MeasuredPoint& p,
-               const ErrorsUncertainty& uncertainty) {
+               const ErrorsUncertainty& uncertainty, const RunUncertainty& of_run) {
   const Errors5 named = named_from_local(moving, p.errors.local);
   const bool valid = p.errors.valid;
   csv.cell(static_cast<long long>(p.target)).cell(to_mm(p.target_m));
@@ -26,7 +26,8 @@ void add_point(CsvText& csv, const MovingAxis& moving, const MeasuredPoint& p,
   for (const Errors5& five : {uncertainty.u, uncertainty.u_random, uncertainty.U})
     for (const double u : five) csv.cell(known_u(u));
   csv.cell(static_cast<long long>(p.point.samples)).cell(joined(p.point.flags, " "));
-  csv.cell(valid ? "" : p.errors.reason).end_row();
+  csv.cell(valid ? "" : p.errors.reason);
+  csv.cells({covers_text(of_run), joined(of_run.not_declared, " ")}).end_row();
 }
 
 }  // namespace
@@ -37,30 +38,71 @@ std::string points_csv(const Run& run, const RunUncertainty& uncertainty) {
   for (const auto& name : error_names(run.header.axis)) csv.cell(std::string_view(name.key));
   for (const std::string of : {"u_", "u_random_", "U_"})
     for (const auto& name : error_names(run.header.axis)) csv.cell(of + name.key);
-  csv.cells({"samples", "flags", "reason"}).end_row();
+  csv.cells({"samples", "flags", "reason", "u_covers", "u_not_declared"}).end_row();
   for (std::size_t j = 0; j < run.points.size(); ++j)
-    add_point(csv, run.header.moving(), run.points[j], uncertainty.points[j]);
+    add_point(csv, run.header.moving(), run.points[j], uncertainty.points[j], uncertainty);
   return csv.take();
 }
 
-std::string figures_csv(const Run& run) {
+namespace {
+
+// u and U of the figure, if it is of the mean of both approaches and has a budget.
+void add_uncertainty(CsvText& csv, const StatedFigures& figures, const std::string& approach,
+                     const std::string& figure) {
+  const Budget* budget = approach == "mean" ? find_budget(figures.budgets, figure) : nullptr;
+  csv.cell(budget ? known_u(budget->u) : kNaN).cell(budget ? known_u(budget->U) : kNaN);
+}
+
+void add_covers(CsvText& csv, const StatedFigures& figures) {
+  const bool any = !figures.budgets.empty();
+  csv.cell(any ? covers_text(figures.budgets) : figures.why);
+  csv.cell(any ? joined(figures.budgets.front().not_declared, " ") : "").end_row();
+}
+
+}  // namespace
+
+std::string figures_csv(const Run& run, const StatedFigures& figures) {
   CsvText csv;
-  csv.cells({"error", "approach", "least_squares_um", "end_point_um", "slope_least_squares_urad",
-             "u_slope_least_squares_urad", "slope_end_point_urad", "peak_mm", "valley_mm",
-             "start_urad", "min_urad", "max_urad", "range_urad"});
+  csv.cells({"error",
+             "approach",
+             "least_squares_um",
+             "u_least_squares_um",
+             "U_least_squares_um",
+             "end_point_um",
+             "slope_least_squares_urad",
+             "u_slope_least_squares_urad",
+             "U_slope_least_squares_urad",
+             "form_urad",
+             "slope_end_point_urad",
+             "peak_mm",
+             "valley_mm",
+             "start_urad",
+             "min_urad",
+             "max_urad",
+             "range_urad",
+             "u_range_urad",
+             "U_range_urad",
+             "u_covers",
+             "u_not_declared"});
   csv.end_row();
   for (const auto& f : run.straightness) {
-    const double u_urad = to_urad(f.u_slope_least_squares_rad);
-    csv.cells({f.error_key.substr(0, 3), f.approach}).cell(to_um(f.straightness_least_squares_m));
+    const std::string error = f.error_key.substr(0, 3);
+    csv.cells({error, f.approach}).cell(to_um(f.straightness_least_squares_m));
+    add_uncertainty(csv, figures, f.approach, error + "_straightness_um");
     csv.cell(to_um(f.straightness_end_point_m)).cell(to_urad(f.slope_least_squares_rad));
-    csv.cell(u_urad > 0 ? u_urad : kNaN).cell(to_urad(f.slope_end_point_rad));
+    add_uncertainty(csv, figures, f.approach, error + "_slope_urad");
+    csv.cell(to_urad(f.form_rad)).cell(to_urad(f.slope_end_point_rad));
     csv.cell(to_mm(f.peak_position_m)).cell(to_mm(f.valley_position_m));
-    csv.cells({"", "", "", ""}).end_row();
+    csv.cells({"", "", "", "", "", ""});
+    add_covers(csv, figures);
   }
   for (const auto& f : run.angles) {
-    csv.cells({f.error_key.substr(0, 3), f.approach, "", "", "", "", "", "", ""});
+    const std::string error = f.error_key.substr(0, 3);
+    csv.cells({error, f.approach, "", "", "", "", "", "", "", "", "", "", ""});
     csv.cell(to_urad(f.start_rad)).cell(to_urad(f.min_rad)).cell(to_urad(f.max_rad));
-    csv.cell(to_urad(f.max_rad - f.min_rad)).end_row();
+    csv.cell(to_urad(f.max_rad - f.min_rad));
+    add_uncertainty(csv, figures, f.approach, error + "_range_urad");
+    add_covers(csv, figures);
   }
   return csv.take();
 }

@@ -1,46 +1,71 @@
 #include "tools/mdof/csv/table_csv.h"
 
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "schema/imported/series.h"
 #include "schema/iso230/positioning.h"
 #include "schema/units.h"
 #include "tools/mdof/csv/csv_text.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 
+namespace {
+
+double combined(double u_random, const std::vector<double>& declared, std::size_t row) {
+  return declared.empty() ? u_random : std::hypot(u_random, declared[row]);
+}
+
+// A column of each error; of positioning too, where the table has it.
+struct Columns {
+  std::string prefix;
+  const std::array<std::vector<double>, 5>& errors;
+  const std::vector<double>& along;
+  bool combine = false;  // with what is declared
+};
+
+double cell_of(const CompensationTable& t, const Columns& columns, std::size_t k, std::size_t row) {
+  const double value = columns.errors[k][row];
+  return columns.combine ? combined(value, t.u_declared[k], row) : value;
+}
+
+double cell_along(const CompensationTable& t, const Columns& columns, std::size_t row) {
+  if (columns.along.empty()) return kNoFigure;
+  return columns.combine ? combined(columns.along[row], t.positioning.u_declared, row)
+                         : columns.along[row];
+}
+
+}  // namespace
+
 std::string table_csv(const CompensationTable& t) {
-  const struct {
-    const char* prefix;
-    const std::array<std::vector<double>, 5>& values;
-  } groups[] = {{"forward_", t.forward},
-                {"u_forward_", t.u_forward},
-                {"reverse_", t.reverse},
-                {"u_reverse_", t.u_reverse}};
+  const PositioningErrors& along = t.positioning;
+  std::vector<Columns> groups = {{"forward_", t.forward, along.forward},
+                                 {"u_forward_", t.u_forward, along.u_forward, true},
+                                 {"reverse_", t.reverse, along.reverse},
+                                 {"u_reverse_", t.u_reverse, along.u_reverse, true}};
+  if (t.has_declared()) {
+    groups.push_back({"u_random_forward_", t.u_forward, along.u_forward});
+    groups.push_back({"u_random_reverse_", t.u_reverse, along.u_reverse});
+    groups.push_back({"u_declared_", t.u_declared, along.u_declared});
+  }
   CsvText csv;
   csv.cell("position_mm");
-  for (const auto& group : groups)
-    for (const auto& name : error_names(t.axis)) csv.cell(std::string(group.prefix) + name.key);
-  const bool declared = t.has_declared();
-  if (declared)
-    for (const auto& name : error_names(t.axis)) csv.cell(std::string("u_declared_") + name.key);
-  const auto& along = t.positioning;
-  const std::string key = positioning_name(t.axis) + "_um";
+  for (const Columns& columns : groups)
+    for (const auto& name : error_names(t.axis)) csv.cell(columns.prefix + name.key);
   if (t.has_positioning())
-    for (const char* prefix : {"forward_", "u_forward_", "reverse_", "u_reverse_", "u_declared_"})
-      csv.cell(prefix + key);
-  csv.end_row();
+    for (const Columns& columns : groups)
+      csv.cell(columns.prefix + positioning_name(t.axis) + "_um");
+  csv.cells({"u_covers", "u_not_declared"}).end_row();
+  const std::string covers = covers_text(t), not_declared = joined(t.not_declared, " ");
   for (std::size_t i = 0; i < t.position_m.size(); ++i) {
     csv.cell(to_mm(t.position_m[i]));
-    for (const auto& group : groups)
-      for (const auto& series : group.values) csv.cell(to_key_unit(series[i]));
-    if (declared)
-      for (const auto& series : t.u_declared) csv.cell(to_key_unit(series[i]));
-    if (t.has_positioning()) {
-      for (const auto* series :
-           {&along.forward, &along.u_forward, &along.reverse, &along.u_reverse})
-        csv.cell(to_key_unit((*series)[i]));
-      csv.cell(declared ? to_key_unit(along.u_declared[i]) : kNoFigure);
-    }
-    csv.end_row();
+    for (const Columns& columns : groups)
+      for (std::size_t k = 0; k < 5; ++k) csv.cell(to_key_unit(cell_of(t, columns, k, i)));
+    if (t.has_positioning())
+      for (const Columns& columns : groups) csv.cell(to_key_unit(cell_along(t, columns, i)));
+    csv.cells({covers, not_declared}).end_row();
   }
   return csv.take();
 }

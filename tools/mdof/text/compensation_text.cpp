@@ -95,14 +95,13 @@ std::string table_of_positioning_text(const CompensationTable& t) {
                  terminal_columns()) +
          "\nerrors: actual - nominal, as measured\n" + corrections_text(t, terminal_columns()) +
          "\nforward\n" + positioning_text(t, along.forward, along.u_forward) + "\nreverse\n" +
-         positioning_text(t, along.reverse, along.u_reverse) + "± one standard uncertainty: " +
-         (t.has_declared() ? "repeatability and what was declared at import\n"
-                           : "repeatability only\n");
+         positioning_text(t, along.reverse, along.u_reverse) +
+         "± one standard uncertainty: " + covers_text(t) + "\n";
 }
 
 std::string table_text(const CompensationTable& t, std::int64_t generation) {
   if (t.has_positioning()) return table_of_positioning_text(t);
-  return simulated_notice(t.simulated) +
+  return noise_only_notice(t.noise_only()) + simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) + ", " +
                      state_of(generation) + ", of the runs " + runs_of(t) + ", " + t.created_utc,
                  terminal_columns()) +
@@ -111,9 +110,11 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
          ", angles from the first target\n" + stated_text(t.stated) +
          corrections_text(t, terminal_columns()) + "\nforward\n" +
          side_text(t, t.forward, t.u_forward) + "\nreverse\n" +
-         side_text(t, t.reverse, t.u_reverse) + "± one standard uncertainty: noise" +
-         (t.has_declared() ? ", repeatability and what the rigs declare\n"
-                           : " and repeatability only\n");
+         side_text(t, t.reverse, t.u_reverse) +
+         wrapped("± one standard uncertainty: " + covers_text(t) +
+                     (t.not_declared.empty() ? "" : "; not declared: " + joined(t.not_declared)),
+                 terminal_columns()) +
+         "\n";
 }
 
 std::string list_document(const std::vector<CompensationTable>& tables,

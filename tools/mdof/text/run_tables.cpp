@@ -6,7 +6,9 @@
 
 #include "daemon/measure/replay/request_json.h"
 #include "schema/axis.h"
+#include "schema/run_json.h"
 #include "schema/severity.h"
+#include "tools/mdof/text/analyses/budget_text.h"
 #include "tools/mdof/text/plausibility_text.h"
 #include "tools/mdof/text/text_table.h"
 #include "tools/mdof/text/warnings.h"
@@ -64,6 +66,12 @@ std::string simulated_notice(bool simulated) {
   return simulated ? "SIMULATED DATA: no machine was measured.\n" : "";
 }
 
+std::string noise_only_notice(bool noise_only) {
+  return noise_only
+             ? "NOISE ONLY: nothing is declared that adds to u; every u and U is too small.\n"
+             : "";
+}
+
 std::string arrow(int direction) {
   return direction > 0 ? "+" : direction < 0 ? "-" : "?";
 }
@@ -91,13 +99,15 @@ std::string stated_text(const StatedAt& at) {
 
 std::string show_text(const Run& run, const RunUncertainty& uncertainty,
                       const std::string& result_sha256, std::size_t width, bool all_warnings) {
-  return head_text(run.header, result_sha256, width, all_warnings) + "\n" +
+  return noise_only_notice(uncertainty.noise_only) +
+         head_text(run.header, result_sha256, width, all_warnings) + "\n" +
          points_text(run, uncertainty, width) +
          (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : "");
 }
 
-std::string figures_text(const Run& run, std::size_t width) {
-  return straightness_text(run.straightness, width) + "\n" + angles_text(run.angles, width);
+std::string figures_text(const Run& run, const StatedFigures& figures, std::size_t width) {
+  return straightness_text(run.straightness, figures.budgets, width) + "\n" +
+         angles_text(run.angles, width) + "\n" + stated_figures_text(figures, width);
 }
 
 std::string head_text(const RunHeader& h, const std::string& result_sha256, std::size_t width,
@@ -152,18 +162,25 @@ std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::
          "\n" + stated_text(run.header.stated);
 }
 
-std::string straightness_text(const std::vector<StraightnessFigure>& figures, std::size_t width) {
+std::string straightness_text(const std::vector<StraightnessFigure>& figures,
+                              const std::vector<Budget>& budgets, std::size_t width) {
   TextTable table({"error", "approach", "least squares/µm", "end points/µm", "slope/µrad",
-                   "end slope/µrad", "peak at/mm", "valley at/mm"},
+                   "form/µrad", "end slope/µrad", "peak at/mm", "valley at/mm"},
                   2);
   for (const auto& f : figures) {
+    const Budget* budget = budget_of_slope(budgets, f);
     table.add({f.error_key.substr(0, 3), f.approach, in_um(f.straightness_least_squares_m),
                in_um(f.straightness_end_point_m),
-               value_with_u(f.slope_least_squares_rad, f.u_slope_least_squares_rad, in_urad),
-               in_urad(f.slope_end_point_rad), in_mm(f.peak_position_m),
+               value_with_u(f.slope_least_squares_rad, budget ? budget->u : 0, in_urad),
+               in_urad(f.form_rad), in_urad(f.slope_end_point_rad), in_mm(f.peak_position_m),
                in_mm(f.valley_position_m)});
   }
-  return "straightness, peak to valley about each reference line\n" + table.text(width);
+  return "straightness, peak to valley about each reference line\n" + table.text(width) +
+         wrapped(
+             "± one standard uncertainty, of the mean of both approaches; form: how well a line "
+             "describes the axis",
+             width) +
+         "\n";
 }
 
 std::string minimum_zone_text(const std::vector<StraightnessLines>& lines, std::size_t width) {

@@ -7,6 +7,7 @@
 #include "schema/iso230/reference_lines.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
+#include "schema/uncertainty/budget.h"
 #include "schema/uncertainty/run_uncertainty.h"
 
 namespace mdof::tools {
@@ -14,21 +15,26 @@ namespace mdof::tools {
 // "Simulated data: ..." with a line end, or nothing.
 std::string simulated_notice(bool simulated);
 
+// The first line of what shows an uncertainty that has nothing but noise in it, or nothing.
+std::string noise_only_notice(bool noise_only);
+
 std::string stated_text(const StatedAt& at);  // a line: where straightness is stated
 
 // What `mdof show` prints of a run.
 std::string show_text(const Run& run, const RunUncertainty& uncertainty,
                       const std::string& result_sha256, std::size_t width,
                       bool all_warnings = false);
-// What `mdof analyse` prints.
-std::string figures_text(const Run& run, std::size_t width);
+// What `mdof analyse` and `mdof replay` print; `figures`: those of the mean of both approaches.
+std::string figures_text(const Run& run, const StatedFigures& figures, std::size_t width);
 
 // Identity, provenance, warnings. `result_sha256` may be empty.
 std::string head_text(const RunHeader& header, const std::string& result_sha256, std::size_t width,
                       bool all_warnings = false);
 // Five errors ± u, samples, flags.
 std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width);
-std::string straightness_text(const std::vector<StraightnessFigure>& figures, std::size_t width);
+// Slopes of the mean ± u, where their budget is among these.
+std::string straightness_text(const std::vector<StraightnessFigure>& figures,
+                              const std::vector<Budget>& budgets, std::size_t width);
 std::string minimum_zone_text(const std::vector<StraightnessLines>& lines, std::size_t width);
 std::string angles_text(const std::vector<AngleFigure>& figures, std::size_t width);
 

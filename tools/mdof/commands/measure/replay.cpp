@@ -141,8 +141,9 @@ Status replay(const ReplayCommand& command) {
     return write_line(run_json(run, stated.points, stated.figures));
   }
   run.header.warnings.clear();  // said already
-  return write_out(show_text(run, daemon::uncertainty_of(run), "", terminal_columns()) + "\n" +
-                   figures_text(run, terminal_columns()));
+  const daemon::StatedRun stated = daemon::stated_run(run);
+  return write_out(show_text(run, stated.points, "", terminal_columns()) + "\n" +
+                   figures_text(run, stated.figures, terminal_columns()));
 }
 
 void add_on_the_fly_options(CLI::App& command, ReplayCommand& o) {

@@ -35,28 +35,19 @@ std::string analysis_json(const Run& run, const std::vector<std::string>& probes
       .field("model", run.header.provenance.model)
       .field("simulated", run.header.simulated);
   write_reference(json, run.header.stated);
+  const StatedFigures stated = daemon::figure_budgets(run);
+  write_covers(json, stated.budgets);
   json.key("straightness");
-  write_straightness(json, run.straightness);
+  write_straightness(json, run.straightness, stated.budgets);
   json.key("straightness_lines");
   write_straightness_lines(json, lines_of(run));
   json.key("angles");
   write_angles(json, run.angles);
-  write_stated(json, daemon::figure_budgets(run));
+  write_stated(json, stated);
   json.key("drift");
   write_drift(json, run, probes, drift_of(run));
   json.end_object();
   return json.take();
-}
-
-std::string stated_figures_text(const StatedFigures& stated) {
-  const std::vector<Budget>& figures = stated.budgets;
-  if (!stated.why.empty())
-    return "\n" + wrapped("Without their uncertainty: " + stated.why + ".", terminal_columns()) +
-           "\n";
-  const std::string missing = not_declared_text(figures);
-  return "\nof both approaches' mean, with uncertainty (mdof budget has the contributors)\n" +
-         budgets_text(figures, terminal_columns()) +
-         (missing.empty() ? "" : wrapped(missing, terminal_columns()) + "\n");
 }
 
 Status analyse(const ChosenRun& choice) {
@@ -65,7 +56,7 @@ Status analyse(const ChosenRun& choice) {
   MDOF_CHECK(check_measured(run.header, "an analysis"));
   if (choice.csv) {
     warn_of(run, choice.all_warnings);
-    return write_out(figures_csv(run));
+    return write_out(figures_csv(run, daemon::figure_budgets(run)));
   }
   if (choice.json) {
     MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
@@ -74,9 +65,11 @@ Status analyse(const ChosenRun& choice) {
     return write_line(analysis_json(run, probes));
   }
   const std::size_t width = terminal_columns();
-  return write_out(head_text(run.header, "", width, choice.all_warnings) + "\n" +
-                   figures_text(run, width) + "\n" + minimum_zone_text(lines_of(run), width) +
-                   stated_figures_text(daemon::figure_budgets(run)) + "\n" +
+  const StatedFigures stated = daemon::figure_budgets(run);
+  return write_out(noise_only_notice(are_noise_only(stated.budgets)) +
+                   head_text(run.header, "", width, choice.all_warnings) + "\n" +
+                   figures_text(run, stated, width) + "\n" +
+                   minimum_zone_text(lines_of(run), width) + "\n" +
                    drift_text(run, drift_of(run), width));
 }
 

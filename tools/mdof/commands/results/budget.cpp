@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "algo/uncertainty/conformity/decision.h"
 #include "daemon/measure/budgets.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
@@ -68,11 +69,12 @@ Result<daemon::FoundBudgets> of_two_runs(store::Store& store, const BudgetComman
   return daemon::squareness_budgets(store, request, command.trials);
 }
 
-std::string text_of(const daemon::FoundBudgets& found, const std::optional<double>& tolerance) {
-  std::string head = simulated_notice(found.simulated);
+std::string text_of(const daemon::FoundBudgets& found, const std::optional<Decision>& decided) {
+  std::string head =
+      noise_only_notice(are_noise_only(found.budgets)) + simulated_notice(found.simulated);
   if (found.at_m) head += "errors at " + in_mm(*found.at_m) + " mm\n";
   return head + (found.budgets.size() == 1
-                     ? budget_text(found.budgets.front(), tolerance, terminal_columns())
+                     ? budget_text(found.budgets.front(), decided, terminal_columns())
                      : budgets_text(found.budgets, terminal_columns()) +
                            "One figure whole: --figure " + found.budgets.front().figure + "\n");
 }
@@ -84,16 +86,17 @@ Status budget(const BudgetCommand& command) {
            command.run_y.empty() ? of_one_run(store, command) : of_two_runs(store, command));
   for (const auto& warning : summarised(found.warnings, command.all_warnings)) warn(warning);
   if (const std::string text = not_declared_text(found.budgets); !text.empty()) warn(text);
-  const auto tolerance =
-      command.tolerance ? std::optional(from_um(*command.tolerance)) : std::nullopt;
+  const auto decided =
+      command.tolerance
+          ? std::optional(algo::decision(found.budgets.front(), from_um(*command.tolerance)))
+          : std::nullopt;
   MDOF_CHECK(command.csv    ? write_out(budgets_csv(found.budgets))
-             : command.json ? write_line(daemon::budgets_json(found, tolerance))
-                            : write_out(text_of(found, tolerance)));
-  if (!tolerance) return {};
-  const Conformity decision = conformity(found.budgets.front(), *tolerance);
-  if (decision == Conformity::conform) return {};
-  return fail(ErrorCode::check,
-              found.budgets.front().figure + " is " + to_string(decision) + " with its tolerance");
+             : command.json ? write_line(daemon::budgets_json(found, decided))
+                            : write_out(text_of(found, decided)));
+  if (!decided || decided->conformity == Conformity::conform) return {};
+  return fail(ErrorCode::check, found.budgets.front().figure + " is " +
+                                    to_string(decided->conformity) + " with its tolerance" +
+                                    (decided->reason.empty() ? "" : ": " + decided->reason));
 }
 
 Action declare_budget(CLI::App& command) {
@@ -110,7 +113,7 @@ Action declare_budget(CLI::App& command) {
       ->type_name("MM");
   command.add_option("--tolerance", o->tolerance,
                      "Most that the figure may be, in its unit: conform, not conform or undecided "
-                     "(ISO 14253-1)");
+                     "(ISO 14253-1:2017); undecided wherever the rig leaves an uncertainty open");
   command
       .add_option("--trials", o->trials.trials,
                   "Draw so many Monte Carlo trials beside the budget (JCGM 101)")

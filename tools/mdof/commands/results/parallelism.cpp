@@ -51,7 +51,9 @@ std::string parallelism_text(const Parallelism& found) {
     table.add(slope_row("parallelism, B - A", plane, &ParallelismLine::angle_rad));
     sentences += plane_sentence(found, plane);
   }
-  return simulated_notice(found.simulated) + table.text() + "\n" + sentences +
+  return noise_only_notice(found.planes.front().budget.noise_only &&
+                           found.planes.back().budget.noise_only) +
+         simulated_notice(found.simulated) + table.text() + "\n" + sentences +
          wrapped(
              "It holds if neither the target nor the fixture was moved against the machine "
              "between the runs. ± one standard uncertainty: " +

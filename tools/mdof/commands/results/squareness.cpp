@@ -49,8 +49,9 @@ std::vector<std::string> line_row(const std::string& label, const SquarenessLine
           in_urad(lines.minimum_zone.*value)};
 }
 
-std::string squareness_text(const Squareness& s, const Budget& budget,
+std::string squareness_text(const Squareness& s, const std::vector<Budget>& budgets,
                             const SquarenessLines& lines) {
+  const Budget& budget = budgets.front();
   TextTable table({"slope/µrad", "least squares", "end points", "minimum zone"});
   table.add(line_row("EYX, run " + std::to_string(s.run_x), lines, &SquarenessLine::slope_EYX_rad,
                      with_u(in_urad(s.slope_EYX_rad), in_urad(s.u_slope_EYX_rad))));
@@ -59,16 +60,15 @@ std::string squareness_text(const Squareness& s, const Budget& budget,
   const std::string artefact = in_urad(s.artefact.corner * s.artefact.angle_error_rad);
   table.add({"artefact", with_u(artefact, in_urad(s.artefact.u_rad)), artefact, artefact});
   table.add(line_row("EC0Y", lines, &SquarenessLine::EC0Y_rad, in_urad(s.EC0Y_rad)));
-  return simulated_notice(s.simulated) + table.text() +
+  return noise_only_notice(budget.noise_only) + simulated_notice(s.simulated) + table.text() +
          "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), in_urad(budget.u)) +
          " µrad, expanded U = " + in_urad(budget.U) + " (k = " + fixed(budget.coverage_factor, 2) +
          ", 95 %)\n"
          "the angle from +X to +Y is 90° + EC0Y\n"
          "form " +
          in_urad(s.form_rad) + " µrad: how crooked the axes are\n" +
-         wrapped("± one standard uncertainty: of EC0Y " + covers_text(budget) +
-                     ", of slopes noise and repeatability; mdof budget has the contributors. "
-                     "Slopes at the fixture.",
+         wrapped("± one standard uncertainty: " + covers_text(budget) +
+                     "; mdof budget has the contributors. Slopes at the fixture.",
                  terminal_columns()) +
          "\n";
 }
@@ -113,13 +113,13 @@ Status squareness(SquarenessCommand command) {
   MDOF_TRY(command.run_y, run_number(command.database, command.word_y, Axis::y));
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   MDOF_TRY(const auto fitted, mdofd ? fit_there(*mdofd, command) : fit(command));
-  const auto& [s, budget, warnings] = fitted;
+  const auto& [s, budgets, warnings] = fitted;
   for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
-  if (const std::string text = not_declared_text({budget}); !text.empty()) warn(text);
+  if (const std::string text = not_declared_text({budgets.front()}); !text.empty()) warn(text);
   MDOF_TRY(const SquarenessLines lines, lines_of_squareness(command.database, s));
   return command.json
-             ? write_line(with_lines(with_warnings(squareness_json(s, budget), warnings), lines))
-             : write_out(squareness_text(s, budget, lines));
+             ? write_line(with_lines(with_warnings(squareness_json(s, budgets), warnings), lines))
+             : write_out(squareness_text(s, budgets, lines));
 }
 
 Action declare_squareness(CLI::App& command) {

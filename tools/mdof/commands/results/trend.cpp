@@ -1,16 +1,19 @@
 // mdof trend: figures of the stored runs over time, with control limits.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <tuple>
 
 #include "daemon/measure/trends.h"
 #include "schema/base/json_writer.h"
 #include "schema/sample.h"
+#include "schema/uncertainty/run_uncertainty.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -48,7 +51,7 @@ std::string signal_of(const algo::Chart& chart, std::size_t i) {
 }
 
 std::string sentence_of(const daemon::Trend& trend) {
-  const auto& [figure, values, chart, left_out, warnings] = trend;
+  const auto& [figure, values, chart] = std::tie(trend.figure, trend.values, trend.chart);
   if (!chart)
     return figure + ": " + std::to_string(values.size()) +
            " values, too few for limits, which take " + std::to_string(algo::kFewestOfBaseline) +
@@ -90,6 +93,11 @@ std::string text_of(const daemon::Trend& trend) {
            shown(trend, trend.chart->sigma) + " " + unit_of(trend) + " of the first " +
            std::to_string(trend.chart->baseline) + " values (moving range)\n";
   out += table.text(terminal_columns());
+  if (!trend.values.empty())
+    out += wrapped("± one standard uncertainty, " + trend.u_covers +
+                       "; the limits are of noise and repeatability",
+                   terminal_columns()) +
+           "\n";
   for (const std::string& why : trend.left_out)
     out += wrapped("left out: " + why, terminal_columns()) + "\n";
   return out + wrapped(sentence_of(trend), terminal_columns()) + "\n";
@@ -98,7 +106,10 @@ std::string text_of(const daemon::Trend& trend) {
 std::string text_of(const std::vector<daemon::Trend>& trends) {
   std::string out;
   for (const daemon::Trend& trend : trends) out += (out.empty() ? "" : "\n") + text_of(trend);
-  return out.empty() ? "no runs are stored that could be in a chart\n" : out;
+  if (out.empty()) return "no runs are stored that could be in a chart\n";
+  return noise_only_notice(std::any_of(trends.begin(), trends.end(),
+                                       [](const auto& trend) { return trend.noise_only; })) +
+         out;
 }
 
 void write_trend(JsonWriter& json, const daemon::Trend& trend) {
@@ -113,6 +124,7 @@ void write_trend(JsonWriter& json, const daemon::Trend& trend) {
         .field("started_utc", v.started_utc)
         .field("value", to_key_unit(v.value))
         .field("u", to_key_unit(v.u))
+        .field("u_random", to_key_unit(v.u_random))
         .field("low", chart ? number(chart->low[i]) : kNaN)
         .field("high", chart ? number(chart->high[i]) : kNaN)
         .field("signal", chart ? signal_of(*chart, i) : "")
@@ -133,6 +145,7 @@ void write_trend(JsonWriter& json, const daemon::Trend& trend) {
   } else {
     json.null();
   }
+  write_covers(json, trend.u_covers, trend.u_not_declared);
   json.field("says", sentence_of(trend)).key("left_out").begin_array();
   for (const std::string& why : trend.left_out) json.value(why);
   json.end_array().end_object();
@@ -151,18 +164,20 @@ std::string json_of(const std::vector<daemon::Trend>& trends) {
 
 std::string csv_of(const std::vector<daemon::Trend>& trends) {
   CsvText csv;
-  csv.cells({"figure", "runs", "started_utc", "value", "u", "centre", "low", "high", "signal"});
+  csv.cells({"figure", "runs", "started_utc", "value", "u", "u_random", "centre", "low", "high",
+             "signal", "u_covers", "u_not_declared"});
   csv.end_row();
   for (const daemon::Trend& trend : trends)
     for (std::size_t i = 0; i < trend.values.size(); ++i) {
       const auto& v = trend.values[i];
       const auto& chart = trend.chart;
       csv.cells({trend.figure, runs_of(v), v.started_utc});
-      csv.cell(to_key_unit(v.value)).cell(to_key_unit(v.u));
+      csv.cell(to_key_unit(v.value)).cell(to_key_unit(v.u)).cell(to_key_unit(v.u_random));
       csv.cell(chart ? to_key_unit(chart->centre) : kNaN);
       csv.cell(chart ? to_key_unit(chart->low[i]) : kNaN);
       csv.cell(chart ? to_key_unit(chart->high[i]) : kNaN);
-      csv.cells({chart ? signal_of(*chart, i) : ""});
+      csv.cells(
+          {chart ? signal_of(*chart, i) : "", trend.u_covers, joined(trend.u_not_declared, " ")});
       csv.end_row();
     }
   return csv.take();

@@ -4,6 +4,7 @@
 
 #include "daemon/measure/budgets.h"
 #include "schema/run_json.h"
+#include "schema/uncertainty/run_uncertainty.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -25,6 +26,11 @@ struct SquareCommand {
   bool partial = false, json = false, all_warnings = false;
 };
 
+std::string covers_of(const SquareReversal& s) {
+  return s.noise_only ? "noise and repeatability only"
+                      : "noise, and what the rigs declare as common to both set-ups";
+}
+
 std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& run,
                     const daemon::FoundSquareReversal& found) {
   JsonWriter json;
@@ -39,7 +45,7 @@ std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& 
   json.field("k", s.coverage_factor).field("nu_eff", s.freedom);
   json.field("first_EC0Y_urad", to_urad(s.first_rad))
       .field("second_EC0Y_urad", to_urad(s.second_rad));
-  write_strings(json, "u_not_declared", found.not_declared);
+  write_covers(json, covers_of(s), found.not_declared);
   json.field("simulated", found.simulated).end_object();
   return with_warnings(json.take(), found.warnings);
 }
@@ -49,14 +55,12 @@ std::string text_of(const SquareReversal& s, bool simulated) {
   table.add({"first set-up, square taken as true", in_urad(s.first_rad)});
   table.add({"second set-up, square taken as true", in_urad(s.second_rad)});
   const std::string u = in_urad(s.u_rad);
-  return simulated_notice(simulated) + table.text() + "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), u) +
-         " µrad, expanded U = " + in_urad(s.U_rad) + " (k = " + fixed(s.coverage_factor, 2) +
+  return noise_only_notice(s.noise_only) + simulated_notice(simulated) + table.text() +
+         "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), u) + " µrad, expanded U = " + in_urad(s.U_rad) +
+         " (k = " + fixed(s.coverage_factor, 2) +
          ", 95 %)\nthe angle from +X to +Y is 90° + EC0Y\nthe square encloses 90° + " +
          with_u(in_urad(s.square_rad), u) + " µrad (artefact_angle_error_urad of a rig)\n" +
-         wrapped("± one standard uncertainty: " +
-                     std::string(s.noise_only ? "noise and repeatability only"
-                                              : "noise, and what the rigs declare as common to "
-                                                "both set-ups") +
+         wrapped("± one standard uncertainty: " + covers_of(s) +
                      ". Slopes at the fixture; the square is taken to be the same in both.",
                  terminal_columns()) +
          "\n";

@@ -43,9 +43,9 @@ std::string percent(double share) {
 
 std::string head_of(const Budget& b) {
   return b.figure.substr(0, b.figure.rfind('_')) + " = " + shown(b, b.value) + " ± " +
-         shown(b, b.U) + " " + unit_of(b) + " (U" + (b.U_by_trials ? " by Monte Carlo" : "") +
-         ", k = " + fixed(b.coverage_factor, 2) +
-         " for 95 %, effective degrees of freedom: " + freedom_text(b.freedom) + ")\n";
+         shown(b, b.u) + " " + unit_of(b) + ", expanded U = " + shown(b, b.U) +
+         (b.U_by_trials ? " by Monte Carlo" : "") + " (k = " + fixed(b.coverage_factor, 2) +
+         ", 95 %; effective degrees of freedom: " + freedom_text(b.freedom) + ")\n";
 }
 
 // The largest one without which U would be smaller, and by how much.
@@ -57,9 +57,13 @@ std::string improve_text(const Budget& b) {
          " of u²; without it U would be " + shown(b, without) + " " + unit_of(b) + ".\n";
 }
 
-std::string conformity_text(const Budget& b, double tolerance) {
-  return "Tolerance " + shown(b, tolerance) + " " + unit_of(b) + ": " +
-         to_string(conformity(b, tolerance)) + " (ISO 14253-1, with U)\n";
+std::string decision_text(const Budget& b, const Decision& decision, std::size_t width) {
+  return wrapped("Tolerance " + shown(b, decision.limit) + " " + unit_of(b) + ": " +
+                     to_string(decision.conformity) +
+                     (decision.reason.empty() ? "" : ": " + decision.reason) + " (" +
+                     decision.rule + " = " + shown(b, decision.guard_band) + " " + unit_of(b) + ")",
+                 width) +
+         "\n";
 }
 
 std::string trials_text(const Budget& b) {
@@ -93,25 +97,40 @@ std::vector<std::string> named_once(const std::vector<std::string>& keys) {
 std::string not_declared_text(const std::vector<Budget>& budgets) {
   const Budget& first = budgets.front();  // all are of the same rigs
   if (first.not_declared.empty()) return "";
-  return std::string(first.noise_only ? "noise only: the rig declares no uncertainties"
-                                      : "the rig does not declare all uncertainties") +
+  const bool only = are_noise_only(budgets);
+  return std::string(!only             ? "the rig does not declare all uncertainties"
+                     : declares(first) ? "noise only: what the rig declares adds nothing"
+                                       : "noise only: the rig declares no uncertainties") +
          ", so that U is too small by what these would add: " +
          joined(named_once(first.not_declared));
 }
 
 std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) {
   TextTable table(
-      {"figure", "value", "U", "unit", "k", "u random", "largest contributor", "share"});
+      {"figure", "value", "unit", "U", "k", "u random", "largest contributor", "share"});
   for (const Budget& b : budgets) {
     const BudgetLine& first = b.lines.front();
-    table.add({b.figure.substr(0, b.figure.rfind('_')), shown(b, b.value), shown(b, b.U),
-               unit_of(b), fixed(b.coverage_factor, 2), shown(b, b.u_random), first.name,
-               percent(first.share)});
+    table.add({b.figure.substr(0, b.figure.rfind('_')), with_u(shown(b, b.value), shown(b, b.u)),
+               unit_of(b), shown(b, b.U), fixed(b.coverage_factor, 2), shown(b, b.u_random),
+               first.name, percent(first.share)});
   }
-  return table.text(width) + "U: expanded uncertainty, 95 %\n";
+  return table.text(width) +
+         wrapped("± one standard uncertainty, " + covers_text(budgets) +
+                     "; U: expanded uncertainty, 95 %",
+                 width) +
+         "\n";
 }
 
-std::string budget_text(const Budget& b, const std::optional<double>& tolerance,
+std::string stated_figures_text(const StatedFigures& stated, std::size_t width) {
+  if (!stated.why.empty())
+    return wrapped("Without their uncertainty: " + stated.why + ".", width) + "\n";
+  const std::string missing = not_declared_text(stated.budgets);
+  return "of both approaches' mean, with uncertainty (mdof budget has the contributors)\n" +
+         budgets_text(stated.budgets, width) +
+         (missing.empty() ? "" : wrapped(missing, width) + "\n");
+}
+
+std::string budget_text(const Budget& b, const std::optional<Decision>& decision,
                         std::size_t width) {
   TextTable table({"contributor", "u", "unit", "distribution", "sensitivity",
                    "contribution/" + unit_of(b), "share", "degrees of freedom"});
@@ -134,15 +153,15 @@ std::string budget_text(const Budget& b, const std::optional<double>& tolerance,
   std::string text = head_of(b) + "\n" + table.text(width) + "combined u " + shown(b, b.u) + " " +
                      unit_of(b) + "\n" + improve_text(b);
   if (b.trials) text += trials_text(b);
-  if (tolerance) text += conformity_text(b, *tolerance);
+  if (decision) text += decision_text(b, *decision, width);
   return text;
 }
 
 std::string budgets_csv(const std::vector<Budget>& budgets) {
   CsvText csv;
   csv.cells({"figure", "value", "u", "u_random", "nu_eff", "k", "U", "contributor", "key",
-             "contributor_u", "unit", "distribution", "sensitivity", "contribution", "share",
-             "dof"});
+             "contributor_u", "unit", "distribution", "sensitivity", "contribution", "share", "dof",
+             "u_covers", "u_not_declared"});
   csv.end_row();
   for (const Budget& b : budgets) {
     for (const BudgetLine& line : b.lines) {
@@ -153,7 +172,7 @@ std::string budgets_csv(const std::vector<Budget>& budgets) {
       csv.cell(to_key_unit(b.U)).cells({line.name, line.key});
       csv.cell(seen ? kNaN : line.value).cells({line.unit, line.distribution});
       csv.cell(seen ? kNaN : contribution / line.value).cell(contribution).cell(line.share);
-      csv.cell(line.freedom).end_row();
+      csv.cell(line.freedom).cells({covers_text(b), joined(b.not_declared, " ")}).end_row();
     }
   }
   return csv.take();

@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "schema/uncertainty/budget.h"
+#include "schema/uncertainty/conformity.h"
 
 namespace mdof::tools {
 
 // One row a figure: value, U, k, what is random, and the largest contributor.
 std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width);
+// The figures of a run, or why they have no uncertainty.
+std::string stated_figures_text(const StatedFigures& stated, std::size_t width);
 // One figure whole, with a sentence that says what to improve first.
-std::string budget_text(const Budget& budget, const std::optional<double>& tolerance,
+std::string budget_text(const Budget& budget, const std::optional<Decision>& decision,
                         std::size_t width);
 // One row a figure and contributor.
 std::string budgets_csv(const std::vector<Budget>& budgets);

@@ -36,10 +36,10 @@ std::string sources_text(const SeparationRecord& record, std::size_t width) {
 
 std::string series_text(const std::string& title, const std::string& place,
                         const std::string& value, const SeenSeries& series, std::size_t width) {
-  TextTable table({place, value + (series.whole() ? "" : ", the part seen")});
+  TextTable table({place, value + (series.whole() ? "" : ", the part seen"), "U/µm"});
   for (std::size_t i = 0; i < series.place_m.size(); ++i)
-    table.add({in_mm(series.place_m[i]),
-               with_u(in_um(series.seen_m[i]), in_um(kSeparationCoverage * series.u_m[i]))});
+    table.add({in_mm(series.place_m[i]), with_u(in_um(series.seen_m[i]), in_um(series.u_m[i])),
+               in_um(kSeparationCoverage * series.u_m[i])});
   return title + (series.whole() ? ", peak to valley " : ", peak to valley of the part seen ") +
          in_um(series.zone_m()) + " µm\nnot seen and not in it: " + unseen_text(series) + "\n" +
          table.text(width);
@@ -117,20 +117,21 @@ std::string separation_text(const SeparationRecord& record, std::size_t width) {
                          " surface along " + along(record) + " as it lay first",
                      "place/mm", "height/µm", r.target, width) +
          "\n" +
-         wrapped("± U (k = 2), from " + r.u_reason + "; not in it: " + not_in_separation_u(),
+         wrapped("± one standard uncertainty, from " + r.u_reason +
+                     "; U: k = 2; not in it: " + not_in_separation_u(),
                  width) +
          "\n";
 }
 
 std::string separation_csv(const SeparationRecord& record) {
   CsvText csv;
-  csv.cells({"series", "place_mm", "seen_um", "u_um", "U_um", "whole"});
+  csv.cells({"series", "place_mm", "seen_um", "u_um", "U_um", "whole", "u_covers"});
   csv.end_row();
   const auto add = [&](std::string_view name, const SeenSeries& series) {
     for (std::size_t i = 0; i < series.place_m.size(); ++i) {
       csv.cell(name).cell(to_mm(series.place_m[i])).cell(to_um(series.seen_m[i]));
       csv.cell(to_um(series.u_m[i])).cell(kSeparationCoverage * to_um(series.u_m[i]));
-      csv.cell(series.whole() ? 1LL : 0LL);
+      csv.cell(series.whole() ? 1LL : 0LL).cells({record.result.u_reason});
       csv.end_row();
     }
   };

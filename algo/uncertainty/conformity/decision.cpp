@@ -1,0 +1,64 @@
+#include "algo/uncertainty/conformity/decision.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algo/uncertainty/coverage.h"
+
+namespace mdof::algo {
+namespace {
+
+// A limit so many u away: the chance that the true value lies beyond the other end is below 0.1 %.
+constexpr double kOneEnd = 2.4;
+
+struct Guard {
+  double factor = 0;
+  std::string rule;
+};
+
+Guard guard_of(const Budget& budget, double limit) {
+  const std::string standard = "ISO 14253-1:2017, 95 % conformance probability, ";
+  if (budget.U_by_trials)
+    return {budget.coverage_factor, standard + "guard band g = U by Monte Carlo"};
+  const bool one_end = limit >= kOneEnd * budget.u;
+  const double factor = one_end ? one_sided_factor(budget.freedom) : budget.coverage_factor;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3f u", factor);
+  return {factor, standard + (one_end ? "one-sided" : "two-sided, as u is large beside it") +
+                      ", guard band g = " + text.data()};
+}
+
+// "a, b and c"
+std::string list_of(const std::vector<std::string>& keys) {
+  std::string text;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == keys.size() ? " and " : ", ") + keys[i];
+  return text;
+}
+
+}  // namespace
+
+Decision decision(const Budget& budget, double limit) {
+  Guard guard = guard_of(budget, limit);
+  Decision d;
+  d.limit = limit;
+  d.guard_factor = guard.factor;
+  d.guard_band = guard.factor * budget.u;
+  d.rule = std::move(guard.rule);
+  const double size = std::abs(budget.value);
+  if (!budget.not_declared.empty())
+    d.reason = "U is incomplete: the rig does not declare " + list_of(budget.not_declared);
+  else if (size + d.guard_band <= limit)
+    d.conformity = Conformity::conform;
+  else if (size - d.guard_band > limit)
+    d.conformity = Conformity::not_conform;
+  else  // and where nothing is known: NaN
+    d.reason = "the value lies within the guard band of the tolerance";
+  return d;
+}
+
+}  // namespace mdof::algo

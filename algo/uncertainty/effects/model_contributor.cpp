@@ -1,0 +1,41 @@
+#include "algo/uncertainty/effects/model_contributor.h"
+
+#include <vector>
+
+#include "algo/model/restate.h"
+#include "algo/model/solver.h"
+
+namespace mdof::algo {
+namespace {
+
+PointShifts left_out(const Solver& simplified, const Solver& exact, const Run& run) {
+  PointShifts shifts(run.points.size());
+  for (std::size_t j = 0; j < shifts.size(); ++j) {
+    const MeasuredPoint& p = run.points[j];
+    const double travel_m = run.header.sides.target_travel_m(p.point.position_m);
+    const auto stated = [&](const Solver& solver) {
+      return restate(solver.solve_alone(travel_m, p.point.probe_m, p.point.probe_u_m),
+                     solver.model(), run.header.axis, travel_m, kAtCarriage, run.header.stated);
+    };
+    const AxisErrors first = stated(simplified), all = stated(exact);
+    if (!p.errors.valid || !first.valid || !all.valid) continue;
+    for (std::size_t e = 0; e < kErrorCount; ++e) shifts[j][e] = first.local[e] - all.local[e];
+  }
+  return shifts;
+}
+
+}  // namespace
+
+std::optional<Contributor> model_contributor(const Rig& rig, const Run& run, Model model) {
+  if (model != Model::simplified) return std::nullopt;
+  const auto simplified = Solver::create(rig, Model::simplified);
+  const auto exact = Solver::create(rig, Model::exact);
+  if (!simplified || !exact) return std::nullopt;  // nothing was solved by it, either
+  DeclaredUncertainty whole;
+  whole.u = 1;
+  const std::vector<PointShifts> parts{left_out(*simplified, *exact, run)};
+  return Contributor{
+      "model simplified: what it leaves out", "", whole, 1, "", [parts] { return parts; }};
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,81 @@
+// ISO 14253-1:2017: what may be said of a figure with a tolerance.
+#include "algo/uncertainty/conformity/decision.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace mdof::algo {
+namespace {
+
+Budget budget_of(double value, double u = 0.1) {
+  Budget budget;
+  budget.value = value;
+  budget.u = u;
+  budget.freedom = std::numeric_limits<double>::infinity();
+  budget.coverage_factor = 1.959964;
+  budget.U = budget.coverage_factor * u;
+  return budget;
+}
+
+Conformity said_of(double value) {
+  return decision(budget_of(value), 1.0).conformity;
+}
+
+// g = 1.645 · 0.1, not U = 0.196.
+TEST(Decision, ByTheOneSidedGuardBand) {
+  EXPECT_EQ(said_of(0.835), Conformity::conform);
+  EXPECT_EQ(said_of(-0.835), Conformity::conform);
+  EXPECT_EQ(said_of(0.836), Conformity::undecided);
+  EXPECT_EQ(said_of(1.164), Conformity::undecided);
+  EXPECT_EQ(said_of(1.165), Conformity::not_conform);
+  EXPECT_EQ(said_of(-1.165), Conformity::not_conform);
+  EXPECT_EQ(said_of(std::nan("")), Conformity::undecided);
+  const Decision d = decision(budget_of(0.9), 1.0);
+  EXPECT_NEAR(d.guard_band, 0.16448536, 1e-8);
+  EXPECT_EQ(d.rule,
+            "ISO 14253-1:2017, 95 % conformance probability, one-sided, guard band g = 1.645 u");
+  EXPECT_NE(d.reason.find("within the guard band"), std::string::npos);
+}
+
+// What is said is true in 95 % of cases at the least, drawn about values at the edge of the rule.
+TEST(Decision, IsTrueWithTheProbabilityThatItNames) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(0, 0.1);
+  for (const double limit : {1.0, 0.2}) {  // of the second either end counts
+    double edge = limit;
+    while (edge > 0 && decision(budget_of(edge), limit).conformity != Conformity::conform)
+      edge -= 1e-4;
+    int within = 0;
+    constexpr int kDraws = 40'000;
+    for (int i = 0; i < kDraws; ++i) within += std::abs(edge + noise(random)) <= limit ? 1 : 0;
+    const double share = static_cast<double>(within) / kDraws;  // one-sided alone: 0.90 of 0.2
+    EXPECT_NEAR(share, 0.953, 0.007) << limit;
+  }
+}
+
+TEST(Decision, AnIncompleteUDecidesNothing) {
+  for (const double value : {0.0, 5.0}) {
+    Budget budget = budget_of(value);
+    budget.not_declared = {"u_flatness_um", "u_um_per_h"};
+    const Decision d = decision(budget, 1.0);
+    EXPECT_EQ(d.conformity, Conformity::undecided);
+    EXPECT_EQ(d.reason, "U is incomplete: the rig does not declare u_flatness_um and u_um_per_h");
+  }
+}
+
+TEST(Decision, OfARangeByUAndOfFewDegreesByStudentsT) {
+  Budget range = budget_of(0.85);
+  range.U_by_trials = true;
+  EXPECT_EQ(decision(range, 1.0).conformity, Conformity::undecided);
+  EXPECT_NEAR(decision(range, 1.0).guard_band, range.U, 1e-15);
+  Budget few = budget_of(0.83);
+  few.freedom = 5;
+  EXPECT_NEAR(decision(few, 1.0).guard_factor, 2.015048, 1e-6);
+  EXPECT_EQ(decision(few, 1.0).conformity, Conformity::undecided);
+}
+
+}  // namespace
+}  // namespace mdof::algo

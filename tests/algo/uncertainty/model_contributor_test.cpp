@@ -1,0 +1,63 @@
+// What the simplified model leaves out is in the u of its runs.
+#include "algo/uncertainty/effects/model_contributor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/run_uncertainty.h"
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+using test::rig_x_with;
+
+constexpr double kAngle_rad = 559e-6;
+
+// Angles that grow along the axis to 559 µrad.
+Run tilting(const Rig& rig, Model model) {
+  SyntheticRun synthetic{.rig = rig, .model = model, .runs = 1};
+  synthetic.truth = [](double d) {
+    const double angle = kAngle_rad * d / 40e-3;
+    return Errors5{0, 20e-6, angle, angle, angle};
+  };
+  return synthetic.measure();
+}
+
+TEST(ModelContributor, HoldsTheErrorOfTheSimplifiedModel) {
+  const Rig rig = rig_x_with("", "");
+  const auto simplified = tilting(rig, Model::simplified), truth = tilting(rig, Model::rigid);
+  const RunUncertainty found = run_uncertainty(rig, simplified);
+  EXPECT_TRUE(found.noise_only);  // of what is declared: nothing
+  double most_um = 0;
+  for (std::size_t j = 0; j < simplified.points.size(); ++j) {
+    const auto off = [&](std::size_t e) {
+      return simplified.points[j].errors.local[e] - truth.points[j].errors.local[e];
+    };
+    const auto& names = error_names(Axis::x);
+    for (std::size_t k = 0; k < kErrorCount; ++k)  // a true rotation differs by some nm more
+      EXPECT_LE(std::abs(off(names[k].local)), 2 * found.points[j].u[k] + 3e-9)
+          << j << " " << names[k].name;
+    most_um = std::max(most_um, 1e6 * std::abs(off(names[0].local)));
+  }
+  EXPECT_GT(most_um, 0.005);  // so that there is something to hold
+}
+
+TEST(ModelContributor, IsALineOfTheBudgetAndOfThatModelAlone) {
+  const Rig rig = rig_x_with("D", "u_calibration_um = 0.01");
+  EXPECT_TRUE(model_contributor(rig, tilting(rig, Model::simplified), Model::simplified));
+  EXPECT_FALSE(model_contributor(rig, tilting(rig, Model::exact), Model::exact));
+  const auto lines_of = [&](Model model) {
+    return RunBudgets::create(rig, tilting(rig, model))
+        .value()
+        .of(error_figure(Axis::x, 0, 9))
+        .lines.size();
+  };
+  EXPECT_EQ(lines_of(Model::simplified), lines_of(Model::exact) + 1);
+}
+
+}  // namespace
+}  // namespace mdof::algo

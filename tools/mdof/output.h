@@ -13,7 +13,8 @@ namespace mdof::tools {
 // with success: nobody is left to tell.
 Status write_out(std::string_view text);
 Status write_line(std::string_view text);  // and a line end
-// As it is, for a screen's own control characters; free text in it has to be printable().
+// As it is: a screen with control characters of its own, or rows of numbers, which need no look.
+// Free text in it has to be printable().
 Status write_commands(std::string_view text);
 
 void say(std::string_view message);   // a line on the standard error

@@ -92,15 +92,15 @@ void ErrorRows::work() {
 }
 
 Status ErrorRows::write_all() {
-  MDOF_CHECK(write_out(head_));
+  MDOF_CHECK(write_commands(head_));
   while (auto rows = filled_.pop()) {
     text_.resize(std::max(text_.size(), rows->size() * kMostOfARow));
     char* const begin = text_.data();
     char* const end = form_ == RowForm::csv ? append_csv(*rows, begin) : append_json(*rows, begin);
     free_.try_push(std::move(*rows));
-    MDOF_CHECK(write_out({begin, static_cast<std::size_t>(end - begin)}));
+    MDOF_CHECK(write_commands({begin, static_cast<std::size_t>(end - begin)}));
   }
-  return form_ == RowForm::json ? write_out("]}\n") : Status();
+  return form_ == RowForm::json ? write_commands("]}\n") : Status();
 }
 
 // The texts of up to kAtOnce rows, column by column; errors are empty where the row is not solved.

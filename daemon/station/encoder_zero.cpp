@@ -16,7 +16,8 @@ constexpr double kRest_m = 5e-6;  // an axis that holds its place may tremble so
 constexpr std::int64_t kRest_ns = 200'000'000, kStale_ns = 1'000'000'000;
 
 constexpr const char* kDriveOver =
-    "drive the axis over its reference mark once, and its positions are the machine's; until "
+    "drive the axis over its reference mark once (first see what its motion may touch: mdof "
+    "clearance RIG.toml), and its positions are the machine's; until "
     "then: ";
 
 // Of what was said and does not hold any more.

@@ -80,9 +80,11 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
   if (of_run.kind == Kind::index || now.kind == Kind::index) {
     if (alike) return {};
     if (now.kind != Kind::index)
-      return refused(cut_off.id,
-                     "its positions are counted from the reference mark of the encoder, and those "
-                     "of the axis are not now: drive it over the mark first, or start a new run");
+      return refused(
+          cut_off.id,
+          "its positions are counted from the reference mark of the encoder, and those "
+          "of the axis are not now: drive it over the mark first (what its motion may touch: mdof "
+          "clearance RIG.toml), or start a new run");
     return refused(cut_off.id,
                    "since it ended the axis went over its reference mark, and its positions are "
                    "counted from elsewhere than those of the run; start a new run");
@@ -102,7 +104,8 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
   return refused(cut_off.id,
                  "its positions are the machine's (" + datum_text(of_run) +
                      "), and whether the encoder still counts from there is not known: "
-                     "its datum was lost since. Bring the axis to a known "
+                     "its datum was lost since. See what its motion may touch (mdof clearance "
+                     "RIG.toml), bring the axis to a known "
                      "place, say where it is (mdof encoder set AXIS POSITION_MM), then go on");
 }
 

@@ -75,6 +75,7 @@ class Pipeline {
   Pipeline(Rig rig, PipelineOptions options, algo::Solver solver);
   void note_break(const SampleBlock& raw);
   std::string explain_unplaced() const;
+  std::string explain_never_stops() const;  // empty: it stops
   void take_points();
   void take_new_points();
   bool moved() const;

@@ -279,9 +279,28 @@ Status Pipeline::judge_dead_probes(std::vector<std::string>& warnings) const {
   return {};
 }
 
+// An axis that moves all the time turns at the ends of its travel, and stands there long enough to
+// be taken for a stop.
+std::string Pipeline::explain_never_stops() const {
+  const auto& targets_m = sequence_.targets_m;
+  if (!options_.sequence.targets_m.empty() || targets_m.size() > 2) return "";
+  double stood_s = 0;
+  for (const Point& stop : found_)
+    stood_s += ns_to_s(stop.end_ns - stop.begin_ns) + options_.dwell.settle_s;
+  const auto& s = dwell_.summary();
+  const double moved_s = static_cast<double>(s.scans) * s.period_s - stood_s;
+  if (moved_s <= stood_s) return "";
+  return "the axis moved for " + plain_number(100 * moved_s / (moved_s + stood_s), 2) +
+         " % of the time and stopped only at " + plain_number(to_mm(targets_m.front())) +
+         (targets_m.size() > 1 ? " and " + plain_number(to_mm(targets_m.back())) : "") +
+         " mm, so that nothing in between was measured; an axis that is to move all the time is "
+         "measured by mdof replay --on-the-fly";
+}
+
 // Complete is what has all that was asked for.
 void Pipeline::judge(Run& run) const {
   auto missing = what_is_missing(options_.sequence.targets_m, options_.repeats, run.points);
+  if (auto why = explain_never_stops(); !why.empty()) missing.push_back(std::move(why));
   run.header.state = missing.empty() ? RunState::complete : RunState::partial;
   std::move(missing.begin(), missing.end(), std::back_inserter(run.header.warnings));
 }

@@ -83,6 +83,7 @@ class Pipeline {
   std::string explain_beyond() const;
   void note_break(const SampleBlock& raw);
   std::string explain_unplaced() const;
+  std::string explain_never_stops() const;  // empty: it stops
   void take_points();
   void take_new_points();
   algo::Residuals residuals() const;

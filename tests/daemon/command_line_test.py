@@ -88,19 +88,21 @@ class Record(CommandLine):
 
     def test_names_the_run_that_has_the_result(self):
         # Begun on the way back, the first targets get other numbers once lower ones are seen.
+        other = Daemon(MDOFD, os.path.join(self.folder.name, "back"), simulator("X", dwell_s=0.4))
+        client = other.start()
+        self.addCleanup(other.stop)
         for attempt in range(12):
             time.sleep(0.3 * attempt)  # at another place of the cycle
-            _, _, err = mdof("record", "--axis", "X", "--for-s", 3.5, "--socket", self.daemon.socket)
-            newest = self.client.call("run.list", count=1)["runs"][0]
+            _, _, err = mdof("record", "--axis", "X", "--for-s", 3.5, "--socket", other.socket)
+            newest = client.call("run.list", count=1)["runs"][0]
             if newest["supersedes"]:
                 break
         before = newest["supersedes"]
-        self.assertIsNotNone(before)
+        self.assertIsNotNone(before, err)
         self.assertIn(f"run {newest['run']} is the result", err)
         self.assertIn(f"it supersedes run {before}", err)
-        self.assertRegex(self.done("runs", "--db", self.daemon.database),
-                         rf"(?m)^ *{before} +X +superseded by {newest['run']} ")
-        _, _, err = mdof("show", before, "--db", self.daemon.database)
+        self.assertRegex(self.done("runs", "--db", other.database), rf"(?m)^ *{before} +X +superseded by {newest['run']} ")
+        _, _, err = mdof("show", before, "--db", other.database)
         self.assertIn(f"run {newest['run']} supersedes this run", err)
 
 

@@ -173,7 +173,7 @@ void read_encoder(TomlTable& table, Rig& rig) {
   auto encoder = table.table("encoder");
   if (!encoder) return;
   rig.uncertainty.encoder = read_uncertainty(*encoder, "u_um", from_um(1));
-  if (!encoder->has("um_per_V") && rig.uncertainty.encoder.declared()) return;
+  if (!encoder->has("um_per_V") && rig.uncertainty.encoder.known()) return;
   const double um_per_V = encoder->number("um_per_V");
   if (!(std::abs(um_per_V) > 0 && std::isfinite(um_per_V)))
     encoder->reject("um_per_V",

@@ -6,6 +6,7 @@ asked, and what they say of a quantity is compared. A command or method that thi
 usage: one_quantity_test.py MDOFD MDOF"""
 import copy
 import csv
+import gzip
 import io
 import json
 import math
@@ -48,6 +49,22 @@ def mdof(*words):
                           env={**os.environ, "COLUMNS": "400"})
     assert done.returncode == 0, (words, done.stderr)
     return done.stdout
+
+
+def recorded_again(log, folder):
+    """The same readings a day later: readings of one recording may not count twice."""
+    path, column = os.path.join(folder, "again.csv"), None
+    with gzip.open(log, "rt") as first, open(path, "w") as second:
+        for line in first:
+            if not line.startswith("#"):
+                cells = line.rstrip("\n").split(",")
+                if column is None:
+                    column = cells.index("time_s")
+                else:
+                    cells[column] = f"{float(cells[column]) + 86400:.6f}"
+                line = ",".join(cells) + "\n"
+            second.write(line)
+    return path
 
 
 def unit_of(name):
@@ -120,7 +137,9 @@ class OneQuantity(unittest.TestCase):
             with open(RIG[axis]) as plain, open(rigs[axis], "w") as declared:
                 declared.write("u_artefact_angle_urad = 0.4\n" + plain.read().replace("range_um", OF_PROBES + "range_um") + OF_RIG)
         logs = {axis: os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz") for axis in "XY"}
-        cls.replayed = [mdof("replay", logs["X"], "--rig", rigs["X"], *cls.db, *words) for words in (("--json",), ())]
+        again = recorded_again(logs["X"], cls.folder.name)
+        cls.replayed = [mdof("replay", log, "--rig", rigs["X"], *cls.db, *words)
+                        for log, words in ((logs["X"], ("--json",)), (again, ()))]
         mdof("replay", logs["Y"], "--rig", rigs["Y"], *cls.db)
         cls.documents, cls.csvs, cls.texts, cls.replies = {}, {}, {}, {}
         cls.run_commands()
@@ -274,8 +293,8 @@ class OneQuantity(unittest.TestCase):
 
     def test_one_value_one_u_one_U(self):
         self.assertEqual(self.notes.contradictions(), [])
-        self.assertGreater(len(self.notes.said), 3000)
-        self.assertEqual(len(self.notes.places("EYX_slope_urad")), 18)
+        self.assertGreater(len(self.notes.said), 2500)
+        self.assertEqual(len(self.notes.places("EYX_slope_urad")), 19)
         self.assertEqual(len(self.notes.places("EC0Y_urad")), 12)
 
     # A comparison that finds nothing in numbers that differ would prove nothing.
@@ -289,8 +308,8 @@ class OneQuantity(unittest.TestCase):
                 if len(others) < 2 or numbers[key] == 0:
                     continue
                 notes = Notes()
-                notes.said = [said for said in copy.deepcopy(self.notes.said) if said[0] == name]
-                mine = next(said for said in notes.said if said[1] == where)
+                notes.said = copy.deepcopy([said for said in self.notes.said if said[0] == name])
+                mine = next(said for said in notes.said if said[1] == where and key in said[2])
                 mine[2][key] *= 1.02 if shown else 1 + 1e-9
                 if shown and abs(numbers[key]) * 0.02 <= 2 * SHOWN[unit_of(name)]:
                     continue
@@ -327,7 +346,7 @@ class OneQuantity(unittest.TestCase):
             return [x for part in document for x in self.all_of(part, key)]
         if not isinstance(document, dict):
             return []
-        return [document[key]] * (key in document) + [x for part in document.values() for x in self.all_of(part, key)]
+        return ([document[key]] if key in document else []) + [x for part in document.values() for x in self.all_of(part, key)]
 
     def test_every_command_and_method_is_known_here(self):
         with open(os.path.join(ROOT, "tools", "mdof", "commands", "commands.inc")) as f:
@@ -349,8 +368,9 @@ class NothingDeclared(unittest.TestCase):
             for axis in "XY":
                 log = os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz")
                 texts[f"replay {axis}"] = mdof("replay", log, "--rig", RIG[axis], *db)
+            mdof("replay", recorded_again(os.path.join(DATA, "five-probe", "log_X.csv.gz"), folder), "--rig", RIG["X"], *db)
             for words in (("show", 1), ("analyse", 1), ("squareness", 1, 2), ("budget", 1), ("budget", 1, 2),
-                          ("budget", 1, "--figure", "EYX_slope_urad"), ("parallelism", 1, 1), ("trend",),
+                          ("budget", 1, "--figure", "EYX_slope_urad"), ("parallelism", 1, 3), ("trend",),
                           ("compensation", "build", 1), ("compensation", "show", 1)):
                 texts[words] = mdof(*words, *db)
             for words, text in texts.items():

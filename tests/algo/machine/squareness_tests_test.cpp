@@ -40,6 +40,7 @@ TEST(Diagonals, TheAngleBetweenTheAxes) {
       const auto s = squareness_of_diagonals(lines);
       ASSERT_TRUE(s);
       EXPECT_NEAR(s->angle_error_rad, error, 1e-14);
+      EXPECT_EQ(s->two_diagonals, two);
     }
 }
 

@@ -96,6 +96,7 @@ TEST(TargetGrid, RefusesWhatMakesNoTargets) {
     EXPECT_EQ(status.error().code, ErrorCode::usage);
   }
   EXPECT_TRUE(check_on_the_fly({}, {}));
+  EXPECT_TRUE(check_on_the_fly(every_from_to(1, 0, 60), {}));
 }
 
 }  // namespace

@@ -22,11 +22,11 @@ constexpr double kFewestFreedom = 4;  // of what places and a step leave
 constexpr Eigen::Index kSmooth = 6;   // orders of the smooth change
 constexpr std::size_t kFewestCopies = 6;
 
-using Visits = std::vector<const MeasuredPoint*>;
+using ProbeVisits = std::vector<const MeasuredPoint*>;
 
 // In the order of time, of those that have this probe's reading.
-Visits visits_of(const std::vector<MeasuredPoint>& points, std::size_t probe) {
-  Visits visits;
+ProbeVisits visits_of(const std::vector<MeasuredPoint>& points, std::size_t probe) {
+  ProbeVisits visits;
   for (const MeasuredPoint& p : points)
     if (p.point.direction != 0 && !std::isnan(p.point.probe_m[probe])) visits.push_back(&p);
   return visits;
@@ -35,7 +35,7 @@ Visits visits_of(const std::vector<MeasuredPoint>& points, std::size_t probe) {
 // Without the means of their places.
 class AtPlaces {
  public:
-  explicit AtPlaces(const Visits& visits) {
+  explicit AtPlaces(const ProbeVisits& visits) {
     std::map<std::pair<int, int>, Eigen::Index> places;
     for (const MeasuredPoint* p : visits) {
       const std::pair key(p->target, p->point.direction);
@@ -84,7 +84,7 @@ Jump largest_jump(const AtPlaces& at, const Eigen::VectorXd& y) {
   return best;
 }
 
-double left_by_smooth(const AtPlaces& at, const Visits& visits, const Eigen::VectorXd& y) {
+double left_by_smooth(const AtPlaces& at, const ProbeVisits& visits, const Eigen::VectorXd& y) {
   const double begin = ns_to_s(visits.front()->point.begin_ns);
   const double length = ns_to_s(visits.back()->point.begin_ns) - begin;
   if (!(length > 0)) return 0;
@@ -99,7 +99,7 @@ double left_by_smooth(const AtPlaces& at, const Visits& visits, const Eigen::Vec
 }
 
 // Found by the dwells already.
-bool stepped_before(const Visits& visits, const std::string& id) {
+bool stepped_before(const ProbeVisits& visits, const std::string& id) {
   return std::any_of(visits.begin(), visits.end(),
                      [&](const MeasuredPoint* p) { return has_flag(p->point, "step:" + id); });
 }
@@ -138,7 +138,7 @@ std::string copied_sentence(const std::vector<MeasuredPoint>& points) {
 std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoint>& points) {
   std::vector<VisitStep> steps;
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {
-    const Visits visits = visits_of(points, k);
+    const ProbeVisits visits = visits_of(points, k);
     if (visits.empty() || stepped_before(visits, rig.probes[k].id)) continue;
     const AtPlaces at(visits);
     const double freedom =

@@ -101,6 +101,16 @@ TEST(ImportedTable, RefusesRunsThatDoNotGoTogether) {
   EXPECT_NE(refusal({other}).find("has one target"), std::string::npos);
 }
 
+TEST(ImportedTable, IsOfTheAxisOfItsRuns) {
+  mdof::Run run = imported(1, 1);
+  run.header.axis = Axis::y;
+  run.header.provenance.model = "EYY";
+  const auto table = build_positioning_table({run});
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->axis, Axis::y);
+  EXPECT_FALSE(table->slope_removed);
+}
+
 TEST(ImportedTable, TheNearestTarget) {
   const std::vector<double> targets = {0, 10e-3, 30e-3};
   for (const auto& [at_m, place] : {std::pair{-5e-3, 0},

@@ -231,6 +231,23 @@ TEST(RunDrift, ClosuresAreFromTheSameSideWhereThereIsAVisitFromThere) {
   }
 }
 
+TEST(RunDrift, TheClockOfTheLogBeginsAnywhere) {
+  Log log;
+  log.noise_m = kNoise;
+  log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
+  auto points = log.points();
+  const RunDrift at_zero = DriftOfRun(points).found();
+  for (MeasuredPoint& p : points) {
+    p.point.begin_ns += 3'600'000'000'000;
+    p.point.end_ns += 3'600'000'000'000;
+  }
+  const RunDrift later = DriftOfRun(points).found();
+  EXPECT_NEAR(later.length_s, log.length_s(), 1e-9);
+  ASSERT_EQ(later.closures.size(), at_zero.closures.size());
+  EXPECT_NEAR(later.closures[0].after_s, at_zero.closures[0].after_s, 1e-9);
+  EXPECT_NEAR(later.errors[kDy].change, at_zero.errors[kDy].change, 1e-13);
+}
+
 // Somebody touched the fixture between the runs: the same between the runs as a steady drift.
 TEST(RunDrift, StepsFromRunToRunAreNotTakenForADrift) {
   for (const int runs : {2, 3, 4}) {

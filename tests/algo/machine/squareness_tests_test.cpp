@@ -40,6 +40,7 @@ TEST(Diagonals, TheAngleBetweenTheAxes) {
       const auto s = squareness_of_diagonals(lines);
       ASSERT_TRUE(s);
       EXPECT_NEAR(s->angle_error_rad, error, 1e-14);
+      EXPECT_EQ(s->two_diagonals, two);
     }
 }
 
@@ -169,7 +170,7 @@ TEST(PlaneMap, HasAllPointsOfTheRangeUpToAMillion) {
   EXPECT_EQ(extreme.point % 4, 3U);  // of any row
   EXPECT_NEAR(extreme.range, 9e-6, 1e-15);
   // 998 steps and two more a side are a million; a step more a side is refused, before its time.
-  m.frames[0].range = m.frames[1].range = {0, 1};
+  m.frames[0].range = m.frames[1].range = {-0.25, 0.75};
   request.step_m = 1 / 998.5;
   const auto refused = plane_map(m, request);
   ASSERT_FALSE(refused);

@@ -89,12 +89,14 @@ TEST(TargetGrid, HasWholeBinsOnly) {
 TEST(TargetGrid, RefusesWhatMakesNoTargets) {
   for (const OnTheFlyOptions& wrong :
        {every(0), every(-1), every(std::nan("")), every(1, 2), every(1e-6), every_from_to(1, 2, 1),
-        every_from_to(1, std::nan(""), 1), every_from_to(0.001, 0, 60)}) {
+        every_from_to(1, std::nan(""), 1), every_from_to(1, 0, INFINITY),
+        every_from_to(0.001, 0, 60)}) {
     const auto status = check_on_the_fly(wrong, {});
     ASSERT_FALSE(status) << wrong.json();
     EXPECT_EQ(status.error().code, ErrorCode::usage);
   }
   EXPECT_TRUE(check_on_the_fly({}, {}));
+  EXPECT_TRUE(check_on_the_fly(every_from_to(1, 0, 60), {}));
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ constexpr int kTargets = 13;
 constexpr double kNoise = 20e-9, kStop_s = 2;
 
 // Three runs there and back, five probes; `more`: what is added to probe E at each stop, m.
-std::vector<MeasuredPoint> log_of(std::uint64_t seed, const std::function<double(int)>& more,
-                                  int runs = 3) {
+std::vector<MeasuredPoint> repeated_log(std::uint64_t seed, const std::function<double(int)>& more,
+                                        int runs = 3) {
   std::mt19937_64 engine(seed);
   std::normal_distribution<> normal;
   std::vector<MeasuredPoint> points;
@@ -37,7 +37,7 @@ std::vector<MeasuredPoint> log_of(std::uint64_t seed, const std::function<double
   return points;
 }
 
-double zero(int) {
+double no_change(int) {
   return 0;
 }
 
@@ -45,7 +45,7 @@ TEST(VisitStep, NamesTheProbeAndTheVisit) {
   const Rig rig = test::rig_x();
   for (const int at : {15, 26, 40, 70})  // in a run, between two, near the end
     for (const double size : {200e-9, -200e-9}) {
-      const auto points = log_of(7, [=](int n) { return n >= at ? size : 0; });
+      const auto points = repeated_log(7, [=](int n) { return n >= at ? size : 0; });
       const auto steps = visit_steps(rig, points);
       ASSERT_EQ(steps.size(), 1U) << at;
       EXPECT_EQ(steps[0].probe, 4U);
@@ -53,14 +53,15 @@ TEST(VisitStep, NamesTheProbeAndTheVisit) {
       EXPECT_NEAR(steps[0].size_m, size, 20e-9);
       EXPECT_NEAR(steps[0].sd_m, kNoise, 5e-9);
     }
-  const auto said = warnings_of_repeats(rig, log_of(7, [](int n) { return n >= 40 ? 2e-7 : 0; }));
+  const auto said =
+      warnings_of_repeats(rig, repeated_log(7, [](int n) { return n >= 40 ? 2e-7 : 0; }));
   ASSERT_EQ(said.size(), 1U);
   EXPECT_NE(said[0].find("from run 2, target 12 (reverse) on: E by +0."), std::string::npos)
       << said[0];
 }
 
 TEST(VisitStep, ProbesThatStepTogetherAreOneSentence) {
-  auto points = log_of(9, [](int n) { return n >= 30 ? 300e-9 : 0; });
+  auto points = repeated_log(9, [](int n) { return n >= 30 ? 300e-9 : 0; });
   for (std::size_t n = 30; n < points.size(); ++n) points[n].point.probe_m[1] -= 400e-9;
   const auto said = warnings_of_repeats(test::rig_x(), points);
   ASSERT_EQ(said.size(), 1U);
@@ -82,7 +83,7 @@ TEST(VisitStep, WhatChangesSlowlyIsNone) {
     }
     const double length = 2.0 * kTargets * 3;
     for (const std::function<double(int)>& of :
-         {std::function<double(int)>(zero),
+         {std::function<double(int)>(no_change),
           std::function<double(int)>([&](int n) { return walk[static_cast<std::size_t>(n)]; }),
           std::function<double(int)>([&](int n) { return lasting[static_cast<std::size_t>(n)]; }),
           std::function<double(int)>(
@@ -90,7 +91,7 @@ TEST(VisitStep, WhatChangesSlowlyIsNone) {
           std::function<double(int)>([=](int n) { return 600e-9 * n / length; }),
           std::function<double(int)>([=](int n) { return 600e-9 * std::exp(-3 * n / length); })}) {
       ++logs;
-      found += !visit_steps(rig, log_of(seed, of)).empty();
+      found += !visit_steps(rig, repeated_log(seed, of)).empty();
     }
   }
   std::printf("steps found in %d of %d logs without one\n", found, logs);
@@ -98,18 +99,18 @@ TEST(VisitStep, WhatChangesSlowlyIsNone) {
 }
 
 TEST(VisitStep, WhatTheDwellsFoundIsNotSaidAgain) {
-  auto points = log_of(7, [](int n) { return n >= 40 ? 200e-9 : 0; });
+  auto points = repeated_log(7, [](int n) { return n >= 40 ? 200e-9 : 0; });
   points[40].point.flags = {"step:E"};
   EXPECT_TRUE(visit_steps(test::rig_x(), points).empty());
   EXPECT_TRUE(visit_steps(test::rig_x(), {}).empty());
   // One run visits each place once.
-  EXPECT_TRUE(visit_steps(test::rig_x(), log_of(
+  EXPECT_TRUE(visit_steps(test::rig_x(), repeated_log(
                                              7, [](int n) { return n >= 15 ? 2e-7 : 0; }, 1))
                   .empty());
 }
 
 TEST(VisitStep, ASecondCopyOfTheSameRun) {
-  auto points = log_of(3, zero, 1);
+  auto points = repeated_log(3, no_change, 1);
   const auto once = points;
   for (MeasuredPoint p : once) {
     p.run = 2;
@@ -119,7 +120,7 @@ TEST(VisitStep, ASecondCopyOfTheSameRun) {
   const auto said = warnings_of_repeats(test::rig_x(), points);
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].find("26 of 52 points"), 0U) << said[0];
-  EXPECT_TRUE(warnings_of_repeats(test::rig_x(), log_of(3, zero)).empty());
+  EXPECT_TRUE(warnings_of_repeats(test::rig_x(), repeated_log(3, no_change)).empty());
   for (MeasuredPoint& p : points) p.point.probe_u_m.assign(5, 0);  // without noise they repeat
   EXPECT_TRUE(warnings_of_repeats(test::rig_x(), points).empty());
 }

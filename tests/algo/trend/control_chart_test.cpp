@@ -27,6 +27,20 @@ TEST(ControlChart, TheWorkedExampleOfTheHandbook) {
   EXPECT_FALSE(chart->moved);
 }
 
+TEST(ControlChart, TheBaselineIsAsLongAsAskedFor) {
+  const auto x = values({1, 2, 1, 2, 1, 2, 30});
+  EXPECT_EQ(control_chart(x)->baseline, 6U);
+  EXPECT_EQ(control_chart(x, 4)->baseline, 4U);
+  EXPECT_EQ(control_chart(x, 7)->baseline, 7U);
+  EXPECT_FALSE(control_chart(x, 1));
+  EXPECT_FALSE(control_chart(x, 3));
+  EXPECT_FALSE(control_chart(x, 8));
+  // Moved after the first value already.
+  const auto first = control_chart(values({0, 9, 9, 9, 9, 90}), 5);
+  ASSERT_TRUE(first->moved);
+  EXPECT_EQ(first->moved->since, 5U);
+}
+
 // By hand: 1 2 1 2 1 has the mean 1.4, ranges of 1, sigma 1/1.128; 4 is inside 1.4 + 2.66, 5 is
 // not.
 TEST(ControlChart, TheLastValueIsHeldAgainstThoseBefore) {

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/compensation/compensation.h"
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+// Error 0 at 0, 10 and 40 mm; the others are 0.
+CompensationTable table_by_hand() {
+  CompensationTable table;
+  table.position_m = {0, 10e-3, 40e-3};
+  for (auto* columns : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
+    columns->fill({0, 0, 0});
+  table.forward[0] = {1e-6, 3e-6, -3e-6};
+  table.reverse[0] = {2e-6, 5e-6, 1e-6};
+  table.u_forward[0] = {3e-9, 3e-9, 3e-9};
+  table.u_reverse[0] = {4e-9, 4e-9, 4e-9};
+  return table;
+}
+
+TEST(TableAt, IsLinearBetweenTargetsAndHeldOutside) {
+  const CompensationTable table = table_by_hand();
+  struct Case {
+    double at_m, forward, reverse;
+    bool inside;
+  };
+  for (const Case& c : {Case{-1e-3, 1e-6, 2e-6, false}, Case{0, 1e-6, 2e-6, true},
+                        Case{2.5e-3, 1.5e-6, 2.75e-6, true}, Case{10e-3, 3e-6, 5e-6, true},
+                        Case{20e-3, 1e-6, 11e-6 / 3, true}, Case{40e-3, -3e-6, 1e-6, true},
+                        Case{41e-3, -3e-6, 1e-6, false}}) {
+    const TableValue f = table_at(table, c.at_m, TableSide::forward);
+    const TableValue r = table_at(table, c.at_m, TableSide::reverse);
+    const TableValue mean = table_at(table, c.at_m, TableSide::mean);
+    EXPECT_NEAR(f.error[0], c.forward, 1e-18) << c.at_m;
+    EXPECT_NEAR(r.error[0], c.reverse, 1e-18) << c.at_m;
+    EXPECT_NEAR(mean.error[0], (c.forward + c.reverse) / 2, 1e-18) << c.at_m;
+    for (const TableValue& value : {f, r, mean}) EXPECT_EQ(value.inside, c.inside) << c.at_m;
+  }
+}
+
+TEST(TableAt, AHoleIsBridgedByItsNeighbours) {
+  CompensationTable table = table_by_hand();
+  table.position_m = {0, 10e-3, 20e-3, 40e-3};
+  for (auto* columns : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
+    columns->fill({0, 0, 0, 0});
+  table.forward[0] = {kNaN, 2e-6, kNaN, 8e-6};
+  for (const auto& [at_m, expected] : {std::pair(5e-3, 2e-6),
+                                       {10e-3, 2e-6},
+                                       {15e-3, 3e-6},
+                                       {20e-3, 4e-6},
+                                       {30e-3, 6e-6},
+                                       {40e-3, 8e-6}})
+    EXPECT_NEAR(table_at(table, at_m, TableSide::forward).error[0], expected, 1e-18) << at_m;
+  EXPECT_FALSE(table_at(table, 5e-3, TableSide::forward).inside);
+  EXPECT_TRUE(table_at(table, 15e-3, TableSide::forward).inside);
+  table.forward[0].assign(4, kNaN);  // then the other approach is given, and said to be
+  EXPECT_EQ(table_at(table, 15e-3, TableSide::mean).error[0], 0);
+  EXPECT_FALSE(table_at(table, 15e-3, TableSide::mean).inside);
+  table.forward[0] = {1e-6, kNaN, kNaN, kNaN};
+  EXPECT_NEAR(table_at(table, 15e-3, TableSide::forward).error[0], 1e-6, 1e-18);
+}
+
+TEST(TableAt, OneTargetIsHeldEverywhere) {
+  CompensationTable table;
+  table.position_m = {10e-3};
+  for (auto* columns : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
+    columns->fill({2e-6});
+  for (const double at_m : {0.0, 10e-3, 20e-3})
+    EXPECT_EQ(table_at(table, at_m, TableSide::forward).error[0], 2e-6);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "schema/base/sha256.h"
-#include "schema/figures_json.h"
+#include "schema/iso230/figures_json.h"
 #include "schema/imported/series.h"
 #include "schema/plausibility_json.h"
 #include "schema/rig/correction.h"

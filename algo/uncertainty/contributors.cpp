@@ -28,9 +28,7 @@ namespace {
 constexpr std::size_t kMostEncoderParts = 256;  // more targets: neighbours share one
 constexpr auto kFixture = static_cast<std::size_t>(Part::fixture);
 constexpr std::array<char, 3> kAxisLetters = {'x', 'y', 'z'};
-
-// Angles are small: turns of half a circle and more never come.
-constexpr double kQuarterTurn = 0.25;
+constexpr double kQuarterTurn = 0.25;  // angles are small: turns of half a circle never come
 
 // What all contributors of a run share.
 struct Basis {
@@ -387,10 +385,10 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   MDOF_CHECK(check_run(*basis));
   MDOF_CHECK(check_angles(basis->rig));
   std::vector<Contributor> list = List(basis).take();
-  for (auto& more : physics_contributors(rig, basis->solver, run, basis->points))
-    list.push_back(std::move(more));
+  auto physics = physics_contributors(rig, basis->solver, run, basis->points);
+  std::move(physics.begin(), physics.end(), std::back_inserter(list));
   name_what_goes_with_probes(rig, list);
-  for (auto& more : own) list.push_back(std::move(more));
+  std::move(own.begin(), own.end(), std::back_inserter(list));
   return list;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "schema/axis.h"
-#include "schema/figures_json.h"
+#include "schema/iso230/figures_json.h"
 #include "schema/units.h"
 
 namespace mdof {

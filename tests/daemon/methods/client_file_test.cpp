@@ -55,7 +55,7 @@ TEST_F(ClientFiles, WhatIsReadIsWhatWasOpenedWhateverHasItsNameNow) {
   SampleBlock block;
   ASSERT_TRUE(log->driver().read(block, std::chrono::milliseconds(1000)));
   ASSERT_EQ(block.scans(), 1u);
-  EXPECT_EQ(block.value.back().front(), 5e-6);
+  EXPECT_EQ(block.value.back().front(), 5);
 }
 
 TEST_F(ClientFiles, ALinkIsRefused) {

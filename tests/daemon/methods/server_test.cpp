@@ -179,10 +179,12 @@ TEST_F(ServerMethods, ALogThatTheCallerMayNotReadIsNotReadForIt) {
 }
 
 TEST_F(ServerMethods, APathThatIsNoLogIsRefused) {
+  EXPECT_HAS(call("run.replay", replay_of(write_log())).message(), "replays no logs");
+  bench_->replayer = std::make_unique<Replayer>(*bench_->keeper);
+  bench_->methods.replayer = bench_->replayer.get();
   EXPECT_HAS(call("run.replay", replay_of("log.csv")).message(), "must be absolute");
   EXPECT_HAS(call("run.replay", replay_of("/nowhere/log.csv")).message(), "No such file");
   EXPECT_HAS(call("run.replay", replay_of(folder_.string())).message(), "is no file");
-  EXPECT_HAS(call("run.replay", replay_of(write_log())).message(), "replays no logs");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mdofd import RIG, Client, Daemon, RpcError, simulator, write_log  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
-CONFLICT = 3
+CONFLICT = 4
 
 
 def mdof(*words):

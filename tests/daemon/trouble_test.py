@@ -149,7 +149,7 @@ class Trouble(unittest.TestCase):
             self.assertRegex(out, r"ok +device t7 \(labjack_t7\): open, \d+ scans, \d+ lost")
             for verb in ("probe", "monitor"):
                 code, out, err = self.mdof("device", verb, "--config", self.daemon.config)
-                self.assertEqual(code, 3, err)
+                self.assertEqual(code, 4, err)
                 self.assertIn("mdofd runs", err)
                 self.assertIn(self.daemon.socket, err)
                 self.assertIn("mdof device list", err)

@@ -82,6 +82,22 @@ TEST(Pipeline, EveryStopHasTheErrorsOfItsPlace) {
   EXPECT_TRUE(run->plausibility);
 }
 
+TEST(Pipeline, AnAxisThatNeverStopsIsNotComplete) {
+  TestAxis moving, stepping;
+  for (int pass = 0; pass < 2; ++pass) {
+    moving.move_to(60, 3), moving.stand(0.3), moving.move_to(0, 3), moving.stand(0.3);
+    stepping.stop_at(60), stepping.stop_at(0);
+  }
+  const auto never = measured(moving);
+  ASSERT_TRUE(never) << never.error().message;
+  EXPECT_EQ(never->header.state, RunState::partial);
+  EXPECT_SAYS(all_warnings(*never), "stopped only at 0 and 60 mm");
+  EXPECT_SAYS(all_warnings(*never), "--on-the-fly");
+  const auto between_two = measured(stepping);
+  ASSERT_TRUE(between_two) << between_two.error().message;
+  EXPECT_EQ(between_two->header.state, RunState::complete) << all_warnings(*between_two);
+}
+
 // A table that goes along - of M as the encoder grows, and a fixture that goes along +: in both the
 // target's travel is minus the encoder.
 TEST(Pipeline, WhichBodyMovesAndWhichWayTellsTheTravel) {

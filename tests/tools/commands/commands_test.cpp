@@ -53,6 +53,47 @@ TEST(Commands, EachIsCalledByItsName) {
   }
 }
 
+// What the option's value `value` is told; empty: it is taken.
+std::string told(const Command& row, const CLI::Option& option, const std::string& value) {
+  CLI::App app("", "mdof");
+  Action chosen;
+  declare_commands(app, chosen);
+  std::string words = std::string(row.name) + " " + option.get_name();
+  for (int i = 0; i < option.get_items_expected_min(); ++i) words += " " + value;
+  try {
+    app.parse(words);
+  } catch (const CLI::RequiredError&) {
+    return "";  // of something else
+  } catch (const CLI::ParseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Commands, EachNumberIsFiniteAndItsLimitsAreReadable) {
+  const std::regex many_digits("\\d{30}");
+  int numbers = 0;
+  for (const Command& row : all_commands()) {
+    if (std::string(row.name) == "sensitivity") continue;  // it looks at its numbers itself
+    CLI::App app("", "mdof");
+    row.declare(app);
+    for (const CLI::Option* option : app.get_options()) {
+      const std::string name = std::string(row.name) + " " + option->get_name();
+      for (const char* value : {"-1", "1e300"})
+        EXPECT_FALSE(std::regex_search(told(row, *option, value), many_digits))
+            << name << ": " << told(row, *option, value);
+      if (told(row, *option, "zero").find("zero") == std::string::npos) continue;
+      for (const char* value : {"nan", "inf", "-inf", "1e999"})
+        EXPECT_NE(told(row, *option, value), "") << name << " " << value;
+      if (name.ends_with("--seed")) {
+        EXPECT_NE(told(row, *option, "-3"), "") << name;
+      }
+      numbers += told(row, *option, "0.5").empty();
+    }
+  }
+  EXPECT_GT(numbers, 30);
+}
+
 TEST(Commands, EachShowsHowItIsCalled) {
   for (const Command& row : all_commands()) {
     EXPECT_NE(std::string(row.footer).find(std::string("mdof ") + row.name), std::string::npos)

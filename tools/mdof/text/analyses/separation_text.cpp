@@ -118,7 +118,7 @@ std::string separation_text(const SeparationRecord& record, std::size_t width) {
                      "place/mm", "height/µm", r.target, width) +
          "\n" +
          wrapped("± one standard uncertainty, from " + r.u_reason +
-                     "; U: k = 2; not in it: " + not_in_separation_u(),
+                     "; U (k = 2) beside it; not in it: " + not_in_separation_u(),
                  width) +
          "\n";
 }

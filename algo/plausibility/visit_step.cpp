@@ -21,6 +21,7 @@ constexpr double kFewestOfStep = 2;   // Σ before · after/all over the places:
 constexpr double kFewestFreedom = 4;  // of what places and a step leave
 constexpr Eigen::Index kSmooth = 6;   // orders of the smooth change
 constexpr std::size_t kFewestCopies = 6;
+constexpr double kCopiedShare = 0.1;  // of a copy not all stops are averaged over the same scans
 
 using ProbeVisits = std::vector<const MeasuredPoint*>;
 
@@ -109,10 +110,11 @@ std::string visit_text(const MeasuredPoint& p) {
          (p.point.direction > 0 ? "forward" : "reverse") + ")";
 }
 
-// Whether all probes read the same, to the last bit, at both. Readings without noise repeat.
+// Whether all probes read the same, to the last bit, at both. Readings without noise, or with less
+// than their resolution, repeat.
 bool same_readings(const Point& a, const Point& b) {
-  return a.probe_m == b.probe_m && a.position_m == b.position_m &&
-         std::all_of(a.probe_u_m.begin(), a.probe_u_m.end(), [](double u) { return u > 0; });
+  return a.probe_m == b.probe_m && a.position_m == b.position_m && !a.probe_sd_m.empty() &&
+         std::all_of(a.probe_sd_m.begin(), a.probe_sd_m.end(), [](double sd) { return sd > 0; });
 }
 
 std::string copied_sentence(const std::vector<MeasuredPoint>& points) {
@@ -125,7 +127,9 @@ std::string copied_sentence(const std::vector<MeasuredPoint>& points) {
     });
     same_place.push_back(&p);
   }
-  if (copies < kFewestCopies || 4 * copies < points.size()) return "";
+  if (copies < kFewestCopies ||
+      kCopiedShare * static_cast<double>(points.size()) > static_cast<double>(copies))
+    return "";
   return std::to_string(copies) + " of " + std::to_string(points.size()) +
          " points have the readings of an earlier visit to the last digit: the log contains the "
          "same "

@@ -32,6 +32,7 @@ std::vector<MeasuredPoint> repeated_log(std::uint64_t seed, const std::function<
       p.point.probe_m.push_back(5e-6 * std::sin(p.target + k) + 80e-9 * p.point.direction +
                                 kNoise * normal(engine) + (k == 4 ? more(n) : 0));
       p.point.probe_u_m.push_back(0.2 * kNoise);
+      p.point.probe_sd_m.push_back(kNoise);
     }
   }
   return points;
@@ -121,7 +122,7 @@ TEST(VisitStep, ASecondCopyOfTheSameRun) {
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].find("26 of 52 points"), 0U) << said[0];
   EXPECT_TRUE(warnings_of_repeats(test::rig_x(), repeated_log(3, no_change)).empty());
-  for (MeasuredPoint& p : points) p.point.probe_u_m.assign(5, 0);  // without noise they repeat
+  for (MeasuredPoint& p : points) p.point.probe_sd_m.assign(5, 0);  // without noise they repeat
   EXPECT_TRUE(warnings_of_repeats(test::rig_x(), points).empty());
 }
 

@@ -17,7 +17,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::size_t kMostOfAKey = 16;                  // ,"EYX_um":
-constexpr std::size_t kColumnsOfARow = 1 + kErrorCount;  // the position first
+constexpr std::size_t kColumnsOfARow = kErrorCount + 1;  // the position last
 constexpr std::size_t kMostOfARow = kColumnsOfARow * (kDouble17Size + kMostOfAKey) + 8;
 constexpr std::size_t kAtOnce = 8;
 constexpr std::size_t kBlocks = 4;
@@ -44,13 +44,12 @@ ErrorRows::ErrorRows(RowForm form, const MovingAxis& moving, Model model)
     : form_(form), names_(error_names(moving.axis)), filled_(kBlocks), free_(kBlocks) {
   for (std::size_t i = 0; i < kBlocks; ++i) free_.try_push({});
   for (ErrorName& name : names_) name.sign *= moving.sides.error_sign();
-  json_keys_[0] = "{\"encoder_mm\":";
-  head_ = "encoder_mm";
   for (std::size_t k = 0; k < kErrorCount; ++k) {
-    json_keys_[1 + k] = std::string(",\"") + names_[k].key + "\":";
-    head_ += std::string(",") + names_[k].key;
+    json_keys_[k] = std::string(k == 0 ? "{\"" : ",\"") + names_[k].key + "\":";
+    head_ += std::string(names_[k].key) + ",";
   }
-  head_ += '\n';
+  json_keys_[kErrorCount] = ",\"encoder_mm\":";
+  head_ += "encoder_mm\n";
   if (form == RowForm::json) {
     head_ = "{\"axis\":\"" + std::string(1, letter(moving.axis)) + "\",\"model\":\"" +
             to_string(model) + "\",\"reference\":\"carriage\",\"rows\":[";
@@ -112,8 +111,8 @@ struct ErrorRows::Texts {
     std::array<double, kAtOnce> x;
     for (std::size_t k = 0; k < kColumnsOfARow; ++k) {
       for (std::size_t j = 0; j < n; ++j)
-        x[j] = k == 0 ? in_written_mm(rows.encoder_m[begin + j])
-                      : in_key_unit(names[k - 1], rows, begin + j);
+        x[j] = k == kErrorCount ? in_written_mm(rows.encoder_m[begin + j])
+                                : in_key_unit(names[k], rows, begin + j);
       write_doubles_17(x.data(), n, of[k].data());
       for (std::size_t j = 0; j < n; ++j) of[k][j].size = std::isfinite(x[j]) ? of[k][j].size : 0;
     }

@@ -15,9 +15,9 @@
 namespace mdof::tools {
 
 enum class RowForm {
-  csv,   // a header: encoder_mm and the error keys; a line a row, empty errors where it is not
+  csv,   // a header: the error keys and encoder_mm; a line a row, empty errors where it is not
          // solved
-  json,  // {"axis", "model", "reference", "rows": [{"encoder_mm": ..., "EYX_um": ...}, ...]}; null
+  json,  // {"axis", "model", "reference", "rows": [{"EYX_um": ..., "encoder_mm": ...}, ...]}; null
          // where it is not solved
 };
 
@@ -43,7 +43,7 @@ class ErrorRows {
 
   const RowForm form_;
   std::array<ErrorName, 5> names_;        // with the sign of the moving body
-  std::array<std::string, 6> json_keys_;  // {"encoder_mm": ,"EYX_um":
+  std::array<std::string, 6> json_keys_;  // {"EYX_um": ,"encoder_mm":
   std::string head_;
   bool first_row_ = true;
   std::vector<char> text_;

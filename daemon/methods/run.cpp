@@ -224,8 +224,8 @@ Result<QueryThread::Work> list_runs(Methods& m, const Params& params) {
 
 // Other clients wait for it: of a long run no figure has its uncertainty.
 StatedRun stated_in_a_call(const Run& run) {
-  constexpr std::size_t kMostPoints = 5'000;  // some 0.2 s; 110 points: 0.02 s
-  if (run.points.size() <= kMostPoints) return stated_run(run);
+  constexpr std::size_t kMostStated = 5'000;  // some 0.2 s; 110 points: 0.02 s
+  if (run.points.size() <= kMostStated) return stated_run(run);
   Run beginning = run;
   beginning.points.resize(1);
   return {uncertainty_of(beginning), {{}, "too many points for a call; mdof analyse makes it"}};

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "schema/base/sha256.h"
-#include "schema/iso230/figures_json.h"
 #include "schema/imported/series.h"
+#include "schema/iso230/figures_json.h"
 #include "schema/plausibility_json.h"
 #include "schema/rig/correction.h"
 #include "schema/uncertainty/budget_json.h"

@@ -251,8 +251,10 @@ void App::Parts::watch() {
 }
 
 void App::Parts::watch_reader() {
-  if (reader->damage().empty()) return;
-  keeper->note_damage(reader->damage());
+  std::string damage = reader->damage();
+  if (damage.empty()) damage = query->take_damage();
+  if (damage.empty()) return;
+  keeper->note_damage(damage);
   read_anew();
 }
 

@@ -78,7 +78,8 @@ void QueryThread::hand_over() {
   }
 }
 
-void QueryThread::done(Cost cost) {
+void QueryThread::done(Cost cost, std::string damage) {
+  if (!damage.empty()) damage_ = std::move(damage);
   const Key key = *std::exchange(served_, std::nullopt);
   Client& client = clients_.at(key);
   order_.charge(client.share, cost);
@@ -109,8 +110,8 @@ void QueryThread::serve(Call call) {
   const auto begin = std::chrono::steady_clock::now();
   call.reply(call.work(store_));
   const Cost cost = std::chrono::steady_clock::now() - begin;
-  loop_->dispatch([self = std::weak_ptr(self_), cost] {
-    if (const auto here = self.lock()) (*here)->done(cost);
+  loop_->dispatch([self = std::weak_ptr(self_), cost, damage = store_.damage()] {
+    if (const auto here = self.lock()) (*here)->done(cost, damage);
   });
 }
 

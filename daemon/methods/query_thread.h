@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "daemon/rpc/fair_order.h"
 #include "daemon/rpc/reply.h"
@@ -41,6 +42,8 @@ class QueryThread {
   // The connection is made anew before the next call.
   void open_again() { open_again_ = true; }
   std::uint64_t refused() const { return refused_; }
+  // What SQLite said of a damaged file in a call since this was last asked; empty: nothing.
+  std::string take_damage() { return std::exchange(damage_, {}); }
 
  private:
   struct Call {
@@ -57,7 +60,7 @@ class QueryThread {
 
   void admit(const Key& client);
   void hand_over();
-  void done(Cost cost);
+  void done(Cost cost, std::string damage);
   // Of the thread:
   void work();
   void serve(Call call);
@@ -72,6 +75,7 @@ class QueryThread {
   std::optional<Key> served_;  // whose call the thread has
   bool open_again_ = false;
   std::uint64_t refused_ = 0;
+  std::string damage_;
   const std::shared_ptr<QueryThread*> self_;  // for the thread's messages, which may come too late
 
   store::Store store_;  // of the thread

@@ -223,6 +223,7 @@ Budget RunBudgets::first_order(const Figure& figure) const {
   budget.value = figure.of(means_);
   const Random random = random_of(figure);
   budget.u_random = random.u;
+  budget.is_single_run = runs_.size() < 2;
   budget.not_declared = not_declared_;
   BudgetLine noise;
   noise.name = "noise and repeatability";

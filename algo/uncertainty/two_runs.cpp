@@ -25,6 +25,7 @@ class TwoSlopes {
       const Budget budget = of->run.first_order(of->slope);
       budget_.value += of->factor * budget.value;
       budget_.u_random = std::hypot(budget_.u_random, budget.u_random);
+      budget_.is_single_run = budget_.is_single_run || budget.is_single_run;
       for (const std::string& key : budget.not_declared)
         budget_.not_declared.push_back(of->name + " " + key);
       for (const BudgetLine& line : budget.lines)

@@ -4,19 +4,6 @@
 #include <cmath>
 
 namespace mdof {
-namespace {
-
-// No target was visited again, so that the noise is known within stops alone: it has no degrees of
-// freedom of repeats.
-bool is_of_one_visit(const Budget& budget) {
-  return std::any_of(budget.lines.begin(), budget.lines.end(), [](const BudgetLine& line) {
-    return line.key.empty() && line.name.ends_with("noise and repeatability") &&
-           line.contribution > 0 && std::isinf(line.freedom);
-  });
-}
-
-}  // namespace
-
 bool is_noise_only(double u, double u_declared) {
   constexpr double kSeen = 0.01;  // of u
   return !(u_declared > kSeen * u);
@@ -36,7 +23,7 @@ bool declares(const Budget& budget) {
 
 std::string covers_text(const Budget& budget) {
   const std::string slow =
-      is_of_one_visit(budget) ? "; of a single run: noise slower than a stop is not in it" : "";
+      budget.is_single_run ? "; of a single run: noise slower than a stop is not in it" : "";
   if (!budget.noise_only) return "noise, repeatability and what is declared" + slow;
   return std::string("noise and repeatability only: ") +
          (declares(budget) ? "what is declared adds nothing to it"

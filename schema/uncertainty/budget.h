@@ -41,6 +41,7 @@ struct Budget {
   bool U_by_trials = false;    // U is that of Monte Carlo, and k = U / u
   // What rigs declare adds nothing to u: they declare nothing, or nothing that this figure shows.
   bool noise_only = false;
+  bool is_single_run = false;  // no target was visited again: noise slower than a stop is not in u
   // Keys of the rig that are not declared: U is too small by what they would add.
   std::vector<std::string> not_declared;
   std::vector<BudgetLine> lines;  // the largest first

@@ -17,6 +17,16 @@ double largest_deflection_m(const MillingPlan& plan, const CutTurn& turn) {
   return deflection_m(plan, turn, 0).rowwise().norm().maxCoeff();
 }
 
+// The models take the tool's axis to stay near its place.
+Status check_deflection(const MillingPlan& plan, const CutTurn& turn) {
+  const double deflection_m = largest_deflection_m(plan, turn);
+  if (deflection_m <= plan.radius_m() / 2) return {};
+  return fail(ErrorCode::check, "the tip is deflected by " + std::to_string(deflection_m * 1e6) +
+                                    " µm, which is more than half of the tool's radius; the tool "
+                                    "is too weak for this cut: shorten overhang_mm or lower the "
+                                    "depths");
+}
+
 WallFigures wall_figures(const MillingPlan& plan, const CutTurn& turn) {
   const std::vector<WallLine> lines = wall_lines(plan, turn);
   WallFigures wall;
@@ -40,6 +50,7 @@ WallFigures wall_figures(const MillingPlan& plan, const CutTurn& turn) {
 
 Result<double> mean_offset_m(const MillingPlan& plan) {
   MDOF_TRY(const CutTurn turn, cut_turn(plan));
+  MDOF_CHECK(check_deflection(plan, turn));
   return wall_figures(plan, turn).offset_mean_m;
 }
 
@@ -51,6 +62,7 @@ Result<MillingResult> milling(const MillingPlan& plan) {
   MDOF_TRY(const CutTurn rigid, cut_turn(rigid_plan));
   MDOF_TRY(const CutTurn turn, cut_turn(plan));
   const Eigen::MatrixXd force = turn.force_N(), force_rigid = rigid.force_N();
+  MDOF_CHECK(check_deflection(plan, turn));
   MillingResult r;
   r.x_max_N = force.col(0).cwiseAbs().maxCoeff();
   r.y_max_N = force.col(1).cwiseAbs().maxCoeff();

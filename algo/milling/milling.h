@@ -30,7 +30,7 @@ struct MillingResult {
   int iterations = 0;
 };
 
-// Error (check): no equilibrium.
+// Errors (check): no equilibrium; a deflection beyond half of the radius.
 Result<MillingResult> milling(const MillingPlan& plan);
 
 // What to add to the radius of the tool in the controller so that the mean of the wall is where the

@@ -34,7 +34,8 @@ void declare(CLI::App& app, Action& chosen) {
   app.set_version_flag("--version", daemon::kVersion);
   app.set_help_flag("-h,--help", "Print this help and exit");
   declare_commands(app, chosen);
-  app.footer(kExamples);  // last: a command has examples of its own
+  app.require_subcommand(0, 1);  // a word behind a command is no other command: "mdof help replay"
+  app.footer(kExamples);         // last: a command has examples of its own
 }
 
 int run(int argc, char** argv) {

@@ -47,10 +47,12 @@ void add_limit_options(CLI::App& command, LimitOptions& limits) {
   command
       .add_option("--limit-um", limits.um,
                   "Largest value that is taken (angles: urad) [default: 1000 um, 10000 urad]")
+      ->check(positive_number())
       ->type_name("UM");
   command
       .add_option("--limit-um-per-mm", limits.um_per_mm,
                   "Largest slope that is taken (angles: urad/mm) [default: 50 um/mm, 500 urad/mm]")
+      ->check(positive_number())
       ->type_name("UM");
 }
 

@@ -85,10 +85,12 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
   command
       .add_option("--residual-um", request.residual_um,
                   "Most that may be left of an error beside the tolerance (angles: urad)")
+      ->check(finite_number())
       ->capture_default_str();
   command
       .add_option("--residual-percent", request.residual_percent,
                   "Most that may be left of an error, in percent of it")
+      ->check(finite_number())
       ->capture_default_str();
   add_limit_options(command, request.limits);
   auto* home = command.add_option("--home-mm", request.home_mm,

@@ -240,7 +240,7 @@ Status machine_kinematics(const KinematicsCommand& o) {
 Action declare_machine_kinematics(CLI::App& command) {
   const auto o = std::make_shared<KinematicsCommand>();
   const auto number = [&](const char* name, double& value, const char* help) {
-    command.add_option(name, value, help)->capture_default_str();
+    command.add_option(name, value, help)->check(finite_number())->capture_default_str();
   };
   command.add_option("--preset", o->preset, "The machine")
       ->check(CLI::IsMember({"co-planar"}))

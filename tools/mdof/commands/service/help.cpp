@@ -8,7 +8,9 @@
 namespace mdof::tools {
 namespace {
 
+// App::help() prints that of the command that was called: of this one.
 Status help(CLI::App* app, const std::vector<std::string>& words) {
+  std::string name = app->get_name();
   for (const std::string& word : words) {
     const auto found =
         app->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
@@ -16,8 +18,9 @@ Status help(CLI::App* app, const std::vector<std::string>& words) {
       return fail(ErrorCode::usage, "help: \"" + word + "\" is no command of " +
                                         app->get_display_name() + "; mdof help lists them");
     app = found.front();
+    name += " " + word;
   }
-  return write_out(app->help());
+  return write_out(app->get_formatter()->make_help(app, name, CLI::AppFormatMode::Normal));
 }
 
 Action declare_help(CLI::App& command) {

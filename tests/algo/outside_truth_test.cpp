@@ -200,7 +200,8 @@ TEST(OutsideTruth, AMeanAndItsUncertaintyByHand) {
 }
 
 // A curve on uneven positions: between its points it goes straight, over a hole from neighbour to
-// neighbour, beyond its ends it is held.
+// neighbour, beyond its ends it is held. u is the larger of the neighbours', and what interpolation
+// does.
 TEST(OutsideTruth, ATableOfACurveIsStraightBetweenItsPoints) {
   CompensationTable table;
   table.position_m = {0, 1, 3, 4, 8};
@@ -213,9 +214,9 @@ TEST(OutsideTruth, ATableOfACurveIsStraightBetweenItsPoints) {
   }
   const struct {
     double at, forward, reverse, u_forward;
-  } cases[] = {{-1, 0, 2, 3},       {0, 0, 2, 3},  {0.25, 0.25, 2.75, 3.75},   {1, 1, 5, 6},
-               {1.5, 3, 6.5, 5.25}, {3, 9, 11, 3}, {3.75, 14.25, 19.25, 9.75}, {5, 28, 33, 9.75},
-               {8, 64, 66, 3},      {9, 64, 66, 3}};
+  } cases[] = {{-1, 0, 2, 3},    {0, 0, 2, 3},  {0.25, 0.25, 2.75, 6},    {1, 1, 5, 6},
+               {1.5, 3, 6.5, 6}, {3, 9, 11, 3}, {3.75, 14.25, 19.25, 12}, {5, 28, 33, 12},
+               {8, 64, 66, 3},   {9, 64, 66, 3}};
   for (const auto& c : cases) {
     const auto forward = table_at(table, c.at, TableSide::forward);
     const auto reverse = table_at(table, c.at, TableSide::reverse);
@@ -225,9 +226,10 @@ TEST(OutsideTruth, ATableOfACurveIsStraightBetweenItsPoints) {
       EXPECT_NEAR(forward.error[k], f * c.forward, 1e-12) << c.at;
       EXPECT_NEAR(reverse.error[k], f * c.reverse, 1e-12) << c.at;
       EXPECT_NEAR(mean.error[k], f * (c.forward + c.reverse) / 2, 1e-12) << c.at;
-      EXPECT_NEAR(forward.u[k], c.u_forward, 1e-12) << c.at;
-      EXPECT_NEAR(reverse.u[k], 4, 1e-12) << c.at;
-      EXPECT_NEAR(mean.u[k], std::sqrt(c.u_forward * c.u_forward + 16) / 2, 1e-12) << c.at;
+      EXPECT_NEAR(forward.u[k], std::hypot(c.u_forward, forward.u_interpolation[k]), 1e-12) << c.at;
+      EXPECT_NEAR(reverse.u[k], std::hypot(4, reverse.u_interpolation[k]), 1e-12) << c.at;
+      EXPECT_NEAR(mean.u[k], std::hypot(c.u_forward / 2, 2, mean.u_interpolation[k]), 1e-12)
+          << c.at;
     }
   }
 }

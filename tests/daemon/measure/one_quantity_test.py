@@ -33,7 +33,8 @@ COMPARED = {"analyse", "budget", "compensation build", "compensation show", "par
 COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status",
                     "parallelism.fit", "run.budget", "run.get", "run.points", "squareness.budget", "squareness.fit"}
 # ... and what states none, or that of other things: of files, of studies, of calibrations, of a machine's description.
-OTHERS = {"calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
+OTHERS = {"clearance", "completion", "help", "machine kinematics", "milling",
+          "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
           "compensation deactivate", "compensation export", "compensation list", "device list", "device monitor",
           "device probe", "doctor", "drift", "encoder set", "export", "history", "import", "iso230-2", "live",
           "machine diagonal", "machine error", "machine map", "machine perpendicularity", "record", "runs",

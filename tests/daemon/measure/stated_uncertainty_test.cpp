@@ -267,22 +267,26 @@ int pairs_wanted(int otherwise) {
   return wanted ? std::atoi(wanted) : otherwise;
 }
 
-void expect_covered(const Coverage& coverage, int pairs, double least_percent) {
+void expect_covered(const Coverage& coverage, int pairs, double least_percent,
+                    double least_of_points) {
   const double three_sd = 65 / std::sqrt(pairs);
   for (const auto& [what, tally] : coverage) {
     std::printf("%-22s %5.1f %%\n", what.c_str(), tally.percent());
-    EXPECT_GT(tally.percent(), least_percent - three_sd) << what;
+    EXPECT_GT(tally.percent(),
+              (what.starts_with("point") ? least_of_points : least_percent) - three_sd)
+        << what;
   }
 }
 
 TEST(StatedUncertainty, HoldsTheTruthWithWhiteNoise) {
   const int pairs = pairs_wanted(15);
-  expect_covered(coverage_of(Noise::white, pairs), pairs, 95);
+  expect_covered(coverage_of(Noise::white, pairs), pairs, 95, 95);
 }
 
+// The u of a point has the noise within its stop alone: what is slower is not in it.
 TEST(StatedUncertainty, HoldsTheTruthWithPinkNoise) {
   const int pairs = pairs_wanted(15);
-  expect_covered(coverage_of(Noise::pink, pairs), pairs, 94);
+  expect_covered(coverage_of(Noise::pink, pairs), pairs, 94, 88);
 }
 
 // The control: what is not declared is not covered.

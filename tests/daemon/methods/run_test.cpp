@@ -262,7 +262,10 @@ TEST_F(RunMethods, APartialRunIsTakenOnlyWhenAskedFor) {
 
 TEST_F(RunMethods, HistoryComesByPage) {
   add_run('X'), add_run('Y');
-  for (int i = 0; i < 3; ++i) call("squareness.fit", R"({"run_x":1,"run_y":2})");
+  // The same fit is stored once, another one beside it.
+  for (const char* artefact : {"0", "0", "1", "2"})
+    call("squareness.fit",
+         R"({"run_x":1,"run_y":2,"artefact_angle_error_urad":)" + std::string(artefact) + "}");
   const Answer page = call("history.list", R"({"offset":1,"count":1})");
   EXPECT_EQ(page.number("/result/total"), 3);
   EXPECT_EQ(page.size("/result/history"), 1u);

@@ -20,6 +20,7 @@ class Anybody : public Caller {
   std::optional<Credentials> credentials() const override { return Credentials{}; }
   bool may_write() const override { return false; }
   bool in_group(gid_t) const override { return false; }
+  std::vector<gid_t> further_groups() const override { return {}; }
   Status subscribe(std::string_view, std::chrono::milliseconds) override { return {}; }
   Status unsubscribe(std::string_view) override { return {}; }
 };
@@ -74,7 +75,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   line.append(Dispatcher::kPadding, '}');
   std::string out;
   Anybody caller;
-  dispatcher.handle(std::string_view(line).substr(0, length), caller, {}, out);
+  BegunBatch batch;
+  dispatcher.handle(std::string_view(line).substr(0, length), caller, {}, out, batch,
+                    Dispatcher::Clock::time_point::max());
   if (out.empty()) return 0;
   if (out.size() >= options.max_reply_bytes || out.find('\n') != std::string::npos) std::abort();
   if (parser.parse(out).error()) std::abort();

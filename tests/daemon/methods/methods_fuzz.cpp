@@ -87,15 +87,16 @@ struct Served {
   Served() {
     // What the lock keeps for the whole process is to outlive this, which lives as long.
     (void)store::WriterLock::open_runs_claimed(folder.path() / "mdof.db");
-    bench.keeper->post([](store::Store& store) {
+    const auto stored = bench.keeper->run([](store::Store& store) -> Result<std::string> {
       std::int64_t number = 0;
-      for (const char axis : {'X', 'Y', 'X'})
-        if (!store.add_run(made_run(axis, ++number))) std::abort();
+      for (const char axis : {'X', 'Y', 'X'}) MDOF_CHECK(store.add_run(made_run(axis, ++number)));
+      return "";
     });
+    if (!stored) std::abort();
     bench.stations.push_back(empty_axis(*bench.keeper, folder.path()));
     answer(R"({"jsonrpc":"2.0","id":1,"method":"compensation.build","params":{"runs":[1]}})");
     answer(R"({"jsonrpc":"2.0","id":1,"method":"compensation.activate",)"
-           R"("params":{"table":1,"despite_warnings":true}})");
+           R"("params":{"table":1,"simulated":true,"despite_warnings":true}})");
     if (!bench.active[0]) std::abort();  // else half of the methods have nothing to do
   }
 

@@ -126,9 +126,10 @@ std::string offset_text(const Milled& milled) {
   const std::string value = in_um(offset.offset_m);
   std::string text = "radius wear offset (" + std::string(to_string(milled.plan.deflection)) +
                      "): " + (std::isnan(offset.u_m) ? value : with_u(value, in_um(offset.u_m))) +
-                     " µm, G41 and G42 alike; Fanuc, mm: " + line_to_type(offset) + "\n";
+                     " µm, G41 and G42 alike\n  to type (Fanuc, mm): " + line_to_type(offset) +
+                     "\n";
   if (offset.parts.empty())
-    text += "u is unknown: the plan declares no uncertainty, such as u_Kt_N_per_mm2\n";
+    text += "  u is unknown: the plan declares no uncertainty, such as u_Kt_N_per_mm2\n";
   for (const auto& part : offset.parts)
     text += "  " + std::string(part.input->table) + "." + part.input->key + ": " +
             in_um(part.contribution_m) + " µm\n";

@@ -1,5 +1,6 @@
 #include "algo/uncertainty/effects/model_contributor.h"
 
+#include <utility>
 #include <vector>
 
 #include "algo/model/restate.h"
@@ -33,9 +34,9 @@ std::optional<Contributor> model_contributor(const Rig& rig, const Run& run, Mod
   if (!simplified || !exact) return std::nullopt;  // nothing was solved by it, either
   DeclaredUncertainty whole;
   whole.u = 1;
-  const std::vector<PointShifts> parts{left_out(*simplified, *exact, run)};
-  return Contributor{
-      "model simplified: what it leaves out", "", whole, 1, "", [parts] { return parts; }};
+  std::vector<PointShifts> parts{left_out(*simplified, *exact, run)};
+  return Contributor{"model simplified: what it leaves out",      "", whole, 1, "",
+                     [parts = std::move(parts)] { return parts; }};
 }
 
 }  // namespace mdof::algo

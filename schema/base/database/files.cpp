@@ -178,8 +178,10 @@ bool is_open_for_writing(const struct stat& file) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator("/proc/self/fd", ec)) {
     const int fd = std::atoi(entry.path().filename().c_str());
+    // By name: the descriptor may be another thread's, which closes it meanwhile.
     struct stat mine {};
-    if (::fstat(fd, &mine) != 0 || mine.st_dev != file.st_dev || mine.st_ino != file.st_ino)
+    if (::stat(entry.path().c_str(), &mine) != 0 || mine.st_dev != file.st_dev ||
+        mine.st_ino != file.st_ino)
       continue;
     const int flags = ::fcntl(fd, F_GETFL);
     if (flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && !(flags & O_APPEND)) return true;

@@ -89,12 +89,9 @@ void OnTheFly::take_pass(const AxisPass& pass) {
 }
 
 void OnTheFly::learn_resolution(const AxisPass& pass) {
-  for (std::size_t k = 0; k < probes_.ids.size(); ++k) {
-    if (!pass.frames.probe_fresh[k].empty()) continue;
-    for (std::size_t i = pass.first; i + kWatchedRows <= pass.last; i += kWatchedRows)
-      resolution_[k].add({&pass.frames.probe_m[k][i], kWatchedRows});
-    probes_.step_m[k] = resolution_[k].step();
-  }
+  for (std::size_t i = pass.first; i + kWatchedRows <= pass.last; i += kWatchedRows)
+    resolution_.add(pass.frames, i, i + kWatchedRows);
+  for (std::size_t k = 0; k < probes_.ids.size(); ++k) probes_.step_m[k] = resolution_.step_m(k);
 }
 
 // Whether a probe lives is told bin by bin, as it would be stop by stop.

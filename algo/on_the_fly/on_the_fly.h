@@ -55,7 +55,7 @@ class OnTheFly {
 
   TargetGrid grid_;
   ProbesOfBins probes_;
-  std::vector<Resolution> resolution_;
+  ProbeResolution resolution_;
   PlaceWatch places_;
   ProbeWatch watch_;
   PassFinder finder_;

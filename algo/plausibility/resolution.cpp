@@ -34,6 +34,20 @@ void Resolution::keep(double step) {
   }
 }
 
+// Whether the column of marks exists tells nothing of these rows: it comes with any row of a block,
+// and a replay has other blocks than the live run.
+void ProbeResolution::add(const FrameBlock& frames, std::size_t first, std::size_t last) {
+  for (std::size_t k = 0; k < found_.size(); ++k) {
+    Found& probe = found_[k];
+    if (k < frames.probe_fresh.size() && !frames.probe_fresh[k].empty()) {
+      const auto fresh = std::span(frames.probe_fresh[k]).subspan(first, last - first);
+      probe.is_slow = probe.is_slow || std::find(fresh.begin(), fresh.end(), 0) != fresh.end();
+    }
+    if (!probe.is_slow)
+      probe.resolution.add(std::span(frames.probe_m[k]).subspan(first, last - first));
+  }
+}
+
 double with_resolution(double u, double sd, double step) {
   if (sd >= kDithers * step) return u;
   return std::sqrt(u * u + step * step / 12);

@@ -4,6 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
+
+#include "schema/sample.h"
 
 namespace mdof::algo {
 
@@ -25,6 +28,23 @@ class Resolution {
   std::array<double, kKept> smallest_{};  // steps seen, ascending
   std::size_t kept_ = 0;
   double step_ = 0;
+};
+
+// The same of each probe of frames, up to the first row that repeats a probe's reading: from there
+// on the probe is slower than the encoder, and values between its samples hide its step.
+class ProbeResolution {
+ public:
+  explicit ProbeResolution(std::size_t probes) : found_(probes) {}
+  // Rows `first` to `last` - 1, behind those that it has.
+  void add(const FrameBlock& frames, std::size_t first, std::size_t last);
+  double step_m(std::size_t probe) const { return found_[probe].resolution.step(); }
+
+ private:
+  struct Found {
+    Resolution resolution;
+    bool is_slow = false;
+  };
+  std::vector<Found> found_;
 };
 
 // Standard uncertainty of a mean `u` of readings with this `sd`, rounded to multiples of `step`.

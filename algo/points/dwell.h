@@ -113,7 +113,6 @@ class DwellDetector {
   double window_range() const;
   bool window_still() const { return slots_.size() == 4 && window_range() <= summary_.tolerance_m; }
   void pass_hole();
-  void learn_resolution(const Slot& slot);
   void look_at_window(bool still);
   void look_for_jump();
   void note(const DwellNotice& notice);
@@ -139,7 +138,7 @@ class DwellDetector {
   DwellOptions options_;
   std::vector<std::string> probe_ids_;
   std::vector<double> probe_range_m_;
-  std::vector<Resolution> resolution_;
+  ProbeResolution resolution_;
   Summary summary_;
 
   PlaceWatch places_;

@@ -78,7 +78,7 @@ void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size
     return;
   }
   if (usable_rows + over_range < to - from) add_flag(point, "missing:" + id);
-  const double step = resolution_[probe].step();
+  const double step = resolution_.step_m(probe);
   const double coarse = std::max(1e-3 * probe_range_m_[probe], kCoarseSteps * step);
   const RobustMean mean = robust_mean(readings, coarse, scratch_);
   if (mean.rejected > 0) add_flag(point, "spike:" + id);

@@ -23,7 +23,7 @@ void DwellDetector::note(const DwellNotice& notice) {
 // The window ends with the slot that was just closed.
 void DwellDetector::look_at_window(bool still) {
   const Slot& newest = slots_.back();
-  learn_resolution(newest);
+  resolution_.add(buffer_, newest.first_row, newest.first_row + newest.rows);
   watch_.take_newest(buffer_, newest.first_row, newest.first_row + newest.rows, newest.min_m,
                      newest.max_m);
   if (slots_.size() < 4) return;
@@ -73,20 +73,11 @@ void DwellDetector::look_for_jump() {
   jumps_until_ns_ = std::max(jumps_until_ns_, until_ns);
 }
 
-// Neighbours that are a probe's own samples: where it is interpolated its step is not in the
-// frames.
-void DwellDetector::learn_resolution(const Slot& slot) {
-  for (std::size_t k = 0; k < probe_ids_.size(); ++k) {
-    if (!buffer_.probe_fresh[k].empty()) continue;
-    resolution_[k].add({&buffer_.probe_m[k][slot.first_row], slot.rows});
-  }
-}
-
 void DwellDetector::mark(std::vector<Point>& points) const {
   for (Point& point : points) {
     for (std::size_t k = 0; k < point.probe_u_m.size(); ++k)
       if (point.probe_u_m[k] == 0)
-        point.probe_u_m[k] = with_resolution(0, 0, resolution_[k].step());
+        point.probe_u_m[k] = with_resolution(0, 0, resolution_.step_m(k));
   }
   watch_.mark(points, probe_ids_);
 }

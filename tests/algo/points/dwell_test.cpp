@@ -75,7 +75,12 @@ std::vector<Point> detect(const FrameBlock& frames, std::size_t block, DwellOpti
     FrameBlock part{cut(frames.time_ns),
                     cut(frames.encoder_m),
                     {cut(frames.probe_m[0])},
-                    {cut(frames.probe_quality[0])}};
+                    {cut(frames.probe_quality[0])},
+                    {}};
+    if (!frames.probe_fresh.empty()) part.probe_fresh = {cut(frames.probe_fresh[0])};
+    // As alignment gives them: no column where no row repeats a reading.
+    for (auto& column : part.probe_fresh)
+      if (std::find(column.begin(), column.end(), 0) == column.end()) column.clear();
     detector.push(part, points);
   }
   detector.flush(points);
@@ -114,6 +119,29 @@ TEST(Dwell, GivesTheSameBitsHoweverTheDataAreCut) {
       EXPECT_EQ(cut[i].probe_u_m, whole[i].probe_u_m);
       EXPECT_EQ(cut[i].begin_ns, whole[i].begin_ns);
     }
+  }
+}
+
+// A replay has larger blocks than the live run, so that a late repeated reading gives rows a column
+// of marks that had none.
+TEST(Dwell, LearnsTheSameResolutionHoweverTheDataAreCut) {
+  constexpr double step_m = 100e-9;  // five rows of the way
+  Stepper axis;
+  axis.noise_m = 1e-9;
+  axis.passes(kTargets, 2);
+  for (double& reading_m : axis.frames.probe_m[0])
+    reading_m = step_m * std::round(reading_m / step_m);
+  const std::size_t n = axis.frames.size();
+  axis.frames.probe_fresh.assign(1, std::vector<std::uint8_t>(n, 1));
+  axis.frames.probe_fresh[0][n - n / 4] = 0;
+  const auto whole = detect(axis.frames, n);
+  ASSERT_EQ(whole.size(), 20u);
+  EXPECT_NEAR(whole[9].probe_u_m[0], step_m / std::sqrt(12), 1e-3 * step_m);
+  for (const std::size_t block : {1u, 17u, 1000u}) {
+    const auto cut = detect(axis.frames, block);
+    ASSERT_EQ(cut.size(), whole.size());
+    for (std::size_t i = 0; i < cut.size(); ++i)
+      EXPECT_EQ(cut[i].probe_u_m, whole[i].probe_u_m) << i;
   }
 }
 

@@ -1,6 +1,10 @@
 // Probes and encoder on two devices, each with scans and troubles of its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "algo/points/flags.h"
 #include "tests/daemon/measure/test_axis.h"
 
@@ -69,6 +73,52 @@ TEST(PipelineOfTwoDevices, TheSilenceOfOneIsToldAndDoesNotHoldUpTheOtherForEver)
     EXPECT_TRUE(algo::has_flag(p.point, "lost:D") && algo::has_flag(p.point, "lost:E"));
     EXPECT_NE(p.errors.reason.find("probes A B C cannot"), std::string::npos) << p.errors.reason;
     EXPECT_TRUE(std::isnan(p.point.probe_m[3]) && !std::isnan(p.point.probe_m[0]));
+  }
+}
+
+// A live run takes turns between devices every few scans, its recording every 0.1 s. The second
+// device is late, comes in steps, and loses scans from the third stop on.
+TEST(PipelineOfTwoDevices, HowDevicesTakeTurnsChangesNoBit) {
+  TestAxis axis;
+  axis.pass_both_ways({0, 5, 10, 15, 20});
+  const auto late_side = [&](std::size_t begin, std::size_t end) {
+    const SampleBlock all = axis.block(begin, end, kSide, "capa");
+    SampleBlock side = axis.block(0, 0, kSide, "capa");
+    for (std::size_t i = 0; i < all.scans(); ++i) {
+      if (begin + i > 700 && (begin + i) % 37 == 0) continue;
+      side.time_ns.push_back(all.time_ns[i]);
+      for (std::size_t c = 0; c < kSide.size(); ++c)
+        side.value[c].push_back(0.05 * std::round(all.value[c][i] / 0.05));
+    }
+    return side;
+  };
+  const auto measured = [&](std::size_t top_scans, std::size_t side_scans) {
+    PipelineOptions options;
+    options.align.delay_s = {{"D", 2e-3}, {"E", 3e-3}};
+    Pipeline pipeline = Pipeline::create(five_probe_rig(), options).value();
+    std::size_t side_at = 0;
+    for (std::size_t at = 0; at < axis.scans(); at += top_scans) {
+      SampleBlock top = axis.block(at, at + top_scans, kTop, "t7");
+      EXPECT_TRUE(pipeline.push(top));
+      for (; side_at < std::min(axis.scans(), at + top_scans); side_at += side_scans) {
+        SampleBlock side = late_side(side_at, side_at + side_scans);
+        EXPECT_TRUE(pipeline.push(side));
+      }
+    }
+    return pipeline.finish().value();
+  };
+  const mdof::Run live = measured(4, 10);
+  ASSERT_EQ(live.points.size(), 10u);
+  for (const auto& [top, side] : {std::pair{1000u, 1000u}, {1u, 400u}, {1000u, 3u}}) {
+    const mdof::Run replayed = measured(top, side);
+    ASSERT_EQ(replayed.points.size(), live.points.size());
+    EXPECT_EQ(replayed.header.warnings, live.header.warnings);
+    for (std::size_t i = 0; i < live.points.size(); ++i) {
+      EXPECT_EQ(replayed.points[i].point.probe_m, live.points[i].point.probe_m);
+      EXPECT_EQ(replayed.points[i].point.probe_u_m, live.points[i].point.probe_u_m) << i;
+      EXPECT_EQ(replayed.points[i].errors.local, live.points[i].errors.local);
+      EXPECT_EQ(replayed.points[i].errors.covariance, live.points[i].errors.covariance);
+    }
   }
 }
 

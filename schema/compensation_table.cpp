@@ -1,7 +1,10 @@
 #include "schema/compensation_table.h"
 
 #include <algorithm>
+#include <span>
 
+#include "schema/base/canonical.h"
+#include "schema/base/sha256.h"
 #include "schema/uncertainty/budget.h"
 
 namespace mdof {
@@ -14,6 +17,34 @@ bool CompensationTable::noise_only() const {
       for (std::size_t i = 0; i < position_m.size(); ++i)
         if (!is_noise_only(u_of(*u_random, k, i), u_declared[k][i])) return false;
   return true;
+}
+
+std::string table_sha256(const CompensationTable& t) {
+  using canonical::put;
+  using canonical::put_counted;
+  std::string bytes;
+  const auto put_text = [&](std::string_view text) { put(bytes, text); };
+  put_text("mdof table 2");
+  const char axis = letter(t.axis);
+  put_text({&axis, 1});
+  put(bytes, t.simulated ? 1 : 0);
+  put(bytes, t.slope_removed ? 1 : 0);
+  put(bytes, std::uint64_t{t.runs.size()});
+  for (const std::int64_t run : t.runs) put(bytes, run);
+  put_text(t.sides.moves());
+  put_text(t.sides.travel());
+  put_text(t.machine.text);
+  put_text(travels_of(t.machine));
+  put_text(to_string(t.stated.reference));
+  put(bytes, std::span<const double>(t.stated.point_m));
+  put_counted(bytes, t.position_m);
+  for (const auto* group : {&t.forward, &t.reverse, &t.u_forward, &t.u_reverse, &t.u_declared})
+    for (const auto& series : *group) put_counted(bytes, series);
+  const PositioningErrors& along = t.positioning;
+  for (const auto* series :
+       {&along.forward, &along.reverse, &along.u_forward, &along.u_reverse, &along.u_declared})
+    put_counted(bytes, *series);
+  return sha256_hex(bytes);
 }
 
 std::string covers_text(const CompensationTable& table) {

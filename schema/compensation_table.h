@@ -53,7 +53,7 @@ struct CompensationTable {
   // the runs' rigs tell.
   std::vector<std::string> not_declared;
   std::string created_utc;
-  std::string sha256;  // of the canonical JSON of the above
+  std::string sha256;  // table_sha256(), or a value of before it; the ledger of the store checks it
 
   bool has_declared() const { return !u_declared.front().empty(); }
   bool has_positioning() const { return !positioning.forward.empty(); }
@@ -66,6 +66,16 @@ struct CompensationTable {
                           : u_random[named][row];
   }
 };
+
+// SHA-256 of what the table says, whatever words show it. Bytes hashed (i, d, s:
+// schema/base/canonical.h):
+//   s "mdof table 2", s axis, i simulated, i slope_removed, i number of runs, i each run,
+//   s moves, s travel, s chain, s travels of the chain ("" "": not known), s reference, d
+//   point_m[3], i n, d position_m[n], then in the order of the members i n, d each series:
+//   forward[5], reverse[5], u_forward[5], u_reverse[5], u_declared[5], and of positioning forward,
+//   reverse, u_forward, u_reverse, u_declared; n = 0 for one that the table has not.
+// Tables of versions before have the hash of their JSON at that time.
+std::string table_sha256(const CompensationTable& table);
 
 // What its u covers: one sentence for people, without a full stop.
 std::string covers_text(const CompensationTable& table);

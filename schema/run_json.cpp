@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "schema/base/sha256.h"
 #include "schema/imported/series.h"
 #include "schema/iso230/figures_json.h"
 #include "schema/plausibility_json.h"
@@ -289,9 +288,7 @@ void write_table_row(JsonWriter& json, const CompensationTable& t, std::size_t r
   json.end_object();
 }
 
-namespace {
-
-void write_hashed_members(JsonWriter& json, const CompensationTable& t) {
+void write_table_members(JsonWriter& json, const CompensationTable& t) {
   const std::string axis(1, letter(t.axis));
   json.field("table", t.id).field("axis", axis).field("simulated", t.simulated);
   json.key("runs").begin_array();
@@ -311,30 +308,17 @@ void write_hashed_members(JsonWriter& json, const CompensationTable& t) {
       .field("points_total", static_cast<std::uint64_t>(t.position_m.size()))
       .field("created_utc", t.created_utc)
       .field("sha256", t.sha256);
-}
-
-}  // namespace
-
-void write_table_members(JsonWriter& json, const CompensationTable& t) {
-  write_hashed_members(json, t);
   write_covers(json, covers_text(t), t.not_declared);
 }
 
 std::string table_json(const CompensationTable& t) {
   JsonWriter json;
   json.begin_object();
-  write_hashed_members(json, t);
+  write_table_members(json, t);
   json.key("points").begin_array();
   for (std::size_t i = 0; i < t.position_m.size(); ++i) write_table_row(json, t, i);
   json.end_array().end_object();
   return json.take();
-}
-
-std::string table_sha256(CompensationTable table) {
-  table.id = 0;
-  table.sha256.clear();
-  table.created_utc.clear();
-  return sha256_hex(table_json(table));
 }
 
 }  // namespace mdof

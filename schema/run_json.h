@@ -49,9 +49,7 @@ std::string with_warnings(std::string json, const std::vector<std::string>& warn
 void write_table_row(JsonWriter& json, const CompensationTable& table, std::size_t row);
 // What holds for the whole table; the members of an open object.
 void write_table_members(JsonWriter& json, const CompensationTable& table);
-// What of the table is hashed: its members but "u_covers" and "u_not_declared", then "points".
+// Its members and "points".
 std::string table_json(const CompensationTable& table);
-// SHA-256 of table_json() before the table has an id, a hash and a date: of what it says.
-std::string table_sha256(CompensationTable table);
 
 }  // namespace mdof

@@ -188,10 +188,6 @@ Result<store::Activation> activate_checked(store::Store& store, const Activation
 
 Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request) {
   MDOF_TRY(const CompensationTable table, store.table(request.table));
-  if (table_sha256(table) != table.sha256)
-    return bad_input(store.file().string() + ": compensation table " + std::to_string(table.id) +
-                     " is not what was built (its hash differs), so that it is not put in force; "
-                     "build it again from its runs");
   if (table.has_positioning())
     return fail(ErrorCode::conflict,
                 "table " + std::to_string(table.id) + " holds " + positioning_name(table.axis) +

@@ -154,14 +154,6 @@ Result<ActiveTables> load_active(store::Store& store) {
                    static_cast<long long>(active->table.id), letter(axis));
       continue;
     }
-    if (active && table_sha256(active->table) != active->table.sha256) {
-      std::fprintf(
-          stderr,
-          "%s: compensation table %lld of axis %c is not what was stored (its hash differs) "
-          "and is not served; restore the database or activate another table\n",
-          store.file().c_str(), static_cast<long long>(active->table.id), letter(axis));
-      continue;
-    }
     if (active) {
       // A run that cannot be read any more is a doubt, too.
       const auto doubts = doubts_of_table(store, active->table);

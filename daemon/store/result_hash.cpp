@@ -1,46 +1,16 @@
 #include "daemon/store/result_hash.h"
 
-#include <bit>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string_view>
 
-#include "daemon/store/bytes.h"
+#include "schema/base/canonical.h"
 
 namespace mdof::store {
 namespace {
 
-constexpr double kCanonicalNaN = std::bit_cast<double>(std::uint64_t{0x7ff8000000000000});
-
-void put(std::string& row, std::int64_t x) {
-  row.append(reinterpret_cast<const char*>(&x), sizeof x);
-}
-void put(std::string& row, std::uint64_t x) {
-  put(row, static_cast<std::int64_t>(x));
-}
-void put(std::string& row, int x) {
-  put(row, static_cast<std::int64_t>(x));
-}
-
-void put(std::string& row, double x) {
-  const double canonical = std::isnan(x) ? kCanonicalNaN : x;
-  row.append(reinterpret_cast<const char*>(&canonical), sizeof canonical);
-}
-
-void put(std::string& row, std::span<const double> values) {
-  for (const double x : values) put(row, x);
-}
-
-void put(std::string& row, std::string_view text) {
-  put(row, static_cast<std::uint64_t>(text.size()));
-  row.append(text);
-}
-
-void put_counted(std::string& row, const std::vector<double>& values) {
-  put(row, static_cast<std::uint64_t>(values.size()));
-  put(row, std::span(values));
-}
+using canonical::put;
+using canonical::put_counted;
 
 void put(std::string& row, const AxisErrors& errors) {
   put(row, errors.valid ? 1 : 0);

@@ -2,9 +2,8 @@
 // straightness and angle figure is the same to the last bit, whatever machine, compiler or file
 // they came from. Provenance, names of files and times of day are left out.
 //
-// Bytes hashed, in the order in which the rows stand (all points, then straightness, then angles);
-// i: 8-byte little-endian integer; d: 8-byte little-endian IEEE 754, every NaN as
-// 0x7ff8000000000000; s: i length, then the bytes:
+// Bytes hashed (i, d, s: schema/base/canonical.h), in the order in which the rows stand: all
+// points, then straightness, then angles:
 //   point         i target, d target_m, i repetition, i direction, i begin_ns, i end_ns, d
 //   position_m,
 //                 i samples, i number of flags, s each flag, i n, d probe_m[n], i n, d

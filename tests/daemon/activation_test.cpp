@@ -6,7 +6,7 @@
 
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
-#include "schema/run_json.h"
+#include "schema/base/sqlite.h"
 
 namespace mdof::daemon {
 namespace {
@@ -18,7 +18,7 @@ class ActivationTest : public ::testing::Test {
     mdof::Run run;
     run.header.state = RunState::complete;
     run.header.started_utc = "2026-11-22T00:00:00.000Z";
-    store_.emplace(store::Store::open(folder_ / "mdof.db", store::Access::read_write).value());
+    store_.emplace(open_store());
     table_.runs = {store_->add_run(run).value()};
     table_.position_m = {0.0, 0.01};
     for (auto* group : {&table_.forward, &table_.reverse, &table_.u_forward, &table_.u_reverse})
@@ -29,8 +29,10 @@ class ActivationTest : public ::testing::Test {
     store_.reset();
     std::filesystem::remove_all(folder_);
   }
-  Result<store::Activation> activated() {
-    const auto id = store_->add_table(table_).value();
+  store::Store open_store() {
+    return store::Store::open(folder_ / "mdof.db", store::Access::read_write).value();
+  }
+  Result<store::Activation> activated(std::int64_t id) {
     return activate_table(*store_,
                           {id, {false, true}, deed_now("compensation.activate", this_process())});
   }
@@ -41,16 +43,23 @@ class ActivationTest : public ::testing::Test {
 };
 
 TEST_F(ActivationTest, OfATableThatIsWhatWasBuilt) {
-  const auto done = activated();
+  const auto done = activated(store_->add_table(table_).value());
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_TRUE(done->changed);
 }
 
+// The ledger of the store knows what was built.
 TEST_F(ActivationTest, OfAnotherIsRefusedByItsName) {
-  table_.forward[0][1] *= 2;  // and its hash is as before
-  const auto done = activated();
+  const auto id = store_->add_table(table_).value();
+  store_.reset();
+  {
+    auto other = sqlite::Connection::open(folder_ / "mdof.db", sqlite::OpenMode::read_write).value();
+    ASSERT_TRUE(other.execute("UPDATE compensation_table SET travel = '-'"));
+  }
+  store_.emplace(open_store());
+  const auto done = activated(id);
   ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("compensation table 1 is not what was built"),
+  EXPECT_NE(done.error().message.find("compensation table 1 is not what was stored"),
             std::string::npos)
       << done.error().message;
   EXPECT_EQ(store_->generation().value(), 0);

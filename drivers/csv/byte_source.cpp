@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "drivers/csv/gunzip.h"
+#include "schema/base/database/files.h"
 
 namespace mdof::drivers {
 namespace {
@@ -26,10 +27,12 @@ Result<int> open_descriptor(const std::string& path, int given) {
     return ::fcntl(given, F_DUPFD_CLOEXEC, 0);
   }
   if (path == "-") return ::dup(STDIN_FILENO);
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = sqlite::open_foreign(path, 0);
   if (descriptor >= 0) return descriptor;
-  const ErrorCode code = errno == ENOENT ? ErrorCode::bad_input : ErrorCode::io;
-  return fail(code, path + ": cannot be opened: " + text_of(errno));
+  const bool is_input = errno == ENOENT || errno == EINVAL;
+  return fail(is_input ? ErrorCode::bad_input : ErrorCode::io,
+              path + ": cannot be opened: " + sqlite::foreign_error_text(errno) +
+                  (errno == EINVAL ? ", or - for the standard input" : ""));
 }
 
 }  // namespace

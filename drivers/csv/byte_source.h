@@ -19,9 +19,9 @@ class Gunzip;
 // An open file descriptor, read in order.
 class ByteSource {
  public:
-  // "-" is the standard input. With `hash` the SHA-256 of gzip data is computed on the way; that of
-  // plain text is left to the caller, who has all of it. A `descriptor`, open already, is read from
-  // the beginning of its file, and `path` is its name.
+  // "-" is the standard input; only regular files are opened. With `hash` the SHA-256 of gzip data
+  // is computed on the way; that of plain text is left to the caller, who has all of it. A
+  // `descriptor`, open already, is read from the beginning of its file, and `path` is its name.
   static Result<std::unique_ptr<ByteSource>> open(const std::string& path, bool hash,
                                                   int descriptor = -1);
   ~ByteSource();

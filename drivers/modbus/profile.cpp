@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "schema/base/files.h"
 #include "schema/base/toml_reader.h"
 
 namespace mdof::drivers::modbus {
@@ -176,9 +175,7 @@ Result<Profile> load_profile(const std::string& name_or_path, const std::string&
                      " Known are " + known + "; a file of your own is given by its path");
   }
   const auto path = std::filesystem::path(base_path) / name_or_path;
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) return bad_input(path.string() + " is no file that can be read");
+  MDOF_TRY(const std::string text, read_text_file(path));
   return parse_profile(text, path.string());
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 
+#include "schema/base/database/files.h"
 #include "schema/recording/chunk.h"
 #include "schema/units.h"
 
@@ -258,10 +258,10 @@ bool is_recording(int descriptor) {
 }
 
 bool is_recording(const std::string& path) {
-  std::string beginning(kMagic.size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  return file && beginning == kMagic;
+  const int descriptor = sqlite::open_foreign(path, 0);
+  const bool recording = is_recording(descriptor);
+  if (descriptor >= 0) ::close(descriptor);
+  return recording;
 }
 
 }  // namespace mdof::drivers

@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <limits>
 #include <map>
 #include <optional>
@@ -23,10 +24,12 @@ struct Session {
   std::optional<PrivateCopy> copy;  // what is open; `file` is what it was made from
   std::optional<JournalWatch> watch;
   mutable std::string damage;
+  int descriptor = -1;  // what is read, where it is not SQLite that has opened it
 
   ~Session() {
     for (const auto& [text, statement] : statements) sqlite3_finalize(statement);
     sqlite3_close(database);
+    if (descriptor >= 0) ::close(descriptor);
   }
 };
 
@@ -92,19 +95,6 @@ Reading way_to_read(const fs::path& file, OpenMode mode) {
   if (!foreign && access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return Reading::shared;
   if (!has_wal(file)) return Reading::unchanging;
   return !foreign && is_shared(file) ? Reading::shared : Reading::copied;
-}
-
-std::string immutable_uri(const fs::path& file) {
-  std::string uri = "file:";
-  for (const char c : fs::absolute(file).string()) {
-    constexpr char kHex[] = "0123456789ABCDEF";
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '?' || c == '#' || c == '%')
-      uri.append({'%', kHex[byte >> 4], kHex[byte & 15]});
-    else
-      uri.push_back(c);
-  }
-  return uri + "?immutable=1";
 }
 
 int open_flags(OpenMode mode) {
@@ -264,14 +254,20 @@ Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int bus
   int flags = open_flags(mode) | SQLITE_OPEN_NOMUTEX;
   const bool reads = mode == OpenMode::read_only || mode == OpenMode::snapshot;
   const Reading reading = reads ? way_to_read(file, mode) : Reading::shared;
+  if (reading == Reading::unchanging) {
+    session->descriptor = open_foreign(file, 0);
+    if (session->descriptor < 0)
+      return fail(errno == EINVAL ? ErrorCode::bad_input : ErrorCode::io,
+                  file.string() + ": cannot be opened: " + foreign_error_text(errno));
+    MDOF_TRY(Connection connection, open_descriptors(file, session->descriptor, -1));
+    std::swap(connection.session_->descriptor, session->descriptor);
+    return connection;
+  }
   if (reading == Reading::copied) {
     MDOF_TRY(PrivateCopy copy, PrivateCopy::make(file, busy_timeout_ms));
     session->copy.emplace(std::move(copy));
     name = session->copy->file().string();
     flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX;  // to roll back, or take from the -wal
-  } else if (reading == Reading::unchanging) {
-    name = immutable_uri(file);
-    flags |= SQLITE_OPEN_URI;
   }
   if (sqlite3_open_v2(name.c_str(), &session->database, flags, nullptr) != SQLITE_OK)
     return error_of(*session, "open");

@@ -178,7 +178,7 @@ TEST_F(CsvLogTest, FindsAFlippedBitInGzip) {
 TEST_F(CsvLogTest, NamesWhatCannotBeOpened) {
   EXPECT_NE(replay("/nonexistent/log.csv").error.find("/nonexistent/log.csv: cannot be opened"),
             std::string::npos);
-  EXPECT_NE(replay(directory_.string()).error.find("directory"), std::string::npos);
+  EXPECT_NE(replay(directory_.string()).error.find("is a folder"), std::string::npos);
   EXPECT_NE(replay(file("")).error.find("empty"), std::string::npos);
   EXPECT_NE(replay(file(gzipped(""))).error.find("empty"), std::string::npos);
   EXPECT_NE(replay(file("time_s,encoder_mm,A_um\n")).error.find("no rows"), std::string::npos);

@@ -1,14 +1,16 @@
 #include "daemon/measure/replay/verify_sources.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <utility>
 
 #include "drivers/recording/recording_log.h"
+#include "schema/base/database/files.h"
 #include "schema/base/sha256.h"
 
 namespace mdof::daemon {
@@ -32,16 +34,19 @@ std::string runs_text(const std::vector<std::int64_t>& runs) {
 // Error: it cannot be read.
 Result<std::string> sha256_of_file(const std::string& path) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
+  const int file = sqlite::open_foreign(path, 0);
+  if (file < 0) return io_error(path + ": cannot be read: " + sqlite::foreign_error_text(errno));
   std::string piece(kPiece, '\0');
   Sha256 hash;
-  while (file) {
-    file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    hash.update(std::string_view(piece.data(), static_cast<std::size_t>(file.gcount())));
-  }
-  if (file.eof()) return hash.hex();
-  return io_error(path + ": cannot be read: " + std::strerror(errno ? errno : EIO));
+  ssize_t count = 0;
+  do {
+    count = ::read(file, piece.data(), piece.size());
+    if (count > 0) hash.update({piece.data(), static_cast<std::size_t>(count)});
+  } while (count > 0 || (count < 0 && errno == EINTR));
+  const int error = errno;
+  ::close(file);
+  if (count == 0) return hash.hex();
+  return io_error(path + ": cannot be read: " + std::strerror(error));
 }
 
 // Error: it cannot be read, or is damaged.

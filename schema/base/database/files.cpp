@@ -208,6 +208,12 @@ int open_foreign(const fs::path& file, int flags) {
   return ::open(same.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
 }
 
+std::string foreign_error_text(int error) {
+  if (error == EINVAL) return "it is a folder, a pipe or a device; name a regular file";
+  if (error == EBUSY) return "this program is writing it; name another file";
+  return std::strerror(error);
+}
+
 // ---- PrivateCopy ----
 
 Result<PrivateCopy> PrivateCopy::make(const fs::path& database, int timeout_ms) {

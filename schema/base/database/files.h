@@ -41,6 +41,8 @@ bool is_open_for_writing(const std::filesystem::path& file);
 // EBUSY: this process writes the file, and it was not opened; EINVAL: it is no regular file.
 // `flags`: O_NOFOLLOW, or 0.
 int open_foreign(const std::filesystem::path& file, int flags);
+// What is to be said of its errno.
+std::string foreign_error_text(int error);
 
 // Database, -journal and -wal as they are at one moment, in a folder of mode 0700 that is removed
 // with the copy.

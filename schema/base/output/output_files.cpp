@@ -87,8 +87,12 @@ Result<std::size_t> OutputFiles::add(const fs::path& path) {
   file.replaces = before.has_value();
   if (before && is_direct(*before)) {
     file.stage = Stage::direct;
-    file.descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file.descriptor < 0) return not_written(path, errno);
+    // A pipe that nobody reads is not waited for.
+    file.descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (file.descriptor < 0 && errno == ENXIO)
+      return io_error(path.string() + ": cannot be written: it is a pipe that no program reads");
+    if (file.descriptor < 0 || ::fcntl(file.descriptor, F_SETFL, 0) != 0)
+      return not_written(path, errno);
     files_.push_back(std::move(file));
     return files_.size() - 1;
   }

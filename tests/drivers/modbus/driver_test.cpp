@@ -344,7 +344,7 @@ TEST(ModbusConfiguration, WhatIsWrongIsNamedWithItsKey) {
   };
   says(kPosition, "profile: is missing");
   says("profile = \"lika-smx\"\n" + kPosition, "did you mean \"lika-smax\"?");
-  says("profile = \"mine.toml\"\n" + kPosition, "mine.toml is no file that can be read");
+  says("profile = \"mine.toml\"\n" + kPosition, "mine.toml: cannot be read: No such file");
   says("profile = \"lika-smax\"\n" + kPosition, "mdofd.toml:1: port: give either this");
   says(smax + "address = \"box\"\n" + kPosition, "mdofd.toml:2: port: give either this");
   says("profile = \"adam-6017\"\n" + channel("A", "AI0"), "address: is missing");

@@ -168,7 +168,9 @@ bool CsvHeader::may_be_missing(std::size_t channel) const {
 
 bool CsvHeader::says_simulated() const {
   return std::any_of(comments.begin(), comments.end(),
-                     [](const std::string& text) { return text.starts_with("simulated"); });
+                     [](const std::string& text) {  // of a log, and of what mdof made of a run
+                       return text.starts_with("simulated") || text.starts_with("SIMULATED");
+                     });
 }
 
 Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const std::string& source) {

@@ -101,4 +101,13 @@ std::vector<std::string> marks_of(const Judged& judged) {
   return marks;
 }
 
+std::vector<std::string> marks_of(const Run& run) {
+  std::vector<std::string> doubts = doubtful_notes(run);
+  if (run.header.state == RunState::partial) doubts.push_back("is partial");
+  const auto& warnings = run.header.warnings;
+  doubts.insert(doubts.end(), warnings.begin(), warnings.end());
+  return marks_of(Judged{"run " + std::to_string(run.header.id), run.header.simulated,
+                         doubts_among(std::move(doubts))});
+}
+
 }  // namespace mdof::daemon

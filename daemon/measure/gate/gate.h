@@ -39,5 +39,6 @@ Result<Judged> judged_table(store::Store& store, const CompensationTable& table)
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence);
 // What a file of it says, one line each: SIMULATED, DOUBTFUL.
 std::vector<std::string> marks_of(const Judged& judged);
+std::vector<std::string> marks_of(const Run& run);
 
 }  // namespace mdof::daemon

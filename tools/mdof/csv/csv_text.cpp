@@ -48,4 +48,10 @@ CsvText& CsvText::end_row() {
   return *this;
 }
 
+std::string csv_marks(const std::vector<std::string>& marks) {
+  std::string lines;
+  for (const std::string& mark : marks) lines += "# " + mark + "\n";
+  return lines;
+}
+
 }  // namespace mdof::tools

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mdof::tools {
 
@@ -23,5 +24,8 @@ class CsvText {
   std::string text_;
   bool begun_ = false;  // the row has a cell
 };
+
+// Lines before the header: "# SIMULATED: ..."
+std::string csv_marks(const std::vector<std::string>& marks);
 
 }  // namespace mdof::tools

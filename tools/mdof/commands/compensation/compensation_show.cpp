@@ -5,6 +5,7 @@
 #include "schema/axis.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/csv/table_csv.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -50,12 +51,10 @@ Status show(const ShowTableCommand& command) {
   if (!doubts) warn(doubts.error().message);
   for (const auto& doubt : summarised(doubts.value_or(std::vector<std::string>()))) warn(doubt);
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");
-  std::string marks;
-  for (const auto& mark :
-       daemon::marks_of({"table " + std::to_string(table.id), table.simulated,
-                         doubts.value_or(std::vector<std::string>{"a run of it cannot be read"})}))
-    marks += "# " + mark + "\n";
-  if (command.csv) return write_out(marks + table_csv(table));
+  const auto marks =
+      daemon::marks_of({"table " + std::to_string(table.id), table.simulated,
+                        doubts.value_or(std::vector<std::string>{"a run of it cannot be read"})});
+  if (command.csv) return write_out(csv_marks(marks) + table_csv(table));
   return command.json ? write_line(table_document(table, generation, doubtful))
                       : write_out(table_text(table, generation));
 }

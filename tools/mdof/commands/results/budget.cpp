@@ -5,8 +5,10 @@
 
 #include "algo/uncertainty/conformity/decision.h"
 #include "daemon/measure/budgets.h"
+#include "daemon/measure/gate/gate.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
+#include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
@@ -69,6 +71,19 @@ Result<daemon::FoundBudgets> of_two_runs(store::Store& store, const BudgetComman
   return daemon::squareness_budgets(store, request, command.trials);
 }
 
+Result<std::string> marks(store::Store& store, const BudgetCommand& command) {
+  std::vector<std::pair<std::string, std::optional<Axis>>> asked{
+      {command.run, axis_from(command.axis)}};
+  if (!command.run_y.empty()) asked = {{command.run, Axis::x}, {command.run_y, Axis::y}};
+  std::string lines;
+  for (const auto& [word, axis] : asked) {
+    MDOF_TRY(const auto id, run_number(store, word, axis));
+    MDOF_TRY(const Run run, store.run(id));
+    lines += csv_marks(daemon::marks_of(run));
+  }
+  return lines;
+}
+
 std::string text_of(const daemon::FoundBudgets& found, const std::optional<Decision>& decided) {
   std::string head =
       noise_only_notice(are_noise_only(found.budgets)) + simulated_notice(found.simulated);
@@ -90,7 +105,8 @@ Status budget(const BudgetCommand& command) {
       command.tolerance
           ? std::optional(algo::decision(found.budgets.front(), from_um(*command.tolerance)))
           : std::nullopt;
-  MDOF_CHECK(command.csv    ? write_out(budgets_csv(found.budgets))
+  MDOF_TRY(const std::string lines, command.csv ? marks(store, command) : Result<std::string>());
+  MDOF_CHECK(command.csv    ? write_out(lines + budgets_csv(found.budgets))
              : command.json ? write_line(daemon::budgets_json(found, decided))
                             : write_out(text_of(found, decided)));
   if (!decided || decided->conformity == Conformity::conform) return {};

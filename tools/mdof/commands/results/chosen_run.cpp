@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/gate/gate.h"
+#include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/run_choice.h"
@@ -26,9 +28,10 @@ Result<Run> load_run(store::Store& store, const ChosenRun& choice) {
   return daemon::run_stated_at(store, id, reference);
 }
 
-void warn_of(const Run& run, bool all) {
+Status write_csv_of(const Run& run, const std::string& csv, bool all_warnings) {
   if (run.header.simulated) warn("simulated data: no machine was measured");
-  for (const auto& warning : summarised(run.header.warnings, all)) warn(warning);
+  for (const auto& warning : summarised(run.header.warnings, all_warnings)) warn(warning);
+  return write_out(csv_marks(daemon::marks_of(run)) + csv);
 }
 
 }  // namespace mdof::tools

@@ -20,7 +20,8 @@ void add_chosen_run(CLI::App& command, ChosenRun& choice);
 // With its errors stated at the reference that was chosen.
 Result<Run> load_run(store::Store& store, const ChosenRun& choice);
 
-// Beside a table of bare numbers: what people must know of them.
-void warn_of(const Run& run, bool all);
+// A table of bare numbers, with what people must know of them: lines "# SIMULATED", "# DOUBTFUL"
+// before it, so that the file says it wherever it goes, and warnings.
+Status write_csv_of(const Run& run, const std::string& csv, bool all_warnings);
 
 }  // namespace mdof::tools

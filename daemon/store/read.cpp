@@ -32,6 +32,17 @@ constexpr std::string_view kPoints =
     "probe_m, probe_u_m, reason, dy_m, dz_m, ex_rad, ey_rad, ez_rad, residual_m, covariance_m_rad "
     "FROM point WHERE id BETWEEN (?1 << 32) + ?2 AND (?1 << 32) + 4294967295 ORDER BY id LIMIT ?3";
 
+// One that end_and_supersede() ended is failed and began with the run that supersedes it.
+constexpr const char* kResults =
+    " AND run.id NOT IN (SELECT given_up.id FROM run AS later "
+    "JOIN run AS given_up ON given_up.id = later.supersedes "
+    "JOIN run_end ON run_end.run = given_up.id "
+    "WHERE run_end.state = 'failed' AND later.started_utc = given_up.started_utc)";
+
+std::string wanted(const char* of_axis, bool results) {
+  return std::string(of_axis) + (results ? kResults : "") + " ";
+}
+
 std::uint64_t natural(std::int64_t x) {
   return static_cast<std::uint64_t>(x);
 }
@@ -167,17 +178,19 @@ Result<RunHeader> Store::run_header(std::int64_t run) {
 }
 
 Result<std::vector<RunHeader>> Store::list_runs(std::int64_t offset, std::int64_t count,
-                                                std::optional<Axis> axis) {
-  return axis ? headers("WHERE run.axis = ?3 ORDER BY run.id DESC LIMIT ?2 OFFSET ?1", offset,
-                        count, axis)
-              : headers("ORDER BY run.id DESC LIMIT ?2 OFFSET ?1", offset, count, axis);
+                                                std::optional<Axis> axis, Listed listed) {
+  return headers("WHERE " + wanted(axis ? "run.axis = ?3" : "true", listed == Listed::results) +
+                     "ORDER BY run.id DESC LIMIT ?2 OFFSET ?1",
+                 offset, count, axis);
 }
 
-Result<std::int64_t> Store::count_runs(std::optional<Axis> axis) {
-  if (!axis) return connection_.integer("SELECT count(*) FROM run");
-  MDOF_TRY(Statement row, connection_.prepare("SELECT count(*) FROM run WHERE axis = ?"));
-  const char letter_of_axis = letter(*axis);
-  MDOF_CHECK(row.bind(std::string_view(&letter_of_axis, 1)).step());
+Result<std::int64_t> Store::count_runs(std::optional<Axis> axis, Listed listed) {
+  MDOF_TRY(Statement row,
+           connection_.prepare("SELECT count(*) FROM run WHERE " +
+                               wanted(axis ? "axis = ?1" : "true", listed == Listed::results)));
+  const char letter_of_axis = axis ? letter(*axis) : ' ';
+  if (axis) row.bind(std::string_view(&letter_of_axis, 1));
+  MDOF_CHECK(row.step());
   return row.integer(0);
 }
 

@@ -97,10 +97,14 @@ class Store {
   Result<std::int64_t> end_and_supersede(std::int64_t run, const RunEnd& end, Run result);
 
   Result<RunHeader> run_header(std::int64_t run);
-  // Newest first; `axis` narrows it to the runs of one axis.
+  // Newest first; `axis` narrows it to the runs of one axis. `results`: without those that
+  // end_and_supersede() ended, whose result is another run.
+  enum class Listed { all, results };
   Result<std::vector<RunHeader>> list_runs(std::int64_t offset, std::int64_t count,
-                                           std::optional<Axis> axis = std::nullopt);
-  Result<std::int64_t> count_runs(std::optional<Axis> axis = std::nullopt);
+                                           std::optional<Axis> axis = std::nullopt,
+                                           Listed listed = Listed::all);
+  Result<std::int64_t> count_runs(std::optional<Axis> axis = std::nullopt,
+                                  Listed listed = Listed::all);
   Result<std::optional<std::int64_t>> superseded_by(std::int64_t run);  // the last that does
   // Rows offset ... offset + count - 1 in the order measured, as many as there are. Of a run that
   // has ended each is checked by the run's hash: the first call reads all of its rows.

@@ -101,7 +101,12 @@ class Record(CommandLine):
         self.assertIsNotNone(before, err)
         self.assertIn(f"run {newest['run']} is the result", err)
         self.assertIn(f"it supersedes run {before}", err)
-        self.assertRegex(self.done("runs", "--db", other.database), rf"(?m)^ *{before} +X +superseded by {newest['run']} ")
+        # Of one measurement one run is listed.
+        started = [r["started_utc"] for r in json.loads(self.done("runs", "--db", other.database, "--json"))["runs"]]
+        self.assertEqual((len(set(started)), started[0]), (len(started), newest["started_utc"]))
+        self.assertNotRegex(self.done("runs", "--db", other.database), rf"(?m)^ *{before} ")
+        self.assertRegex(self.done("runs", "--all", "--db", other.database),
+                         rf"(?m)^ *{before} +X +superseded by {newest['run']} ")
         _, _, err = mdof("show", before, "--db", other.database)
         self.assertIn(f"run {newest['run']} supersedes this run", err)
 

@@ -29,6 +29,25 @@ class Deeds : public StoreTest {
   }
 };
 
+// What it measured is in the run that supersedes it; one that was cut off and resumed stays listed.
+TEST_F(Deeds, ARunThatWasNumberedAgainIsNoResult) {
+  using Listed = store::Store::Listed;
+  auto store = writer();
+  const auto result = measured(*store);
+  const auto listed = store->list_runs(0, 9, Axis::x, Listed::results).value();
+  ASSERT_EQ(listed.size(), 1u);
+  EXPECT_EQ(listed[0].id, result);
+  EXPECT_EQ(store->count_runs({}, Listed::results).value(), 1);
+  EXPECT_EQ(store->list_runs(0, 9).value().size(), 2u);
+  mdof::Run resumed = make_run(3);
+  resumed.header.state = RunState::failed;
+  const auto cut_off = store->add_run(resumed).value();
+  resumed.header.supersedes = cut_off;
+  resumed.header.started_utc = "2026-11-22T19:00:00.000Z";
+  ASSERT_TRUE(store->add_run(resumed));
+  EXPECT_EQ(store->count_runs(Axis::x, Listed::results).value(), 3);
+}
+
 TEST_F(Deeds, EachChangeHasItsDeed) {
   auto store = writer();
   const auto run = measured(*store);

@@ -181,7 +181,7 @@ Status record(RecordCommand command) {
   MDOF_TRY(const std::int64_t id, follow(client, run, command));
   if (id != run)
     say("run " + std::to_string(id) + " is the result, with targets numbered when all stops were " +
-        "known; it supersedes run " + std::to_string(run));
+        "known; it supersedes run " + std::to_string(run) + ", which mdof runs no longer lists");
   JsonWriter params;
   params.begin_object().field("run", id).end_object();
   MDOF_TRY(const std::string result, client.call("run.get", params.text()));

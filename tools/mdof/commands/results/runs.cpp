@@ -18,7 +18,7 @@ namespace {
 struct RunsCommand {
   std::string database, axis;
   ListPage page;
-  bool json = false;
+  bool all = false, json = false;
 };
 
 std::string runs_json(const std::vector<RunHeader>& runs, std::int64_t total) {
@@ -33,10 +33,11 @@ std::string runs_json(const std::vector<RunHeader>& runs, std::int64_t total) {
   return json.take();
 }
 
-// The end of a run that another one supersedes is of no use; which one that is.
+// The end of a run that another one supersedes is of no use; which one that is, in the end.
 std::string state_of(store::Store& store, const RunHeader& run) {
-  const auto by = store.superseded_by(run.id);
-  return by && *by ? "superseded by " + std::to_string(**by) : to_string(run.state);
+  std::int64_t last = run.id;
+  for (auto by = store.superseded_by(last); by && *by; by = store.superseded_by(last)) last = **by;
+  return last != run.id ? "superseded by " + std::to_string(last) : to_string(run.state);
 }
 
 std::string runs_text(store::Store& store, const std::vector<RunHeader>& runs, std::int64_t total) {
@@ -56,8 +57,9 @@ std::string runs_text(store::Store& store, const std::vector<RunHeader>& runs, s
 Status list_runs(const RunsCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   const auto axis = axis_from(command.axis);
-  MDOF_TRY(const auto runs, store.list_runs(command.page.offset, command.page.count, axis));
-  MDOF_TRY(const auto total, store.count_runs(axis));
+  const auto listed = command.all ? store::Store::Listed::all : store::Store::Listed::results;
+  MDOF_TRY(const auto runs, store.list_runs(command.page.offset, command.page.count, axis, listed));
+  MDOF_TRY(const auto total, store.count_runs(axis, listed));
   return command.json ? write_line(runs_json(runs, total))
                       : write_out(runs_text(store, runs, total));
 }
@@ -66,6 +68,8 @@ Action declare_runs(CLI::App& command) {
   const auto o = std::make_shared<RunsCommand>();
   add_database_option(command, o->database);
   add_only_axis_option(command, o->axis);
+  command.add_flag("--all", o->all,
+                   "Also runs whose targets were numbered again at their end, as a new run");
   add_page_options(command, o->page);
   add_json_flag(command, o->json);
   return [o] { return list_runs(*o); };

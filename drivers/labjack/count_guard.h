@@ -60,6 +60,7 @@ double read_most_counts_per_s(TomlTable& channel);
 std::string speed_text(double most_counts_per_s, double um_per_count);
 inline constexpr const char* kCountsLost =
     "its encoder moved faster than most_counts_per_s and counts may be lost; move more slowly, "
-    "go to a known place and tell it by mdof encoder set";
+    "see what the axis may touch (mdof clearance RIG.toml), then go to a known place and tell it "
+    "by mdof encoder set";
 
 }  // namespace mdof::drivers::labjack

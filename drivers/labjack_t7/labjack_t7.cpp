@@ -17,7 +17,8 @@ constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr int kClockReads = 5;
 constexpr double kEnable_s = 2;  // to write STREAM_ENABLE, at most
 constexpr const char* kZeroLost =
-    "it was without power and its counter counts from 0 again; go to a known place and tell it by "
+    "it was without power and its counter counts from 0 again; see what the axis may touch (mdof "
+    "clearance RIG.toml), then go to a known place and tell it by "
     "mdof encoder set";
 
 std::int64_t now_ns() {

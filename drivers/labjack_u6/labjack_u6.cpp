@@ -15,7 +15,8 @@ using std::chrono::steady_clock;
 
 constexpr double kSilence_s = 2;
 constexpr const char* kZeroLost =
-    "it was without power and its timer counts from 0 again; go to a known place and tell it by "
+    "it was without power and its timer counts from 0 again; see what the axis may touch (mdof "
+    "clearance RIG.toml), then go to a known place and tell it by "
     "mdof encoder set";
 
 bool counts(const Input& input) {

@@ -181,7 +181,8 @@ Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
       before->ms + static_cast<std::uint32_t>(std::llround(passed_ms)) - now.ms);
   if (behind < kTickSlack_ms + passed_ms * kTickDrift) return reply->span;
   doubt_ =
-      "it was without power and its encoders count from 0 again; go to a known place and tell it "
+      "it was without power and its encoders count from 0 again; see what the axis may touch (mdof "
+      "clearance RIG.toml), then go to a known place and tell it "
       "by mdof encoder set";
   for (Counter& counter : counters_) {
     counter = {};
@@ -299,9 +300,9 @@ double PoKeys57u::value_of(std::size_t i, Time time, Quality& quality) {
   const auto step = static_cast<double>(count - counter.last.value_or(count));
   if (counter.sure && std::abs(step) > most + kStepSlack_counts) {
     counter.sure = false;
-    doubt_ =
-        input.name + " jumped by " + std::to_string(std::llround(step)) +
-        " counts, faster than it can count; go to a known place and tell it by mdof encoder set";
+    doubt_ = input.name + " jumped by " + std::to_string(std::llround(step)) +
+             " counts, faster than it can count; see what the axis may touch (mdof clearance "
+             "RIG.toml), then go to a known place and tell it by mdof encoder set";
   }
   counter.last = count;
   counter.at = time;

@@ -17,13 +17,15 @@ constexpr milliseconds kConnect{2000}, kAnswer{300}, kBannerWait{1000};
 constexpr milliseconds kQuiet{50}, kDrain{500};
 constexpr std::size_t kLongestLine = 256;
 constexpr const char* kDatumLost =
-    "it was reset or without power and counts from 0 again; go to a known place and tell it by "
+    "it was reset or without power and counts from 0 again; see what the axis may touch (mdof "
+    "clearance RIG.toml), then go to a known place and tell it by "
     "mdof encoder set";
 constexpr const char* kMarkToPass =
-    "it was reset or without power and counts from 0 again; drive the axis over its reference mark";
+    "it was reset or without power and counts from 0 again; see what the axis may touch (mdof "
+    "clearance RIG.toml), then drive the axis over its reference mark";
 constexpr const char* kAtMark =
     "its index is active wherever the axis goes (then index_inverted of its channel is wrong), or "
-    "the axis stands at the mark: move it on";
+    "the axis stands at the mark: see what it may touch (mdof clearance RIG.toml), then move it on";
 constexpr double kAhead_ns = 2e9;  // that a stamp may be before what the host's clock allows
 
 }  // namespace

@@ -55,7 +55,8 @@ std::string SuspectEncoder::left_out_text(std::size_t points, const std::string&
          plain_number(from_s) + " s on cannot be placed and are left out: the encoder (device \"" +
          device_ +
          "\") was suspect there, as while its clock is in doubt, or after it was without power and "
-         "has lost its datum; in that case go to a known place and tell it by mdof encoder set; "
+         "has lost its datum; in that case see what the axis may touch (mdof clearance RIG.toml), "
+         "then go to a known place and tell it by mdof encoder set; "
          "measure them anew";
 }
 

@@ -7,7 +7,8 @@ mdofd measures and a preloaded library (recorded_calls.cpp) writes down each wri
 states of the disk are made: the power fails after some call; what was flushed before is there, and of
 each write that was not, chance says whether it is there, whole, its first half only, or not at all. In
 each state the database passes its integrity check, every point and chunk that a client had been told of
-by then is there, and the recording can be read.
+by then is there, and the recording can be read. Beside the run other programs write and read
+(storekeeper/others.py); the tables and replays that they were promised are there as well.
 
 With --without-flush the flushes are left out of the account, as if the disk had lied: something must
 then be lost. The command exits with 1 if nothing is."""
@@ -26,6 +27,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mdofd import Daemon, simulator  # noqa: E402
+from storekeeper.others import Others  # noqa: E402
 
 Call = collections.namedtuple("Call", "time_ns op offset length path bytes")
 RUN_S = 4
@@ -63,15 +65,19 @@ def recorded_run(options, folder):
     daemon.environment = {"LD_PRELOAD": os.path.abspath(options.library), "MDOF_RECORD_TO": record,
                           "MDOF_RECORD_BELOW": data}
     client = daemon.start()
+    others = Others(daemon, options.mdof)
+    others.prepare()
     client.call("live.subscribe", interval_ms=1000)
     run = client.call("run.start", axis="X")["run"]
     told = Told()
     listener = threading.Thread(target=told.listen, args=(client,))
     listener.start()
+    others.start()
     time.sleep(RUN_S)
     daemon.kill()
     listener.join()
-    return told, read_calls(record, data), run
+    others.stop()
+    return told, others, read_calls(record, data), run
 
 
 def read_calls(record, data):
@@ -136,7 +142,7 @@ def ask(database, sql):
         connection.close()
 
 
-def check(folder, run, points, chunks, mdof):
+def check(folder, run, points, chunks, others, now, mdof):
     database = os.path.join(folder, "mdof.db")
     if points == chunks == 0:
         return
@@ -144,6 +150,7 @@ def check(folder, run, points, chunks, mdof):
     assert answer == "ok", f"integrity_check: {answer}"
     stored = ask(database, f"SELECT count(*) FROM point WHERE run = {run}")
     assert stored >= points, f"{points - stored} of {points} points are lost"
+    assert not (gone := others.lost(database, now)), gone
     recordings = os.path.join(folder, "recordings")
     recording = os.path.join(recordings, next(n for n in sorted(os.listdir(recordings))
                                               if n.endswith(".mdofrec")))
@@ -166,7 +173,7 @@ def main():
     most = [0, 0]
     losses = []
     with tempfile.TemporaryDirectory() as folder:
-        told, calls, run = recorded_run(options, folder)
+        told, others, calls, run = recorded_run(options, folder)
         for state in range(options.states):
             cut = chance.randrange(1, len(calls) + 1)
             now = calls[cut - 1].time_ns
@@ -175,11 +182,11 @@ def main():
             rebuilt = os.path.join(folder, "state")
             write_out(state_after(calls[:cut], not options.without_flush, chance), rebuilt)
             try:
-                check(rebuilt, run, points, chunks, options.mdof)
+                check(rebuilt, run, points, chunks, others, now, options.mdof)
             except Exception as loss:
                 losses.append(f"state {state}, after call {cut}: {type(loss).__name__}: {loss}")
     assert most[0] > 0 and most[1] > 0, "nothing had been told, so nothing was shown"
-    print(f"{options.states} states of {len(calls)} calls, up to {most[0]} points and {most[1]} chunks "
+    print(f"{options.states} states of {len(calls)} calls, up to {most[0]} points, {most[1]} chunks and {others} "
           f"acknowledged: lost in {len(losses)}")
     print("\n".join(losses[:10]))
     sys.exit(bool(losses) != options.without_flush)

@@ -7,7 +7,8 @@ The database and the recordings are on an ext4 of their own, in a file on a loop
 cut is the kernel's own: the file system is shut down without writing its journal (EXT4_IOC_SHUTDOWN,
 EXT4_GOING_FLAGS_NOLOGFLUSH; linux/fs/ext4/ioctl.c), so that whatever was not flushed to the device is
 gone. Then the daemon is killed, the file system mounted again, and kill_test's checks follow: each
-acknowledged point and chunk is there, database and recording are sound, the daemon serves again.
+acknowledged point and chunk is there, database and recording are sound, the daemon serves again. Beside
+it other programs write and read (storekeeper/others.py); what they were promised is there as well.
 
 With --durability normal acknowledged rows must be lost: were none, these cuts would prove nothing. The
 command then exits with 1 if nothing was lost."""
@@ -27,6 +28,7 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from kill_test import Acknowledged, check  # noqa: E402
 from mdofd import Daemon, simulator  # noqa: E402
+from storekeeper.others import Others  # noqa: E402
 
 EXT4_IOC_SHUTDOWN = 0x8004587D  # _IOR('X', 125, __u32)
 NO_LOG_FLUSH = struct.pack("=I", 2)
@@ -60,17 +62,19 @@ class Disk:
         raise RuntimeError(f"{self.path} cannot be unmounted")
 
 
-def one_life(client, daemon, disk, chance):
+def one_life(client, daemon, disk, others, chance):
     """Measures until the power fails. The run, and what the daemon had promised by then."""
     client.call("live.subscribe", interval_ms=1000)
     run = client.call("run.start", axis="X")["run"]
     acknowledged = Acknowledged()
     listener = threading.Thread(target=acknowledged.listen, args=(client,))
     listener.start()
+    others.start()
     time.sleep(chance.uniform(0.05, 2.5))
     disk.cut()
     daemon.kill()
     listener.join()
+    others.stop()
     daemon.log.close()  # it is on the disk
     disk.unmount()
     mounted = disk.mount()
@@ -83,21 +87,25 @@ def campaign(options, disk):
     config = simulator("X", rate_hz=4000, dwell_s=0.3, targets_mm=(0, 0.5, 1.1, 1.6))
     daemon = Daemon(options.mdofd, disk.path, config, options.durability)
     atexit.register(lambda: daemon.process and daemon.process.kill())
-    os.sync()  # the configuration is to outlive the first cut
     points = chunks = 0
     losses = []
     client = daemon.start()
+    others = Others(daemon, options.mdof)
+    others.prepare()
+    os.sync()  # the configuration and the foreign files are to outlive the first cut
     for cut in range(options.cuts):
-        run, acknowledged = one_life(client, daemon, disk, chance)
+        run, acknowledged = one_life(client, daemon, disk, others, chance)
         points, chunks = points + len(acknowledged.points), chunks + acknowledged.chunk
         client = daemon.start()
         try:
+            assert not (gone := others.lost(daemon.database)), gone
             check(daemon.database, run, acknowledged, client, options.mdof)
         except Exception as loss:  # any answer but the right one
             losses.append(f"cut {cut}: {type(loss).__name__}: {loss}")
+        others.forget()  # a number that was lost is given anew
     daemon.stop()
     daemon.log.close()
-    return points, chunks, losses
+    return points, chunks, others, losses
 
 
 def skip(reason):
@@ -121,12 +129,12 @@ def main():
         if mounted.returncode != 0:
             skip(mounted.stderr.strip())
         try:
-            points, chunks, losses = campaign(options, disk)
+            points, chunks, others, losses = campaign(options, disk)
         finally:
             disk.unmount()
     assert chunks > 0, "nothing was acknowledged, so nothing was shown"
-    print(f"{options.cuts} power cuts, durability {options.durability}: {points} points and {chunks} "
-          f"chunks acknowledged, lost in {len(losses)} cuts")
+    print(f"{options.cuts} power cuts, durability {options.durability}: {points} points, {chunks} chunks "
+          f"and {others} acknowledged, lost in {len(losses)} cuts")
     print("\n".join(losses[:10]))
     sys.exit(bool(losses) != (options.durability == "normal"))
 

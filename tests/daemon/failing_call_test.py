@@ -21,7 +21,23 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from kill_test import Acknowledged, check  # noqa: E402
 from mdofd import Daemon, RpcError, simulator  # noqa: E402
 
-LAST_CALL = 400  # a life makes about so many
+LAST_CALL = 400  # a run makes so many in a second or two
+MOST_S = 60
+ANSWER_S = 5  # a disk that refuses all may leave the run without an end
+
+
+def wait_for_fault(daemon, told, acknowledged, run):
+    """Until the call has failed, and the run, if there is one, has ended by it or gone on."""
+    end = time.monotonic() + MOST_S
+    while not os.path.exists(told):
+        assert time.monotonic() < end, "the call that is to fail does not come"
+        assert daemon.process.poll() is None, f"mdofd ended with {daemon.process.returncode}"
+        time.sleep(0.01)
+    before, end = (len(acknowledged.points), acknowledged.chunk + 1), time.monotonic() + ANSWER_S
+    while run and not acknowledged.ended and time.monotonic() < end and daemon.process.poll() is None:
+        if len(acknowledged.points) > before[0] and acknowledged.chunk > before[1]:
+            break  # one chunk may have been on its way
+        time.sleep(0.01)
 
 
 def faulty_life(daemon, fault):
@@ -40,7 +56,7 @@ def faulty_life(daemon, fault):
         pass
     listener = threading.Thread(target=acknowledged.listen, args=(client,))
     listener.start()
-    time.sleep(1.5)
+    wait_for_fault(daemon, fault["MDOF_FAIL_TOLD"], acknowledged, run)
     assert daemon.process.poll() is None, f"mdofd ended with {daemon.process.returncode}"
     daemon.kill()
     listener.join()
@@ -56,16 +72,19 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     chance = random.Random(options.seed)
-    points = chunks = refused = failed = 0
+    points = chunks = refused = failed = life = 0
     with tempfile.TemporaryDirectory() as folder:
         config = simulator("X", rate_hz=4000, dwell_s=0.3, targets_mm=(0, 0.5, 1.1, 1.6))
         daemon = Daemon(options.mdofd, folder, config)
         atexit.register(lambda: daemon.process and daemon.process.kill())
-        for life in range(options.lives):
+        # And on, until a fault has hit a run that had points.
+        while life < options.lives or not (points and failed or life >= 10 * options.lives):
+            life += 1
             fault = {"LD_PRELOAD": os.path.abspath(options.library),
                      "MDOF_FAIL_CALL": str(1 + int(LAST_CALL * chance.random() ** 2)),
                      "MDOF_FAIL_ERRNO": str(chance.choice((errno.ENOSPC, errno.EIO))),
-                     "MDOF_FAIL_STICKY": str(chance.randrange(2))}
+                     "MDOF_FAIL_STICKY": str(chance.randrange(2)),
+                     "MDOF_FAIL_TOLD": os.path.join(folder, f"told-{life}")}
             try:
                 run, acknowledged = faulty_life(daemon, fault)
                 daemon.environment = {}
@@ -83,7 +102,7 @@ def main():
             finally:
                 daemon.kill()
     assert points > 0 and failed > 0, "no fault hit a run, so nothing was shown"
-    print(f"{options.lives} lives with a call that fails: {refused} refused to start or to begin a run, "
+    print(f"{life} lives with a call that fails: {refused} refused to start or to begin a run, "
           f"{failed} runs failed and said so; {points} points and {chunks} chunks acknowledged, 0 lost")
 
 

@@ -1,8 +1,10 @@
 // Preloaded into mdofd by failing_call_test.py: the n-th call that writes or flushes a file fails,
 // and with MDOF_FAIL_STICKY=1 each one after it.
 //   MDOF_FAIL_CALL = n (1 is the first), MDOF_FAIL_ERRNO = errno
+//   MDOF_FAIL_TOLD = a file that is made when it has failed
 // Only what SQLite uses on its files: pwrite, fsync, fdatasync, ftruncate, fallocate.
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -23,6 +25,8 @@ bool fails() {
   static const bool sticky = number("MDOF_FAIL_STICKY") != 0;
   const long call = ++calls;
   if (wanted == 0 || call < wanted || (call > wanted && !sticky)) return false;
+  const char* told = std::getenv("MDOF_FAIL_TOLD");
+  if (call == wanted && told) ::close(::open(told, O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
   errno = static_cast<int>(error);
   return true;
 }

@@ -55,6 +55,37 @@ TEST(TextTable, BreaksWordsIntoLinesWithinTheirColumn) {
             "  2  short\n");
 }
 
+// GUM 7.2.6, with its own example: 10.057 62 Ω with u = 27 mΩ is 10.058 Ω.
+TEST(Rounded, UHasTwoSignificantDigitsAndTheValueTheSamePlace) {
+  EXPECT_EQ(with_u(10.05762, 0.027, 4), "10.058 ± 0.027");
+  EXPECT_EQ(with_u(12.3456, 1.149, 4), "12.3 ± 1.1");
+  EXPECT_EQ(with_u(-0.123456, 0.00996, 4), "-0.123 ± 0.010");  // 0.00996 is 0.010
+  EXPECT_EQ(with_u(12345.6, 1234, 4), "12300 ± 1200");
+  EXPECT_EQ(with_u(1.25, 99.6, 4), "0 ± 100");
+  EXPECT_EQ(with_u(-1e-9, 0.5, 4), "0.00 ± 0.50");  // never -0
+  EXPECT_EQ(um_with_u(1.23456e-6, 3.21e-9), "1.2346 ± 0.0032");
+  EXPECT_EQ(urad_with_u(1.23456e-6, 0.32e-6), "1.23 ± 0.32");
+  EXPECT_EQ(um_to_place(1.23456e-6, 0.64e-6), "1.23");
+  EXPECT_EQ(urad_to_place(3.3e-5, 3.3e-5), "33");
+}
+
+TEST(Rounded, AColumnHasOnePlaceWhereItsUAreAlike) {
+  EXPECT_EQ(column_u({0.9, 1.1, 0.5}), 1.1);
+  EXPECT_EQ(column_u({0.2, 1.0}), 1.0);
+  EXPECT_EQ(column_u({0.19, 1.0}), 0);  // would have one digit
+  EXPECT_EQ(column_u({}), 0);
+  EXPECT_EQ(um_with_u(1e-6, 0.99e-9, 1.1e-9), "1.0000 ± 0.0010");
+  EXPECT_EQ(urad_with_u(1e-6, 0.099e-6, 0.11e-6), "1.00 ± 0.10");
+}
+
+// Of an unknown u the places stay as they are everywhere else.
+TEST(Rounded, WithoutUAsElsewhere) {
+  EXPECT_EQ(um_to_place(1.23456e-6, 0), "1.2346");
+  EXPECT_EQ(urad_to_place(1.23456e-6, kNaN), "1.235");
+  EXPECT_EQ(um_with_u(1.23456e-6, kNaN), "1.2346 ± -");
+  EXPECT_EQ(um_with_u(kNaN, 1e-9), "-");
+}
+
 TEST(Wrapped, KeepsALongWordWholeAndCountsCharacters) {
   EXPECT_EQ(wrapped("note       a bb ccc", 14, 11), "note       a\n           bb\n           ccc");
   EXPECT_EQ(wrapped("/a/path/that/is/longer x", 10), "/a/path/that/is/longer\nx");

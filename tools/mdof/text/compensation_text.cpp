@@ -23,10 +23,11 @@ void write_state(JsonWriter& json, std::int64_t generation) {
 std::string positioning_text(const CompensationTable& t, const std::vector<double>& values,
                              const std::vector<double>& u) {
   TextTable out({"position/mm", error_label(positioning_name(t.axis) + "_um")});
-  for (std::size_t i = 0; i < t.position_m.size(); ++i) {
-    const double u_all = t.has_declared() ? std::hypot(u[i], t.positioning.u_declared[i]) : u[i];
-    out.add({in_mm(t.position_m[i]), with_u(in_um(values[i]), in_um(u_all))});
-  }
+  std::vector<double> all = u;
+  for (std::size_t i = 0; t.has_declared() && i < all.size(); ++i)
+    all[i] = std::hypot(u[i], t.positioning.u_declared[i]);
+  for (std::size_t i = 0; i < t.position_m.size(); ++i)
+    out.add({in_mm(t.position_m[i]), um_with_u(values[i], all[i], column_u(all))});
   return out.text(terminal_columns());
 }
 
@@ -34,11 +35,17 @@ std::string side_text(const CompensationTable& t, const Columns& values, const C
   std::vector<std::string> head{"position/mm"};
   for (const auto& name : error_names(t.axis)) head.push_back(error_label(name.key));
   TextTable out(std::move(head));
+  std::array<double, 5> column{};
+  for (std::size_t k = 0; k < 5; ++k) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < t.position_m.size(); ++i) all.push_back(t.u_of(u, k, i));
+    column[k] = column_u(all);
+  }
   for (std::size_t i = 0; i < t.position_m.size(); ++i) {
     std::vector<std::string> row{in_mm(t.position_m[i])};
     for (std::size_t k = 0; k < 5; ++k) {
-      const auto show = error_names(t.axis)[k].angle ? in_urad : in_um;
-      row.push_back(with_u(show(values[k][i]), show(t.u_of(u, k, i))));
+      const auto show = error_names(t.axis)[k].angle ? urad_with_u : um_with_u;
+      row.push_back(show(values[k][i], t.u_of(u, k, i), column[k]));
     }
     out.add(std::move(row));
   }

@@ -56,8 +56,9 @@ std::string flags_of(const MeasuredPoint& p) {
 }
 
 // No noise is known: so is no uncertainty.
-std::string value_with_u(double value, double u, std::string (*show)(double)) {
-  return u > 0 ? with_u(show(value), show(u)) : show(value);
+std::string value_with_u(double value, double u, bool angle, double column = 0) {
+  if (u > 0) return angle ? urad_with_u(value, u, column) : um_with_u(value, u, column);
+  return angle ? in_urad(value) : in_um(value);
 }
 
 }  // namespace
@@ -136,21 +137,38 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   return out;
 }
 
+namespace {
+
+Errors5 columns_u(const Run& run, const RunUncertainty& uncertainty) {
+  Errors5 columns{};
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    std::vector<double> u;
+    for (std::size_t j = 0; j < run.points.size(); ++j)
+      if (run.points[j].errors.valid) u.push_back(uncertainty.points[j].u[k]);
+    columns[k] = column_u(u);
+  }
+  return columns;
+}
+
+}  // namespace
+
 std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width) {
   const Axis axis = run.header.axis;
   std::vector<std::string> head{"target", "run", "dir", "at/mm"};
   for (const auto& name : error_names(axis)) head.push_back(error_label(name.key));
   head.insert(head.end(), {"samples", "flags"});
   TextTable table(std::move(head), 4);
+  const Errors5 column = columns_u(run, uncertainty);
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     const MeasuredPoint& p = run.points[j];
     std::vector<std::string> row{std::to_string(p.target), std::to_string(p.run),
                                  arrow(p.point.direction), in_mm(p.point.position_m)};
     const Errors5 named = named_from_local(run.header.moving(), p.errors.local);
     for (std::size_t k = 0; k < 5; ++k) {
-      const auto show = error_names(axis)[k].angle ? in_urad : in_um;
-      row.push_back(p.errors.valid ? value_with_u(named[k], uncertainty.points[j].u[k], show)
-                                   : "-");
+      const bool angle = error_names(axis)[k].angle;
+      row.push_back(p.errors.valid
+                        ? value_with_u(named[k], uncertainty.points[j].u[k], angle, column[k])
+                        : "-");
     }
     row.insert(row.end(), {std::to_string(p.point.samples), flags_of(p)});
     table.add(std::move(row));
@@ -171,7 +189,7 @@ std::string straightness_text(const std::vector<StraightnessFigure>& figures,
     const Budget* budget = budget_of_slope(budgets, f);
     table.add({f.error_key.substr(0, 3), f.approach, in_um(f.straightness_least_squares_m),
                in_um(f.straightness_end_point_m),
-               value_with_u(f.slope_least_squares_rad, budget ? budget->u : 0, in_urad),
+               value_with_u(f.slope_least_squares_rad, budget ? budget->u : 0, true),
                in_urad(f.form_rad), in_urad(f.slope_end_point_rad), in_mm(f.peak_position_m),
                in_mm(f.valley_position_m)});
   }

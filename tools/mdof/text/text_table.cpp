@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 #include "schema/units.h"
 #include "tools/mdof/terminal.h"
@@ -174,8 +176,45 @@ std::string in_urad(double x_rad) {
   return fixed(to_urad(x_rad), 3);
 }
 
+std::string to_place(double x, double u, int otherwise) {
+  constexpr int kMostDecimals = 9;
+  if (!(u > 0) || !std::isfinite(u) || !std::isfinite(x)) return fixed(x, otherwise);
+  char digits[32];  // of u as it is rounded: 0.0996 is 0.10
+  std::snprintf(digits, sizeof digits, "%.1e", u);
+  const int decimals = 1 - std::atoi(std::strchr(digits, 'e') + 1);
+  if (decimals >= 0) return fixed(x, std::min(decimals, kMostDecimals));
+  const double place = std::pow(10.0, -decimals);
+  return fixed(std::round(x / place) * place, 0);
+}
+
+std::string um_to_place(double x_m, double u_m) {
+  return to_place(to_um(x_m), to_um(u_m), 4);
+}
+std::string urad_to_place(double x_rad, double u_rad) {
+  return to_place(to_urad(x_rad), to_urad(u_rad), 3);
+}
+
 std::string with_u(const std::string& value, const std::string& u) {
   return value == "-" ? value : value + " ± " + u;
+}
+
+std::string with_u(double x, double u, int otherwise) {
+  return with_u(to_place(x, u, otherwise), to_place(u, u, otherwise));
+}
+std::string um_with_u(double x_m, double u_m, double column_u_m) {
+  const double place_m = column_u_m > 0 ? column_u_m : u_m;
+  return with_u(um_to_place(x_m, place_m), um_to_place(u_m, place_m));
+}
+std::string urad_with_u(double x_rad, double u_rad, double column_u_rad) {
+  const double place_rad = column_u_rad > 0 ? column_u_rad : u_rad;
+  return with_u(urad_to_place(x_rad, place_rad), urad_to_place(u_rad, place_rad));
+}
+
+double column_u(const std::vector<double>& u) {
+  constexpr double kLeast = 0.2;
+  if (u.empty()) return 0;
+  const auto [least, most] = std::minmax_element(u.begin(), u.end());
+  return *least >= kLeast * *most ? *most : 0;
 }
 
 std::string joined(const std::vector<std::string>& words, const char* separator) {

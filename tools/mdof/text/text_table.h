@@ -43,9 +43,21 @@ std::string one_line(std::string text);
 
 // Never "-0.00"; a number too long for a column has an exponent; not finite: "-".
 std::string fixed(double x, int decimals);
-std::string in_mm(double x_m);                                       // 4 decimals
-std::string in_um(double x_m);                                       // 4 decimals
-std::string in_urad(double x_rad);                                   // 3 decimals
+std::string in_mm(double x_m);      // 4 decimals
+std::string in_um(double x_m);      // 4 decimals
+std::string in_urad(double x_rad);  // 3 decimals
+// GUM 7.2.6: to the place of the second significant digit of its uncertainty, u or U, which may be
+// the number itself; as above, or with these decimals, where that is 0 or not known.
+std::string to_place(double x, double u, int otherwise);
+std::string um_to_place(double x_m, double u_m);
+std::string urad_to_place(double x_rad, double u_rad);
+// Both to the place of u, or of the column that they are in.
+std::string um_with_u(double x_m, double u_m, double column_u_m = 0);
+std::string urad_with_u(double x_rad, double u_rad, double column_u_rad = 0);
+std::string with_u(double x, double u, int otherwise);
+// The largest of a column, so that all its numbers have as many decimals; 0: one is below a fifth
+// of it, and each has a place of its own.
+double column_u(const std::vector<double>& u);
 std::string with_u(const std::string& value, const std::string& u);  // "0.0584 ± 0.0021"
 std::string joined(const std::vector<std::string>& words, const char* separator = ", ");
 

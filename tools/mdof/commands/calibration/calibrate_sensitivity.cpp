@@ -62,8 +62,7 @@ std::string not_in_u(const SensitivityCalibration& found) {
 
 std::string text_of(const SensitivityCalibration& found) {
   std::string text =
-      "probe " + found.id + ": " +
-      with_u(fixed(found.sensitivity_1, 6), fixed(found.u_sensitivity_1, 6)) +
+      "probe " + found.id + ": " + with_u(found.sensitivity_1, found.u_sensitivity_1, 6) +
       " of reading for displacement\n" + std::to_string(found.stops) + " stops, readings from " +
       fixed(to_um(found.from_m), 3) + " to " + fixed(to_um(found.to_m), 3) +
       " um; the line leaves " + fixed(to_um(found.linearity_m), 4) + " um at most, sd " +

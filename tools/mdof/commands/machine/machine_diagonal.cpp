@@ -178,10 +178,11 @@ Status squareness(const MachineDiagonalCommand& o) {
   if (o.json) return write_line(squareness_json(*s, csv.simulated));
   return write_out(
       simulated_notice(csv.simulated) + "the angle from the first to the second axis is 90° + " +
-      with_u(in_urad(s->angle_error_rad), in_urad(s->u_rad)) + " µrad, U = " + in_urad(s->U_rad) +
-      " (k = " + fixed(s->k, 2) + ", 95 %)\nfrom " +
+      with_u(urad_to_place(s->angle_error_rad, s->U_rad), urad_to_place(s->u_rad, s->u_rad)) +
+      " µrad, U = " + urad_to_place(s->U_rad, s->U_rad) + " (k = " + fixed(s->k, 2) +
+      ", 95 %)\nfrom " +
       (s->two_diagonals ? "both diagonals" : "one diagonal and the lengths of both axes") +
-      "; u: of repetition " + in_urad(s->u_repeat_rad) + " µrad" +
+      "; u: of repetition " + urad_to_place(s->u_repeat_rad, s->u_repeat_rad) + " µrad" +
       (o.u_um > 0 ? " and the declared u of each line" : ", no u of the lines is declared") +
       "\na scale that all lines have in common does not count\n");
 }

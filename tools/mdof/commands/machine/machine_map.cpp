@@ -115,9 +115,9 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
     for (std::size_t k = 0; k < 3; ++k) {
       const auto extreme = algo::extreme_of(found.map, k);
       const auto& p = found.map.points[extreme.point];
-      table.add({found.approach, std::string(1, "xyz"[k]), in_um(extreme.value),
-                 in_um(p.u[static_cast<Eigen::Index>(k)]), in_mm(p.first_m), in_mm(p.second_m),
-                 in_um(extreme.range)});
+      const double u_m = p.u[static_cast<Eigen::Index>(k)];
+      table.add({found.approach, std::string(1, "xyz"[k]), um_to_place(extreme.value, u_m),
+                 um_to_place(u_m, u_m), in_mm(p.first_m), in_mm(p.second_m), in_um(extreme.range)});
     }
   return simulated_notice(machine.simulated) + machine.name + ", " + machine.chain.text + ": " +
          std::to_string(first.points.size()) + " points of the plane " + o.plane +

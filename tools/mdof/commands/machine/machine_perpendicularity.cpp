@@ -79,14 +79,17 @@ std::string perpendicularity_json(const algo::Perpendicularity& p, double radius
 std::string perpendicularity_text(const algo::Perpendicularity& p, bool simulated) {
   TextTable table({"harmonic", "cosine/µm", "sine/µm", "u/µm"});
   for (const algo::Harmonic& h : p.harmonics)
-    table.add({std::to_string(h.order), in_um(h.cosine_m), in_um(h.sine_m), in_um(h.u_m)});
-  const std::string u = in_urad(p.u_rad);
-  return simulated_notice(simulated) + "EA0C = " + with_u(in_urad(p.EA0C_rad), u) +
-         " µrad, EB0C = " + with_u(in_urad(p.EB0C_rad), u) +
-         " µrad, expanded U of each = " + in_urad(p.U_rad) + " (k = " + fixed(p.k, 2) +
-         ", 95 %)\n" + "the table's axis leans by " + in_urad(p.size_rad) +
-         " µrad against the normal of the XY plane\n" + table.text(terminal_columns()) +
-         "residual " + in_um(p.residual_sd_m) +
+    table.add({std::to_string(h.order), um_to_place(h.cosine_m, h.u_m),
+               um_to_place(h.sine_m, h.u_m), um_to_place(h.u_m, h.u_m)});
+  const auto tilt = [&p](double tilt_rad) {
+    return with_u(urad_to_place(tilt_rad, p.U_rad), urad_to_place(p.u_rad, p.u_rad));
+  };
+  return simulated_notice(simulated) + "EA0C = " + tilt(p.EA0C_rad) +
+         " µrad, EB0C = " + tilt(p.EB0C_rad) +
+         " µrad, expanded U of each = " + urad_to_place(p.U_rad, p.U_rad) +
+         " (k = " + fixed(p.k, 2) + ", 95 %)\n" + "the table's axis leans by " +
+         urad_to_place(p.size_rad, p.U_rad) + " µrad against the normal of the XY plane\n" +
+         table.text(terminal_columns()) + "residual " + in_um(p.residual_sd_m) +
          " µm; ± one standard uncertainty, of the readings' noise\n" + counted_text(p);
 }
 

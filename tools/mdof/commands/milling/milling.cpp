@@ -123,16 +123,15 @@ std::string milling_json(const std::vector<Milled>& all) {
 std::string offset_text(const Milled& milled) {
   if (!milled.offset) return "";
   const algo::WearOffset& offset = *milled.offset;
-  const std::string value = in_um(offset.offset_m);
-  std::string text = "radius wear offset (" + std::string(to_string(milled.plan.deflection)) +
-                     "): " + (std::isnan(offset.u_m) ? value : with_u(value, in_um(offset.u_m))) +
-                     " µm, G41 and G42 alike\n  to type (Fanuc, mm): " + line_to_type(offset) +
-                     "\n";
+  std::string text =
+      "radius wear offset (" + std::string(to_string(milled.plan.deflection)) + "): " +
+      (std::isnan(offset.u_m) ? in_um(offset.offset_m) : um_with_u(offset.offset_m, offset.u_m)) +
+      " µm, G41 and G42 alike\n  to type (Fanuc, mm): " + line_to_type(offset) + "\n";
   if (offset.parts.empty())
     text += "  u is unknown: the plan declares no uncertainty, such as u_Kt_N_per_mm2\n";
   for (const auto& part : offset.parts)
     text += "  " + std::string(part.input->table) + "." + part.input->key + ": " +
-            in_um(part.contribution_m) + " µm\n";
+            um_to_place(part.contribution_m, part.contribution_m) + " µm\n";
   return text;
 }
 

@@ -31,11 +31,13 @@ std::vector<std::string> slope_row(const std::string& label, const ParallelismOf
 std::string plane_sentence(const Parallelism& found, const ParallelismOfPlane& plane) {
   const double length_m = found.to_m - found.from_m;
   return wrapped(plane.error + ": B runs " +
-                     with_u(in_urad(plane.budget.value), in_urad(plane.budget.u)) + " µrad to +" +
-                     plane.error[1] + " of A, expanded U = " + in_urad(plane.budget.U) +
+                     with_u(urad_to_place(plane.budget.value, plane.budget.U),
+                            urad_to_place(plane.budget.u, plane.budget.u)) +
+                     " µrad to +" + plane.error[1] +
+                     " of A, expanded U = " + urad_to_place(plane.budget.U, plane.budget.U) +
                      " (k = " + fixed(plane.budget.coverage_factor, 2) + ", 95 %); " +
-                     in_um(plane.budget.value * length_m) + " µm over the " + in_mm(length_m) +
-                     " mm in common",
+                     um_to_place(plane.budget.value * length_m, plane.budget.U * length_m) +
+                     " µm over the " + in_mm(length_m) + " mm in common",
                  terminal_columns()) +
          "\n";
 }

@@ -54,15 +54,20 @@ std::string squareness_text(const Squareness& s, const std::vector<Budget>& budg
   const Budget& budget = budgets.front();
   TextTable table({"slope/µrad", "least squares", "end points", "minimum zone"});
   table.add(line_row("EYX, run " + std::to_string(s.run_x), lines, &SquarenessLine::slope_EYX_rad,
-                     with_u(in_urad(s.slope_EYX_rad), in_urad(s.u_slope_EYX_rad))));
+                     urad_with_u(s.slope_EYX_rad, s.u_slope_EYX_rad)));
   table.add(line_row("EXY, run " + std::to_string(s.run_y), lines, &SquarenessLine::slope_EXY_rad,
-                     with_u(in_urad(s.slope_EXY_rad), in_urad(s.u_slope_EXY_rad))));
-  const std::string artefact = in_urad(s.artefact.corner * s.artefact.angle_error_rad);
-  table.add({"artefact", with_u(artefact, in_urad(s.artefact.u_rad)), artefact, artefact});
-  table.add(line_row("EC0Y", lines, &SquarenessLine::EC0Y_rad, in_urad(s.EC0Y_rad)));
+                     urad_with_u(s.slope_EXY_rad, s.u_slope_EXY_rad)));
+  const std::string artefact =
+      urad_to_place(s.artefact.corner * s.artefact.angle_error_rad, s.artefact.u_rad);
+  table.add({"artefact", with_u(artefact, urad_to_place(s.artefact.u_rad, s.artefact.u_rad)),
+             artefact, artefact});
+  table.add(
+      line_row("EC0Y", lines, &SquarenessLine::EC0Y_rad, urad_to_place(s.EC0Y_rad, budget.U)));
   return noise_only_notice(budget.noise_only) + simulated_notice(s.simulated) + table.text() +
-         "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), in_urad(budget.u)) +
-         " µrad, expanded U = " + in_urad(budget.U) + " (k = " + fixed(budget.coverage_factor, 2) +
+         "\nEC0Y = " +
+         with_u(urad_to_place(s.EC0Y_rad, budget.U), urad_to_place(budget.u, budget.u)) +
+         " µrad, expanded U = " + urad_to_place(budget.U, budget.U) +
+         " (k = " + fixed(budget.coverage_factor, 2) +
          ", 95 %)\n"
          "the angle from +X to +Y is 90° + EC0Y\n"
          "form " +

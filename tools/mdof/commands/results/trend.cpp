@@ -42,6 +42,10 @@ std::string shown(const daemon::Trend& trend, double si) {
   return fixed(to_key_unit(si), trend.figure.ends_with("_um") ? 4 : 3);
 }
 
+std::string with_u(const daemon::Trend& trend, double si, double u) {
+  return trend.figure.ends_with("_um") ? um_with_u(si, u) : urad_with_u(si, u);
+}
+
 std::string signal_of(const algo::Chart& chart, std::size_t i) {
   const auto has = [i](const std::vector<std::size_t>& of) {
     return std::find(of.begin(), of.end(), i) != of.end();
@@ -62,8 +66,7 @@ std::string sentence_of(const daemon::Trend& trend) {
           : "";
   if (chart->moved) {
     const auto& since = values[chart->moved->since];
-    return figure + " has moved by " +
-           with_u(shown(trend, chart->moved->by), shown(trend, chart->moved->u)) + " " +
+    return figure + " has moved by " + with_u(trend, chart->moved->by, chart->moved->u) + " " +
            unit_of(trend) + " since run " + runs_of(since) + " (" + since.started_utc + "): run " +
            runs_of(values.back()) +
            (signal_of(*chart, values.size() - 1) == "outside"
@@ -82,7 +85,7 @@ std::string text_of(const daemon::Trend& trend) {
   for (std::size_t i = 0; i < trend.values.size(); ++i) {
     const auto& v = trend.values[i];
     const bool has = trend.chart.has_value();
-    table.add({runs_of(v), v.started_utc, with_u(shown(trend, v.value), shown(trend, v.u)),
+    table.add({runs_of(v), v.started_utc, with_u(trend, v.value, v.u),
                has ? shown(trend, trend.chart->low[i]) : "-",
                has ? shown(trend, trend.chart->high[i]) : "-",
                has ? signal_of(*trend.chart, i) : ""});

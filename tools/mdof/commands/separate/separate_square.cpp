@@ -54,12 +54,15 @@ std::string text_of(const SquareReversal& s, bool simulated) {
   TextTable table({"", "EC0Y/µrad"});
   table.add({"first set-up, square taken as true", in_urad(s.first_rad)});
   table.add({"second set-up, square taken as true", in_urad(s.second_rad)});
-  const std::string u = in_urad(s.u_rad);
+  const auto angle = [&s](double angle_rad) {
+    return with_u(urad_to_place(angle_rad, s.U_rad), urad_to_place(s.u_rad, s.u_rad));
+  };
   return noise_only_notice(s.noise_only) + simulated_notice(simulated) + table.text() +
-         "\nEC0Y = " + with_u(in_urad(s.EC0Y_rad), u) + " µrad, expanded U = " + in_urad(s.U_rad) +
+         "\nEC0Y = " + angle(s.EC0Y_rad) +
+         " µrad, expanded U = " + urad_to_place(s.U_rad, s.U_rad) +
          " (k = " + fixed(s.coverage_factor, 2) +
          ", 95 %)\nthe angle from +X to +Y is 90° + EC0Y\nthe square encloses 90° + " +
-         with_u(in_urad(s.square_rad), u) + " µrad (artefact_angle_error_urad of a rig)\n" +
+         angle(s.square_rad) + " µrad (artefact_angle_error_urad of a rig)\n" +
          wrapped("± one standard uncertainty: " + covers_of(s) +
                      ". Slopes at the fixture; the square is taken to be the same in both.",
                  terminal_columns()) +

@@ -21,8 +21,15 @@ std::string unit_of(const Budget& budget) {
   return in_micrometres(budget) ? "µm" : "µrad";
 }
 
+// To the place of U, or of `u` (GUM 7.2.6).
+std::string shown_to(const Budget& budget, double si, double u) {
+  return in_micrometres(budget) ? um_to_place(si, u) : urad_to_place(si, u);
+}
 std::string shown(const Budget& budget, double si) {
-  return in_micrometres(budget) ? in_um(si) : in_urad(si);
+  return shown_to(budget, si, budget.U);
+}
+std::string shown_u(const Budget& budget, double u) {
+  return shown_to(budget, u, u);
 }
 
 std::string significant(double x) {
@@ -43,7 +50,7 @@ std::string percent(double share) {
 
 std::string head_of(const Budget& b) {
   return b.figure.substr(0, b.figure.rfind('_')) + " = " + shown(b, b.value) + " ± " +
-         shown(b, b.u) + " " + unit_of(b) + ", expanded U = " + shown(b, b.U) +
+         shown_u(b, b.u) + " " + unit_of(b) + ", expanded U = " + shown(b, b.U) +
          (b.U_by_trials ? " by Monte Carlo" : "") + " (k = " + fixed(b.coverage_factor, 2) +
          ", 95 %; effective degrees of freedom: " + freedom_text(b.freedom) + ")\n";
 }
@@ -54,7 +61,7 @@ std::string improve_text(const Budget& b) {
   const BudgetLine& first = b.lines.front();
   const double without = b.U * std::sqrt(std::max(0.0, 1 - first.share));
   return "Improve first: " + first.name + ", " + percent(first.share) +
-         " of u²; without it U would be " + shown(b, without) + " " + unit_of(b) + ".\n";
+         " of u²; without it U would be " + shown_u(b, without) + " " + unit_of(b) + ".\n";
 }
 
 std::string decision_text(const Budget& b, const Decision& decision, std::size_t width) {
@@ -69,7 +76,7 @@ std::string decision_text(const Budget& b, const Decision& decision, std::size_t
 std::string trials_text(const Budget& b) {
   const BudgetTrials& t = *b.trials;
   return "Monte Carlo, " + std::to_string(t.trials) + " trials, seed " + std::to_string(t.seed) +
-         ": u " + shown(b, t.u) + ", 95 % of the values from " + shown(b, t.low) + " to " +
+         ": u " + shown_u(b, t.u) + ", 95 % of the values from " + shown(b, t.low) + " to " +
          shown(b, t.high) + " " + unit_of(b) + "\n";
 }
 
@@ -110,8 +117,8 @@ std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) 
       {"figure", "value", "unit", "U", "k", "u random", "largest contributor", "share"});
   for (const Budget& b : budgets) {
     const BudgetLine& first = b.lines.front();
-    table.add({b.figure.substr(0, b.figure.rfind('_')), with_u(shown(b, b.value), shown(b, b.u)),
-               unit_of(b), shown(b, b.U), fixed(b.coverage_factor, 2), shown(b, b.u_random),
+    table.add({b.figure.substr(0, b.figure.rfind('_')), with_u(shown(b, b.value), shown_u(b, b.u)),
+               unit_of(b), shown(b, b.U), fixed(b.coverage_factor, 2), shown_u(b, b.u_random),
                first.name, percent(first.share)});
   }
   return table.text(width) +
@@ -145,12 +152,12 @@ std::string budget_text(const Budget& b, const std::optional<Decision>& decision
     const bool seen = line.key.empty();
     table.add({line.name, seen ? "" : significant(line.value), line.unit, line.distribution,
                seen ? "" : significant(to_key_unit(line.contribution) / line.value),
-               shown(b, line.contribution), percent(line.share), freedom_text(line.freedom)});
+               shown_u(b, line.contribution), percent(line.share), freedom_text(line.freedom)});
   }
   if (left_out > 0)
-    table.add({std::to_string(left_out) + " more", "", "", "", "", shown(b, std::sqrt(rest)),
+    table.add({std::to_string(left_out) + " more", "", "", "", "", shown_u(b, std::sqrt(rest)),
                percent(b.u > 0 ? rest / (b.u * b.u) : 0), ""});
-  std::string text = head_of(b) + "\n" + table.text(width) + "combined u " + shown(b, b.u) + " " +
+  std::string text = head_of(b) + "\n" + table.text(width) + "combined u " + shown_u(b, b.u) + " " +
                      unit_of(b) + "\n" + improve_text(b);
   if (b.trials) text += trials_text(b);
   if (decision) text += decision_text(b, *decision, width);

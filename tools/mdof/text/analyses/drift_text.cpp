@@ -46,8 +46,9 @@ std::string changes_table(const Run& run, const algo::RunDrift& drift, std::size
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const algo::SeriesDrift& of = drift.errors[names[k].local];
     const auto show = names[k].angle ? in_urad : in_um;
+    const auto with_u = names[k].angle ? urad_with_u : um_with_u;
     table.add({error_label(names[k].key), shape_of(of),
-               of.significant() ? with_u(show(signs[k] * of.change), show(of.u_change)) : "-",
+               of.significant() ? with_u(signs[k] * of.change, of.u_change, 0) : "-",
                of.significant() ? show(of.range) : "-", show(of.least_found)});
   }
   return "drift over " + fixed(drift.length_s / kSecondsPerMinute, 2) + " min\n" +

@@ -18,8 +18,8 @@ void write_vector(JsonWriter& json, const char* key, const Vec3& v, double facto
 
 std::string place(const MountedProbe& probe, std::size_t axis) {
   const double u_m = probe.u_position_m[axis];
-  const std::string value = fixed(to_mm(probe.position_m[axis]), 4);
-  return u_m == 0 ? value : with_u(value, fixed(to_mm(u_m), 4));
+  const double at_mm = to_mm(probe.position_m[axis]);
+  return u_m == 0 ? fixed(at_mm, 4) : with_u(at_mm, to_mm(u_m), 4);
 }
 
 // By how much it is turned from the rig's, and how well that is known.
@@ -28,7 +28,7 @@ std::string turn(const MountedProbe& probe, const Probe& nominal) {
   double squared = 0;
   for (std::size_t k = 0; k < 3; ++k)
     squared += std::pow(probe.direction[k] - nominal.direction[k], 2);
-  return with_u(fixed(std::sqrt(squared) * 1e3, 2), fixed(probe.u_direction_rad * 1e3, 2));
+  return with_u(std::sqrt(squared) * 1e3, probe.u_direction_rad * 1e3, 2);
 }
 
 }  // namespace
@@ -38,8 +38,7 @@ std::string mounting_text(const MountingCalibration& found, const Rig& rig, std:
   for (std::size_t k = 0; k < found.probes.size(); ++k) {
     const MountedProbe& p = found.probes[k];
     table.add({p.id, place(p, 0), place(p, 1), place(p, 2), turn(p, rig.probes[k]),
-               p.zero_seen ? with_u(fixed(to_um(p.zero_m), 3), fixed(to_um(p.u_zero_m), 3))
-                           : "as the rig"});
+               p.zero_seen ? with_u(to_um(p.zero_m), to_um(p.u_zero_m), 3) : "as the rig"});
   }
   std::string text = table.text(width);
   text += "\n" + std::to_string(found.clampings) + " clampings, tilts up to " +

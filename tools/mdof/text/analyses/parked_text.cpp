@@ -45,11 +45,10 @@ std::string rates_text(const daemon::ParkedLog& log, const algo::WarmUp& found, 
     std::vector<std::string> row{minutes(found.begin_s[w])};
     for (std::size_t s = begin; s < end; ++s) {
       const algo::DriftWindow& window = found.windows[s][w];
-      row.push_back(std::isnan(window.rate_per_s)
-                        ? "-"
-                        : with_u(fixed(shown(log, s, window.rate_per_s), 1),
-                                 fixed(shown(log, s, window.u_rate_per_s), 1)) +
-                              mark_of(window.verdict));
+      row.push_back(std::isnan(window.rate_per_s) ? "-"
+                                                  : with_u(shown(log, s, window.rate_per_s),
+                                                           shown(log, s, window.u_rate_per_s), 1) +
+                                                        mark_of(window.verdict));
     }
     table.add(std::move(row));
   }
@@ -91,8 +90,7 @@ std::string what_keeps_it(const daemon::ParkedLog& log, const algo::WarmUp& foun
     most = by;
     worst = "in the last window " + head_of(log, s).substr(0, head_of(log, s).find('/')) +
             " drifts by " +
-            with_u(fixed(shown(log, s, last.rate_per_s), 1),
-                   fixed(shown(log, s, last.u_rate_per_s), 1)) +
+            with_u(shown(log, s, last.rate_per_s), shown(log, s, last.u_rate_per_s), 1) +
             (is_angle(log, s) ? " µrad/h" : " nm/h") +
             (last.verdict == algo::DriftVerdict::undecided
                  ? ", too uncertain to tell: take longer windows (--window-s)"

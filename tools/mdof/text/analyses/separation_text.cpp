@@ -37,9 +37,12 @@ std::string sources_text(const SeparationRecord& record, std::size_t width) {
 std::string series_text(const std::string& title, const std::string& place,
                         const std::string& value, const SeenSeries& series, std::size_t width) {
   TextTable table({place, value + (series.whole() ? "" : ", the part seen"), "U/µm"});
-  for (std::size_t i = 0; i < series.place_m.size(); ++i)
-    table.add({in_mm(series.place_m[i]), with_u(in_um(series.seen_m[i]), in_um(series.u_m[i])),
-               in_um(kSeparationCoverage * series.u_m[i])});
+  const double u_m = column_u(series.u_m);
+  for (std::size_t i = 0; i < series.place_m.size(); ++i) {
+    const double U_m = kSeparationCoverage * series.u_m[i];
+    table.add({in_mm(series.place_m[i]), um_with_u(series.seen_m[i], series.u_m[i], u_m),
+               um_to_place(U_m, u_m > 0 ? kSeparationCoverage * u_m : U_m)});
+  }
   return title + (series.whole() ? ", peak to valley " : ", peak to valley of the part seen ") +
          in_um(series.zone_m()) + " µm\nnot seen and not in it: " + unseen_text(series) + "\n" +
          table.text(width);

@@ -46,9 +46,10 @@ Result<ByTarget> by_target(const std::vector<PositioningReading>& readings) {
                    " targets: the parameters of ISO 230-2 need at least two, its plan five");
 }
 
-// One reading has no standard deviation.
-Status check_count(double target_m, const char* approach, std::size_t count, bool wanted) {
-  if (wanted ? count >= 2 : count == 0) return {};
+// One reading has no standard deviation; one everywhere is a single run, which has means.
+Status check_count(double target_m, const char* approach, std::size_t count, bool wanted,
+                   bool single_run) {
+  if (wanted ? count >= 2 || (single_run && count == 1) : count == 0) return {};
   const std::string place = place_of(target_m) + ": ";
   if (count == 0)
     return bad_input(place + "no reading in " + approach +
@@ -60,14 +61,15 @@ Status check_count(double target_m, const char* approach, std::size_t count, boo
 }
 
 Status check_counts(const ByTarget& targets) {
-  bool any_forward = false, any_reverse = false;
+  bool any_forward = false, any_reverse = false, single_run = true;
   for (const auto& [target_m, at] : targets) {
     any_forward |= !at.forward.empty();
     any_reverse |= !at.reverse.empty();
+    single_run = single_run && at.forward.size() <= 1 && at.reverse.size() <= 1;
   }
   for (const auto& [target_m, at] : targets) {
-    MDOF_CHECK(check_count(target_m, "forward", at.forward.size(), any_forward));
-    MDOF_CHECK(check_count(target_m, "reverse", at.reverse.size(), any_reverse));
+    MDOF_CHECK(check_count(target_m, "forward", at.forward.size(), any_forward, single_run));
+    MDOF_CHECK(check_count(target_m, "reverse", at.reverse.size(), any_reverse, single_run));
   }
   return {};
 }
@@ -75,11 +77,12 @@ Status check_counts(const ByTarget& targets) {
 TargetApproach approach_of(const std::vector<double>& deviations) {
   TargetApproach a;
   a.n = deviations.size();
-  if (a.n < 2) return a;
+  if (a.n < 1) return a;
   const auto n = static_cast<double>(a.n);
   double sum = 0, square = 0;
   for (const double x : deviations) sum += x;
   a.mean = sum / n;
+  if (a.n < 2) return a;
   for (const double x : deviations) square += (x - a.mean) * (x - a.mean);
   a.s = std::sqrt(square / (n - 1));
   a.R = 4 * a.s;

@@ -17,9 +17,10 @@
 namespace mdof::algo {
 
 // Readings in any order; all at one target_m are of one target, and those of one run there all
-// count. Errors: a number that is not finite or over 1e6; a direction that is not +1 or -1; fewer
-// than two targets; fewer than two readings of a target from a side; a target that lacks a side
-// which others have.
+// count. One reading of each target from each side is a single run: B, E and M are of it, R and A
+// are NaN. Errors: a number that is not finite or over 1e6; a direction that is not +1 or -1; fewer
+// than two targets; one reading of a target from a side where others have more; a target that lacks
+// a side which others have.
 Result<Positioning> positioning(const std::vector<PositioningReading>& readings);
 
 // What of ISO 230-2:2014, 5.3 the targets and runs do not fulfil, for people: at least five targets

@@ -46,7 +46,11 @@ void tell_few_runs(const Positioning& p, std::vector<std::string>& warnings) {
   if (one_way)
     warnings.push_back(
         "all targets were approached from one side only: B, R, E, M and A of both are not known");
-  if (least < kFewestRuns)
+  if (most == 1)
+    warnings.push_back(
+        "a single run: R and A are not known, for they need two runs, and ISO 230-2 asks for five "
+        "each way; B, E and M are of that run alone");
+  else if (least < kFewestRuns)
     warnings.push_back(std::to_string(least) + " runs" + (least < most ? " at some targets" : "") +
                        ": ISO 230-2 asks for at least five each way");
   if (least < most)

@@ -4,6 +4,7 @@
 
 #include "schema/axis.h"
 #include "schema/iso230/figures_json.h"
+#include "schema/uncertainty/run_uncertainty.h"
 #include "schema/units.h"
 
 namespace mdof {
@@ -108,6 +109,17 @@ void write_positioning(JsonWriter& json, const Positioning& p, bool angle) {
   json.key("targets").begin_array();
   for (const PositioningTarget& t : p.targets) write_target(json, figures, t);
   json.end_array();
+}
+
+void write_run_positioning_uncertainty(JsonWriter& json, const RunPositioningUncertainty& U,
+                                       bool angle) {
+  json.begin_object().field("coverage", 0.95);
+  const Figures figures(json, angle);
+  figures("U_B", U.B)("U_B_mean", U.B_mean);
+  figures("U_R_forward", U.R_forward)("U_R_reverse", U.R_reverse)("U_R", U.R);
+  figures("U_E_forward", U.E_forward)("U_E_reverse", U.E_reverse)("U_E", U.E)("U_M", U.M);
+  write_covers(json, U.covers, U.not_declared);
+  json.field("R_is_of", "these visits").end_object();
 }
 
 void write_positioning_uncertainty(JsonWriter& json, const PositioningUncertainty& U) {

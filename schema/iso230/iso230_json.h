@@ -28,6 +28,11 @@ void write_parallelism(JsonWriter& json, const Parallelism& parallelism);
 // what is not known is null. `angle`: deviations in rad, keys end in _urad.
 void write_positioning(JsonWriter& json, const Positioning& positioning, bool angle);
 
+// {"coverage", "U_B_um", "U_B_mean_um", "U_R_forward_um" ... "U_M_um", "u_covers",
+// "u_not_declared", "R_is_of"}
+void write_run_positioning_uncertainty(JsonWriter& json, const RunPositioningUncertainty& U,
+                                       bool angle);
+
 // {"k", "U_device_um", "U_drift_um", "U_E_M_A_um", "U_B_um", "not_in_it"}
 void write_positioning_uncertainty(JsonWriter& json, const PositioningUncertainty& U);
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace mdof {
@@ -48,6 +49,18 @@ struct PositioningUncertainty {
   double drift = 0;   // of the environment's variation during the test
   double E_M_A = 0;   // of E, M and A: both
   double B = 0;       // the device errs alike on either side of a target: drift alone
+};
+
+// Expanded uncertainties for 95 % of the parameters of an error of a run, m or rad, propagated from
+// what its rig declares and from what the run shows (GUM 5, JCGM 101). NaN: no such parameter.
+struct RunPositioningUncertainty {
+  // B, E, M as values of the axis: the scatter of the visits is in U.
+  double B = kNoFigure, B_mean = kNoFigure;
+  double E_forward = kNoFigure, E_reverse = kNoFigure, E = kNoFigure, M = kNoFigure;
+  // R of these visits: how well so few know the R of the axis is not in U.
+  double R_forward = kNoFigure, R_reverse = kNoFigure, R = kNoFigure;
+  std::string covers;  // a sentence for people: what U is made of
+  std::vector<std::string> not_declared;
 };
 
 }  // namespace mdof

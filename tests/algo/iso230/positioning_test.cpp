@@ -67,6 +67,22 @@ TEST(Positioning, FromOneSideHasTheFiguresOfThatSide) {
     EXPECT_TRUE(std::isnan(unknown)) << unknown;
 }
 
+// B, E and M need no second run; R and A do.
+TEST(Positioning, OfASingleRunHasMeansOnly) {
+  auto readings = two_targets();
+  std::erase_if(readings, [](const auto& r) { return r.run == 2; });
+  const Positioning p = positioning(readings).value();  // 0 and 4, then 10 and 7
+  EXPECT_EQ(p.B, 4);
+  EXPECT_EQ(p.B_mean, -0.5);
+  EXPECT_EQ(p.E_forward, 10);
+  EXPECT_EQ(p.E_reverse, 3);
+  EXPECT_EQ(p.E, 10);
+  EXPECT_EQ(p.M, 6.5);
+  for (const double unknown : {p.R_forward, p.R_reverse, p.R, p.A_forward, p.A_reverse, p.A,
+                               p.targets[0].R, p.targets[1].forward.s})
+    EXPECT_TRUE(std::isnan(unknown)) << unknown;
+}
+
 std::string refused(const std::vector<PositioningReading>& readings) {
   const auto p = positioning(readings);
   return p ? "" : p.error().message;
@@ -145,6 +161,9 @@ TEST(Plan, CountsTargetsAndRuns) {
   EXPECT_NE(warnings_of(planned({0, 0.3, 0.5, 0.81, 1.3})).find("here 7"), std::string::npos);
   EXPECT_EQ(warnings_of(planned({0, 0.3, 0.5, 0.81, 1.0})), "");
   EXPECT_NE(warnings_of(planned(kGood_m, 4)).find("4 runs: ISO 230-2"), std::string::npos);
+  EXPECT_NE(warnings_of(planned(kGood_m, 1)).find("a single run: R and A are not known"),
+            std::string::npos);
+  EXPECT_EQ(warnings_of(planned(kGood_m, 1)).find("1 runs"), std::string::npos);
   EXPECT_NE(warnings_of(planned({0, 0.3, 0.5, 0.81, 1, 1.3, 1.4, 1.6, 1.7, 1.9, 2.01}))
                 .find("2010 mm is over 2 m"),
             std::string::npos);

@@ -5,6 +5,8 @@
 #include "algo/iso230/positioning.h"
 #include "algo/iso230/run_readings.h"
 #include "algo/sequence/usable_runs.h"
+#include "algo/uncertainty/positioning/positioning_budgets.h"
+#include "daemon/measure/evaluation.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "tools/mdof/text/run_tables.h"
@@ -55,6 +57,22 @@ Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositi
   return {};
 }
 
+// Of each column; where one has none, of none.
+Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
+                       RunPositioning& found) {
+  MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
+  std::vector<RunPositioningUncertainty> all;
+  for (const std::size_t k : chosen) {
+    MDOF_TRY(auto U, algo::positioning_uncertainty(rig, run, k, found.keep_slope));
+    all.push_back(std::move(U));
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) found.columns[i].U = std::move(all[i]);
+  return {};
+}
+
+const char* const kNotInR =
+    "R is of these visits: how well so few know that of the axis is not in U";
+
 }  // namespace
 
 Result<RunPositioning> run_positioning(const Run& run, const RunPositioningRequest& request,
@@ -65,6 +83,8 @@ Result<RunPositioning> run_positioning(const Run& run, const RunPositioningReque
   found.keep_slope = request.keep_slope;
   found.warnings = algo::inherited_warnings({&run});
   for (const std::size_t k : chosen) MDOF_CHECK(add_error(run, k, scale_period_m, found));
+  if (const Status known = add_uncertainty(run, chosen, found); !known)
+    found.U_reason = known.error().message;
   return found;
 }
 
@@ -83,14 +103,37 @@ std::string run_positioning_json(const Run& run, const RunPositioning& found) {
   for (const auto& column : found.columns) {
     json.key(column.name + (column.angle ? "_urad" : "_um")).begin_object();
     write_positioning(json, column.figures, column.angle);
+    json.key("uncertainty");
+    column.U ? write_run_positioning_uncertainty(json, *column.U, column.angle)
+             : static_cast<void>(json.null());
     json.end_object();
   }
-  json.end_object().end_object();
+  json.end_object();
+  if (!found.U_reason.empty()) json.field("uncertainty_reason", found.U_reason);
+  json.end_object();
   return with_warnings(json.take(), found.warnings);
 }
 
+namespace {
+
+// What U covers, of the column that says most: before the figures.
+std::string U_text(const RunPositioning& found, std::size_t width) {
+  if (!found.U_reason.empty()) return wrapped("U is not known: " + found.U_reason, width) + "\n";
+  const auto covers_more = [](const PositioningColumn& column) {
+    return !column.U->covers.starts_with("noise and repeatability only");
+  };
+  const auto most = std::find_if(found.columns.begin(), found.columns.end(), covers_more);
+  const auto& U = (most == found.columns.end() ? found.columns.begin() : most)->U;
+  std::string text = "U: expanded uncertainty, 95 %, " + U->covers;
+  if (!U->not_declared.empty()) text += "; not declared: " + joined(U->not_declared);
+  return wrapped(text + ". " + kNotInR, width) + "\n\n";
+}
+
+}  // namespace
+
 std::string run_positioning_text(const Run& run, const RunPositioning& found, std::size_t width) {
-  std::string text = simulated_notice(run.header.simulated) + parameters_text(found.columns);
+  std::string text = simulated_notice(run.header.simulated) + U_text(found, width) +
+                     parameters_text(found.columns, width);
   if (found.columns.size() == 1) text += "\n" + targets_text(found.columns[0], width);
   const std::string cycle = run.plausibility ? "; cycle: " + run.plausibility->cycle : "";
   return text + stated_text(run.header.stated) +

@@ -21,6 +21,7 @@ struct RunPositioning {
   std::vector<PositioningColumn> columns;  // one an error
   std::vector<std::string> warnings;       // of the run and of its plan
   bool keep_slope = false;
+  std::string U_reason;  // why U is not known; "": it is
 };
 
 // At the point where the run is stated; scale_period_m 0: not known. Errors: the run is not

@@ -49,7 +49,8 @@ std::optional<PositioningUncertainty> uncertainty_of(const Iso230Command& comman
 
 std::string uncertainty_text(const std::optional<PositioningUncertainty>& U) {
   if (!U) return "uncertainty: not declared (--device-limit-um, --drift-um)\n";
-  return "U (k = 2): " + in_um(U->E_M_A) + " µm of E, M and A, " + in_um(U->B) +
+  return "U (k = 2): " + um_to_place(U->E_M_A, U->E_M_A) + " µm of E, M and A, " +
+         um_to_place(U->B, U->B) +
          " µm of B\n"
          "from device and drift; not temperature of the machine and alignment\n";
 }
@@ -63,7 +64,8 @@ Status iso230_of_file(const Iso230Command& command) {
   const auto U = uncertainty_of(command);
   if (!command.json) {
     const PositioningColumn column{"deviation", false, std::move(*figures)};
-    return write_out(simulated_notice(csv.simulated) + parameters_text({column}) + "\n" +
+    return write_out(simulated_notice(csv.simulated) +
+                     parameters_text({column}, terminal_columns()) + "\n" +
                      targets_text(column, terminal_columns()) + "\n" + uncertainty_text(U));
   }
   JsonWriter json;

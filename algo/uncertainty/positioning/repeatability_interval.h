@@ -1,0 +1,32 @@
+// The expanded uncertainty of R of ISO 230-2. Noise makes the scatter of the visits larger, by all
+// of R where the axis repeats perfectly.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace mdof::algo {
+
+// The visits of an error: of which target and approach each is, as 2 i and 2 i + 1 (forward).
+struct VisitGroups {
+  std::vector<std::size_t> of_visit;
+  std::size_t targets = 0;
+};
+
+enum class RepeatabilityOf { forward, reverse, both };
+inline constexpr std::array kRepeatabilities = {RepeatabilityOf::forward, RepeatabilityOf::reverse,
+                                                RepeatabilityOf::both};
+
+// R forward, R reverse or R of these values of the visits; NaN: an approach with one visit.
+double repeatability_of(const VisitGroups& groups, const double* values, RepeatabilityOf of);
+
+// U such that 95 % of measured R lie within U of the true one, over trials of the errors of the
+// measurement. R is a seminorm of the readings, so that the true readings λ x (x measured) have the
+// true value T = λ R, for λ from 0 to 1. By inversion as in range_interval.h: U = R - T where R - T
+// = c(T), the distance of 95 % of |R(λ x + errors) - T|; U = c(0) where that is R or more.
+// `errors`: trial after trial, one of each visit.
+double repeatability_U(const VisitGroups& groups, const std::vector<double>& measured,
+                       const std::vector<double>& errors, RepeatabilityOf of);
+
+}  // namespace mdof::algo

@@ -1,0 +1,206 @@
+// U of the parameters of ISO 230-2 of runs whose true visits are known: how often they hold the
+// parameters of those, written again here. MDOF_COVERAGE_RUNS=1000 for figures worth quoting.
+#include "algo/uncertainty/positioning/positioning_budgets.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kYawOfCases = 4;  // ECX, of which no line is taken away
+
+int runs_wanted() {
+  const char* runs = std::getenv("MDOF_COVERAGE_RUNS");
+  return runs ? std::atoi(runs) : 40;
+}
+
+using ParameterValues = std::map<std::string, double>;
+using TrueVisits = std::map<int, std::map<int, std::vector<double>>>;  // by target and direction
+
+ParameterValues parameters(const TrueVisits& visits) {
+  ParameterValues p{{"B", 0}, {"R", 0}};
+  double lowest = 1e9, highest = -1e9, low_mean = 1e9, high_mean = -1e9, signed_sum = 0;
+  for (const auto& [target, ways] : visits) {
+    std::map<int, double> mean, s;
+    for (const auto& [way, values] : ways) {
+      double sum = 0, square = 0;
+      for (const double v : values) sum += v;
+      mean[way] = sum / static_cast<double>(values.size());
+      for (const double v : values) square += std::pow(v - mean[way], 2);
+      s[way] = std::sqrt(square / (static_cast<double>(values.size()) - 1));
+      lowest = std::min(lowest, mean[way]);
+      highest = std::max(highest, mean[way]);
+    }
+    low_mean = std::min(low_mean, (mean[1] + mean[-1]) / 2);
+    high_mean = std::max(high_mean, (mean[1] + mean[-1]) / 2);
+    const double B = mean[1] - mean[-1];
+    signed_sum += B;
+    p["B"] = std::max(p["B"], std::abs(B));
+    p["R"] = std::max({p["R"], 2 * s[1] + 2 * s[-1] + std::abs(B), 4 * s[1], 4 * s[-1]});
+  }
+  p["B mean"] = signed_sum / static_cast<double>(visits.size());
+  p["E"] = highest - lowest;
+  p["M"] = high_mean - low_mean;
+  return p;
+}
+
+struct AxisCase {
+  int runs = 3;
+  double form_rad = 0, reversal_rad = 0, scatter_rad = 0;  // of the axis
+  double noise_m = 40e-9;
+  double gain = 0;  // standard deviation of D's, declared
+};
+
+struct HeldParameter {
+  int inside = 0, all = 0;
+  double U = 0, square = 0;
+};
+
+std::map<std::string, HeldParameter> held_parameters(const AxisCase& c) {
+  std::mt19937_64 engine(17);
+  std::normal_distribution<> normal;
+  const Rig rig = c.gain > 0
+                      ? test::rig_x_with("D", "u_sensitivity_ppm = " + std::to_string(1e6 * c.gain))
+                      : test::rig_x_with("", "");
+  std::map<std::string, HeldParameter> all;
+  for (int i = 0; i < runs_wanted(); ++i) {
+    SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = c.runs};
+    const std::size_t targets = synthetic.targets_m.size();
+    TrueVisits axis, visits;  // without and with its scatter
+    std::size_t visit = 0;
+    synthetic.truth = [&](double d) {
+      const int way = visit++ / targets % 2 == 0 ? 1 : -1;
+      const double yaw = c.form_rad * std::sin(110 * d) + way * c.reversal_rad / 2;
+      const double now = yaw + c.scatter_rad * normal(engine);
+      const int target = static_cast<int>(std::lround(d / 5e-3));
+      axis[target][way].push_back(yaw);
+      visits[target][way].push_back(now);
+      return Errors5{0, 0, 0, 0, now};
+    };
+    const double gain = c.gain * normal(engine);
+    synthetic.added = [&](std::size_t k, double, double reading_m, double) {
+      return c.noise_m * normal(engine) + (k == 3 ? gain * reading_m : 0.0);
+    };
+    synthetic.u_reading_m = c.noise_m;
+    const Run run = synthetic.measure();
+    TrueVisits measured;
+    for (const MeasuredPoint& p : run.points)
+      measured[p.target][p.point.direction].push_back(p.errors.local[kEz]);
+    const auto U = positioning_uncertainty(rig, run, kYawOfCases, false).value();
+    const std::map<std::string, double> by_name = {
+        {"B", U.B}, {"B mean", U.B_mean}, {"R", U.R}, {"E", U.E}, {"M", U.M}};
+    const ParameterValues of_axis = parameters(axis), of_visits = parameters(visits),
+                          found = parameters(measured);
+    for (const auto& [name, value] : found) {
+      if (c.runs == 1 && name == "R") continue;
+      const double off = value - (name == "R" ? of_visits : of_axis).at(name);
+      HeldParameter& of = all[name];
+      ++of.all;
+      of.inside += std::abs(off) <= by_name.at(name);
+      of.U += by_name.at(name) / runs_wanted();
+      of.square += off * off / runs_wanted();
+    }
+  }
+  for (const auto& [name, of] : all)
+    std::printf("%-7s %5.1f %%, U / 1.96 rms error %.2f\n", name.c_str(),
+                100.0 * of.inside / of.all, of.U / 1.96 / std::sqrt(of.square));
+  return all;
+}
+
+double least_percent() {
+  return 95 - 65 / std::sqrt(runs_wanted());  // by three standard deviations
+}
+
+void expect_parameters_held(const std::map<std::string, HeldParameter>& all, double most_U) {
+  for (const auto& [name, of] : all) {
+    EXPECT_GT(100.0 * of.inside / of.all, least_percent()) << name;
+    EXPECT_LT(of.U / 1.96 / std::sqrt(of.square), most_U) << name;
+  }
+}
+
+TEST(PositioningBudgets, APerfectAxisMayBePerfect) {
+  for (const int runs : {1, 5}) {
+    SCOPED_TRACE(runs);
+    expect_parameters_held(held_parameters({.runs = runs}), 1.6);
+  }
+}
+
+TEST(PositioningBudgets, OfAnAxisThatScatters) {
+  expect_parameters_held(
+      held_parameters({.runs = 5, .form_rad = 200e-6, .reversal_rad = 60e-6, .scatter_rad = 20e-6}),
+      1.5);
+}
+
+TEST(PositioningBudgets, OfAGainThatIsDeclared) {
+  const AxisCase gain{.runs = 3,
+                      .form_rad = 200e-6,
+                      .reversal_rad = 60e-6,
+                      .scatter_rad = 20e-6,
+                      .noise_m = 5e-9,
+                      .gain = 0.05};
+  const auto all = held_parameters(gain);
+  expect_parameters_held(all, 1.6);
+  EXPECT_GT(all.at("R").square, std::pow(1e-6, 2));
+}
+
+TEST(PositioningBudgets, OfASingleRunThereIsNoR) {
+  const Rig rig = test::rig_x_with("", "");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};
+  synthetic.truth = [](double d) { return Errors5{1e-2 * d * d, 0, 0, 0, 1e-2 * d}; };
+  synthetic.u_reading_m = 40e-9;
+  const auto U = positioning_uncertainty(rig, synthetic.measure(), kYawOfCases, false).value();
+  EXPECT_TRUE(std::isnan(U.R));
+  EXPECT_TRUE(std::isnan(U.R_forward));
+  EXPECT_GT(U.E, 0);
+  EXPECT_NE(U.covers.find("single run"), std::string::npos) << U.covers;
+}
+
+// By hand: noise u of D and E at 10 mm gives u √2 / 10 mm of yaw at a visit.
+TEST(PositioningBudgets, TheMeanReversalIsByHand) {
+  const Rig rig = test::rig_x_with("", "");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};
+  synthetic.u_reading_m = 40e-9;
+  const auto U = positioning_uncertainty(rig, synthetic.measure(), kYawOfCases, false).value();
+  const double u_visit = 40e-9 * std::sqrt(2.0) / 10e-3;
+  EXPECT_NEAR(U.B_mean, 1.96 * u_visit * std::sqrt(2.0 / 9), 0.002 * U.B_mean);
+}
+
+// M is the range of the angle that mdof budget has.
+TEST(PositioningBudgets, MHasTheUOfTheOtherBudgets) {
+  const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 20000");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.truth = [](double d) { return Errors5{1e-2 * d * d, 0, 0, 0, 1e-2 * d}; };
+  synthetic.u_reading_m = 10e-9;
+  const auto run = synthetic.measure();
+  const auto budgets = RunBudgets::create(rig, run).value();
+  EXPECT_EQ(positioning_uncertainty(rig, run, kYawOfCases, false)->M,
+            budgets.of(range_figure(Axis::x, kYawOfCases)).U);
+  EXPECT_EQ(positioning_uncertainty(rig, run, 0, false)->M,
+            budgets.of(straightness_figure(Axis::x, 0)).U);
+  EXPECT_EQ(positioning_uncertainty(rig, run, 0, true)->M, budgets.of(range_figure(Axis::x, 0)).U);
+}
+
+// From one side only: its own figures.
+TEST(PositioningBudgets, OfOneSideHaveThatSide) {
+  const Rig rig = test::rig_x_with("", "");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.truth = [](double d) { return Errors5{1e-2 * d * d, 0, 0, 0, 1e-2 * d}; };
+  synthetic.u_reading_m = 40e-9;
+  auto run = synthetic.measure();
+  std::erase_if(run.points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
+  const auto U = positioning_uncertainty(rig, run, 0, false).value();
+  EXPECT_GT(U.E_forward, 0);
+  EXPECT_GT(U.R_forward, 0);
+  for (const double none : {U.B, U.B_mean, U.E_reverse, U.E, U.M, U.R_reverse, U.R})
+    EXPECT_TRUE(std::isnan(none));
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -108,13 +108,8 @@ BudgetLine artefact_line(const SquareArtefact& artefact) {
   return line;
 }
 
-}  // namespace
-
-Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
-                                 const Run& run_y, const SquareArtefact& artefact,
-                                 const TrialsRequest& request) {
-  MDOF_TRY(const RunBudgets along_x, RunBudgets::create(rig_x, restate(run_x, kAtFixture)));
-  MDOF_TRY(const RunBudgets along_y, RunBudgets::create(rig_y, restate(run_y, kAtFixture)));
+Budget squareness_budget(const RunBudgets& along_x, const RunBudgets& along_y,
+                         const SquareArtefact& artefact, const TrialsRequest& request) {
   TwoSlopes both({"X", along_x, slope_figure(Axis::x, 0), -1},
                  {"Y", along_y, slope_figure(Axis::y, 0), -1});
   both.budget().figure = "EC0Y_urad";
@@ -128,6 +123,25 @@ Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& 
   Budget budget = both.take();
   if (!values.empty()) budget.trials = summary_of(std::move(values), request.seed);
   return budget;
+}
+
+}  // namespace
+
+Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
+                                 const Run& run_y, const SquareArtefact& artefact,
+                                 const TrialsRequest& request) {
+  MDOF_TRY(const RunBudgets along_x, RunBudgets::create(rig_x, restate(run_x, kAtFixture)));
+  MDOF_TRY(const RunBudgets along_y, RunBudgets::create(rig_y, restate(run_y, kAtFixture)));
+  return squareness_budget(along_x, along_y, artefact, request);
+}
+
+Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_x, const Run& run_x,
+                                                           const Rig& rig_y, const Run& run_y,
+                                                           const SquareArtefact& artefact) {
+  MDOF_TRY(const RunBudgets along_x, RunBudgets::create(rig_x, restate(run_x, kAtFixture)));
+  MDOF_TRY(const RunBudgets along_y, RunBudgets::create(rig_y, restate(run_y, kAtFixture)));
+  return std::array{squareness_budget(along_x, along_y, artefact, {}),
+                    along_x.of(slope_figure(Axis::x, 0)), along_y.of(slope_figure(Axis::y, 0))};
 }
 
 Result<std::array<Budget, 2>> parallelism_budgets(const Rig& rig_a, const Run& run_a,

@@ -18,6 +18,11 @@ Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& 
                                  const Run& run_y, const SquareArtefact& artefact,
                                  const TrialsRequest& request = {});
 
+// The same, then those of the slopes of EYX and EXY, of one set of budgets of the runs.
+Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_x, const Run& run_x,
+                                                           const Rig& rig_y, const Run& run_y,
+                                                           const SquareArtefact& artefact);
+
 // slope of B - slope of A of each of the two straightness errors, at the fixture:
 // "EYX_parallelism_urad". What goes with a probe is common to both runs; all else that the rigs
 // declare is taken as independent; where it is the same set-up, that part would cancel, and u is

@@ -9,7 +9,6 @@
 #include "algo/compensation/imported_table.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/usable_runs.h"
-#include "algo/uncertainty/budget.h"
 #include "algo/uncertainty/two_runs.h"
 #include "daemon/history.h"
 #include "daemon/measure/gate/gate.h"
@@ -219,17 +218,12 @@ namespace {
 Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& x, const Run& y) {
   MDOF_TRY(const Rig rig_x, rig_of(x.header));
   MDOF_TRY(const Rig rig_y, rig_of(y.header));
-  MDOF_TRY(Budget whole, algo::squareness_budget(rig_x, x, rig_y, y, s.artefact));
-  const auto slope_of = [](const Rig& rig, const Run& run, Axis axis) -> Result<Budget> {
-    MDOF_TRY(const auto budgets, algo::RunBudgets::create(rig, algo::restate(run, kAtFixture)));
-    return budgets.of(algo::slope_figure(axis, 0));
-  };
-  MDOF_TRY(Budget slope_x, slope_of(rig_x, x, Axis::x));
-  MDOF_TRY(Budget slope_y, slope_of(rig_y, y, Axis::y));
-  s.u_EC0Y_rad = whole.u;
-  s.u_slope_EYX_rad = slope_x.u;
-  s.u_slope_EXY_rad = slope_y.u;
-  return std::vector{std::move(whole), std::move(slope_x), std::move(slope_y)};
+  MDOF_TRY(auto budgets, algo::squareness_and_slope_budgets(rig_x, x, rig_y, y, s.artefact));
+  s.u_EC0Y_rad = budgets[0].u;
+  s.u_slope_EYX_rad = budgets[1].u;
+  s.u_slope_EXY_rad = budgets[2].u;
+  return std::vector(std::make_move_iterator(budgets.begin()),
+                     std::make_move_iterator(budgets.end()));
 }
 
 }  // namespace

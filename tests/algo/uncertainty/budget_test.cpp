@@ -173,6 +173,25 @@ TEST(Budget, SquarenessHasBothRunsAndTheSquare) {
   EXPECT_NEAR((b.trials->low + b.trials->high) / 2, b.value, 0.1e-6);
 }
 
+TEST(Budget, SquarenessAndSlopesAreThoseMadeAlone) {
+  const Rig x = rig_x_with("", "", "[drift]\nu_um_per_h = 3.6\n"), y = rig_y();
+  SyntheticRun along_x{.rig = x, .runs = 1}, along_y{.rig = y, .runs = 3};
+  along_x.truth = [](double d) { return Errors5{3e-6 * d, 0, 0, 0, 0}; };
+  auto run_x = along_x.measure();
+  run_x.points.resize(9);
+  const auto run_y = along_y.measure();
+  const SquareArtefact square{.angle_error_rad = 2e-6, .u_rad = 0.4e-6, .corner = -1};
+  const auto all = squareness_and_slope_budgets(x, run_x, y, run_y, square).value();
+  const Budget alone = squareness_budget(x, run_x, y, run_y, square).value();
+  EXPECT_EQ(all[0].figure, "EC0Y_urad");
+  EXPECT_EQ(all[0].value, alone.value);
+  EXPECT_EQ(all[0].U, alone.U);
+  EXPECT_EQ(all[1].U, budget(RunBudgets::create(x, run_x).value(), "EYX_slope_urad").U);
+  // 2 µrad of the drift of D, as above, and as much of B and of C by the roll (20 mm / 2 · 10 mm).
+  EXPECT_NEAR(all[1].u, 2e-6 * std::sqrt(3.0), 1e-10);
+  EXPECT_EQ(all[2].figure, "EXY_slope_urad");
+}
+
 // D reads 3 µrad of slope along X and, turned to Y, -δx: EXY has +5. 1000 ppm of it are 3 and 5
 // nrad, of one sign, where it is the same probe; of another certificate they are independent.
 TEST(Budget, AProbeOfBothSetUpsIsOneQuantityOfTheSquareness) {

@@ -101,6 +101,18 @@ TEST(ImportedTable, RefusesRunsThatDoNotGoTogether) {
   EXPECT_NE(refusal({other}).find("has one target"), std::string::npos);
 }
 
+// Targets that lie within 0.1 µm are one, from either side.
+TEST(ImportedTable, TargetsOfSeveralRunsAreOneWithinATenthOfAMicrometre) {
+  const mdof::Run first = imported(1, 2);
+  for (const double off_m : {0.099e-6, -0.099e-6}) {
+    mdof::Run other = imported(2, 2);
+    other.points[1].target_m += off_m;
+    EXPECT_EQ(refusal({first, other}), "") << off_m;
+    other.points[1].target_m += off_m / 0.099 * 0.002;
+    EXPECT_NE(refusal({first, other}).find("run 2 has a target at"), std::string::npos) << off_m;
+  }
+}
+
 TEST(ImportedTable, IsOfTheAxisOfItsRuns) {
   mdof::Run run = imported(1, 1);
   run.header.axis = Axis::y;

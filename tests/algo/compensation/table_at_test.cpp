@@ -41,6 +41,22 @@ TEST(TableAt, IsLinearBetweenTargetsAndHeldOutside) {
   }
 }
 
+// At the last target, and one number beside it on either side, it is the last value.
+TEST(TableAt, TheLastTargetIsItsOwn) {
+  const CompensationTable table = table_by_hand();
+  const double last_m = table.position_m.back();
+  for (const double at_m : {std::nextafter(last_m, 0.0), last_m, std::nextafter(last_m, 1.0)})
+    EXPECT_NEAR(table_at(table, at_m, TableSide::forward).error[0], -3e-6, 1e-15);
+  EXPECT_EQ(table_at(table, last_m, TableSide::forward).error[0], -3e-6);
+  EXPECT_EQ(table_at(table, 0, TableSide::forward).error[0], 1e-6);
+}
+
+TEST(TableAt, OfNoRunsNothingIsUneven) {
+  const auto uneven = uneven_visits_of({});
+  ASSERT_TRUE(uneven);
+  EXPECT_EQ(*uneven, "");
+}
+
 TEST(TableAt, AHoleIsBridgedByItsNeighbours) {
   CompensationTable table = table_by_hand();
   table.position_m = {0, 10e-3, 20e-3, 40e-3};

@@ -231,6 +231,16 @@ TEST(RunDrift, ClosuresAreFromTheSameSideWhereThereIsAVisitFromThere) {
   }
 }
 
+// 78 stops 2 s apart; points that tell nothing do not count.
+TEST(RunDrift, ItsLengthIsFromTheFirstToTheLastPoint) {
+  const Log log;
+  EXPECT_NEAR(DriftOfRun(log.points()).found().length_s, 154, 1e-9);
+  auto points = log.points();
+  points.back().errors.valid = false;
+  points.front().errors.valid = false;
+  EXPECT_NEAR(DriftOfRun(points).found().length_s, 150, 1e-9);
+}
+
 TEST(RunDrift, TheClockOfTheLogBeginsAnywhere) {
   Log log;
   log.noise_m = kNoise;

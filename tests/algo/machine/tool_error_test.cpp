@@ -150,6 +150,27 @@ TEST(MachineModel, HoldsTheEndOfATableAndSaysSo) {
   EXPECT_EQ(beyond.beyond, std::vector<std::string>{"EXX"});
 }
 
+// 2 turns · shifts to second order: the line of a rotary axis that is shifted counts twice, as the
+// body goes there and back; that of a linear axis once.
+TEST(MachineModel, TheBoundCountsAShiftedRotaryLineTwice) {
+  test::RandomMachines random(6);
+  const auto machine = random.machine("XYZC", 0, 0, 0.3);
+  const auto command = random.command(0.3);
+  constexpr double kTurn = 1e-3, kShift_m = 10e-6;
+  const auto bound = [&](FrameKind kind, double shift_m) {
+    auto m = machine;
+    for (MachineFrame& frame : m.frames) {
+      if (frame.id == "X") frame.error[3] = {{}, {kTurn}, {}, {}, {}};
+      if (frame.kind == kind && (kind == FrameKind::rotary || frame.id == "Y"))
+        frame.location[0].value = shift_m;
+    }
+    return linear_bound(m, command, values_at(m, command, MachineApproach::mean)).place_m;
+  };
+  for (const auto& [kind, times] : {std::pair{FrameKind::rotary, 2.0}, {FrameKind::linear, 1.0}})
+    EXPECT_NEAR(bound(kind, kShift_m) - bound(kind, 0),
+                2 * kTurn * times * kShift_m * (1 + 4 * kTurn), 1e-15);
+}
+
 TEST(MachineModel, UncertaintyIsTheRootOfSquares) {
   auto m = by_hand(true);
   m.frames[0].error[0] = {{}, {1e-6}, {}, {0.3e-6}, {}};
@@ -180,6 +201,17 @@ TEST(Compensating, LeavesNothingOfThePlace) {
       worst = std::max(worst, static_cast<double>(std::abs(reached[k][3] - nominal[k][3])));
   }
   EXPECT_LT(worst, 1e-12);
+}
+
+// The command that is corrected lies beyond the end of the table of EXX.
+TEST(Compensating, NamesTheTablesThatEndBefore) {
+  auto m = by_hand(true);
+  m.frames[0].error[0] = {{0, 0.04}, {0, 4e-6}, {}, {}, {}};
+  const auto at = [&](double x_m) {
+    return compensating_command(m, {x_m, 0, 0, 0, 0, 0}, MachineApproach::mean).value().beyond;
+  };
+  EXPECT_TRUE(at(0.03).empty());
+  EXPECT_EQ(at(0.05), std::vector<std::string>{"EXX"});
 }
 
 TEST(Compensating, SaysWhatTwoAxesCannotReach) {

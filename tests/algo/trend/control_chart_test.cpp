@@ -55,6 +55,15 @@ TEST(ControlChart, TheLastValueIsHeldAgainstThoseBefore) {
   EXPECT_TRUE(control_chart(values({1, 2, 1, 2, 1, -3}))->moved->by < 0);
 }
 
+// By hand: of 0 12 12 12 24 the squares about two means are 108 where the first or where the last
+// value stands alone, and 168 between: of equals the first is taken.
+TEST(ControlChart, OfEqualStepsTheFirstIsNamed) {
+  const auto chart = control_chart(values({0, 12, 12, 12, 24}), 4);
+  ASSERT_TRUE(chart->moved);
+  EXPECT_EQ(chart->moved->since, 1U);
+  EXPECT_NEAR(chart->moved->by, 15, 1e-12);
+}
+
 TEST(ControlChart, AValueOfLargeUncertaintyHasWiderLimits) {
   auto x = values({1, 2, 1, 2, 1, 5});
   x.back().u = 1.3;

@@ -1,0 +1,80 @@
+// What is said of a drift, number by number, by hand.
+#include "algo/drift/drift_sentences.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/algo/rigs.h"
+
+namespace mdof::algo {
+namespace {
+
+// 3 min: δy +0.25 µm, εz -5 µrad as a drift; δz +0.5 µm that may be steps.
+RunDrift three_changes() {
+  RunDrift drift;
+  drift.length_s = 180;
+  const auto set = [&](std::size_t local, double change, double u, bool steps) {
+    SeriesDrift& of = drift.errors[local];
+    of.order = 1;
+    of.change = change;
+    of.u_change = u;
+    of.range = std::abs(change);
+    of.steps = steps;
+  };
+  set(kDy, 0.25e-6, 4e-9, false);
+  set(kEz, -5e-6, 0.12e-6, false);
+  set(kDz, 0.5e-6, 3e-9, true);
+  return drift;
+}
+
+TEST(DriftSentences, NameEachErrorOfTheBodyThatMoves) {
+  const RunDrift drift = three_changes();
+  EXPECT_EQ(changes_text(drift, {Axis::x, {}}, false),
+            "EYX +0.2500 ± 0.0040 µm, ECX -5.00 ± 0.12 µrad from the first point to the last "
+            "(3 min)");
+  EXPECT_EQ(changes_text(drift, {Axis::x, {}}, true),
+            "EZX +0.5000 ± 0.0030 µm from the first point to the last (3 min)");
+  // Of a fixture that moves the other sign; along Y δy is -EXY (and -1 twice is +).
+  const Sides fixture{.fixture_moves = true};
+  EXPECT_EQ(changes_text(drift, {Axis::x, fixture}, false).substr(0, 24), "EYX -0.2500 ± 0.0040 µ");
+  EXPECT_EQ(changes_text(drift, {Axis::y, {}}, false).substr(0, 11), "EXY -0.2500");
+  EXPECT_EQ(changes_text(RunDrift{}, {Axis::x, {}}, false), "");
+}
+
+TEST(DriftSentences, SayWhatToDo) {
+  const auto said = drift_sentences(three_changes(), {Axis::x, {}});
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_EQ(said[0].find("drift: EYX +0.2500"), 0U);
+  EXPECT_EQ(said[1].find("changes from run to run: EZX +0.5000"), 0U);
+  EXPECT_TRUE(drift_sentences(RunDrift{}, {Axis::x, {}}).empty());
+}
+
+TEST(DriftSentences, SayWhatWasRemovedAndWhatWasNot) {
+  RunDrift drift = three_changes();
+  EXPECT_EQ(removed_sentence(drift, {Axis::x, {}}).find("drift removed: EYX +0.2500"), 0U);
+  EXPECT_NE(removed_sentence(drift, {Axis::x, {}}).find("were left: EZX +0.5000"),
+            std::string::npos);
+  EXPECT_EQ(removed_sentence(RunDrift{}, {Axis::x, {}}),
+            "no drift was removed: none is significant");
+  drift.not_seen = "too few";
+  EXPECT_EQ(removed_sentence(drift, {Axis::x, {}}), "no drift was removed: too few");
+}
+
+// 0.1 and 0.3 µm in 3 min are 2 and 6 µm/h.
+TEST(DriftSentences, NameTheProbesAboveTheLimit) {
+  RunDrift drift = three_changes();
+  const Rig rig = test::rig_x_with("", "", "[drift]\nlimit_um_per_h = 4\n");
+  for (const double range_m : {0.1e-6, 0.3e-6}) {
+    SeriesDrift& of = drift.probes.emplace_back();
+    of.order = 1;
+    of.range = range_m;
+  }
+  const std::string said = over_limit_sentence(drift, rig);
+  EXPECT_NE(said.find("the limit of 4 um/h"), std::string::npos) << said;
+  EXPECT_NE(said.find(": B by 6 um/h;"), std::string::npos) << said;
+  EXPECT_EQ(over_limit_sentence(drift, test::rig_x()), "");
+  drift.probes[1].order = 0;
+  EXPECT_EQ(over_limit_sentence(drift, rig), "");
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,171 @@
+// A log of an axis that goes forth and back, whose way over time is known: what the run in motion
+// says of itself, word for number.
+#include "algo/on_the_fly/on_the_fly.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "algo/points/frame_rows.h"
+#include "tests/algo/stepping_log.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kOut_m_s = 10e-3, kBack_m_s = 5e-3, kTravel_m = 20e-3;
+constexpr double kWave_m = 8e-3, kHeight_m = 20e-6;
+constexpr std::int64_t kFirst_ns = 7'000'000'000;
+
+// What differs from an even way out and back.
+struct MotionLog {
+  double travel_m = kTravel_m;
+  double stop_at_m = -1, stop_s = 0;  // on the way out
+  double delay_s = 0;                 // of the probe
+  std::function<bool(std::int64_t ms)> scanned = [](std::int64_t) { return true; };
+
+  double turned_s() const { return travel_m / kOut_m_s + stop_s; }
+  double place_m(double t) const {
+    if (t >= turned_s()) return travel_m - kBack_m_s * (t - turned_s());
+    const double at_m = kOut_m_s * t;
+    if (stop_at_m < 0 || at_m < stop_at_m) return at_m;
+    return std::max(stop_at_m, kOut_m_s * (t - stop_s));
+  }
+  FrameBlock frames() const {
+    FrameBlock frames = empty_frames(1);
+    const auto end_ms = std::lround(1e3 * (turned_s() + travel_m / kBack_m_s));
+    for (std::int64_t ms = 0; ms <= end_ms; ++ms) {
+      if (!scanned(ms)) continue;
+      const double t = 1e-3 * static_cast<double>(ms);
+      frames.time_ns.push_back(kFirst_ns + ms * 1'000'000);
+      frames.encoder_m.push_back(place_m(t));
+      const double read_at_m = place_m(std::max(0.0, t - delay_s));
+      frames.probe_m[0].push_back(kHeight_m * std::sin(2 * M_PI * read_at_m / kWave_m) +
+                                  (ms % 2 == 0 ? 1e-9 : -1e-9));
+    }
+    return frames;
+  }
+};
+
+OnTheFly measured(const MotionLog& log, const OnTheFlyOptions& options = {}) {
+  OnTheFly found(TargetGrid(options, {}), {"A"}, {200e-6});
+  const FrameBlock frames = log.frames();
+  for (std::size_t i = 0; i < frames.size(); i += 700)
+    EXPECT_TRUE(found.push(cut_frames(frames, i, std::min(frames.size(), i + 700))));
+  found.flush();
+  return found;
+}
+
+std::string text_of(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const auto& sentence : sentences) text += sentence + "\n";
+  return text;
+}
+
+void expect_in(const std::string& text, const std::string& words) {
+  EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+}
+
+// Bins of 1 mm at 1 to 19 mm, both ways: the mean speed is (10 + 5)/2, and a wave of two bins takes
+// 2 mm / 7.5 mm/s.
+TEST(OnTheFlyRun, StatesSpeedsBinsAndScatter) {
+  const OnTheFly run = measured({});
+  const std::string said = text_of(run.statements());
+  expect_in(said, "2 passes at 7.5 mm/s (5 to 10), each");
+  expect_in(said, "the readings of 1 mm about its target; 0 bins in which");
+  expect_in(said, "errors that change within 2.5 mm are read too small");
+  expect_in(said, "slower than 15 Hz looks like form");
+  expect_in(said, "delay beside what is declared, by forward against reverse: A ");
+  expect_in(text_of(run.warnings()), "the axis went at 5 mm/s to 10 mm/s");
+  const Sequence sequence = run.sequence();
+  EXPECT_EQ(sequence.targets, 19);
+  EXPECT_EQ(sequence.runs, 1);
+  ASSERT_EQ(sequence.points.size(), 38U);
+  for (const MeasuredPoint& p : sequence.points) {
+    EXPECT_EQ(p.run, 1);
+    EXPECT_NEAR(p.target_m, 1e-3 * p.target, 1e-12);
+    EXPECT_NEAR(p.point.probe_m[0], kHeight_m * std::sin(2 * M_PI * p.target_m / kWave_m), 20e-9);
+  }
+  EXPECT_TRUE(run.explain_nothing());
+  EXPECT_EQ(run.summary().gaps, 0U);
+  EXPECT_NEAR(run.summary().period_s, 1e-3, 1e-12);
+  EXPECT_NEAR(run.summary().encoder_max_m, kTravel_m, 1e-9);
+}
+
+// 1 nm up and down about the form: the parabola over a bin leaves of it some 1 nm.
+TEST(OnTheFlyRun, TheScatterIsThatOfTheReadings) {
+  const OnTheFly run = measured({});
+  double square = 0, n = 0;
+  for (const PassBins& pass : run.passes())
+    for (const BinPoint& bin : pass.bins) {
+      square += bin.point.probe_sd_m[0] * bin.point.probe_sd_m[0];
+      n += 1;
+    }
+  const double nm = 1e9 * std::sqrt(square / n);
+  const std::string said = text_of(run.statements());
+  const auto at = said.find("about the parabolas by A ");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_NEAR(std::stod(said.substr(at + 25)), nm, 0.006 * nm);
+}
+
+// The way there and back differ by the delay times both speeds.
+TEST(OnTheFlyRun, NamesADelayThatIsNotDeclared) {
+  const std::string said = text_of(measured({.delay_s = 2e-3}).warnings());
+  expect_in(said, "forward and reverse differ as by a delay of ");
+  const auto at = said.find("delay of ") + 9;
+  EXPECT_NEAR(std::stod(said.substr(at)), 2, 0.05) << said;
+  expect_in(said, "ms of probe A");
+  EXPECT_EQ(text_of(measured({}).warnings()).find("delay of "), std::string::npos);
+}
+
+// It stops for 0.3 s at 7 mm, in the bin that begins at 6.5 mm, 0.65 s after the start.
+TEST(OnTheFlyRun, LeavesOutTheBinInWhichItStops) {
+  const OnTheFly run = measured({.stop_at_m = 7e-3, .stop_s = 0.3});
+  expect_in(text_of(run.warnings()),
+            " s after the first scan, was left out: the axis changed its speed or stopped");
+  expect_in(text_of(run.warnings()), "the bin at 7.0000 mm, 0.65");
+  expect_in(text_of(run.statements()), "; 1 bins in which the axis changed its speed");
+  EXPECT_EQ(run.sequence().points.size(), 37U);
+}
+
+// A third of the scans at the start of the bin at 12 mm is a gap within it; two thirds are too
+// many.
+TEST(OnTheFlyRun, LeavesOutTheBinWhoseScansAreMissing) {
+  const auto without = [](std::int64_t from_ms, std::int64_t to_ms) {
+    return MotionLog{.scanned = [=](std::int64_t ms) { return ms < from_ms || ms >= to_ms; }};
+  };
+  const OnTheFly few = measured(without(1160, 1195));
+  EXPECT_EQ(few.sequence().points.size(), 38U);
+  EXPECT_EQ(few.summary().gaps, 1U);
+  EXPECT_EQ(text_of(few.warnings()).find("left out"), std::string::npos);
+  const OnTheFly many = measured(without(1160, 1230));
+  EXPECT_EQ(many.sequence().points.size(), 37U);
+  expect_in(text_of(many.warnings()), "the bin at 12.0000 mm, ");
+  expect_in(text_of(many.warnings()), "most of its scans are missing");
+}
+
+// Targets that only one of three passes or fewer took are no targets; those of a range are.
+TEST(OnTheFlyRun, TargetsOfARangeAreKnownBeforehand) {
+  OnTheFlyOptions options;
+  options.from_mm = 2;
+  options.to_mm = 12;
+  options.interval_mm = 2.5;
+  const Sequence sequence = measured({}, options).sequence();
+  ASSERT_EQ(sequence.targets, 5);
+  EXPECT_NEAR(sequence.targets_m.front(), 2e-3, 1e-12);
+  EXPECT_NEAR(sequence.targets_m.back(), 12e-3, 1e-12);
+}
+
+TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
+  const Status too_short = measured({.travel_m = 0.8e-3}).explain_nothing();
+  ASSERT_FALSE(too_short);
+  expect_in(too_short.error().message, "no whole bin of 1 mm about a target lies within");
+  OnTheFlyOptions fine;
+  fine.interval_mm = 0.02;  // 2 and 4 scans a bin; at least kFewestOfBin + 1 are asked for
+  const Status dense = measured({}, fine).explain_nothing();
+  ASSERT_FALSE(dense);
+  expect_in(dense.error().message, "and 1000 Hz a bin of 0.02 mm has ");
+}
+
+}  // namespace
+}  // namespace mdof::algo

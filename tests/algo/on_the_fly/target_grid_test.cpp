@@ -1,0 +1,80 @@
+// Targets of a run in motion at the limits of what is accepted.
+#include "algo/on_the_fly/target_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace mdof::algo {
+namespace {
+
+std::string refusal_of(const OnTheFlyOptions& options, const std::vector<double>& targets_m = {}) {
+  const Status checked = check_on_the_fly(options, targets_m);
+  return checked ? "" : checked.error().message;
+}
+
+OnTheFlyOptions grid(double interval_mm, double bin_mm = 0, std::optional<double> from_mm = {},
+                     std::optional<double> to_mm = {}) {
+  OnTheFlyOptions options;
+  options.interval_mm = interval_mm;
+  options.bin_mm = bin_mm;
+  options.from_mm = from_mm;
+  options.to_mm = to_mm;
+  return options;
+}
+
+TEST(TargetGridLimits, EachKeyIsNamed) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refusal_of(grid(1)), "");
+  EXPECT_NE(refusal_of(grid(-1)).find("interval_mm must be"), std::string::npos);
+  EXPECT_NE(refusal_of(grid(0)).find("as no targets are given"), std::string::npos);
+  EXPECT_EQ(refusal_of(grid(0), {0, 1e-3}), "");
+  for (const double bad : {nan, kInfinity}) {
+    EXPECT_NE(refusal_of(grid(1, 0, bad)).find("from_mm, to_mm must be numbers"),
+              std::string::npos);
+    EXPECT_NE(refusal_of(grid(1, 0, 0, bad)).find("from_mm, to_mm must be numbers"),
+              std::string::npos);
+    EXPECT_NE(refusal_of(grid(bad)).find("interval_mm"), std::string::npos);
+    EXPECT_NE(refusal_of(grid(1, bad)).find("bin_mm"), std::string::npos);
+  }
+  EXPECT_NE(refusal_of(grid(1, 0, 5, 5)).find("to_mm must be greater"), std::string::npos);
+  EXPECT_EQ(refusal_of(grid(1, 0, 0, 9999)), "");
+  EXPECT_NE(refusal_of(grid(1, 0, 0, 10000)).find("more than 10000 targets"), std::string::npos);
+  EXPECT_EQ(refusal_of(grid(2, 2)), "");
+  EXPECT_NE(refusal_of(grid(2, 2.1)).find("bin_mm must not be longer than the 2 mm"),
+            std::string::npos);
+  EXPECT_EQ(refusal_of(grid(0.001)), "");
+  EXPECT_NE(refusal_of(grid(0.0009)).find("must be 0.001 or more"), std::string::npos);
+}
+
+TEST(TargetGridLimits, ABinIsAsLongAsTheIntervalUpToAMillimetre) {
+  EXPECT_NEAR(TargetGrid(grid(0.4), {}).bin_m(), 0.4e-3, 1e-15);
+  EXPECT_NEAR(TargetGrid(grid(5), {}).bin_m(), 1e-3, 1e-15);
+  EXPECT_NEAR(TargetGrid(grid(0), {0, 3e-3, 3.25e-3}).bin_m(), 0.25e-3, 1e-15);
+}
+
+// Bins lie within as a whole: of -3.5 to 2.5 mm those at -3 to 2.
+TEST(TargetGridLimits, TargetsAreThoseWhoseBinsLieWithin) {
+  const TargetGrid whole(grid(1), {});
+  const auto found = whole.between(-3.5e-3, 2.5e-3, 100);
+  ASSERT_EQ(found.size(), 6U);
+  EXPECT_NEAR(found.front().position_m, -3e-3, 1e-15);
+  EXPECT_NEAR(found.back().position_m, 2e-3, 1e-15);
+  EXPECT_EQ(whole.between(-3.4e-3, 2.4e-3, 100).size(), 4U);
+  EXPECT_EQ(whole.between(-3.5e-3, 2.5e-3, 6).size(), 6U);
+  EXPECT_TRUE(whole.between(-3.5e-3, 2.5e-3, 5).empty());
+  EXPECT_TRUE(whole.known().empty());
+}
+
+// The most that is accepted is known: 10,000 targets, the last at 9,999 mm.
+TEST(TargetGridLimits, ARangeIsKnownWhole) {
+  const auto known = TargetGrid(grid(1, 0, 0, 9999), {}).known();
+  ASSERT_EQ(known.size(), 10000U);
+  EXPECT_NEAR(known.back().position_m, 9.999, 1e-12);
+  EXPECT_EQ(TargetGrid(grid(0), {1e-3, 2e-3, 7e-3}).known().size(), 3U);
+  EXPECT_TRUE(TargetGrid(grid(1, 0, 0), {}).known().empty());
+}
+
+}  // namespace
+}  // namespace mdof::algo

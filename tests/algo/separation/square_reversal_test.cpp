@@ -1,0 +1,59 @@
+// Two set-ups of a square by hand.
+#include "algo/separation/square_reversal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+SquareSetUp set_up(int corner, double value_urad, double u_random_urad, double declared_urad,
+                   double freedom) {
+  Budget budget;
+  budget.value = 1e-6 * value_urad;
+  budget.u_random = 1e-6 * u_random_urad;
+  budget.u = 1e-6 * std::hypot(u_random_urad, declared_urad);
+  budget.freedom = freedom;
+  return {corner, budget};
+}
+
+// m + α = 12 and m - α = 4 µrad: m = 8, α = 4.
+TEST(SquareReversalByHand, TellsTheSquareFromTheMachine) {
+  const auto found = square_reversal(set_up(1, 12, 3, 2, 10), set_up(-1, 4, 4, 2, 10)).value();
+  EXPECT_NEAR(found.EC0Y_rad, 8e-6, 1e-15);
+  EXPECT_NEAR(found.square_rad, -4e-6, 1e-15);  // EC0Y of a square taken as true is m - α
+  EXPECT_NEAR(found.u_random_rad, 2.5e-6, 1e-15);
+  EXPECT_NEAR(found.u_declared_rad, 2e-6, 1e-12);
+  EXPECT_NEAR(found.u_rad, std::hypot(2.5e-6, 2e-6), 1e-12);
+  const auto turned = square_reversal(set_up(-1, 12, 3, 2, 10), set_up(1, 4, 4, 2, 10)).value();
+  EXPECT_NEAR(turned.square_rad, 4e-6, 1e-15);
+}
+
+// Welch-Satterthwaite of two equal parts of 5 degrees of freedom: 10, and k of t is 2.228.
+TEST(SquareReversalByHand, DegreesOfFreedomAdd) {
+  const auto found = square_reversal(set_up(1, 1, 3, 0, 5), set_up(-1, 1, 3, 0, 5)).value();
+  EXPECT_NEAR(found.freedom, 10, 1e-9);
+  EXPECT_NEAR(found.coverage_factor, 2.228, 5e-4);
+  EXPECT_NEAR(found.U_rad, found.coverage_factor * found.u_rad, 1e-18);
+  const auto uneven = square_reversal(set_up(1, 1, 6, 0, 5), set_up(-1, 1, 3, 0, 20)).value();
+  EXPECT_NEAR(uneven.freedom, 45. * 45 / (36. * 36 / 5 + 81. / 20), 1e-9);
+}
+
+TEST(SquareReversalByHand, RefusesCornersThatTellNothing) {
+  EXPECT_NE(square_reversal(set_up(0, 1, 1, 1, 5), set_up(1, 1, 1, 1, 5))
+                .error()
+                .message.find("the first set-up"),
+            std::string::npos);
+  EXPECT_NE(square_reversal(set_up(1, 1, 1, 1, 5), set_up(0, 1, 1, 1, 5))
+                .error()
+                .message.find("the second set-up"),
+            std::string::npos);
+  EXPECT_NE(square_reversal(set_up(1, 1, 1, 1, 5), set_up(1, 1, 1, 1, 5))
+                .error()
+                .message.find("with the same sign"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -236,20 +236,27 @@ Diagnosis check_set_up(const Rig& rig) {
       "change, with the sign of its direction, by the size of the push); tilt the target by a "
       "known "
       "angle about each axis; move the axis by a known length (the encoder must count it, in its "
-      "sense)";
+      "sense); to see a drift locked to travel, measure again with other dwell times, or in "
+      "another "
+      "order of targets";
+  const std::string locked =
+      "what drifts with the position of the axis (heat of its drive or scale, cables that pull) "
+      "repeats in each run and is in the errors and not in u: no run shows it apart";
   if (rig.probes.size() > 5)
     return {
         Level::good,
         what + std::to_string(rig.probes.size()) +
             " probes contradict each other where one is exchanged, turned or has a wrong gain or "
             "position, and the run warns; a reversed encoder, the sign or gain of all probes and "
-            "a common factor of all lengths remain unseen",
+            "a common factor of all lengths remain unseen; " +
+            locked,
         remedy};
   return {Level::good,
           what +
               "five probes never contradict each other: exchanged or turned probes, a wrong sign "
-              "or gain, wrong positions, the rig of another axis and a reversed encoder give other "
-              "errors without any warning",
+              "or gain (of one or of all), wrong positions, the rig of another axis and a reversed "
+              "encoder give other errors without any warning; " +
+              locked,
           remedy};
 }
 

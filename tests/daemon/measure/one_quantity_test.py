@@ -25,7 +25,7 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), 
 OF_PROBES = "u_calibration_um = 0.02\nu_sensitivity_ppm = 500\nu_position_mm = 0.05\nu_direction_mrad = 2\n"
 OF_RIG = "\n[installation]\nu_angle_mrad = 2\n[drift]\nu_um_per_h = 0.1\n"
 NOT_DECLARED = ["u_flatness_um", "[encoder] u_um", "u_offset_mm"]
-EXACT, SHOWN = 1e-12, {"um": 6e-5, "urad": 6e-4}  # relative; half a digit of the text, and rounding
+EXACT = 1e-12  # relative
 
 # What states the uncertainty of a run, of two, or of a table of runs is compared here ...
 COMPARED = {"analyse", "budget", "compensation build", "compensation show", "parallelism", "replay", "show",
@@ -68,25 +68,30 @@ def recorded_again(log, folder):
     return path
 
 
-def unit_of(name):
-    return name.rsplit("_", 1)[1]
+def half_digit(text):
+    """Of a number of a text, and rounding; one of two significant digits may end in zeros: "1200"."""
+    whole = text.lstrip("-")
+    step = 10.0 ** -len(whole.split(".")[1]) if "." in whole else 10.0 ** max(0, len(whole) - 2)
+    return 0.6 * step
 
 
 class Notes:
-    """What was said of each quantity: (name, where it was said, {"value", "u", "U"}, exact or as shown)."""
+    """What was said of each quantity: (name, where it was said, {"value", "u", "U"}, None or half a digit of each as shown)."""
 
     def __init__(self):
         self.said = []
 
     def add(self, name, where, shown=False, **numbers):
-        self.said.append((name, where, {k: float(v) for k, v in numbers.items() if v not in (None, "")}, shown))
+        there = {k: v for k, v in numbers.items() if v not in (None, "")}
+        digits = {k: half_digit(v) for k, v in there.items()} if shown else None
+        self.said.append((name, where, {k: float(v) for k, v in there.items()}, digits))
 
     def contradictions(self):
         found, first = [], {}
         for name, where, numbers, shown in self.said:
             for key, number in numbers.items():
                 there, other = first.setdefault((name, key), (where, number))
-                tolerance = SHOWN[unit_of(name)] if shown else EXACT * abs(other)
+                tolerance = shown[key] if shown else EXACT * abs(other)
                 if not abs(number - other) <= tolerance:
                     found.append(f"{key} of {name}: {other} in {there}, {number} in {where}")
         return found
@@ -312,7 +317,7 @@ class OneQuantity(unittest.TestCase):
                 notes.said = copy.deepcopy([said for said in self.notes.said if said[0] == name])
                 mine = next(said for said in notes.said if said[1] == where and key in said[2])
                 mine[2][key] *= 1.02 if shown else 1 + 1e-9
-                if shown and abs(numbers[key]) * 0.02 <= 2 * SHOWN[unit_of(name)]:
+                if shown and abs(numbers[key]) * 0.02 <= 2 * shown[key]:
                     continue
                 self.assertNotEqual(notes.contradictions(), [], (name, where, key))
                 changed += 1

@@ -123,10 +123,11 @@ std::string U_text(const RunPositioning& found, std::size_t width) {
     return !column.U->covers.starts_with("noise and repeatability only");
   };
   const auto most = std::find_if(found.columns.begin(), found.columns.end(), covers_more);
-  const auto& U = (most == found.columns.end() ? found.columns.begin() : most)->U;
+  const bool noise_only = most == found.columns.end();
+  const auto& U = (noise_only ? found.columns.begin() : most)->U;
   std::string text = "U: expanded uncertainty, 95 %, " + U->covers;
   if (!U->not_declared.empty()) text += "; not declared: " + joined(U->not_declared);
-  return wrapped(text + ". " + kNotInR, width) + "\n\n";
+  return noise_only_notice(noise_only) + wrapped(text + ". " + kNotInR, width) + "\n\n";
 }
 
 }  // namespace

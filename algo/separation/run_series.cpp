@@ -1,11 +1,17 @@
 #include "algo/separation/run_series.h"
 
 #include <cmath>
+#include <set>
 
+#include "algo/iso230/target_changes.h"
 #include "algo/iso230/target_means.h"
+#include "algo/uncertainty/contributors.h"
+#include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
+
+constexpr double kAcrossPlane = 0.5;  // cosine
 
 // The points with a probe's reading in the place of the first named error, so that means and
 // uncertainties are those of every other figure. `along`: of the reading, +1 or -1.
@@ -35,7 +41,62 @@ SetUp series_of(const Run& run, const std::vector<MeasuredPoint>& points, std::s
   return set_up;
 }
 
+// Of points whose local errors change so.
+std::vector<double> at_targets(const TargetChanges& changes, const std::vector<Errors5>& shifts,
+                               std::size_t named) {
+  std::vector<double> at;
+  for (const Errors5& of_target : changes.of(shifts)) at.push_back(of_target[named]);
+  return at;
+}
+
+// Each part of a contributor is a quantity.
+std::string name_of_part(const Contributor& contributor, std::size_t part) {
+  return contributor.common_as.empty() ? "" : contributor.common_as + " " + std::to_string(part);
+}
+
+// Of the readings themselves, as with_reading() has them.
+Result<std::vector<DeclaredShift>> declared_of_probe(const Run& run, const Rig& rig,
+                                                     std::size_t probe, double along) {
+  MDOF_TRY(const auto declared, contributors(rig, run));
+  const std::vector<MeasuredPoint> points = with_reading(run, probe, along);
+  const TargetChanges changes(run.header.moving(), points);
+  const std::int64_t start_ns = run.points.front().point.begin_ns;
+  std::vector<DeclaredShift> shifts;
+  for (const Contributor& c : declared) {
+    const bool scale = c.name == "probe " + rig.probes[probe].id + ": sensitivity";
+    if (!scale && c.name != "probe " + rig.probes[probe].id + ": drift") continue;
+    std::vector<Errors5> of_points;
+    for (const MeasuredPoint& p : points) {
+      Errors5 named = named_from_local(run.header.moving(), p.errors.local);
+      named[0] = scale ? c.declared.u * named[0]
+                       : run.header.sides.error_sign() * along * c.declared.u *
+                             ns_to_s(p.point.begin_ns - start_ns);
+      of_points.push_back(local_from_named(run.header.moving(), named));
+    }
+    shifts.push_back({name_of_part(c, 0), at_targets(changes, of_points, 0)});
+  }
+  return shifts;
+}
+
 }  // namespace
+
+Result<std::vector<DeclaredShift>> declared_shifts(const Run& run, const Rig& rig,
+                                                   std::size_t named, Axis normal) {
+  MDOF_TRY(const auto declared, contributors(rig, run));
+  std::set<std::string> looked_at;
+  for (const TargetPlane& plane : rig.planes)
+    if (std::abs(plane.normal[static_cast<std::size_t>(normal)]) > kAcrossPlane)
+      looked_at.insert("plane " + plane.id + ": flatness");
+  const TargetChanges changes(run.header.moving(), run.points);
+  std::vector<DeclaredShift> shifts;
+  for (const Contributor& c : declared) {
+    if (looked_at.contains(c.name)) continue;
+    const auto parts = c.parts();
+    for (std::size_t part = 0; part < parts.size(); ++part)
+      shifts.push_back({name_of_part(c, part), at_targets(changes, parts[part], named)});
+  }
+  return shifts;
+}
 
 SetUp error_series(const Run& run, std::size_t named) {
   return series_of(run, run.points, named);
@@ -56,8 +117,10 @@ Result<ProbeSeries> probe_series(const Run& run, const Rig& rig, const std::stri
     return bad_input(rig.source + ": probe \"" + probe + "\" does not look along " +
                      letter(normal) + ", across this surface; take one that does, or the other " +
                      "--surface");
-  return ProbeSeries{series_of(run, with_reading(run, *index, along > 0 ? 1.0 : -1.0), 0),
-                     found.position_m};
+  const double sense = along > 0 ? 1.0 : -1.0;
+  ProbeSeries series{series_of(run, with_reading(run, *index, sense), 0), found.position_m};
+  MDOF_TRY(series.set_up.declared, declared_of_probe(run, rig, *index, sense));
+  return series;
 }
 
 }  // namespace mdof::algo

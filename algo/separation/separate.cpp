@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 
 #include "algo/linear_algebra/least_squares.h"
@@ -37,6 +38,7 @@ struct Equations {
   Grid grid;
   MatrixXd A;
   VectorXd errors, u;  // of each reading; u: NaN where it is not known
+  MatrixXd declared;   // a column a quantity: change of each reading by one standard uncertainty
   Index machine() const { return in(grid.position_m.size()); }
   Index target() const { return in(grid.place_m.size()); }
 };
@@ -46,6 +48,26 @@ bool knows_u(const SeparationRequest& request) {
     return s.u_m.size() == s.position_m.size() &&
            std::all_of(s.u_m.begin(), s.u_m.end(), [](double u) { return u > 0; });
   });
+}
+
+MatrixXd declared_columns(const std::vector<SetUp>& set_ups, Index readings) {
+  std::vector<VectorXd> columns;
+  std::map<std::string, std::size_t> shared;
+  Index row = 0;
+  for (const SetUp& set_up : set_ups) {
+    for (const DeclaredShift& declared : set_up.declared) {
+      std::size_t column = columns.size();
+      if (!declared.common_as.empty())
+        column = shared.try_emplace(declared.common_as, column).first->second;
+      if (column == columns.size()) columns.emplace_back(VectorXd::Zero(readings));
+      for (std::size_t i = 0; i < declared.shift_m.size(); ++i)
+        columns[column](row + in(i)) += declared.shift_m[i];
+    }
+    row += in(set_up.position_m.size());
+  }
+  MatrixXd all(readings, in(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) all.col(in(c)) = columns[c];
+  return all;
 }
 
 Equations equations_of(const SeparationRequest& request, Grid grid) {
@@ -71,6 +93,7 @@ Equations equations_of(const SeparationRequest& request, Grid grid) {
     }
     clamp += 2;
   }
+  e.declared = declared_columns(request.set_ups, readings);
   return e;
 }
 
@@ -109,7 +132,9 @@ SeenSeries seen_part(const Equations& e, const Solution& solution, Index from,
   const MatrixXd all = solution.from_readings.middleRows(from, count);
   const MatrixXd from_readings = all - unseen * (unseen.transpose() * all);
   const VectorXd seen = from_readings * e.errors;
-  const VectorXd u = (from_readings * u_reading.asDiagonal()).rowwise().norm();
+  const VectorXd square = (from_readings * u_reading.asDiagonal()).rowwise().squaredNorm() +
+                          (from_readings * e.declared).rowwise().squaredNorm();
+  const VectorXd u = square.cwiseSqrt();
   SeenSeries series;
   series.place_m = places_m;
   series.seen_m.assign(seen.begin(), seen.end());
@@ -126,13 +151,18 @@ std::string contradiction(double chi_square, std::size_t freedom) {
       "whether the machine repeats, and u of the readings");
 }
 
+std::string declared_text(const Separation& result, const Equations& e) {
+  if (e.declared.cols() > 0) return ", and what is declared";
+  return result.noise_only ? ": noise and repeatability only, no uncertainties are declared" : "";
+}
+
 // u of each reading, by which u of the results is made.
 VectorXd judge(const Equations& e, const Solution& solution, Separation& result) {
   const VectorXd left = e.errors - e.A * (solution.from_readings * e.errors);
   const std::size_t freedom = result.freedom();
   if (freedom > 0) result.residual_m = std::sqrt(left.squaredNorm() / static_cast<double>(freedom));
   if (e.u.allFinite()) {
-    result.u_reason = "u of the readings, propagated";
+    result.u_reason = "u of the readings, propagated" + declared_text(result, e);
     const double chi_square = left.cwiseQuotient(e.u).squaredNorm();
     if (freedom > 0 && chi_square > chi_square_limit(static_cast<int>(freedom)))
       result.warnings.push_back(contradiction(chi_square, freedom));
@@ -140,7 +170,8 @@ VectorXd judge(const Equations& e, const Solution& solution, Separation& result)
   }
   result.u_reason =
       freedom > 0 ? "the scatter about the fit, " + std::to_string(freedom) +
-                        " degrees of freedom; no u above 0 of all readings is given"
+                        " degrees of freedom; no u above 0 of all readings is given" +
+                        declared_text(result, e)
                   : "not known: no u above 0 of all readings is given, and nothing is left over to "
                     "tell it by; give u_um or --u-um";
   return VectorXd::Constant(e.u.size(), result.residual_m);
@@ -178,6 +209,7 @@ Result<Separation> separate(const SeparationRequest& request) {
   result.readings = static_cast<std::size_t>(e.A.rows());
   result.unknowns = static_cast<std::size_t>(e.A.cols());
   result.rank = static_cast<std::size_t>(solution.rank);
+  result.noise_only = request.u_is_noise && e.declared.cols() == 0;
   const VectorXd u = judge(e, solution, result);
   const auto periods =
       hidden_periods(returns_of(request.set_ups, e.grid.step_m), e.grid.step_m, request.match_m);

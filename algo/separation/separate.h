@@ -18,9 +18,12 @@ struct SeparationRequest {
   ReadAt at;
   std::vector<SetUp> set_ups;  // the first: without turn and shift
   double match_m = 20e-6;      // places that lie so close are one
+  bool u_is_noise = false;  // u of the readings has their noise and repeatability only, as of runs
 };
 
-// What the set-ups see of both, with the covariance of that alone. Shapes that they do not see are
+// What the set-ups see of both, with the covariance of that alone: u of the readings, and what is
+// declared of each set-up (of a quantity that several share, with its signs). A tilt of the target
+// between the set-ups is b_k, and not in u. Shapes that they do not see are
 // the parts of the null space of these equations, named in `unseen`. Errors: fewer than two set-ups
 // or three readings in one; numbers that are none; set-ups that share no place of the machine or of
 // the target; more readings than fit.

@@ -1,6 +1,7 @@
 // How the target lay in each measurement, and what that does to a reading (README.md derives it).
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "schema/axis.h"
@@ -26,10 +27,17 @@ struct AcrossSurface {
 };
 AcrossSurface across(Axis motion, Surface surface);
 
+// By how much one standard uncertainty of a declared quantity changes each reading of a set-up.
+struct DeclaredShift {
+  std::string common_as;  // set-ups that have the same here share the quantity; empty: their own
+  std::vector<double> shift_m;
+};
+
 // One measurement: errors of the moving body at positions of the encoder, and how the target lay.
 struct SetUp {
   std::vector<double> position_m, error_m;
   std::vector<double> u_m;  // standard uncertainties; empty: not known
+  std::vector<DeclaredShift> declared;
   HalfTurn turn;
   // In C along the motion: where the zero of the target's own length came to lie, which in the
   // first set-up is that of C.

@@ -48,7 +48,8 @@ struct Separation {
   std::size_t freedom() const { return readings - rank; }
   // Root mean square of what the fit leaves, by its freedom; NaN: nothing is left to test.
   double residual_m = std::numeric_limits<double>::quiet_NaN();
-  std::string u_reason;  // where u comes from, or why there is none
+  std::string u_reason;     // where u comes from, or why there is none
+  bool noise_only = false;  // u has noise and repeatability of runs, and nothing that is declared
   std::vector<std::string> warnings;
 };
 

@@ -49,13 +49,15 @@ void write_fit(JsonWriter& json, const Separation& fit) {
       .field("k", kSeparationCoverage)
       .field("u_from", fit.u_reason)
       .field("u_covers", fit.u_reason)
+      .field("noise_only", fit.noise_only)
       .field("not_in_it", not_in_separation_u());
 }
 
 }  // namespace
 
 const char* not_in_separation_u() {
-  return "probe's scale, drift between the set-ups, errors of the shifts, levers that differ, sag";
+  return "what is not declared (probe's scale, drift within a set-up, flatness of other surfaces), "
+         "errors of the shifts, levers that differ, sag; a tilt between the set-ups is fitted";
 }
 
 std::string separation_json(const SeparationRecord& record) {

@@ -45,6 +45,42 @@ TEST(RunSeries, OfAProbeIsWhatItReads) {
   EXPECT_NEAR(probe_series(run, test::rig_x(), "D", Axis::y)->set_up.error_m[2], -before, 1e-18);
 }
 
+// The same run with a gain that is really there, read again: 2 % of D, and of B through the roll.
+TEST(RunSeries, ADeclaredGainDoesWhatItWouldDo) {
+  for (const std::size_t k : {1u, 3u}) {
+    const Rig rig = test::rig_x_with(k == 1 ? "B" : "D", "u_sensitivity_ppm = 20000");
+    SyntheticRun synthetic{.rig = rig, .model = Model::exact, .targets_m = {0, 10e-3, 30e-3}};
+    synthetic.truth = [](double d) { return Errors5{2e-6 * d, 1e-6 * d, 40e-6 * d, 0, 30e-6 * d}; };
+    const auto run = synthetic.measure();
+    synthetic.added = [k](std::size_t probe, double, double reading_m, double) {
+      return probe == k ? 0.02 * reading_m : 0.0;
+    };
+    const auto with_gain = synthetic.measure();
+    const auto declared = declared_shifts(run, rig, 0, Axis::y).value();
+    ASSERT_EQ(declared.size(), 1U);
+    EXPECT_NE(declared[0].common_as, "");
+    const auto before = error_series(run, 0), after = error_series(with_gain, 0);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(declared[0].shift_m[i], after.error_m[i] - before.error_m[i], 1e-13) << k << i;
+    EXPECT_GT(std::abs(declared[0].shift_m[2]), 1e-10);
+    if (k == 1) continue;
+    const auto own = probe_series(run, rig, "D", Axis::y)->set_up;
+    ASSERT_EQ(own.declared.size(), 1U);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(own.declared[0].shift_m[i], 0.02 * own.error_m[i], 1e-18);
+  }
+}
+
+// The surface that is looked at is what a separation finds; the other one is in u.
+TEST(RunSeries, TheFlatnessOfTheOtherSurfaceIsInIt) {
+  const std::string planes =
+      "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.05\n"
+      "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n";
+  const Rig side = test::rig_x_with("", "", planes);
+  EXPECT_TRUE(declared_shifts(of_slopes(side), side, 0, Axis::y)->empty());
+  EXPECT_FALSE(declared_shifts(of_slopes(side), side, 0, Axis::z)->empty());
+}
+
 TEST(RunSeries, RefusesAProbeThatLooksElsewhere) {
   const auto run = of_slopes(test::rig_x());
   const auto other = probe_series(run, test::rig_x(), "A", Axis::y);

@@ -328,5 +328,44 @@ TEST(Separation, WhatCannotBeIsRefusedWithARemedy) {
   says(request, "2 readings");
 }
 
+// By hand: of a reversal the machine is half the sum. One gain of 1 % in both set-ups is 1 % of
+// all that is seen; a gain of each is 1 % of each half, whose squares add.
+TEST(Separate, WhatIsDeclaredIsInU) {
+  const auto found = [](const std::string& common, double gain) {
+    SeparationRequest request;
+    request.u_is_noise = true;
+    for (int k = 0; k < 2; ++k) {
+      auto& set_up = request.set_ups.emplace_back();
+      for (int i = 0; i < 7; ++i) {
+        const double x = 0.005 * i;
+        set_up.position_m.push_back(x);
+        set_up.error_m.push_back(kUm * (std::sin(300 * x) + (k == 0 ? 1 : -1) * std::cos(200 * x)));
+        set_up.u_m.push_back(1e-12);
+      }
+      set_up.turn.height_sign = k == 0 ? 1 : -1;
+      if (gain == 0) continue;
+      DeclaredShift& shift = set_up.declared.emplace_back(DeclaredShift{common, {}});
+      for (const double e : set_up.error_m) shift.shift_m.push_back(gain * e);
+    }
+    return separate(request).value();
+  };
+  const Separation one = found("gain", 0.01), none = found("", 0);
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_NEAR(one.machine.u_m[i], 0.01 * std::abs(one.machine.seen_m[i]), 2e-12);
+    EXPECT_NEAR(one.target.u_m[i], 0.01 * std::abs(one.target.seen_m[i]), 2e-12);
+    EXPECT_LT(none.machine.u_m[i], 2e-12);
+  }
+  // Each set-up's own; places on the target descend as positions ascend.
+  const Separation own = found("", 0.01);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const double first = one.machine.seen_m[i] + one.target.seen_m[6 - i];
+    const double second = one.machine.seen_m[i] - one.target.seen_m[6 - i];
+    EXPECT_NEAR(own.machine.u_m[i], 0.005 * std::hypot(first, second), 2e-12);
+  }
+  EXPECT_FALSE(one.noise_only);
+  EXPECT_TRUE(none.noise_only);
+  EXPECT_NE(none.u_reason.find("repeatability only"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -142,7 +142,9 @@ Status add_run(store::Store& store, const Run& run, const SourceOptions& options
   algo::SetUp set_up;
   if (options.probe.empty()) {
     MDOF_CHECK(check_without_map(run, rig));
-    set_up = algo::error_series(run, algo::across(run.header.axis, loaded.record.surface).named);
+    const auto across = algo::across(run.header.axis, loaded.record.surface);
+    set_up = algo::error_series(run, across.named);
+    MDOF_TRY(set_up.declared, algo::declared_shifts(run, rig, across.named, across.normal));
   } else {
     MDOF_TRY(algo::ProbeSeries series,
              algo::probe_series(run, rig, options.probe, loaded.record.normal));
@@ -175,6 +177,7 @@ Result<LoadedSources> load_runs(const SourceOptions& options) {
   MDOF_TRY(store::Store store, open_to_read(options.database));
   MDOF_TRY(const auto runs, runs_of(store, options));
   LoadedSources loaded = nothing_yet(options, runs.front().header.moving());
+  loaded.request.u_is_noise = true;
   std::vector<Vec3> probe_at;
   for (const Run& run : runs) MDOF_CHECK(add_run(store, run, options, loaded, probe_at));
   loaded.warnings = algo::inherited_warnings(algo::all_of(runs));

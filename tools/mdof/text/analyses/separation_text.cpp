@@ -112,7 +112,8 @@ std::string unseen_text(const SeenSeries& series) {
 std::string separation_text(const SeparationRecord& record, std::size_t width) {
   const Separation& r = record.result;
   const std::string of = record.probe.empty() ? "" : " at probe " + record.probe;
-  return simulated_notice(record.simulated) + sources_text(record, width) + fit_text(r) + "\n" +
+  return noise_only_notice(r.noise_only) + simulated_notice(record.simulated) +
+         sources_text(record, width) + fit_text(r) + "\n" +
          series_text("machine: " + record.error + of, "encoder/mm", record.error + "/µm", r.machine,
                      width) +
          "\n" +

@@ -79,8 +79,10 @@ class FaultyFixture {
       const double reading = exact(static_cast<Eigen::Index>(k));
       const double second =
           std::abs(probe.n_C.z()) > std::abs(probe.n_C.y()) ? probe.p_MP.y() : probe.p_MP.z();
+      const double height_m =
+          probe.plane ? surfaces_[*probe.plane].above_zero_m(probe.p_MP.x(), second, d) : 0.0;
       all.push_back(reading * (1 + gain_[k]) + offset_m_[k] + drift_m_per_s_[k] * time_s +
-                    surfaces_[*probe.plane].above_zero_m(probe.p_MP.x(), second, d));
+                    height_m);
     }
     return all;
   }

@@ -46,9 +46,9 @@ Pose about_point(const Eigen::Matrix3d& R, const Eigen::Vector3d& point) {
 }
 
 Pose motion(const MachineFrame& frame, const FrameValues& v) {
-  if (frame.kind == FrameKind::fixed) return {};
+  if (frame.kind == FrameKind::fixed && frame.moves_with == 0) return {};
   const Eigen::Matrix3d line = line_rotation(v);
-  if (frame.kind == FrameKind::linear)
+  if (moves_along(frame))
     return {Eigen::Matrix3d::Identity(),
             line.col(static_cast<Eigen::Index>(frame.direction)) * v.travel};
   const Eigen::Vector3d centre =
@@ -63,6 +63,7 @@ double command_of(const MachineFrame& frame, const Command& command) {
 }
 
 double travel_of(const MachineFrame& frame, const Command& command) {
+  if (frame.moves_with != 0) return frame.ratio * command[kLetters.find(frame.moves_with)];
   const double at = command_of(frame, command);
   return frame.against_command ? -at : at;
 }
@@ -100,7 +101,7 @@ Pose nominal_pose(const MachineFrame& frame, double travel) {
 
 Eigen::Vector3d holding_point(const MachineFrame& frame, double travel) {
   Eigen::Vector3d point = vector_of(frame.at_m);
-  if (frame.kind == FrameKind::linear && frame.point_moves)
+  if (moves_along(frame) && frame.point_moves)
     point[static_cast<Eigen::Index>(frame.direction)] += travel;
   return point;
 }

@@ -213,7 +213,7 @@ LinearBound linear_bound(const Machine& machine, const Command& command,
     shifts += size_of(v.error, 0) + twice * size_of(v.location, 0);
     turns += size_of(v.error, 3) + twice * size_of(v.location, 3);
     arm = std::max(arm, (w.at[i] - holding_point(frame, v.travel)).norm());
-    if (frame.kind == FrameKind::linear) arm = std::max(arm, std::abs(v.travel));
+    if (moves_along(frame)) arm = std::max(arm, std::abs(v.travel));
   }
   const double more = 1 + 4 * turns;  // higher orders
   return {(2 * turns * shifts + 3 * turns * turns * arm) * more, turns * turns * more};

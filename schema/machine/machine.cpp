@@ -31,6 +31,10 @@ const MachineFrame* Machine::find(std::string_view id) const {
   return found == frames.end() ? nullptr : &*found;
 }
 
+bool moves_along(const MachineFrame& frame) {
+  return frame.kind == FrameKind::linear || frame.moves_with != 0;
+}
+
 std::string error_name(const MachineFrame& frame, std::size_t k) {
   const std::string direction(1, kDirections[k]);
   return "E" + direction + (frame.kind == FrameKind::fixed ? "(" + frame.id + ")" : frame.id);
@@ -59,6 +63,20 @@ double written_position(const MachineFrame& frame, double position) {
 
 const char* position_unit(const MachineFrame& frame) {
   return frame.kind == FrameKind::rotary ? "deg" : "mm";
+}
+
+const char* to_string(SourceShape shape) {
+  switch (shape) {
+    case SourceShape::normal:
+      break;
+    case SourceShape::rectangular:
+      return "rectangular";
+    case SourceShape::triangular:
+      return "triangular";
+    case SourceShape::u_shaped:
+      return "u-shaped";
+  }
+  return "normal";
 }
 
 Status check_function(const ErrorFunction& function, std::size_t k, const std::string& where) {

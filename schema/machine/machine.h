@@ -49,10 +49,33 @@ struct MachineFrame {
   // The point goes with the body of a linear axis; else it stands still, as a fixture in the
   // spindle does over a table.
   bool point_moves = false;
+  // Of a body of kind `fixed` that goes along `direction` with the command of a linear axis, as the
+  // sliding rod of a tilt drive does: that axis, and how far by how far. 0: it does not move.
+  char moves_with = 0;
+  double ratio = 0;
   std::array<ErrorFunction, kBodyErrors> error;
   std::array<LocationError, kBodyErrors> location;
   std::optional<std::array<double, 2>> range;  // of the command that is used, m or rad
   std::string file;                            // columns of several errors; empty: none
+};
+
+// What may vary and was not measured: a screw, a clearance, an assembly. It may act at several
+// places at once.
+enum class SourceShape { normal, rectangular, triangular, u_shaped };
+
+struct SourceEffect {
+  std::size_t frame = 0, k = 0;    // of Machine::frames; of the six
+  bool of_line = false;            // a location error; else an error of the body
+  double factor = 0;               // of the error by the source: m or rad by the source's unit
+  double factor_per_position = 0;  // the same, times the command of the axis `of`: by m or rad
+  std::size_t of = 0;              // of Machine::frames
+};
+
+struct ErrorSource {
+  std::string name, unit;  // the unit is a word: the factors convert
+  double u = 0;            // standard uncertainty, in its unit
+  SourceShape shape = SourceShape::normal;
+  std::vector<SourceEffect> acts_on;
 };
 
 struct Machine {
@@ -61,9 +84,13 @@ struct Machine {
   std::vector<MachineFrame> frames;  // from the work to the tool
   Vec3 tool_m{};                     // the tool's point
   bool simulated = false;
+  std::vector<ErrorSource> sources;
 
   const MachineFrame* find(std::string_view id) const;
 };
+
+// Whether its body goes along a line, as a linear axis or with one.
+bool moves_along(const MachineFrame& frame);
 
 // "EXX", "EX(column)"; of the line of an axis "EC0Y".
 std::string error_name(const MachineFrame& frame, std::size_t k);
@@ -82,6 +109,12 @@ const char* position_unit(const MachineFrame& frame);  // "mm", "deg"
 // Errors: as many values as positions, increasing, finite, below what any machine has (0.1 rad,
 // 10 mm: µm and mm mixed up). `where` begins the message.
 Status check_function(const ErrorFunction& function, std::size_t k, const std::string& where);
+
+const char* to_string(SourceShape shape);
+
+// The machine of Wang, Ye and Gunawan (2021) as MACHINE.toml; what the paper does not give is
+// marked in the text.
+std::string_view co_planar_machine();
 
 // MACHINE.toml (schema/machine/README.md). Errors name file, line, key and remedy. What stands in
 // other files is not read: `file` of a frame or of an error says which.

@@ -4,12 +4,14 @@
 
 #include "schema/base/toml_reader.h"
 #include "schema/machine/machine.h"
+#include "schema/machine/machine_sources.h"
 #include "schema/units.h"
 
 namespace mdof {
 namespace {
 
 constexpr std::string_view kLetters = "XYZABC";
+constexpr double kLargestRatio = 1000;
 
 double value_from_written(std::size_t k, double written) {
   return k < 3 ? from_um(written) : from_urad(written);
@@ -165,7 +167,30 @@ std::optional<std::size_t> place_after(const Machine& machine, const std::string
   return link == "b" ? std::optional(frames.size()) : std::nullopt;
 }
 
-// A body that does not move has errors all the same: how it was put upon the one before.
+// A body that goes with the command of a linear axis, along another direction: with, along, ratio.
+void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& frame) {
+  const std::string with = table.string("with"), along = table.string("along");
+  const MachineFrame* axis = machine.find(with);
+  if (!axis || axis->kind != FrameKind::linear)
+    table.reject("with", "\"" + with + "\" is no linear axis of the chain " + machine.chain.text);
+  else
+    frame.moves_with = with[0];
+  if (along != "X" && along != "Y" && along != "Z")
+    table.reject("along", "\"" + along + "\" must be X, Y or Z");
+  else
+    frame.direction = kLetters.find(along);
+  frame.ratio = table.number("ratio");
+  if (!(std::abs(frame.ratio) <= kLargestRatio) || frame.ratio == 0)
+    table.reject("ratio",
+                 "must be a number from -1000 to 1000 that is not 0: mm along + of `along` "
+                 "by mm of the command of `with`");
+  const std::string point = table.string("point", "moving");
+  frame.point_moves = point == "moving";
+  if (point != "moving" && point != "standing")
+    table.reject("point", "must be \"standing\" or \"moving\" (with the body)");
+}
+
+// A body that is no axis has errors all the same: how it was put upon the one before.
 void read_fixed_frames(TomlTable& root, Machine& machine) {
   for (TomlTable& table : root.tables("frame")) {
     MachineFrame frame;
@@ -182,6 +207,7 @@ void read_fixed_frames(TomlTable& root, Machine& machine) {
     }
     frame.carries_work = after == "w" || (after != "b" && machine.frames[*place - 1].carries_work);
     frame.at_m = read_point(table, "holds_at_mm");
+    if (table.has("with")) read_motion_with(table, machine, frame);
     read_errors(table, frame);
     machine.frames.insert(machine.frames.begin() + static_cast<std::ptrdiff_t>(*place),
                           std::move(frame));
@@ -201,6 +227,7 @@ Result<Machine> parse_machine(std::string_view text, const std::string& source_n
   else
     read_axes(root, machine);
   read_fixed_frames(root, machine);
+  read_sources(root, machine);
   if (auto tool = root.table("tool")) machine.tool_m = read_point(*tool, "point_mm");
   MDOF_CHECK(root.finish());
   return machine;

@@ -29,6 +29,8 @@ class RandomMachines {
     Machine m;
     for (std::size_t i = 0; i < letters.size(); ++i)
       m.frames.push_back(frame(letters[i], i < of_work, shift_m, turn_rad, size_m, line_errors));
+    for (MachineFrame& f : m.frames)
+      if (f.kind == FrameKind::fixed && source_() % 2 == 1) follow(f, letters);
     m.tool_m = place(size_m);
     return m;
   }
@@ -41,6 +43,14 @@ class RandomMachines {
  private:
   Vec3 place(double size_m) {
     return {between(-size_m, size_m), between(-size_m, size_m), between(-size_m, size_m)};
+  }
+
+  // A rod that goes with a linear axis, along any direction.
+  void follow(MachineFrame& f, const std::string& letters) {
+    const std::size_t axis = letters.find_first_of("XYZ");
+    f.moves_with = letters[axis];
+    f.direction = source_() % 3;
+    f.ratio = between(-2, 2);
   }
 
   MachineFrame frame(char letter, bool of_work, double shift_m, double turn_rad, double size_m,
@@ -138,7 +148,9 @@ inline Real by_two_rows(const ErrorFunction& f, Real at) {
 }
 
 inline Matrix4 frame_matrix(const MachineFrame& f, Real command, bool with_errors) {
-  const Real travel = f.against_command ? -command : command;
+  const Real travel = f.moves_with != 0   ? f.ratio * command
+                      : f.against_command ? -command
+                                          : command;
   std::array<Real, 6> e{}, line{};
   for (std::size_t k = 0; with_errors && k < 6; ++k) {
     e[k] = by_two_rows(f.error[k], command);
@@ -147,7 +159,7 @@ inline Matrix4 frame_matrix(const MachineFrame& f, Real command, bool with_error
   Matrix4 motion = same();
   std::array<Real, 3> point = {f.at_m[0], f.at_m[1], f.at_m[2]};
   const Matrix4 tilt = turned_xyz(line[3], line[4], line[5]);
-  if (f.kind == FrameKind::linear) {
+  if (f.kind == FrameKind::linear || f.moves_with != 0) {
     for (std::size_t i = 0; i < 3; ++i) motion[i][3] = tilt[i][f.direction] * travel;
     if (f.point_moves) point[f.direction] += travel;
   } else if (f.kind == FrameKind::rotary) {
@@ -166,8 +178,9 @@ inline Matrix4 frame_matrix(const MachineFrame& f, Real command, bool with_error
 inline Matrix4 tool_matrix(const Machine& machine, const algo::Command& command, bool with_errors) {
   Matrix4 work = same(), tool = same();
   for (const MachineFrame& f : machine.frames) {
-    const std::size_t at = f.kind == FrameKind::fixed ? 0 : std::string("XYZABC").find(f.id);
-    const Matrix4 m = frame_matrix(f, f.kind == FrameKind::fixed ? 0 : command[at], with_errors);
+    const std::string axis = f.moves_with != 0 ? std::string(1, f.moves_with) : f.id;
+    const std::size_t at = std::string("XYZABC").find(axis);
+    const Matrix4 m = frame_matrix(f, at == std::string::npos ? 0 : command[at], with_errors);
     if (f.carries_work)
       work = times(m, work);  // the next frame is nearer to the bed
     else

@@ -81,6 +81,50 @@ TEST(MachineToml, FramesThatAreNoAxes) {
   EXPECT_EQ(order, "fixturew Cw Yw saddlew columnt Xt Zt spindlet holdert ");
 }
 
+const std::string kRod =
+    "[[frame]]\nid = \"rod\"\nafter = \"b\"\nwith = \"Y\"\nalong = \"X\"\nratio = 2.0649\n"
+    "holds_at_mm = [0, 0, 0]\n";
+const std::string kScrew = R"toml([[source]]
+name = "screw"
+u = 0.3
+unit = "um"
+distribution = "rectangular"
+acts_on = [{error = "EX(rod)", factor = -1},
+           {error = "EYY", factor = 0.5, factor_per_mm = -2, of = "X"},
+           {error = "EC0Y", factor_per_deg = 3, of = "C"}]
+)toml";
+
+TEST(MachineToml, ABodyThatGoesWithAnAxisAndASource) {
+  const auto read = parse_machine(kMachine + kRod + kScrew, "m.toml");
+  ASSERT_TRUE(read) << read.error().message;
+  const auto* rod = read->find("rod");
+  ASSERT_TRUE(rod);
+  EXPECT_TRUE(moves_along(*rod) && rod->point_moves && !rod->carries_work);
+  EXPECT_EQ(rod->moves_with, 'Y');
+  EXPECT_EQ(rod->direction, 0u);
+  EXPECT_EQ(rod->ratio, 2.0649);
+  ASSERT_EQ(read->sources.size(), 1u);
+  const ErrorSource& screw = read->sources[0];
+  EXPECT_EQ(screw.shape, SourceShape::rectangular);
+  EXPECT_EQ(screw.u, 0.3);
+  ASSERT_EQ(screw.acts_on.size(), 3u);
+  EXPECT_EQ(&read->frames[screw.acts_on[0].frame], rod);
+  EXPECT_DOUBLE_EQ(screw.acts_on[0].factor, -1e-6);
+  EXPECT_EQ(screw.acts_on[1].k, 1u);
+  EXPECT_DOUBLE_EQ(screw.acts_on[1].factor, 0.5e-6);
+  EXPECT_DOUBLE_EQ(screw.acts_on[1].factor_per_position, -2e-3);
+  EXPECT_TRUE(screw.acts_on[2].of_line);
+  EXPECT_NEAR(screw.acts_on[2].factor_per_position, 3e-6 * 180 / 3.141592653589793, 1e-18);
+}
+
+// Table 1 has six part errors of each of 14 joints.
+TEST(MachineToml, TheCoPlanarMachineHas84PartErrors) {
+  const auto read = parse_machine(co_planar_machine(), "co-planar");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->frames.size() * kBodyErrors, 84u);
+  EXPECT_EQ(read->sources.size(), 6u);
+}
+
 struct Bad {
   const char *from, *to, *says;
 };
@@ -103,9 +147,23 @@ TEST(MachineToml, WhatIsWrongIsNamed) {
       {"w-C-Y-b-X-Z-t", "w-C-Y-X-Z-t", "bed"},
       {"holds_at_mm = [1, 2, 3]", "holds_at_mm = [1, 2, inf]", "holds_at_mm"},
       {"name", "nam", "nam"},
+      {"with = \"Y\"", "with = \"C\"", "frame[1].with"},
+      {"along = \"X\"", "along = \"A\"", "frame[1].along"},
+      {"ratio = 2.0649", "ratio = 0", "frame[1].ratio"},
+      {"ratio = 2.0649", "ratio = nan", "frame[1].ratio"},
+      {"ratio = 2.0649", "ratios = 2", "ratio"},
+      {"\"EYY\"", "\"EYQ\"", "did you mean"},
+      {"factor = -1", "factor = inf", "acts_on[1].factor"},
+      {"factor = -1", "factors = 1", "factor"},
+      {"of = \"X\"", "of = \"rod\"", "acts_on[2].of"},
+      {"u = 0.3", "u = -0.3", "source[1].u"},
+      {"u = 0.3", "u = nan", "source[1].u"},
+      {"\"rectangular\"", "\"square\"", "source[1].distribution"},
+      {"\"screw\"", "\"EXX\"", "source[1].name"},
+      {"unit = \"um\"", "units = \"um\"", "unit"},
   };
   for (const Bad& bad : all) {
-    std::string text = kMachine;
+    std::string text = kMachine + kRod + kScrew;
     const auto at = text.find(bad.from);
     ASSERT_NE(at, std::string::npos) << bad.from;
     text.replace(at, std::string(bad.from).size(), bad.to);

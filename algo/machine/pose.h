@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "algo/machine/tiny_angle.h"
 #include "schema/axis.h"
 
 namespace mdof::algo {
@@ -17,20 +18,6 @@ struct Pose {
 };
 
 Eigen::Vector3d vector_of(const Vec3& v);
-
-// Sine and cosine for |x| <= 0.1 rad, within 1 ulp, of additions and products alone: the same bits
-// everywhere, and several at a time. V: double, or several of them.
-template <class V>
-inline V tiny_sin(V x) {
-  const V z = x * x;
-  return x + x * (z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880)))));
-}
-template <class V>
-inline V tiny_cos(V x) {
-  const V z = x * x;
-  return 1.0 +
-         z * (-0.5 + z * (1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320 + z * (-1.0 / 3628800)))));
-}
 
 // Rz(c) Ry(b) Rx(a) of the errors of a body, |angles| <= 0.1 rad.
 Eigen::Matrix3d tiny_rotation(double a_rad, double b_rad, double c_rad);

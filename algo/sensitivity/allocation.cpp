@@ -172,4 +172,14 @@ Result<Allocation> allocate(const ScalableExperiment& experiment, const PlannedA
   return result;
 }
 
+Result<double> largest_factor(const ScalableExperiment& experiment,
+                              const PlannedAllocation& planned,
+                              const std::vector<std::size_t>& which, const ForEach& for_each) {
+  MDOF_TRY(const std::size_t output, place_of(planned.output, experiment.outputs(), planned));
+  const TrialsWithinLimit within(experiment, planned, output, for_each);
+  const std::vector<double> as_planned(experiment.quantities().size(), 1.0);
+  return FactorSearch(within, as_planned, which)
+      .largest(CountsNeeded(planned.trials, planned.probability).nominal);
+}
+
 }  // namespace mdof::algo

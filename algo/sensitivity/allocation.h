@@ -31,4 +31,11 @@ void one_after_the_other(std::size_t count, const std::function<void(std::size_t
 Result<Allocation> allocate(const ScalableExperiment& experiment, const PlannedAllocation& planned,
                             const ForEach& for_each = one_after_the_other);
 
+// The largest factor on these quantities, the others as planned, with which the limit is kept; 0
+// and infinite as above. `planned.tolerances` is not read.
+Result<double> largest_factor(const ScalableExperiment& experiment,
+                              const PlannedAllocation& planned,
+                              const std::vector<std::size_t>& which,
+                              const ForEach& for_each = one_after_the_other);
+
 }  // namespace mdof::algo

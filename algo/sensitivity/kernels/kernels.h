@@ -11,6 +11,8 @@
 
 namespace mdof::algo {
 
+struct ChainProgram;
+
 // What a trial of the paper's simulations needs, SI.
 struct SimulationConstants {
   Stream stream;
@@ -47,6 +49,9 @@ struct Kernels {
   // above them (NaN: 0).
   void (*scan)(double* x, std::size_t n, double low, double per_width, CellSums& sums,
                std::uint64_t* index);
+  // error: x, y, z of the tool, m. Columns: of `stride` numbers each, a multiple of 8 above n - 1.
+  void (*chain)(const ChainProgram&, const double* columns, std::size_t stride, std::size_t n,
+                double* const* error);
 };
 
 inline constexpr std::size_t kCoreBins = 8192;

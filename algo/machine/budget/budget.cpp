@@ -1,0 +1,181 @@
+#include "algo/machine/budget/budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kMostTurn_rad = 0.1, kMostShift_m = 0.01;
+
+bool is_measured(const MachineFrame& frame, std::size_t k, bool of_line) {
+  return of_line ? frame.location[k].value.has_value() : frame.error[k].known();
+}
+
+std::string name_of(const MachineFrame& frame, std::size_t k, bool of_line) {
+  return of_line ? location_name(frame, k) : error_name(frame, k);
+}
+
+double per_unit_at(const Machine& machine, const SourceEffect& effect, const Command& at) {
+  const double by_place =
+      effect.factor_per_position == 0
+          ? 0
+          : effect.factor_per_position * command_of(machine.frames[effect.of], at);
+  return effect.factor + by_place;
+}
+
+BudgetCause cause_of(const ErrorSource& source, BudgetModel& model, BudgetStage stage) {
+  BudgetCause cause{source.name, source.unit, source.u, source.shape, {}, {}};
+  for (const SourceEffect& effect : source.acts_on) {
+    const MachineFrame& frame = model.machine.frames[effect.frame];
+    if (stage == BudgetStage::measured && is_measured(frame, effect.k, effect.of_line)) {
+      model.replaced.push_back(source.name + " on " + name_of(frame, effect.k, effect.of_line));
+      continue;
+    }
+    cause.effects.push_back(
+        {effect.frame, effect.k, effect.of_line, per_unit_at(model.machine, effect, model.at)});
+  }
+  return cause;
+}
+
+// Those with a declared u, each a cause of its own; in µm or µrad.
+void add_measured(BudgetModel& model) {
+  for (std::size_t i = 0; i < model.machine.frames.size(); ++i) {
+    const MachineFrame& frame = model.machine.frames[i];
+    const FrameValues& v = model.values[i];
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      for (const bool of_line : {false, true}) {
+        const double u = of_line ? v.u_location[k] : v.u_error[k];
+        if (u == 0) continue;
+        model.causes.push_back({name_of(frame, k, of_line),
+                                k < 3 ? "um" : "urad",
+                                u * 1e6,
+                                SourceShape::normal,
+                                {{i, k, of_line, 1e-6}},
+                                {}});
+      }
+  }
+}
+
+double reach(SourceShape shape) {
+  switch (shape) {
+    case SourceShape::rectangular:
+      return std::sqrt(3.0);
+    case SourceShape::triangular:
+      return std::sqrt(6.0);
+    case SourceShape::u_shaped:
+      return std::sqrt(2.0);
+    case SourceShape::normal:
+      break;
+  }
+  return 8.5;  // beyond any normal number of 52 bits
+}
+
+Status check_sizes(const BudgetModel& model) {
+  for (std::size_t i = 0; i < model.machine.frames.size(); ++i)
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      for (const bool of_line : {false, true}) {
+        const FrameValues& v = model.values[i];
+        double most = std::abs(of_line ? v.location[k] : v.error[k]);
+        for (const BudgetCause& cause : model.causes)
+          for (const CauseEffect& e : cause.effects) {
+            if (e.frame != i || e.k != k || e.of_line != of_line) continue;
+            most += std::abs(e.per_unit) * cause.u * reach(cause.shape);
+            if (most <= (k < 3 ? kMostShift_m : kMostTurn_rad)) continue;
+            return bad_input("source \"" + cause.name + "\": at this command its u makes " +
+                             name_of(model.machine.frames[i], k, of_line) + " larger than " +
+                             (k < 3 ? "10 mm" : "0.1 rad") +
+                             "; are u, factor and their units right?");
+          }
+      }
+  return {};
+}
+
+void add_sensitivities(BudgetModel& model) {
+  const auto all = derivatives(model.machine, model.at);
+  for (BudgetCause& cause : model.causes)
+    for (const CauseEffect& e : cause.effects)
+      for (const ErrorDerivative& d : all)
+        if (d.frame == e.frame && d.k == e.k && d.of_line == e.of_line)
+          cause.sensitivity += e.per_unit * d.d.head<3>();
+}
+
+double mean_square(const ErrorFunction& f) {
+  double sum = 0;
+  for (std::size_t i = 0; i < f.forward.size(); ++i) {
+    const double value = f.reverse.empty() ? f.forward[i] : (f.forward[i] + f.reverse[i]) / 2;
+    const double u = f.u.empty() ? 0 : f.u[i];
+    sum += value * value + u * u;
+  }
+  return sum / static_cast<double>(f.forward.size());
+}
+
+double measured_square(const MachineFrame& frame, std::size_t k, bool of_line) {
+  if (!of_line) return mean_square(frame.error[k]);
+  const double value = *frame.location[k].value, u = frame.location[k].u.value_or(0);
+  return value * value + u * u;
+}
+
+}  // namespace
+
+Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
+                                 MachineApproach approach, BudgetStage stage) {
+  BudgetModel model{machine, at, {}, {}, {}};
+  if (stage == BudgetStage::designed)
+    for (MachineFrame& frame : model.machine.frames) {
+      frame.error = {};
+      frame.location = {};
+    }
+  model.values = values_at(model.machine, at, approach);
+  for (const ErrorSource& source : machine.sources) {
+    BudgetCause cause = cause_of(source, model, stage);
+    if (!cause.effects.empty()) model.causes.push_back(std::move(cause));
+  }
+  add_measured(model);
+  MDOF_CHECK(check_sizes(model));
+  add_sensitivities(model);
+  return model;
+}
+
+Eigen::Vector3d budget_u_m(const BudgetModel& model) {
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  for (const BudgetCause& cause : model.causes)
+    squares += cause.contribution_m().cwiseProduct(cause.contribution_m());
+  return squares.cwiseSqrt();
+}
+
+std::vector<MeasuredError> designed_against_measured(const Machine& machine, const Command& at) {
+  std::vector<MeasuredError> all;
+  for (const ErrorDerivative& d : derivatives(machine, at)) {
+    const MachineFrame& frame = machine.frames[d.frame];
+    if (!is_measured(frame, d.k, d.of_line)) continue;
+    MeasuredError e;
+    e.name = name_of(frame, d.k, d.of_line);
+    e.k = d.k;
+    double designed = 0;
+    for (const ErrorSource& source : machine.sources)
+      for (const SourceEffect& effect : source.acts_on) {
+        if (effect.frame != d.frame || effect.k != d.k || effect.of_line != d.of_line) continue;
+        const double u = per_unit_at(machine, effect, at) * source.u;
+        designed += u * u;
+        e.has_design = true;
+      }
+    e.designed_u = std::sqrt(designed);
+    e.measured_u = std::sqrt(measured_square(frame, d.k, d.of_line));
+    const double arm = d.d.head<3>().norm();
+    e.designed_effect_m = arm * e.designed_u;
+    e.measured_effect_m = arm * e.measured_u;
+    all.push_back(e);
+  }
+  const auto excess = [](const MeasuredError& e) {
+    return e.measured_effect_m * e.measured_effect_m - e.designed_effect_m * e.designed_effect_m;
+  };
+  std::stable_sort(all.begin(), all.end(), [&](const MeasuredError& a, const MeasuredError& b) {
+    return excess(a) > excess(b);
+  });
+  return all;
+}
+
+}  // namespace mdof::algo

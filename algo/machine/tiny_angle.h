@@ -1,0 +1,20 @@
+// Sine and cosine of small angles, without Eigen: the vector kernels include it too.
+#pragma once
+
+namespace mdof::algo {
+
+// Sine and cosine for |x| <= 0.1 rad, within 1 ulp, of additions and products alone: the same bits
+// everywhere, and several at a time. V: double, or several of them.
+template <class V>
+inline V tiny_sin(V x) {
+  const V z = x * x;
+  return x + x * (z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880)))));
+}
+template <class V>
+inline V tiny_cos(V x) {
+  const V z = x * x;
+  return 1.0 +
+         z * (-0.5 + z * (1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320 + z * (-1.0 / 3628800)))));
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,230 @@
+#include "algo/machine/budget/budget.h"
+
+#include <gtest/gtest.h>
+
+#include "algo/machine/budget/trials.h"
+#include "algo/sensitivity/statistics/statistics.h"
+#include "tests/algo/machine/random_machine.h"
+
+namespace mdof::algo {
+namespace {
+
+const char* const kChains[] = {"XYZ", "XYZC", "XYZABC", "XYZmn", "XYZBmnopqrstuv"};
+constexpr SourceShape kShapes[] = {SourceShape::normal, SourceShape::rectangular,
+                                   SourceShape::triangular, SourceShape::u_shaped};
+
+// Sources that act at up to four places each, lines of axes among them.
+void add_sources(Machine& machine, test::RandomMachines& random, int count) {
+  for (int i = 0; i < count; ++i) {
+    ErrorSource source{
+        "source " + std::to_string(i), "um", random.between(0.1, 1), kShapes[i % 4], {}};
+    for (int e = 0; e <= i % 4; ++e) {
+      SourceEffect effect;
+      effect.frame = static_cast<std::size_t>(
+          random.between(0, static_cast<double>(machine.frames.size()) - 0.001));
+      effect.k = static_cast<std::size_t>(random.between(0, 5.999));
+      const MachineFrame& frame = machine.frames[effect.frame];
+      effect.of_line = e == 1 && has_location(frame, effect.k);
+      effect.factor = random.between(-1e-4, 1e-4);
+      effect.of = static_cast<std::size_t>(machine.find("X") - machine.frames.data());
+      if (e == 2) effect.factor_per_position = random.between(-1e-4, 1e-4);
+      source.acts_on.push_back(effect);
+    }
+    machine.sources.push_back(source);
+  }
+}
+
+// The machine with each source at a value (in its unit) added to its errors.
+Machine with_sources_at(Machine machine, const Command& at, const std::vector<double>& value) {
+  for (std::size_t s = 0; s < machine.sources.size(); ++s)
+    for (const SourceEffect& e : machine.sources[s].acts_on) {
+      const double by = (e.factor + e.factor_per_position * at[0]) * value[s];
+      MachineFrame& frame = machine.frames[e.frame];
+      if (e.of_line)
+        frame.location[e.k].value = frame.location[e.k].value.value_or(0) + by;
+      else if (frame.error[e.k].known())
+        for (double& f : frame.error[e.k].forward) f += by;
+      else
+        frame.error[e.k].forward = {by};
+    }
+  return machine;
+}
+
+Machine without_errors(Machine machine) {
+  for (MachineFrame& frame : machine.frames) {
+    frame.error = {};
+    frame.location = {};
+  }
+  return machine;
+}
+
+std::array<double, 4> trial_of(const ScalableExperiment& trials, std::uint64_t i) {
+  std::array<double, 4> out{};
+  double* const at[4] = {&out[0], &out[1], &out[2], &out[3]};
+  trials.run(i, 1, 1, at);
+  return out;
+}
+
+BudgetModel model_of(const Machine& machine, const Command& at,
+                     BudgetStage stage = BudgetStage::designed) {
+  return budget_model(machine, at, MachineApproach::mean, stage).value();
+}
+
+// The matrices of random_machine.h in long double know nothing of the kernel. Bar: 1e-9 µm.
+TEST(MachineBudgetTrials, AreTheProductOfMatrices) {
+  test::RandomMachines random(11);
+  for (int i = 0; i < 60; ++i) {
+    auto machine = without_errors(random.machine(kChains[i % 5], 0, 0, 0.3));
+    add_sources(machine, random, 12);
+    const auto at = random.command(0.3);
+    const auto trials = budget_trials(model_of(machine, at), 7);
+    for (std::uint64_t trial = 0; trial < 20; ++trial) {
+      std::vector<double> value;
+      for (const auto& [name, x] : trials->inputs(trial)) value.push_back(x);
+      ASSERT_EQ(value.size(), machine.sources.size());
+      const auto truth = test::true_error(with_sources_at(machine, at, value), at);
+      const auto error = trial_of(*trials, trial);
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(error[k], static_cast<double>(truth.place[k]) * 1e6, 1e-9);
+      EXPECT_NEAR(error[3], std::hypot(error[0], error[1], error[2]), 1e-12);
+    }
+  }
+}
+
+// A source moves all of its places at once. Bar: 1e-9 of the sensitivity.
+TEST(MachineBudget, SensitivitiesAreThoseOfTheProduct) {
+  test::RandomMachines random(12);
+  for (int i = 0; i < 40; ++i) {
+    auto machine = without_errors(random.machine(kChains[i % 5], 0, 0, 0.3));
+    add_sources(machine, random, 8);
+    const auto at = random.command(0.3);
+    const auto model = model_of(machine, at);
+    for (std::size_t s = 0; s < machine.sources.size(); ++s) {
+      const auto with = [&](double x) {
+        std::vector<double> value(machine.sources.size());
+        value[s] = x;
+        const auto m = with_sources_at(machine, at, value);
+        return Eigen::Vector3d(
+            exact_error(m, at, values_at(m, at, MachineApproach::mean)).head<3>());
+      };
+      constexpr double h = 10;  // up to 1 mrad
+      const Eigen::Vector3d slope =
+          (8 * (with(h) - with(-h)) - (with(2 * h) - with(-2 * h))) / (12 * h);
+      const Eigen::Vector3d& c = model.causes[s].sensitivity;
+      EXPECT_LT((slope - c).norm(), 1e-9 * std::max(c.norm(), 1e-6)) << i << " " << s;
+    }
+  }
+}
+
+TEST(MachineBudgetTrials, TheSameBitsFromEveryInstructionSetAndAnyCut) {
+  test::RandomMachines random(13);
+  auto machine = random.machine("XYZBmno", 0, 0, 0.3);
+  machine = without_errors(machine);
+  add_sources(machine, random, 9);  // an odd number: the last block of draws is half used
+  const auto model = model_of(machine, random.command(0.3));
+  constexpr std::size_t n = 700;
+  const auto all_of = [&](InstructionSet set, std::size_t cut) {
+    const auto trials = budget_trials(model, 5, set);
+    std::vector<double> out(4 * n);
+    for (std::size_t i = 0; i < n; i += cut) {
+      double* const at[4] = {&out[i], &out[n + i], &out[2 * n + i], &out[3 * n + i]};
+      trials->run(i, 1, std::min(cut, n - i), at);
+    }
+    return out;
+  };
+  const auto expected = all_of(InstructionSet::baseline, n);
+  for (const InstructionSet set : available_instruction_sets())
+    for (const std::size_t cut : {n, std::size_t{1}, std::size_t{37}})
+      EXPECT_EQ(all_of(set, cut), expected) << to_string(set) << " " << cut;
+}
+
+// u is the standard deviation of every shape, and scale multiplies it.
+TEST(MachineBudgetTrials, ShapesHaveTheDeclaredU) {
+  for (const SourceShape shape : kShapes) {
+    Machine machine;
+    machine.frames.resize(1);
+    machine.frames[0].id = "X";
+    machine.frames[0].kind = FrameKind::linear;
+    machine.sources = {{"s", "um", 0.4, shape, {{0, 1, false, 1e-6, 0, 0}}}};
+    const auto trials = budget_trials(model_of(machine, {}), 3);
+    constexpr std::size_t n = 200'000;
+    std::vector<double> out(4 * n);
+    double* const at[4] = {&out[0], &out[n], &out[2 * n], &out[3 * n]};
+    trials->run(0, 1, n, at);
+    double square = 0, most = 0;
+    for (std::size_t j = n; j < 2 * n; ++j) {
+      square += out[j] * out[j];
+      most = std::max(most, std::abs(out[j]));
+    }
+    EXPECT_NEAR(std::sqrt(square / n), 0.4, 0.003) << to_string(shape);
+    const double half_width = shape == SourceShape::rectangular  ? std::sqrt(3.0)
+                              : shape == SourceShape::triangular ? std::sqrt(6.0)
+                              : shape == SourceShape::u_shaped   ? std::sqrt(2.0)
+                                                                 : most / 0.4;
+    EXPECT_NEAR(most, 0.4 * half_width, shape == SourceShape::triangular ? 0.01 : 1e-4);
+    const double first = out[n], scale = 2;
+    trials->run_scaled({&scale, 1}, 0, 1, 1, at);
+    EXPECT_NEAR(out[n], 2 * first, 1e-12);
+  }
+}
+
+double volume_p95_um(const Machine& machine) {
+  const auto trials = budget_trials(model_of(machine, {}), 1);
+  StudyStatistics statistics(*trials, pilot_scale(*trials));
+  statistics.add_block(*trials, 0, std::uint64_t{512} * 4000);
+  return statistics.overall({0.95, {0.95}})[3].quantiles[0].value;
+}
+
+// Table 2 of the paper: three screws of ±0.5 µm, or as many causes as it has rows.
+TEST(MachineBudget, OneScrewIsOneCause) {
+  auto machine = parse_machine(co_planar_machine(), "co-planar").value();
+  EXPECT_NEAR(volume_p95_um(machine), 0.645, 0.001);
+  const auto model = model_of(machine, {});
+  const Eigen::Vector3d most = budget_u_m(model) * std::sqrt(3.0) * 1e6;
+  EXPECT_NEAR(most[0], 0.450, 5e-4);
+  EXPECT_NEAR(most[1], 0.242, 5e-4);
+  // What a screw does across cancels by itself; as a cause of its own in each joint it does not.
+  ErrorSource one = machine.sources[0];
+  machine.sources.clear();
+  for (const char* name : {"X", "Y", "Z", "joint-10"}) {
+    const std::size_t frame = static_cast<std::size_t>(machine.find(name) - machine.frames.data());
+    one.name = name;
+    one.acts_on = {{frame, name[0] == 'j' ? 2u : std::size_t(name[0] - 'X'), false, 1e-6, 0, 0}};
+    machine.sources.push_back(one);
+  }
+  EXPECT_NEAR(volume_p95_um(machine), 0.890, 0.002);
+}
+
+TEST(MachineBudget, MeasuredErrorsReplaceWhatWasAssumed) {
+  auto machine = parse_machine(co_planar_machine(), "co-planar").value();
+  const std::size_t x = static_cast<std::size_t>(machine.find("X") - machine.frames.data());
+  // 3 and 4 µm: a root mean square of 3.536, with u 0.1.
+  machine.frames[x].error[0] = {{0, 0.06}, {3e-6, -4e-6}, {}, {1e-7, 1e-7}, {}};
+  const Command at = {0.06, 0, 0, 0, 0, 0};
+  const auto designed = model_of(machine, at);
+  const auto measured = model_of(machine, at, BudgetStage::measured);
+  EXPECT_EQ(measured.replaced, (std::vector<std::string>{"screw B on EXX", "tilt of X on EXX"}));
+  // Designed: 0.9 of the screw and 25.4 µm of the tilt over 60 mm; nothing of the measured value.
+  EXPECT_NEAR(budget_u_m(designed)[0] * 1e6, std::hypot(0.9 * 0.288675, 25.357), 0.001);
+  EXPECT_EQ(designed.values[x].error[0], 0);
+  EXPECT_NEAR(budget_u_m(measured)[0] * 1e6, 0.1, 1e-9);
+  EXPECT_EQ(measured.values[x].error[0], -4e-6);
+  // The screw B still acts on joint 10.
+  EXPECT_NEAR(budget_u_m(measured)[2], budget_u_m(designed)[2], 1e-15);
+  const auto rows = designed_against_measured(machine, at);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].name, "EXX");
+  EXPECT_NEAR(rows[0].designed_effect_m * 1e6, std::hypot(0.2598, 25.357), 0.001);
+  EXPECT_NEAR(rows[0].measured_effect_m * 1e6, std::sqrt(12.5 + 0.01), 1e-9);
+}
+
+TEST(MachineBudget, ACauseBeyondTheModelIsRefused) {
+  auto machine = parse_machine(co_planar_machine(), "co-planar").value();
+  machine.sources[1].u = 1e5;
+  const auto model = budget_model(machine, {}, MachineApproach::mean, BudgetStage::designed);
+  ASSERT_FALSE(model);
+  EXPECT_NE(model.error().message.find("screw C"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof::algo

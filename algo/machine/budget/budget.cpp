@@ -93,8 +93,24 @@ Status check_sizes(const BudgetModel& model) {
   return {};
 }
 
+bool acts_on(const BudgetCause& cause, const ErrorDerivative& d) {
+  return std::any_of(cause.effects.begin(), cause.effects.end(), [&](const CauseEffect& e) {
+    return e.frame == d.frame && e.k == d.k && e.of_line == d.of_line;
+  });
+}
+
+void name_not_declared(const std::vector<ErrorDerivative>& all, BudgetModel& model) {
+  for (const ErrorDerivative& d : all) {
+    if (d.of_line || d.d.head<3>().norm() < 1e-12) continue;
+    if (std::none_of(model.causes.begin(), model.causes.end(),
+                     [&](const BudgetCause& cause) { return acts_on(cause, d); }))
+      model.not_declared.push_back(error_name(model.machine.frames[d.frame], d.k));
+  }
+}
+
 void add_sensitivities(BudgetModel& model) {
   const auto all = derivatives(model.machine, model.at);
+  name_not_declared(all, model);
   for (BudgetCause& cause : model.causes)
     for (const CauseEffect& e : cause.effects)
       for (const ErrorDerivative& d : all)
@@ -122,7 +138,7 @@ double measured_square(const MachineFrame& frame, std::size_t k, bool of_line) {
 
 Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
                                  MachineApproach approach, BudgetStage stage) {
-  BudgetModel model{machine, at, {}, {}, {}};
+  BudgetModel model{machine, at, {}, {}, {}, {}};
   if (stage == BudgetStage::designed)
     for (MachineFrame& frame : model.machine.frames) {
       frame.error = {};

@@ -36,7 +36,8 @@ struct BudgetModel {
   Command at{};
   std::vector<FrameValues> values;  // of the measured errors
   std::vector<BudgetCause> causes;
-  std::vector<std::string> replaced;  // "screw B on EXX"
+  std::vector<std::string> replaced;      // "screw B on EXX"
+  std::vector<std::string> not_declared;  // act on the tool, and have neither a cause nor a u
 };
 
 // Errors: a cause so large that an error leaves 0.1 rad or 10 mm at this command.

@@ -33,7 +33,7 @@ COMPARED = {"analyse", "budget", "compensation build", "compensation show", "par
 COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status",
                     "parallelism.fit", "run.budget", "run.get", "run.points", "squareness.budget", "squareness.fit"}
 # ... and what states none, or that of other things: of files, of studies, of calibrations, of a machine's description.
-OTHERS = {"clearance", "completion", "help", "machine kinematics", "milling",
+OTHERS = {"clearance", "completion", "help", "machine kinematics", "machine budget", "milling",
           "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
           "compensation deactivate", "compensation export", "compensation list", "device list", "device monitor",
           "device probe", "doctor", "drift", "encoder set", "export", "history", "import", "iso230-2", "live",
@@ -41,7 +41,7 @@ OTHERS = {"clearance", "completion", "help", "machine kinematics", "milling",
           "selftest", "sensitivity", "separate reversal", "separate shift", "separate square", "setup network",
           "solve", "status", "stop", "straightness", "studies", "study", "verify"}
 OTHER_METHODS = {"compensation.activate", "compensation.deactivate", "device.list", "encoder.set", "history.list",
-                 "live.subscribe", "live.unsubscribe", "rpc.discover", "run.list", "run.replay", "run.resume",
+                 "live.subscribe", "live.unsubscribe", "machine.at", "rpc.discover", "run.list", "run.replay", "run.resume",
                  "run.start", "run.stop", "server.info"}
 
 

@@ -1,0 +1,101 @@
+// machine.at.
+#include "algo/machine/budget/budget.h"
+#include "daemon/methods/methods.h"
+#include "schema/base/json_writer.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+using rpc::Params;
+using rpc::ParamType;
+
+constexpr std::string_view kLetters = "XYZABC";
+constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad", "c_urad"};
+
+// The text alone: tables in files would be files of the daemon.
+Status check_no_files(const Machine& machine) {
+  for (const MachineFrame& frame : machine.frames) {
+    bool any = !frame.file.empty();
+    for (const ErrorFunction& error : frame.error) any = any || !error.file.empty();
+    if (any)
+      return bad_input(
+          "axis " + frame.id +
+          ": machine.at reads no files; give its tables in the text, as EXX_um = [[…]]");
+  }
+  return {};
+}
+
+Result<algo::Command> command_of(const Params& params, const Machine& machine) {
+  algo::Command command{};
+  for (std::size_t i = 0; i < kLetters.size(); ++i) {
+    const std::string letter(1, kLetters[i]), key = letter + (i < 3 ? "_mm" : "_deg");
+    if (!params.has(key)) continue;
+    const MachineFrame* frame = machine.find(letter);
+    if (!frame)
+      return fail(ErrorCode::usage,
+                  key + ": the chain " + machine.chain.text + " has no axis " + letter);
+    command[i] = position_from_written(*frame, params.number(key));
+  }
+  return command;
+}
+
+void write_error(JsonWriter& json, const char* key, const algo::Vector6& error) {
+  json.key(key).begin_object();
+  for (int k = 0; k < 6; ++k) json.field(kComponents[k], to_key_unit(error[k]));
+  json.end_object();
+}
+
+Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
+  const auto mean = algo::MachineApproach::mean;
+  const algo::ToolError error = algo::tool_error(machine, at, mean);
+  MDOF_TRY(const auto model, algo::budget_model(machine, at, mean, algo::BudgetStage::measured));
+  const Eigen::Vector3d u = algo::budget_u_m(model);
+  JsonWriter json;
+  json.begin_object().field("machine", machine.name).field("simulated", machine.simulated);
+  write_error(json, "error", error.exact);
+  json.key("u").begin_object();
+  for (int k = 0; k < 3; ++k) json.field(kComponents[k], model.causes.empty() ? kNaN : to_um(u[k]));
+  json.end_object();
+  if (model.causes.empty()) json.field("u_reason", "no source and no u of an error is declared");
+  std::vector<std::string> missing;
+  for (const auto& names : error.not_measured) algo::add_new(names, missing);
+  write_strings(json, "not_measured", missing);
+  write_strings(json, "beyond_tables", error.beyond);
+  json.end_object();
+  return json.take();
+}
+
+Result<QueryThread::Work> machine_at(Methods&, const Params& params) {
+  const std::string source(params.string("machine_source", "machine"));
+  MDOF_TRY(const Machine machine, parse_machine(params.string("machine"), source));
+  MDOF_CHECK(check_no_files(machine));
+  MDOF_TRY(const algo::Command at, command_of(params, machine));
+  return [machine, at](store::Store&) { return error_at(machine, at); };
+}
+
+}  // namespace
+
+void add_machine_methods(rpc::MethodTable& table, Methods& m) {
+  const rpc::Bounds mm{.least = -1e6, .most = 1e6};
+  std::vector<rpc::Param> params = {
+      {"machine", ParamType::string, "MACHINE.toml as text", true, {}, {.bytes = 60'000}},
+      {"machine_source", ParamType::string, "its file name, for messages", false}};
+  for (std::size_t i = 0; i < kLetters.size(); ++i)
+    params.push_back({std::string(1, kLetters[i]) + (i < 3 ? "_mm" : "_deg"), ParamType::number,
+                      "command of the axis", false, "0", mm});
+  table.add({.name = "machine.at",
+             .summary = "The error of the tool against the work at a command of a machine, with "
+                        "its u. Nothing is stored.",
+             .params = params,
+             .result = "error: x_um, y_um, z_um, a_urad, b_urad, c_urad, actual - nominal, by the "
+                       "exact product; u of the place by the linear form; not_measured, "
+                       "beyond_tables: names of errors",
+             .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
+                        R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
+                        R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",
+             .handler = on_query(m, machine_at)});
+}
+
+}  // namespace mdof::daemon

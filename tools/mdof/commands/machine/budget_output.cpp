@@ -1,0 +1,236 @@
+#include "tools/mdof/commands/machine/budget_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/machine/machine_file.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr const char* kNothingDeclared =
+    "nothing is declared: MACHINE.toml has no [[source]] that acts and no u of a measured error";
+constexpr const char* kDirections[] = {"x", "y", "z"};
+constexpr const char* kFactorRule = "all u times one factor";
+
+// The largest contribution to u_x² + u_y² + u_z² first.
+std::vector<std::size_t> by_size(const algo::BudgetModel& model) {
+  std::vector<std::size_t> order(model.causes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return model.causes[a].contribution_m().squaredNorm() >
+           model.causes[b].contribution_m().squaredNorm();
+  });
+  return order;
+}
+
+double share(const algo::BudgetModel& model, const algo::BudgetCause& cause) {
+  return cause.contribution_m().squaredNorm() / algo::budget_u_m(model).squaredNorm();  // 0/0: NaN
+}
+
+void write_place(JsonWriter& json, const char* key, const Eigen::Vector3d& place_m) {
+  json.key(key).begin_object();
+  for (int k = 0; k < 3; ++k) json.field(kDirections[k], to_um(place_m[k]));
+  json.end_object();
+}
+
+// u, intervals and the volume of a stage, or null with the reason.
+void write_stage(JsonWriter& json, const FoundStage& stage) {
+  if (stage.outputs.empty()) {
+    for (const char* key : {"u_um", "interval_um", "volume_p95_um"}) json.key(key).null();
+    json.field("reason", kNothingDeclared);
+    return;
+  }
+  write_place(json, "u_um", algo::budget_u_m(stage.model));
+  json.key("u_monte_carlo_um").begin_object();
+  for (std::size_t k = 0; k < 3; ++k) json.field(kDirections[k], stage.outputs[k].sd);
+  json.end_object().key("interval_um").begin_object();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const CoverageInterval& interval = stage.outputs[k].symmetric;
+    json.key(kDirections[k]).begin_array().value(interval.low).value(interval.high).end_array();
+  }
+  json.end_object()
+      .field("volume_median_um", stage.outputs[3].quantiles[0].value)
+      .field("volume_p95_um", stage.volume_p95_um);
+}
+
+void write_contributions(JsonWriter& json, const algo::BudgetModel& model) {
+  json.key("contributions").begin_array();
+  for (const std::size_t i : by_size(model)) {
+    const algo::BudgetCause& cause = model.causes[i];
+    json.begin_object()
+        .field("name", cause.name)
+        .field("u", cause.u)
+        .field("unit", cause.unit)
+        .field("distribution", to_string(cause.shape));
+    write_place(json, "sensitivity", cause.sensitivity);
+    write_place(json, "contribution_um", cause.contribution_m());
+    json.field("share", share(model, cause)).end_object();
+  }
+  json.end_array();
+}
+
+void write_allocation(JsonWriter& json, const algo::BudgetModel& model,
+                      const FoundAllocation& found) {
+  json.field("allocation_rule", kFactorRule)
+      .field("allocation_factor", found.common_factor)
+      .key("allocation")
+      .begin_array();
+  for (const std::size_t i : by_size(model)) {
+    const algo::BudgetCause& cause = model.causes[i];
+    json.begin_object()
+        .field("name", cause.name)
+        .field("u", cause.u)
+        .field("unit", cause.unit)
+        .field("allowed_u", cause.u * found.common_factor)
+        .field("allowed_u_alone", cause.u * found.alone[i])
+        .end_object();
+  }
+  json.end_array();
+}
+
+void write_measured(JsonWriter& json, const FoundMachineBudget& found) {
+  write_strings(json, "replaced_by_measurement", found.now.model.replaced);
+  json.key("measured").begin_array();
+  for (const algo::MeasuredError& e : found.measured) {
+    const char* unit = e.k < 3 ? "um" : "urad";
+    json.begin_object().field("name", e.name).field("unit", unit).key("designed_u");
+    e.has_design ? json.value(e.designed_u * 1e6) : json.null();
+    json.field("measured_rms", e.measured_u * 1e6).key("designed_effect_um");
+    e.has_design ? json.value(to_um(e.designed_effect_m)) : json.null();
+    json.field("measured_effect_um", to_um(e.measured_effect_m)).end_object();
+  }
+  json.end_array();
+  if (!found.designed) return;
+  json.key("designed").begin_object();
+  write_stage(json, *found.designed);
+  json.end_object();
+}
+
+std::string at_text(const Machine& machine, const algo::Command& at) {
+  std::string text;
+  for (const MachineFrame& frame : machine.frames)
+    if (frame.kind != FrameKind::fixed)
+      text += " " + frame.id + " " +
+              plain_number(written_position(frame, algo::command_of(frame, at)), 6) + " " +
+              position_unit(frame);
+  return text;
+}
+
+std::string stage_text(const FoundStage& stage) {
+  if (stage.outputs.empty()) return wrapped(kNothingDeclared, terminal_columns()) + "\n";
+  const Eigen::Vector3d u = algo::budget_u_m(stage.model);
+  TextTable table({"", "u/µm, linear", "u/µm, Monte Carlo", "95 % from/µm", "to/µm"});
+  for (std::size_t k = 0; k < 3; ++k) {
+    const OutputSummary& output = stage.outputs[k];
+    table.add({kDirections[k], fixed(to_um(u[static_cast<Eigen::Index>(k)]), 4),
+               fixed(output.sd, 4), fixed(output.symmetric.low, 4),
+               fixed(output.symmetric.high, 4)});
+  }
+  return table.text(terminal_columns()) + "95 % of the volume is within " +
+         fixed(stage.volume_p95_um, 4) + " µm\n";
+}
+
+std::string contributions_text(const FoundMachineBudget& found) {
+  const algo::BudgetModel& model = found.now.model;
+  std::vector<std::string> head = {"cause", "u", "unit", "x/µm", "y/µm", "z/µm", "share/%"};
+  if (found.allocation)
+    for (const char* name : {"allowed u", "alone"}) head.push_back(name);
+  TextTable table(head);
+  for (const std::size_t i : by_size(model)) {
+    const algo::BudgetCause& cause = model.causes[i];
+    const Eigen::Vector3d part = cause.contribution_m();
+    std::vector<std::string> row = {cause.name, plain_number(cause.u, 4), cause.unit};
+    for (int k = 0; k < 3; ++k) row.push_back(fixed(to_um(part[k]), 4));
+    row.push_back(fixed(100 * share(model, cause), 1));
+    if (found.allocation)
+      for (const double factor : {found.allocation->common_factor, found.allocation->alone[i]})
+        row.push_back(std::isfinite(factor) ? plain_number(cause.u * factor, 4) : "any");
+    table.add(row);
+  }
+  return "\n" + table.text(terminal_columns());
+}
+
+std::string measured_text(const FoundMachineBudget& found) {
+  if (found.measured.empty()) return "";
+  TextTable table({"measured error", "designed/µm", "measured/µm", "ratio"});
+  for (const algo::MeasuredError& e : found.measured)
+    table.add({e.name, e.has_design ? fixed(to_um(e.designed_effect_m), 4) : "-",
+               fixed(to_um(e.measured_effect_m), 4),
+               e.has_design ? fixed(e.measured_effect_m / e.designed_effect_m, 2) : "-"});
+  std::string text = "\n" + table.text(terminal_columns()) +
+                     wrapped(
+                         "root mean square over the table, at the tool; the first row is what "
+                         "to rework first",
+                         terminal_columns()) +
+                     "\n";
+  if (!found.now.model.replaced.empty())
+    text += wrapped("replaced by measurement: " + joined(found.now.model.replaced),
+                    terminal_columns()) +
+            "\n";
+  if (found.designed)
+    text += "\nas designed, without what is measured:\n" + stage_text(*found.designed);
+  return text;
+}
+
+}  // namespace
+
+std::string machine_budget_json(const Machine& machine, const BudgetRequest& request,
+                                const FoundMachineBudget& found) {
+  const algo::BudgetModel& model = found.now.model;
+  JsonWriter json;
+  json.begin_object()
+      .field("machine", machine.name)
+      .field("chain", machine.chain.text)
+      .field("simulated", machine.simulated);
+  write_command(json, "at", machine, request.at);
+  write_place(json, "error_um", algo::exact_error(machine, request.at, model.values).head<3>());
+  json.field("trials", request.trials)
+      .field("seed", request.seed)
+      .field("coverage", kBudgetCoverage)
+      .key("by")
+      .begin_object()
+      .field("u_um", "linear form with exact derivatives, GUM")
+      .field("interval_um", "exact product of rotations, Monte Carlo")
+      .field("volume_p95_um", "exact product of rotations, Monte Carlo")
+      .end_object();
+  write_stage(json, found.now);
+  write_contributions(json, model);
+  write_strings(json, "not_declared", model.not_declared);
+  if (request.target_um) json.field("target_um", *request.target_um);
+  if (found.allocation) write_allocation(json, model, *found.allocation);
+  if (request.target_um && !found.allocation) json.key("allocation").null();
+  write_measured(json, found);
+  json.end_object();
+  return json.take();
+}
+
+std::string machine_budget_text(const Machine& machine, const BudgetRequest& request,
+                                const FoundMachineBudget& found) {
+  std::string text = simulated_notice(machine.simulated) + machine.name + ", " +
+                     machine.chain.text + ", at" + at_text(machine, request.at) + "\n" +
+                     stage_text(found.now);
+  if (!found.now.outputs.empty()) text += contributions_text(found);
+  if (found.allocation)
+    text +=
+        wrapped("allowed u: with all of them together 95 % of the volume is within " +
+                    plain_number(*request.target_um, 6) + " µm (" + kFactorRule + ", " +
+                    fixed(found.allocation->common_factor, 4) + "); alone: the others as declared",
+                terminal_columns()) +
+        "\n";
+  if (const auto& names = found.now.model.not_declared; !names.empty())
+    text += wrapped("no cause is declared for " + std::to_string(names.size()) +
+                        " errors that act on the tool" +
+                        (names.size() <= 12 ? ": " + joined(names) : ""),
+                    terminal_columns()) +
+            "\n";
+  return text + measured_text(found);
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,85 @@
+// mdof machine budget --preset co-planar | MACHINE.toml: how far the tool may be off, what makes
+// it, and which tolerances keep it within a target.
+#include <CLI/CLI.hpp>
+
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/machine/budget_output.h"
+#include "tools/mdof/commands/machine/machine_file.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/study/running/workers.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr double kMostTrials = 1e9, kMostSeed = 9e15;
+
+struct MachineBudgetCommand {
+  std::string file, preset, at, approach = "mean";
+  std::int64_t trials = 1'000'000, seed = 1;
+  std::optional<double> target_um;
+  unsigned threads = default_threads();
+  bool json = false;
+};
+
+Status machine_budget(const MachineBudgetCommand& o) {
+  if (o.file.empty() == o.preset.empty())
+    return fail(ErrorCode::usage, "machine budget needs either MACHINE.toml or --preset co-planar");
+  Machine machine;
+  MDOF_TRY(machine,
+           o.file.empty() ? parse_machine(co_planar_machine(), o.preset) : load_machine(o.file));
+  BudgetRequest request;
+  if (!o.at.empty()) {
+    MDOF_TRY(request.at, command_from(machine, o.at));
+  }
+  request.approach = approach_from(o.approach);
+  request.trials = static_cast<std::uint64_t>(o.trials);
+  request.seed = static_cast<std::uint64_t>(o.seed);
+  request.threads = o.threads;
+  request.target_um = o.target_um;
+  auto found = find_machine_budget(machine, request);
+  if (!found) return in_context(o.file.empty() ? o.preset : o.file, std::move(found.error()));
+  return o.json ? write_line(machine_budget_json(machine, request, *found))
+                : write_out(machine_budget_text(machine, request, *found));
+}
+
+Action declare_machine_budget(CLI::App& command) {
+  const auto o = std::make_shared<MachineBudgetCommand>();
+  command.add_option("MACHINE", o->file, "MACHINE.toml with [[source]] tables, or measured errors")
+      ->type_name("");
+  command.add_option("--preset", o->preset, "The machine of the paper")
+      ->check(CLI::IsMember({"co-planar"}));
+  command.add_option("--at", o->at, "Commands in mm, as X=10,Y=20 (rotary: degrees); others are 0")
+      ->type_name("X=…,Y=…");
+  add_approach_option(command, o->approach);
+  command.add_option("--trials", o->trials, "Number of trials")
+      ->check(number_in(1000, kMostTrials))
+      ->capture_default_str();
+  command.add_option("--seed", o->seed, "Of the random numbers")
+      ->check(number_in(0, kMostSeed))
+      ->capture_default_str();
+  command.add_option("--threads", o->threads, "The figures do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command
+      .add_option("--target-um", o->target_um,
+                  "Also the tolerances with which 95 % of the volume is within this")
+      ->check(positive_number());
+  add_json_flag(command, o->json);
+  return [o] { return machine_budget(*o); };
+}
+
+}  // namespace
+
+Command machine_budget_command() {
+  return {.name = "machine budget",
+          .summary = "Error budget of a machine: causes, tolerances, what to rework first",
+          .footer =
+              "u is the linear form (GUM); intervals and the volume are by Monte Carlo with the\n"
+              "exact product of rotations. Measured errors replace what sources assume of them.\n"
+              "Examples:\n"
+              "  mdof machine budget --preset co-planar --at X=60,Y=40\n"
+              "  mdof machine budget machine.toml --target-um 0.8",
+          .declare = declare_machine_budget};
+}
+
+}  // namespace mdof::tools

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace mdof::algo {
 namespace {
 
-constexpr double kBeamPi = 3.14159265358979323846;
 constexpr double kPoisson = 0.22;
 constexpr double kShearCoefficient = 6 * (1 + kPoisson) / (7 + 6 * kPoisson);
 
 double second_moment(double diameter_m) {
-  return kBeamPi * std::pow(diameter_m, 4) / 64;
+  return std::numbers::pi * std::pow(diameter_m, 4) / 64;
 }
 
 // ∫ (a - s)(b - s) ds from s0 to s1.
@@ -59,7 +59,7 @@ double shear_share(const std::vector<ToolSection>& from_holder) {
   double shear = 0;  // times E: ∫ E / (κ G A) ds
   for (const ToolSection& section : from_holder)
     shear += section.length_m * 2 * (1 + kPoisson) /
-             (kShearCoefficient * kBeamPi * section.diameter_m * section.diameter_m / 4);
+             (kShearCoefficient * std::numbers::pi * section.diameter_m * section.diameter_m / 4);
   return shear / compliance(from_holder, 1, overhang, overhang);
 }
 

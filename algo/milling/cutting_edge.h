@@ -3,11 +3,13 @@
 // φ) from the axis. m, rad.
 #pragma once
 
+#include <numbers>
+
 #include "schema/milling/milling_plan.h"
 
 namespace mdof::algo {
 
-inline constexpr double kHalfTurn_rad = 3.14159265358979323846;
+inline constexpr double kHalfTurn_rad = std::numbers::pi;
 inline constexpr double kWholeTurn_rad = 2 * kHalfTurn_rad;
 
 // Deflection of the tool at a height: against the feed and towards the wall of an up cut, m.

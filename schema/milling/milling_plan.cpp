@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "schema/base/number/number_text.h"
 #include "schema/base/toml_reader.h"
@@ -9,7 +10,7 @@
 namespace mdof {
 namespace {
 
-constexpr double kDeg = 3.14159265358979323846 / 180;
+constexpr double kDeg = std::numbers::pi / 180;
 constexpr double kMm = 1e-3, kUm = 1e-6, kPerMm2 = 1e6, kPerMm = 1e3;
 
 // One number with its limits: (above, up to].
@@ -165,6 +166,7 @@ const char* to_string(DeflectionModel model) {
 const std::vector<MillingInput>& milling_inputs() {
   using P = MillingPlan;
   static const std::vector<MillingInput> inputs = {
+      {"tool", "helix_deg", &P::helix_rad, kDeg},
       {"tool", "youngs_modulus_GPa", &P::youngs_modulus_Pa, 1e9},
       {"runout", "radial_um", &P::runout_m, kUm},
       {"runout", "angle_deg", &P::runout_angle_rad, kDeg},

@@ -11,8 +11,10 @@
 #include "schema/milling/milling_plan.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/milling/milling_sensitivity.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/study/running/workers.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/text_table.h"
 
@@ -23,7 +25,9 @@ constexpr const char* kPreset = "micro-end-mill";
 
 struct MillingCommand {
   std::string plan, preset;
-  bool offset = false, json = false;
+  bool offset = false, sensitivity = false, json = false;
+  double trials = 64, seed = 1;
+  unsigned threads = default_threads();
 };
 
 // One model of a plan with what it gives.
@@ -31,13 +35,21 @@ struct Milled {
   MillingPlan plan;
   algo::MillingResult result;
   std::optional<algo::WearOffset> offset;
+  std::optional<MillingSensitivity> sensitivity;
 };
 
-Result<Milled> mill(const DeclaredMillingPlan& declared, bool with_offset) {
-  Milled milled{declared.plan, {}, {}};
+MillingSensitivityRequest request_of(const MillingCommand& o) {
+  return {static_cast<std::uint64_t>(o.trials), static_cast<std::uint64_t>(o.seed), o.threads};
+}
+
+Result<Milled> mill(const DeclaredMillingPlan& declared, const MillingCommand& o) {
+  Milled milled{declared.plan, {}, {}, {}};
   MDOF_TRY(milled.result, algo::milling(declared.plan));
-  if (with_offset) {
+  if (o.offset) {
     MDOF_TRY(milled.offset, algo::wear_offset(declared));
+  }
+  if (o.sensitivity) {
+    MDOF_TRY(milled.sensitivity, find_milling_sensitivity(declared, request_of(o)));
   }
   return milled;
 }
@@ -66,7 +78,7 @@ void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
       .field("wear_offset_line_of", "Fanuc, mm; P: number of the offset");
 }
 
-void write_members(JsonWriter& json, const Milled& milled) {
+void write_members(JsonWriter& json, const Milled& milled, const MillingCommand& o) {
   const MillingPlan& plan = milled.plan;
   const algo::MillingResult& r = milled.result;
   json.key("model")
@@ -101,19 +113,20 @@ void write_members(JsonWriter& json, const Milled& milled) {
       .end_object();
   json.field("iterations", r.iterations);
   if (milled.offset) write_offset(json, *milled.offset);
+  if (milled.sensitivity) write_milling_sensitivity(json, request_of(o), *milled.sensitivity);
 }
 
 // The first with its members outside, each further one under the name of its deflection model.
-std::string milling_json(const std::vector<Milled>& all) {
+std::string milling_json(const std::vector<Milled>& all, const MillingCommand& o) {
   JsonWriter json;
   json.begin_object().field("name", all.front().plan.name);
   if (!all.front().plan.force_source.empty())
     json.field("force_source", all.front().plan.force_source);
   json.field("simulated", true);
-  write_members(json, all.front());
+  write_members(json, all.front(), o);
   for (std::size_t i = 1; i < all.size(); ++i) {
     json.key(to_string(all[i].plan.deflection)).begin_object();
-    write_members(json, all[i]);
+    write_members(json, all[i], o);
     json.end_object();
   }
   json.end_object();
@@ -171,6 +184,10 @@ std::string milling_text(const std::vector<Milled>& all) {
     text +=
         wrapped("force coefficients: " + all.front().plan.force_source, terminal_columns()) + "\n";
   for (const Milled& m : all) text += offset_text(m);
+  for (const Milled& m : all)
+    if (m.sensitivity)
+      text += "\nsensitivity (" + std::string(to_string(m.plan.deflection)) + ")" +
+              milling_sensitivity_text(*m.sensitivity);
   return text;
 }
 
@@ -184,14 +201,14 @@ Status milling(const MillingCommand& o) {
   MDOF_TRY(DeclaredMillingPlan declared,
            parse_milling_plan(text, o.plan.empty() ? o.preset : o.plan));
   std::vector<Milled> all;
-  MDOF_TRY(const Milled first, mill(declared, o.offset));
+  MDOF_TRY(const Milled first, mill(declared, o));
   all.push_back(first);
   if (!o.preset.empty()) {  // beside the paper's model the one of a steady cut
     declared.plan.deflection = DeflectionModel::steady;
-    MDOF_TRY(const Milled steady, mill(declared, o.offset));
+    MDOF_TRY(const Milled steady, mill(declared, o));
     all.push_back(steady);
   }
-  return o.json ? write_line(milling_json(all)) : write_out(milling_text(all));
+  return o.json ? write_line(milling_json(all, o)) : write_out(milling_text(all));
 }
 
 Action declare_milling(CLI::App& command) {
@@ -203,6 +220,22 @@ Action declare_milling(CLI::App& command) {
       ->check(CLI::IsMember({kPreset}));
   command.add_flag("--offset", o->offset,
                    "Also the radius wear offset, with u where it is declared");
+  auto* sensitivity = command.add_flag(
+      "--sensitivity", o->sensitivity,
+      "Also what each input does to force and wall: by its u, or 1 % where none is declared");
+  command
+      .add_option("--trials", o->trials,
+                  "Of the sensitivity; each solves the cut 2 times and once more for each input")
+      ->needs(sensitivity)
+      ->check(number_in(16, 1e6))
+      ->capture_default_str();
+  command.add_option("--seed", o->seed, "Of its random numbers")
+      ->needs(sensitivity)
+      ->check(number_in(0, 9e15))
+      ->capture_default_str();
+  command.add_option("--threads", o->threads, "The figures do not depend on it")
+      ->needs(sensitivity)
+      ->check(CLI::Range(1, 1024));
   add_json_flag(command, o->json);
   return [o] { return milling(*o); };
 }

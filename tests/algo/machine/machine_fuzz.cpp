@@ -1,11 +1,12 @@
 // MACHINE.toml: read or refused with a reason; the tool's error of a machine that was read is
-// finite wherever its axes are. Files that it names are not read.
+// finite wherever its axes are, and so is each trial of its budget or it is refused. Files that it
+// names are not read.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 
-#include "algo/machine/tool_error.h"
+#include "algo/machine/budget/trials.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mdof;
@@ -25,6 +26,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     command.fill(at);
     const auto error = algo::tool_error(*machine, command, algo::MachineApproach::mean);
     if (!error.exact.allFinite() || !error.linear.allFinite()) std::abort();
+    const auto model = algo::budget_model(*machine, command, algo::MachineApproach::mean,
+                                          algo::BudgetStage::measured);
+    if (!model) continue;
+    double out[4] = {};
+    double* const places[4] = {&out[0], &out[1], &out[2], &out[3]};
+    algo::budget_trials(*model, 1)->run(0, 1, 1, places);
+    for (const double x : out)
+      if (!std::isfinite(x)) std::abort();
   }
   return 0;
 }

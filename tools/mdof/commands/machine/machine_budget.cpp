@@ -5,8 +5,10 @@
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/machine/budget_output.h"
 #include "tools/mdof/commands/machine/machine_file.h"
+#include "tools/mdof/commands/machine/machine_runs.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/study/running/workers.h"
 
 namespace mdof::tools {
@@ -15,7 +17,8 @@ namespace {
 constexpr double kMostTrials = 1e9, kMostSeed = 9e15;
 
 struct MachineBudgetCommand {
-  std::string file, preset, at, approach = "mean";
+  std::string file, preset, at, approach = "mean", database;
+  std::vector<std::string> runs;
   std::int64_t trials = 1'000'000, seed = 1;
   std::optional<double> target_um;
   unsigned threads = default_threads();
@@ -28,6 +31,7 @@ Status machine_budget(const MachineBudgetCommand& o) {
   Machine machine;
   MDOF_TRY(machine,
            o.file.empty() ? parse_machine(co_planar_machine(), o.preset) : load_machine(o.file));
+  MDOF_CHECK(add_runs(machine, o.database, o.runs));
   BudgetRequest request;
   if (!o.at.empty()) {
     MDOF_TRY(request.at, command_from(machine, o.at));
@@ -52,6 +56,12 @@ Action declare_machine_budget(CLI::App& command) {
   command.add_option("--at", o->at, "Commands in mm, as X=10,Y=20 (rotary: degrees); others are 0")
       ->type_name("X=…,Y=…");
   add_approach_option(command, o->approach);
+  command
+      .add_option("--run", o->runs,
+                  "Stored runs, numbers or latest: their errors replace what sources assume")
+      ->check(run_word_error)
+      ->type_name("RUN");
+  add_database_option(command, o->database);
   command.add_option("--trials", o->trials, "Number of trials")
       ->check(number_in(1000, kMostTrials))
       ->capture_default_str();
@@ -78,7 +88,8 @@ Command machine_budget_command() {
               "exact product of rotations. Measured errors replace what sources assume of them.\n"
               "Examples:\n"
               "  mdof machine budget --preset co-planar --at X=60,Y=40\n"
-              "  mdof machine budget machine.toml --target-um 0.8",
+              "  mdof machine budget machine.toml --target-um 0.8\n"
+              "  mdof machine budget machine.toml --run 1 --run 2",
           .declare = declare_machine_budget};
 }
 

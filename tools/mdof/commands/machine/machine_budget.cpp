@@ -25,6 +25,14 @@ struct MachineBudgetCommand {
   bool json = false;
 };
 
+std::vector<std::string> beyond_tables(const algo::BudgetModel& model) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.values.size(); ++i)
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      if (model.values[i].beyond[k]) names.push_back(error_name(model.machine.frames[i], k));
+  return names;
+}
+
 Status machine_budget(const MachineBudgetCommand& o) {
   if (o.file.empty() == o.preset.empty())
     return fail(ErrorCode::usage, "machine budget needs either MACHINE.toml or --preset co-planar");
@@ -43,6 +51,7 @@ Status machine_budget(const MachineBudgetCommand& o) {
   request.target_um = o.target_um;
   auto found = find_machine_budget(machine, request);
   if (!found) return in_context(o.file.empty() ? o.preset : o.file, std::move(found.error()));
+  warn_beyond(beyond_tables(found->now.model));
   return o.json ? write_line(machine_budget_json(machine, request, *found))
                 : write_out(machine_budget_text(machine, request, *found));
 }

@@ -1,11 +1,13 @@
 #include "tools/mdof/commands/milling/milling_sensitivity.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 
 #include "algo/sensitivity/indices.h"
 #include "algo/sensitivity/statistics/statistics.h"
 #include "schema/base/number/number_text.h"
+#include "tools/mdof/progress_bar.h"
 #include "tools/mdof/study/running/divided_trials.h"
 #include "tools/mdof/study/running/workers.h"
 #include "tools/mdof/terminal.h"
@@ -37,13 +39,19 @@ std::vector<OutputIndices> indices_of(const algo::CausalExperiment& trials,
   const std::uint64_t each = std::min(algo::sum_block_trials(request.trials), algo::kSlowSumBlock);
   const std::uint64_t blocks = std::max<std::uint64_t>(2, request.trials / each);
   std::vector<std::optional<algo::SobolSums>> parts(std::max(1u, request.threads));
+  std::atomic<std::uint64_t> finished = 0;
+  ProgressBar bar("sensitivity");
   in_parallel(
       request.threads, blocks,
       [&](unsigned worker, std::size_t block) {
         if (!parts[worker]) parts[worker].emplace(trials, each);
         parts[worker]->add_block(trials, block);
+        ++finished;
       },
-      go_on);
+      [&] {
+        bar.show({static_cast<double>(finished), static_cast<double>(blocks), "blocks"});
+        return true;
+      });
   std::optional<algo::SobolSums> all;
   for (const auto& part : parts) {
     if (part && all) all->merge(*part);

@@ -17,6 +17,8 @@ namespace {
 constexpr const char* kNothingDeclared =
     "nothing is declared: MACHINE.toml has no [[source]] that acts and no u of a measured error";
 constexpr const char* kDirections[] = {"x", "y", "z"};
+constexpr const char* kNotKept =
+    "the measured errors alone exceed the target, whatever the causes are";
 constexpr const char* kFactorRule = "all u times one factor";
 
 // The largest contribution to u_x² + u_y² + u_z² first.
@@ -78,10 +80,9 @@ void write_contributions(JsonWriter& json, const algo::BudgetModel& model) {
 
 void write_allocation(JsonWriter& json, const algo::BudgetModel& model,
                       const FoundAllocation& found) {
-  json.field("allocation_rule", kFactorRule)
-      .field("allocation_factor", found.common_factor)
-      .key("allocation")
-      .begin_array();
+  json.field("allocation_rule", kFactorRule).field("allocation_factor", found.common_factor);
+  if (found.common_factor == 0) json.field("allocation_reason", kNotKept);
+  json.key("allocation").begin_array();
   for (const std::size_t i : by_size(model)) {
     const algo::BudgetCause& cause = model.causes[i];
     json.begin_object()

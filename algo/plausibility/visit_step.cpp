@@ -10,6 +10,8 @@
 #include "algo/plausibility/sentences.h"
 #include "algo/points/flags.h"
 #include "algo/sensitivity/plan/functions.h"
+#include "algo/uncertainty/statistics/visit_scatter.h"
+#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -183,6 +185,10 @@ std::vector<std::string> warnings_of_repeats(const Rig& rig,
                   "; the errors before and after are not of one set-up: check the mounts of the "
                   "probes, the fixture and the target, and measure again");
   if (auto copied = copied_sentence(points); !copied.empty()) out.push_back(std::move(copied));
+  if (VisitScatter(points).are_single())
+    out.push_back(information(
+        "no target was visited twice from the same side: slow noise is not in the figures of a "
+        "single visit; measure two runs or more"));
   return out;
 }
 

@@ -1,5 +1,5 @@
 // What the visits of a run tell of its probes: a reading that moved between two visits and stayed
-// there, and readings that come twice.
+// there, readings that come twice, and places that were visited once.
 #pragma once
 
 #include <cstddef>

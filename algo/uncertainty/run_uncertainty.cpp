@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/drift/removed_drift.h"
 #include "algo/uncertainty/coverage.h"
 #include "schema/sample.h"
 
@@ -17,20 +18,24 @@ ErrorsUncertainty not_known() {
 
 }  // namespace
 
-void PointUncertainties::Sums::add(const Errors5& variance, double freedom) {
-  for (std::size_t k = 0; k < kErrorCount; ++k) {
-    square[k] += variance[k];
-    fourth_by_freedom[k] += fourth_by(variance[k], freedom);
+PointUncertainties::PointUncertainties(const Run& run)
+    : run_(run), sums_(run.points.size()), visits_(run.points) {
+  std::vector<Errors5> named(run.points.size());
+  for (std::size_t j = 0; j < sums_.size(); ++j) {
+    const AxisErrors& errors = run.points[j].errors;
+    const Covariance5 covariance = named_from_local(run.header.axis, errors.covariance);
+    for (std::size_t k = 0; k < kErrorCount; ++k) sums_[j].noise[k] = covariance[6 * k];
+    named[j] = named_from_local(run.header.moving(), errors.local);
   }
+  seen_ = visits_.of(named);
+  repeatability_.fill(visits_.has_repeats());
+  if (visits_.has_repeats()) covered_ = VisitsCovered::repeated;
+  if (sums_.size() > kMostPointsOfRepeatability) leave_out_repeatability();
 }
 
-PointUncertainties::PointUncertainties(const Run& run) : run_(run), sums_(run.points.size()) {
-  for (std::size_t j = 0; j < sums_.size(); ++j) {
-    const MeasuredPoint& p = run.points[j];
-    const Covariance5 named = named_from_local(run.header.axis, p.errors.covariance);
-    for (std::size_t k = 0; k < kErrorCount; ++k) sums_[j].noise[k] = named[6 * k];
-    sums_[j].add(sums_[j].noise, std::max(1.0, static_cast<double>(p.point.samples) - 1));
-  }
+void PointUncertainties::leave_out_repeatability() {
+  repeatability_.fill(false);
+  covered_ = VisitsCovered::left_out;
 }
 
 // The parts of one contributor are one contributor: their squares are added first.
@@ -41,10 +46,17 @@ void PointUncertainties::add(const Contributor& contributor,
     for (std::size_t j = 0; j < sums_.size(); ++j)
       for (std::size_t e = 0; e < kErrorCount; ++e) variance[j][e] += shifts[j][e] * shifts[j][e];
   const auto& names = error_names(run_.header.axis);
-  for (std::size_t j = 0; j < sums_.size(); ++j) {
-    Errors5 named{};
-    for (std::size_t k = 0; k < kErrorCount; ++k) named[k] = variance[j][names[k].local];
-    sums_[j].add(named, contributor.declared.freedom);
+  for (std::size_t j = 0; j < sums_.size(); ++j)
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      const double square = variance[j][names[k].local];
+      sums_[j].square[k] += square;
+      sums_[j].fourth_by_freedom[k] += fourth_by(square, contributor.declared.freedom);
+      if (contributor.name == kRemovedDrift && square > 0) repeatability_[k] = false;
+    }
+  if (contributor.key != "u_um_per_h") return;
+  for (const PointShifts& shifts : parts) {
+    const Errors5 between_visits = visits_.of(shifts).variance;
+    for (std::size_t k = 0; k < kErrorCount; ++k) explained_[k] += between_visits[names[k].local];
   }
 }
 
@@ -58,10 +70,18 @@ std::vector<ErrorsUncertainty> PointUncertainties::stated() const {
     }
     const Sums& sums = sums_[j];
     ErrorsUncertainty& out = points.emplace_back();
+    const auto scans = static_cast<double>(run_.points[j].point.samples);
     for (std::size_t k = 0; k < kErrorCount; ++k) {
-      out.u[k] = std::sqrt(sums.square[k]);
-      out.u_random[k] = std::sqrt(sums.noise[k]);
-      out.freedom[k] = effective_freedom(sums.square[k], sums.fourth_by_freedom[k]);
+      double random = sums.noise[k], fourth = fourth_by(random, std::max(1.0, scans - 1));
+      const double repeatability = seen_.variance[k] - explained_[k];
+      if (repeatability_[k] && repeatability > random) {
+        random = repeatability;
+        fourth = fourth_by(seen_.variance[k], seen_.freedom[k]);
+      }
+      const double square = random + sums.square[k];
+      out.u[k] = std::sqrt(square);
+      out.u_random[k] = std::sqrt(random);
+      out.freedom[k] = effective_freedom(square, fourth + sums.fourth_by_freedom[k]);
       out.coverage_factor[k] = coverage_factor(out.freedom[k]);
       out.U[k] = out.coverage_factor[k] * out.u[k];
     }
@@ -69,10 +89,13 @@ std::vector<ErrorsUncertainty> PointUncertainties::stated() const {
   return points;
 }
 
-RunUncertainty run_uncertainty(const Rig& rig, const Run& run) {
+namespace {
+
+RunUncertainty uncertainty(const Rig& rig, const Run& run, bool is_whole) {
   RunUncertainty out;
   out.not_declared = rig.undeclared_uncertainties();
   PointUncertainties points(run);
+  if (!is_whole) points.leave_out_repeatability();
   out.declares = rig.declares_uncertainty();
   if (!run.points.empty()) {
     const auto declared = contributors(rig, run);
@@ -81,8 +104,19 @@ RunUncertainty run_uncertainty(const Rig& rig, const Run& run) {
       for (const Contributor& contributor : *declared) points.add(contributor, contributor.parts());
   }
   out.points = points.stated();
+  out.visits = points.visits();
   out.noise_only = is_noise_only(out);
   return out;
+}
+
+}  // namespace
+
+RunUncertainty run_uncertainty(const Rig& rig, const Run& run) {
+  return uncertainty(rig, run, true);
+}
+
+RunUncertainty uncertainty_of_stops(const Rig& rig, const Run& part) {
+  return uncertainty(rig, part, false);
 }
 
 }  // namespace mdof::algo

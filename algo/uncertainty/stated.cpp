@@ -19,6 +19,7 @@ StatedUncertainty stated_uncertainty(const Rig& rig, const Run& run) {
       figures.add(contributor, parts);
     }
   points.points = of_points.stated();
+  points.visits = of_points.visits();
   points.noise_only = is_noise_only(points);
   if (!declared) return {std::move(points), tl::unexpected(declared.error())};
   return {std::move(points), std::move(figures)};

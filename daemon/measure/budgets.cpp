@@ -81,6 +81,11 @@ RunUncertainty uncertainty_of(const Run& run) {
   return rig ? algo::run_uncertainty(*rig, run) : noise_of(run, rig.error());
 }
 
+RunUncertainty uncertainty_of_stops(const Run& part) {
+  const auto rig = rig_of(part.header);
+  return rig ? algo::uncertainty_of_stops(*rig, part) : noise_of(part, rig.error());
+}
+
 StatedFigures figure_budgets(const Run& run) {
   const auto rig = rig_of(run.header);
   return rig ? stated_figures(run, algo::RunBudgets::create(*rig, run))

@@ -19,9 +19,10 @@
 
 namespace mdof::daemon {
 
-// Of the points of a run as it states them, with the run's own rig. Of some of its points alone:
-// its first must be among them.
+// Of the points of a run as it states them, with the run's own rig.
 RunUncertainty uncertainty_of(const Run& run);
+// Of some of its points, the first among them, without the run's repeatability.
+RunUncertainty uncertainty_of_stops(const Run& part);
 
 // Of the figures that the run has; left out, with the reason, where they cannot be made or would
 // take long: mdof budget RUN makes them however long it takes.

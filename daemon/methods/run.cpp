@@ -1,9 +1,11 @@
 // run.start, run.resume, run.stop, run.list, run.get, run.points.
 #include <algorithm>
+#include <memory>
 
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
+#include "daemon/methods/run_pages.h"
 #include "daemon/paths.h"
 #include "daemon/rpc/list_page.h"
 #include "daemon/run_item.h"
@@ -26,7 +28,6 @@ using rpc::Reply;
 
 constexpr std::int64_t kMaxPointsPage = 100;
 constexpr std::size_t kMaxVisits = 1500;  // numbers of n_ij in one reply
-constexpr std::size_t kAfterFirst = 1;    // points_stated_at() gives the run's first before them
 constexpr std::int64_t kMaxRunsPage = 100;
 constexpr std::int64_t kMaxRunPoints = 100'000;  // all of them make the figures; some 0.3 s
 constexpr std::size_t kMaxTargets = 1500;        // the reply names them all, and a line holds them
@@ -274,33 +275,10 @@ Result<QueryThread::Work> get_run(Methods& m, const Params& params) {
   };
 }
 
-Result<std::string> points_json(store::Store& store, std::int64_t id, rpc::ListPage page,
-                                Reference reference) {
-  MDOF_TRY(const auto total, store.count_points(id));
-  MDOF_TRY(const Run run, points_stated_at(store, id, page.offset, page.count, reference));
-  const RunUncertainty uncertainty = uncertainty_of(run);
-  JsonWriter json;
-  json.begin_object()
-      .field("run", id)
-      .field("axis", std::string(1, letter(run.header.axis)))
-      .field("total", total)
-      .field("offset", page.offset);
-  write_reference(json, run.header.stated);
-  write_covers(json, uncertainty);
-  json.key("points").begin_array();
-  append_page_of(json, kAfterFirst, run.points.size(), [&](std::size_t j) {
-    JsonWriter item;
-    write_point(item, run.header.moving(), run.points[j], uncertainty.points[j]);
-    return item.take();
-  });
-  json.end_array().end_object();
-  return json.take();
-}
-
-Result<QueryThread::Work> run_points(Methods&, const Params& params) {
+Result<QueryThread::Work> run_points(const std::shared_ptr<RunPages>& pages, const Params& params) {
   MDOF_TRY(const Reference reference, reference_param(params));
-  return [id = params.integer("run"), page = list_page_of(params, kMaxPointsPage),
-          reference](store::Store& store) { return points_json(store, id, page, reference); };
+  return [pages, id = params.integer("run"), page = list_page_of(params, kMaxPointsPage),
+          reference](store::Store& store) { return pages->points(store, id, page, reference); };
 }
 
 }  // namespace
@@ -380,14 +358,17 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                  "is too long for a reply",
              .example = R"({"run": 1})",
              .handler = on_query(m, get_run)});
-  table.add({.name = "run.points",
-             .summary = "The points of a run in the order measured, a page at a time.",
-             .params = {run, offset, count_param(kMaxPointsPage), reference},
-             .result =
-                 "total, u_covers, points: position_mm, five errors in um and urad, u, u_random, "
+  table.add(
+      {.name = "run.points",
+       .summary = "The points of a run in the order measured, a page at a time.",
+       .params = {run, offset, count_param(kMaxPointsPage), reference},
+       .result = "total, u_covers, points: position_mm, five errors in um and urad, u, u_random, "
                  "U, k, nu_eff (null: infinite), flags",
-             .example = R"({"run": 1, "offset": 0, "count": 20})",
-             .handler = on_query(m, run_points)});
+       .example = R"({"run": 1, "offset": 0, "count": 20})",
+       .handler =
+           on_query(m, [pages = std::make_shared<RunPages>()](Methods&, const Params& params) {
+             return run_points(pages, params);
+           })});
 }
 
 }  // namespace mdof::daemon

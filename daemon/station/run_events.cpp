@@ -52,7 +52,7 @@ std::vector<std::string> points_messages(std::int64_t run, const Rig& rig, Model
   std::vector<std::string> messages;
   if (first_row >= points.size()) return messages;
   const Run part = first_and_new(run, rig, model, points, first_row);
-  const RunUncertainty uncertainty = algo::run_uncertainty(rig, part);
+  const RunUncertainty uncertainty = algo::uncertainty_of_stops(rig, part);
   for (std::size_t next = 1; next < part.points.size();)
     messages.push_back(points_json(part, uncertainty, first_row, next));
   return messages;

@@ -28,10 +28,22 @@ Errors5 in_key_unit(const Errors5& u) {
 }  // namespace
 
 std::string covers_text(const RunUncertainty& uncertainty) {
-  if (!uncertainty.why.empty()) return "noise only: " + uncertainty.why;
-  if (!uncertainty.noise_only) return "noise and what the rig declares";
-  return uncertainty.declares ? "noise only: what the rig declares adds nothing to it"
-                              : "noise only: the rig declares no uncertainties";
+  const VisitsCovered visits = uncertainty.visits;
+  const std::string random =
+      visits == VisitsCovered::repeated ? "noise and repeatability" : "noise";
+  const std::string slow =
+      visits == VisitsCovered::single
+          ? "; no target was visited again: noise slower than a stop is not in it"
+      : visits == VisitsCovered::left_out ? "; of each stop alone: repeatability is not in it"
+                                          : "";
+  if (!uncertainty.why.empty()) return random + " only: " + uncertainty.why + slow;
+  if (!uncertainty.noise_only)
+    return (visits == VisitsCovered::repeated ? "noise, repeatability" : "noise") +
+           std::string(" and what the rig declares") + slow;
+  return random + " only: " +
+         (uncertainty.declares ? "what the rig declares adds nothing to it"
+                               : "the rig declares no uncertainties") +
+         slow;
 }
 
 bool is_noise_only(const RunUncertainty& uncertainty) {

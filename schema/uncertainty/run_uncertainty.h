@@ -12,10 +12,16 @@ namespace mdof {
 // In the order of error_names(); m, rad. NaN: not known, as of a point without errors.
 struct ErrorsUncertainty {
   Errors5 u{};                // combined standard uncertainty
-  Errors5 u_random{};         // of it: the point's own noise
+  Errors5 u_random{};         // of it: noise of its stop, or the repeatability of the run
   Errors5 freedom{};          // effective degrees of freedom, may be infinite
   Errors5 coverage_factor{};  // k for 95 %, Student's t
   Errors5 U{};                // k u
+};
+
+enum class VisitsCovered {
+  repeated,  // u has what repeats of the targets show
+  single,    // no target was visited again from the same side
+  left_out   // u has the noise of each stop alone
 };
 
 struct RunUncertainty {
@@ -24,6 +30,7 @@ struct RunUncertainty {
   // what it declares could not be reckoned.
   bool noise_only = true;
   bool declares = false;
+  VisitsCovered visits = VisitsCovered::single;
   std::string why;
   std::vector<std::string> not_declared;  // keys of the rig: u is too small by what they would add
 };

@@ -6,7 +6,9 @@
 #include <functional>
 #include <random>
 
+#include "schema/severity.h"
 #include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
 
 namespace mdof::algo {
 namespace {
@@ -124,6 +126,17 @@ TEST(VisitStep, ASecondCopyOfTheSameRun) {
   EXPECT_TRUE(warnings_of_repeats(test::rig_x(), repeated_log(3, no_change)).empty());
   for (MeasuredPoint& p : points) p.point.probe_sd_m.assign(5, 0);  // without noise they repeat
   EXPECT_TRUE(warnings_of_repeats(test::rig_x(), points).empty());
+}
+
+// A single visit cannot show slow noise, and that keeps no table from a controller.
+TEST(VisitStep, TargetsThatWereVisitedOnceAreSaid) {
+  SyntheticRun synthetic{.rig = test::rig_x(), .runs = 1};
+  const auto said = warnings_of_repeats(synthetic.rig, synthetic.measure().points);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(severity_of(said[0]), Severity::information);
+  EXPECT_NE(said[0].find("slow noise is not in the figures of a single visit"), std::string::npos);
+  synthetic.runs = 2;
+  EXPECT_TRUE(warnings_of_repeats(synthetic.rig, synthetic.measure().points).empty());
 }
 
 }  // namespace

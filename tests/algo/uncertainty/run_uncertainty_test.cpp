@@ -32,7 +32,7 @@ TEST(RunUncertainty, OfARigThatDeclaresNothingIsTheNoise) {
   const Rig rig = rig_x_with("", "");
   const auto u = run_uncertainty(rig, measured(rig, 10e-9));
   EXPECT_TRUE(u.noise_only);
-  EXPECT_EQ(covers_text(u), "noise only: the rig declares no uncertainties");
+  EXPECT_EQ(covers_text(u), "noise and repeatability only: the rig declares no uncertainties");
   EXPECT_EQ(u.not_declared.size(), 9u);
   ASSERT_EQ(u.points.size(), 54u);
   for (const auto& point : u.points) {
@@ -49,7 +49,7 @@ TEST(RunUncertainty, WhatIsDeclaredAddsToTheNoise) {
   const Rig rig = rig_x_with("B", "u_calibration_um = { u = 0.03, dof = 4 }");
   const auto found = run_uncertainty(rig, measured(rig, noise));
   EXPECT_FALSE(found.noise_only);
-  EXPECT_EQ(covers_text(found), "noise and what the rig declares");
+  EXPECT_EQ(covers_text(found), "noise, repeatability and what the rig declares");
   const auto& point = found.points[7];
   const double share = kUp_m / kL_m / 2;
   const double random2 = noise * noise * (1 + 2 * share * share);
@@ -61,6 +61,47 @@ TEST(RunUncertainty, WhatIsDeclaredAddsToTheNoise) {
   EXPECT_NEAR(point.freedom[kEYX], freedom, 1e-4);
   EXPECT_NEAR(point.U[kEYX], coverage_factor(freedom) * point.u[kEYX], 1e-13);
   EXPECT_EQ(point.u[kECX], point.u_random[kECX]);  // E - D: B is not in it
+}
+
+// Steps of the level between passes, ten times the noise: each point has their variance.
+TEST(RunUncertainty, RepeatsReplaceTheNoiseWhereTheyScatterMore) {
+  const Rig rig = rig_x_with("", "");
+  const double steps[] = {-1, 3, 2, -2, 1, -3};  // of D and E, by pass of nine points
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.u_reading_m = 10e-9;
+  synthetic.added = [&](std::size_t k, double, double, double time_s) {
+    return k < 3 ? 0 : 100e-9 * steps[static_cast<int>((time_s - 5) / 90)];
+  };
+  auto run = synthetic.measure();
+  const auto found = run_uncertainty(rig, run);
+  // Forward -1 2 1, reverse 3 -2 -3: squares about their means 14/3 and 62/3, of two each.
+  const double sd = 100e-9 * std::sqrt((14.0 + 62) / 3 / 4);
+  for (const auto& point : found.points) {
+    EXPECT_NEAR(point.u_random[kEYX], sd, 1e-12);
+    EXPECT_NEAR(point.freedom[kEYX], 4, 1e-6);   // six passes, two means
+    EXPECT_NEAR(point.freedom[kECX], 99, 1e-6);  // E - D does not step: its noise stays
+  }
+  // A stop noisier than all repeats keeps its own.
+  run.points[5].errors.covariance[6 * kDy] = 1e-12;
+  EXPECT_NEAR(run_uncertainty(rig, run).points[5].u_random[kEYX], 1e-6, 1e-12);
+  // One run shows nothing.
+  synthetic.runs = 1;
+  const auto single = run_uncertainty(rig, synthetic.measure());
+  EXPECT_LT(single.points[5].u_random[kEYX], 50e-9);
+  EXPECT_NE(covers_text(single).find("no target was visited again: noise slower than a stop"),
+            std::string::npos);
+}
+
+// What a drift does between the visits is declared already.
+TEST(RunUncertainty, ADeclaredDriftDoesNotCountTwice) {
+  const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 3\n");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.u_reading_m = 10e-9;
+  synthetic.added = [&](std::size_t k, double, double, double time_s) {
+    return k == 3 ? 3e-6 / 3600 * time_s : 0;  // D, as declared
+  };
+  for (const auto& point : run_uncertainty(rig, synthetic.measure()).points)
+    EXPECT_LT(point.u_random[kEYX], 30e-9);  // 150 nm between visits
 }
 
 // The two directions of a probe are one contributor with four degrees of freedom, not two.
@@ -99,10 +140,10 @@ TEST(RunUncertainty, OfSomePointsWithTheFirstIsThatOfTheWhole) {
   const Rig rig =
       rig_x_with("B", "u_sensitivity_ppm = 500", "[drift]\nu_um_per_h = 1\n[encoder]\nu_um = 1\n");
   const auto run = measured(rig, 10e-9);
-  const auto whole = run_uncertainty(rig, run);
+  const auto whole = uncertainty_of_stops(rig, run);
   auto page = run;
   page.points.erase(page.points.begin() + 1, page.points.begin() + 40);
-  const auto some = run_uncertainty(rig, page);
+  const auto some = uncertainty_of_stops(rig, page);
   for (std::size_t j = 1; j < some.points.size(); ++j)
     for (std::size_t k = 0; k < 5; ++k)
       EXPECT_DOUBLE_EQ(some.points[j].u[k], whole.points[j + 39].u[k]) << j << " " << k;

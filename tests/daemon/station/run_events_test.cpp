@@ -26,7 +26,9 @@ TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
     EXPECT_LT(message.size(), 48u * 1024 - 128);
     const auto json = parser.parse(message);
     EXPECT_EQ(std::uint64_t(json["offset"]), next);
-    EXPECT_EQ(std::string_view(json["u_covers"]), "noise only: the rig declares no uncertainties");
+    EXPECT_EQ(std::string_view(json["u_covers"]),
+              "noise only: the rig declares no uncertainties; of each stop alone: repeatability is "
+              "not in it");
     for (const auto point : json["points"]) EXPECT_EQ(std::uint64_t(point["target"]), ++next - 40);
   }
   EXPECT_EQ(next, 540u);

@@ -1,0 +1,70 @@
+#include "algo/uncertainty/statistics/visit_scatter.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "algo/sequence/uneven_visits.h"
+#include "algo/uncertainty/coverage.h"
+
+namespace mdof::algo {
+namespace {
+
+using Numbers = std::map<std::pair<int, int>, std::size_t>;
+
+// The number of a group, from 0; counts its members.
+std::size_t number_of(std::pair<int, int> group, Numbers& numbers, std::vector<double>& members) {
+  const auto [at, is_new] = numbers.emplace(group, numbers.size());
+  if (is_new) members.push_back(0);
+  members[at->second] += 1;
+  return at->second;
+}
+
+}  // namespace
+
+VisitScatter::VisitScatter(const std::vector<MeasuredPoint>& points) {
+  Numbers places, passes;
+  std::set<int> sides;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const MeasuredPoint& p = points[i];
+    if (!counts_in_means(p)) continue;
+    const int side = p.point.direction > 0 ? 1 : -1;
+    sides.insert(side);
+    visits_.push_back({i, number_of({p.target, side}, places, visits_of_place_),
+                       number_of({p.run, side}, passes, visits_of_pass_)});
+  }
+  freedom_ = static_cast<double>(visits_.size() - places.size());
+  freedom_of_passes_ = std::min(freedom_, static_cast<double>(passes.size() - sides.size()));
+}
+
+VisitScatter::Pooled VisitScatter::of(const std::vector<Errors5>& values) const {
+  Pooled pooled;
+  if (!has_repeats()) return pooled;
+  std::vector<Errors5> of_place(visits_of_place_.size()), of_pass(visits_of_pass_.size());
+  for (const Visit& visit : visits_)
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      of_place[visit.place][k] += values[visit.point][k] / visits_of_place_[visit.place];
+  Errors5 all{}, shared{};  // sums of squares
+  for (const Visit& visit : visits_)
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      const double off = values[visit.point][k] - of_place[visit.place][k];
+      all[k] += off * off;
+      of_pass[visit.pass][k] += off / visits_of_pass_[visit.pass];
+    }
+  for (std::size_t p = 0; p < of_pass.size(); ++p)
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      shared[k] += visits_of_pass_[p] * of_pass[p][k] * of_pass[p][k];
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    const double of_passes = std::min(shared[k], all[k]);
+    pooled.variance[k] = all[k] / freedom_;
+    double fourths = 0;
+    if (freedom_of_passes_ > 0) fourths += fourth_by(of_passes / freedom_, freedom_of_passes_);
+    if (freedom_ > freedom_of_passes_)
+      fourths += fourth_by((all[k] - of_passes) / freedom_, freedom_ - freedom_of_passes_);
+    pooled.freedom[k] = effective_freedom(pooled.variance[k], fourths);
+  }
+  return pooled;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,37 @@
+// What the repeats of a run's targets show of a single visit.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "schema/point.h"
+
+namespace mdof::algo {
+
+class VisitScatter {
+ public:
+  // Of the points that count in means (uneven_visits.h).
+  explicit VisitScatter(const std::vector<MeasuredPoint>& points);
+
+  bool has_repeats() const { return freedom_ > 0; }  // of a target from the same side
+  bool are_single() const { return !visits_.empty() && !has_repeats(); }
+
+  // Variance of a visit and its degrees of freedom, 0 without repeats.
+  struct Pooled {
+    Errors5 variance{}, freedom{};
+  };
+  // `values`: of each point of the run. Pooled over the visits of each target from each side. What
+  // all targets of a pass share has the few degrees of freedom of the passes: both parts add by
+  // Welch-Satterthwaite.
+  Pooled of(const std::vector<Errors5>& values) const;
+
+ private:
+  struct Visit {
+    std::size_t point = 0, place = 0, pass = 0;  // place: a target from one side
+  };
+  std::vector<Visit> visits_;
+  std::vector<double> visits_of_place_, visits_of_pass_;
+  double freedom_ = 0, freedom_of_passes_ = 0;
+};
+
+}  // namespace mdof::algo

@@ -1,0 +1,66 @@
+#include "daemon/methods/run_pages.h"
+
+#include <utility>
+
+#include "algo/uncertainty/run_uncertainty.h"
+#include "daemon/measure/budgets.h"
+#include "daemon/measure/evaluation.h"
+#include "schema/base/json_page.h"
+#include "schema/run_json.h"
+
+namespace mdof::daemon {
+
+namespace {
+
+constexpr std::size_t kAfterFirst = 1;  // points_stated_at() gives the run's first before them
+
+}  // namespace
+
+Status RunPages::look_at(store::Store& store, std::int64_t id, std::int64_t points,
+                         Reference reference) {
+  MDOF_TRY(RunHeader header, store.run_header(id));
+  const auto is_same = [&](const RunHeader& other) {
+    return other.id == id && other.state == header.state &&
+           other.started_utc == header.started_utc &&
+           other.provenance.recording_sha256 == header.provenance.recording_sha256 &&
+           other.provenance.rig_text == header.provenance.rig_text;
+  };
+  if (known_ && known_->points == points && known_->reference == reference &&
+      is_same(known_->header))
+    return {};
+  MDOF_TRY(const Run whole, run_stated_at(store, id, reference));
+  known_ = Known{points, reference, std::move(header), uncertainty_of(whole)};
+  return {};
+}
+
+Result<std::string> RunPages::points(store::Store& store, std::int64_t id, rpc::ListPage page,
+                                     Reference reference) {
+  MDOF_TRY(const auto total, store.count_points(id));
+  MDOF_TRY(const Run run, points_stated_at(store, id, page.offset, page.count, reference));
+  const bool is_long = total > static_cast<std::int64_t>(algo::kMostPointsOfRepeatability);
+  RunUncertainty of_page;
+  if (is_long)
+    of_page = uncertainty_of_stops(run);
+  else
+    MDOF_CHECK(look_at(store, id, total, reference));
+  const RunUncertainty& uncertainty = is_long ? of_page : known_->uncertainty;
+  const auto row = is_long ? 0 : static_cast<std::size_t>(page.offset) - kAfterFirst;
+  JsonWriter json;
+  json.begin_object()
+      .field("run", id)
+      .field("axis", std::string(1, letter(run.header.axis)))
+      .field("total", total)
+      .field("offset", page.offset);
+  write_reference(json, run.header.stated);
+  write_covers(json, uncertainty);
+  json.key("points").begin_array();
+  append_page_of(json, kAfterFirst, run.points.size(), [&](std::size_t j) {
+    JsonWriter item;
+    write_point(item, run.header.moving(), run.points[j], uncertainty.points[row + j]);
+    return item.take();
+  });
+  json.end_array().end_object();
+  return json.take();
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,36 @@
+// The points of a run in pages, for run.points.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "daemon/rpc/list_page.h"
+#include "daemon/store/store.h"
+#include "schema/base/result.h"
+#include "schema/rig/reference.h"
+#include "schema/run.h"
+#include "schema/uncertainty/run_uncertainty.h"
+
+namespace mdof::daemon {
+
+// On the thread "query". u of a point needs all points of its run, so that of the run last asked
+// for is kept.
+class RunPages {
+ public:
+  Result<std::string> points(store::Store& store, std::int64_t id, rpc::ListPage page,
+                             Reference reference);
+
+ private:
+  struct Known {
+    std::int64_t points = 0;
+    Reference reference = Reference::fixture;
+    RunHeader header;
+    RunUncertainty uncertainty;
+  };
+  Status look_at(store::Store& store, std::int64_t id, std::int64_t points, Reference reference);
+
+  std::optional<Known> known_;
+};
+
+}  // namespace mdof::daemon

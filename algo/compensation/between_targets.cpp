@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kRoughest = 4;
 constexpr std::size_t kFewestOfRoughness = 7;  // values: three second differences over two steps
+constexpr std::size_t kFew = 5;                // of which the scatter of the curvature is known
+constexpr double kFactorOfFew = 2;
+constexpr double kWeightOfAll = 6;  // of the mean square of all, in second differences nearby
 
 struct Finite {
   std::vector<double> x, y, u;
@@ -41,20 +44,28 @@ double square_at(const Finite& f, std::size_t i, std::size_t step) {
   return curvature * curvature - noise;
 }
 
-// Of the places first ... last that have `step` values on either side; 0 where noise explains it.
-double mean_square(const Finite& f, std::size_t first, std::size_t last, std::size_t step) {
-  first = std::max(first, step);
-  last = std::min(last, f.x.size() - 1 - step);
-  double sum = 0;
-  for (std::size_t i = first; i <= last; ++i) sum += square_at(f, i, step);
-  return last < first ? 0 : std::max(0.0, sum / static_cast<double>(last - first + 1));
+struct SquareSum {
+  double sum = 0, count = 0;
+  double mean() const { return count > 0 ? std::max(0.0, sum / count) : 0; }
+};
+
+// Of the places first ... last that have `step` values on either side.
+SquareSum squares(const Finite& f, std::size_t first, std::size_t last, std::size_t step) {
+  SquareSum all;
+  for (std::size_t i = std::max(first, step); i <= last && i + step < f.x.size(); ++i) {
+    all.sum += square_at(f, i, step);
+    all.count += 1;
+  }
+  return all;
 }
 
-double roughness(const Finite& f) {
-  if (f.x.size() < kFewestOfRoughness) return kRoughest;
-  const double one = mean_square(f, 0, f.x.size() - 1, 1),
-               two = mean_square(f, 0, f.x.size() - 1, 2);
-  return two > 0 ? std::clamp(std::sqrt(one / two), 1.0, kRoughest) : kRoughest;
+// The curvature that half a step would show, by that over one step.
+double of_half_a_step(const Finite& f) {
+  if (f.x.size() < kFewestOfRoughness) return f.x.size() < kFew ? kRoughest : kFactorOfFew;
+  const double one = squares(f, 0, f.x.size() - 1, 1).mean(),
+               two = squares(f, 0, f.x.size() - 1, 2).mean();
+  const double q = two > 0 ? std::clamp(std::sqrt(one / two), 1.0, kRoughest) : kRoughest;
+  return std::max(2 * std::sqrt(q) / (1 + std::sqrt(q)), q * q / kRoughest);
 }
 
 }  // namespace
@@ -64,12 +75,13 @@ std::vector<double> curvatures(const std::vector<double>& position_m,
   std::vector<double> all(std::max<std::size_t>(position_m.size(), 1) - 1, kNaN);
   const Finite f = finite_of(position_m, values, u);
   if (f.x.size() < 3) return all;
-  const double rough = roughness(f), everywhere = mean_square(f, 0, f.x.size() - 1, 1);
+  const double factor = of_half_a_step(f), everywhere = squares(f, 0, f.x.size() - 1, 1).mean();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto above = std::upper_bound(f.x.begin(), f.x.end(), position_m[i]) - f.x.begin();
     const auto right = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1));
-    const double near = mean_square(f, right < 2 ? 0 : right - 2, right + 1, 1);
-    all[i] = rough * std::sqrt(std::max(near, everywhere));
+    const SquareSum near = squares(f, right < 2 ? 0 : right - 2, right + 1, 1);
+    all[i] = factor * std::sqrt(std::max(0.0, kWeightOfAll * everywhere + near.sum) /
+                                (kWeightOfAll + near.count));
   }
   return all;
 }

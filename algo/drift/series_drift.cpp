@@ -11,7 +11,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kLeastNoise2 = 1e-24;                // (1 pm)²: of readings without any noise
-constexpr double kNearlyAsLikely = 4, kAsLikely = 2;  // of -2 log of the likelihood
+constexpr double kNearlyAsLikely = 7, kAsLikely = 2;  // of -2 log of the likelihood
 constexpr double kTaken = 1e-6;      // of the sd of a score, which rounding leaves of one
 constexpr Eigen::Index kWaves = 12;  // of the slow noise over a log, half a period and more
 constexpr double kPi = 3.14159265358979323846;

@@ -252,7 +252,7 @@ TEST(RemovedDrift, ARandomWalkAloneIsSeldomTakenForADrift) {
     removed +=
         DriftOfRun(world.measured(4000 + static_cast<std::uint64_t>(i)).points).found().removable();
   std::printf("walk of 20 nm alone: %d of %d removed\n", removed, logs);
-  EXPECT_LE(removed, 0.05 * logs);
+  EXPECT_LE(removed, 0.01 * logs);
 }
 
 TEST(RemovedDrift, WithoutItsUncertaintyTheTruthIsMissed) {
@@ -320,7 +320,7 @@ TEST(RemovedDrift, NoiseThatLastsIsNotTakenForADrift) {
                        .removable();
       std::printf("%.0f times the white noise, %.0f s: %d of %d removed\n", by_white, correlation_s,
                   removed, logs);
-      EXPECT_LE(removed, 0.01 * logs + 2);
+      EXPECT_LE(removed, 0.01 * logs);
     }
 }
 

@@ -53,13 +53,15 @@ TEST_F(ActivationTest, OfAnotherIsRefusedByItsName) {
   const auto id = store_->add_table(table_).value();
   store_.reset();
   {
-    auto other = sqlite::Connection::open(folder_ / "mdof.db", sqlite::OpenMode::read_write).value();
-    ASSERT_TRUE(other.execute("UPDATE compensation_table SET travel = '-'"));
+    auto other =
+        sqlite::Connection::open(folder_ / "mdof.db", sqlite::OpenMode::read_write).value();
+    ASSERT_TRUE(other.execute(
+        "DROP TRIGGER compensation_table_no_update; UPDATE compensation_table SET travel = '-'"));
   }
   store_.emplace(open_store());
   const auto done = activated(id);
   ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("compensation table 1 is not what was stored"),
+  EXPECT_NE(done.error().message.find("compensation table 1: is not what was stored"),
             std::string::npos)
       << done.error().message;
   EXPECT_EQ(store_->generation().value(), 0);

@@ -24,6 +24,15 @@ NUMBERS = [0, 1, -1, 2, 3, 0.5, -0.0, 1e-320, 1e308, -1e308, 2 ** 31, 2 ** 53 + 
 TEXTS = ["", "X", "Y", "x", "fixture", "carriage", "tool", "EYX", "EC0Y", "rigid", "exact", "latest", "\x00", "\x1b[2J", "\u202e",
          "é" * 40, "a" * 1025, "a" * 5000, "/", "..", "/dev/null", "/etc/passwd", "%s%n", "1", "null", "🙂", "-", "\\u0000"]
 
+MACHINE = """name = "m"
+machine = {chain = "w-b-X-t"}
+[[axis]]
+id = "X"
+holds_at_mm = [0, 0, 0]
+point = "moving"
+EXX_um = 2
+"""
+
 
 def any_value(rng, depth=0):
     way = rng.randrange(8 if depth < 3 else 5)
@@ -111,6 +120,7 @@ class Bench:
                       "rig": list(texts.values()), "figure": ["EYX_um", "EAX_urad", "EYX_straightness_um", "ECX_range_urad"], "at_mm": [0, 1, 2, 3],
                       "reference": ["fixture", "carriage", "tool"], "despite_warnings": [True], "offset": [0, 1],
                       # A replay of many targets, or a run over kilometres, is a long one and no wrong one.
+                      "machine": [MACHINE], "X_mm": [0, 1],
                       "targets_mm": [[], [0, 1, 2, 3]], "interval_mm": [1], "from_mm": [0], "to_mm": [3]}
         client.socket.close()
 

@@ -48,7 +48,7 @@ class MillingTrials : public CausalExperiment {
 
  private:
   std::vector<double> trial(std::span<const std::uint8_t> second, std::uint64_t i) const {
-    const std::vector<double> unsolved(outputs().size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> unsolved(outputs().size(), std::numeric_limits<double>::quiet_NaN());
     MillingPlan drawn = plan_;
     for (std::size_t q = 0; q < inputs_.size(); ++q) {
       const std::uint32_t stream = q < second.size() && second[q] != 0 ? 1 : 0;

@@ -324,7 +324,7 @@ TEST(Separation, WhatCannotBeIsRefusedWithARemedy) {
   request = request_of(world, {{}, {true, false, 0}});
   request.set_ups[0].u_m.assign(7, -1e-9);
   says(request, "negative");
-  request.set_ups[0] = {{0, 1}, {0, 1}, {}, {}, 0};
+  request.set_ups[0] = {{0, 1}, {0, 1}, {}, {}, {}, 0};
   says(request, "2 readings");
 }
 

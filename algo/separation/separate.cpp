@@ -151,6 +151,21 @@ std::string contradiction(double chi_square, std::size_t freedom) {
       "whether the machine repeats, and u of the readings");
 }
 
+// χ² of all set-ups together: the least of ((errors - A x - declared q)/u)² + q² over the unknowns
+// and the declared quantities q, each of standard uncertainty 1. The fit is that of the weights
+// 1/u, so that x has gone from what it leaves of errors and declared.
+double chi_square_of(const Equations& e, const Solution& solution, const VectorXd& left) {
+  const VectorXd weight = e.u.cwiseInverse();
+  const VectorXd misfit = weight.asDiagonal() * left;
+  if (e.declared.cols() == 0) return misfit.squaredNorm();
+  const MatrixXd declared =
+      weight.asDiagonal() * (e.declared - e.A * (solution.from_readings * e.declared));
+  const MatrixXd normal =
+      MatrixXd::Identity(declared.cols(), declared.cols()) + declared.transpose() * declared;
+  const VectorXd moved = declared.transpose() * misfit;
+  return misfit.squaredNorm() - moved.dot(LeastSquares(normal).solve(moved));
+}
+
 std::string declared_text(const Separation& result, const Equations& e) {
   if (e.declared.cols() > 0) return ", and what is declared";
   return result.noise_only ? ": noise and repeatability only, no uncertainties are declared" : "";
@@ -163,7 +178,7 @@ VectorXd judge(const Equations& e, const Solution& solution, Separation& result)
   if (freedom > 0) result.residual_m = std::sqrt(left.squaredNorm() / static_cast<double>(freedom));
   if (e.u.allFinite()) {
     result.u_reason = "u of the readings, propagated" + declared_text(result, e);
-    const double chi_square = left.cwiseQuotient(e.u).squaredNorm();
+    const double chi_square = chi_square_of(e, solution, left);
     if (freedom > 0 && chi_square > chi_square_limit(static_cast<int>(freedom)))
       result.warnings.push_back(contradiction(chi_square, freedom));
     return e.u;

@@ -367,5 +367,32 @@ TEST(Separate, WhatIsDeclaredIsInU) {
   EXPECT_NE(none.u_reason.find("repeatability only"), std::string::npos);
 }
 
+// Four set-ups whose probes are 1 % off in scale, each by its own, in noise of 2 nm.
+TEST(Separate, WhatIsDeclaredContradictsNothing) {
+  const auto accused = [](double declared_scale) {
+    int n = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      const World world{{}, 0, steps(9, 5e-3), 2e-9, seed};
+      SeparationRequest request =
+          request_of(world, {{}, {true, false, 0}, {false, false, 10e-3}, {true, false, 5e-3}});
+      for (std::size_t k = 0; k < request.set_ups.size(); ++k) {
+        auto& readings = request.set_ups[k];
+        DeclaredShift shift;
+        const double gain = 0.01 * normal(seed, 100 + static_cast<int>(k), 0);
+        for (double& error_m : readings.error_m) {
+          error_m *= 1 + gain;
+          shift.shift_m.push_back(declared_scale * error_m);
+        }
+        if (declared_scale > 0) readings.declared.push_back(shift);
+      }
+      n += !separate(request).value().warnings.empty();
+    }
+    return n;
+  };
+  EXPECT_EQ(accused(0.01), 0);
+  EXPECT_GT(accused(0), 75);
+  EXPECT_GT(accused(0.001), 40);  // ten times as far off as declared
+}
+
 }  // namespace
 }  // namespace mdof::algo

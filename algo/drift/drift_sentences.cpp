@@ -13,11 +13,24 @@ namespace {
 
 constexpr double kSecondsPerMinute = 60, kSecondsPerHour = 3600;
 
+// GUM 7.2.6: two significant digits of u as it is rounded, 0.0996 is 0.10; below 0 tens and more.
+int decimals_of(double u, int otherwise) {
+  constexpr int kMostDecimals = 9;
+  if (!(u > 0) || !std::isfinite(u)) return otherwise;
+  const auto exponent = static_cast<int>(std::floor(std::log10(u)));
+  const double two_digits = std::round(u * std::pow(10.0, 1 - exponent));  // 10 to 100
+  return std::min(1 - exponent - (two_digits >= 100 ? 1 : 0), kMostDecimals);
+}
+
 std::string change_text(const ErrorName& name, const SeriesDrift& drift, double sign) {
+  const double u = to_key_unit(drift.u_change);
+  const int decimals = decimals_of(u, name.angle ? 2 : 4);
+  const double place = std::pow(10.0, -decimals);
+  const auto rounded = [&](double x) { return decimals < 0 ? std::round(x / place) * place : x; };
   std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(),
-                name.angle ? "%s %+.2f ± %.2f µrad" : "%s %+.4f ± %.4f µm", name.name,
-                to_key_unit(sign * drift.change), to_key_unit(drift.u_change));
+  std::snprintf(text.data(), text.size(), "%s %+.*f ± %.*f %s", name.name, std::max(0, decimals),
+                rounded(to_key_unit(sign * drift.change)), std::max(0, decimals), rounded(u),
+                name.angle ? "µrad" : "µm");
   return text.data();
 }
 

@@ -40,6 +40,23 @@ TEST(DriftSentences, NameEachErrorOfTheBodyThatMoves) {
   EXPECT_EQ(changes_text(RunDrift{}, {Axis::x, {}}, false), "");
 }
 
+// GUM 7.2.6: two significant digits of u, also where rounding gives it one more.
+TEST(DriftSentences, RoundAsTheUncertaintySays) {
+  const auto said = [](double change_m, double u_m) {
+    RunDrift drift = three_changes();
+    drift.errors[kEz] = {};
+    drift.errors[kDy].change = change_m;
+    drift.errors[kDy].u_change = u_m;
+    const std::string text = changes_text(drift, {Axis::x, {}}, false);
+    return text.substr(0, text.find(" from"));
+  };
+  EXPECT_EQ(said(0.25049e-6, 0.0317e-6), "EYX +0.250 ± 0.032 µm");
+  EXPECT_EQ(said(-1.23456e-6, 0.0996e-6), "EYX -1.23 ± 0.10 µm");
+  EXPECT_EQ(said(1.23456e-6, 0.00071234e-6), "EYX +1.23456 ± 0.00071 µm");
+  EXPECT_EQ(said(321.4e-6, 12.3e-6), "EYX +321 ± 12 µm");
+  EXPECT_EQ(said(4321.4e-6, 123.4e-6), "EYX +4320 ± 120 µm");
+}
+
 TEST(DriftSentences, SayWhatToDo) {
   const auto said = drift_sentences(three_changes(), {Axis::x, {}});
   ASSERT_EQ(said.size(), 2U);

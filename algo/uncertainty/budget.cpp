@@ -247,7 +247,7 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
   std::vector<std::size_t> place;  // of each range among the budgets
   for (const Figure& figure : figures) {
     budgets.push_back(first_order(figure));
-    if (!figure.is_range() || !(budgets.back().u > 0)) continue;
+    if (!figure.is_range() || !std::isfinite(budgets.back().value)) continue;
     ranges.push_back(figure);
     place.push_back(budgets.size() - 1);
   }
@@ -255,7 +255,12 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
   auto trials = drawn(ranges, {kTrialsOfU, 1}, 0);
   for (std::size_t r = 0; r < ranges.size(); ++r) {
     Budget& budget = budgets[place[r]];
-    budget.U = RangeTrials(ranges[r].deviations(means_), std::move(trials[r].changes)).U();
+    const RangeTrials range(ranges[r].deviations(means_), std::move(trials[r].changes));
+    const double U = range.U();
+    if (!(U > 0)) continue;
+    budget.U = U;
+    // Of deviations that are all equal the range changes as much up as down: no first order.
+    if (!(budget.u > 0)) budget.u = range.root_mean_square();
     budget.coverage_factor = budget.U / budget.u;
     budget.U_by_trials = true;
   }

@@ -19,6 +19,7 @@ class RangeTrials {
   RangeTrials(std::vector<double> measured, std::vector<double> changes);
   double U() const;
   double standard_deviation() const;  // of the ranges of the trials
+  double root_mean_square() const;    // of what they differ by from the measured one
 
  private:
   // c(T)

@@ -79,6 +79,24 @@ TEST(NoiseOfRuns, ABentAxisIsAsBentAsItIs) {
     }
 }
 
+// Readings that are all alike, as of a coarse converter: the range is 0, and what noise makes of it
+// the studentized range of nine normal numbers, whose 95 % point is 4.387 (Harter, 1960).
+TEST(NoiseOfRuns, ARangeOfEqualDeviationsIsNotExact) {
+  const Rig rig = test::rig_x_with("", "");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
+  synthetic.u_reading_m = kNoise_m;
+  const RunBudgets budgets(rig, synthetic.measure());
+  const double u_of_mean_rad = kNoise_m * std::sqrt(2.0) / 10e-3 / std::sqrt(6.0);
+  const Budget yaw = budgets.of(range_figure(Axis::x, 4));
+  EXPECT_EQ(yaw.value, 0);
+  EXPECT_NEAR(yaw.U / u_of_mean_rad, 4.387, 0.1);
+  // The mean square of the range of nine: (2.970² + 0.808²), Tippett's.
+  EXPECT_NEAR(yaw.u / u_of_mean_rad, std::hypot(2.970, 0.808), 0.06);
+  EXPECT_NEAR(yaw.coverage_factor, yaw.U / yaw.u, 1e-12);
+  synthetic.u_reading_m = 0;  // and exact where nothing is unsure
+  EXPECT_EQ(RunBudgets(rig, synthetic.measure()).of(range_figure(Axis::x, 4)).U, 0);
+}
+
 // A range says no more than it must: of a form far above the noise it is ± 1.96 √2 u.
 TEST(NoiseOfRuns, ARangeFarAboveTheNoiseHasTheUncertaintyOfItsEnds) {
   std::mt19937_64 engine(3);

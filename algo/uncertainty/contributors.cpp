@@ -13,12 +13,14 @@
 #include "algo/model/small_rotation.h"
 #include "algo/model/solver.h"
 #include "algo/sensitivity/plan/mounting.h"
+#include "algo/uncertainty/effects/expansion_contributors.h"
 #include "algo/uncertainty/effects/model_contributor.h"
 #include "algo/uncertainty/physics_contributors.h"
 #include "algo/uncertainty/point_sensitivity.h"
 #include "algo/uncertainty/statistics/common_quantities.h"
 #include "algo/uncertainty/statistics/flatness.h"
 #include "algo/uncertainty/statistics/independent_parts.h"
+#include "algo/uncertainty/statistics/plane_footprints.h"
 #include "schema/base/random.h"
 #include "schema/units.h"
 
@@ -133,44 +135,6 @@ PointShifts by_probe_mounting(const Basis& basis, std::size_t probe, Set set) {
 
 double middle_s(const MeasuredPoint& p) {
   return (ns_to_s(p.point.begin_ns) + ns_to_s(p.point.end_ns)) / 2;
-}
-
-// A footprint is that of the mean travel at its target: the visits of a place meet the same height.
-PlaneFootprints plane_footprints(const Basis& basis, std::size_t plane) {
-  const TargetPlane& surface = basis.rig.planes[plane];
-  PlaneFootprints out;
-  out.u_m = surface.u_flatness.u;
-  out.length_m = surface.flatness_length_m;
-  out.points = basis.points.size();
-  struct Travel {
-    double sum_m = 0, visits = 0;
-    std::size_t footprint = 0;
-  };
-  std::map<int, Travel> travels;  // by target
-  const auto& points = basis.points;
-  for (std::size_t j = 0; j < points.size(); ++j)
-    if (points[j].valid) {
-      Travel& at = travels[basis.run.points[j].target];
-      at.sum_m += points[j].travel_m;
-      at.visits += 1;
-    }
-  for (std::size_t k = 0; k < basis.probes(); ++k) {
-    const FixtureProbe& probe = basis.solver.fixture().probes[k];
-    if (probe.plane != plane) continue;
-    for (auto& [target, at] : travels) {
-      at.footprint = out.footprints.size();
-      const double travel_m = at.sum_m / at.visits;
-      out.footprints.push_back({probe.p_MP - travel_m * Eigen::Vector3d::UnitX(), probe.p_MP});
-    }
-    const double reading = 1 / probe.n_C.dot(probe.u_M);
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      if (!points[j].valid) continue;
-      Errors5 by_height = points[j].by_probe[k];
-      for (double& of_error : by_height) of_error *= reading;
-      out.readings.push_back({j, travels.at(basis.run.points[j].target).footprint, by_height});
-    }
-  }
-  return out;
 }
 
 std::vector<PointShifts> of_encoder(const Basis& basis) {
@@ -327,7 +291,8 @@ class List {
     add(name + ": flatness", "u_flatness_um", plane.u_flatness, 1e6, "µm",
         [](const Basis&) { return std::vector<PointShifts>(); });
     if (list_.size() == before) return;
-    list_.back().surface = std::make_shared<const PlaneFootprints>(plane_footprints(*basis_, i));
+    list_.back().surface = std::make_shared<const PlaneFootprints>(
+        plane_footprints(basis_->rig, basis_->solver.fixture(), basis_->run, basis_->points, i));
     list_.back().parts = [surface = list_.back().surface] {
       return flatness_parts({surface.get()}).front();
     };
@@ -385,8 +350,9 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   MDOF_CHECK(check_run(*basis));
   MDOF_CHECK(check_angles(basis->rig));
   std::vector<Contributor> list = List(basis).take();
-  auto physics = physics_contributors(rig, basis->solver, run, basis->points);
-  std::move(physics.begin(), physics.end(), std::back_inserter(list));
+  for (auto&& more : {physics_contributors(rig, basis->solver, run, basis->points),
+                      expansion_contributors(rig, basis->solver, basis->points)})
+    list.insert(list.end(), more.begin(), more.end());
   name_what_goes_with_probes(rig, list);
   std::move(own.begin(), own.end(), std::back_inserter(list));
   return list;

@@ -303,7 +303,12 @@ std::vector<DeclaredKey> declared_keys(const Rig& rig) {
           declared_key("[encoder] u_um", u.encoder),
           declared_key("u_angle_mrad", u.installation_angle),
           declared_key("u_offset_mm", u.installation_offset),
-          declared_key("u_um_per_h", u.drift)};
+          declared_key("u_um_per_h", u.drift),
+          {"[temperature] u_scale_K", rig.expansion.scale.u_temperature.known(),
+           rig.expansion.scale.relative() > 0},
+          {"[temperature] u_fixture_K", rig.expansion.fixture.u_temperature.known(),
+           rig.expansion.fixture.relative() > 0},
+          declared_key("[temperature] u_square_gradient_K_per_m", rig.expansion.square_gradient)};
 }
 
 }  // namespace
@@ -342,6 +347,7 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
   read_artefact(table, rig);
   read_encoder(table, rig);
   read_installation_and_drift(table, rig);
+  rig.expansion = read_expansion(table);
   rig.machine = read_machine(table);
   check_machine(table, rig);
   for (auto& probe : table.tables("probe")) rig.probes.push_back(read_probe(probe));

@@ -14,6 +14,7 @@
 #include "schema/base/result.h"
 #include "schema/calibration/record.h"
 #include "schema/rig/chain.h"
+#include "schema/rig/expansion.h"
 #include "schema/rig/uncertainty.h"
 
 namespace mdof {
@@ -88,6 +89,7 @@ struct Rig {
   std::optional<double> artefact_angle_error_rad;
   double u_artefact_angle_rad = 0;
   RigUncertainty uncertainty;
+  RigExpansion expansion;
   // [drift]: of any probe's readings over a run; more is a warning of the run. m/s.
   std::optional<double> drift_limit_m_per_s = std::nullopt;
   // What makes a capacitance probe read another gap than there is, and which of it is corrected.

@@ -6,6 +6,7 @@
 
 #include "algo/model/rigid.h"
 #include "algo/sensitivity/plan/mounting.h"
+#include "algo/uncertainty/effects/expansion_contributors.h"
 
 namespace mdof::algo {
 namespace {
@@ -48,8 +49,15 @@ class Covariance {
       });
     }
   }
+  void add_expansion() {
+    if (const double relative = rig_.expansion.fixture.relative(); relative > 0)
+      add_together(readings_by_fixture_expansion(fixture_, relative, travel_m_, carriage_));
+    for (const Eigen::Vector3d& bend_per_m : gradient_bends(rig_))
+      add_together(readings_by_gradient(fixture_, bend_per_m, travel_m_));
+  }
   void add_encoder() {
-    const double u_m = rig_.uncertainty.encoder.u;
+    const double u_m =
+        std::hypot(rig_.uncertainty.encoder.u, rig_.expansion.scale.relative() * travel_m_);
     if (u_m > 0)
       add_together(rigid_readings(fixture_, travel_m_ + u_m, carriage_) -
                    rigid_readings(fixture_, travel_m_, carriage_));
@@ -106,6 +114,7 @@ Eigen::MatrixXd declared_covariance(const Rig& rig, const Solver& solver, double
   for (std::size_t k = 0; k < readings_m.size(); ++k)
     covariance.add_probe(k, readings_m[k], since_zero_s);
   covariance.add_installation();
+  covariance.add_expansion();
   covariance.add_encoder();
   return covariance.take();
 }

@@ -28,7 +28,7 @@ TEST(RigUncertainty, EachKeyIsReadInItsUnit) {
       "u_calibration_um = 0.05\nu_sensitivity_ppm = 200\nu_position_mm = [0.1, 0.2, 0.3]\n"
       "u_direction_mrad = 2",
       "[encoder]\nu_um = 0.4\n[installation]\nu_angle_mrad = [1, 2, 3]\nu_offset_mm = 0.05\n"
-      "[drift]\nu_um_per_h = 0.36\n"
+      "[drift]\nu_um_per_h = 0.36\n[temperature]\nu_scale_K = 0\n"
       "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\nu_flatness_um = 0.03\nflatness_length_mm = 12\n"
       "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\n");
   ASSERT_TRUE(parsed) << parsed.error().message;
@@ -49,10 +49,12 @@ TEST(RigUncertainty, EachKeyIsReadInItsUnit) {
   EXPECT_DOUBLE_EQ(parsed->planes[0].flatness_length_m, 0.012);
   EXPECT_DOUBLE_EQ(parsed->planes[1].flatness_length_m, 0.030);
   // One plane and the other probes lack theirs.
-  EXPECT_EQ(parsed->undeclared_uncertainties(),
-            (std::vector<std::string>{"u_calibration_um", "u_sensitivity_ppm", "u_position_mm",
-                                      "u_direction_mrad", "u_flatness_um"}));
-  EXPECT_EQ(rig("")->undeclared_uncertainties().size(), 9u);
+  EXPECT_EQ(
+      parsed->undeclared_uncertainties(),
+      (std::vector<std::string>{"u_calibration_um", "u_sensitivity_ppm", "u_position_mm",
+                                "u_direction_mrad", "u_flatness_um", "[temperature] u_fixture_K",
+                                "[temperature] u_square_gradient_K_per_m"}));
+  EXPECT_EQ(rig("")->undeclared_uncertainties().size(), 12u);
 }
 
 // GUM 4.3.7 and 4.3.9: u = a/√3 and a/√6; the arcsine has a/√2.
@@ -93,6 +95,17 @@ TEST(RigUncertainty, WhatCannotBeIsRefusedWithItsPlace) {
   for (const auto& c : cases)
     EXPECT_NE(refusal(c.keys).find(c.says), std::string::npos) << c.keys << ": " << refusal(c.keys);
   EXPECT_NE(refusal("", "[encoder]\n").find("um_per_V"), std::string::npos);
+  const auto thermal = [](const std::string& keys) {
+    return refusal("", "[temperature]\n" + keys);
+  };
+  EXPECT_NE(thermal("u_scale_K = 1\n").find("temperature.scale_ppm_per_K"), std::string::npos);
+  EXPECT_NE(thermal("fixture_C = 23\n").find("fixture_ppm_per_K"), std::string::npos);
+  EXPECT_NE(thermal("fixture_C = 293.15\n").find("degrees Celsius"), std::string::npos);
+  EXPECT_NE(thermal("scale_ppm_per_K = 1e4\n").find("1e-6/K"), std::string::npos);
+  EXPECT_NE(thermal("square_ppm_per_K = 9\nu_square_ppm_per_K = -1\n").find("from 0 to 1000"),
+            std::string::npos);
+  EXPECT_NE(thermal("u_square_gradient_K_per_m = [1, 2]\nsquare_ppm_per_K = 9\n").find("three"),
+            std::string::npos);
   EXPECT_NE(refusal("", "[drift]\nu_um = 1\n").find("u_um_per_h"), std::string::npos);
   EXPECT_NE(refusal("", "[[plane]]\nnormal = \"+Z\"\nflatness_length_mm = 0\n").find("above 0"),
             std::string::npos);

@@ -1,0 +1,50 @@
+// What the temperature of a run makes of lengths that are stated at 20 °C, as a rig declares it:
+//
+//   [temperature]
+//   scale_C = 22                     of the encoder's scale in the run; without it 20
+//   u_scale_K = 0.5                  standard uncertainty of it
+//   scale_ppm_per_K = 10.6           expansion of the scale, with its standard uncertainty
+//   u_scale_ppm_per_K = 0.5
+//   fixture_C, u_fixture_K, fixture_ppm_per_K, u_fixture_ppm_per_K      of the body with the probes
+//   square_ppm_per_K, u_square_ppm_per_K                                of the target
+//   u_square_gradient_K_per_m = 0.5  of its temperature's slope along X, Y and Z
+//
+// Nothing is corrected. A target of one temperature keeps its angles and stays flat, and the zero
+// of the probes has its size: only a gradient counts.
+#pragma once
+
+#include <cmath>
+
+#include "schema/base/toml_reader.h"
+#include "schema/rig/uncertainty.h"
+
+namespace mdof {
+
+struct ThermalExpansion {
+  double per_K = 0, u_per_K = 0;
+  double mean_square_per_K2() const { return per_K * per_K + u_per_K * u_per_K; }
+};
+
+struct BodyExpansion {
+  ThermalExpansion expansion;
+  double above_20_K = 0;
+  DeclaredUncertainty u_temperature;  // K
+  // Root mean square about 0 of its relative expansion, coefficient and temperature independent:
+  // the whole of what is known, as it is not corrected, and what is not known (GUM H.1.7 with its
+  // term of second order).
+  double relative() const {
+    const double above = above_20_K, u = u_temperature.u;
+    return std::sqrt(expansion.mean_square_per_K2() * (above * above + u * u));
+  }
+};
+
+struct RigExpansion {
+  bool any = false;  // there is a table [temperature]
+  BodyExpansion scale, fixture;
+  ThermalExpansion square;
+  DeclaredUncertainty3 square_gradient;  // K/m
+};
+
+RigExpansion read_expansion(TomlTable& table);
+
+}  // namespace mdof

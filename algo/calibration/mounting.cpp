@@ -168,7 +168,8 @@ void Fit::tell_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
                     [&](const TraverseReading& reading) { return reading.probe == k; }));
 }
 
-// Of the places along the machine's axes and the zeros that are seen, with the diagonal of u_of().
+// Of the places and directions along the machine's axes and the zeros that are seen, with the
+// diagonal of u_of().
 void Fit::tell_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
                           MountingCalibration& found) const {
   Eigen::MatrixXd all = covariance;
@@ -178,19 +179,27 @@ void Fit::tell_covariance(const Rig& rig, const Unseen& unseen, const Eigen::Mat
   }
   const auto axes = local_axes(rig.axis);
   std::vector<Eigen::VectorXd> rows;
+  // The component along a machine's axis of two unknowns along these vectors of the local frame.
+  const auto add_component = [&](const std::string& name, std::size_t m, Eigen::Index first,
+                                 const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(all.rows());
+    for (std::size_t l = 0; l < 3; ++l) {
+      const auto i = static_cast<Eigen::Index>(l);
+      row(first) += axes[m][l] * one(i);
+      row(first + 1) += axes[m][l] * other(i);
+    }
+    if (row.norm() < kRankTolerance) return;  // across both
+    found.covariance.of.push_back(name);
+    rows.push_back(std::move(row));
+  };
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {
     const MountedProbe& probe = found.probes[k];
-    for (std::size_t m = 0; m < 3 && probe.position_seen; ++m) {
-      Eigen::VectorXd row = Eigen::VectorXd::Zero(all.rows());
-      for (std::size_t l = 0; l < 3; ++l) {
-        const auto i = static_cast<Eigen::Index>(l);
-        row(unknown_of(k, kPlace1)) += axes[m][l] * model_.along(k, 0)(i);
-        row(unknown_of(k, kPlace2)) += axes[m][l] * model_.along(k, 1)(i);
-      }
-      if (row.norm() < kRankTolerance) continue;  // across the plane
-      found.covariance.of.push_back(place_name(probe.id, m));
-      rows.push_back(std::move(row));
-    }
+    for (std::size_t m = 0; m < 3 && probe.position_seen; ++m)
+      add_component(place_name(probe.id, m), m, unknown_of(k, kPlace1), model_.along(k, 0),
+                    model_.along(k, 1));
+    for (std::size_t m = 0; m < 3 && probe.direction_seen; ++m)
+      add_component(direction_name(probe.id, m), m, unknown_of(k, kTowards1), model_.towards(k, 0),
+                    model_.towards(k, 1));
     if (!probe.zero_seen) continue;
     found.covariance.of.push_back(zero_name(probe.id));
     rows.push_back(Eigen::VectorXd::Unit(all.rows(), unknown_of(k, kZero)));

@@ -112,6 +112,10 @@ const Eigen::Vector3d& MountingModel::along(std::size_t probe, std::size_t which
   return along_[probe][which];
 }
 
+const Eigen::Vector3d& MountingModel::towards(std::size_t probe, std::size_t which) const {
+  return towards_[probe][which];
+}
+
 bool MountingModel::declared(Eigen::Index unknown) const {
   return declared_[static_cast<std::size_t>(unknown)];
 }

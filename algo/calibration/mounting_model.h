@@ -40,6 +40,7 @@ class MountingModel {
 
   // In the local frame: along the plane of a probe, and towards which its direction turns.
   const Eigen::Vector3d& along(std::size_t probe, std::size_t which) const;
+  const Eigen::Vector3d& towards(std::size_t probe, std::size_t which) const;
   Eigen::Vector3d turned_direction(std::size_t probe, double towards1, double towards2) const;
 
   // How much is not known of each unknown before the logs; 0: it is exact.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "algo/drift/removed_drift.h"
+#include "algo/model/rigid.h"
 #include "algo/model/small_rotation.h"
 #include "algo/model/solver.h"
 #include "algo/sensitivity/plan/mounting.h"
@@ -161,7 +162,23 @@ PointShifts of_position(const Basis& basis, std::size_t probe, std::size_t axis,
   });
 }
 
-// The places and zeros that one calibration found together.
+// By the component along the machine's axis of its direction. A probe's line keeps its point.
+PointShifts of_direction(const Basis& basis, std::size_t probe, std::size_t axis, double size_rad) {
+  const FixtureProbe& nominal = basis.solver.fixture().probes[probe];
+  const Eigen::Vector3d change = basis.local(along_axis(axis, size_rad));
+  const auto zeroed = [&](const Eigen::Vector3d& u_M, const PointSensitivity& point) {
+    Fixture turned{basis.rig.axis, {nominal}};
+    turned.probes[0].u_M = u_M.normalized();
+    return rigid_readings(turned, point.travel_m, point.carriage)(0) -
+           rigid_readings(turned, 0, Errors5{})(0);
+  };
+  return by_one_probe(basis, probe, [&](std::size_t j) {
+    const PointSensitivity& point = basis.points[j];
+    return (zeroed(nominal.u_M + change, point) - zeroed(nominal.u_M - change, point)) / 2;
+  });
+}
+
+// The places, directions and zeros that one calibration found together.
 std::vector<PointShifts> of_covariance(const Basis& basis,
                                        const CalibrationCovariance& covariance) {
   std::vector<PointShifts> alone;  // by one standard uncertainty of each
@@ -172,8 +189,11 @@ std::vector<PointShifts> of_covariance(const Basis& basis,
     for (std::size_t k = 0; k < basis.probes() && u_m[i] > 0; ++k) {
       const std::string& id = basis.rig.probes[k].id;
       if (covariance.of[i] == zero_name(id)) shifts = of_calibration(basis, k, u_m[i]);
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
         if (covariance.of[i] == place_name(id, axis)) shifts = of_position(basis, k, axis, u_m[i]);
+        if (covariance.of[i] == direction_name(id, axis))
+          shifts = of_direction(basis, k, axis, u_m[i]);
+      }
     }
   }
   const auto correlation = [&](std::size_t i, std::size_t j) {
@@ -210,7 +230,8 @@ class List {
     const CalibrationCovariance& covariance = record.covariance;
     DeclaredUncertainty largest;
     for (std::size_t i = 0; i < covariance.of.size(); ++i)
-      largest.u = std::max(largest.u, std::sqrt(covariance.m2[i][i]));
+      if (covariance.of[i].find(".n") == std::string::npos)
+        largest.u = std::max(largest.u, std::sqrt(covariance.m2[i][i]));
     together_.insert(covariance.of.begin(), covariance.of.end());
     add("calibration " + record.id + ": places and zeros", "calibration", largest, 1e6, "µm",
         [covariance](const Basis& b) { return of_covariance(b, covariance); });
@@ -237,6 +258,9 @@ class List {
             return std::vector<PointShifts>{of_position(b, k, c, size)};
           });
     }
+    if (together_.contains(direction_name(probe.id, 0)) ||
+        together_.contains(direction_name(probe.id, 1)))
+      return;
     add(name + "direction", "u_direction_mrad", u.direction, 1e3, "mrad",
         [k, size = u.direction.u](const Basis& b) {
           const auto about = [&](double turns) {

@@ -8,7 +8,8 @@
 
 namespace mdof {
 
-// "A.x": the place of probe A along X, "A.zero": its zero; all of them lengths.
+// "A.x": the place of probe A along X, "A.zero": its zero, m; "A.nx": the component of its
+// direction along X, rad.
 struct CalibrationCovariance {
   std::vector<std::string> of;
   std::vector<std::vector<double>> m2;  // symmetric, a row and a column each
@@ -24,6 +25,9 @@ struct CalibrationCovariance {
 };
 inline std::string place_name(const std::string& probe, std::size_t axis) {
   return probe + "." + std::string(1, "xyz"[axis]);
+}
+inline std::string direction_name(const std::string& probe, std::size_t axis) {
+  return probe + ".n" + std::string(1, "xyz"[axis]);
 }
 inline std::string zero_name(const std::string& probe) {
   return probe + ".zero";

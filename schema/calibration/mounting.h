@@ -28,7 +28,7 @@ struct MountingCalibration {
   std::vector<std::string> not_seen;
   // How far the probes of a plane may be off together; NaN: the rig does not say.
   Vec3 u_together_m{};
-  CalibrationCovariance covariance;  // of the places and zeros that the logs show
+  CalibrationCovariance covariance;  // of the places, directions and zeros that the logs show
   std::size_t clampings = 0, readings = 0;
   double tilt_rad = 0;  // largest angle between two clampings' tilts
   double chi_square = 0;

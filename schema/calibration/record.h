@@ -55,7 +55,8 @@ struct CalibrationRecord {
   std::vector<std::string> not_seen;
   std::optional<Vec3> u_together_m;  // of all probes together, along X, Y, Z
   std::vector<CalibratedProbe> probes;
-  // Of places and zeros of the probes; empty in records of older versions.
+  // Of places, directions and zeros of the probes; empty in records of older versions. In the file
+  // lengths in µm, directions in µrad.
   CalibrationCovariance covariance;
 };
 

@@ -128,8 +128,10 @@ void keep_what_holds(CalibrationRecord& record, Rig& rig) {
       if (probe.id != found.id) continue;
       if (probe.uncertainty.calibration.declared()) record.covariance.erase(zero_name(found.id));
       for (CalibrationRecord& earlier : rig.records)
-        for (std::size_t axis = 0; found.position_m && axis < 3; ++axis)
-          earlier.covariance.erase(place_name(found.id, axis));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          if (found.position_m) earlier.covariance.erase(place_name(found.id, axis));
+          if (found.direction) earlier.covariance.erase(direction_name(found.id, axis));
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <random>
 
@@ -73,6 +74,7 @@ TEST(Mounting, NoisyReadingsGiveThemWithinTheirUncertainties) {
   const auto& found = fit->found;
   const double freedom = found.freedom;
   EXPECT_NEAR(found.chi_square, freedom, 5 * std::sqrt(2 * freedom));
+  EXPECT_EQ(found.clampings, 6u);
   for (const MountedProbe& probe : found.probes) {
     EXPECT_TRUE(probe.position_seen);
     EXPECT_FALSE(probe.direction_seen) << "and the rig's stays";
@@ -312,6 +314,53 @@ TEST(Mounting, ARecordKeepsTheCovariancesThatTheBudgetNeeds) {
     EXPECT_GT(with[e], 91.2) << e;  // three standard deviations of 300
   }
   EXPECT_LT(without[kEz], 85);
+}
+
+// Steep tilts and probes of a long range show directions too. Of 80 calibrations: how far all that
+// is seen of the directions is off, by the matrix of the record.
+TEST(Mounting, DirectionsThatAreSeenAreInTheMatrix) {
+  std::mt19937_64 rng(21);
+  const Rig rig = parse_rig(test::mounting_rig_toml(kDeclared, 4000), "rig_X.toml").value();
+  double distance = 0, strongest = 0;
+  int seen = 0;
+  for (int trial = 0; trial < 80; ++trial) {
+    TiltedTarget target(rng, kPlace_m, kWay_rad, 3e-6);
+    target.noise_m = 1e-9;
+    target.range_m = 4e-3;
+    target.clamp(6, 0.06, rng);
+    const auto fit = fit_mounting(rig, target.logs(rng));
+    ASSERT_TRUE(fit) << fit.error().message;
+    const CalibrationCovariance& matrix = fit->found.covariance;
+    std::vector<Eigen::Index> at;
+    std::vector<double> off;
+    for (std::size_t k = 0; k < 5; ++k)
+      for (const std::size_t axis : {std::size_t{0}, std::size_t{k < 3 ? 1U : 2U}}) {
+        const auto& probe = fit->found.probes[k];
+        const auto name =
+            std::find(matrix.of.begin(), matrix.of.end(), direction_name(probe.id, axis));
+        EXPECT_EQ(name != matrix.of.end(), probe.direction_seen);
+        if (name == matrix.of.end()) continue;
+        at.push_back(name - matrix.of.begin());
+        off.push_back(probe.direction[axis] - target.probes[k].way[axis]);
+      }
+    const auto n = static_cast<Eigen::Index>(at.size());
+    Eigen::MatrixXd of(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const auto row = static_cast<std::size_t>(at[static_cast<std::size_t>(i)]);
+        of(i, j) = matrix.m2[row][static_cast<std::size_t>(at[static_cast<std::size_t>(j)])];
+        if (i != j)
+          strongest = std::max(strongest, std::abs(of(i, j)) / std::sqrt(of(i, i) * of(j, j)));
+      }
+    const Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(off.data(), n);
+    distance += v.dot(of.ldlt().solve(v));
+    seen += static_cast<int>(n);
+  }
+  std::printf("distance %.3f of %d directions, correlations to %.2f\n", distance / seen, seen,
+              strongest);
+  ASSERT_GT(seen, 400);
+  EXPECT_NEAR(distance / seen, 1, 0.2);
+  EXPECT_GT(strongest, 0.3);
 }
 
 }  // namespace

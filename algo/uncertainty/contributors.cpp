@@ -309,10 +309,8 @@ class List {
 
   void add_plane(std::size_t i) {
     const TargetPlane& plane = basis_->rig.planes[i];
-    const std::string name =
-        plane.id.empty() ? "plane " + std::to_string(i + 1) : "plane " + plane.id;
     const std::size_t before = list_.size();
-    add(name + ": flatness", "u_flatness_um", plane.u_flatness, 1e6, "µm",
+    add(flatness_name(basis_->rig, plane), "u_flatness_um", plane.u_flatness, 1e6, "µm",
         [](const Basis&) { return std::vector<PointShifts>(); });
     if (list_.size() == before) return;
     list_.back().surface = std::make_shared<const PlaneFootprints>(
@@ -378,6 +376,7 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
                       expansion_contributors(rig, basis->solver, basis->points)})
     list.insert(list.end(), more.begin(), more.end());
   name_what_goes_with_probes(rig, list);
+  name_common_surfaces(rig, list);
   std::move(own.begin(), own.end(), std::back_inserter(list));
   return list;
 }

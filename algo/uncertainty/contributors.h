@@ -35,6 +35,7 @@ struct Contributor {
   std::string common_as = "";
   // Of a flatness: several runs over the same plane need their parts made together.
   std::shared_ptr<const PlaneFootprints> surface = nullptr;
+  std::string surface_as = "";  // of rigs that have the same here it is one surface
 };
 
 // Of what `rig` declares, in its order, and of a removed drift; the run is of that rig. What moves

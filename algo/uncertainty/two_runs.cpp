@@ -7,6 +7,7 @@
 
 #include "algo/model/restate.h"
 #include "algo/uncertainty/budget_draws.h"
+#include "algo/uncertainty/statistics/common_quantities.h"
 
 namespace mdof::algo {
 namespace {
@@ -125,33 +126,45 @@ Budget squareness_budget(const RunBudgets& along_x, const RunBudgets& along_y,
   return budget;
 }
 
+struct TwoRuns {
+  RunBudgets a, b;
+};
+
+Result<TwoRuns> two_runs(const Rig& rig_a, const Run& run_a, const Rig& rig_b, const Run& run_b) {
+  const Run at_a = restate(run_a, kAtFixture), at_b = restate(run_b, kAtFixture);
+  MDOF_TRY(auto of_a, contributors(rig_a, at_a));
+  MDOF_TRY(auto of_b, contributors(rig_b, at_b));
+  const PartsOfTwo parts = parts_of_two(of_a, rig_a.axis, of_b, rig_b.axis);
+  TwoRuns both{{rig_a, at_a}, {rig_b, at_b}};
+  for (std::size_t i = 0; i < of_a.size(); ++i) both.a.add(of_a[i], parts.a[i]);
+  for (std::size_t i = 0; i < of_b.size(); ++i) both.b.add(of_b[i], parts.b[i]);
+  return both;
+}
+
 }  // namespace
 
 Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
                                  const Run& run_y, const SquareArtefact& artefact,
                                  const TrialsRequest& request) {
-  MDOF_TRY(const RunBudgets along_x, RunBudgets::create(rig_x, restate(run_x, kAtFixture)));
-  MDOF_TRY(const RunBudgets along_y, RunBudgets::create(rig_y, restate(run_y, kAtFixture)));
-  return squareness_budget(along_x, along_y, artefact, request);
+  MDOF_TRY(const TwoRuns runs, two_runs(rig_x, run_x, rig_y, run_y));
+  return squareness_budget(runs.a, runs.b, artefact, request);
 }
 
 Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_x, const Run& run_x,
                                                            const Rig& rig_y, const Run& run_y,
                                                            const SquareArtefact& artefact) {
-  MDOF_TRY(const RunBudgets along_x, RunBudgets::create(rig_x, restate(run_x, kAtFixture)));
-  MDOF_TRY(const RunBudgets along_y, RunBudgets::create(rig_y, restate(run_y, kAtFixture)));
-  return std::array{squareness_budget(along_x, along_y, artefact, {}),
-                    along_x.of(slope_figure(Axis::x, 0)), along_y.of(slope_figure(Axis::y, 0))};
+  MDOF_TRY(const TwoRuns runs, two_runs(rig_x, run_x, rig_y, run_y));
+  return std::array{squareness_budget(runs.a, runs.b, artefact, {}),
+                    runs.a.of(slope_figure(Axis::x, 0)), runs.b.of(slope_figure(Axis::y, 0))};
 }
 
 Result<std::array<Budget, 2>> parallelism_budgets(const Rig& rig_a, const Run& run_a,
                                                   const Rig& rig_b, const Run& run_b) {
-  MDOF_TRY(const RunBudgets of_a, RunBudgets::create(rig_a, restate(run_a, kAtFixture)));
-  MDOF_TRY(const RunBudgets of_b, RunBudgets::create(rig_b, restate(run_b, kAtFixture)));
+  MDOF_TRY(const TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b));
   std::array<Budget, 2> budgets;
   for (std::size_t named = 0; named < budgets.size(); ++named) {
     const Figure slope = slope_figure(run_a.header.axis, named);
-    TwoSlopes both({"A", of_a, slope, -1}, {"B", of_b, slope, 1});
+    TwoSlopes both({"A", runs.a, slope, -1}, {"B", runs.b, slope, 1});
     both.budget().figure =
         std::string(error_names(run_a.header.axis)[named].name) + "_parallelism_urad";
     budgets[named] = both.take();

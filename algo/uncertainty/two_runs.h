@@ -12,8 +12,9 @@
 namespace mdof::algo {
 
 // EC0Y = -slope(EXY) - slope(EYX) + α (DESIGN §3), of budgets of the two runs at the fixture. What
-// goes with a probe (Contributor::common_as) is common to both runs and adds with its sign; all
-// else that the rigs declare, the surface of a plane too, is taken as independent between them.
+// goes with a probe and the surface of a plane that both rigs have (Contributor::common_as) are
+// common to both runs and add with their signs; all else that the rigs declare is taken as
+// independent between them.
 Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
                                  const Run& run_y, const SquareArtefact& artefact,
                                  const TrialsRequest& request = {});
@@ -24,9 +25,9 @@ Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_x, con
                                                            const SquareArtefact& artefact);
 
 // slope of B - slope of A of each of the two straightness errors, at the fixture:
-// "EYX_parallelism_urad". What goes with a probe is common to both runs; all else that the rigs
-// declare is taken as independent; where it is the same set-up, that part would cancel, and u is
-// too large rather than too small.
+// "EYX_parallelism_urad". What goes with a probe and the surface of a plane that both rigs have are
+// common to both runs; all else that the rigs declare is taken as independent; where it is the same
+// set-up, that part would cancel, and u is too large rather than too small.
 Result<std::array<Budget, 2>> parallelism_budgets(const Rig& rig_a, const Run& run_a,
                                                   const Rig& rig_b, const Run& run_b);
 

@@ -1,6 +1,7 @@
 // Which contributors of two set-ups are one quantity.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "algo/uncertainty/contributors.h"
@@ -11,5 +12,19 @@ namespace mdof::algo {
 // Sets Contributor::common_as: the scale, the linearity and the tilt factor of a probe are its own
 // wherever it is clamped; the same id, certificate and uncertainty are the same probe.
 void name_what_goes_with_probes(const Rig& rig, std::vector<Contributor>& list);
+
+// "plane top: flatness"; the plane is one of the rig's.
+std::string flatness_name(const Rig& rig, const TargetPlane& plane);
+// Sets Contributor::surface_as: the same name, normal, uncertainty and length are the same plane of
+// one target, which is over the same place of M at d = 0 of both runs.
+void name_common_surfaces(const Rig& rig, std::vector<Contributor>& list);
+
+// The parts of all contributors of two runs; those of a common surface, whose common_as is set, are
+// made together, so that part p of the one is the same quantity as part p of the other.
+struct PartsOfTwo {
+  std::vector<std::vector<PointShifts>> a, b;  // [contributor][part]
+};
+PartsOfTwo parts_of_two(std::vector<Contributor>& of_a, Axis along_a,
+                        std::vector<Contributor>& of_b, Axis along_b);
 
 }  // namespace mdof::algo

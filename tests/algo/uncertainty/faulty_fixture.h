@@ -69,6 +69,12 @@ class FaultyFixture {
   // The scale errors go with the probes to another set-up.
   const std::vector<double>& gains() const { return gain_; }
   void take_gains(const std::vector<double>& gains) { gain_ = gains; }
+  // The top of the target, the first plane, is the same under a run along X and one along Y.
+  const DrawnSurface& top() const { return surfaces_.front(); }
+  void take_top_of_x(const DrawnSurface& top) {
+    surfaces_.front() = top;
+    top_of_x_ = true;
+  }
 
   // Of all probes, without noise; `errors`: of the carriage, local frame.
   std::vector<double> readings_m(double d, const Errors5& errors, double time_s) const {
@@ -80,7 +86,7 @@ class FaultyFixture {
       const double second =
           std::abs(probe.n_C.z()) > std::abs(probe.n_C.y()) ? probe.p_MP.y() : probe.p_MP.z();
       const double height_m =
-          probe.plane ? surfaces_[*probe.plane].above_zero_m(probe.p_MP.x(), second, d) : 0.0;
+          probe.plane ? above_zero_m(*probe.plane, probe.p_MP.x(), second, d) : 0;
       all.push_back(reading * (1 + gain_[k]) + offset_m_[k] + drift_m_per_s_[k] * time_s +
                     height_m);
     }
@@ -88,6 +94,12 @@ class FaultyFixture {
   }
 
  private:
+  // A Y axis' local x is +Y, its local y -X.
+  double above_zero_m(std::size_t plane, double first_m, double second_m, double d) const {
+    const DrawnSurface& surface = surfaces_[plane];
+    if (plane > 0 || !top_of_x_) return surface.above_zero_m(first_m, second_m, d);
+    return surface.height_m(-second_m, first_m - d) - surface.height_m(-second_m, first_m);
+  }
   Eigen::Vector3d vector(double u) { return {u * normal(), u * normal(), u * normal()}; }
 
   void misplace() {
@@ -114,6 +126,7 @@ class FaultyFixture {
   std::normal_distribution<> normal_;
   std::vector<double> offset_m_, gain_, drift_m_per_s_;
   std::vector<DrawnSurface> surfaces_;
+  bool top_of_x_ = false;
 };
 
 // At the carriage, local frame, at a travel of d metres.

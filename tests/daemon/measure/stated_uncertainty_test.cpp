@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <optional>
 
 #include "algo/compensation/declared_uncertainty.h"
 #include "algo/model/restate.h"
@@ -268,7 +269,8 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
   std::map<Axis, Rig> rigs, faulty;
   std::map<Axis, Run> runs;
   double slopes = 0, square = 0;
-  std::vector<double> gains;  // the probes of X are those of Y
+  std::vector<double> gains;  // the probes of X are those of Y, and so is the top of the target
+  std::optional<algo::test_faults::DrawnSurface> top;
   for (const Axis axis : {Axis::x, Axis::y}) {
     faulty[axis] = rigs[axis] = rig_of(of, axis, declares);
     if (!tell_calibration)
@@ -276,7 +278,9 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
     MeasuredAxis machine(rigs[axis], faulty[axis], kind, 2 * seed + (axis == Axis::y ? 1 : 0));
     if (of.shop) machine.quantise();
     if (axis == Axis::y) machine.fixture().take_gains(gains);
+    if (top) machine.fixture().take_top_of_x(*top);
     gains = machine.fixture().gains();
+    if (!rigs[axis].planes.empty()) top = machine.fixture().top();
     Run& run = runs[axis] = machine.measure();
     ASSERT_EQ(run.points.size(), 2u * kRepeats * kTargets_mm.size());
     const Run truth = true_run(rigs[axis]);

@@ -1,0 +1,92 @@
+// The top of one square under the rigs of X and Y: EC0Y's error by surfaces that are drawn, with
+// the seed's own formulas (contributors_test.cpp), against its budget.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "algo/uncertainty/two_runs.h"
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/drawn_surface.h"
+#include "tests/algo/uncertainty/faulty_fixture.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kU_m = 0.05e-6, kL_m = 0.010, kUp_m = 0.020;
+
+std::string planes(double length_mm, const std::string& side_normal, const std::string& top) {
+  return "[[plane]]\nid = \"" + top +
+         "\"\nnormal = \"+Z\"\nu_flatness_um = 0.05\nflatness_length_mm = " +
+         std::to_string(length_mm) + "\n[[plane]]\nid = \"side\"\nnormal = \"" + side_normal +
+         "\"\n";
+}
+
+Rig rig_y(const std::string& end) {
+  std::string toml = "name = \"y\"\naxis = \"Y\"\n";
+  const auto probe = [](const char* id, const char* place, const char* measures) {
+    return std::string("[[probe]]\nid = \"") + id + "\"\nposition_mm = " + place +
+           "\nmeasures = \"" + measures + "\"\nrange_um = 200\n";
+  };
+  toml += probe("A", "[0, 10, 0]", "+Z") + probe("B", "[-10, 0, 0]", "+Z") +
+          probe("C", "[10, 0, 0]", "+Z") + probe("D", "[-15, 0, 20]", "-X") +
+          probe("E", "[-15, 10, 20]", "-X");
+  return parse_rig(toml + end, "y.toml").value();
+}
+
+double slope(const std::vector<double>& x, const std::vector<double>& y) {
+  double mean_x = 0, mean_y = 0, xy = 0, xx = 0;
+  const auto n = static_cast<double>(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) mean_x += x[i] / n, mean_y += y[i] / n;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xy += (x[i] - mean_x) * (y[i] - mean_y);
+    xx += (x[i] - mean_x) * (x[i] - mean_x);
+  }
+  return xy / xx;
+}
+
+// EC0Y = -slope(EYX) - slope(EXY). The roll (B - C)/2l lifts the point 20 mm up: of X, EYX is l''
+// times it; of Y, whose local y is -X, EXY is -l'' times it.
+double squareness_error(const test_faults::DrawnSurface& top, const std::vector<double>& travel) {
+  std::vector<double> eyx, exy;
+  const auto height = [&](double x, double y) { return top.height_m(x, y); };
+  for (const double d : travel) {
+    const double b = height(-d, kL_m) - height(0, kL_m), c = height(-d, -kL_m) - height(0, -kL_m);
+    eyx.push_back(kUp_m * (b - c) / (2 * kL_m));
+    const double b_y = height(-kL_m, -d) - height(-kL_m, 0);
+    const double c_y = height(kL_m, -d) - height(kL_m, 0);
+    exy.push_back(-kUp_m * (b_y - c_y) / (2 * kL_m));
+  }
+  return -slope(travel, eyx) - slope(travel, exy);
+}
+
+double stated_u(double length_mm, const std::string& top_of_y) {
+  const Rig along_x = test::rig_x_with("", "", planes(length_mm, "+Y", "top"));
+  const Rig along_y = rig_y(planes(length_mm, "-X", top_of_y));
+  const auto budget =
+      squareness_budget(along_x, SyntheticRun{.rig = along_x}.measure(), along_y,
+                        SyntheticRun{.rig = along_y}.measure(), SquareArtefact{1, 0, 0});
+  EXPECT_TRUE(budget) << budget.error().message;
+  return budget ? budget->u : 0;
+}
+
+TEST(CommonSurface, OfTheTopIsOneInXAndY) {
+  const std::vector<double> travel = SyntheticRun{}.targets_m;
+  for (const double length_mm : {4.0, 30.0, 400.0}) {
+    auto engine = test_faults::well_mixed(31);
+    double square = 0;
+    constexpr int kSurfaces = 1500;
+    for (int i = 0; i < kSurfaces; ++i)
+      square += std::pow(squareness_error({kU_m, length_mm * 1e-3, engine}, travel), 2);
+    const double spread = std::sqrt(square / kSurfaces), u = stated_u(length_mm, "top");
+    std::printf("L %.0f mm: u / spread %.3f, as two surfaces %.3f\n", length_mm, u / spread,
+                stated_u(length_mm, "another") / spread);
+    EXPECT_NEAR(u / spread, 1, 0.06) << length_mm;
+  }
+  // One twist of the surface is in both slopes with one sign: √2 if it were nothing but a twist.
+  EXPECT_GT(stated_u(400, "top") / stated_u(400, "another"), 1.25);
+}
+
+}  // namespace
+}  // namespace mdof::algo

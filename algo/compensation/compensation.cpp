@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algo/compensation/between_targets.h"
+#include "algo/compensation/table_uncertainty.h"
 #include "algo/iso230/line_fit.h"
 #include "algo/iso230/target_means.h"
 #include "algo/model/restate.h"
@@ -69,20 +70,30 @@ std::array<Line, 5> references(Axis axis, const std::vector<TargetMean>& mean,
   return lines;
 }
 
+// The same as shares of the means at the targets.
+std::array<std::vector<Reference>, kErrorCount> what_values_refer_to(const CompensationTable& table,
+                                                                     const TableOptions& options) {
+  const std::size_t n = table.position_m.size();
+  std::array<std::vector<Reference>, kErrorCount> all;
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    for (const double at_m : table.position_m)
+      all[k].push_back(error_names(table.axis)[k].angle ? start(n)
+                       : options.remove_slope           ? line_at(table.position_m, at_m)
+                                                        : as_measured(n));
+  return all;
+}
+
 void fill_side(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                Approach approach, const std::vector<TargetMean>& grid,
-               const std::array<Line, 5>& reference, std::array<std::vector<double>, 5>& values,
-               std::array<std::vector<double>, 5>& u) {
+               const std::array<Line, 5>& reference, std::array<std::vector<double>, 5>& values) {
   const auto series = target_means(moving, points, approach);
   const double window = kSameTargetShare * smallest_step(positions(grid));
   for (std::size_t k = 0; k < 5; ++k) {
     values[k].assign(grid.size(), kNaN);
-    u[k].assign(grid.size(), kNaN);
     for (const TargetMean& m : series) {
       for (std::size_t i = 0; i < grid.size(); ++i) {
         if (std::abs(grid[i].position_m - m.position_m) > window) continue;
         values[k][i] = m.named[k] - reference[k].at(m.position_m);
-        u[k][i] = m.u[k];
       }
     }
   }
@@ -163,10 +174,10 @@ Status add_sources(const std::vector<Run>& runs, CompensationTable& table) {
 
 }  // namespace
 
-Result<CompensationTable> build_table(const std::vector<Run>& measured,
-                                      const TableOptions& options) {
+Result<TableOfMeans> table_of_means(const std::vector<Run>& measured, const TableOptions& options) {
   if (measured.empty()) return bad_input("a compensation table needs at least one run");
-  CompensationTable table;
+  TableOfMeans out;
+  CompensationTable& table = out.table;
   table.axis = measured.front().header.axis;
   table.sides = measured.front().header.sides;
   table.slope_removed = options.remove_slope;
@@ -183,13 +194,23 @@ Result<CompensationTable> build_table(const std::vector<Run>& measured,
                      std::to_string(first.size()) +
                      " solved targets; a compensation table needs at least three");
   }
-  MDOF_TRY(const auto points, on_one_grid(runs, positions(first)));
-  const auto grid = target_means(moving, points, Approach::both);
-  const auto reference = references(table.axis, grid, options);
-  table.position_m = positions(grid);
-  fill_side(moving, points, Approach::forward, grid, reference, table.forward, table.u_forward);
-  fill_side(moving, points, Approach::reverse, grid, reference, table.reverse, table.u_reverse);
-  return table;
+  MDOF_TRY(out.points, on_one_grid(runs, positions(first)));
+  out.grid = target_means(moving, out.points, Approach::both);
+  const auto reference = references(table.axis, out.grid, options);
+  table.position_m = positions(out.grid);
+  fill_side(moving, out.points, Approach::forward, out.grid, reference, table.forward);
+  fill_side(moving, out.points, Approach::reverse, out.grid, reference, table.reverse);
+  return out;
+}
+
+Result<CompensationTable> build_table(const std::vector<Run>& measured,
+                                      const TableOptions& options) {
+  MDOF_TRY(TableOfMeans of, table_of_means(measured, options));
+  const auto what = what_values_refer_to(of.table, options);
+  const MovingAxis moving{of.table.axis, of.table.sides};
+  of.table.u_forward = table_uncertainty(moving, of.points, of.grid, Approach::forward, what);
+  of.table.u_reverse = table_uncertainty(moving, of.points, of.grid, Approach::reverse, what);
+  return std::move(of.table);
 }
 
 Result<std::string> uneven_visits_of(const std::vector<Run>& runs) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "algo/iso230/target_means.h"
 #include "schema/base/result.h"
 #include "schema/compensation_table.h"
 #include "schema/run.h"
@@ -21,6 +22,13 @@ struct TableOptions {
   Chain machine;
 };
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
+// The same without u, and what it is made of.
+struct TableOfMeans {
+  CompensationTable table;
+  std::vector<MeasuredPoint> points;  // of all runs, targets and repeats numbered on
+  std::vector<TargetMean> grid;       // of both approaches
+};
+Result<TableOfMeans> table_of_means(const std::vector<Run>& runs, const TableOptions& options);
 // Of what uneven_visits_of() says.
 inline constexpr const char* kOverAllRuns = "over all its runs, counted on from one to the next";
 // What their table makes up for, as uneven_visits_text(); "": nothing. Errors: other targets.

@@ -109,9 +109,9 @@ Status add_declared_uncertainty(CompensationTable& table, const std::vector<Rig>
     for (const std::vector<PointShifts>& part : parts) {
       std::vector<Run> shifted = runs;
       for (std::size_t r = 0; r < runs.size(); ++r) shift(shifted[r].points, part[r]);
-      MDOF_TRY(const CompensationTable built, build_table(shifted, options));
-      add_squares(built.forward, table.forward, forward);
-      add_squares(built.reverse, table.reverse, reverse);
+      MDOF_TRY(const TableOfMeans built, table_of_means(shifted, options));
+      add_squares(built.table.forward, table.forward, forward);
+      add_squares(built.table.reverse, table.reverse, reverse);
     }
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     table.u_declared[k].resize(n);

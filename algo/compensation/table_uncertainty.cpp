@@ -1,0 +1,161 @@
+#include "algo/compensation/table_uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "algo/sequence/uneven_visits.h"
+#include "algo/uncertainty/statistics/repeatability.h"
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+bool is_of(const MeasuredPoint& p, Approach approach) {
+  return counts_in_means(p) && (p.point.direction > 0) == (approach == Approach::forward);
+}
+
+// Variances of the means of one approach, on the grid of the table.
+struct OfApproach {
+  std::vector<Errors5> variance;  // 0 where it has no mean
+  std::vector<bool> has;
+  Errors5 shift{};  // of all of them together
+};
+
+OfApproach of_approach(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                       const std::vector<TargetMean>& grid, Approach approach) {
+  OfApproach out{std::vector<Errors5>(grid.size()), std::vector<bool>(grid.size()), {}};
+  std::vector<MeasuredPoint> own;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(own),
+               [&](const MeasuredPoint& p) { return is_of(p, approach); });
+  if (own.empty()) return out;
+  const auto means = target_means(moving, own, approach);
+  const Repeatability random = repeatability(moving, own, means);
+  std::map<int, std::size_t> place;
+  for (std::size_t i = 0; i < grid.size(); ++i) place[grid[i].target] = i;
+  for (std::size_t m = 0; m < means.size(); ++m) {
+    const auto at = place.find(means[m].target);
+    if (at == place.end()) continue;
+    out.has[at->second] = true;
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      out.variance[at->second][k] = random.u[m][k] * random.u[m][k];
+  }
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    out.shift[k] = random.u_shift[k] * random.u_shift[k];
+  return out;
+}
+
+// Of half of what the two approaches differ by, over all targets that have both, from run to run:
+// the variance of its mean, without what the visits' own variance makes of it.
+Errors5 half_difference(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
+  struct Sums {
+    std::array<Errors5, 2> sum{};
+    std::array<double, 2> visits{};
+  };
+  std::map<std::pair<int, int>, Sums> at_target;  // by run and target
+  for (const MeasuredPoint& p : points) {
+    if (!counts_in_means(p)) continue;
+    Sums& sums = at_target[{p.run, p.target}];
+    const std::size_t way = p.point.direction > 0 ? 1 : 0;
+    const Errors5 named = named_from_local(moving, p.errors.local);
+    for (std::size_t k = 0; k < kErrorCount; ++k) sums.sum[way][k] += named[k];
+    sums.visits[way] += 1;
+  }
+  struct Halves {
+    Errors5 sum{}, square{};
+    double targets = 0;
+  };
+  std::map<int, Halves> of_run;
+  std::map<int, Errors5> of_target;
+  std::map<int, double> runs_at;
+  const auto half_of = [](const Sums& sums, std::size_t k) {
+    return (sums.sum[1][k] / sums.visits[1] - sums.sum[0][k] / sums.visits[0]) / 2;
+  };
+  for (const auto& [where, sums] : at_target) {
+    if (sums.visits[0] == 0 || sums.visits[1] == 0) continue;
+    runs_at[where.second] += 1;
+    for (std::size_t k = 0; k < kErrorCount; ++k) of_target[where.second][k] += half_of(sums, k);
+  }
+  // Less the mean reversal of each target, so that runs with other targets compare.
+  for (const auto& [where, sums] : at_target) {
+    if (sums.visits[0] == 0 || sums.visits[1] == 0) continue;
+    Halves& run = of_run[where.first];
+    run.targets += 1;
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      const double off = half_of(sums, k) - of_target[where.second][k] / runs_at[where.second];
+      run.sum[k] += off;
+      run.square[k] += off * off;
+    }
+  }
+  Errors5 variance{};
+  const auto runs = static_cast<double>(of_run.size());
+  if (runs < 2) return variance;
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    double square = 0, by_visits = 0;
+    for (const auto& [run, halves] : of_run) {
+      const double mean = halves.sum[k] / halves.targets;
+      square += mean * mean / (runs - 1);
+      if (halves.targets > 1)
+        by_visits +=
+            (halves.square[k] / halves.targets - mean * mean) / (halves.targets - 1) / runs;
+    }
+    variance[k] = std::max(0.0, square - by_visits) / runs;
+  }
+  return variance;
+}
+
+}  // namespace
+
+Reference as_measured(std::size_t targets) {
+  return Reference(targets, 0.0);
+}
+
+Reference start(std::size_t targets) {
+  Reference shares(targets, 0.0);
+  if (targets > 0) shares.front() = 1;
+  return shares;
+}
+
+Reference line_at(const std::vector<double>& x, double at) {
+  const auto n = static_cast<double>(x.size());
+  double mean = 0, square = 0;
+  for (const double v : x) mean += v / n;
+  for (const double v : x) square += (v - mean) * (v - mean);
+  Reference shares;
+  for (const double v : x) shares.push_back(1 / n + (at - mean) * (v - mean) / square);
+  return shares;
+}
+
+SeriesOfErrors table_uncertainty(
+    const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+    const std::vector<TargetMean>& grid, Approach approach,
+    const std::array<std::vector<Reference>, kErrorCount>& references) {
+  const Approach back = approach == Approach::forward ? Approach::reverse : Approach::forward;
+  const OfApproach own = of_approach(moving, points, grid, approach);
+  const OfApproach other = of_approach(moving, points, grid, back);
+  const Errors5 apart = half_difference(moving, points);
+  SeriesOfErrors u;
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    u[k].assign(grid.size(), kNaN);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      if (!own.has[i]) continue;
+      const Reference& reference = references[k][i];
+      double variance = 0, referred = 0;
+      for (std::size_t j = 0; j < grid.size(); ++j) {
+        const double of_own = !own.has[j] ? 0 : other.has[j] ? 0.5 : 1;
+        const double by_own = (i == j ? 1.0 : 0.0) - reference[j] * of_own;
+        const double by_other = reference[j] * (1 - of_own);
+        variance +=
+            by_own * by_own * own.variance[j][k] + by_other * by_other * other.variance[j][k];
+        referred += reference[j];
+      }
+      variance += referred > 0.5 ? apart[k] : own.shift[k];
+      u[k][i] = std::sqrt(variance);
+    }
+  }
+  return u;
+}
+
+}  // namespace mdof::algo

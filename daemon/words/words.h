@@ -1,0 +1,31 @@
+// The catalogue: what a reader is told of a notice, in plain English (CONTRIBUTING.md). The only
+// place below the tools that may name a command or an option of mdof.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/notice/notice.h"
+
+namespace mdof::words {
+
+// "run 3: probe \"B\" no longer changes …": without its severity.
+std::string text(const Notice& notice);
+
+// With it where it is not doubtful: "information: the axis was parked …".
+std::string line(const Notice& notice);
+std::vector<std::string> lines(const Notices& notices);
+
+// `pattern` with the values of the notice put for its fields:
+//   {key}          a name, or a number of four digits (schema/base/number/number_text.h)
+//   {key:6}        a number of six digits
+//   {key:+.3f}     a number as of printf
+//   {key:?a|b}     a where the number is 1 or the name is not empty, else b
+//   {subject}
+// A key that the notice lacks, as one of another version's database, reads "unknown".
+std::string filled(const char* pattern, const Notice& notice);
+
+// The pattern of a code.
+const char* pattern(NoticeCode code);
+
+}  // namespace mdof::words

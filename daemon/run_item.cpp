@@ -1,5 +1,6 @@
 #include "daemon/run_item.h"
 
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "schema/run_json.h"
 
@@ -7,7 +8,7 @@ namespace mdof::daemon {
 namespace {
 
 constexpr std::size_t kNoteBytes = 1024;
-constexpr std::size_t kWarningBytes = 1024, kWarningsBytes = 8 * 1024;
+constexpr std::size_t kNoticeBytes = 1024, kNoticesBytes = 8 * 1024;
 
 // At a place where no character of UTF-8 is cut in two.
 std::string cut(const std::string& text, std::size_t bytes) {
@@ -22,15 +23,16 @@ RunHeader shortened(RunHeader header) {
   header.note = cut(header.note, kNoteBytes);
   header.provenance.options_json.clear();
   std::size_t bytes = 0, kept = 0;
-  for (; kept < header.warnings.size() && bytes < kWarningsBytes; ++kept) {
-    header.warnings[kept] = cut(header.warnings[kept], kWarningBytes);
-    bytes += header.warnings[kept].size();
+  for (; kept < header.notices.size() && bytes < kNoticesBytes; ++kept) {
+    for (auto& [key, x] : header.notices[kept].values)
+      if (auto* text = std::get_if<std::string>(&x)) *text = cut(*text, kNoticeBytes);
+    bytes += words::text(header.notices[kept]).size();
   }
-  const std::size_t more = header.warnings.size() - kept;
-  header.warnings.resize(kept);
+  const std::size_t more = header.notices.size() - kept;
+  header.notices.resize(kept);
   if (more > 0)
-    header.warnings.push_back("and " + std::to_string(more) + " more warnings; mdof show " +
-                              std::to_string(header.id) + " has them all");
+    header.notices.push_back(
+        notice(NoticeCode::more_notices, "", {{"count", more}, {"run", header.id}}));
   return header;
 }
 
@@ -38,7 +40,7 @@ std::string header_item(const RunHeader& header) {
   const auto item = [](const RunHeader& h, bool is_short) {
     JsonWriter json;
     json.begin_object();
-    write_header_members(json, h);
+    write_header_members(json, h, words::text);
     if (is_short) json.field("shortened", true);
     json.end_object();
     return json.take();

@@ -12,6 +12,7 @@
 
 #include "drivers/clock/device_clock.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/sample.h"
 
 namespace mdof::drivers {
@@ -29,7 +30,7 @@ struct DeviceInfo {
   // the driver. "": its datum holds, or it is absolute.
   std::string datum_lost = {};
   // Of its settings, that a result should carry: what it does to the readings by itself.
-  std::vector<std::string> warnings = {};
+  Notices notices = {};
   // As datum_lost, of the encoders of further axes (DriverContext::further), by channel.
   std::map<std::string, std::string> further_datum_lost = {};
 };

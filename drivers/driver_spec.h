@@ -11,6 +11,7 @@
 #include "drivers/driver.h"
 #include "drivers/simulator/machine.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::drivers {
@@ -28,7 +29,7 @@ struct DriverContext {
 // What a source that is a file knows of itself once it has been read to its end.
 struct SourceInfo {
   std::string sha256;
-  std::vector<std::string> warnings;
+  Notices notices;
 };
 
 // A driver as configured, ready to be made on the thread that will own it.

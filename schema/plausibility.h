@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "schema/severity.h"
-
 namespace mdof {
 
 // One row of the matrix n_ij: how many points with errors there are of a target, in each run.
@@ -19,9 +17,8 @@ struct TargetVisits {
 // A stop that belongs to no target.
 struct StopLeftOut {
   double position_m = 0;
-  std::int64_t begin_ns = 0;               // of its average
-  std::string reason;                      // "the axis was parked there when the log began"
-  Severity severity = Severity::doubtful;  // of the reason; not stored
+  std::int64_t begin_ns = 0;  // of its average
+  std::string reason;         // a notice's code, "stop_parked_at_start"; of an old run a sentence
 };
 
 struct ProbeFigures {

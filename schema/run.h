@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "schema/axis.h"
+#include "schema/notice/notice.h"
 #include "schema/plausibility.h"
 #include "schema/point.h"
 #include "schema/rig/reference.h"
@@ -27,7 +28,7 @@ struct Provenance {
 };
 
 // partial: it ended before all was measured that was asked for, or most of it could not be solved;
-// its warnings say what is missing.
+// its notices say what is missing.
 enum class RunState { open, complete, partial, aborted, failed };
 const char* to_string(RunState state);
 
@@ -70,7 +71,7 @@ struct RunHeader {
   std::optional<std::int64_t> supersedes;
   Provenance provenance;
   std::uint64_t scans = 0, scans_lost = 0;
-  std::vector<std::string> warnings;
+  Notices notices;
   std::vector<std::string> notes;          // what a reader should know, though nothing is doubtful
   std::optional<Temperature> temperature;  // none: nobody read it
 

@@ -150,7 +150,7 @@ void write_temperature(JsonWriter& json, const std::optional<Temperature>& read)
 
 }  // namespace
 
-void write_header_members(JsonWriter& json, const RunHeader& h) {
+void write_header_members(JsonWriter& json, const RunHeader& h, NoticeWords words) {
   const std::string axis(1, letter(h.axis));
   json.field("run", h.id).field("axis", axis).field("model", h.provenance.model);
   write_reference(json, h.stated);
@@ -174,7 +174,7 @@ void write_header_members(JsonWriter& json, const RunHeader& h) {
   json.field("software_version", h.provenance.software_version);
   json.key("options");
   h.provenance.options_json.empty() ? json.null() : json.raw(h.provenance.options_json);
-  write_strings(json, "warnings", h.warnings);
+  write_notices(json, "notices", h.notices, words);
   write_strings(json, "notes", h.notes);
 }
 
@@ -209,10 +209,10 @@ void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures) {
 }
 
 std::string run_json(const Run& run, const RunUncertainty& uncertainty,
-                     const StatedFigures& figures) {
+                     const StatedFigures& figures, NoticeWords words) {
   JsonWriter json;
   json.begin_object();
-  write_header_members(json, run.header);
+  write_header_members(json, run.header, words);
   write_covers(json, uncertainty);
   json.key("points").begin_array();
   for (std::size_t j = 0; j < run.points.size(); ++j)
@@ -263,8 +263,11 @@ std::string squareness_json(const Squareness& s, const std::vector<Budget>& budg
   return json.take();
 }
 
-std::string with_warnings(std::string json, const std::vector<std::string>& warnings) {
-  return with_texts(std::move(json), "warnings", warnings);
+std::string with_notices(std::string json, const Notices& notices, NoticeWords words) {
+  JsonWriter list;
+  write_notices(list.begin_object(), "notices", notices, words);
+  json.pop_back();
+  return json + "," + list.text().substr(1) + "}";
 }
 
 std::string with_texts(std::string json, const std::string& name,

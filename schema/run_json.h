@@ -3,6 +3,8 @@
 
 #include "schema/base/json_writer.h"
 #include "schema/compensation_table.h"
+#include "schema/notice/notice.h"
+#include "schema/notice/notice_json.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
 #include "schema/uncertainty/budget.h"
@@ -22,11 +24,11 @@ void write_strings(JsonWriter& json, const char* key, const std::vector<std::str
 void write_reference(JsonWriter& json, const StatedAt& at);
 
 // Identity, state and provenance, without points; the members of an open object.
-void write_header_members(JsonWriter& json, const RunHeader& header);
+void write_header_members(JsonWriter& json, const RunHeader& header, NoticeWords words);
 
 // The whole run as `mdof replay --json` prints it (DESIGN §6); `figures` as of write_stated().
 std::string run_json(const Run& run, const RunUncertainty& uncertainty,
-                     const StatedFigures& figures);
+                     const StatedFigures& figures, NoticeWords words);
 
 // {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}. "form_urad": how well a
 // line describes the axis. The slope of the mean has the u of its budget, where it is among these.
@@ -40,10 +42,10 @@ void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 // `budgets`: of EC0Y, then of the slopes.
 std::string squareness_json(const Squareness& squareness, const std::vector<Budget>& budgets);
 
-// A JSON object with one member more, a list of texts: `name`, or "warnings".
+// A JSON object with one member more: a list of texts, or "notices".
 std::string with_texts(std::string json, const std::string& name,
                        const std::vector<std::string>& texts);
-std::string with_warnings(std::string json, const std::vector<std::string>& warnings);
+std::string with_notices(std::string json, const Notices& notices, NoticeWords words);
 
 // One grid point: {"position_mm", "forward": {...}, "reverse": {...}}: errors, with "u" inside.
 void write_table_row(JsonWriter& json, const CompensationTable& table, std::size_t row);

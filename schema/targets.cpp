@@ -40,12 +40,13 @@ std::vector<double> spaced_targets_mm(const TargetSpacing& s) {
   return targets_mm;
 }
 
-std::string periodic_warning(const std::vector<double>& targets_mm, double scale_period_um) {
-  if (!(scale_period_um > 0) || targets_mm.size() < 2) return "";
+std::optional<Notice> scale_period_notice(const std::vector<double>& targets_mm,
+                                          double scale_period_um) {
+  if (!(scale_period_um > 0) || targets_mm.size() < 2) return std::nullopt;
   for (std::size_t i = 1; i < targets_mm.size(); ++i)
-    if (!whole_periods(targets_mm[i] - targets_mm[i - 1], scale_period_um * 1e-3)) return "";
-  return "every interval between targets is a whole number of periods of the scale: its periodic "
-         "error is the same at all of them and stays unseen; give a jitter";
+    if (!whole_periods(targets_mm[i] - targets_mm[i - 1], scale_period_um * 1e-3))
+      return std::nullopt;
+  return notice(NoticeCode::scale_period_hidden, "", {{"period_um", scale_period_um}});
 }
 
 }  // namespace mdof

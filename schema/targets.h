@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 
 namespace mdof {
 
@@ -29,8 +30,9 @@ std::optional<WrongKey> check_spacing(const TargetSpacing& spacing);
 // bits from the same seed. Only for a spacing that check_spacing() accepts.
 std::vector<double> spaced_targets_mm(const TargetSpacing& spacing);
 
-// What to say where all intervals are whole periods of the scale (within 1 % of a period): its
-// periodic error is then the same at every target. Empty: nothing.
-std::string periodic_warning(const std::vector<double>& targets_mm, double scale_period_um);
+// Where all intervals are whole periods of the scale (within 1 % of a period): its periodic error
+// is then the same at every target. A period of 0 is not known.
+std::optional<Notice> scale_period_notice(const std::vector<double>& targets_mm,
+                                          double scale_period_um);
 
 }  // namespace mdof

@@ -213,12 +213,15 @@ Result<CompensationTable> build_table(const std::vector<Run>& measured,
   return std::move(of.table);
 }
 
-Result<std::string> uneven_visits_of(const std::vector<Run>& runs) {
-  if (runs.empty()) return std::string();
+Result<Notices> uneven_visits_of(const std::vector<Run>& runs) {
+  if (runs.empty()) return Notices();
   const RunHeader& header = runs.front().header;
   const auto first = target_means({header.axis, header.sides}, runs.front().points, Approach::both);
   MDOF_TRY(const auto points, on_one_grid(runs, positions(first)));
-  return uneven_visits_text(points);
+  Notices found;
+  for (Notice& each : uneven_visits(points))
+    found.push_back(inherited("over all runs, counted on from one to the next", std::move(each)));
+  return found;
 }
 
 namespace {

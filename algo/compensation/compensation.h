@@ -6,6 +6,7 @@
 #include "algo/iso230/target_means.h"
 #include "schema/base/result.h"
 #include "schema/compensation_table.h"
+#include "schema/notice/notice.h"
 #include "schema/run.h"
 
 namespace mdof::algo {
@@ -29,10 +30,9 @@ struct TableOfMeans {
   std::vector<TargetMean> grid;       // of both approaches
 };
 Result<TableOfMeans> table_of_means(const std::vector<Run>& runs, const TableOptions& options);
-// Of what uneven_visits_of() says.
-inline constexpr const char* kOverAllRuns = "over all its runs, counted on from one to the next";
-// What their table makes up for, as uneven_visits_text(); "": nothing. Errors: other targets.
-Result<std::string> uneven_visits_of(const std::vector<Run>& runs);
+// What their table makes up for, as uneven_visits(), of all runs together, counted on from one to
+// the next. Errors: other targets.
+Result<Notices> uneven_visits_of(const std::vector<Run>& runs);
 
 // The errors at a position: linear between grid points, the end value held outside and said so. u
 // between two targets is the larger of theirs and what interpolation does, of an axis that bends

@@ -74,20 +74,18 @@ std::string removed_sentence(const RunDrift& drift, const MovingAxis& moving) {
   return text;
 }
 
-std::string over_limit_sentence(const RunDrift& drift, const Rig& rig) {
-  if (!rig.drift_limit_m_per_s || !(drift.length_s > 0)) return "";
-  std::string probes;
+Notices over_limit(const RunDrift& drift, const Rig& rig) {
+  Notices found;
+  if (!rig.drift_limit_m_per_s || !(drift.length_s > 0)) return found;
   for (std::size_t k = 0; k < std::min(drift.probes.size(), rig.probes.size()); ++k) {
     const double rate_m_per_s = drift.probes[k].range / drift.length_s;
     if (!drift.probes[k].significant() || !(rate_m_per_s > *rig.drift_limit_m_per_s)) continue;
-    probes += (probes.empty() ? "" : ", ") + rig.probes[k].id + " by " +
-              plain_number(to_um(rate_m_per_s) * kSecondsPerHour, 3) + " um/h";
+    found.push_back(
+        notice(NoticeCode::drift_over_limit, rig.probes[k].id,
+               {{"rate_um_per_h", to_um(rate_m_per_s) * kSecondsPerHour},
+                {"limit_um_per_h", to_um(*rig.drift_limit_m_per_s) * kSecondsPerHour}}));
   }
-  if (probes.empty()) return "";
-  return "the readings of probes drift by more than the limit of " +
-         plain_number(to_um(*rig.drift_limit_m_per_s) * kSecondsPerHour) +
-         " um/h ([drift] limit_um_per_h of the rig): " + probes +
-         "; let the system warm up (mdof drift says when it has) and measure again";
+  return found;
 }
 
 }  // namespace mdof::algo

@@ -6,6 +6,7 @@
 
 #include "algo/drift/run_drift.h"
 #include "schema/axis.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::algo {
@@ -20,7 +21,7 @@ std::vector<std::string> drift_sentences(const RunDrift& drift, const MovingAxis
 // Of a run from which it was to be removed: what was.
 std::string removed_sentence(const RunDrift& drift, const MovingAxis& moving);
 
-// Of probes that drift by more than the rig's limit over the run, highest to lowest; empty: none.
-std::string over_limit_sentence(const RunDrift& drift, const Rig& rig);
+// Of probes that drift by more than the rig's limit over the run, highest to lowest.
+Notices over_limit(const RunDrift& drift, const Rig& rig);
 
 }  // namespace mdof::algo

@@ -13,6 +13,7 @@
 
 #include "schema/base/result.h"
 #include "schema/iso230/positioning.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::algo {
 
@@ -23,9 +24,9 @@ namespace mdof::algo {
 // a side which others have.
 Result<Positioning> positioning(const std::vector<PositioningReading>& readings);
 
-// What of ISO 230-2:2014, 5.3 the targets and runs do not fulfil, for people: at least five targets
+// What of ISO 230-2:2014, 5.3 the targets and runs do not fulfil: at least five targets
 // a metre and five in all, up to 2 m; five runs each way; as many everywhere; intervals that are
 // not equal, and not whole periods of the scale (scale_period_m, 0: not known).
-std::vector<std::string> plan_warnings(const Positioning& positioning, double scale_period_m);
+Notices plan_notices(const Positioning& positioning, double scale_period_m);
 
 }  // namespace mdof::algo

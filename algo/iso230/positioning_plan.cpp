@@ -16,24 +16,19 @@ constexpr double kTargetsPerMetre = 5;
 constexpr std::size_t kFewestTargets = 5, kFewestRuns = 5;
 constexpr double kEqualIntervals = 1e-3;  // of the mean interval
 
-std::string millimetres_text(double m) {
-  return plain_number(to_mm(m), 6) + " mm";
-}
-
-void tell_few_targets(const std::vector<double>& targets_m, std::vector<std::string>& warnings) {
+void judge_targets(const std::vector<double>& targets_m, Notices& found) {
   const double travel_m = targets_m.back() - targets_m.front();
   const auto per_travel = static_cast<std::size_t>(std::ceil(kTargetsPerMetre * travel_m));
   const std::size_t fewest = std::max(kFewestTargets, per_travel);
   if (targets_m.size() < fewest)
-    warnings.push_back(std::to_string(targets_m.size()) + " targets over " +
-                       millimetres_text(travel_m) + ": ISO 230-2 asks for at least five a metre " +
-                       "and five in all, here " + std::to_string(fewest));
+    found.push_back(notice(
+        NoticeCode::few_targets, "",
+        {{"targets", targets_m.size()}, {"travel_mm", to_mm(travel_m)}, {"needed", fewest}}));
   if (travel_m > kLongest_m)
-    warnings.push_back("the travel of " + millimetres_text(travel_m) +
-                       " is over 2 m: ISO 230-2 has another test for such axes");
+    found.push_back(notice(NoticeCode::travel_over_2_m, "", {{"travel_mm", to_mm(travel_m)}}));
 }
 
-void tell_few_runs(const Positioning& p, std::vector<std::string>& warnings) {
+void judge_runs(const Positioning& p, Notices& found) {
   std::size_t least = p.targets[0].forward.n + p.targets[0].reverse.n, most = 0;
   bool one_way = false;
   for (const PositioningTarget& t : p.targets) {
@@ -43,20 +38,14 @@ void tell_few_runs(const Positioning& p, std::vector<std::string>& warnings) {
       if (n > 0) least = std::min(least, n);
     }
   }
-  if (one_way)
-    warnings.push_back(
-        "all targets were approached from one side only: B, R, E, M and A of both are not known");
+  if (one_way) found.push_back(notice(NoticeCode::one_approach));
   if (most == 1)
-    warnings.push_back(
-        "a single run: R and A are not known, for they need two runs, and ISO 230-2 asks for five "
-        "each way; B, E and M are of that run alone");
+    found.push_back(notice(NoticeCode::single_run));
   else if (least < kFewestRuns)
-    warnings.push_back(std::to_string(least) + " runs" + (least < most ? " at some targets" : "") +
-                       ": ISO 230-2 asks for at least five each way");
+    found.push_back(notice(NoticeCode::few_runs, "",
+                           {{"runs", least}, {"some_targets", least < most ? 1 : 0}}));
   if (least < most)
-    warnings.push_back("the targets have from " + std::to_string(least) + " to " +
-                       std::to_string(most) +
-                       " readings from a side: each figure is of those that it has");
+    found.push_back(notice(NoticeCode::uneven_readings, "", {{"least", least}, {"most", most}}));
 }
 
 bool has_equal_intervals(const std::vector<double>& targets_m) {
@@ -76,20 +65,17 @@ std::vector<double> in_millimetres(std::vector<double> targets_m) {
 
 }  // namespace
 
-std::vector<std::string> plan_warnings(const Positioning& p, double scale_period_m) {
+Notices plan_notices(const Positioning& p, double scale_period_m) {
   std::vector<double> targets_m;
   for (const PositioningTarget& t : p.targets) targets_m.push_back(t.target_m);
-  std::vector<std::string> warnings;
-  tell_few_targets(targets_m, warnings);
-  tell_few_runs(p, warnings);
-  const std::string periodic = periodic_warning(in_millimetres(targets_m), to_um(scale_period_m));
-  if (!periodic.empty())
-    warnings.push_back(periodic);
+  Notices found;
+  judge_targets(targets_m, found);
+  judge_runs(p, found);
+  if (auto periodic = scale_period_notice(in_millimetres(targets_m), to_um(scale_period_m)))
+    found.push_back(std::move(*periodic));
   else if (targets_m.size() > 2 && has_equal_intervals(targets_m))
-    warnings.push_back(
-        "all intervals between targets are equal, so that a periodic error may be the same at all "
-        "of them; ISO 230-2 asks for intervals that differ");
-  return warnings;
+    found.push_back(notice(NoticeCode::equal_intervals));
+  return found;
 }
 
 }  // namespace mdof::algo

@@ -16,6 +16,7 @@
 #include "algo/points/dwell.h"
 #include "algo/sequence/sequence.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::algo {
 
@@ -36,11 +37,10 @@ class OnTheFly {
   Sequence sequence() const;
   // Why there is no point, with figures and a remedy; nothing: there are some.
   Status explain_nothing() const;
-  // What the user has to know of the log beside the points: one sentence each.
-  std::vector<std::string> warnings() const;
-  // What a run in motion is, what it leaves out, its speeds, and what motion adds: one sentence
-  // each.
-  std::vector<std::string> statements() const;
+  // What a reader has to know of the log beside the points.
+  Notices notices() const;
+  // What a run in motion is, what it leaves out, its speeds, and what motion adds.
+  Notices statements() const;
 
   const DwellDetector::Summary& summary() const { return summary_; }
   const std::vector<PassBins>& passes() const { return passes_; }

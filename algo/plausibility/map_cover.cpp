@@ -28,54 +28,51 @@ std::string range_text(double from_m, double to_m) {
   return from_m == to_m ? from + " mm" : from + " to " + plain_number(to_mm(to_m), 6) + " mm";
 }
 
-std::string gap_of(const TargetPlane& plane, std::size_t index, bool first, const Fixture& fixture,
-                   double least_m, double most_m) {
-  const std::vector<double>& covered = first ? plane.flatness.first_m : plane.flatness.second_m;
-  if (covered.size() < 2) return "";
+// Where probes read outside of what the map covers: "probe A reads at 1 to 2 mm, ..."; empty: none.
+std::string read_outside(std::size_t plane, const std::vector<double>& covered_m, bool first,
+                         const Fixture& fixture, double least_m, double most_m) {
   std::string outside;
   for (const FixtureProbe& probe : fixture.probes) {
-    if (probe.plane != index) continue;
+    if (probe.plane != plane) continue;
     const Reach reach = reach_of(probe, first, least_m, most_m);
-    if (reach.least_m >= covered.front() - kLetPass_m &&
-        reach.most_m <= covered.back() + kLetPass_m)
+    if (reach.least_m >= covered_m.front() - kLetPass_m &&
+        reach.most_m <= covered_m.back() + kLetPass_m)
       continue;
     outside += (outside.empty() ? "probe " : ", probe ") + probe.id + " reads at " +
                range_text(reach.least_m, reach.most_m);
   }
-  if (outside.empty()) return "";
-  return std::string(first ? "flatness_first_mm" : "flatness_second_mm") + " covers " +
-         range_text(covered.front(), covered.back()) + ", and " + outside;
+  return outside;
 }
 
 }  // namespace
 
-std::vector<std::string> warnings_of_maps(const Rig& rig, const Fixture& fixture, double least_m,
-                                          double most_m) {
-  std::vector<std::string> warnings;
+Notices map_notices(const Rig& rig, const Fixture& fixture, double least_m, double most_m) {
+  Notices found;
   for (std::size_t i = 0; i < rig.planes.size(); ++i) {
-    if (rig.planes[i].flatness.empty()) continue;
+    const auto& map = rig.planes[i].flatness;
     for (const bool first : {true, false}) {
-      const std::string gap = gap_of(rig.planes[i], i, first, fixture, least_m, most_m);
-      if (gap.empty()) continue;
-      warnings.push_back("plane \"" + rig.planes[i].id +
-                         "\": its height map does not cover what "
-                         "is measured: " +
-                         gap +
-                         "; beyond it the height of its end is taken, which nobody measured; "
-                         "extend the map, or keep the travel within it");
+      const std::vector<double>& covered_m = first ? map.first_m : map.second_m;
+      if (map.empty() || covered_m.size() < 2) continue;
+      const std::string outside = read_outside(i, covered_m, first, fixture, least_m, most_m);
+      if (outside.empty()) continue;
+      found.push_back(notice(NoticeCode::map_too_short, rig.planes[i].id,
+                             {{"coordinate", first ? "flatness_first_mm" : "flatness_second_mm"},
+                              {"covered_from_mm", to_mm(covered_m.front())},
+                              {"covered_to_mm", to_mm(covered_m.back())},
+                              {"reached", outside}}));
     }
   }
-  return warnings;
+  return found;
 }
 
-std::vector<std::string> warnings_of_maps(const Rig& rig, const Fixture& fixture,
-                                          const std::vector<MeasuredPoint>& points) {
+Notices map_notices(const Rig& rig, const Fixture& fixture,
+                    const std::vector<MeasuredPoint>& points) {
   std::vector<double> travels_m;
   for (const MeasuredPoint& p : points)
     if (p.errors.valid) travels_m.push_back(rig.sides.target_travel_m(p.point.position_m));
   if (travels_m.empty()) return {};
   const auto [least, most] = std::minmax_element(travels_m.begin(), travels_m.end());
-  return warnings_of_maps(rig, fixture, *least, *most);
+  return map_notices(rig, fixture, *least, *most);
 }
 
 }  // namespace mdof::algo

@@ -13,10 +13,6 @@ constexpr double kNoise_m = 50e-6;  // of the encoder, and spikes that the dwell
 constexpr std::int64_t kGlitch_ns = 50'000'000;
 constexpr double kBack = 0.1;  // so much nearer to where the axis was than to where it cannot be
 
-std::string scans_have(std::uint64_t n) {
-  return std::to_string(n) + (n == 1 ? " scan has" : " scans have");
-}
-
 }  // namespace
 
 void PlaceWatch::begin_at(std::int64_t time_ns, double position_m) {
@@ -72,24 +68,20 @@ std::size_t PlaceWatch::end_of_unplaced(const FrameBlock& frames, std::size_t fr
   return i;
 }
 
-std::vector<std::string> PlaceWatch::warnings(std::int64_t start_ns) const {
-  std::vector<std::string> all;
-  const auto after_s = [&](std::int64_t ns) {
-    return plain_number(ns_to_s(ns - start_ns)) + " s after the first scan";
-  };
-  const std::string flagged =
-      "; they are left out, and the points of stops in which some are have the flag "
-      "missing:encoder; check the scale and its cable";
+Notices PlaceWatch::notices(std::int64_t start_ns) const {
+  Notices all;
   if (missing_ > 0)
-    all.push_back(scans_have(missing_) + " no position of the encoder, the first of them " +
-                  after_s(first_missing_ns_) + flagged);
+    all.push_back(
+        notice(NoticeCode::position_missing, "",
+               {{"scans", missing_}, {"first_s", ns_to_s(first_missing_ns_ - start_ns)}}));
   if (too_fast_ > 0)
-    all.push_back(scans_have(too_fast_) +
-                  " a position that the axis cannot have reached: the encoder jumped by " +
-                  plain_number(to_mm(first_jump_m_), 7) + " mm at " +
-                  plain_number(to_mm(jumped_from_m_), 5) + " mm, " + after_s(first_too_fast_ns_) +
-                  ", faster than max_speed_mm_s = " + plain_number(to_mm(max_speed_m_s_)) +
-                  flagged + (astray_ ? ", find its zero and measure again" : ""));
+    all.push_back(notice(NoticeCode::position_unreachable, "",
+                         {{"scans", too_fast_},
+                          {"jump_mm", to_mm(first_jump_m_)},
+                          {"position_mm", to_mm(jumped_from_m_)},
+                          {"first_s", ns_to_s(first_too_fast_ns_ - start_ns)},
+                          {"max_speed_mm_s", to_mm(max_speed_m_s_)},
+                          {"is_lost", astray_ ? 1 : 0}}));
   return all;
 }
 

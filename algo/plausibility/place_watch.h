@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "schema/notice/notice.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {
@@ -27,8 +28,8 @@ class PlaceWatch {
 
   bool is_placed(std::int64_t time_ns, double position_m) const;
   std::uint64_t left_out() const { return missing_ + too_fast_; }
-  // One sentence for either kind: how many, since when, what to do.
-  std::vector<std::string> warnings(std::int64_t start_ns) const;
+  // One for either kind: how many, since when.
+  Notices notices(std::int64_t start_ns) const;
 
  private:
   struct Place {

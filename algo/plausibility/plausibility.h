@@ -1,5 +1,5 @@
-// Can this run be right? What was found, in figures, and what in them looks wrong, in words: holes
-// in the matrix of visits, stops that gave no point, quantities in other units than stated.
+// Can this run be right? What was found, in figures, and what in them looks wrong, as notices:
+// holes in the matrix of visits, stops that gave no point, quantities in other units than stated.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "algo/points/dwell.h"
 #include "algo/sequence/sequence.h"
+#include "schema/notice/notice.h"
 #include "schema/plausibility.h"
 #include "schema/rig/rig.h"
 
@@ -24,15 +25,15 @@ struct RunToJudge {
 
 Plausibility plausibility(const RunToJudge& run);
 
-// Each one sentence, by name; none: nothing looks wrong. Many of a kind are summarised.
-std::vector<std::string> warnings_of_visits(const RunToJudge& run, const Plausibility& figures);
-std::vector<std::string> warnings_of_units(const Rig& rig, const Plausibility& figures);
+// None: nothing looks wrong. Of many alike the first ones and their number.
+Notices visit_notices(const RunToJudge& run);
+Notices unit_notices(const Rig& rig, const Plausibility& figures);
 // A probe that reads the same while others change, an encoder that stands still while probes
 // change.
-std::vector<std::string> warnings_of_signals(const RunToJudge& run);
+Notices signal_notices(const RunToJudge& run);
 
-// What a travel (m) says of the encoder's unit; empty: nothing.
-std::string encoder_unit_doubt(double travel_m);
+// Whether a travel (m) can be one in the encoder's unit.
+std::optional<Notice> encoder_unit_notice(double travel_m);
 
 // Stops at a target that gave no point, and beside which there is none of that target either.
 std::vector<DwellDetector::Summary::PassedOver> lost_stops(const RunToJudge& run);

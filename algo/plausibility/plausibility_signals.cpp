@@ -72,7 +72,8 @@ double others_change_m(const RunToJudge& run, const MeasuredPoint& from, std::si
   return median_of(others_m);
 }
 
-bool is_deaf(const RunToJudge& run, const Stops& stops, std::size_t first, std::size_t probe) {
+bool is_insensitive(const RunToJudge& run, const Stops& stops, std::size_t first,
+                    std::size_t probe) {
   Stretch before, same;
   for (std::size_t i = 0; i < stops.size(); ++i) (i < first ? before : same).take(*stops[i], probe);
   const double moves_m = kOthersMove * same.noise_m;
@@ -81,29 +82,22 @@ bool is_deaf(const RunToJudge& run, const Stops& stops, std::size_t first, std::
          others_change_m(run, *stops[first], probe) > moves_m;
 }
 
-void tell_deaf_probes(const RunToJudge& run, std::vector<std::string>& out) {
+void note_insensitive_probes(const RunToJudge& run, Notices& out) {
   for (std::size_t k = 0; k < run.rig.probes.size(); ++k) {
     const Stops stops = with_value(run.sequence.points, k);
     const std::size_t first = same_from(stops, k);
-    if (first == stops.size() || !is_deaf(run, stops, first, k)) continue;
-    std::array<char, 48> since{};
-    if (first > 0)
-      std::snprintf(
-          since.data(), since.size(), " from %.3f s after the first on",
-          ns_to_s(stops[first]->point.begin_ns - run.sequence.points.front().point.begin_ns));
-    std::array<char, 320> text{};
-    std::snprintf(text.data(), text.size(),
-                  "probe \"%s\" reads the same at %zu stops%s (%.6g um, within its noise) while "
-                  "the others change: the axis does not move it, or it measures nothing and errors "
-                  "from it are wrong; check its cable, gap and amplifier",
-                  run.rig.probes[k].id.c_str(), stops.size() - first, since.data(),
-                  to_um(stops[first]->point.probe_m[k]));
-    out.emplace_back(text.data());
+    if (first == stops.size() || !is_insensitive(run, stops, first, k)) continue;
+    const std::int64_t since_ns =
+        first == 0 ? 0 : stops[first]->point.begin_ns - run.sequence.points.front().point.begin_ns;
+    out.push_back(notice(NoticeCode::probe_insensitive, run.rig.probes[k].id,
+                         {{"stops", stops.size() - first},
+                          {"from_s", ns_to_s(since_ns)},
+                          {"reading_um", to_um(stops[first]->point.probe_m[k])}}));
   }
 }
 
 // A stop in which most probes change as they only do while the axis moves.
-void tell_frozen_encoder(const RunToJudge& run, std::vector<std::string>& out) {
+void note_frozen_encoder(const RunToJudge& run, Notices& out) {
   const auto& points = run.sequence.points;
   if (points.size() < kFewestSame) return;
   const std::size_t probes = run.rig.probes.size();
@@ -120,23 +114,20 @@ void tell_frozen_encoder(const RunToJudge& run, std::vector<std::string>& out) {
     for (std::size_t k = 0; k < p.point.probe_sd_m.size() && k < probes; ++k)
       restless += usual_m[k] > 0 && p.point.probe_sd_m[k] > kRestless * usual_m[k];
     if (restless < kFewestRestless || 2 * restless < probes) continue;
-    std::array<char, 320> text{};
-    std::snprintf(text.data(), text.size(),
-                  "in the stop at %.4f mm, of %.3f s, %zu of %zu probes change as while the axis "
-                  "moves: the encoder stood still, or something pushed the fixture; check the "
-                  "encoder and its cable, and measure again",
-                  to_mm(p.point.position_m), ns_to_s(p.point.end_ns - p.point.begin_ns), restless,
-                  probes);
-    out.emplace_back(text.data());
+    out.push_back(notice(NoticeCode::encoder_stood_still, "",
+                         {{"position_mm", to_mm(p.point.position_m)},
+                          {"length_s", ns_to_s(p.point.end_ns - p.point.begin_ns)},
+                          {"changing", restless},
+                          {"probes", probes}}));
   }
 }
 
 }  // namespace
 
-std::vector<std::string> warnings_of_signals(const RunToJudge& run) {
-  std::vector<std::string> out;
-  tell_deaf_probes(run, out);
-  tell_frozen_encoder(run, out);
+Notices signal_notices(const RunToJudge& run) {
+  Notices out;
+  note_insensitive_probes(run, out);
+  note_frozen_encoder(run, out);
   return out;
 }
 

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "algo/plausibility/plausibility.h"
-#include "algo/plausibility/sentences.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -23,12 +22,6 @@ constexpr double kNoisiest = 2.5e-3;    // sd in parts of the range
 constexpr double kNoisiest_m = 1e-6;
 constexpr double kOneOfThousand = 1e-3;
 constexpr double kOffZero = 0.1;  // of the range, of a gap whose offset is not given
-
-std::string joined(const Texts& words) {
-  std::string out;
-  for (const auto& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
 
 double largest(const ProbeFigures& p) {
   return std::max(std::abs(p.min_m), std::abs(p.max_m));
@@ -52,37 +45,22 @@ bool lacks_offset(const ProbeFigures& figures, const Probe& probe) {
          -0.5 * (figures.min_m + figures.max_m) > kOffZero * probe.range_m;
 }
 
-Texts names_of(const Rig& rig, const Plausibility& figures,
-               bool (*is)(const ProbeFigures&, const Probe&)) {
-  Texts names;
-  for (std::size_t k = 0; k < figures.probes.size(); ++k)
-    if (is(figures.probes[k], rig.probes[k])) names.push_back(figures.probes[k].id);
-  return names;
+void judge_probes(const Rig& rig, const Plausibility& figures, Notices& out) {
+  for (std::size_t k = 0; k < figures.probes.size(); ++k) {
+    const ProbeFigures& probe = figures.probes[k];
+    if (looks_like_mm(probe, rig.probes[k]))
+      out.push_back(
+          notice(NoticeCode::reading_too_small, probe.id, {{"largest_um", to_um(largest(probe))}}));
+    if (looks_like_nm(probe, rig.probes[k]))
+      out.push_back(
+          notice(NoticeCode::reading_too_noisy, probe.id, {{"noise_um", to_um(probe.sd_m)}}));
+    if (lacks_offset(probe, rig.probes[k]))
+      out.push_back(notice(NoticeCode::gap_without_offset, probe.id,
+                           {{"gap_um", -0.5 * to_um(probe.min_m + probe.max_m)}}));
+  }
 }
 
-void judge_probes(const Rig& rig, const Plausibility& figures, Texts& out) {
-  const Texts mm = names_of(rig, figures, looks_like_mm);
-  if (!mm.empty())
-    out.push_back("probe " + joined(mm) +
-                  ": all readings are within a thousandth of the range and quieter than 0.5 nm, as "
-                  "if they were in mm; a column _um must be in um");
-  const Texts nm = names_of(rig, figures, looks_like_nm);
-  if (!nm.empty())
-    out.push_back("probe " + joined(nm) +
-                  ": the noise in a dwell is more than 1 um and 0.25 % of the range, as if the "
-                  "readings were in nm; a column _um must be in um; else check cable and earthing");
-  const Texts gap = names_of(rig, figures, lacks_offset);
-  if (gap.empty()) return;
-  const auto first = std::find_if(figures.probes.begin(), figures.probes.end(),
-                                  [&](const ProbeFigures& p) { return p.id == gap.front(); });
-  out.push_back("probe " + joined(gap) +
-                ": reads the gap and has no offset_um, so the whole gap counts as displacement; "
-                "give the gap at the nominal surface in the rig (" +
-                gap.front() + " reads about " +
-                with_number("%.3g um)", -0.5 * to_um(first->min_m + first->max_m)));
-}
-
-void judge_fixture(const Rig& rig, double travel_m, Texts& out) {
+void judge_fixture(const Rig& rig, double travel_m, Notices& out) {
   double size_m = 0, origin_m = 0;
   for (const Probe& a : rig.probes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -91,48 +69,43 @@ void judge_fixture(const Rig& rig, double travel_m, Texts& out) {
         size_m = std::max(size_m, std::abs(a.position_m[axis] - b.position_m[axis]));
     }
   }
+  const double width_mm = to_mm(size_m);
   if (std::max(size_m, origin_m) > kLargestFixture_m)
-    out.push_back("the fixture reaches " + with_number("%.4g m", std::max(size_m, origin_m)) +
-                  ": position_mm in the rig seems to be in um");
+    out.push_back(
+        notice(NoticeCode::fixture_too_large, "", {{"reach_m", std::max(size_m, origin_m)}}));
   else if (size_m > std::max(kWideFixture_m, kWideByTravel * travel_m))
-    out.push_back("the probes are " + with_number("%.4g mm", to_mm(size_m)) +
-                  " apart and the axis travels " + with_number("%.4g mm", to_mm(travel_m)) +
-                  ": are the lengths of position_mm in the rig ten times too large?");
+    out.push_back(notice(NoticeCode::fixture_too_wide, "",
+                         {{"width_mm", width_mm}, {"travel_mm", to_mm(travel_m)}}));
   if (size_m < kNarrowFixture_m && size_m >= kSmallestFixture_m)
-    out.push_back("the probes are only " + with_number("%.4g mm", to_mm(size_m)) +
-                  " apart, where five of them have no room: position_mm in the rig seems to be in "
-                  "cm");
+    out.push_back(notice(NoticeCode::fixture_too_narrow, "", {{"width_mm", width_mm}}));
   if (size_m < kSmallestFixture_m)
-    out.push_back("the probes are only " + with_number("%.4g mm", to_mm(size_m)) +
-                  " apart: position_mm in the rig seems to be in m");
+    out.push_back(notice(NoticeCode::fixture_too_small, "", {{"width_mm", width_mm}}));
 }
 
-void judge_time(const Plausibility& figures, Texts& out) {
-  const std::string rate = with_number("%.4g Hz", figures.rate_hz);
+void judge_time(const Plausibility& figures, Notices& out) {
   if (figures.rate_hz < kSlowest_hz)
-    out.push_back("the log has " + rate + ": time_s seems to be in ms or us, not in s");
+    out.push_back(notice(NoticeCode::rate_too_low, "", {{"rate_hz", figures.rate_hz}}));
   if (figures.rate_hz > kFastest_hz)
-    out.push_back("the log has " + rate + ": time_s seems to be in minutes or hours, not in s");
+    out.push_back(notice(NoticeCode::rate_too_high, "", {{"rate_hz", figures.rate_hz}}));
 }
 
 }  // namespace
 
-std::string encoder_unit_doubt(double travel_m) {
+std::optional<Notice> encoder_unit_notice(double travel_m) {
   if (travel_m > kLongestAxis_m)
-    return "the axis travels " + with_number("%.4g m", travel_m) + ": encoder_mm seems to be in um";
+    return notice(NoticeCode::travel_too_long, "", {{"travel_m", travel_m}});
   if (travel_m < kShortestAxis_m)
-    return "the axis travels only " + with_number("%.4g mm", to_mm(travel_m)) +
-           ": encoder_mm seems to be in m";
-  return "";
+    return notice(NoticeCode::travel_too_short, "", {{"travel_mm", to_mm(travel_m)}});
+  return std::nullopt;
 }
 
-std::vector<std::string> warnings_of_units(const Rig& rig, const Plausibility& figures) {
-  Texts out;
-  const std::string encoder = encoder_unit_doubt(figures.encoder_max_m - figures.encoder_min_m);
-  if (!encoder.empty()) out.push_back(encoder);
+Notices unit_notices(const Rig& rig, const Plausibility& figures) {
+  Notices out;
+  const double travel_m = figures.encoder_max_m - figures.encoder_min_m;
+  if (auto encoder = encoder_unit_notice(travel_m)) out.push_back(std::move(*encoder));
   judge_time(figures, out);
   judge_probes(rig, figures, out);
-  judge_fixture(rig, figures.encoder_max_m - figures.encoder_min_m, out);
+  judge_fixture(rig, travel_m, out);
   return out;
 }
 

@@ -6,11 +6,9 @@
 #include <string>
 
 #include "algo/plausibility/plausibility.h"
-#include "algo/plausibility/sentences.h"
 #include "algo/points/ranges_text.h"
 #include "algo/sequence/shifted_targets.h"
 #include "algo/sequence/uneven_visits.h"
-#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -18,10 +16,6 @@ namespace {
 
 constexpr std::size_t kMostNamed = 6;     // sentences of one kind; more are put together
 constexpr double kWorthATravel_m = 1e-3;  // over which there should be more than one stop
-
-std::string plural(std::size_t n, const std::string& what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
 
 const char* approach(int direction) {
   return direction > 0 ? "forward" : "reverse";
@@ -61,41 +55,33 @@ class Holes {
  public:
   explicit Holes(const RunToJudge& run) : sequence_(run.sequence), visits_(visits_of(sequence_)) {}
 
-  Texts told() {
-    Texts out;
+  Notices found() {
+    Notices out;
     never_visited(out);
     // What the log does not have because it began or ended in the midst of a pass, nobody missed.
     Cells holes, beyond;
     for (const Cell& cell : missing()) (beyond_the_log(cell) ? beyond : holes).push_back(cell);
-    put(out, holes, &Holes::missing_text, "no visit at");
-    Texts known;
-    put(known, beyond, &Holes::missing_text, "no visit at");
-    for (const std::string& text : known) out.push_back(information(text));
+    put(out, NoticeCode::visit_missing, holes);
+    put(out, NoticeCode::visit_outside_log, beyond);
     Cells twice, unsolved;
     for (const auto& [cell, n] : visits_.seen)
       if (n > 1) twice.push_back(cell);
     for (const auto& [cell, why] : visits_.unsolved) unsolved.push_back(cell);
-    put(out, twice, &Holes::doubled_text, "more than one visit at");
-    put(out, unsolved, &Holes::unsolved_text, "not solved at");
+    put(out, NoticeCode::visit_doubled, twice);
+    put(out, NoticeCode::visit_unsolved, unsolved);
     return out;
   }
 
  private:
   using Cells = std::vector<Cell>;
 
-  std::string name(int target) const {
-    return "target " + std::to_string(target) + " (" +
-           with_number("%.4f mm",
-                       to_mm(sequence_.targets_m[static_cast<std::size_t>(target) - 1])) +
-           ")";
-  }
-  void never_visited(Texts& out) const {
+  void never_visited(Notices& out) const {
     std::vector<int> never;
     for (int t = 1; t <= sequence_.targets; ++t)
       if (!visits_.targets.contains(t)) never.push_back(t);
-    if (never.size() == 1) out.push_back(name(never[0]) + " was never visited");
-    if (never.size() > 1)
-      out.push_back(plural(never.size(), "target") + " were never visited: " + ranges_text(never));
+    if (!never.empty())
+      out.push_back(
+          notice(NoticeCode::target_never_visited, "", {{"targets", numbered("target", never)}}));
   }
   // The end targets of a pendulum cycle are come to from one side.
   bool awaited(const Cell& cell) const {
@@ -130,30 +116,9 @@ class Holes {
     }
     return cells;
   }
-  std::string missing_text(const Cell& c) const {
-    const std::string in = sequence_.by_passes ? "no " + std::string(approach(c.direction)) +
-                                                     " visit in run " + std::to_string(c.run)
-                                               : "no " + std::to_string(c.run) + ". visit " +
-                                                     (c.direction > 0 ? "forward" : "in reverse");
-    return name(c.target) + ": " + in;
-  }
-  std::string doubled_text(const Cell& c) const {
-    return name(c.target) + ": " + std::to_string(visits_.seen.at(c)) + " " +
-           approach(c.direction) + " visits in run " + std::to_string(c.run) +
-           "; both count for its mean";
-  }
-  std::string unsolved_text(const Cell& c) const {
-    return name(c.target) + ": the " + approach(c.direction) + " visit in run " +
-           std::to_string(c.run) + " gave no errors (" + visits_.unsolved.at(c) + ")";
-  }
-  // Each by itself, or by run and approach where there are many.
-  void put(Texts& out, const Cells& cells, std::string (Holes::*single)(const Cell&) const,
-           const char* many) {
-    if (cells.size() <= kMostNamed) {
-      for (const Cell& cell : cells) out.push_back((this->*single)(cell));
-      return;
-    }
-    Texts groups;
+  // By run and approach.
+  void put(Notices& out, NoticeCode code, const Cells& cells) const {
+    Notices alike;
     for (std::size_t i = 0; i < cells.size();) {
       std::vector<int> targets;
       const Cell first = cells[i];
@@ -161,14 +126,14 @@ class Holes {
            ++i)
         targets.push_back(cells[i].target);
       const bool all = targets.size() == visits_.targets.size();
-      groups.push_back("run " + std::to_string(first.run) + ", " + approach(first.direction) +
-                       ": " + many + " " + (all ? "any target" : numbered("target", targets)));
+      Notice here{code, severity(code), "", {{"run", first.run}}, ""};
+      here.values.emplace_back("approach", approach(first.direction));
+      here.values.emplace_back("targets", all ? "any target" : numbered("target", targets));
+      if (code == NoticeCode::visit_unsolved)
+        here.values.emplace_back("reason", visits_.unsolved.at(first));
+      alike.push_back(std::move(here));
     }
-    const std::size_t shown = std::min(groups.size(), kMostNamed);
-    out.insert(out.end(), groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(shown));
-    if (shown < groups.size())
-      out.push_back("and " + plural(groups.size() - shown, "more run") + " with " + many +
-                    " some targets: see n_ij");
+    append_first(out, std::move(alike));
   }
 
   const Sequence& sequence_;
@@ -177,7 +142,7 @@ class Holes {
 
 // While a run goes on, the targets seen so far are numbered; one that is missed at first shifts
 // those after it.
-void tell_found_late(const RunToJudge& run, Texts& out) {
+void note_found_late(const RunToJudge& run, Notices& out) {
   if (run.targets_given || !run.sequence.by_passes || run.sequence.points.empty()) return;
   const MeasuredPoint& start = run.sequence.points.front();
   std::set<int> first_pass, later;
@@ -191,12 +156,10 @@ void tell_found_late(const RunToJudge& run, Texts& out) {
   if (late.empty() || late.back() == run.sequence.targets || late.size() > first_pass.size())
     return;
   out.push_back(
-      information(numbered("target", late) +
-                  " found only after the first pass: the numbers of the targets above changed then "
-                  "(give targets_mm to fix them)"));
+      notice(NoticeCode::targets_renumbered, "", {{"targets", numbered("target", late)}}));
 }
 
-void tell_lost_stops(const RunToJudge& run, Texts& out) {
+void note_lost_stops(const RunToJudge& run, Notices& out) {
   const auto lost = lost_stops(run);
   if (lost.empty()) return;
   std::size_t brief = 0;
@@ -205,84 +168,68 @@ void tell_lost_stops(const RunToJudge& run, Texts& out) {
     brief += stop.too_short;
     if (stop.too_short) longest_s = std::max(longest_s, stop.length_s);
   }
-  std::string why;
-  if (brief > 0)
-    why = plural(brief, "stop") + " too short (up to " + with_number("%.3f s", longest_s) +
-          ", needed " + with_number("%.3f s", run.least_dwell_s) + ")";
-  if (brief < lost.size()) {
-    why += why.empty() ? "" : ", ";
-    why += plural(lost.size() - brief, "stop") + " creeping";
-  }
-  out.push_back(plural(lost.size(), "visit") + " of targets gave no point: " + why + "; first at " +
-                with_number("%.4f mm", to_mm(lost.front().position_m)) +
-                "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um");
+  out.push_back(notice(NoticeCode::visit_without_point, "",
+                       {{"visits", lost.size()},
+                        {"too_short", brief},
+                        {"creeping", lost.size() - brief},
+                        {"longest_s", longest_s},
+                        {"needed_s", run.least_dwell_s},
+                        {"first_mm", to_mm(lost.front().position_m)}}));
 }
 
-void tell_single_place(const RunToJudge& run, Texts& out) {
+void note_single_place(const RunToJudge& run, Notices& out) {
   std::set<int> places;
   for (const auto& p : run.sequence.points) places.insert(p.target);
   const double travel_m = run.dwells.encoder_max_m - run.dwells.encoder_min_m;
   if (places.size() != 1 || travel_m < kWorthATravel_m) return;
-  out.push_back("stops were found at one place only (" +
-                with_number("%.4f mm", to_mm(run.sequence.points.front().target_m)) +
-                ") although " + with_number("the axis travels %.3f mm: ", to_mm(travel_m)) +
-                plural(run.dwells.passed_over.size(), "other stop") +
-                " were too short or crept, needed are " + with_number("%.3f s", run.least_dwell_s) +
-                with_number(" within %.3g um", to_um(run.dwells.tolerance_m)) +
-                "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um");
+  out.push_back(notice(NoticeCode::stops_at_one_place, "",
+                       {{"position_mm", to_mm(run.sequence.points.front().target_m)},
+                        {"travel_mm", to_mm(travel_m)},
+                        {"others", run.dwells.passed_over.size()},
+                        {"needed_s", run.least_dwell_s},
+                        {"tolerance_um", to_um(run.dwells.tolerance_m)}}));
 }
 
-void tell_many_left_out(const RunToJudge& run, Texts& out) {
-  const std::size_t kept = run.sequence.points.size(), out_of = run.sequence.left_out.size();
-  if (out_of <= kept) return;
-  out.push_back("more stops were left out (" + std::to_string(out_of) + ") than kept (" +
-                std::to_string(kept) + "): check " +
-                (run.targets_given ? "targets_mm, their unit and the encoder's zero"
-                                   : "the list of what was left out, or give targets_mm"));
+void note_many_left_out(const RunToJudge& run, Notices& out) {
+  const std::size_t kept = run.sequence.points.size(), left_out = run.sequence.left_out.size();
+  if (left_out <= kept) return;
+  out.push_back(notice(
+      NoticeCode::most_stops_left_out, "",
+      {{"left_out", left_out}, {"kept", kept}, {"targets_given", run.targets_given ? 1 : 0}}));
 }
 
-void tell_shifted_targets(const RunToJudge& run, Texts& out) {
+void note_shifted_targets(const RunToJudge& run, Notices& out) {
   const auto shifted = find_shifted_targets(run.sequence);
   if (!shifted) return;
   const std::int64_t begin_ns = run.sequence.points.front().point.begin_ns;
-  out.push_back(invalid(
-      with_number("%.3f s after the first stop began ", ns_to_s(shifted->time_ns - begin_ns)) +
-      with_number("all targets lie %+.4f mm further: ", to_mm(shifted->shift_m)) +
-      "the encoder's count jumped, its datum was set anew, or the axis was sent elsewhere; "
-      "positions before and after do not belong together, measure again"));
+  out.push_back(notice(
+      NoticeCode::targets_shifted, "",
+      {{"time_s", ns_to_s(shifted->time_ns - begin_ns)}, {"shift_mm", to_mm(shifted->shift_m)}}));
 }
 
-void tell_one_turn(const RunToJudge& run, Texts& out) {
-  if (run.sequence.cycle != Cycle::pendulum || run.sequence.runs > 1) return;
-  out.push_back(information(
-      "the axis turned at its end target, which has a visit from one side only: taken for a "
-      "pendulum cycle; to have both, let the axis run beyond the end targets"));
-}
-
-void tell_uneven(const RunToJudge& run, Texts& out) {
+void note_uneven(const RunToJudge& run, Notices& out) {
   std::vector<MeasuredPoint> points = run.sequence.points;
   if (run.sequence.cycle == Cycle::pendulum) {  // whose end targets have one approach by design
     std::erase_if(points, [&](const MeasuredPoint& p) {
       return p.target == 1 || p.target == run.sequence.targets;
     });
   }
-  const std::string uneven = uneven_visits_text(points);
-  if (!uneven.empty()) out.push_back(uneven);
+  append(out, uneven_visits(points));
 }
 
 }  // namespace
 
-std::vector<std::string> warnings_of_visits(const RunToJudge& run, const Plausibility&) {
-  Texts out;
-  tell_single_place(run, out);
-  tell_shifted_targets(run, out);
-  tell_many_left_out(run, out);
-  tell_one_turn(run, out);
-  const Texts holes = Holes(run).told();
-  out.insert(out.end(), holes.begin(), holes.end());
-  tell_uneven(run, out);
-  tell_found_late(run, out);
-  tell_lost_stops(run, out);
+Notices visit_notices(const RunToJudge& run) {
+  Notices out;
+  note_single_place(run, out);
+  note_shifted_targets(run, out);
+  note_many_left_out(run, out);
+  if (run.sequence.cycle == Cycle::pendulum && run.sequence.runs <= 1)
+    out.push_back(notice(NoticeCode::pendulum_assumed));
+  append(out, Holes(run).found());
+  note_uneven(run, out);
+  note_found_late(run, out);
+  note_lost_stops(run, out);
   return out;
 }
 

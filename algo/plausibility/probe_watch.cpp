@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "algo/plausibility/probe_step.h"
-#include "algo/points/dwell_notice.h"
+#include "algo/points/dwell_event.h"
 #include "algo/points/flags.h"
 #include "algo/points/median.h"
 #include "schema/units.h"
@@ -161,33 +161,23 @@ void ProbeWatch::mark(std::vector<Point>& points, const std::vector<std::string>
       if (p.end_ns >= s.time_ns) add_flag(p, "step:" + ids[s.probe]);
 }
 
-std::vector<std::string> describe(const ProbeWatch& watch, const std::vector<std::string>& ids,
-                                  std::int64_t start_ns) {
-  std::array<char, 320> text{};
-  std::vector<std::string> dead, stepped, all;
+Notices probe_notices(const ProbeWatch& watch, const std::vector<std::string>& ids,
+                      std::int64_t start_ns) {
+  Notices frozen, stepped, all;
   for (const FrozenProbe& f : watch.frozen()) {
-    std::array<char, 40> until{"on"};
-    if (f.end_ns != INT64_MAX)
-      std::snprintf(until.data(), until.size(), "to %.3f s", ns_to_s(f.end_ns - start_ns));
-    std::snprintf(
-        text.data(), text.size(),
-        "probe \"%s\" no longer changes from %.3f s after the first scan %s (%.6g um): its "
-        "readings there are not used (flag frozen:%s); check its cable and amplifier",
-        ids[f.probe].c_str(), ns_to_s(f.begin_ns - start_ns), until.data(), to_um(f.value_m),
-        ids[f.probe].c_str());
-    dead.emplace_back(text.data());
+    const bool to_the_end = f.end_ns == INT64_MAX;
+    frozen.push_back(notice(
+        NoticeCode::probe_frozen, ids[f.probe],
+        {{"from_s", ns_to_s(f.begin_ns - start_ns)},
+         {"to_s", to_the_end ? NoticeValue("the end") : NoticeValue(ns_to_s(f.end_ns - start_ns))},
+         {"reading_um", to_um(f.value_m)}}));
   }
-  for (const SteppedProbe& s : watch.steps()) {
-    std::snprintf(text.data(), text.size(),
-                  "probe \"%s\" steps by %+.4g um, %.3f s after the first scan, and no other probe "
-                  "does: the points after it have the flag step:%s; check its mount and cable, and "
-                  "measure again",
-                  ids[s.probe].c_str(), to_um(s.size_m), ns_to_s(s.time_ns - start_ns),
-                  ids[s.probe].c_str());
-    stepped.emplace_back(text.data());
-  }
-  append_summarised(all, dead, "spans in which a probe did not change");
-  append_summarised(all, stepped, "steps of probes");
+  for (const SteppedProbe& s : watch.steps())
+    stepped.push_back(
+        notice(NoticeCode::probe_stepped, ids[s.probe],
+               {{"step_um", to_um(s.size_m)}, {"time_s", ns_to_s(s.time_ns - start_ns)}}));
+  append_first(all, std::move(frozen));
+  append_first(all, std::move(stepped));
   return all;
 }
 

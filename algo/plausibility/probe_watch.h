@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algo/points/robust_mean.h"
+#include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 
@@ -83,8 +84,8 @@ class ProbeWatch {
   double axis_low_m_ = 0, axis_high_m_ = 0;
 };
 
-// One sentence for each, with its time after `start_ns` and what to do.
-std::vector<std::string> describe(const ProbeWatch& watch, const std::vector<std::string>& ids,
-                                  std::int64_t start_ns);
+// One for each, with its time after `start_ns`.
+Notices probe_notices(const ProbeWatch& watch, const std::vector<std::string>& ids,
+                      std::int64_t start_ns);
 
 }  // namespace mdof::algo

@@ -11,8 +11,8 @@ constexpr double kSlowTolerances = 25;  // in a window: 1 mm/s with the defaults
 
 }  // namespace
 
-std::optional<DwellNotice> SlowStretch::take(const Window& window, double tolerance_m,
-                                             double least_s, double most_m) {
+std::optional<DwellEvent> SlowStretch::take(const Window& window, double tolerance_m,
+                                            double least_s, double most_m) {
   if (window.range_m <= kSlowTolerances * tolerance_m) {
     if (!under_way_) {
       under_way_ = true;
@@ -28,7 +28,7 @@ std::optional<DwellNotice> SlowStretch::take(const Window& window, double tolera
   const double length_s = ns_to_s(window.begin_ns - begin_ns_);
   const double size_m = window.first_m - begin_m_;
   if (stood_ || length_s < least_s || std::abs(size_m) > most_m) return std::nullopt;
-  return DwellNotice{NoticeKind::creep, begin_ns_, begin_m_ + 0.5 * size_m, size_m, length_s};
+  return DwellEvent{DwellEventKind::creep, begin_ns_, begin_m_ + 0.5 * size_m, size_m, length_s};
 }
 
 }  // namespace mdof::algo

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "algo/points/dwell_notice.h"
+#include "algo/points/dwell_event.h"
 
 namespace mdof::algo {
 
@@ -18,8 +18,8 @@ class SlowStretch {
     double range_m;
     bool still;
   };
-  std::optional<DwellNotice> take(const Window& window, double tolerance_m, double least_s,
-                                  double most_m);
+  std::optional<DwellEvent> take(const Window& window, double tolerance_m, double least_s,
+                                 double most_m);
 
  private:
   bool under_way_ = false, stood_ = false;

@@ -7,11 +7,9 @@
 #include <utility>
 
 #include "algo/linear_algebra/least_squares.h"
-#include "algo/plausibility/sentences.h"
 #include "algo/points/flags.h"
 #include "algo/sensitivity/plan/functions.h"
 #include "algo/uncertainty/statistics/visit_scatter.h"
-#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -107,11 +105,6 @@ bool stepped_before(const ProbeVisits& visits, const std::string& id) {
                      [&](const MeasuredPoint* p) { return has_flag(p->point, "step:" + id); });
 }
 
-std::string visit_text(const MeasuredPoint& p) {
-  return "run " + std::to_string(p.run) + ", target " + std::to_string(p.target) + " (" +
-         (p.point.direction > 0 ? "forward" : "reverse") + ")";
-}
-
 // Whether all probes read the same, to the last bit, at both. Readings without noise, or with less
 // than their resolution, repeat.
 bool same_readings(const Point& a, const Point& b) {
@@ -119,7 +112,8 @@ bool same_readings(const Point& a, const Point& b) {
          std::all_of(a.probe_sd_m.begin(), a.probe_sd_m.end(), [](double sd) { return sd > 0; });
 }
 
-std::string copied_sentence(const std::vector<MeasuredPoint>& points) {
+// Points whose readings an earlier visit of their place has as well.
+std::size_t count_copies(const std::vector<MeasuredPoint>& points) {
   std::map<std::pair<int, int>, std::vector<const MeasuredPoint*>> before;
   std::size_t copies = 0;
   for (const MeasuredPoint& p : points) {
@@ -129,14 +123,7 @@ std::string copied_sentence(const std::vector<MeasuredPoint>& points) {
     });
     same_place.push_back(&p);
   }
-  if (copies < kFewestCopies ||
-      kCopiedShare * static_cast<double>(points.size()) > static_cast<double>(copies))
-    return "";
-  return std::to_string(copies) + " of " + std::to_string(points.size()) +
-         " points have the readings of an earlier visit to the last digit: the log contains the "
-         "same "
-         "measurement twice; readings that count twice make the uncertainty too small; remove the "
-         "copy";
+  return copies;
 }
 
 }  // namespace
@@ -170,25 +157,22 @@ std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoi
   return steps;
 }
 
-std::vector<std::string> warnings_of_repeats(const Rig& rig,
-                                             const std::vector<MeasuredPoint>& points) {
-  Texts out;
-  std::map<std::size_t, std::string> probes;  // by the point after the step
+Notices repeat_notices(const Rig& rig, const std::vector<MeasuredPoint>& points) {
+  Notices out;
   for (const VisitStep& step : visit_steps(rig, points)) {
-    std::string& text = probes[step.point];
-    text += (text.empty() ? "" : ", ") + rig.probes[step.probe].id + " by " +
-            with_number("%+.4f µm", to_um(step.size_m));
+    const MeasuredPoint& p = points[step.point];
+    out.push_back(notice(NoticeCode::readings_changed, rig.probes[step.probe].id,
+                         {{"step_um", to_um(step.size_m)},
+                          {"run", p.run},
+                          {"target", p.target},
+                          {"approach", p.point.direction > 0 ? "forward" : "reverse"}}));
   }
-  for (const auto& [point, text] : probes)
-    out.push_back("readings changed between two visits and stayed changed from " +
-                  visit_text(points[point]) + " on: " + text +
-                  "; the errors before and after are not of one set-up: check the mounts of the "
-                  "probes, the fixture and the target, and measure again");
-  if (auto copied = copied_sentence(points); !copied.empty()) out.push_back(std::move(copied));
-  if (VisitScatter(points).are_single())
-    out.push_back(information(
-        "no target was visited twice from the same side: slow noise is not in the figures of a "
-        "single visit; measure two runs or more"));
+  const std::size_t copies = count_copies(points);
+  if (copies >= kFewestCopies &&
+      kCopiedShare * static_cast<double>(points.size()) <= static_cast<double>(copies))
+    out.push_back(
+        notice(NoticeCode::readings_copied, "", {{"copies", copies}, {"points", points.size()}}));
+  if (VisitScatter(points).are_single()) out.push_back(notice(NoticeCode::visited_once));
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/rig/rig.h"
 
@@ -25,8 +26,7 @@ struct VisitStep {
 // that it found are left out.
 std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoint>& points);
 
-// Each one sentence; none: nothing looks wrong.
-std::vector<std::string> warnings_of_repeats(const Rig& rig,
-                                             const std::vector<MeasuredPoint>& points);
+// None: nothing looks wrong.
+Notices repeat_notices(const Rig& rig, const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

@@ -253,18 +253,17 @@ std::size_t Aligner::waiting() const {
   return n;
 }
 
-std::map<std::string, std::string> Aligner::too_slow() const {
-  std::map<std::string, std::string> all;
+std::map<std::string, Notice> Aligner::too_slow() const {
+  std::map<std::string, Notice> all;
   for (const Track& probe : probes_) {
     if (2 * probe.in_gap <= probe.asked) continue;
     const double apart_s = ns_to_s(probe.shortest_gap_ns);
-    all[probe.id] = std::to_string(probe.in_gap) + " of " + std::to_string(probe.asked) +
-                    " values of probe \"" + probe.id + "\" are missing because its samples come " +
-                    plain_number(apart_s) +
-                    " s or more apart, and nothing is interpolated into "
-                    "more than max_gap_s = " +
-                    plain_number(ns_to_s(probe.gap_ns)) + " s; set max_gap_s of [measure] to " +
-                    plain_number(kGapIntervals * apart_s) + " or more, or sample faster";
+    all[probe.id] = notice(NoticeCode::probe_too_slow, probe.id,
+                           {{"missing", probe.in_gap},
+                            {"values", probe.asked},
+                            {"apart_s", apart_s},
+                            {"max_gap_s", ns_to_s(probe.gap_ns)},
+                            {"needed_gap_s", kGapIntervals * apart_s}});
   }
   return all;
 }

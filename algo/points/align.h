@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {
@@ -58,8 +59,8 @@ class Aligner {
   // Samples of the probes that wait for the encoder: bounded by the lag bound, not by its silence.
   std::size_t waiting() const;
   // Of probes most of whose values are missing only because their samples come further apart than
-  // the gap: what to do. By id.
-  std::map<std::string, std::string> too_slow() const;
+  // the gap. By id.
+  std::map<std::string, Notice> too_slow() const;
 
  private:
   struct Reading {

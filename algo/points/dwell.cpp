@@ -272,7 +272,7 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
     if (slots_[slots_.size() - 2].unplaced > unplaced_before_) add_flag(point, "missing:encoder");
     gave_point_ = keep_or_tell(std::move(point), first_row, end_row, out);
   } else if (still_s >= options_.min_length_s) {
-    note({NoticeKind::short_stop, still_since_ns_, left_m_, 0, still_s});
+    note({DwellEventKind::short_stop, still_since_ns_, left_m_, 0, still_s});
   }
   if (gave_point_) {
     way_seen_ = true;
@@ -303,7 +303,7 @@ bool DwellDetector::keep_or_tell(Point point, std::size_t first_row, std::size_t
       std::find(point.flags.begin(), point.flags.end(), "spike:encoder") != point.flags.end();
   if (crept_m > kCreepFactor * summary_.tolerance_m && !spiky) {
     const bool kept = crept_m <= kMostCreep_m;
-    note({kept ? NoticeKind::crept : NoticeKind::creep, point.begin_ns, point.position_m,
+    note({kept ? DwellEventKind::crept : DwellEventKind::creep, point.begin_ns, point.position_m,
           std::copysign(crept_m, *(end - 1) - *begin), ns_to_s(point.end_ns - point.begin_ns)});
     if (!kept) return false;
     add_flag(point, "creep");
@@ -340,7 +340,7 @@ void DwellDetector::break_after(std::int64_t time_ns) {
 void DwellDetector::pass_hole() {
   const std::int64_t length_ns = buffer_.time_ns[row_] - last_ns_;
   const double before_m = encoder_before_[1];
-  note({NoticeKind::hole, last_ns_, before_m, buffer_.encoder_m[row_] - before_m,
+  note({DwellEventKind::hole, last_ns_, before_m, buffer_.encoder_m[row_] - before_m,
         ns_to_s(length_ns)});
   const bool told = !breaks_.empty() && breaks_.front() <= last_ns_;
   if (length_ns > std::max(kUnseen_ns, 2 * hole_ns_) && !told) {

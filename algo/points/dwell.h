@@ -15,7 +15,8 @@
 #include "algo/plausibility/probe_watch.h"
 #include "algo/plausibility/resolution.h"
 #include "algo/plausibility/slow_stretch.h"
-#include "algo/points/dwell_notice.h"
+#include "algo/points/dwell_event.h"
+#include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 
@@ -61,8 +62,8 @@ class DwellDetector {
   // probe's readings was known gets the uncertainty of the rounding.
   void mark(std::vector<Point>& points) const;
   // What the user has to know of the log beside the points: one sentence each.
-  std::vector<std::string> warnings(const std::vector<Point>& points) const;
-  const std::vector<DwellNotice>& notices() const { return notices_; }
+  Notices notices(const std::vector<Point>& points) const;
+  const std::vector<DwellEvent>& events() const { return events_; }
 
   struct Summary {
     std::uint64_t scans = 0;
@@ -115,7 +116,7 @@ class DwellDetector {
   void pass_hole();
   void look_at_window(bool still);
   void look_for_jump();
-  void note(const DwellNotice& notice);
+  void note(const DwellEvent& event);
   // Whether it has become a point.
   bool keep_or_tell(Point point, std::size_t first_row, std::size_t end_row,
                     std::vector<Point>& out);
@@ -169,7 +170,7 @@ class DwellDetector {
   int direction_ = 0;        // of approach, taken before the axis leaves again
   std::vector<double> scratch_, finite_;
 
-  std::vector<DwellNotice> notices_;
+  std::vector<DwellEvent> events_;
   ProbeWatch watch_;
   SlowStretch slow_;
   EncoderJump last_jump_;

@@ -12,12 +12,12 @@ constexpr double kJumpTolerances = 10;
 constexpr std::size_t kReach = 6;  // rows that find_jump() wants on either side
 constexpr std::int64_t kGlitch_ns = 1'000'000'000;
 constexpr double kSlowTravel_m = 200e-6;  // from here on no creeping stop
-constexpr std::size_t kMostNotices = 10'000;
+constexpr std::size_t kMostEvents = 10'000;
 
 }  // namespace
 
-void DwellDetector::note(const DwellNotice& notice) {
-  if (notices_.size() < kMostNotices) notices_.push_back(notice);
+void DwellDetector::note(const DwellEvent& event) {
+  if (events_.size() < kMostEvents) events_.push_back(event);
 }
 
 // The window ends with the slot that was just closed.
@@ -60,13 +60,13 @@ void DwellDetector::look_for_jump() {
     if (jump) {
       jumped_m_ += jump->size_m;
       last_jump_ = *jump;
-      const bool back = !notices_.empty() && notices_.back().kind == NoticeKind::jump &&
-                        jump->time_ns - notices_.back().time_ns < kGlitch_ns &&
-                        std::abs(notices_.back().size_m + jump->size_m) < 0.5 * least_m;
+      const bool back = !events_.empty() && events_.back().kind == DwellEventKind::jump &&
+                        jump->time_ns - events_.back().time_ns < kGlitch_ns &&
+                        std::abs(events_.back().size_m + jump->size_m) < 0.5 * least_m;
       if (back) {
-        notices_.pop_back();
+        events_.pop_back();
       } else {
-        note({NoticeKind::jump, jump->time_ns, jump->position_m, jump->size_m, 0});
+        note({DwellEventKind::jump, jump->time_ns, jump->position_m, jump->size_m, 0});
       }
     }
   }
@@ -82,11 +82,10 @@ void DwellDetector::mark(std::vector<Point>& points) const {
   watch_.mark(points, probe_ids_);
 }
 
-std::vector<std::string> DwellDetector::warnings(const std::vector<Point>& points) const {
-  auto all = describe(notices_, points, origin_ns_, options_.shortest_s());
-  for (auto& warning : places_.warnings(origin_ns_)) all.push_back(std::move(warning));
-  const auto probes = describe(watch_, probe_ids_, origin_ns_);
-  all.insert(all.end(), probes.begin(), probes.end());
+Notices DwellDetector::notices(const std::vector<Point>& points) const {
+  Notices all = event_notices(events_, points, origin_ns_, options_.shortest_s());
+  append(all, places_.notices(origin_ns_));
+  append(all, probe_notices(watch_, probe_ids_, origin_ns_));
   return all;
 }
 

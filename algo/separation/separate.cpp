@@ -14,7 +14,6 @@
 #include "algo/separation/unseen.h"
 #include "algo/uncertainty/chi_square.h"
 #include "schema/base/number/number_text.h"
-#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -143,14 +142,6 @@ SeenSeries seen_part(const Equations& e, const Solution& solution, Index from,
   return series;
 }
 
-std::string contradiction(double chi_square, std::size_t freedom) {
-  return invalid(
-      "the set-ups contradict each other: chi-square is " + plain_number(chi_square) + " with " +
-      std::to_string(freedom) +
-      " degrees of freedom, which noise alone hardly ever gives; check shifts and turns, "
-      "whether the machine repeats, and u of the readings");
-}
-
 // χ² of all set-ups together: the least of ((errors - A x - declared q)/u)² + q² over the unknowns
 // and the declared quantities q, each of standard uncertainty 1. The fit is that of the weights
 // 1/u, so that x has gone from what it leaves of errors and declared.
@@ -180,7 +171,8 @@ VectorXd judge(const Equations& e, const Solution& solution, Separation& result)
     result.u_reason = "u of the readings, propagated" + declared_text(result, e);
     const double chi_square = chi_square_of(e, solution, left);
     if (freedom > 0 && chi_square > chi_square_limit(static_cast<int>(freedom)))
-      result.warnings.push_back(contradiction(chi_square, freedom));
+      result.notices.push_back(notice(NoticeCode::set_ups_contradict, "",
+                                      {{"chi_square", chi_square}, {"freedom", freedom}}));
     return e.u;
   }
   result.u_reason =

@@ -12,11 +12,11 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostNamed = 5;  // positions named in one warning
+constexpr std::size_t kMostNamed = 5;  // positions named in one notice
 
-std::string millimetres(double m) {
+std::string in_mm(double m) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4f mm", to_mm(m));
+  std::snprintf(text.data(), text.size(), "%.4f", to_mm(m));
   return text.data();
 }
 
@@ -30,7 +30,8 @@ void place(const std::vector<Point>& points, const SequenceOptions& options, Seq
   for (const Point& p : points) {
     const std::size_t t = nearest_target(sequence.targets_m, p.position_m);
     if (nominal && std::abs(sequence.targets_m[t] - p.position_m) > options.target_window_m) {
-      sequence.left_out.push_back({p.position_m, p.begin_ns, "near no target"});
+      sequence.left_out.push_back(
+          {p.position_m, p.begin_ns, to_string(NoticeCode::stop_near_no_target)});
       continue;
     }
     MeasuredPoint m;
@@ -54,44 +55,32 @@ void number_runs(Sequence& sequence) {
   }
 }
 
-// One warning a reason, with the first few positions.
-void tell_left_out(Sequence& sequence) {
+// One notice a reason, with the first few positions.
+void note_left_out(Sequence& sequence) {
   std::vector<std::string> reasons;
   for (const auto& stop : sequence.left_out) {
     if (std::find(reasons.begin(), reasons.end(), stop.reason) == reasons.end())
       reasons.push_back(stop.reason);
   }
   for (const auto& reason : reasons) {
-    std::string where;
+    std::string positions_mm;
     std::size_t count = 0;
-    Severity severity = Severity::doubtful;
     for (const auto& stop : sequence.left_out) {
-      if (stop.reason != reason) continue;
-      severity = stop.severity;
-      if (count++ < kMostNamed) where += (where.empty() ? "" : ", ") + millimetres(stop.position_m);
+      if (stop.reason != reason || count++ >= kMostNamed) continue;
+      positions_mm += (positions_mm.empty() ? "" : ", ") + in_mm(stop.position_m);
     }
-    if (count > kMostNamed) where += ", ...";
-    const std::string what =
-        count == 1 ? "a stop at " + where + " was" : std::to_string(count) + " stops were";
-    sequence.warnings.push_back(with_severity(
-        severity, what + " left out (" + reason + ")" + (count == 1 ? "" : ": at " + where)));
+    if (count > kMostNamed) positions_mm += ", ...";
+    const auto code = notice_code_from(reason);
+    assert(code);
+    sequence.notices.push_back(
+        notice(*code, "", {{"stops", count}, {"positions_mm", positions_mm}}));
   }
 }
 
-void tell_overshot(int count, Sequence& sequence) {
+void note_overshot(int count, Sequence& sequence) {
   if (count == 0) return;
-  const std::string stops = count == 1 ? "1 stop was" : std::to_string(count) + " stops were";
-  sequence.warnings.push_back(
-      stops + " overshot by up to " + millimetres(kMostOvershoot_m) +
-      " before the axis came back: counted in the direction of travel, and flagged \"" + kOvershot +
-      "\"; the last motion was the other way");
-}
-
-void tell_order(Sequence& sequence) {
-  if (sequence.cycle != Cycle::none) return;
-  sequence.warnings.push_back(
-      "the order of the targets is no standard, pendulum, pilgrim or quasi-pilgrim cycle: the k-th "
-      "visit of a target in a direction is counted as run k");
+  sequence.notices.push_back(notice(NoticeCode::stop_overshot, "",
+                                    {{"stops", count}, {"most_mm", to_mm(kMostOvershoot_m)}}));
 }
 
 }  // namespace
@@ -109,9 +98,9 @@ Sequence recognise_sequence(const std::vector<Point>& points, const SequenceOpti
     append(sequence.left_out, leave_out_odd_stops(sequence.points, sequence.targets_m));
   sequence.targets = static_cast<int>(sequence.targets_m.size());
   number_runs(sequence);
-  tell_left_out(sequence);
-  tell_overshot(overshot, sequence);
-  tell_order(sequence);
+  note_left_out(sequence);
+  note_overshot(overshot, sequence);
+  if (sequence.cycle == Cycle::none) sequence.notices.push_back(notice(NoticeCode::cycle_unknown));
   return sequence;
 }
 

@@ -6,6 +6,7 @@
 
 #include "algo/sequence/sequence_cycle.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/plausibility.h"
 #include "schema/point.h"
 
@@ -23,7 +24,7 @@ struct SequenceOptions {
 
 struct Sequence {
   std::vector<MeasuredPoint> points;  // in time order, errors not yet solved
-  std::vector<std::string> warnings;  // what was left out and why
+  Notices notices;                    // what was left out and why
   std::vector<StopLeftOut> left_out;
   std::vector<double> targets_m;  // ascending
   Cycle cycle = Cycle::none;

@@ -154,29 +154,17 @@ void judge_start(std::vector<Place>& places) {
   if (places.back().parked && off_grid(intervals.back())) places.back().kept = false;
 }
 
-struct Reason {
-  std::string text;
-  Severity severity;
-};
-
 // Before the first target, after the last and beyond the end ones an axis may stop as it likes.
-Reason reason(const std::vector<Place>& places, std::size_t at) {
-  constexpr Severity kHarmless = Severity::information;
+NoticeCode reason(const std::vector<Place>& places, std::size_t at) {
   const Place& p = places[at];
-  if (p.parked) return {"the axis was parked there when the log began", kHarmless};
-  if (p.visits() == 1 && p.first) return {"visited once, before the first target", kHarmless};
-  if (p.visits() == 1 && p.last) return {"visited once, at the end of the log", kHarmless};
+  if (p.parked) return NoticeCode::stop_parked_at_start;
+  if (p.visits() == 1 && p.first) return NoticeCode::stop_before_first_target;
+  if (p.visits() == 1 && p.last) return NoticeCode::stop_at_end_of_log;
   const auto kept = [](const Place& q) { return q.kept; };
   const auto here = places.begin() + static_cast<std::ptrdiff_t>(at);
   const bool inside =
       std::any_of(places.begin(), here, kept) && std::any_of(here, places.end(), kept);
-  const std::string visits =
-      p.visits() == 1 ? "visited once"
-      : p.forward > 0 && p.reverse > 0
-          ? "visited " + std::to_string(p.visits()) + " times"
-          : "visited " + std::to_string(p.visits()) + " times, from one side only";
-  if (inside) return {visits + ", between targets: a pause", Severity::doubtful};
-  return {visits + ", beyond the end target: a turning point", kHarmless};
+  return inside ? NoticeCode::stop_between_targets : NoticeCode::stop_beyond_targets;
 }
 
 }  // namespace
@@ -204,8 +192,7 @@ std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
     const auto at = static_cast<std::size_t>(p.target) - 1;
     p.target = number[at];
     if (p.target != 0) continue;
-    const Reason why = reason(places, at);
-    left_out.push_back({p.point.position_m, p.point.begin_ns, why.text, why.severity});
+    left_out.push_back({p.point.position_m, p.point.begin_ns, to_string(reason(places, at))});
   }
   std::erase_if(points, [](const MeasuredPoint& p) { return p.target == 0; });
   targets_m = std::move(kept_m);

@@ -122,10 +122,8 @@ std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& poin
   const MeasuredPoint &parked = points[0], &next = points[1];
   const bool again = next.target == parked.target && next.point.direction == parked.point.direction;
   if (!has_flag(parked.point, kApproachAssumed) || !again || !went_away(next.point)) return {};
-  std::vector<StopLeftOut> left_out = {
-      {parked.point.position_m, parked.point.begin_ns,
-       "the axis was parked there when the log began, and then came to the same target",
-       Severity::information}};
+  std::vector<StopLeftOut> left_out = {{parked.point.position_m, parked.point.begin_ns,
+                                        to_string(NoticeCode::stop_parked_at_start)}};
   points.erase(points.begin());
   return left_out;
 }

@@ -71,7 +71,8 @@ std::size_t SequenceTail::append(Point stop, Sequence& sequence) {
   correct_overshot(stop);
   p.point = std::move(stop);
   if (!place(p, sequence)) {
-    sequence.left_out.push_back({p.point.position_m, p.point.begin_ns, "near no target"});
+    sequence.left_out.push_back(
+        {p.point.position_m, p.point.begin_ns, to_string(NoticeCode::stop_near_no_target)});
     return points.size();
   }
   const std::size_t first_changed = points.size() - (awaits_ ? 1 : 0);

@@ -8,7 +8,6 @@
 
 #include "algo/points/ranges_text.h"
 #include "algo/sequence/run_drifts.h"
-#include "schema/severity.h"
 
 namespace mdof::algo {
 namespace {
@@ -87,26 +86,19 @@ WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points) {
   return out;
 }
 
-std::string uneven_visits_text(const std::vector<MeasuredPoint>& points) {
+Notices uneven_visits(const std::vector<MeasuredPoint>& points) {
   const auto counted = that_count(points);
   const auto lacking = runs_that_lack_visits(counted);
   const Approached from = approached(counted);
   const auto& one_sided = from.targets_from_one;
-  std::string text;
+  Notices found;
   if (!lacking.empty())
-    text = numbered("run", lacking) + " lack" + (lacking.size() == 1 ? "s" : "") +
-           " visits that others have: means, slopes and squareness are made without the drift "
-           "between the runs";
-  if (one_sided.empty() || from.directions.size() == 1)
-    return text.empty() ? text : information(text);  // it is made up for, and in u
-  if (!text.empty()) text += "; ";
-  if (!from.any_from_both)
-    return text +
-           "no target was approached from both sides, and not all from the same one: half a "
-           "reversal error is in slopes and squareness, and not in their u; measure again";
-  return text + numbered("target", one_sided) + (one_sided.size() == 1 ? " was" : " were") +
-         " approached from one side only: means of both approaches, slopes and squareness take "
-         "the missing approach from the mean reversal of the other targets";
+    found.push_back(notice(NoticeCode::run_lacks_visits, "", {{"runs", numbered("run", lacking)}}));
+  if (one_sided.empty() || from.directions.size() == 1) return found;
+  found.push_back(from.any_from_both ? notice(NoticeCode::target_from_one_side, "",
+                                              {{"targets", numbered("target", one_sided)}})
+                                     : notice(NoticeCode::approaches_mixed));
+  return found;
 }
 
 }  // namespace mdof::algo

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "schema/notice/notice.h"
 #include "schema/point.h"
 
 namespace mdof::algo {
@@ -26,7 +27,7 @@ struct WithoutDrift {
 // nothing was taken.
 WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points);
 
-// What is made up for, and how, for people; "": nothing.
-std::string uneven_visits_text(const std::vector<MeasuredPoint>& points);
+// What the means make up for, and what they cannot.
+Notices uneven_visits(const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "schema/severity.h"
-
 namespace mdof::algo {
 namespace {
 
@@ -17,7 +15,7 @@ Status check_state(const Run& run, bool take_partial, const std::string& what) {
   if (state == RunState::complete || (take_partial && state == RunState::partial)) return {};
   const std::string remedy =
       state == RunState::partial
-          ? ": its warnings say what is missing. Build " + what +
+          ? ": its notices say what is missing. Build " + what +
                 " from complete runs, or ask for a partial one: --partial on the command line, "
                 "\"partial\": true in the call"
           : "; build " + what + " from complete runs";
@@ -89,15 +87,15 @@ Status check_usable(const Runs& runs, bool take_partial, const std::string& what
   return {};
 }
 
-std::vector<std::string> inherited_warnings(const Runs& runs) {
-  std::vector<std::string> warnings;
+Notices inherited_notices(const Runs& runs) {
+  Notices all;
   for (const Run* run : runs) {
     if (run->header.state == RunState::partial)
-      warnings.push_back("made from " + name_of(*run) + ", which is partial");
-    for (const std::string& warning : run->header.warnings)
-      warnings.push_back(said_of(name_of(*run), warning));
+      all.push_back(notice(NoticeCode::made_from_partial, "", {{"run", run->header.id}}));
+    for (const Notice& of_run : run->header.notices)
+      all.push_back(inherited(name_of(*run), of_run));
   }
-  return warnings;
+  return all;
 }
 
 }  // namespace mdof::algo

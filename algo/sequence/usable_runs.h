@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/run.h"
 
 namespace mdof::algo {
@@ -18,8 +19,8 @@ Runs all_of(const std::vector<Run>& runs);
 // would make the uncertainty too small. `what`: "a table".
 Status check_usable(const Runs& runs, bool take_partial, const std::string& what);
 
-// What is wrong with these runs is wrong with the figure, too: which are partial, and each warning
-// of each run, with its number.
-std::vector<std::string> inherited_warnings(const Runs& runs);
+// What is wrong with these runs is wrong with the figure, too: which are partial, and each notice
+// of each run, with the run as its source.
+Notices inherited_notices(const Runs& runs);
 
 }  // namespace mdof::algo

@@ -174,7 +174,7 @@ std::optional<std::size_t> Residuals::suspect(const std::vector<const MeasuredPo
   return best && 2 * least < next ? best : std::nullopt;
 }
 
-std::optional<std::string> Residuals::warning(const std::vector<MeasuredPoint>& points) const {
+std::optional<Notice> Residuals::contradiction(const std::vector<MeasuredPoint>& points) const {
   std::vector<const MeasuredPoint*> bad;
   double most_m = 0;
   for (const MeasuredPoint& p : points) {
@@ -184,17 +184,8 @@ std::optional<std::string> Residuals::warning(const std::vector<MeasuredPoint>& 
   }
   if (bad.empty()) return std::nullopt;
   const auto probe = suspect(bad, points);
-  const std::string who =
-      probe ? "probe \"" + solver_.fixture().probes[*probe].id + "\" is the most suspect"
-            : "which probe it is cannot be told";
-  std::array<char, 400> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "the probes contradict each other in %zu of %zu points by up to %.3g um rms, more than "
-      "their uncertainties explain (chi-square, 1 in 1e6; flag residual): %s; check its "
-      "position, sensitivity and mount",
-      bad.size(), points.size(), to_um(most_m), who.c_str());
-  return text.data();
+  return notice(NoticeCode::probes_contradict, probe ? solver_.fixture().probes[*probe].id : "",
+                {{"points", bad.size()}, {"of", points.size()}, {"residual_um", to_um(most_m)}});
 }
 
 }  // namespace mdof::algo

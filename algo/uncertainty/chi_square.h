@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algo/model/solver.h"
+#include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/rig/rig.h"
 
@@ -46,7 +47,7 @@ class Residuals {
             std::int64_t start_ns);
   // Right after a point was solved, its errors still those of the carriage.
   void test(MeasuredPoint& point) const;
-  std::optional<std::string> warning(const std::vector<MeasuredPoint>& points) const;
+  std::optional<Notice> contradiction(const std::vector<MeasuredPoint>& points) const;
 
  private:
   bool explained(const MeasuredPoint& point, const std::vector<double>& readings_m,

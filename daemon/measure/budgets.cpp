@@ -10,6 +10,7 @@
 #include "algo/uncertainty/run_uncertainty.h"
 #include "algo/uncertainty/stated.h"
 #include "algo/uncertainty/two_runs.h"
+#include "daemon/words/words.h"
 #include "schema/base/number/number_text.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
@@ -103,7 +104,7 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
   MDOF_TRY(const Run run, run_stated_at(store, request.run, request.reference));
   MDOF_TRY(const Rig rig, rig_of(run.header));
   MDOF_TRY(const auto of_run, algo::RunBudgets::create(rig, run));
-  FoundBudgets found{run.header.stated, {}, {}, run.header.warnings, run.header.simulated};
+  FoundBudgets found{run.header.stated, {}, {}, run.header.notices, run.header.simulated};
   std::vector<algo::Figure> all = algo::figures_of_run(run.header.axis);
   if (request.at_m) {
     MDOF_TRY(const auto target, target_near(of_run, request.run, *request.at_m));
@@ -138,7 +139,7 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
   // Whatever keeps the two from having a squareness is told here.
   MDOF_TRY(const Squareness fitted, algo::squareness(x, y, artefact, request.partial));
   MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact, trials));
-  FoundBudgets found{kAtFixture, {}, {}, algo::inherited_warnings({&x, &y}), fitted.simulated};
+  FoundBudgets found{kAtFixture, {}, {}, algo::inherited_notices({&x, &y}), fitted.simulated};
   found.budgets.push_back(std::move(budget));
   return found;
 }
@@ -147,9 +148,15 @@ namespace {
 
 struct FoundSetUp {
   algo::SquareSetUp set_up;
-  std::vector<std::string> warnings;
+  Notices notices;
   bool simulated = false;
 };
+
+template <class T>
+void append_new(std::vector<T>& to, std::vector<T> more) {
+  for (T& each : more)
+    if (std::find(to.begin(), to.end(), each) == to.end()) to.push_back(std::move(each));
+}
 
 // Its square taken to be true.
 Result<FoundSetUp> square_set_up(store::Store& store, const SquarenessRequest& request) {
@@ -162,7 +169,7 @@ Result<FoundSetUp> square_set_up(store::Store& store, const SquarenessRequest& r
   MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact));
   std::erase(budget.not_declared, "u_artefact_angle_urad");  // the reversal takes the angle out
   return FoundSetUp{
-      {artefact.corner, std::move(budget)}, algo::inherited_warnings({&x, &y}), fitted.simulated};
+      {artefact.corner, std::move(budget)}, algo::inherited_notices({&x, &y}), fitted.simulated};
 }
 
 }  // namespace
@@ -172,12 +179,10 @@ Result<FoundSquareReversal> square_reversal(store::Store& store, const Squarenes
   MDOF_TRY(FoundSetUp a, square_set_up(store, first));
   MDOF_TRY(FoundSetUp b, square_set_up(store, second));
   MDOF_TRY(const SquareReversal found, algo::square_reversal(a.set_up, b.set_up));
-  FoundSquareReversal out{found, std::move(a.set_up.budget.not_declared), std::move(a.warnings),
+  FoundSquareReversal out{found, std::move(a.set_up.budget.not_declared), std::move(a.notices),
                           a.simulated || b.simulated};
-  for (auto [from, to] : {std::pair{&b.set_up.budget.not_declared, &out.not_declared},
-                          std::pair{&b.warnings, &out.warnings}})
-    for (std::string& text : *from)
-      if (std::find(to->begin(), to->end(), text) == to->end()) to->push_back(std::move(text));
+  append_new(out.not_declared, std::move(b.set_up.budget.not_declared));
+  append_new(out.notices, std::move(b.notices));
   return out;
 }
 
@@ -190,7 +195,7 @@ Result<FoundParallelism> find_parallelism(store::Store& store, const Parallelism
   MDOF_TRY(auto budgets, algo::parallelism_budgets(rig_a, a, rig_b, b));
   for (std::size_t i = 0; i < found.planes.size(); ++i)
     found.planes[i].budget = std::move(budgets[i]);
-  return FoundParallelism{std::move(found), algo::inherited_warnings({&a, &b})};
+  return FoundParallelism{std::move(found), algo::inherited_notices({&a, &b})};
 }
 
 std::string parallelism_json(const FoundParallelism& found) {
@@ -209,8 +214,9 @@ std::string parallelism_json(const FoundParallelism& found) {
   write_covers(json, budgets);
   json.key("figures");
   write_budgets(json, budgets);
+  write_notices(json, "notices", found.notices, words::text);
   json.end_object();
-  return with_warnings(json.take(), found.warnings);
+  return json.take();
 }
 
 std::string budgets_json(const FoundBudgets& found, const std::optional<Decision>& decision) {
@@ -223,8 +229,9 @@ std::string budgets_json(const FoundBudgets& found, const std::optional<Decision
   write_covers(json, found.budgets);
   json.key("figures");
   write_budgets(json, found.budgets, decision);
+  write_notices(json, "notices", found.notices, words::text);
   json.end_object();
-  return with_warnings(json.take(), found.warnings);
+  return json.take();
 }
 
 }  // namespace mdof::daemon

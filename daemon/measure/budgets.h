@@ -11,6 +11,7 @@
 #include "daemon/store/store.h"
 #include "schema/base/result.h"
 #include "schema/iso230/parallelism.h"
+#include "schema/notice/notice.h"
 #include "schema/run.h"
 #include "schema/separation/square_reversal.h"
 #include "schema/uncertainty/budget.h"
@@ -46,7 +47,7 @@ struct FoundBudgets {
   StatedAt stated;
   std::optional<double> at_m;  // the target that was taken
   std::vector<Budget> budgets;
-  std::vector<std::string> warnings;  // of the runs
+  Notices notices;  // of the runs
   bool simulated = false;
 };
 // Errors: no such run, one without errors, a figure that it does not have.
@@ -62,7 +63,7 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
 struct FoundSquareReversal {
   SquareReversal found;
   std::vector<std::string> not_declared;  // keys of the rigs
-  std::vector<std::string> warnings;      // of the runs
+  Notices notices;                        // of the runs
   bool simulated = false;
 };
 Result<FoundSquareReversal> square_reversal(store::Store& store, const SquarenessRequest& first,
@@ -74,7 +75,7 @@ struct ParallelismRequest {
 };
 struct FoundParallelism {
   Parallelism parallelism;
-  std::vector<std::string> warnings;  // of the runs
+  Notices notices;  // of the runs
 };
 // With its budgets; nothing is stored. Errors: those of algo::parallelism() and of rigs that are
 // not to be had.

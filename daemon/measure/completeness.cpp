@@ -60,13 +60,6 @@ std::size_t count_unsolved(const std::vector<MeasuredPoint>& points) {
       std::count_if(points.begin(), points.end(), [](const auto& p) { return !p.errors.valid; }));
 }
 
-std::string unsolved_text(const std::vector<MeasuredPoint>& points) {
-  const std::size_t unsolved = count_unsolved(points);
-  return std::to_string(unsolved) + " of " + std::to_string(points.size()) +
-         " points could not be solved" +
-         (unsolved == 0 ? "" : ", most of them because: " + commonest_reason(points));
-}
-
 // "target 2 at 2.000 mm: 1 reverse; ...; and 5 more targets"
 std::string targets_text(const std::vector<double>& targets_m, const std::vector<Visits>& missing,
                          int repeats) {
@@ -84,20 +77,20 @@ std::string targets_text(const std::vector<double>& targets_m, const std::vector
   return more == 0 ? text : text + "; and " + std::to_string(more) + " more targets";
 }
 
-// The targets of which something is missing; empty: none.
-std::string missing_text(const std::vector<double>& targets_m, int repeats,
-                         const std::vector<MeasuredPoint>& points) {
+std::optional<Notice> not_measured(const std::vector<double>& targets_m, int repeats,
+                                   const std::vector<MeasuredPoint>& points) {
   std::vector<Visits> missing;
   int points_missing = 0;
   for (const Visits& visits : count_visits(targets_m.size(), points)) {
     missing.push_back(still_to_come(visits, repeats));
     points_missing += missing.back().forward + missing.back().reverse;
   }
-  if (points_missing == 0) return "";
+  if (points_missing == 0) return std::nullopt;
   const std::size_t of = targets_m.size() * (repeats == 0 ? 1 : 2 * std::size_t(repeats));
-  return std::to_string(points_missing) + " of " + std::to_string(of) +
-         (repeats == 0 ? " targets were never measured: " : " points asked for are missing: ") +
-         targets_text(targets_m, missing, repeats);
+  return notice(repeats == 0 ? NoticeCode::targets_missing : NoticeCode::points_missing, "",
+                {{"missing", points_missing},
+                 {"of", of},
+                 {"targets", targets_text(targets_m, missing, repeats)}});
 }
 
 }  // namespace
@@ -110,15 +103,16 @@ bool all_measured(const std::vector<double>& targets_m, int repeats,
                      [&](const Visits& v) { return v.forward >= repeats && v.reverse >= repeats; });
 }
 
-std::vector<std::string> what_is_missing(const std::vector<double>& targets_m, int repeats,
-                                         const std::vector<MeasuredPoint>& points) {
-  std::vector<std::string> reasons;
-  const std::string missing = missing_text(targets_m, repeats, points);
-  if (!missing.empty()) reasons.push_back(missing);
+Notices missing_notices(const std::vector<double>& targets_m, int repeats,
+                        const std::vector<MeasuredPoint>& points) {
+  Notices found;
+  if (auto missing = not_measured(targets_m, repeats, points)) found.push_back(std::move(*missing));
   const std::size_t unsolved = count_unsolved(points);
-  const bool most = 2 * unsolved > points.size();
-  if (most || (!missing.empty() && unsolved > 0)) reasons.push_back(unsolved_text(points));
-  return reasons;
+  if (2 * unsolved > points.size() || (!found.empty() && unsolved > 0))
+    found.push_back(notice(
+        NoticeCode::points_unsolved, "",
+        {{"unsolved", unsolved}, {"points", points.size()}, {"reason", commonest_reason(points)}}));
+  return found;
 }
 
 }  // namespace mdof::daemon

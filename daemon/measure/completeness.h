@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "schema/notice/notice.h"
 #include "schema/point.h"
 
 namespace mdof::daemon {
@@ -13,11 +14,11 @@ namespace mdof::daemon {
 bool all_measured(const std::vector<double>& targets_m, int repeats,
                   const std::vector<MeasuredPoint>& points);
 
-// What makes the run a partial one, for its warnings; empty: it is complete.
+// What makes the run a partial one; empty: it is complete.
 //   targets and repeats: points that are missing, or could not be solved, by target and approach
 //   targets alone:       targets that were never measured
 //   always:              most of the points could not be solved
-std::vector<std::string> what_is_missing(const std::vector<double>& targets_m, int repeats,
-                                         const std::vector<MeasuredPoint>& points);
+Notices missing_notices(const std::vector<double>& targets_m, int repeats,
+                        const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::daemon

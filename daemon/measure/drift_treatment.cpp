@@ -10,8 +10,7 @@ namespace mdof::daemon {
 void treat_drift(const Rig& rig, bool remove, Run& run) {
   if (!remove && !rig.drift_limit_m_per_s) return;
   const algo::DriftOfRun drift(run.points);
-  if (auto over = algo::over_limit_sentence(drift.found(), rig); !over.empty())
-    run.header.warnings.push_back(std::move(over));
+  append(run.header.notices, algo::over_limit(drift.found(), rig));
   if (rig.drift_limit_m_per_s && !drift.found().not_seen.empty())
     run.header.notes.push_back("the limit of drift was not tested: " + drift.found().not_seen);
   if (!remove) return;

@@ -16,7 +16,6 @@
 #include "schema/base/toml_reader.h"
 #include "schema/imported/series.h"
 #include "schema/run_json.h"
-#include "schema/severity.h"
 
 namespace mdof::daemon {
 
@@ -60,12 +59,12 @@ Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t
 namespace {
 
 // Of a table of these runs: theirs, and what one run alone does not show.
-Result<std::vector<std::string>> table_warnings(const std::vector<Run>& runs) {
-  auto warnings = algo::inherited_warnings(algo::all_of(runs));
-  if (runs.size() < 2) return warnings;
-  MDOF_TRY(std::string uneven, algo::uneven_visits_of(runs));
-  if (!uneven.empty()) warnings.push_back(said_of(algo::kOverAllRuns, uneven));
-  return warnings;
+Result<Notices> table_notices(const std::vector<Run>& runs) {
+  Notices notices = algo::inherited_notices(algo::all_of(runs));
+  if (runs.size() < 2) return notices;
+  MDOF_TRY(Notices uneven, algo::uneven_visits_of(runs));
+  append(notices, std::move(uneven));
+  return notices;
 }
 
 constexpr std::size_t kMostRuns = 64;
@@ -122,8 +121,8 @@ Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& re
   MDOF_CHECK(algo::check_limits(table, request.limits));
   auto notes = table_notes(runs);
   for (auto& note : algo::positioning_notes(runs)) notes.push_back(std::move(note));
-  return BuiltTable{std::move(table), algo::inherited_warnings(algo::all_of(runs)),
-                    std::move(notes), doubts_of(runs)};
+  return BuiltTable{std::move(table), algo::inherited_notices(algo::all_of(runs)), std::move(notes),
+                    doubtful_notices(runs)};
 }
 
 }  // namespace
@@ -164,12 +163,12 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
   MDOF_CHECK(algo::check_limits(table, request.limits));
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
   for (const Rig& rig : rigs) add_not_declared(table, rig.undeclared_uncertainties());
-  MDOF_TRY(auto warnings, table_warnings(runs));
+  MDOF_TRY(Notices notices, table_notices(runs));
   if (!declared)
-    warnings.push_back("its u is noise and repeatability only, without what the rigs declare: " +
-                       declared.error().message);
-  MDOF_TRY(auto doubts, doubts_of_table(store, table));
-  return BuiltTable{std::move(table), std::move(warnings), table_notes(runs), std::move(doubts)};
+    notices.push_back(
+        notice(NoticeCode::declared_not_in_u, "", {{"reason", declared.error().message}}));
+  MDOF_TRY(Notices doubtful, doubtful_notices(store, table));
+  return BuiltTable{std::move(table), std::move(notices), table_notes(runs), std::move(doubtful)};
 }
 
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request) {
@@ -196,7 +195,7 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   const auto now = store.active(table.axis);
   const bool in_force = now && now->table.id == request.table;
   if (!in_force) MDOF_CHECK(check_gate(judged, request.consent, "it is not put in force"));
-  return store::Marks{judged.simulated, !judged.doubts.empty()};
+  return store::Marks{judged.simulated, !judged.doubtful.empty()};
 }
 
 Status store_squareness(store::Store& store, Squareness& squareness,
@@ -243,7 +242,7 @@ Result<FittedSquareness> calculate_squareness(store::Store& store,
   MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
   MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
   MDOF_TRY(auto budgets, state_uncertainty(s, x, y));
-  return FittedSquareness{std::move(s), std::move(budgets), algo::inherited_warnings({&x, &y})};
+  return FittedSquareness{std::move(s), std::move(budgets), algo::inherited_notices({&x, &y})};
 }
 
 Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness) {
@@ -251,7 +250,7 @@ Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squar
   MDOF_TRY(const Run y, store.run(squareness.run_y));
   MDOF_TRY(auto budgets, state_uncertainty(squareness, x, y));
   return FittedSquareness{std::move(squareness), std::move(budgets),
-                          algo::inherited_warnings({&x, &y})};
+                          algo::inherited_notices({&x, &y})};
 }
 
 }  // namespace mdof::daemon

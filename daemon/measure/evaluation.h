@@ -12,6 +12,7 @@
 #include "daemon/store/store.h"
 #include "schema/base/result.h"
 #include "schema/compensation_table.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
 #include "schema/uncertainty/budget.h"
@@ -39,9 +40,9 @@ struct TableRequest {
 };
 struct BuiltTable {
   CompensationTable table;
-  std::vector<std::string> warnings;  // of the runs it is made from
-  std::vector<std::string> notes;     // likewise
-  std::vector<std::string> doubts;    // what of these keeps it from a controller
+  Notices notices;                 // of the runs it is made from
+  std::vector<std::string> notes;  // likewise
+  Notices doubtful;                // what of these keeps it from a controller
 };
 // Built and stored. Errors: those of algo::build_table() and algo::check_limits(); runs of rigs
 // with other machines.
@@ -50,7 +51,7 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
 Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& request);
 Status store_table(store::Store& store, CompensationTable& table, const std::optional<Deed>& deed);
 
-// What a table inherits of its runs beside warnings.
+// What a table inherits of its runs beside notices.
 std::vector<std::string> table_notes(const std::vector<Run>& runs);
 
 struct ActivationRequest {
@@ -76,7 +77,7 @@ struct SquarenessRequest {
 struct FittedSquareness {
   Squareness squareness;
   std::vector<Budget> budgets;  // of EC0Y, then of EYX_slope_urad and EXY_slope_urad
-  std::vector<std::string> warnings;
+  Notices notices;
 };
 // Fitted, and stored unless the same fit is stored already. Errors: those of algo::artefact_of(),
 // algo::squareness() and algo::squareness_budget().

@@ -14,6 +14,7 @@
 #include "daemon/measure/completeness.h"
 #include "daemon/measure/drift_treatment.h"
 #include "daemon/measure/points/point_solver.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -129,15 +130,15 @@ void Pipeline::leave_out_beyond() {
   found_.resize(options_.most_stops);
 }
 
-std::string Pipeline::explain_beyond() const {
-  return "this run has " + std::to_string(found_.size()) + " stops, the most that a run holds; " +
-         std::to_string(beyond_) + " after them are left out: measure them in another run";
+Notice Pipeline::beyond_limit() const {
+  return notice(NoticeCode::stops_over_limit, "",
+                {{"stops", found_.size()}, {"left_out", beyond_}});
 }
 
-std::string Pipeline::explain_unplaced() const {
+Notice Pipeline::not_placed() const {
   const auto first = std::find_if(found_.begin(), found_.end(),
                                   [this](const Point& stop) { return suspect_.covers(stop); });
-  return suspect_.left_out_text(unplaced_, "stop", ns_to_s(first->begin_ns - *begin_ns_));
+  return suspect_.left_out(unplaced_, ns_to_s(first->begin_ns - *begin_ns_));
 }
 
 void Pipeline::note_break(const SampleBlock& raw) {
@@ -229,8 +230,8 @@ Status Pipeline::explain_nothing() const {
                      "): the axis did not move or encoder_mm is not its position; check the "
                      "encoder's channel and unit");
   }
-  if (unplaced_ > 0 && unplaced_ == found_.size()) return bad_input(explain_unplaced());
-  const std::string doubt = algo::encoder_unit_doubt(s.encoder_max_m - s.encoder_min_m);
+  if (unplaced_ > 0 && unplaced_ == found_.size()) return bad_input(words::text(not_placed()));
+  const auto doubt = algo::encoder_unit_notice(s.encoder_max_m - s.encoder_min_m);
   if (!found_.empty()) {
     return bad_input("none of the " + std::to_string(found_.size()) +
                      " stops is near a given target; check targets_mm");
@@ -243,11 +244,11 @@ Status Pipeline::explain_nothing() const {
                    plain_number(options_.dwell.shortest_s()) + " s" +
                    "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um; an "
                    "axis that is to move all the time is measured by mdof replay --on-the-fly" +
-                   (doubt.empty() ? "" : "; " + doubt));
+                   (doubt ? "; " + words::text(*doubt) : ""));
 }
 
 // A probe without a value is an error where the others are too few to do without it.
-Status Pipeline::judge_dead_probes(std::vector<std::string>& warnings) const {
+Status Pipeline::judge_dead_probes(Notices& notices) const {
   const bool needed = std::none_of(sequence_.points.begin(), sequence_.points.end(),
                                    [](const MeasuredPoint& p) { return p.errors.valid; });
   const auto too_slow = aligner_.too_slow();
@@ -257,52 +258,45 @@ Status Pipeline::judge_dead_probes(std::vector<std::string>& warnings) const {
     if (!dead) continue;
     const std::string& id = rig_.probes[k].id;
     if (const auto slow = too_slow.find(id); slow != too_slow.end()) {
-      if (needed) return bad_input(slow->second);
-      continue;  // told with the others
+      if (needed) return bad_input(words::text(slow->second));
+      continue;  // reported with the others
     }
     const bool frozen = algo::has_flag(found_.front(), "frozen:" + id);
     const bool saturated = algo::has_flag(found_.front(), "saturated:" + id);
-    const std::string why = frozen ? "probe \"" + id +
-                                         "\" reads the same in every scan while the others "
-                                         "change; check its cable, amplifier and channel"
-                            : saturated
-                                ? "probe \"" + id + "\" is at the end of its range (" +
-                                      plain_number(to_um(rig_.probes[k].range_m), 6) + " um" +
-                                      ") in every dwell: shim it into range, or correct range_um, "
-                                      "offset_um or reads in the rig"
-                                : "probe \"" + id +
-                                      "\" gave no usable value in any dwell; check its cable "
-                                      "and channel";
-    if (needed) return bad_input(why);
-    warnings.push_back(why);
+    Notice why = frozen      ? notice(NoticeCode::probe_constant, id)
+                 : saturated ? notice(NoticeCode::probe_saturated, id,
+                                      {{"range_um", to_um(rig_.probes[k].range_m)}})
+                             : notice(NoticeCode::probe_dead, id);
+    if (needed) return bad_input(words::text(why));
+    notices.push_back(std::move(why));
   }
   return {};
 }
 
 // An axis that moves all the time turns at the ends of its travel, and stands there long enough to
 // be taken for a stop.
-std::string Pipeline::explain_never_stops() const {
+std::optional<Notice> Pipeline::never_stops() const {
   const auto& targets_m = sequence_.targets_m;
-  if (!options_.sequence.targets_m.empty() || targets_m.size() > 2) return "";
+  if (!options_.sequence.targets_m.empty() || targets_m.size() > 2) return std::nullopt;
   double stood_s = 0;
   for (const Point& stop : found_)
     stood_s += ns_to_s(stop.end_ns - stop.begin_ns) + options_.dwell.settle_s;
   const auto& s = dwell_.summary();
   const double moved_s = static_cast<double>(s.scans) * s.period_s - stood_s;
-  if (moved_s <= stood_s) return "";
-  return "the axis moved for " + plain_number(100 * moved_s / (moved_s + stood_s), 2) +
-         " % of the time and stopped only at " + plain_number(to_mm(targets_m.front())) +
-         (targets_m.size() > 1 ? " and " + plain_number(to_mm(targets_m.back())) : "") +
-         " mm, so that nothing in between was measured; an axis that is to move all the time is "
-         "measured by mdof replay --on-the-fly";
+  if (moved_s <= stood_s) return std::nullopt;
+  const std::string stops_mm =
+      plain_number(to_mm(targets_m.front())) +
+      (targets_m.size() > 1 ? " and " + plain_number(to_mm(targets_m.back())) : "");
+  return notice(NoticeCode::axis_never_stops, "",
+                {{"moving_percent", 100 * moved_s / (moved_s + stood_s)}, {"stops_mm", stops_mm}});
 }
 
 // Complete is what has all that was asked for.
 void Pipeline::judge(Run& run) const {
-  auto missing = what_is_missing(options_.sequence.targets_m, options_.repeats, run.points);
-  if (auto why = explain_never_stops(); !why.empty()) missing.push_back(std::move(why));
+  Notices missing = missing_notices(options_.sequence.targets_m, options_.repeats, run.points);
+  if (auto why = never_stops()) missing.push_back(std::move(*why));
   run.header.state = missing.empty() ? RunState::complete : RunState::partial;
-  std::move(missing.begin(), missing.end(), std::back_inserter(run.header.warnings));
+  append(run.header.notices, std::move(missing));
 }
 
 // What the run looks like as a whole, and what of it is to be doubted.
@@ -315,12 +309,11 @@ void Pipeline::add_plausibility(Run& run) const {
                                !options_.sequence.targets_m.empty(),
                                dwell.shortest_s()};
   run.plausibility = algo::plausibility(whole);
-  auto& warnings = run.header.warnings;
-  for (const auto& more :
-       {algo::warnings_of_signals(whole), algo::warnings_of_visits(whole, *run.plausibility),
-        algo::warnings_of_units(rig_, *run.plausibility),
-        algo::warnings_of_maps(rig_, solver_.fixture(), sequence_.points)})
-    warnings.insert(warnings.end(), more.begin(), more.end());
+  Notices& notices = run.header.notices;
+  append(notices, algo::signal_notices(whole));
+  append(notices, algo::visit_notices(whole));
+  append(notices, algo::unit_notices(rig_, *run.plausibility));
+  append(notices, algo::map_notices(rig_, solver_.fixture(), sequence_.points));
 }
 
 Result<Run> Pipeline::finish() {
@@ -331,7 +324,7 @@ Result<Run> Pipeline::finish() {
   take_points();
   if (sequence_.points.empty() || !moved()) MDOF_CHECK(explain_nothing());
   Run run;
-  MDOF_CHECK(judge_dead_probes(run.header.warnings));
+  MDOF_CHECK(judge_dead_probes(run.header.notices));
   run.header.axis = rig_.axis;
   run.header.sides = rig_.sides;
   run.header.stated = kAtFixture;
@@ -340,20 +333,18 @@ Result<Run> Pipeline::finish() {
   run.header.temperature = temperature_.of_run();
   if (auto note = datum_note(options_.datum.kind, options_.datum.device); !note.empty())
     run.header.notes.push_back(std::move(note));
-  run.header.warnings.insert(run.header.warnings.end(), sequence_.warnings.begin(),
-                             sequence_.warnings.end());
-  if (unplaced_ > 0) run.header.warnings.push_back(explain_unplaced());
-  if (is_full()) run.header.warnings.push_back(explain_beyond());
-  for (auto& [probe, why] : aligner_.too_slow()) run.header.warnings.push_back(std::move(why));
+  Notices& notices = run.header.notices;
+  append(notices, sequence_.notices);
+  if (unplaced_ > 0) notices.push_back(not_placed());
+  if (is_full()) notices.push_back(beyond_limit());
+  for (auto& [probe, why] : aligner_.too_slow()) notices.push_back(std::move(why));
   add_plausibility(run);
   run.points = sequence_.points;
   corrections_.tell(solver_, found_, run);
-  auto more = dwell_.warnings(found_);
-  const algo::Residuals residuals = this->residuals();
-  if (const auto contradiction = residuals.warning(run.points)) more.push_back(*contradiction);
-  for (auto& sentence : algo::warnings_of_repeats(rig_, run.points))
-    more.push_back(std::move(sentence));
-  run.header.warnings.insert(run.header.warnings.end(), more.begin(), more.end());
+  append(notices, dwell_.notices(found_));
+  if (auto contradiction = residuals().contradiction(run.points))
+    notices.push_back(std::move(*contradiction));
+  append(notices, algo::repeat_notices(rig_, run.points));
   treat_drift(rig_, options_.remove_drift, run);
   judge(run);
   run.straightness = algo::straightness(rig_.moving(), run.points);

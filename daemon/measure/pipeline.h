@@ -21,6 +21,7 @@
 #include "drivers/calibration.h"
 #include "schema/base/result.h"
 #include "schema/encoder_datum.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
 #include "schema/sample.h"
@@ -70,7 +71,7 @@ class Pipeline {
                       const std::vector<double>& u_m) const;
   const algo::Solver& solver() const { return solver_; }
 
-  // End of the data. Fills points, figures, scans and warnings of a run, and its state: complete,
+  // End of the data. Fills points, figures, scans and notices of a run, and its state: complete,
   // or partial (completeness.h); the header's identity and provenance are the caller's. Error:
   // nothing was measured, with the reason: the encoder stood still, no dwell was long enough, a
   // probe was at the end of its range throughout.
@@ -80,16 +81,16 @@ class Pipeline {
   Pipeline(Rig rig, PipelineOptions options, algo::Solver solver);
   void find_stops();
   void leave_out_beyond();
-  std::string explain_beyond() const;
+  Notice beyond_limit() const;
   void note_break(const SampleBlock& raw);
-  std::string explain_unplaced() const;
-  std::string explain_never_stops() const;  // empty: it stops
+  Notice not_placed() const;
+  std::optional<Notice> never_stops() const;
   void take_points();
   void take_new_points();
   algo::Residuals residuals() const;
   bool moved() const;
   Status explain_nothing() const;
-  Status judge_dead_probes(std::vector<std::string>& warnings) const;
+  Status judge_dead_probes(Notices& notices) const;
   void judge(Run& run) const;
   void add_plausibility(Run& run) const;
 

@@ -9,6 +9,7 @@
 
 #include "schema/deed.h"
 #include "schema/encoder_datum.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::daemon {
 
@@ -22,11 +23,11 @@ struct CutOffRun {
 
 struct RunRequest {
   std::string note;
-  std::vector<double> targets_m;      // empty: recognised
-  int repeats = 0;                    // 0: until stopped; else complete after so many, both ways
-  std::vector<std::string> warnings;  // to be kept with the run
-  std::vector<std::string> notes;     // for whoever asks; they follow from its options
-  std::optional<CutOffRun> resumes;   // goes on from there
+  std::vector<double> targets_m;     // empty: recognised
+  int repeats = 0;                   // 0: until stopped; else complete after so many, both ways
+  Notices notices;                   // to be kept with the run
+  std::vector<std::string> notes;    // for whoever asks; they follow from its options
+  std::optional<CutOffRun> resumes;  // goes on from there
   std::optional<Deed> deed = std::nullopt;  // who asks for it
 };
 

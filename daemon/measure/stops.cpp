@@ -72,7 +72,7 @@ Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) 
   for (Point& stop : found.stops) leave_out(stop, rig);
   found.sha256 = log.sha256();
   found.started_utc = log.started_utc();
-  found.warnings = log.warnings();
+  found.notices = log.notices();
   return found;
 }
 

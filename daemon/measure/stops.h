@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/rig/rig.h"
 
@@ -14,7 +15,7 @@ struct LogStops {
   std::vector<Point> stops;  // probes in the order of the rig; those not to be used are NaN
   std::string sha256;        // of the log
   std::string started_utc;   // of a recording, else empty
-  std::vector<std::string> warnings;
+  Notices notices;
 };
 
 // The log is of `axis`, which need not be the rig's. A reading that spiked, stepped, froze or was

@@ -46,7 +46,8 @@ bool earlier(const RunHeader& a, const RunHeader& b) {
 
 struct Chosen {
   std::vector<RunHeader> runs;  // in time
-  std::vector<std::string> left_out, warnings;
+  std::vector<std::string> left_out;
+  Notices notices;
 };
 
 // That of the newest run. Where it has too few values for a chart, the newest kind of the same rig
@@ -71,7 +72,9 @@ void choose_kind(Chosen& chosen, bool mixed) {
     if (kind_of(run) != kind) others.push_back(run.id);
   const std::string newest = "run " + std::to_string(newest_of_kind.id);
   if (mixed) {
-    leave_out(chosen.warnings, others, "taken, though its rig or model is not that of " + newest);
+    if (!others.empty())
+      chosen.notices.push_back(notice(NoticeCode::rigs_mixed, "",
+                                      {{"runs", others.size()}, {"run", newest_of_kind.id}}));
     return;
   }
   leave_out(chosen.left_out, others,
@@ -135,7 +138,8 @@ Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>&
   for (std::size_t f = 0; f < figures.size(); ++f) {
     const Budget budget = (whole ? *whole : noise).first_order(figures[f]);
     if (!whole)
-      trends[f].warnings.push_back(run_name + ": its u is not known: " + whole.error().message);
+      trends[f].notices.push_back(inherited(
+          run_name, notice(NoticeCode::u_unknown, "", {{"reason", whole.error().message}})));
     if (std::isfinite(budget.value))
       add_value(trends[f], {header.id}, header.started_utc, budget, whole.has_value());
     else
@@ -153,7 +157,7 @@ Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
   MDOF_TRY(const Chosen chosen, choose(store, axis, request.mixed));
   std::vector<Trend> of_axis;
   for (const algo::Figure& figure : figures)
-    of_axis.push_back({figure.name, {}, {}, chosen.left_out, chosen.warnings, {}, false, {}});
+    of_axis.push_back({figure.name, {}, {}, chosen.left_out, chosen.notices, {}, false, {}});
   for (const RunHeader& run : chosen.runs) MDOF_CHECK(add_run(store, run, of_axis, figures));
   for (Trend& trend : of_axis)
     if (!trend.values.empty() || !request.figure.empty() || request.axis)
@@ -172,7 +176,7 @@ Status add_squareness(store::Store& store, const TrendRequest& request, std::vec
   std::vector<Squareness> fits;
   for (const auto* chosen : {&x, &y}) {
     trend.left_out.insert(trend.left_out.end(), chosen->left_out.begin(), chosen->left_out.end());
-    trend.warnings.insert(trend.warnings.end(), chosen->warnings.begin(), chosen->warnings.end());
+    append(trend.notices, chosen->notices);
   }
   std::set<std::pair<std::int64_t, std::int64_t>> seen;
   std::optional<SquareArtefact> artefact;

@@ -10,6 +10,7 @@
 #include "daemon/store/store.h"
 #include "schema/axis.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::daemon {
 
@@ -32,7 +33,7 @@ struct Trend {
   std::vector<TrendValue> values;     // in time
   std::optional<algo::Chart> chart;   // none: too few values
   std::vector<std::string> left_out;  // sentences: which runs, and why
-  std::vector<std::string> warnings;  // what is mixed
+  Notices notices;                    // what is mixed
   // Of u of the newest value, as of its budget.
   std::string u_covers;
   bool noise_only = false;

@@ -8,6 +8,7 @@
 #include "daemon/methods/methods.h"
 #include "daemon/paths.h"
 #include "daemon/rpc/list_page.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_page.h"
 #include "schema/rig/correction.h"
 #include "schema/run_json.h"
@@ -66,8 +67,9 @@ void build(Methods& m, const Params& params, Reply reply) {
           JsonWriter json;
           json.begin_object();
           write_table_members(json, built.table);
-          json.field("doubtful", !built.doubts.empty()).end_object();
-          return with_texts(with_warnings(json.take(), built.warnings), "notes", built.notes);
+          json.field("doubtful", !built.doubtful.empty()).end_object();
+          return with_texts(with_notices(json.take(), built.notices, words::text), "notes",
+                            built.notes);
         };
       });
 }
@@ -241,7 +243,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                   {"limit_um_per_mm", ParamType::number,
                    "largest slope of the table (angles: urad/mm) [50 um/mm, 500 urad/mm]", false}},
        .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
-                 "simulated, doubtful, warnings, notes",
+                 "simulated, doubtful, notices, notes",
        .example = R"({"runs": [1]})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
@@ -251,8 +253,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .params = {{"table", ParamType::integer, "id of the table", true},
                   {"simulated", ParamType::boolean, "also one of simulated data", false, "false"},
                   {"despite_warnings", ParamType::boolean,
-                   "also one whose runs carry warnings that are no mere information", false,
-                   "false"}},
+                   "also one whose runs carry doubtful notices", false, "false"}},
        .result = "table, generation, changed: false where it was in force already; "
                  "simulated, doubtful",
        .example = R"({"table": 1})",
@@ -295,7 +296,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
              .result =
                  "error in um and urad; correction, to be added to the command, null with "
                  "correction_reason where its sign is not known; u; inside: that approach was "
-                 "measured there; simulated; doubtful: its runs carry warnings; generation",
+                 "measured there; simulated; doubtful: its runs carry doubtful notices; generation",
              .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
              .handler = [&m](const Params& p) { return at(m, p); }});
 }

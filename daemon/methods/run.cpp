@@ -10,6 +10,7 @@
 #include "daemon/rpc/list_page.h"
 #include "daemon/run_item.h"
 #include "daemon/station/resume.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_page.h"
 #include "schema/plausibility_json.h"
 #include "schema/run_json.h"
@@ -37,9 +38,9 @@ std::string run_reply(std::int64_t id, Axis axis, const RunRequest& request) {
   json.begin_object().field("run", id).field("axis", std::string(1, letter(axis)));
   json.key("targets_mm").begin_array();
   for (const double target_m : request.targets_m) json.value(to_mm(target_m));
-  json.end_array().key("warnings").begin_array();
-  for (const auto& warning : request.warnings) json.value(warning);
-  json.end_array().key("notes").begin_array();
+  json.end_array();
+  write_notices(json, "notices", request.notices, words::text);
+  json.key("notes").begin_array();
   for (const auto& note : request.notes) json.value(note);
   json.end_array().end_object();
   return json.take();
@@ -90,42 +91,39 @@ Result<RunRequest> read_run_request(const Params& params) {
   if (request.repeats > 0 && request.targets_m.empty()) {
     return fail(ErrorCode::usage, "repeats goes with targets_mm, or with from_mm and to_mm");
   }
-  const std::string warning = periodic_warning(targets_mm, params.number("scale_period_um", 0));
-  if (!warning.empty()) request.warnings.push_back(warning);
+  if (auto hidden = scale_period_notice(targets_mm, params.number("scale_period_um", 0)))
+    request.notices.push_back(std::move(*hidden));
   return request;
 }
 
-// Where there are several clocks, what is said of those whose drift is not known yet.
-std::vector<std::string> unsettled_clocks(const Station& station) {
+// Where there are several clocks, those whose drift is not known yet.
+Notices unsettled_clocks(const Station& station) {
   const auto devices = station.devices();
-  std::vector<std::string> warnings;
-  if (devices.size() < 2) return warnings;
-  for (const auto& device : devices) {
-    if (!device.info.clock || device.info.clock->settled) continue;
-    warnings.push_back("the clock of device \"" + device.info.name +
-                       "\" was not settled when the run began: its first samples may be some "
-                       "milliseconds off those of the other devices; begin a run 5 s after the "
-                       "devices were opened");
-  }
-  return warnings;
+  Notices found;
+  if (devices.size() < 2) return found;
+  for (const auto& device : devices)
+    if (device.info.clock && !device.info.clock->settled)
+      found.push_back(notice(NoticeCode::clock_not_settled, device.info.name));
+  return found;
 }
 
 // What was wrong before the run began; what comes after it is added at its end.
-std::vector<std::string> standing_trouble(const Station& station) {
-  std::vector<std::string> warnings;
+Notices standing_trouble(const Station& station) {
+  Notices found;
   for (const auto& device : station.devices())
     for (const auto& trouble : device.standing)
-      warnings.push_back("when the run began: " + trouble_line(trouble));
-  return warnings;
+      found.push_back(notice(NoticeCode::trouble_at_start, trouble.device,
+                             {{"kind", to_string(trouble.kind)}, {"reason", trouble.text}}));
+  return found;
 }
 
 // What devices are set to do to their readings, such as filters.
-std::vector<std::string> settings_of_devices(const Station& station) {
-  std::vector<std::string> warnings;
+Notices settings_of_devices(const Station& station) {
+  Notices found;
   for (const auto& device : station.devices())
-    for (const auto& warning : device.info.warnings)
-      warnings.push_back("device \"" + device.info.name + "\": " + warning);
-  return warnings;
+    for (const Notice& of_device : device.info.notices)
+      found.push_back(inherited("device \"" + device.info.name + "\"", of_device));
+  return found;
 }
 
 // The probes of a device that several axes have are at one of them at a time.
@@ -148,9 +146,9 @@ Status check_probes_free(const Methods& m, const Station& station) {
 
 void begin_run(const Methods& m, Station& station, RunRequest request, Reply reply) {
   if (auto free = check_probes_free(m, station); !free) return reply(tl::unexpected(free.error()));
-  for (auto& warning : standing_trouble(station)) request.warnings.push_back(std::move(warning));
-  for (auto& warning : unsettled_clocks(station)) request.warnings.push_back(std::move(warning));
-  for (auto& warning : settings_of_devices(station)) request.warnings.push_back(std::move(warning));
+  append(request.notices, standing_trouble(station));
+  append(request.notices, unsettled_clocks(station));
+  append(request.notices, settings_of_devices(station));
   EncoderState encoder = station.encoder();
   const bool known = encoder.datum.kind == EncoderDatum::Kind::set ||
                      encoder.datum.kind == EncoderDatum::Kind::index;
@@ -198,7 +196,8 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
 void explain(const Methods& m, RunHeader& header) {
   if (header.state != RunState::open) return;
   std::string why = m.keeper.why_open(header.id);
-  if (!why.empty()) header.warnings.push_back(std::move(why));
+  if (!why.empty())
+    header.notices.push_back(notice(NoticeCode::run_still_open, "", {{"reason", why}}));
 }
 
 Result<std::string> runs_json(const Methods& m, store::Store& store, rpc::ListPage page,
@@ -236,7 +235,7 @@ std::string run_json(const Run& run, const StatedRun& stated, const RunHeader& h
                      const std::vector<Deed>& deeds, std::size_t most_visits) {
   JsonWriter json;
   json.begin_object();
-  write_header_members(json, header);
+  write_header_members(json, header, words::text);
   write_covers(json, stated.points);
   json.field("points_total", static_cast<std::uint64_t>(run.points.size())).key("straightness");
   write_straightness(json, run.straightness, stated.figures.budgets);
@@ -321,7 +320,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                    "0",
                    {.least = 0, .most = 10'000}},
                   {"note", ParamType::string, "for people", false, "\"\""}},
-       .result = "run, axis, targets_mm, warnings, notes: the run is on the disk and measuring",
+       .result = "run, axis, targets_mm, notices, notes: the run is on the disk and measuring",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});

@@ -156,8 +156,8 @@ Result<ActiveTables> load_active(store::Store& store) {
     }
     if (active) {
       // A run that cannot be read any more is a doubt, too.
-      const auto doubts = doubts_of_table(store, active->table);
-      active->doubtful = !doubts || !doubts->empty();
+      const auto doubtful = doubtful_notices(store, active->table);
+      active->doubtful = !doubtful || !doubtful->empty();
       algo::add_curvatures(active->table);  // compensation.at is asked often
       tables[static_cast<std::size_t>(axis)] =
           std::make_shared<const store::ActiveTable>(std::move(*active));

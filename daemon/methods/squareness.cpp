@@ -1,6 +1,7 @@
 // squareness.fit.
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
+#include "daemon/words/words.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 
@@ -24,7 +25,8 @@ void squareness(Methods& m, const Params& params, Reply reply) {
     return [fitted = std::move(found),
             deed = request.deed](store::Store& store) mutable -> Result<std::string> {
       MDOF_CHECK(store_squareness(store, fitted.squareness, deed));
-      return with_warnings(squareness_json(fitted.squareness, fitted.budgets), fitted.warnings);
+      return with_notices(squareness_json(fitted.squareness, fitted.budgets), fitted.notices,
+                          words::text);
     };
   });
 }
@@ -51,7 +53,7 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
                   {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
        .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), form_urad (how "
                  "crooked the axes are) and both slopes, at "
-                 "the fixture; warnings",
+                 "the fixture; notices",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});

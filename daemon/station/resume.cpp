@@ -12,7 +12,6 @@ constexpr std::chrono::milliseconds kLogTimeout{1000};
 // Between the parts: longer than the devices of an axis lie apart.
 constexpr std::int64_t kPause_ns = 5'000'000'000;
 constexpr int kBlocksPerCommit = 64;
-constexpr std::string_view kGoesOn = "goes on from run ";
 
 tl::unexpected<Error> refused(std::int64_t run, const std::string& why) {
   return fail(ErrorCode::conflict, "run " + std::to_string(run) + " cannot go on: " + why);
@@ -62,14 +61,10 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   request.repeats = options->repeats;
   request.resumes =
       CutOffRun{run, header.provenance.recording_path, options->datum, header.started_utc};
-  for (const std::string& warning : header.warnings)  // of a run that had gone on before
-    if (warning.starts_with(kGoesOn)) request.warnings.push_back(warning);
-  const std::string until_then = datum_text(options->datum);
-  request.warnings.push_back(
-      std::string(kGoesOn) + std::to_string(run) +
-      ", which ended early: whether the encoder kept its zero and the machine its temperature in "
-      "between is not known" +
-      (until_then.empty() ? "" : "; its positions until then: " + until_then));
+  for (const Notice& of_run : header.notices)  // of a run that had gone on before
+    if (of_run.code == NoticeCode::run_goes_on) request.notices.push_back(of_run);
+  request.notices.push_back(
+      notice(NoticeCode::run_goes_on, "", {{"run", run}, {"datum", datum_text(options->datum)}}));
   return request;
 }
 

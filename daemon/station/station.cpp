@@ -159,7 +159,7 @@ NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& o
                           configuration_,
                           h.started_utc,
                           h.simulated,
-                          request_json({request.note, request.warnings, options})};
+                          request_json({request.note, request.notices, options})};
   return run;
 }
 

@@ -24,6 +24,7 @@
 #include "daemon/station/encoder_zero.h"
 #include "daemon/storekeeper/storekeeper.h"
 #include "schema/base/bounded_queue.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::daemon {
 
@@ -143,8 +144,8 @@ class Station {
   void put_datum(const Item& item);
   void take_mark(const std::string& device);
   void end_unless_from_mark();
-  void finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
-              RunDone done, const std::optional<Deed>& deed = std::nullopt);
+  void finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
+              const std::optional<Deed>& deed = std::nullopt);
   const Pipeline* pipeline() const;
   void note_newest();
   void show_live();

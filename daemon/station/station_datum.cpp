@@ -80,11 +80,7 @@ void Station::end_unless_from_mark() {
   if (zero_.datum().kind != EncoderDatum::Kind::index ||
       open_->datum.kind == EncoderDatum::Kind::index)
     return;
-  finish(
-      RunState::aborted,
-      "the axis went over its reference mark: positions are the machine's from there on, and what "
-      "this run has was counted from elsewhere, so that it ended there; start it again",
-      {}, {});
+  finish(RunState::aborted, {notice(NoticeCode::reference_mark_passed)}, {}, {});
 }
 
 }  // namespace mdof::daemon

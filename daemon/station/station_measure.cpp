@@ -16,11 +16,15 @@
 #include "schema/rig/calibrated.h"
 #include "schema/rig/rig_check.h"
 #include "schema/run_json.h"
-#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
+
+Notices failure(const std::string& why) {
+  if (why.empty()) return {};
+  return {notice(NoticeCode::failure, "", {{"words", why}})};
+}
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
@@ -139,7 +143,7 @@ void Station::measure() {
     note_newest();
     show_live();  // once it has all samples that came; where none came, it shows that they stopped
   }
-  if (open_) finish(RunState::aborted, "the daemon was stopped", {}, {});
+  if (open_) finish(RunState::aborted, {notice(NoticeCode::daemon_stopped)}, {}, {});
 }
 
 void Station::handle(Item& item) {
@@ -152,14 +156,15 @@ void Station::handle(Item& item) {
     case Item::Kind::stop:
       if (!open_) return item.done(fail(ErrorCode::not_found, "the run has just ended"));
       return finish(item.abort ? RunState::aborted : RunState::complete,
-                    item.abort ? "aborted" : "", item.source, item.done, item.deed);
+                    item.abort ? Notices{notice(NoticeCode::aborted)} : Notices(), item.source,
+                    item.done, item.deed);
     case Item::Kind::ended:
       if (!open_ || !of_this_pass(item)) return;
-      return finish(item.reason.empty() ? RunState::complete : RunState::failed, item.reason,
-                    item.source, {});
+      return finish(item.reason.empty() ? RunState::complete : RunState::failed,
+                    failure(item.reason), item.source, {});
     case Item::Kind::storage_failed:
       if (!open_ || open_->id != item.run) return;
-      return finish(RunState::failed, item.reason, item.source, {});
+      return finish(RunState::failed, failure(item.reason), item.source, {});
     case Item::Kind::trouble:
       if (item.trouble->kind == Trouble::Kind::suspect) zero_.lose(item.trouble->device, utc_now());
       if (open_) open_->troubles.add(*item.trouble);
@@ -215,17 +220,17 @@ void Station::take_samples(SampleBlock& block) {
   if (open_->continues) open_->continues->shift(block);
   if (config_.recorded()) keep_for_recording(block);
   if (const Status pushed = open_->pipeline.push(block); !pushed) {
-    return finish(RunState::failed, pushed.error().message, {}, {});
+    return finish(RunState::failed, failure(pushed.error().message), {}, {});
   }
   const auto& points = open_->pipeline.points();
   const std::size_t before = open_->stored.size();
   if (!points.empty() && !approach_assumed(points.back())) keep_new_points(points);
-  if (open_->pipeline.is_full()) return finish(RunState::complete, "", {}, {});
+  if (open_->pipeline.is_full()) return finish(RunState::complete, {}, {}, {});
   const RunRequest& asked = open_->request;
   const std::size_t all = 2 * asked.targets_m.size() * static_cast<std::size_t>(asked.repeats);
   if (open_->stored.size() == before || open_->stored.size() < all) return;
   if (all_measured(asked.targets_m, asked.repeats, open_->stored))
-    finish(RunState::complete, "", {}, {});
+    finish(RunState::complete, {}, {}, {});
 }
 
 void Station::keep_for_recording(const SampleBlock& block) {
@@ -281,8 +286,8 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
                         });
 }
 
-void Station::finish(RunState state, const std::string& why, const drivers::SourceInfo& source,
-                     RunDone done, const std::optional<Deed>& deed) {
+void Station::finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
+                     const std::optional<Deed>& deed) {
   if (!config_.live())
     acquisitions_.front()->cease();  // what is still on its way belongs to this pass
   auto result = open_->pipeline.finish();
@@ -294,31 +299,26 @@ void Station::finish(RunState state, const std::string& why, const drivers::Sour
   if (result) {
     run = std::move(*result);
   } else {
-    run.header.warnings.push_back(result.error().message);
+    run.header.notices.push_back(
+        notice(NoticeCode::failure, "", {{"words", result.error().message}}));
     if (state == RunState::complete) state = RunState::failed;
   }
   // Else as it turned out: complete or partial.
   if (state != RunState::complete) run.header.state = state;
+  Notices& notices = run.header.notices;
   if (run.header.state == RunState::partial && config_.recorded())
-    run.header.warnings.push_back(
-        information("this run is partial; to go on with it: mdof record --resume RUN"));
+    notices.push_back(notice(NoticeCode::run_can_go_on));
   run.header.provenance.recording_sha256 = source.sha256;
-  run.header.warnings.insert(run.header.warnings.end(), source.warnings.begin(),
-                             source.warnings.end());
-  run.header.warnings.insert(run.header.warnings.end(), open->request.warnings.begin(),
-                             open->request.warnings.end());
-  for (auto& line : open->troubles.summary()) run.header.warnings.push_back(std::move(line));
-  const auto overdue = overdue_calibrations(config_.rig, utc_now());
-  run.header.warnings.insert(run.header.warnings.end(), overdue.begin(), overdue.end());
+  append(notices, source.notices);
+  append(notices, open->request.notices);
+  append(notices, open->troubles.summary());
+  append(notices, overdue_calibrations(config_.rig, utc_now()));
   for (auto& note : calibration_notes(config_.rig)) run.header.notes.push_back(std::move(note));
-  const auto doubtful = doubtful_values(config_.rig);
-  run.header.warnings.insert(run.header.warnings.end(), doubtful.begin(), doubtful.end());
-  if (!why.empty()) run.header.warnings.push_back(why);
-  if (open->blocks_not_recorded > 0) {
-    run.header.warnings.push_back(std::to_string(open->blocks_not_recorded) +
-                                  " blocks of samples are missing in the recording: the disk was "
-                                  "too slow; a replay of it gives other results");
-  }
+  append(notices, doubtful_values(config_.rig));
+  append(notices, std::move(why));
+  if (open->blocks_not_recorded > 0)
+    notices.push_back(
+        notice(NoticeCode::blocks_not_recorded, "", {{"blocks", open->blocks_not_recorded}}));
   const bool differs = result && !same_points(open->stored, run.points);
   const std::int64_t id = open->id;
   const Axis axis = config_.rig.axis;

@@ -15,17 +15,6 @@ using Kind = Trouble::Kind;
 
 constexpr std::chrono::seconds kQuiet{10};
 
-// "14:02:11 UTC" of "2026-11-21T14:02:11.123Z".
-std::string time_of_day(const std::string& utc) {
-  const auto t = utc.find('T');
-  return t == std::string::npos ? utc : utc.substr(t + 1, 8) + " UTC";
-}
-
-std::string at_first(std::size_t times, const std::string& utc) {
-  return times == 1 ? "at " + time_of_day(utc)
-                    : std::to_string(times) + " times, first at " + time_of_day(utc);
-}
-
 std::string whose(const std::string& device) {
   return device.empty() ? "" : "device \"" + device + "\": ";
 }
@@ -118,22 +107,26 @@ void TroubleLog::add(const Trouble& trouble) {
   story.last = trouble;
 }
 
-std::vector<std::string> TroubleLog::summary() const {
-  std::vector<std::string> lines;
+Notices TroubleLog::summary() const {
+  Notices notices;
   for (const auto& device : order_) {
     const auto& kinds = devices_.at(device);
     const auto back = kinds.find(Kind::back);
     for (const auto& [kind, story] : kinds) {
       if (kind == Kind::back) continue;
-      std::string line = whose(device) + to_string(kind) + " " +
-                         at_first(story.times, story.first.utc) + ": " + story.first.text;
-      const bool mended = back != kinds.end() && back->second.last.utc >= story.last.utc;
-      if (kind == Kind::lost && mended) line += "; " + back->second.last.text;
-      if (kind == Kind::lost && !mended) line += "; it was not back when the run ended";
-      lines.push_back(std::move(line));
+      const bool recovered = back != kinds.end() && back->second.last.utc >= story.last.utc;
+      const std::string end = kind != Kind::lost ? ""
+                              : recovered        ? back->second.last.text
+                                                 : "it was not back when the run ended";
+      notices.push_back(notice(NoticeCode::device_trouble, device,
+                               {{"kind", to_string(kind)},
+                                {"times", story.times},
+                                {"utc", story.first.utc},
+                                {"reason", story.first.text},
+                                {"end", end}}));
     }
   }
-  return lines;
+  return notices;
 }
 
 std::optional<std::string> JournalLimit::admit(const std::string& key, const std::string& line,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "schema/axis.h"
+#include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/rig/rig.h"
 
@@ -47,7 +48,7 @@ std::optional<Trouble> unsolved(const MeasuredPoint& point, const Rig& rig,
 class TroubleLog {
  public:
   void add(const Trouble& trouble);
-  std::vector<std::string> summary() const;
+  Notices summary() const;
 
  private:
   struct Story {

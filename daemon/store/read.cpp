@@ -6,6 +6,7 @@
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
 #include "schema/encoder_datum.h"
+#include "schema/notice/notice_json.h"
 #include "schema/rig/rig_notes.h"
 
 namespace mdof::store {
@@ -119,11 +120,11 @@ Result<RunHeader> Store::header_of(Statement& row) {
     header.state = state_from(row.text(14));
     header.scans = natural(row.integer(15));
     header.scans_lost = natural(row.integer(16));
-    MDOF_TRY(header.warnings, texts(row.text(17)));
+    MDOF_TRY(header.notices, read_notices(row.text(17)));
     MDOF_TRY(header.temperature, temperature(header.id));
   } else if (!open_runs_.contains(header.id) && !WriterLock::open_runs_claimed(file())) {
     header.state = RunState::aborted;  // the next writer will store it so
-    header.warnings = {"interrupted"};
+    header.notices = {notice(NoticeCode::interrupted)};
   }
   return header;
 }
@@ -147,7 +148,8 @@ Status Store::mark_damage(RunHeader& header) {
   if (whole) return {};
   if (whole.error().code != ErrorCode::bad_input) return whole;
   header.state = RunState::failed;
-  header.warnings.insert(header.warnings.begin(), whole.error().message);
+  header.notices.insert(header.notices.begin(),
+                        notice(NoticeCode::row_damaged, "", {{"reason", whole.error().message}}));
   return {};
 }
 

@@ -19,6 +19,7 @@
 #include "schema/compensation_table.h"
 #include "schema/deed.h"
 #include "schema/encoder_datum.h"
+#include "schema/notice/notice.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
 
@@ -40,7 +41,7 @@ struct StoreOptions {
 struct RunEnd {
   RunState state = RunState::complete;  // not open
   std::uint64_t scans = 0, scans_lost = 0;
-  std::vector<std::string> warnings;
+  Notices notices;
   std::string recording_sha256;  // of a recording that was still being written at the start
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
@@ -93,7 +94,7 @@ class Store {
   Status append_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
   Status end_run(std::int64_t run, const RunEnd& end);
   // Ends it and stores what it turned out to be as a run that supersedes it, in one transaction.
-  // Of the result's header only state and warnings count. Gives the new run's id.
+  // Of the result's header only state and notices count. Gives the new run's id.
   Result<std::int64_t> end_and_supersede(std::int64_t run, const RunEnd& end, Run result);
 
   Result<RunHeader> run_header(std::int64_t run);

@@ -8,6 +8,7 @@
 #include "daemon/store/store.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/sha256.h"
+#include "schema/notice/notice_json.h"
 #include "schema/plausibility_json.h"
 
 namespace mdof::store {
@@ -51,7 +52,7 @@ void bind_errors(Statement& insert, const AxisErrors& errors) {
 
 RunEnd end_of(const Run& run) {
   const RunHeader& header = run.header;
-  return {header.state,     header.scans, header.scans_lost, header.warnings,    {},
+  return {header.state,     header.scans, header.scans_lost, header.notices,     {},
           run.straightness, run.angles,   run.plausibility,  header.temperature, std::nullopt};
 }
 
@@ -127,7 +128,7 @@ Result<std::int64_t> Store::end_and_supersede(std::int64_t run, const RunEnd& en
   MDOF_TRY(header, run_header(run));
   header.supersedes = run;
   header.state = asked.state;
-  header.warnings = std::move(asked.warnings);
+  header.notices = std::move(asked.notices);
   MDOF_TRY(const std::int64_t id, insert_whole(result, sha256));
   MDOF_CHECK(transaction.commit());
   open_runs_.erase(run);
@@ -155,8 +156,10 @@ Status Store::end_interrupted_runs() {
     MDOF_TRY(const std::string sha256, result_sha256(run));
     MDOF_TRY(Statement insert,
              connection_.prepare("INSERT INTO run_end (run, state, warnings, result_sha256) "
-                                 "VALUES (?, 'aborted', '[\"interrupted\"]', ?)"));
-    MDOF_CHECK(insert.bind(run).bind(std::string_view(sha256)).run());
+                                 "VALUES (?, 'aborted', ?, ?)"));
+    const std::string notices = notices_json({notice(NoticeCode::interrupted)});
+    insert.bind(run).bind(std::string_view(notices)).bind(std::string_view(sha256));
+    MDOF_CHECK(insert.run());
     MDOF_CHECK(add_link(connection_, Fact::run_end, run));
   }
   return transaction.commit();
@@ -282,10 +285,10 @@ Status Store::insert_end(std::int64_t run, const RunEnd& end, const std::string&
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO run_end (run, state, scans, scans_lost, warnings, "
                                "recording, result_sha256) VALUES (?, ?, ?, ?, ?, ?, ?)"));
-  const std::string warnings = json_array(end.warnings);
+  const std::string notices = notices_json(end.notices);
   insert.bind(run).bind(std::string_view(to_string(end.state)));
   insert.bind(integer(end.scans)).bind(integer(end.scans_lost));
-  insert.bind(std::string_view(warnings)).bind(recording).bind(std::string_view(sha256));
+  insert.bind(std::string_view(notices)).bind(recording).bind(std::string_view(sha256));
   MDOF_CHECK(insert.run());
   MDOF_CHECK(insert_temperature(run, end.temperature));
   return add_link(connection_, Fact::run_end, run);

@@ -20,7 +20,7 @@ store::RunEnd end_of(const Run& run) {
   end.state = run.header.state;
   end.scans = run.header.scans;
   end.scans_lost = run.header.scans_lost;
-  end.warnings = run.header.warnings;
+  end.notices = run.header.notices;
   end.recording_sha256 = run.header.provenance.recording_sha256;
   end.straightness = run.straightness;
   end.angles = run.angles;
@@ -29,23 +29,19 @@ store::RunEnd end_of(const Run& run) {
   return end;
 }
 
-// The end of a run that turned out otherwise: of use to nobody; `where` is what it turned out to
-// be.
-store::RunEnd provisional_of(store::RunEnd whole, const char* where) {
+// The end of a run whose targets were renumbered: `why` says what became of its points.
+store::RunEnd provisional_of(store::RunEnd whole, NoticeCode why) {
   whole.state = RunState::failed;
   whole.straightness.clear();
   whole.angles.clear();
   whole.plausibility.reset();
-  whole.warnings.push_back(std::string("targets and points were numbered again when all stops were "
-                                       "known; ") +
-                           where);
+  whole.notices.push_back(notice(why));
   return whole;
 }
 
-// The end of a run that whoever stopped it was told has failed.
+// A run whose end was reported to the client as failed.
 store::RunEnd refused_at_first(store::RunEnd whole, const Error& error) {
-  whole.warnings.push_back("the disk refused the end of this run at first, so that it is failed: " +
-                           error.message + " A replay of its recording gives the whole run.");
+  whole.notices.push_back(notice(NoticeCode::end_refused, "", {{"reason", error.message}}));
   return whole;
 }
 
@@ -170,7 +166,8 @@ void Storekeeper::seal(Ending& ending) {
     recordings_.erase(recording);
     if (!sealed) {
       header.state = RunState::failed;
-      header.warnings.push_back(sealed.error().message);
+      header.notices.push_back(
+          notice(NoticeCode::failure, "", {{"words", sealed.error().message}}));
     } else {
       header.provenance.recording_sha256 = *sealed;
     }
@@ -190,13 +187,12 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
     return run;
   }
   if (ending.dropped > 0)
-    whole.warnings.push_back(std::to_string(ending.dropped) +
-                             " points could not be stored when they were measured");
+    whole.notices.push_back(
+        notice(NoticeCode::points_not_stored, "", {{"points", ending.dropped}}));
   auto superseded = store_->end_and_supersede(
-      run, provisional_of(whole, "the run that supersedes this one has them"), ending.result);
+      run, provisional_of(whole, NoticeCode::superseded_by_renumbering), ending.result);
   if (!superseded && !is_busy(superseded))
-    refused_end({run, provisional_of(whole, "the disk refused them: replay its recording")},
-                superseded.error());
+    refused_end({run, provisional_of(whole, NoticeCode::renumbering_refused)}, superseded.error());
   return superseded;
 }
 

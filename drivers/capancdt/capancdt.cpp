@@ -36,7 +36,7 @@ DeviceInfo Capancdt::info() const {
   info.description = session_->setup.description + " at " + options_.command.text();
   info.rate_hz = 1e9 / session_->setup.frame_ns();
   info.clock = session_->clock.state();
-  info.warnings = session_->setup.warnings;
+  info.notices = session_->setup.notices;
   return info;
 }
 

@@ -85,30 +85,22 @@ Result<std::vector<int>> linearisations(CommandPort& port) {
 // What changes values without a word: it goes with every result.
 Status read_corrections(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const auto modes, linearisations(port));
-  if (modes.empty())
-    setup.warnings.emplace_back("the controller does not say whether it linearises ($LIN?)");
+  if (modes.empty()) setup.notices.push_back(notice(NoticeCode::linearisation_unknown));
   for (std::size_t i = 0; i < setup.inputs.size(); ++i) {
     const auto& channel = options.channels[i];
     const auto at = static_cast<std::size_t>(channel.number - 1);
     if (at >= modes.size() || modes[at] == 0) continue;
     setup.inputs[i].linearisation = modes[at];
-    const std::string what = "the controller linearises \"" + channel.input.id + "\" (LIN " +
-                             std::to_string(modes[at]) + ")";
-    setup.warnings.push_back(
-        channel.rig_corrects
-            ? what +
-                  " and the rig does too, so that it is corrected twice: switch that of the "
-                  "controller off ($LIN" +
-                  channel.input.input +
-                  ":0), or take linearity or "
-                  "polynomial_um of the probe away"
-            : what + "; its certificate must be of that state");
+    setup.notices.push_back(channel.rig_corrects
+                                ? notice(NoticeCode::linearised_twice, channel.input.id,
+                                         {{"mode", modes[at]}, {"input", channel.input.input}})
+                                : notice(NoticeCode::linearised_by_controller, channel.input.id,
+                                         {{"mode", modes[at]}}));
   }
   MDOF_TRY(const auto low_pass, port.ask_if_known("$ALP?"));
   setup.low_pass = parse_integer(low_pass.value_or("")).value_or(0);
   if (setup.low_pass != 0)
-    setup.warnings.push_back("its analogue low-pass is on (ALP " + std::to_string(setup.low_pass) +
-                             "), which delays the readings");
+    setup.notices.push_back(notice(NoticeCode::low_pass_on, "", {{"mode", setup.low_pass}}));
   return {};
 }
 

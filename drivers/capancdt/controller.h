@@ -7,6 +7,7 @@
 
 #include "drivers/capancdt/options.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::drivers::capancdt {
 
@@ -25,9 +26,9 @@ struct Setup {
     bool maths = false;     // its values may lie outside the range
     int linearisation = 0;  // $LIN
   };
-  std::vector<Input> inputs;          // as Options::channels
-  int low_pass = 0;                   // $ALP, analogue
-  std::vector<std::string> warnings;  // of what it does to the values by itself
+  std::vector<Input> inputs;  // as Options::channels
+  int low_pass = 0;           // $ALP, analogue
+  Notices notices;            // of what it does to the values by itself
 
   double frame_ns() const { return sample_time_us * 1e3 * averaged; }
 };

@@ -39,8 +39,8 @@ std::vector<std::string> CsvLog::comments() const {
 std::string CsvLog::sha256() const {
   return rows_ ? rows_->sha256() : "";
 }
-std::vector<std::string> CsvLog::warnings() const {
-  return rows_ ? rows_->warnings() : std::vector<std::string>();
+Notices CsvLog::notices() const {
+  return rows_ ? rows_->notices() : Notices();
 }
 std::uint64_t CsvLog::bytes() const {
   return rows_ ? rows_->bytes() : 0;

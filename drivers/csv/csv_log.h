@@ -9,6 +9,7 @@
 
 #include "drivers/csv/csv_rows.h"
 #include "drivers/driver.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::drivers {
 
@@ -25,7 +26,7 @@ class CsvLog : public Driver {
 
   std::vector<std::string> comments() const;  // of the header, without '#'; after open()
   std::string sha256() const;                 // of the file as stored, after the end; else ""
-  std::vector<std::string> warnings() const;  // after the end or an error: as of CsvRows
+  Notices notices() const;                    // after the end or an error: as of CsvRows
   std::uint64_t bytes() const;                // read so far, as stored
   std::uint64_t bytes_total() const;          // 0: not known
 

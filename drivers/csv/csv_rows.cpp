@@ -154,10 +154,12 @@ std::string CsvRows::sha256() const {
   return reading_->sha256();
 }
 
-std::vector<std::string> CsvRows::warnings() const {
+Notices CsvRows::notices() const {
   if (!reading_->ended()) return {};
-  std::vector<std::string> all = reading_->rows().bad_lines();
-  for (std::string& line : reading_->rows().missing_values()) all.push_back(std::move(line));
+  Notices all;
+  for (const std::string& line : reading_->rows().bad_lines())
+    all.push_back(notice(NoticeCode::log_line_skipped, "", {{"reason", line}}));
+  append(all, reading_->rows().missing_values());
   return all;
 }
 

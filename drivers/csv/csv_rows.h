@@ -10,6 +10,7 @@
 
 #include "drivers/driver.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/recording/csv_row_parser.h"
 #include "schema/recording/probe_log.h"
 #include "schema/sample.h"
@@ -45,7 +46,7 @@ class CsvRows {
   std::string sha256() const;
   // After the end or an error, else empty: one line of text for each line skipped, and for
   // each column with missing values.
-  std::vector<std::string> warnings() const;
+  Notices notices() const;
   std::uint64_t bytes() const;        // stored bytes read so far
   std::uint64_t bytes_total() const;  // 0: not known
 

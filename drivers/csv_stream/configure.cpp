@@ -98,7 +98,7 @@ Result<DriverSpec> configure_csv_stream(TomlTable& table, const DriverContext& c
     return std::make_unique<CsvStream>(name, options);
   };
   spec.source_info = [](const Driver& driver) {
-    return SourceInfo{{}, static_cast<const CsvStream&>(driver).warnings()};
+    return SourceInfo{{}, static_cast<const CsvStream&>(driver).notices()};
   };
   return spec;
 }

@@ -47,8 +47,12 @@ DeviceInfo CsvStream::info() const {
   return info;
 }
 
-std::vector<std::string> CsvStream::warnings() const {
-  return protocol_ ? protocol_->bad_line_reasons() : std::vector<std::string>();
+Notices CsvStream::notices() const {
+  Notices all;
+  if (!protocol_) return all;
+  for (const std::string& line : protocol_->bad_line_reasons())
+    all.push_back(notice(NoticeCode::log_line_skipped, "", {{"reason", line}}));
+  return all;
 }
 
 Status CsvStream::open() {

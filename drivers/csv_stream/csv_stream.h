@@ -14,6 +14,7 @@
 #include "drivers/driver.h"
 #include "drivers/io/byte_stream.h"
 #include "drivers/io/child_process.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::drivers {
 
@@ -46,7 +47,7 @@ class CsvStream final : public Driver {
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
   std::uint64_t bad_lines() const { return protocol_ ? protocol_->bad_lines() : 0; }  // since open
-  std::vector<std::string> warnings() const;
+  Notices notices() const;
   ClockState clock() const { return clock_.state(); }
 
  private:

@@ -41,7 +41,7 @@ LinuxComedi::~LinuxComedi() {
 DeviceInfo LinuxComedi::info() const {
   return {settings_.name, "linux_comedi", setup_.description, channels_,
           rate_hz_,       false,          clock_.state(),     "",
-          setup_.warnings};
+          setup_.notices};
 }
 
 std::string LinuxComedi::place() const {

@@ -82,8 +82,8 @@ Status check_rate(const Command& command, double rate_hz) {
                    (each_us > 0 ? " that are " + plain_number(each_us) + " us apart" : ""));
 }
 
-std::string uncalibrated(const std::string& why) {
-  return "volts are nominal and may be off by some percent of the range: " + why;
+Notice uncalibrated(const std::string& why) {
+  return notice(NoticeCode::board_not_calibrated, "", {{"reason", why}});
 }
 
 // The conversions by range, or by what the file has for each.
@@ -101,13 +101,13 @@ Status convert(Board& board, const Subdevice& has, Setup& setup) {
     setup.conversions.push_back(
         {corrected ? *calibration.to_volts[i] : nominal(range, greatest_code), greatest_code});
     if (used && has.soft_calibrated && !corrected)
-      setup.warnings.push_back(uncalibrated(calibration.file + " has nothing for " +
-                                            channel_text(input.channel) + " at " + text_of(range)));
+      setup.notices.push_back(uncalibrated(calibration.file + " has nothing for " +
+                                           channel_text(input.channel) + " at " + text_of(range)));
   }
   if (calibration.found && !calibration.wrong.empty())
-    setup.warnings.push_back(uncalibrated(calibration.file + ": " + calibration.wrong));
+    setup.notices.push_back(uncalibrated(calibration.file + ": " + calibration.wrong));
   if (!calibration.found && has.soft_calibrated)
-    setup.warnings.push_back(
+    setup.notices.push_back(
         uncalibrated("its board is calibrated by software and " +
                      (calibration.file.empty() ? "its calibration file" : calibration.file) +
                      " is not there; comedi_soft_calibrate makes it"));
@@ -150,9 +150,7 @@ Result<Setup> set_up(Board& board, const Settings& settings) {
   setup.buffer_s =
       static_cast<double>(board.buffer_bytes(subdevice)) / scan_bytes / rate_of(setup.command);
   describe(board, settings, setup);
-  if (board.driver() == kMadeUp)
-    setup.warnings.push_back(
-        "comedi_test is a driver of the kernel for tests: it measures nothing");
+  if (board.driver() == kMadeUp) setup.notices.push_back(notice(NoticeCode::board_simulated));
   MDOF_CHECK(convert(board, has, setup));
   return setup;
 }

@@ -7,6 +7,7 @@
 #include "drivers/linux_comedi/board.h"
 #include "drivers/linux_comedi/protocol.h"
 #include "drivers/linux_comedi/settings.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::drivers::linux_comedi {
 
@@ -21,7 +22,7 @@ struct Setup {
   std::vector<Conversion> conversions;  // [input]
   double buffer_s = 0;                  // that the kernel's buffer holds
   std::string description;
-  std::vector<std::string> warnings;
+  Notices notices;
 };
 
 // Errors: the board is another, or has not what the settings ask for, with what it has.

@@ -13,7 +13,7 @@ namespace {
 template <class Log>
 SourceInfo info_of(const Driver& driver) {
   const auto& log = static_cast<const Log&>(driver);
-  return {log.sha256(), log.warnings()};
+  return {log.sha256(), log.notices()};
 }
 
 DriverSpec log_driver(const std::string& name, const std::string& path) {

@@ -52,7 +52,7 @@ Result<Connection> RecordingLog::connect() const {
 Status RecordingLog::open() {
   connection_.reset();
   seal_.reset();
-  warnings_.clear();
+  notices_.clear();
   next_ = 1;
   MDOF_TRY(Connection connection, connect());
   connection_.emplace(std::move(connection));
@@ -121,9 +121,8 @@ Status RecordingLog::read_extent() {
   MDOF_TRY(start_ns_, connection_->integer("SELECT first_ns FROM chunk ORDER BY seq LIMIT 1"));
   MDOF_TRY(sha256_, hash_before(chunks_ + 1));
   if (!seal_)
-    warnings_.push_back(file_.string() +
-                        ": not sealed (its writer was interrupted, or is at work); " +
-                        "read up to chunk " + std::to_string(chunks_) + ", the last one committed");
+    notices_.push_back(
+        notice(NoticeCode::recording_not_sealed, file_.string(), {{"chunk", chunks_}}));
   return {};
 }
 

@@ -11,6 +11,7 @@
 #include "drivers/driver.h"
 #include "schema/base/progress.h"
 #include "schema/base/sqlite.h"
+#include "schema/notice/notice.h"
 #include "schema/recording/recording.h"
 
 namespace mdof::drivers {
@@ -40,7 +41,7 @@ class RecordingLog : public Driver {
   bool simulated() const { return header_.simulated; }
   // Of the chain of chunks; proven once read() has said `end`.
   const std::string& sha256() const { return sha256_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const Notices& notices() const { return notices_; }
   Progress progress() const;  // in chunks
 
  private:
@@ -66,7 +67,7 @@ class RecordingLog : public Driver {
   RecordingHeader header_;
   std::optional<RecordingSeal> seal_;
   std::string sha256_;
-  std::vector<std::string> warnings_;
+  Notices notices_;
   std::int64_t chunks_ = 0, next_ = 1, start_ns_ = 0;
 };
 

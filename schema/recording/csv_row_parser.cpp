@@ -238,20 +238,20 @@ Status CsvRowParser::store(const CsvLine& line) {
   return {};
 }
 
-std::vector<std::string> CsvRowParser::missing_values() const {
-  std::vector<std::string> lines;
+Notices CsvRowParser::missing_values() const {
+  Notices found;
   for (std::size_t channel = 0; channel < missing_.size(); ++channel) {
     const Missing& missing = missing_[channel];
     if (missing.values == 0) continue;
     const std::string first = header_.time_column < 0
                                   ? "in row " + std::to_string(missing.first_row)
                                   : "at " + seconds(missing.first_ns);
-    lines.push_back(header_.source + ": column " +
-                    header_.columns[header_.channel_columns[channel]] + ": " +
-                    std::to_string(missing.values) + " of " + std::to_string(rows_before_) +
-                    " values are missing (empty or nan), the first " + first);
+    found.push_back(
+        notice(NoticeCode::log_values_missing,
+               header_.source + ": column " + header_.columns[header_.channel_columns[channel]],
+               {{"missing", missing.values}, {"rows", rows_before_}, {"first", first}}));
   }
-  return lines;
+  return found;
 }
 
 Status CsvRowParser::count_blank_line(std::size_t bytes) {

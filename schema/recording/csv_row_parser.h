@@ -11,6 +11,7 @@
 #include "schema/base/csv/csv_stops.h"
 #include "schema/base/number/number_columns.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/recording/probe_log.h"
 #include "schema/sample.h"
 
@@ -48,7 +49,7 @@ class CsvRowParser {
   std::uint64_t rows() const { return rows_before_ + row_; }
   // A line for each column with missing values: how many, and where the first is. Of the blocks
   // handed over.
-  std::vector<std::string> missing_values() const;
+  Notices missing_values() const;
 
  private:
   void parse_plain_rows();

@@ -242,19 +242,18 @@ void reject_doubles(TomlTable& table, const std::vector<Probe>& probes) {
 
 }  // namespace
 
-std::vector<std::string> overdue_calibrations(const Rig& rig, std::string_view day) {
-  std::vector<std::string> overdue;
+Notices overdue_calibrations(const Rig& rig, std::string_view day) {
+  Notices overdue;
   for (const Probe& probe : rig.probes) {
     const Calibration& c = probe.calibration;
     if (c.due.empty() || day.substr(0, c.due.size()) <= c.due) continue;
-    overdue.push_back("probe \"" + probe.id + "\": its calibration" +
-                      (c.certificate.empty() ? "" : " (certificate " + c.certificate + ")") +
-                      " was due on " + c.due + "; have it calibrated anew");
+    overdue.push_back(notice(NoticeCode::calibration_overdue, probe.id,
+                             {{"due", c.due}, {"certificate", c.certificate}}));
   }
   for (const CalibrationRecord& record : rig.records)
     if (day.substr(0, record.valid_until.size()) > record.valid_until)
-      overdue.push_back("the calibration \"" + record.id + "\" was valid until " +
-                        record.valid_until + "; make it anew with mdof calibrate " + record.kind);
+      overdue.push_back(notice(NoticeCode::record_expired, record.id,
+                               {{"valid_until", record.valid_until}, {"kind", record.kind}}));
   return overdue;
 }
 

@@ -13,6 +13,7 @@
 #include "schema/axis.h"
 #include "schema/base/result.h"
 #include "schema/calibration/record.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/chain.h"
 #include "schema/rig/expansion.h"
 #include "schema/rig/uncertainty.h"
@@ -110,7 +111,7 @@ struct Rig {
 
 // What results measured on this day (YYYY-MM-DD..., UTC) have to say of the probes' calibrations
 // and of the records that are out of date.
-std::vector<std::string> overdue_calibrations(const Rig& rig, std::string_view day);
+Notices overdue_calibrations(const Rig& rig, std::string_view day);
 
 // Reads a rig (DESIGN §6); of one that refers to calibration records, with them behind it, as
 // load_rig_text() gives it. Errors name the file, line and key, and for an unknown key the nearest

@@ -162,11 +162,12 @@ Status check_rig(const Rig& rig) {
   return {};
 }
 
-std::vector<std::string> doubtful_values(const Rig& rig) {
-  std::vector<std::string> warnings;
+Notices doubtful_values(const Rig& rig) {
+  Notices found;
   for (const Finding& finding : findings_of(rig))
-    if (!finding.impossible) warnings.push_back(finding.text + " (if it is right, ignore this)");
-  return warnings;
+    if (!finding.impossible)
+      found.push_back(notice(NoticeCode::rig_value_doubtful, "", {{"finding", finding.text}}));
+  return found;
 }
 
 }  // namespace mdof

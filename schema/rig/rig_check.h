@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 
 namespace mdof {
@@ -15,6 +16,6 @@ namespace mdof {
 Status check_rig(const Rig& rig);
 
 // The odd ones, each with file, line and key, for whoever measures with this rig.
-std::vector<std::string> doubtful_values(const Rig& rig);
+Notices doubtful_values(const Rig& rig);
 
 }  // namespace mdof

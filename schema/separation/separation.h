@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "schema/axis.h"
+#include "schema/notice/notice.h"
 
 namespace mdof {
 
@@ -50,7 +51,7 @@ struct Separation {
   double residual_m = std::numeric_limits<double>::quiet_NaN();
   std::string u_reason;     // where u comes from, or why there is none
   bool noise_only = false;  // u has noise and repeatability of runs, and nothing that is declared
-  std::vector<std::string> warnings;
+  Notices notices;
 };
 
 // What it was made of, so that the profile can be used later by those who were not there.

@@ -12,8 +12,8 @@ namespace mdof::algo {
 
 struct Detected {
   std::vector<Point> points;
-  std::vector<DwellNotice> notices;
-  std::vector<std::string> warnings;
+  std::vector<DwellEvent> events;
+  Notices notices;
   DwellDetector::Summary summary;
 };
 
@@ -25,8 +25,8 @@ inline Detected detect(const SteppingLog& log, const FrameBlock& frames, std::si
     detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);
   detector.flush(found.points);
   detector.mark(found.points);
-  found.notices = detector.notices();
-  found.warnings = detector.warnings(found.points);
+  found.events = detector.events();
+  found.notices = detector.notices(found.points);
   found.summary = detector.summary();
   return found;
 }

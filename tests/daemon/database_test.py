@@ -13,7 +13,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mdofd import RIG, Client, Daemon, RpcError, simulator, write_log  # noqa: E402
+from mdofd import RIG, Client, Daemon, RpcError, notice_lines, simulator, write_log  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 CONFLICT = 4
@@ -258,7 +258,7 @@ class Database(unittest.TestCase):
             pass
         self.assertEqual((event["run"], event["state"]), (run, "failed"))
         self.assertTrue(any("was deleted while the run was being recorded" in w
-                            for w in self.client.call("run.get", run=run)["warnings"]))
+                            for w in notice_lines(self.client.call("run.get", run=run))))
 
     def listed(self, **params):
         runs, offset, pages = [], 0, 0

@@ -14,7 +14,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from device_setups import worst_errors  # noqa: E402
-from mdofd import DATA, Client, Daemon, RpcError  # noqa: E402
+from mdofd import DATA, Client, Daemon, RpcError, notice_lines  # noqa: E402
 
 MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 RIG = os.path.join(DATA, "devices", "rig_X.toml")
@@ -293,7 +293,7 @@ class Devices(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         header = json.loads(done.stdout)
         self.assertEqual(header["state"], "complete")
-        self.assertTrue(any(f"goes on from run {cut}" in w and "set on" in w for w in header["warnings"]), header)
+        self.assertTrue(any(f"goes on from run {cut}" in w and "set on" in w for w in notice_lines(header)), header)
         self.assertEqual(header["options"]["encoder_datum"]["kind"], "set")
         self.check_both_parts(header, cut, before)
         for run, why in ((header["run"], "is complete"), (cut, "supersedes it"), (4711, "4711")):
@@ -335,7 +335,7 @@ class Devices(unittest.TestCase):
         def warnings():
             started = self.client.call("run.start", axis="X", targets_mm=TARGETS)
             self.client.call("run.stop", run=started["run"], abort=True)
-            return started["warnings"]
+            return notice_lines(started)
 
         self.daemon.stop()
         type(self).client = self.daemon.start()

@@ -19,7 +19,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from device_setups import COMEDI_CALIBRATION, SETUPS, Simulators, worst_errors  # noqa: E402
-from mdofd import Client, Daemon  # noqa: E402
+from mdofd import Client, Daemon, notice_lines  # noqa: E402
 
 
 def wait_until_all_flow(client, timeout_s=60):
@@ -105,7 +105,7 @@ def check(options, name):
         for key in ("state", "options", "straightness", "angles", "note"):
             assert again[key] == header[key], f"{name}: a replay gives another {key}"
         unsolved = [p for p in points if any(p[key] is None for key in ("EYX_um", "EZX_um", "EAX_urad"))]
-        assert not unsolved, (f"{name}: {len(unsolved)} points are not solved", unsolved[0]["flags"], header["warnings"])
+        assert not unsolved, (f"{name}: {len(unsolved)} points are not solved", unsolved[0]["flags"], notice_lines(header))
         worst = worst_errors(points, zero_mm)
         for key, error in worst.items():
             bound = setup.straightness_um if key.endswith("_um") else setup.angle_urad

@@ -16,7 +16,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from device_setups import SETUPS, Simulators  # noqa: E402
-from mdofd import Client, Daemon, RpcError, replay, simulator, write_log  # noqa: E402
+from mdofd import Client, Daemon, RpcError, notice_lines, replay, simulator, write_log  # noqa: E402
 
 MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 TARGETS = [0, 2, 4.1]
@@ -105,7 +105,7 @@ class EncoderDatum(unittest.TestCase):
             self.assertEqual(len(notes), 1)
             self.assertIn('device "t7") has no datum', notes[0])
             self.assertIn("mdof encoder set", notes[0])
-        self.assertNotIn("datum", " ".join(header["warnings"]))
+        self.assertNotIn("datum", " ".join(notice_lines(header)))
         code, out, err = self.mdof("show", header["run"], "--db", self.daemon.database)
         self.assertEqual(code, 0, err)
         self.assertIn("has no datum", " ".join(out.split()))
@@ -116,7 +116,7 @@ class EncoderDatum(unittest.TestCase):
         self.assertIn("has no datum", err)
         table = json.loads(out)
         self.assertIn(f"run {header['run']}: the encoder", table["notes"][0])
-        self.assertNotIn("datum", " ".join(table["warnings"]))
+        self.assertNotIn("datum", " ".join(notice_lines(table)))
         with self.assertRaisesRegex(RpcError, "has no datum"):
             self.client.call("compensation.activate", table=table["table"])
         self.client.call("compensation.activate", table=table["table"], despite_warnings=True)
@@ -125,7 +125,7 @@ class EncoderDatum(unittest.TestCase):
         self.set_at_rest(112.5, self.set_by_rpc)
         started, header, points = self.measured(112.5)
         self.assertEqual(started["notes"] + header["notes"], [])
-        self.assertEqual(header["state"], "complete", header["warnings"])
+        self.assertEqual(header["state"], "complete", notice_lines(header))
         datum = header["options"]["encoder_datum"]
         self.assertEqual((datum["kind"], datum["device"]), ("set", "t7"))
         self.assertIn(f"uid {os.getuid()}", datum["by"])
@@ -176,16 +176,16 @@ class EncoderDatum(unittest.TestCase):
         self.simulators = Simulators(SIMULATE, self.setup_, self.folder.name)
         self.wait(lambda: any("datum is lost" in t for t in self.device()["trouble"]))
         started = self.client.call("run.start", axis="X")
-        self.assertIn("datum is lost", " ".join(started["warnings"]))
+        self.assertIn("datum is lost", " ".join(notice_lines(started)))
         self.assertIn("has no datum", " ".join(started["notes"]))
         self.client.call("run.stop", run=started["run"], abort=True)
         self.set_at_rest(37, self.set_by_command_line)
         self.assertEqual(self.device()["trouble"], [])
         time.sleep(0.3)
         started, header, points = self.measured(37)
-        self.assertEqual(header["state"], "complete", header["warnings"])
-        self.assertEqual(header["notes"] + started["notes"] + started["warnings"], [])
-        self.assertNotIn("cannot be placed", " ".join(header["warnings"]))
+        self.assertEqual(header["state"], "complete", notice_lines(header))
+        self.assertEqual(header["notes"] + started["notes"] + notice_lines(started), [])
+        self.assertNotIn("cannot be placed", " ".join(notice_lines(header)))
         self.assertEqual(len(points), 2 * len(TARGETS))
 
     def encoder(self):

@@ -17,7 +17,7 @@ import unittest
 
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mdofd import DATA, Client, Daemon, RpcError, replay, simulator  # noqa: E402
+from mdofd import DATA, Client, Daemon, RpcError, notice_lines, replay, simulator  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 TARGETS = [0, 2, 4.1, 6.2]
@@ -76,13 +76,13 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(code, 0, err)
         again = json.loads(out)
         self.assertEqual(again["points"], points)
-        self.assertIn("periodic error", str(header["warnings"]))
+        self.assertIn("periodic error", str(notice_lines(header)))
         table = self.client.call("compensation.build", runs=[run])["table"]
         with self.assertRaisesRegex(RpcError, "not put in force: .*despite_warnings"):
             self.client.call("compensation.activate", table=table, simulated=True)
         with self.assertRaisesRegex(RpcError, "is simulated.*simulated"):
             self.client.call("compensation.activate", table=table, despite_warnings=True)
-        for key in ("straightness", "angles", "state", "note", "options", "warnings"):
+        for key in ("straightness", "angles", "state", "note", "options", "notices"):
             self.assertEqual(again[key], header[key])
         self.assertEqual(again["recording"]["sha256"], header["recording"]["sha256"])
         code, out, err = mdof("replay", header["recording"]["path"], "--no-store", "--json", "--note", "other",
@@ -112,7 +112,7 @@ class EndToEnd(unittest.TestCase):
         header = self.client.call("run.get", run=run)
         self.assertEqual(header["state"], "complete" if len(seen) == len(TARGETS) else "partial")
         for target in range(1, len(TARGETS) + 1):
-            self.assertEqual(f"target {target} at" in str(header["warnings"]), target not in seen, header)
+            self.assertEqual(f"target {target} at" in str(notice_lines(header)), target not in seen, header)
         self.assertIsNone(self.client.call("run.list", count=1)["runs"][0]["supersedes"])
 
     def stopped_in_a_dwell(self):

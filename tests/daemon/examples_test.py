@@ -16,7 +16,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from device_setups import Setup, Simulators, worst_errors  # noqa: E402
 from each_device_test import measured, replayed, wait_until_all_flow  # noqa: E402
-from mdofd import Client, Daemon, RpcError  # noqa: E402
+from mdofd import Client, Daemon, RpcError, notice_lines  # noqa: E402
 
 MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "daemon" / "examples"
@@ -104,7 +104,7 @@ class Examples(unittest.TestCase):
         finally:
             simulators.kill()
         for key, error in worst_errors(points).items():
-            self.assertLess(error, straightness_um if key.endswith("_um") else angle_urad, (key, header["warnings"]))
+            self.assertLess(error, straightness_um if key.endswith("_um") else angle_urad, (key, notice_lines(header)))
         self.assertIn("has no datum", " ".join(header["notes"]))
 
     def test_five_lion_precision_and_an_encoder_on_a_t7(self):
@@ -158,7 +158,7 @@ class Examples(unittest.TestCase):
         self.assertEqual((live("Y")["encoder_mm"], live("Y")["still"]), (0, True))  # each line its own count
         points = {"X": client.points(x["run"])}
         for key, error in worst_errors(points["X"]).items():
-            self.assertLess(error, 0.03 if key.endswith("_um") else 2, (key, x["warnings"]))
+            self.assertLess(error, 0.03 if key.endswith("_um") else 2, (key, notice_lines(x)))
 
         t7.kill()  # the fixture is moved, with the T7 switched off
         wait(lambda: all("lost" in text for text in trouble().values()))
@@ -184,7 +184,7 @@ class Examples(unittest.TestCase):
         as_x = [{"position_mm": p["position_mm"], "EYX_um": p["EXY_um"], "EZX_um": -p["EZY_um"], "EAX_urad": p["EBY_urad"],
                  "EBX_urad": p["EAY_urad"], "ECX_urad": p["ECY_urad"]} for p in points["Y"]]
         for key, error in worst_errors(as_x).items():
-            self.assertLess(error, 0.03 if key.endswith("_um") else 2, (key, y["warnings"]))
+            self.assertLess(error, 0.03 if key.endswith("_um") else 2, (key, notice_lines(y)))
 
         fit = client.call("squareness.fit", run_x=x["run"], run_y=y["run"])
         wave = lambda d: 2 * math.sin(2 * math.pi * d / 10)  # noqa: E731

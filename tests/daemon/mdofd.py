@@ -26,6 +26,11 @@ repeats = {repeats}
 """
 
 
+def notice_lines(document):
+    """The notices of a run, a table or another document as mdof prints them: a line each, marked unless doubtful."""
+    return [("" if n["severity"] == "doubtful" else n["severity"] + ": ") + n["text"] for n in document["notices"]]
+
+
 def simulator(axis="X", rate_hz=2000, dwell_s=0.3, targets_mm=(0, 2, 4.1, 6.2), extra="",
               repeats=3):
     return SIMULATOR.format(rig=RIG[axis], rate_hz=rate_hz, dwell_s=dwell_s,

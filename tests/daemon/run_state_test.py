@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mdofd import Client, Daemon, RpcError, simulator  # noqa: E402
+from mdofd import Client, Daemon, RpcError, notice_lines, simulator  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 TARGETS = [0, 2, 4.1, 6.2]
@@ -74,14 +74,14 @@ class RunState(unittest.TestCase):
     def test_a_run_ended_early_is_partial_and_says_what_is_missing(self):
         self.assertEqual(self.partial["state"], "partial")
         missing = self.missing_of(self.partial)
-        said = [w for w in self.partial["warnings"] if "asked for are missing" in w]
-        self.assertEqual(len(said), 1, self.partial["warnings"])
+        said = [w for w in notice_lines(self.partial) if "asked for are missing" in w]
+        self.assertEqual(len(said), 1, notice_lines(self.partial))
         self.assertIn(f"{sum(missing.values())} of 16 points", said[0])
         for (target, direction), n in missing.items():
             if n > 0:
                 of_target = said[0].split(f"target {target} at")[1].split(";")[0]
                 self.assertIn(f"{n} {'forward' if direction > 0 else 'reverse'}", of_target)
-        self.assertIn("mdof record --resume", str(self.partial["warnings"]))
+        self.assertIn("mdof record --resume", str(notice_lines(self.partial)))
 
     def test_what_lists_runs_says_partial(self):
         code, out, err = mdof("runs", "--db", self.daemon.database, "--json")
@@ -102,14 +102,14 @@ class RunState(unittest.TestCase):
         with self.assertRaisesRegex(RpcError, f"run {run} is partial.*--partial"):
             self.client.call("compensation.build", runs=[run])
         built = self.client.call("compensation.build", runs=[run], partial=True)
-        self.assertIn(f"run {run}, which is partial", built["warnings"][0])
+        self.assertIn(f"run {run}, which is partial", notice_lines(built)[0])
         code, _, err = mdof("compensation", "build", run, "--db", self.daemon.database, "--socket", self.daemon.socket)
         self.assertEqual(code, 3)
         self.assertIn("--partial", err)
         code, out, err = mdof("compensation", "build", run, "--partial", "--json", "--db", self.daemon.database,
                               "--socket", self.daemon.socket)
         self.assertEqual(code, 0, err)
-        self.assertEqual(json.loads(out)["warnings"], built["warnings"])
+        self.assertEqual(notice_lines(json.loads(out)), notice_lines(built))
 
     def test_it_can_be_gone_on_with(self):
         """And what was asked for is in the recording of the run that goes on, too."""
@@ -117,14 +117,14 @@ class RunState(unittest.TestCase):
         watcher = self.watcher()
         resumed = self.client.call("run.resume", run=partial["run"])["run"]
         header = self.ended(watcher)
-        self.assertEqual(header["state"], "complete", header["warnings"])
+        self.assertEqual(header["state"], "complete", notice_lines(header))
         self.assertIn(header["supersedes"], (partial["run"], resumed))
         self.assertTrue(all(n == 0 for n in self.missing_of(header).values()))
         code, out, err = mdof("replay", header["recording"]["path"], "--no-store", "--json")
         self.assertEqual(code, 0, err)
         again = json.loads(out)
         self.assertEqual(again["points"], self.client.points(header["run"]))
-        for key in ("state", "note", "options", "warnings"):
+        for key in ("state", "note", "options", "notices"):
             self.assertEqual(again[key], header[key])
         with self.assertRaisesRegex(RpcError, "is complete"):
             self.client.call("run.resume", run=header["run"])

@@ -14,7 +14,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mdofd import RIG, Client, Daemon, RpcError, simulator, write_log  # noqa: E402
+from mdofd import RIG, Client, Daemon, RpcError, notice_lines, simulator, write_log  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 
@@ -83,7 +83,7 @@ class SmallDisk(unittest.TestCase):
         self.assertIn("storage full", text)
         header = client.call("run.list")["runs"][0]
         self.assertEqual((header["run"], header["state"]), (run, "aborted"))
-        self.assertIn("interrupted", header["warnings"])
+        self.assertIn("interrupted", notice_lines(header))
         before = self.recordings()
         for method, params in (("run.start", {"axis": "X"}), ("compensation.deactivate", {"axis": "X"})):
             with self.assertRaises(RpcError) as refusal:
@@ -177,7 +177,7 @@ class HangUp(unittest.TestCase):
         header = client.call("run.get", run=run)
         self.daemon.stop()
         self.assertEqual(header["state"], "aborted")
-        self.assertIn("the daemon was stopped", header["warnings"])
+        self.assertIn("the daemon was stopped", notice_lines(header))
         with sqlite3.connect(header["recording"]["path"]) as recording:
             self.assertEqual(recording.execute("SELECT count(*) FROM seal").fetchone(), (1,))
 

@@ -62,7 +62,7 @@ class CsvLogTest : public testing::Test {
 struct Replay {
   std::vector<SampleBlock> blocks;
   std::string error, sha256;
-  std::vector<std::string> warnings;
+  Notices notices;
   std::size_t rows() const {
     std::size_t n = 0;
     for (const SampleBlock& block : blocks) n += block.scans();
@@ -84,7 +84,7 @@ Replay replay(CsvLog& log) {
     if (block.scans() > 0) result.blocks.push_back(std::move(block));
   }
   result.sha256 = log.sha256();
-  result.warnings = log.warnings();
+  result.notices = log.notices();
   return result;
 }
 
@@ -135,7 +135,7 @@ TEST_F(CsvLogTest, GivesTheSameBlocksForAnyChunkSizeAndFromGzip) {
         EXPECT_EQ(r.blocks[k].value, expected.blocks[k].value);
         EXPECT_EQ(r.blocks[k].lost, expected.blocks[k].lost);
       }
-      EXPECT_EQ(r.warnings.size(), 1u);
+      EXPECT_EQ(r.notices.size(), 1u);
     }
   }
 }

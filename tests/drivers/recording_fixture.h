@@ -71,7 +71,7 @@ struct Outcome {
   Status status;
   std::vector<std::int64_t> time_ns;
   std::string sha256;
-  std::vector<std::string> warnings;
+  Notices notices;
 };
 
 inline Outcome read_all(const fs::path& file) {
@@ -86,7 +86,7 @@ inline Outcome read_all(const fs::path& file) {
     outcome.time_ns.insert(outcome.time_ns.end(), b.time_ns.begin(), b.time_ns.end());
   }
   outcome.sha256 = log.sha256();
-  outcome.warnings = log.warnings();
+  outcome.notices = log.notices();
   return outcome;
 }
 

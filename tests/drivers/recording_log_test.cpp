@@ -9,6 +9,7 @@
 #include <bit>
 
 #include "tests/drivers/recording_fixture.h"
+#include "tests/shown.h"
 
 namespace mdof::drivers {
 namespace {
@@ -73,7 +74,7 @@ TEST_F(RecordingTest, TellsItsHeaderChannelsAndRate) {
   EXPECT_TRUE(log.info().simulated);
   EXPECT_EQ(log.info().channels, block(0, 1).channels);
   EXPECT_NEAR(log.info().rate_hz, 4000, 1e-6);
-  EXPECT_TRUE(log.warnings().empty());
+  EXPECT_TRUE(log.notices().empty());
 }
 
 TEST_F(RecordingTest, FinishAndReaderAgreeOnTheHash) {
@@ -150,7 +151,7 @@ TEST_F(RecordingTest, IsReadThroughDescriptorsWhateverHasItsNameNow) {
   EXPECT_EQ(b.time_ns, block(0, 1000).time_ns);
   EXPECT_EQ(b.value, block(0, 1000).value);
   EXPECT_EQ(log.read(b, milliseconds(0)).value(), ReadState::end);
-  ASSERT_EQ(log.warnings().size(), 1u);  // not sealed
+  ASSERT_EQ(log.notices().size(), 1u);  // not sealed
   EXPECT_FALSE(RecordingLog("replay", copy, {file_fd, -1}).open()) << "all of it is in the -wal";
   ::close(file_fd);
   ::close(wal_fd);
@@ -171,8 +172,9 @@ TEST_F(RecordingTest, AnUnsealedFileReadsUpToTheLastCommitWithAWarning) {
   const Outcome after = read_all(file_);
   EXPECT_TRUE(after.status);
   EXPECT_EQ(after.time_ns.size(), 1000u);
-  ASSERT_EQ(after.warnings.size(), 1u);
-  EXPECT_TRUE(contains(after.warnings[0], "chunk 1")) << after.warnings[0];
+  ASSERT_EQ(after.notices.size(), 1u);
+  EXPECT_EQ(after.notices[0].code, NoticeCode::recording_not_sealed);
+  EXPECT_EQ(test::number(after.notices[0], "chunk"), 1);
 }
 
 // Made by an mdof of before there was a format 2.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "schema/rig/rig.h"
+#include "tests/shown.h"
 
 namespace mdof {
 namespace {
@@ -34,11 +35,11 @@ TEST(Targets, WhatIsNoneNamesTheKey) {
 }
 
 TEST(Targets, IntervalsOfWholePeriodsAreWarnedOf) {
-  EXPECT_NE(periodic_warning({0, 5, 10}, 20), "");  // 250 periods
-  EXPECT_NE(periodic_warning({0, 5, 12}, 20), "");  // 250 and 350
-  EXPECT_EQ(periodic_warning({0, 5.007, 10}, 20), "");
-  EXPECT_EQ(periodic_warning({0, 5, 10}, 0), "");
-  EXPECT_EQ(periodic_warning({0}, 20), "");
+  EXPECT_TRUE(scale_period_notice({0, 5, 10}, 20));  // 250 periods
+  EXPECT_TRUE(scale_period_notice({0, 5, 12}, 20));  // 250 and 350
+  EXPECT_FALSE(scale_period_notice({0, 5.007, 10}, 20));
+  EXPECT_FALSE(scale_period_notice({0, 5, 10}, 0));
+  EXPECT_FALSE(scale_period_notice({0}, 20));
 }
 
 TEST(Calibrations, AnOverdueOneIsNamed) {
@@ -53,8 +54,7 @@ TEST(Calibrations, AnOverdueOneIsNamed) {
   EXPECT_TRUE(overdue_calibrations(rig, "2026-05-01T23:59:59Z").empty());
   const auto overdue = overdue_calibrations(rig, "2026-05-02T00:00:00Z");
   ASSERT_EQ(overdue.size(), 1u);
-  EXPECT_NE(overdue[0].find("probe \"B\""), std::string::npos);
-  EXPECT_NE(overdue[0].find("K-77"), std::string::npos);
+  EXPECT_EQ(test::shown(overdue[0]), "calibration_overdue B due=2026-05-01 certificate=K-77");
 }
 
 }  // namespace

@@ -12,6 +12,11 @@ MAKE_RECORDING = os.environ.get("MDOF_MAKE_RECORDING", "")
 DATA = pathlib.Path(os.environ["MDOF_TEST_DATA"])
 
 
+def notice_lines(document):
+    """The notices of a run, a table or another document as mdof prints them: a line each, marked unless doubtful."""
+    return [("" if n["severity"] == "doubtful" else n["severity"] + ": ") + n["text"] for n in document["notices"]]
+
+
 def run(*arguments, stdin=None, env=None):
     """(exit code, standard output, standard error)."""
     done = subprocess.run([MDOF, *map(str, arguments)], input=stdin, capture_output=True,

@@ -59,7 +59,7 @@ void add_limit_options(CLI::App& command, LimitOptions& limits) {
 void add_consent_flags(CLI::App& command, daemon::Consent& consent, const std::string& what) {
   command.add_flag("--simulated", consent.simulated, "Also " + what + " of simulated data");
   command.add_flag("--despite-warnings", consent.despite_warnings,
-                   "Also " + what + " whose runs carry warnings (information is none)");
+                   "Also " + what + " whose runs carry doubtful notices");
 }
 
 void add_database_option(CLI::App& command, std::string& database) {

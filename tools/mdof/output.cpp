@@ -9,7 +9,6 @@
 #include <string>
 
 #include "schema/base/output/printable.h"
-#include "schema/severity.h"
 #include "tools/mdof/exit_code.h"
 
 namespace mdof::tools {
@@ -42,8 +41,7 @@ void say(std::string_view message) {
 }
 
 void warn(std::string_view message) {
-  const bool marked = severity_of(message) != Severity::doubtful;  // which says it by itself
-  say(marked ? std::string(message) : "warning: " + std::string(message));
+  say("warning: " + std::string(message));
 }
 
 bool out_is_terminal() {

@@ -18,7 +18,7 @@ Status write_line(std::string_view text);  // and a line end
 Status write_commands(std::string_view text);
 
 void say(std::string_view message);   // a line on the standard error
-void warn(std::string_view message);  // the same, marked by its severity (schema/severity.h)
+void warn(std::string_view message);  // the same, marked "warning: "
 
 bool out_is_terminal();
 bool messages_are_on_terminal();

@@ -179,13 +179,10 @@ void PointCorrections::tell_failures(Run& run) const {
     if (closed++ == 0) first = cause_of(p.point);
   }
   if (closed > 0)
-    run.header.warnings.push_back(std::to_string(closed) +
-                                  " points cannot be corrected; the first: " + first +
-                                  "it would be closed or touch its target");
+    run.header.notices.push_back(
+        notice(NoticeCode::gap_closed, "", {{"points", closed}, {"first", first}}));
   if (without_air > 0)
-    run.header.warnings.push_back(std::to_string(without_air) +
-                                  " points cannot be corrected: no value of the air came, which "
-                                  "[corrections] dielectric needs; log it, or declare it in [air]");
+    run.header.notices.push_back(notice(NoticeCode::air_unknown, "", {{"points", without_air}}));
 }
 
 // The solver only knows that a reading is not there.

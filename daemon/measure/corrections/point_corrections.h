@@ -37,7 +37,7 @@ class PointCorrections {
   // and the point is flagged "gap_closed:A" or "no_air".
   void apply(const algo::Solver& solver, std::vector<Point>& points) const;
   // Of a run whose points were corrected: by how much at most, and what is left in though it is
-  // known, as notes; points that could not be corrected, as warnings. `before`: these points and
+  // known, as notes; points that could not be corrected, as notices. `before`: these points and
   // others as they were averaged.
   void tell(const algo::Solver& solver, const std::vector<Point>& before, Run& run) const;
 

@@ -48,16 +48,16 @@ MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targ
 }
 
 // A deviation as long as the way between two targets is one in another unit.
-std::vector<std::string> doubts(const ImportedSeries& series, const ImportedError& error,
-                                const std::vector<double>& targets) {
+Notices doubts(const ImportedSeries& series, const ImportedError& error,
+               const std::vector<double>& targets) {
   double largest = 0, step = std::numeric_limits<double>::infinity();
   for (const ImportedReading& r : series.readings)
     largest = std::max(largest, std::abs(r.deviation));
   for (std::size_t i = 1; i < targets.size(); ++i)
     step = std::min(step, targets[i] - targets[i - 1]);
   if (error.angle || largest < step) return {};
-  return {"deviations of up to " + plain_number(to_um(largest)) + " um are as long as the " +
-          plain_number(to_mm(step)) + " mm between targets: are they in um?"};
+  return {notice(NoticeCode::deviation_too_large, "",
+                 {{"deviation_um", to_um(largest)}, {"interval_mm", to_mm(step)}})};
 }
 
 // Each reading by itself; slopes between the means of targets, as a table would have them.
@@ -110,7 +110,7 @@ Result<Run> imported_run(const ImportRequest& request) {
                        ""};
   const std::vector<double> targets = algo::imported_targets(series.readings);
   MDOF_CHECK(check_readings(series, request, error, targets));
-  header.warnings = doubts(series, error, targets);
+  header.notices = doubts(series, error, targets);
   for (const ImportedReading& r : series.readings)
     run.points.push_back(point_of(r, targets, request, error));
   return run;

@@ -49,15 +49,8 @@ bool SuspectEncoder::touches(const Point& point) const {
   });
 }
 
-std::string SuspectEncoder::left_out_text(std::size_t points, const std::string& noun,
-                                          double from_s) const {
-  return std::to_string(points) + " " + noun + (points == 1 ? "" : "s") + " from " +
-         plain_number(from_s) + " s on cannot be placed and are left out: the encoder (device \"" +
-         device_ +
-         "\") was suspect there, as while its clock is in doubt, or after it was without power and "
-         "has lost its datum; in that case see what the axis may touch (mdof clearance RIG.toml), "
-         "then go to a known place and tell it by mdof encoder set; "
-         "measure them anew";
+Notice SuspectEncoder::left_out(std::size_t points, double from_s) const {
+  return notice(NoticeCode::stops_not_placed, device_, {{"points", points}, {"from_s", from_s}});
 }
 
 }  // namespace mdof::daemon

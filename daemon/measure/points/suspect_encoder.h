@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 
@@ -22,9 +23,9 @@ class SuspectEncoder {
   // It was suspect from the point's beginning to its end; at some time between them.
   bool covers(const Point& point) const;
   bool touches(const Point& point) const;
-  // "3 stops from 1.2 s on cannot be placed and are left out: ...". `from_s`: the first of them,
-  // since the beginning of the log.
-  std::string left_out_text(std::size_t points, const std::string& noun, double from_s) const;
+  // That so many points cannot be placed. `from_s`: the first of them, since the beginning of the
+  // log.
+  Notice left_out(std::size_t points, double from_s) const;
 
  private:
   struct Stretch {

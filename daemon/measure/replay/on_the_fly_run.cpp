@@ -10,6 +10,7 @@
 #include "daemon/measure/completeness.h"
 #include "daemon/measure/drift_treatment.h"
 #include "daemon/measure/points/point_solver.h"
+#include "daemon/words/words.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -63,17 +64,16 @@ Status OnTheFlyRun::check_room() {
 }
 
 // Unlike a stop, a bin has its place from each of its scans.
-Status OnTheFlyRun::leave_suspect_out(algo::Sequence& sequence,
-                                      std::vector<std::string>& warnings) const {
+Status OnTheFlyRun::leave_suspect_out(algo::Sequence& sequence, Notices& notices) const {
   auto& points = sequence.points;
   const auto suspect = [this](const MeasuredPoint& p) { return suspect_.touches(p.point); };
   const auto first = std::find_if(points.begin(), points.end(), suspect);
   if (first == points.end()) return {};
   const double from_s = ns_to_s(first->point.begin_ns - *begin_ns_);
   const std::size_t left_out = std::erase_if(points, suspect);
-  std::string text = suspect_.left_out_text(left_out, "point", from_s);
-  if (points.empty()) return bad_input(std::move(text));
-  warnings.push_back(std::move(text));
+  Notice found = suspect_.left_out(left_out, from_s);
+  if (points.empty()) return bad_input(words::text(found));
+  notices.push_back(std::move(found));
   return {};
 }
 
@@ -99,12 +99,12 @@ void OnTheFlyRun::judge(const algo::Sequence& sequence, Run& run) const {
   const bool given = !options_.sequence.targets_m.empty();
   const algo::RunToJudge whole{rig_, sequence, fly_.summary(), lost_, given, 0};
   run.plausibility = algo::plausibility(whole);
-  auto& warnings = run.header.warnings;
-  append(warnings, algo::warnings_of_signals(whole));
-  append(warnings, algo::warnings_of_visits(whole, *run.plausibility));
-  append(warnings, algo::warnings_of_units(rig_, *run.plausibility));
-  append(warnings, algo::warnings_of_maps(rig_, solver_.fixture(), sequence.points));
-  append(warnings, fly_.warnings());
+  Notices& notices = run.header.notices;
+  append(notices, algo::signal_notices(whole));
+  append(notices, algo::visit_notices(whole));
+  append(notices, algo::unit_notices(rig_, *run.plausibility));
+  append(notices, algo::map_notices(rig_, solver_.fixture(), sequence.points));
+  append(notices, fly_.notices());
 }
 
 Result<Run> OnTheFlyRun::finish() {
@@ -114,7 +114,7 @@ Result<Run> OnTheFlyRun::finish() {
   MDOF_CHECK(fly_.explain_nothing());
   algo::Sequence sequence = fly_.sequence();
   Run run;
-  MDOF_CHECK(leave_suspect_out(sequence, run.header.warnings));
+  MDOF_CHECK(leave_suspect_out(sequence, run.header.notices));
   std::vector<Point> as_read;
   for (const MeasuredPoint& p : sequence.points) as_read.push_back(p.point);
   correct(sequence);
@@ -128,21 +128,22 @@ Result<Run> OnTheFlyRun::finish() {
   run.header.scans = fly_.summary().scans;
   run.header.scans_lost = lost_;
   run.header.temperature = temperature_.of_run();
-  auto statements = fly_.statements();  // which are stored, as notes are not
-  run.header.warnings.insert(run.header.warnings.begin(), statements.begin(), statements.end());
+  Notices& notices = run.header.notices;
+  const Notices statements = fly_.statements();
+  notices.insert(notices.begin(), statements.begin(), statements.end());
   if (auto note = datum_note(options_.datum.kind, options_.datum.device); !note.empty())
     run.header.notes.push_back(std::move(note));
-  for (auto& [probe, why] : aligner_.too_slow()) run.header.warnings.push_back(std::move(why));
+  for (auto& [probe, why] : aligner_.too_slow()) notices.push_back(std::move(why));
   judge(sequence, run);
   run.points = std::move(sequence.points);
   corrections_.tell(solver_, as_read, run);
-  if (const auto contradiction = residuals.warning(run.points))
-    run.header.warnings.push_back(*contradiction);
-  append(run.header.warnings, algo::warnings_of_repeats(rig_, run.points));
+  if (auto contradiction = residuals.contradiction(run.points))
+    notices.push_back(std::move(*contradiction));
+  append(notices, algo::repeat_notices(rig_, run.points));
   treat_drift(rig_, options_.remove_drift, run);
-  const auto missing = what_is_missing(sequence.targets_m, options_.repeats, run.points);
+  const auto missing = missing_notices(sequence.targets_m, options_.repeats, run.points);
   run.header.state = missing.empty() ? RunState::complete : RunState::partial;
-  append(run.header.warnings, missing);
+  append(notices, missing);
   run.straightness = algo::straightness(rig_.moving(), run.points);
   run.angles = algo::angles(rig_.moving(), run.points);
   return run;

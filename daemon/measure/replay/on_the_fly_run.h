@@ -14,6 +14,7 @@
 #include "daemon/measure/points/run_temperature.h"
 #include "daemon/measure/points/suspect_encoder.h"
 #include "drivers/calibration.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::daemon {
 
@@ -33,7 +34,7 @@ class OnTheFlyRun {
   OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver);
   Status check_room();
   // Points while the encoder was suspect. Error: there are no others.
-  Status leave_suspect_out(algo::Sequence& sequence, std::vector<std::string>& warnings) const;
+  Status leave_suspect_out(algo::Sequence& sequence, Notices& notices) const;
   void correct(algo::Sequence& sequence) const;
   Status solve(algo::Sequence& sequence, const algo::Residuals& residuals) const;
   void judge(const algo::Sequence& sequence, Run& run) const;

@@ -175,7 +175,7 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   parked.axis = rig.axis;
   parked.simulated = log.driver().info().simulated;
   parked.length_s = static_cast<double>(reader.encoder.size()) * kShortStep_s;
-  parked.warnings = log.warnings();
+  parked.notices = log.notices();
   const double per_step =
       request.window_s.value_or(parked.length_s / kWindowsOfLog) / algo::kStepsOfWindow;
   // Down, so that a twelfth of a log fits in it twelve times. Of a window that is longer than the

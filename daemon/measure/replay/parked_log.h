@@ -9,6 +9,7 @@
 #include "daemon/measure/replay/replay.h"
 #include "schema/base/progress.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::daemon {
@@ -30,7 +31,7 @@ struct ParkedLog {
   bool simulated = false;
   std::size_t probes = 0;         // the first series; the rest are the five errors
   algo::ParkedReadings readings;  // of the body that moves, at the fixture
-  std::vector<std::string> warnings;
+  Notices notices;
 };
 
 // Errors: as replay(); the axis moved; the log is too short for one window.

@@ -175,8 +175,8 @@ std::string ReplayLog::sha256() const {
   return recording_ ? recording_->sha256() : csv_->sha256();
 }
 
-std::vector<std::string> ReplayLog::warnings() const {
-  return recording_ ? recording_->warnings() : csv_->warnings();
+Notices ReplayLog::notices() const {
+  return recording_ ? recording_->notices() : csv_->notices();
 }
 
 Status check_axis(const std::string& source, const std::vector<std::string>& comments,
@@ -215,14 +215,12 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   run->header.started_utc = log.started_utc();
   run->header.provenance = provenance_of(log, rig, options);
   run->header.note = asked.note;
-  for (const auto& more : {log.warnings(), asked.warnings})
-    run->header.warnings.insert(run->header.warnings.end(), more.begin(), more.end());
+  append(run->header.notices, log.notices());
+  append(run->header.notices, asked.notices);
   const std::string day = log.started_utc().empty() ? utc_now() : log.started_utc();
-  const auto overdue = overdue_calibrations(rig, day);
-  run->header.warnings.insert(run->header.warnings.end(), overdue.begin(), overdue.end());
+  append(run->header.notices, overdue_calibrations(rig, day));
   for (auto& note : calibration_notes(rig)) run->header.notes.push_back(std::move(note));
-  const auto doubtful = doubtful_values(rig);
-  run->header.warnings.insert(run->header.warnings.end(), doubtful.begin(), doubtful.end());
+  append(run->header.notices, doubtful_values(rig));
   return run;
 }
 

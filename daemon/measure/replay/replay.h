@@ -12,6 +12,7 @@
 #include "drivers/recording/recording_log.h"
 #include "schema/base/progress.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
 
@@ -40,7 +41,7 @@ class ReplayLog {
   Progress progress() const;                  // in bytes of a CSV log, in chunks of a recording
   // After the end of the log:
   std::string sha256() const;
-  std::vector<std::string> warnings() const;
+  Notices notices() const;
 
  private:
   explicit ReplayLog(std::string path) : path_(std::move(path)) {}

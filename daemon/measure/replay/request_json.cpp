@@ -7,6 +7,7 @@
 #include <set>
 
 #include "schema/base/json_writer.h"
+#include "schema/notice/notice_json.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -208,9 +209,9 @@ Result<element> parsed(simdjson::dom::parser& parser, const std::string& text) {
 
 std::string request_json(const AskedFor& asked) {
   JsonWriter json;
-  json.begin_object().field("note", asked.note).key("warnings").begin_array();
-  for (const std::string& warning : asked.warnings) json.value(warning);
-  json.end_array().key("options").raw(asked.options.json()).end_object();
+  json.begin_object().field("note", asked.note);
+  write_notices(json, "notices", asked.notices, nullptr);
+  json.key("options").raw(asked.options.json()).end_object();
   return json.take();
 }
 
@@ -222,12 +223,15 @@ Result<AskedFor> read_request_json(const std::string& text, const PipelineOption
   MDOF_TRY(const element root, parsed(parser, text));
   Members members(root);
   members.take("note", asked.note);
-  members.each("warnings", [&](element item) {
-    std::string_view words;
-    if (item.get(words)) return false;
-    asked.warnings.emplace_back(words);
-    return true;
-  });
+  for (const char* key : {"warnings", "notices"}) {  // sentences, as recordings had before
+    const auto list = members.find(key);
+    if (!list) continue;
+    auto notices = read_notices(simdjson::minify(*list));
+    if (notices)
+      append(asked.notices, std::move(*notices));
+    else
+      members.reject(key);
+  }
   if (const auto options = members.object("options")) {
     MDOF_TRY(asked.options, read_options(*options, base));
   }

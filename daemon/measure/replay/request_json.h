@@ -7,16 +7,17 @@
 
 #include "daemon/measure/pipeline.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::daemon {
 
 struct AskedFor {
   std::string note;
-  std::vector<std::string> warnings;  // known when the run began, to be kept with it
+  Notices notices;  // known when the run began, to be kept with it
   PipelineOptions options;
 };
 
-// {"note", "warnings", "options": as PipelineOptions::json()}
+// {"note", "notices", "options": as PipelineOptions::json()}
 std::string request_json(const AskedFor& asked);
 
 // What the text does not say stays as in `base`; an empty text says nothing. Error: it is none, or

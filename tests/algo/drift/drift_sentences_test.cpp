@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/algo/rigs.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -85,12 +86,11 @@ TEST(DriftSentences, NameTheProbesAboveTheLimit) {
     of.order = 1;
     of.range = range_m;
   }
-  const std::string said = over_limit_sentence(drift, rig);
-  EXPECT_NE(said.find("the limit of 4 um/h"), std::string::npos) << said;
-  EXPECT_NE(said.find(": B by 6 um/h;"), std::string::npos) << said;
-  EXPECT_EQ(over_limit_sentence(drift, test::rig_x()), "");
+  EXPECT_EQ(test::shown(over_limit(drift, rig)),
+            "drift_over_limit B rate_um_per_h=6 limit_um_per_h=4\n");
+  EXPECT_EQ(test::shown(over_limit(drift, test::rig_x())), "");
   drift.probes[1].order = 0;
-  EXPECT_EQ(over_limit_sentence(drift, rig), "");
+  EXPECT_EQ(test::shown(over_limit(drift, rig)), "");
 }
 
 }  // namespace

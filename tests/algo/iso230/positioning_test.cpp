@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "algo/iso230/positioning_uncertainty.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -142,50 +143,49 @@ Positioning planned(const std::vector<double>& targets_m, int runs = 5) {
   return positioning(readings).value();
 }
 
-std::string warnings_of(const Positioning& p, double scale_period_m = 0) {
-  std::string text;
-  for (const auto& warning : plan_warnings(p, scale_period_m)) text += warning + "\n";
-  return text;
+std::string notices_of(const Positioning& p, double scale_period_m = 0) {
+  return test::shown(plan_notices(p, scale_period_m));
 }
 
 const std::vector<double> kGood_m = {0, 0.011, 0.0202, 0.0297, 0.0404};
 
 TEST(Plan, OfFiveUnevenTargetsAndFiveRunsIsRight) {
-  EXPECT_EQ(warnings_of(planned(kGood_m)), "");
-  EXPECT_EQ(warnings_of(planned(kGood_m), 1e-3), "");
+  EXPECT_EQ(notices_of(planned(kGood_m)), "");
+  EXPECT_EQ(notices_of(planned(kGood_m), 1e-3), "");
 }
 
 TEST(Plan, CountsTargetsAndRuns) {
   const std::vector<double> four(kGood_m.begin(), kGood_m.end() - 1);
-  EXPECT_NE(warnings_of(planned(four)).find("4 targets over 29.7 mm"), std::string::npos);
-  EXPECT_NE(warnings_of(planned({0, 0.3, 0.5, 0.81, 1.3})).find("here 7"), std::string::npos);
-  EXPECT_EQ(warnings_of(planned({0, 0.3, 0.5, 0.81, 1.0})), "");
-  EXPECT_NE(warnings_of(planned(kGood_m, 4)).find("4 runs: ISO 230-2"), std::string::npos);
-  EXPECT_NE(warnings_of(planned(kGood_m, 1)).find("a single run: R and A are not known"),
+  EXPECT_NE(notices_of(planned(four)).find("few_targets targets=4 travel_mm=29.7 needed=5"),
             std::string::npos);
-  EXPECT_EQ(warnings_of(planned(kGood_m, 1)).find("1 runs"), std::string::npos);
-  EXPECT_NE(warnings_of(planned({0, 0.3, 0.5, 0.81, 1, 1.3, 1.4, 1.6, 1.7, 1.9, 2.01}))
-                .find("2010 mm is over 2 m"),
+  EXPECT_NE(notices_of(planned({0, 0.3, 0.5, 0.81, 1.3})).find("needed=7"), std::string::npos);
+  EXPECT_EQ(notices_of(planned({0, 0.3, 0.5, 0.81, 1.0})), "");
+  EXPECT_NE(notices_of(planned(kGood_m, 4)).find("few_runs runs=4 some_targets=0"),
+            std::string::npos);
+  EXPECT_NE(notices_of(planned(kGood_m, 1)).find("single_run"), std::string::npos);
+  EXPECT_EQ(notices_of(planned(kGood_m, 1)).find("few_runs"), std::string::npos);
+  EXPECT_NE(notices_of(planned({0, 0.3, 0.5, 0.81, 1, 1.3, 1.4, 1.6, 1.7, 1.9, 2.01}))
+                .find("travel_over_2_m travel_mm=2010"),
             std::string::npos);
 }
 
 TEST(Plan, TellsUnevenRunsAndOneSide) {
   Positioning uneven = planned(kGood_m);
   uneven.targets[2].reverse.n = 3;
-  EXPECT_NE(warnings_of(uneven).find("3 runs at some targets"), std::string::npos);
-  EXPECT_NE(warnings_of(uneven).find("from 3 to 5 readings"), std::string::npos);
+  EXPECT_NE(notices_of(uneven).find("few_runs runs=3 some_targets=1"), std::string::npos);
+  EXPECT_NE(notices_of(uneven).find("uneven_readings least=3 most=5"), std::string::npos);
   const Positioning one_side = positioning(of_direction(1)).value();
-  EXPECT_NE(warnings_of(one_side).find("from one side only"), std::string::npos);
+  EXPECT_NE(notices_of(one_side).find("one_approach"), std::string::npos);
 }
 
 TEST(Plan, TellsEqualIntervalsAndWholePeriods) {
   const std::vector<double> equal = {0.015, 0.025, 0.035, 0.045, 0.055};
-  EXPECT_NE(warnings_of(planned(equal)).find("intervals between targets are equal"),
+  EXPECT_NE(notices_of(planned(equal)).find("equal_intervals"), std::string::npos);
+  EXPECT_NE(notices_of(planned(equal), 5e-3).find("scale_period_hidden period_um=5000"),
             std::string::npos);
-  EXPECT_NE(warnings_of(planned(equal), 5e-3).find("whole number of periods"), std::string::npos);
-  EXPECT_NE(warnings_of(planned({0, 0.01, 0.03, 0.04, 0.06}), 5e-3).find("whole number"),
+  EXPECT_NE(notices_of(planned({0, 0.01, 0.03, 0.04, 0.06}), 5e-3).find("scale_period_hidden"),
             std::string::npos);
-  EXPECT_EQ(warnings_of(planned({0, 0.01, 0.03, 0.04, 0.06}), 7e-3), "");
+  EXPECT_EQ(notices_of(planned({0, 0.01, 0.03, 0.04, 0.06}), 7e-3), "");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "algo/points/frame_rows.h"
 #include "tests/algo/stepping_log.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -56,12 +57,6 @@ OnTheFly measured(const MotionLog& log, const OnTheFlyOptions& options = {}) {
   return found;
 }
 
-std::string text_of(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const auto& sentence : sentences) text += sentence + "\n";
-  return text;
-}
-
 void expect_in(const std::string& text, const std::string& words) {
   EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
@@ -70,13 +65,13 @@ void expect_in(const std::string& text, const std::string& words) {
 // 2 mm / 7.5 mm/s.
 TEST(OnTheFlyRun, StatesSpeedsBinsAndScatter) {
   const OnTheFly run = measured({});
-  const std::string said = text_of(run.statements());
-  expect_in(said, "2 passes at 7.5 mm/s (5 to 10), each");
-  expect_in(said, "the readings of 1 mm about its target; 0 bins in which");
-  expect_in(said, "errors that change within 2.5 mm are read too small");
-  expect_in(said, "slower than 15 Hz looks like form");
-  expect_in(said, "delay beside what is declared, by forward against reverse: A ");
-  expect_in(text_of(run.warnings()), "the axis went at 5 mm/s to 10 mm/s");
+  const std::string said = test::shown(run.statements());
+  expect_in(said, "measured_on_the_fly passes=2 speed_mm_s=7.5 from_mm_s=5 to_mm_s=10 ");
+  expect_in(said, " bin_mm=1 left_out=0 ");
+  expect_in(said, " seen_mm=2.5\n");
+  expect_in(said, " slowest_hz=15\n");
+  expect_in(said, "delays_by_motion delays_us=A ");
+  expect_in(test::shown(run.notices()), "speed_varies from_mm_s=5 to_mm_s=10\n");
   const Sequence sequence = run.sequence();
   EXPECT_EQ(sequence.targets, 19);
   EXPECT_EQ(sequence.runs, 1);
@@ -102,29 +97,26 @@ TEST(OnTheFlyRun, TheScatterIsThatOfTheReadings) {
       n += 1;
     }
   const double nm = 1e9 * std::sqrt(square / n);
-  const std::string said = text_of(run.statements());
-  const auto at = said.find("about the parabolas by A ");
+  const std::string said = test::shown(run.statements());
+  const auto at = said.find("motion_scatter scatter_nm=A ");
   ASSERT_NE(at, std::string::npos);
-  EXPECT_NEAR(std::stod(said.substr(at + 25)), nm, 0.006 * nm);
+  EXPECT_NEAR(std::stod(said.substr(at + 28)), nm, 0.006 * nm);
 }
 
 // The way there and back differ by the delay times both speeds.
 TEST(OnTheFlyRun, NamesADelayThatIsNotDeclared) {
-  const std::string said = text_of(measured({.delay_s = 2e-3}).warnings());
-  expect_in(said, "forward and reverse differ as by a delay of ");
-  const auto at = said.find("delay of ") + 9;
+  const std::string said = test::shown(measured({.delay_s = 2e-3}).notices());
+  expect_in(said, "reading_delayed A delay_ms=");
+  const auto at = said.find("delay_ms=") + 9;
   EXPECT_NEAR(std::stod(said.substr(at)), 2, 0.05) << said;
-  expect_in(said, "ms of probe A");
-  EXPECT_EQ(text_of(measured({}).warnings()).find("delay of "), std::string::npos);
+  EXPECT_EQ(test::shown(measured({}).notices()).find("reading_delayed"), std::string::npos);
 }
 
 // It stops for 0.3 s at 7 mm, in the bin that begins at 6.5 mm, 0.65 s after the start.
 TEST(OnTheFlyRun, LeavesOutTheBinInWhichItStops) {
   const OnTheFly run = measured({.stop_at_m = 7e-3, .stop_s = 0.3});
-  expect_in(text_of(run.warnings()),
-            " s after the first scan, was left out: the axis changed its speed or stopped");
-  expect_in(text_of(run.warnings()), "the bin at 7.0000 mm, 0.65");
-  expect_in(text_of(run.statements()), "; 1 bins in which the axis changed its speed");
+  expect_in(test::shown(run.notices()), "bin_of_changing_speed position_mm=7 time_s=0.65");
+  expect_in(test::shown(run.statements()), " left_out=1 ");
   EXPECT_EQ(run.sequence().points.size(), 37U);
 }
 
@@ -137,11 +129,10 @@ TEST(OnTheFlyRun, LeavesOutTheBinWhoseScansAreMissing) {
   const OnTheFly few = measured(without(1160, 1195));
   EXPECT_EQ(few.sequence().points.size(), 38U);
   EXPECT_EQ(few.summary().gaps, 1U);
-  EXPECT_EQ(text_of(few.warnings()).find("left out"), std::string::npos);
+  EXPECT_EQ(test::shown(few.notices()).find("bin_"), std::string::npos);
   const OnTheFly many = measured(without(1160, 1230));
   EXPECT_EQ(many.sequence().points.size(), 37U);
-  expect_in(text_of(many.warnings()), "the bin at 12.0000 mm, ");
-  expect_in(text_of(many.warnings()), "most of its scans are missing");
+  expect_in(test::shown(many.notices()), "bin_with_gap position_mm=12 ");
 }
 
 // Targets that only one of three passes or fewer took are no targets; those of a range are.

@@ -1,5 +1,6 @@
 // Height maps that end before the probes do: what is said of which plane, direction and probe.
 #include "algo/plausibility/map_cover.h"
+#include "tests/shown.h"
 
 #include <gtest/gtest.h>
 
@@ -25,8 +26,8 @@ struct Mapped {
       fixture.probes.push_back(probe);
     }
   }
-  std::vector<std::string> said(double least_m, double most_m) const {
-    return warnings_of_maps(rig, fixture, least_m, most_m);
+  Notices said(double least_m, double most_m) const {
+    return map_notices(rig, fixture, least_m, most_m);
   }
 };
 
@@ -41,21 +42,21 @@ TEST(MapCover, NothingIsSaidWhereTheMapReaches) {
 TEST(MapCover, PlaneDirectionAndProbeAreNamed) {
   const auto said = Mapped({-60e-3, 0}, {-10e-3, 5e-3}).said(0, 60e-3);
   ASSERT_EQ(said.size(), 2u);
-  EXPECT_EQ(
-      said[0],
-      "plane \"top\": its height map does not cover what is measured: flatness_first_mm "
-      "covers -60 to 0 mm, and probe B reads at -50 to 10 mm; beyond it the height of its end "
-      "is taken, which nobody measured; extend the map, or keep the travel within it");
-  EXPECT_NE(said[1].find("flatness_second_mm covers -10 to 5 mm, and probe B reads at 10 mm;"),
-            std::string::npos);
+  EXPECT_EQ(test::shown(said),
+            "map_too_short top coordinate=flatness_first_mm covered_from_mm=-60 covered_to_mm=0 "
+            "reached=probe B reads at -50 to 10 mm\n"
+            "map_too_short top coordinate=flatness_second_mm covered_from_mm=-10 covered_to_mm=5 "
+            "reached=probe B reads at 10 mm\n");
 }
 
 TEST(MapCover, BothEndsCountAndProbesOfOtherPlanesDoNot) {
   Mapped mapped({-60e-3, 10e-3}, {0});
   EXPECT_EQ(mapped.said(-51e-6, 60e-3).size(), 1u);
   EXPECT_EQ(mapped.said(0, 60.051e-3).size(), 1u);
-  EXPECT_NE(mapped.said(0, 70e-3)[0].find("probe A reads at -70 to 0 mm"), std::string::npos);
-  EXPECT_EQ(mapped.said(0, 70e-3)[0].find("probe B"), std::string::npos);
+  const Notice too_far = mapped.said(0, 70e-3)[0];
+  const NoticeValue* reached = value(too_far, "reached");
+  ASSERT_TRUE(reached);
+  EXPECT_EQ(std::get<std::string>(*reached), "probe A reads at -70 to 0 mm");
   for (FixtureProbe& probe : mapped.fixture.probes) probe.plane = 0;
   EXPECT_TRUE(mapped.said(-1, 1).empty());
 }
@@ -79,13 +80,13 @@ TEST(MapCover, TravelIsThatOfTheTargetAndOfPointsWithErrors) {
     points[i].point.position_m = 60e-3 * static_cast<double>(i);
     points[i].errors.valid = i < 2;
   }
-  EXPECT_TRUE(warnings_of_maps(mapped.rig, mapped.fixture, points).empty());
+  EXPECT_TRUE(map_notices(mapped.rig, mapped.fixture, points).empty());
   Rig turned = mapped.rig;
   turned.sides.against_encoder = true;
-  EXPECT_EQ(warnings_of_maps(turned, mapped.fixture, points).size(), 1u);
+  EXPECT_EQ(map_notices(turned, mapped.fixture, points).size(), 1u);
   points[2].errors.valid = true;
-  EXPECT_EQ(warnings_of_maps(mapped.rig, mapped.fixture, points).size(), 1u);
-  EXPECT_TRUE(warnings_of_maps(mapped.rig, mapped.fixture, std::vector<MeasuredPoint>(2)).empty());
+  EXPECT_EQ(map_notices(mapped.rig, mapped.fixture, points).size(), 1u);
+  EXPECT_TRUE(map_notices(mapped.rig, mapped.fixture, std::vector<MeasuredPoint>(2)).empty());
 }
 
 }  // namespace

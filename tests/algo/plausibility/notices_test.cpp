@@ -2,13 +2,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/algo/detected.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
 
-std::vector<DwellNotice> of_kind(const Detected& found, NoticeKind kind) {
-  std::vector<DwellNotice> all;
-  for (const DwellNotice& n : found.notices)
+std::vector<DwellEvent> of_kind(const Detected& found, DwellEventKind kind) {
+  std::vector<DwellEvent> all;
+  for (const DwellEvent& n : found.events)
     if (n.kind == kind) all.push_back(n);
   return all;
 }
@@ -33,14 +34,15 @@ TEST(Notices, ACountJumpIsToldByItsSizeAndFlagsWhatFollows) {
         const std::size_t row = row_at(frames, 1e-9 * static_cast<double>(at_ns));
         shift_from(frames, row, 100e-6);
         const auto found = detect(log, frames);
-        const auto jumps = of_kind(found, NoticeKind::jump);
+        const auto jumps = of_kind(found, DwellEventKind::jump);
         ASSERT_EQ(jumps.size(), 1u) << rate << " Hz, moving " << moving << ", " << noise_um;
         EXPECT_NEAR(jumps[0].size_m, 100e-6, 10e-6);
         EXPECT_NEAR(static_cast<double>(jumps[0].time_ns - frames.time_ns[row]), 0, 2e9 / rate);
         for (const Point& p : found.points)
           EXPECT_EQ(has_flag(p, "jump"), p.begin_ns > at_ns) << p.position_m;
-        ASSERT_FALSE(found.warnings.empty());
-        EXPECT_NE(found.warnings[0].find("the encoder jumped by +"), std::string::npos);
+        ASSERT_FALSE(found.notices.empty());
+        EXPECT_EQ(found.notices[0].code, NoticeCode::encoder_jump);
+        EXPECT_GT(test::number(found.notices[0], "jump_um"), 0);
       }
     }
   }
@@ -53,7 +55,7 @@ TEST(Notices, AGlitchThatComesBackIsNoJump) {
   const std::size_t row = row_at(frames, 5.0);
   for (std::size_t i = row; i < row + 30; ++i) frames.encoder_m[i] += 200e-6;
   const auto found = detect(log, frames);
-  EXPECT_TRUE(of_kind(found, NoticeKind::jump).empty());
+  EXPECT_TRUE(of_kind(found, DwellEventKind::jump).empty());
   EXPECT_FALSE(has_flag(found.points.back(), "jump"));
 }
 
@@ -70,11 +72,12 @@ TEST(Notices, AHoleInTheTimeLineIsTold) {
                              rest.probe_m[k].end());
   for (const std::size_t block : {7u, 100000u}) {
     const auto found = detect(log, frames, block);
-    const auto holes = of_kind(found, NoticeKind::hole);
+    const auto holes = of_kind(found, DwellEventKind::hole);
     ASSERT_EQ(holes.size(), 1u);
     EXPECT_NEAR(holes[0].length_s, 3.0, 0.01);
     EXPECT_NEAR(1e-9 * static_cast<double>(holes[0].time_ns), 5.0, 0.01);
-    EXPECT_NE(found.warnings.at(0).find("no position was recorded for 3.00"), std::string::npos);
+    EXPECT_EQ(found.notices.at(0).code, NoticeCode::recording_hole);
+    EXPECT_NEAR(test::number(found.notices[0], "length_s"), 3.004, 0.005);
   }
 }
 
@@ -101,14 +104,14 @@ TEST(Notices, ACreepingStopIsKeptWithAFlagOrLeftOutWithAWord) {
   ASSERT_EQ(little.points.size(), 26u);
   EXPECT_TRUE(has_flag(little.points[2], "creep"));
   EXPECT_NEAR(little.points[2].position_m, 10e-3, 18e-6);
-  ASSERT_EQ(little.warnings.size(), 1u);
-  EXPECT_NE(little.warnings[0].find("the flag creep"), std::string::npos);
+  ASSERT_EQ(little.notices.size(), 1u);
+  EXPECT_EQ(little.notices[0].code, NoticeCode::stop_crept);
   for (const double creep_um : {60.0, 100.0}) {
     const auto far = detect(log, creeping(log, creep_um, from_s, to_s));
     ASSERT_EQ(far.points.size(), 25u) << creep_um;
-    ASSERT_EQ(far.warnings.size(), 1u) << creep_um;
-    EXPECT_NE(far.warnings[0].find("a stop near 9.9"), std::string::npos) << far.warnings[0];
-    EXPECT_NE(far.warnings[0].find("was left out"), std::string::npos);
+    ASSERT_EQ(far.notices.size(), 1u) << creep_um;
+    EXPECT_EQ(far.notices[0].code, NoticeCode::stop_creeping);
+    EXPECT_NEAR(test::number(far.notices[0], "position_mm"), 9.95, 0.05);
   }
 }
 
@@ -119,9 +122,9 @@ TEST(Notices, AStopTooShortToAverageIsTold) {
   log.move_s = 0.5;
   const auto found = detect(log, log.frames());
   EXPECT_TRUE(found.points.empty());
-  EXPECT_EQ(of_kind(found, NoticeKind::short_stop).size(), 26u);
-  ASSERT_EQ(found.warnings.size(), 11u);
-  EXPECT_EQ(found.warnings.back(), "and 16 more short stops");
+  EXPECT_EQ(of_kind(found, DwellEventKind::short_stop).size(), 26u);
+  ASSERT_EQ(found.notices.size(), 11u);
+  EXPECT_EQ(test::shown(found.notices.back()), "more_alike count=16 alike=stop_too_short");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/algo/measured_machine.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -27,14 +28,10 @@ Rig rig_of_five() {
 
 struct Judged {
   Plausibility figures;
-  std::vector<std::string> warnings;
+  Notices notices;
 
   bool says(const std::string& what) const { return all().find(what) != std::string::npos; }
-  std::string all() const {
-    std::string out;
-    for (const auto& text : warnings) out += text + "\n";
-    return out;
-  }
+  std::string all() const { return test::shown(notices); }
 };
 
 // As the pipeline does it, with errors solved wherever `solved` says so.
@@ -55,9 +52,8 @@ Judged judge(const Machine& machine, const std::vector<double>& targets_m, Solve
     errors.reason = errors.valid ? "" : "probe A is lost";
   }
   const RunToJudge run{rig, sequence, detector.summary(), 0, !targets_m.empty(), 0.2};
-  Judged judged{plausibility(run), sequence.warnings};
-  const auto more = warnings_of_visits(run, judged.figures);
-  judged.warnings.insert(judged.warnings.end(), more.begin(), more.end());
+  Judged judged{plausibility(run), sequence.notices};
+  append(judged.notices, visit_notices(run));
   return judged;
 }
 
@@ -83,10 +79,6 @@ TEST(Plausibility, CountsWhatWasVisited) {
   EXPECT_NEAR(judged.figures.probes[0].travel_m, 30e-6, 50e-9);
 }
 
-const std::string kLevelled =
-    " lacks visits that others have: means, slopes and squareness are made without the drift "
-    "between the runs\n";
-
 TEST(Plausibility, NamesAHole) {
   Machine m;
   m.forward(1), m.beyond(7, 1), m.reverse(1), m.beyond(1, -1);
@@ -94,7 +86,8 @@ TEST(Plausibility, NamesAHole) {
   m.beyond(7, 1), m.reverse(2);
   const Judged judged = judge(m);
   EXPECT_EQ(judged.all(),
-            "target 3 (10.2000 mm): no forward visit in run 2\ninformation: run 2" + kLevelled);
+            "visit_missing run=2 approach=forward targets=target 3\n"
+            "run_lacks_visits runs=run 2\n");
   EXPECT_EQ(judged.figures.n_ij[2].forward, (std::vector<int>{1, 0}));
 }
 
@@ -103,9 +96,8 @@ TEST(Plausibility, NamesAVisitThatGaveNoErrors) {
   m.standard(2);
   const Judged judged = judge(m, {}, [](std::size_t i) { return i != 8; });
   EXPECT_EQ(judged.all(),
-            "target 6 (25.1000 mm): the reverse visit in run 1 gave no errors (probe A is lost)\n"
-            "information: run 1" +
-                kLevelled);
+            "visit_unsolved run=1 approach=reverse targets=target 6 reason=probe A is lost\n"
+            "run_lacks_visits runs=run 1\n");
   EXPECT_EQ(judged.figures.n_ij[5].reverse, (std::vector<int>{0, 1}));
 }
 
@@ -116,17 +108,14 @@ TEST(Plausibility, SaysWhatARunThatEndedEarlyLacks) {
   m.beyond(7, 1);
   m.visit(7, 2, -1), m.visit(6, 2, -1);
   EXPECT_EQ(judge(m).all(),
-            "information: target 1 (0.0000 mm): no reverse visit in run 2\n"
-            "information: target 2 (5.0000 mm): no reverse visit in run 2\n"
-            "information: target 3 (10.2000 mm): no reverse visit in run 2\n"
-            "information: target 4 (14.9000 mm): no reverse visit in run 2\n"
-            "information: target 5 (20.0000 mm): no reverse visit in run 2\ninformation: run 2" +
-                kLevelled);
+            "visit_outside_log run=2 approach=reverse targets=targets 1 to 5\n"
+            "run_lacks_visits runs=run 2\n");
   Machine shorter;
   shorter.standard(1);
   shorter.forward(2);
   EXPECT_EQ(judge(shorter).all(),
-            "information: run 2, reverse: no visit at any target\ninformation: run 2" + kLevelled);
+            "visit_outside_log run=2 approach=reverse targets=any target\n"
+            "run_lacks_visits runs=run 2\n");
 }
 
 TEST(Plausibility, NamesADoubledVisit) {
@@ -136,8 +125,7 @@ TEST(Plausibility, NamesADoubledVisit) {
     if (t == 4) m.beyond(4, -1), m.visit(4, 1, 1);
   }
   m.beyond(7, 1), m.reverse(1);
-  EXPECT_EQ(judge(m).all(),
-            "target 4 (14.9000 mm): 2 forward visits in run 1; both count for its mean\n");
+  EXPECT_EQ(judge(m).all(), "visit_doubled run=1 approach=forward targets=target 4\n");
 }
 
 TEST(Plausibility, NamesATargetThatIsFoundLate) {
@@ -146,8 +134,9 @@ TEST(Plausibility, NamesATargetThatIsFoundLate) {
   m.beyond(7, 1), m.reverse(1), m.beyond(1, -1);
   m.forward(2), m.beyond(7, 1), m.reverse(2);
   const Judged judged = judge(m);
-  EXPECT_TRUE(judged.says("target 3 (10.2000 mm): no forward visit in run 1")) << judged.all();
-  EXPECT_TRUE(judged.says("target 3 found only after the first pass")) << judged.all();
+  EXPECT_TRUE(judged.says("visit_missing run=1 approach=forward targets=target 3\n"))
+      << judged.all();
+  EXPECT_TRUE(judged.says("targets_renumbered targets=target 3\n")) << judged.all();
 }
 
 TEST(Plausibility, NamesAGivenTargetThatWasNeverVisited) {
@@ -155,7 +144,7 @@ TEST(Plausibility, NamesAGivenTargetThatWasNeverVisited) {
   m.standard(2);
   auto targets_m = m.targets;
   targets_m.push_back(35e-3);
-  EXPECT_EQ(judge(m, targets_m).all(), "target 8 (35.0000 mm) was never visited\n");
+  EXPECT_EQ(judge(m, targets_m).all(), "target_never_visited targets=target 8\n");
 }
 
 TEST(Plausibility, TellsStopsThatWereTooShort) {
@@ -167,8 +156,9 @@ TEST(Plausibility, TellsStopsThatWereTooShort) {
   }
   m.beyond(7, 1), m.reverse(2);
   const Judged judged = judge(m);
-  EXPECT_TRUE(judged.says("target 5 (20.0000 mm): no forward visit in run 2")) << judged.all();
-  EXPECT_TRUE(judged.says("1 visit of targets gave no point: 1 stop too short (up to 0.1"))
+  EXPECT_TRUE(judged.says("visit_missing run=2 approach=forward targets=target 5\n"))
+      << judged.all();
+  EXPECT_TRUE(judged.says("visit_without_point visits=1 too_short=1 creeping=0 longest_s=0.1"))
       << judged.all();
   EXPECT_EQ(judged.figures.short_stops, 1u);
 }
@@ -180,8 +170,8 @@ TEST(Plausibility, TellsOneStopOfMany) {
   m.dwell_s = 1;
   m.stop(m.at(3));
   const Judged judged = judge(m);
-  EXPECT_TRUE(judged.says("stops were found at one place only (10.2000 mm)")) << judged.all();
-  EXPECT_TRUE(judged.says("14 other stops were too short")) << judged.all();
+  EXPECT_TRUE(judged.says("stops_at_one_place position_mm=10.2 ")) << judged.all();
+  EXPECT_TRUE(judged.says(" others=14 needed_s=0.2 ")) << judged.all();
 }
 
 TEST(Plausibility, TellsThatGivenTargetsAreOfAnotherUnit) {
@@ -190,14 +180,14 @@ TEST(Plausibility, TellsThatGivenTargetsAreOfAnotherUnit) {
   std::vector<double> in_m;
   for (const double t : m.targets) in_m.push_back(1e-3 * t);
   const Judged judged = judge(m, in_m);
-  EXPECT_TRUE(judged.says("more stops were left out")) << judged.all();
+  EXPECT_TRUE(judged.says("most_stops_left_out left_out=")) << judged.all();
 }
 
 TEST(Plausibility, APendulumOfOneRunIsSaidToBeAGuess) {
   Machine m;
   m.forward(1);
   for (int t = 6; t >= 1; --t) m.visit(t, 1, -1);
-  EXPECT_TRUE(judge(m).says("taken for a pendulum cycle"));
+  EXPECT_TRUE(judge(m).says("pendulum_assumed\n"));
 }
 
 // Its end targets have one visit by design; any other hole is one.
@@ -214,7 +204,8 @@ TEST(Plausibility, APendulumLacksNothingAtItsEnds) {
   };
   EXPECT_EQ(pendulum(0), "");
   EXPECT_EQ(pendulum(4),
-            "target 4 (14.9000 mm): no reverse visit in run 2\ninformation: run 2" + kLevelled);
+            "visit_missing run=2 approach=reverse targets=target 4\n"
+            "run_lacks_visits runs=run 2\n");
 }
 
 // ---- units ----
@@ -229,9 +220,7 @@ Plausibility right() {
 }
 
 std::string said(const Rig& rig, const Plausibility& p) {
-  std::string out;
-  for (const auto& text : warnings_of_units(rig, p)) out += text + "\n";
-  return out;
+  return test::shown(unit_notices(rig, p));
 }
 
 void scale(ProbeFigures& p, double factor) {
@@ -248,26 +237,25 @@ TEST(Units, NothingIsSaidOfARunThatIsRight) {
 TEST(Units, OfTheEncoder) {
   Plausibility p = right();
   p.encoder_max_m = 61;
-  EXPECT_NE(said(rig_of_five(), p).find("encoder_mm seems to be in um"), std::string::npos);
+  EXPECT_EQ(said(rig_of_five(), p), "travel_too_long travel_m=61.001\n");
   p.encoder_min_m = 0, p.encoder_max_m = 60e-6;
-  EXPECT_NE(said(rig_of_five(), p).find("encoder_mm seems to be in m"), std::string::npos);
+  EXPECT_EQ(said(rig_of_five(), p).find("travel_too_short travel_mm=0.06\n"), 0u);
 }
 
 TEST(Units, OfTime) {
   Plausibility p = right();
   p.rate_hz = 1;
-  EXPECT_NE(said(rig_of_five(), p).find("time_s seems to be in ms"), std::string::npos);
+  EXPECT_EQ(said(rig_of_five(), p), "rate_too_low rate_hz=1\n");
 }
 
 TEST(Units, OfEachProbe) {
   for (std::size_t k = 0; k < 5; ++k) {
     Plausibility p = right();
     scale(p.probes[k], 1e-3);
-    EXPECT_EQ(said(rig_of_five(), p).find("probe " + p.probes[k].id + ": all readings are within"),
-              0u);
+    EXPECT_EQ(said(rig_of_five(), p),
+              "reading_too_small " + p.probes[k].id + " largest_um=0.012\n");
     scale(p.probes[k], 1e6);
-    EXPECT_EQ(said(rig_of_five(), p).find("probe " + p.probes[k].id + ": the noise in a dwell"),
-              0u);
+    EXPECT_EQ(said(rig_of_five(), p), "reading_too_noisy " + p.probes[k].id + " noise_um=10\n");
   }
 }
 
@@ -283,18 +271,18 @@ TEST(Units, AGapWithoutOffset) {
   rig.probes[1].calibration.reads_gap = true;
   EXPECT_EQ(said(rig, p), "");
   p.probes[1].min_m = -210e-6, p.probes[1].max_m = -190e-6;
-  EXPECT_NE(said(rig, p).find("probe B: reads the gap and has no offset_um"), std::string::npos);
-  EXPECT_NE(said(rig, p).find("B reads about 200 um"), std::string::npos);
+  EXPECT_EQ(said(rig, p), "gap_without_offset B gap_um=200\n");
   rig.probes[1].calibration.offset_um = 50;
   EXPECT_EQ(said(rig, p), "");
 }
 
 TEST(Units, OfTheFixture) {
-  for (const auto& [factor, unit] : {std::pair(1e3, "in um"), std::pair(1e-3, "in m\n")}) {
+  for (const auto& [factor, code] :
+       {std::pair(1e3, "fixture_too_large reach_m=25\n"), std::pair(1e-3, "fixture_too_small ")}) {
     Rig rig = rig_of_five();
     for (auto& probe : rig.probes)
       for (double& x : probe.position_m) x *= factor;
-    EXPECT_NE(said(rig, right()).find(unit), std::string::npos) << said(rig, right());
+    EXPECT_EQ(said(rig, right()).find(code), 0u) << said(rig, right());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "algo/plausibility/probe_watch.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -94,12 +95,9 @@ TEST(ProbeWatchRule, EachSpanHasItsTimesAndItsReading) {
     EXPECT_EQ(frozen[span].end_ns, until_ns[span]);
     EXPECT_EQ(frozen[span].value_m, span ? 8e-6 : 7e-6);
   }
-  const auto told = describe(w.watch, {"A", "B"}, 500'000'000);
-  ASSERT_EQ(told.size(), 2u);
-  EXPECT_EQ(told[0].find("probe \"B\" no longer changes from 0.050 s after the first scan to "
-                         "0.350 s (7 um)"),
-            0u)
-      << told[0];
+  const Notices found = probe_notices(w.watch, {"A", "B"}, 500'000'000);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(test::shown(found[0]), "probe_frozen B from_s=0.05 to_s=0.35 reading_um=7");
 }
 
 struct Travel {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/algo/detected.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -23,7 +24,7 @@ TEST(ProbeWatch, NoFalseAlarmOnCleanLogsOfSixtySeeds) {
     ASSERT_EQ(found.points.size(), 78u) << seed;
     for (const Point& p : found.points)
       ASSERT_TRUE(p.flags.empty()) << "seed " << seed << ": " << p.flags.front();
-    ASSERT_TRUE(found.warnings.empty()) << "seed " << seed << ": " << found.warnings.front();
+    ASSERT_EQ(test::shown(found.notices), "") << "seed " << seed;
   }
 }
 
@@ -51,8 +52,8 @@ TEST(ProbeWatch, AFrozenProbeIsNotUsedFromWhereItFroze) {
           }
           EXPECT_FALSE(std::isnan(p.probe_m[1]));
         }
-        ASSERT_EQ(found.warnings.size(), 1u) << step_um << " " << from_s;
-        EXPECT_EQ(found.warnings[0].find("probe \"C\" no longer changes from "), 0u);
+        ASSERT_EQ(found.notices.size(), 1u) << step_um << " " << from_s;
+        EXPECT_EQ(test::shown(found.notices[0]).find("probe_frozen C from_s="), 0u);
       }
     }
   }
@@ -70,7 +71,7 @@ TEST(ProbeWatch, AProbeThatIsDeadFromTheStart) {
   log.drift_um_per_min = 0;
   frames = log.frames();
   std::fill(frames.probe_m[3].begin(), frames.probe_m[3].end(), 1.25e-6);
-  EXPECT_TRUE(detect(log, frames).warnings.empty());
+  EXPECT_TRUE(detect(log, frames).notices.empty());
 }
 
 TEST(ProbeWatch, AProbeThatComesBackIsLostOnlyMeanwhile) {
@@ -96,8 +97,8 @@ TEST(ProbeWatch, AStepOfOneProbeIsToldAndFlagged) {
         for (std::size_t i = row; i < frames.size(); ++i) frames.probe_m[4][i] += 1e-6 * size_um;
         const auto found = detect(log, frames);
         ASSERT_EQ(found.points.size(), 78u);
-        ASSERT_EQ(found.warnings.size(), 1u) << rate << " " << size_um << " " << at_s;
-        EXPECT_EQ(found.warnings[0].find("probe \"E\" steps by "), 0u) << found.warnings[0];
+        ASSERT_EQ(found.notices.size(), 1u) << rate << " " << size_um << " " << at_s;
+        EXPECT_EQ(test::shown(found.notices[0]).find("probe_stepped E step_um="), 0u);
         for (const Point& p : found.points)
           EXPECT_EQ(has_flag(p, "step:E"), p.end_ns >= frames.time_ns[row]);
       }
@@ -111,7 +112,7 @@ TEST(ProbeWatch, AStepOfAllProbesIsNone) {
   FrameBlock frames = log.frames();
   for (auto& column : frames.probe_m)
     for (std::size_t i = row_at(frames, 20.2); i < frames.size(); ++i) column[i] += 2e-6;
-  EXPECT_TRUE(detect(log, frames).warnings.empty());
+  EXPECT_TRUE(detect(log, frames).notices.empty());
 }
 
 }  // namespace

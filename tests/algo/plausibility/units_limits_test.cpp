@@ -36,7 +36,7 @@ Plausibility figures() {
 }
 
 std::size_t said_of(const Plausibility& p, const Rig& rig = rig_of_gap()) {
-  return warnings_of_units(rig, p).size();
+  return unit_notices(rig, p).size();
 }
 
 std::size_t said_of_probe(const ProbeFigures& probe) {
@@ -48,7 +48,7 @@ std::size_t said_of_probe(const ProbeFigures& probe) {
 TEST(UnitsLimits, OfTheEncoder) {
   for (const auto& [travel_m, said] :
        {std::pair(0.49e-3, 1u), std::pair(0.5e-3, 0u), std::pair(2.0, 0u), std::pair(2.01, 1u)}) {
-    EXPECT_EQ(encoder_unit_doubt(travel_m).empty(), said == 0) << travel_m;
+    EXPECT_EQ(encoder_unit_notice(travel_m).has_value(), said != 0) << travel_m;
     Plausibility p = figures();
     p.encoder_min_m = -0.25 * travel_m, p.encoder_max_m = 0.75 * travel_m;
     EXPECT_EQ(said_of(p), said) << travel_m;
@@ -120,17 +120,17 @@ TEST(UnitsLimits, OfTheFixture) {
 
 // A default fixture of 35 mm whose positions were written in cm, and in tenths of a mm.
 TEST(UnitsLimits, LengthsTenTimesTooSmallAndTooLarge) {
-  for (const auto& [factor, says] : {std::pair(0.1, "seems to be in cm"), std::pair(1.0, ""),
-                                     std::pair(10.0, "ten times too large")}) {
+  for (const auto& [factor, says] : {std::pair(0.1, "fixture_too_narrow"), std::pair(1.0, ""),
+                                     std::pair(10.0, "fixture_too_wide")}) {
     Rig rig = test::rig_x();
     for (auto& probe : rig.probes)
       for (double& x : probe.position_m) x *= factor;
     Plausibility p = figures();
     p.encoder_max_m = 40e-3;
-    const auto said = warnings_of_units(rig, p);
+    const auto said = unit_notices(rig, p);
     ASSERT_EQ(said.size(), *says == '\0' ? 0u : 1u) << factor;
     if (said.empty()) continue;
-    EXPECT_NE(said[0].find(says), std::string::npos) << said[0];
+    EXPECT_STREQ(to_string(said[0].code), says);
   }
 }
 

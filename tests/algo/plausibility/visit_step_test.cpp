@@ -6,12 +6,14 @@
 #include <functional>
 #include <random>
 
-#include "schema/severity.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
+
+using test::shown;
 
 constexpr int kTargets = 13;
 constexpr double kNoise = 20e-9, kStop_s = 2;
@@ -56,20 +58,21 @@ TEST(VisitStep, NamesTheProbeAndTheVisit) {
       EXPECT_NEAR(steps[0].size_m, size, 20e-9);
       EXPECT_NEAR(steps[0].sd_m, kNoise, 5e-9);
     }
-  const auto said =
-      warnings_of_repeats(rig, repeated_log(7, [](int n) { return n >= 40 ? 2e-7 : 0; }));
+  const auto said = repeat_notices(rig, repeated_log(7, [](int n) { return n >= 40 ? 2e-7 : 0; }));
   ASSERT_EQ(said.size(), 1U);
-  EXPECT_NE(said[0].find("from run 2, target 12 (reverse) on: E by +0."), std::string::npos)
-      << said[0];
+  EXPECT_EQ(said[0].subject, "E");
+  EXPECT_NEAR(test::number(said[0], "step_um"), 0.2, 0.1);
+  EXPECT_NE(shown(said[0]).find(" run=2 target=12 approach=reverse"), std::string::npos);
 }
 
-TEST(VisitStep, ProbesThatStepTogetherAreOneSentence) {
+TEST(VisitStep, ProbesThatStepTogetherAreOneNoticeEach) {
   auto points = repeated_log(9, [](int n) { return n >= 30 ? 300e-9 : 0; });
   for (std::size_t n = 30; n < points.size(); ++n) points[n].point.probe_m[1] -= 400e-9;
-  const auto said = warnings_of_repeats(test::rig_x(), points);
-  ASSERT_EQ(said.size(), 1U);
-  EXPECT_NE(said[0].find(": B by -0."), std::string::npos) << said[0];
-  EXPECT_NE(said[0].find(", E by +0."), std::string::npos) << said[0];
+  const auto said = repeat_notices(test::rig_x(), points);
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_EQ(said[0].subject + said[1].subject, "BE");
+  EXPECT_NEAR(test::number(said[0], "step_um"), -0.4, 0.1);
+  EXPECT_NEAR(test::number(said[1], "step_um"), 0.3, 0.1);
 }
 
 TEST(VisitStep, WhatChangesSlowlyIsNone) {
@@ -120,23 +123,23 @@ TEST(VisitStep, ASecondCopyOfTheSameRun) {
     p.point.begin_ns += 100'000'000'000;
     points.push_back(p);
   }
-  const auto said = warnings_of_repeats(test::rig_x(), points);
+  const auto said = repeat_notices(test::rig_x(), points);
   ASSERT_EQ(said.size(), 1U);
-  EXPECT_EQ(said[0].find("26 of 52 points"), 0U) << said[0];
-  EXPECT_TRUE(warnings_of_repeats(test::rig_x(), repeated_log(3, no_change)).empty());
+  EXPECT_EQ(shown(said[0]), "readings_copied copies=26 points=52");
+  EXPECT_TRUE(repeat_notices(test::rig_x(), repeated_log(3, no_change)).empty());
   for (MeasuredPoint& p : points) p.point.probe_sd_m.assign(5, 0);  // without noise they repeat
-  EXPECT_TRUE(warnings_of_repeats(test::rig_x(), points).empty());
+  EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
 // A single visit cannot show slow noise, and that keeps no table from a controller.
 TEST(VisitStep, TargetsThatWereVisitedOnceAreSaid) {
   SyntheticRun synthetic{.rig = test::rig_x(), .runs = 1};
-  const auto said = warnings_of_repeats(synthetic.rig, synthetic.measure().points);
+  const auto said = repeat_notices(synthetic.rig, synthetic.measure().points);
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(severity_of(said[0]), Severity::information);
-  EXPECT_NE(said[0].find("slow noise is not in the figures of a single visit"), std::string::npos);
+  EXPECT_EQ(said[0].code, NoticeCode::visited_once);
+  EXPECT_EQ(said[0].severity, Severity::information);
   synthetic.runs = 2;
-  EXPECT_TRUE(warnings_of_repeats(synthetic.rig, synthetic.measure().points).empty());
+  EXPECT_TRUE(repeat_notices(synthetic.rig, synthetic.measure().points).empty());
 }
 
 }  // namespace

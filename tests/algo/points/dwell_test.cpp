@@ -313,7 +313,7 @@ TEST(Sequence, NominalTargetsLeaveOtherStopsOutAndSaySo) {
   const Sequence s = recognise_sequence(detect(axis.frames, 1000), options);
   EXPECT_EQ(s.points.size(), 6u);
   EXPECT_EQ(s.left_out.size(), 4u);
-  EXPECT_EQ(s.warnings.size(), 1u);
+  EXPECT_EQ(s.notices.size(), 1u);
   EXPECT_EQ(s.points[1].target_m, 4e-3);
 }
 

@@ -16,7 +16,7 @@ constexpr double kSlot_s = 0.0125;  // the grain of detection: a quarter of the 
 struct Found {
   std::vector<Point> points;
   DwellDetector::Summary summary;
-  std::vector<DwellNotice> notices;
+  std::vector<DwellEvent> events;
 };
 
 Found found_in(const FrameBlock& frames, std::size_t block = 1'000'000, DwellOptions options = {}) {
@@ -26,7 +26,7 @@ Found found_in(const FrameBlock& frames, std::size_t block = 1'000'000, DwellOpt
     detector.push(cut_frames(frames, i, std::min(frames.size(), i + block)), found.points);
   detector.flush(found.points);
   found.summary = detector.summary();
-  found.notices = detector.notices();
+  found.events = detector.events();
   return found;
 }
 
@@ -73,7 +73,7 @@ TEST(DwellTimes, AStopOfSettlingAndLeastLengthIsFoundAndAShorterOneTold) {
   const Found found = found_in(axis.frames);
   ASSERT_EQ(found.points.size(), 3u);
   ASSERT_EQ(found.summary.passed_over.size(), 3u);
-  ASSERT_EQ(found.notices.size(), 3u);
+  ASSERT_EQ(found.events.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const double at_m = 30e-3 + 4e-3 * static_cast<double>(i);
     EXPECT_NEAR(found.points[i].position_m, at_m, 20e-9);
@@ -81,8 +81,8 @@ TEST(DwellTimes, AStopOfSettlingAndLeastLengthIsFoundAndAShorterOneTold) {
     EXPECT_NEAR(passed.position_m, at_m + 2e-3, 1e-6);
     EXPECT_NEAR(passed.length_s, 0.17, 3 * kSlot_s);
     EXPECT_TRUE(passed.too_short);
-    EXPECT_EQ(found.notices[i].kind, NoticeKind::short_stop);
-    EXPECT_NEAR(found.notices[i].position_m, at_m + 2e-3, 1e-6);
+    EXPECT_EQ(found.events[i].kind, DwellEventKind::short_stop);
+    EXPECT_NEAR(found.events[i].position_m, at_m + 2e-3, 1e-6);
   }
 }
 
@@ -128,7 +128,7 @@ TEST(DwellTimes, ACreepOverMoreThanAFifthOfAMillimetreIsATravel) {
     axis.move_to(20e-3);
     axis.wait(0.4);
     const Found found = found_in(axis.frames);
-    EXPECT_EQ(found.notices.size(), scans == 1000 ? 1u : 0u) << scans;
+    EXPECT_EQ(found.events.size(), scans == 1000 ? 1u : 0u) << scans;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "algo/points/robust_mean.h"
 #include "tests/algo/detected.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -47,8 +48,9 @@ TEST(MissingEncoder, MoreThanHalfOfAStopIsNoEndlessLoop) {
     for (std::size_t i = 0; i < found.points.size(); ++i)
       EXPECT_EQ(has_flag(found.points[i], "missing:encoder"), i == 4) << i;
     EXPECT_EQ(found.summary.unplaced, lost);
-    ASSERT_EQ(found.warnings.size(), 1u);
-    EXPECT_EQ(found.warnings[0].find(std::to_string(lost) + " scans have no position"), 0u);
+    ASSERT_EQ(found.notices.size(), 1u);
+    EXPECT_EQ(found.notices[0].code, NoticeCode::position_missing);
+    EXPECT_EQ(test::number(found.notices[0], "scans"), static_cast<double>(lost));
   }
 }
 
@@ -78,8 +80,8 @@ TEST(MissingEncoder, ManyInARowAreAHole) {
   for (const std::size_t block : kBlocks) {
     const auto found = detect(log, frames, block);
     ASSERT_EQ(found.points.size(), 25u);
-    ASSERT_EQ(found.warnings.size(), 2u);
-    EXPECT_EQ(found.warnings[0].find("no position was recorded for"), 0u) << found.warnings[0];
+    ASSERT_EQ(found.notices.size(), 2u);
+    EXPECT_EQ(found.notices[0].code, NoticeCode::recording_hole);
     EXPECT_TRUE(std::isnan(found.points[3].way_min_m)) << "a way that nobody saw";
   }
 }
@@ -102,8 +104,9 @@ TEST(UnreachablePlace, ACountThatOverflowsForAMomentCostsItsScansOnly) {
       EXPECT_NEAR(found.points[i].position_m, clean.points[i].position_m, 2e-9) << i;
       EXPECT_EQ(has_flag(found.points[i], "missing:encoder"), i == 6) << i;
     }
-    ASSERT_EQ(found.warnings.size(), 1u) << found.warnings[0];
-    EXPECT_EQ(found.warnings[0].find("6 scans have a position that the axis cannot"), 0u);
+    ASSERT_EQ(found.notices.size(), 1u) << test::shown(found.notices);
+    EXPECT_EQ(found.notices[0].code, NoticeCode::position_unreachable);
+    EXPECT_EQ(test::number(found.notices[0], "scans"), 6);
   }
 }
 
@@ -117,22 +120,25 @@ TEST(UnreachablePlace, WhatGoesOnFromAJumpIsLeftOut) {
   const struct {
     double jump_m;
     DwellOptions options;
-    const char* says;
-  } cases[] = {{kOverflow_m, {}, "jumped by 214748.4 mm at 30"},
-               {-kOverflow_m, {}, "jumped by -214748.4 mm at 30"},
-               {1e-3, {.max_speed_m_s = 0.1}, " mm at 30 mm, "},
-               {-1e-3, {.max_speed_m_s = 0.1}, "max_speed_mm_s = 100"}};
+    double jump_mm;
+  } cases[] = {{kOverflow_m, {}, 214748.4},
+               {-kOverflow_m, {}, -214748.4},
+               {1e-3, {.max_speed_m_s = 0.1}, 1},
+               {-1e-3, {.max_speed_m_s = 0.1}, -1}};
   for (const auto& c : cases) {
     FrameBlock frames = whole;
     for (std::size_t i = at; i < frames.size(); ++i) frames.encoder_m[i] += c.jump_m;
     for (const std::size_t block : kBlocks) {
       const auto found = detect(log, frames, block, c.options);
-      ASSERT_EQ(found.points.size(), 7u) << c.says;
+      ASSERT_EQ(found.points.size(), 7u) << c.jump_mm;
       EXPECT_TRUE(has_flag(found.points[6], "missing:encoder"));
       for (std::size_t i = 0; i < 7; ++i)
         EXPECT_NEAR(found.points[i].position_m, clean.points[i].position_m, 5e-9);
-      ASSERT_EQ(found.warnings.size(), 1u);
-      EXPECT_NE(found.warnings[0].find(c.says), std::string::npos) << found.warnings[0];
+      ASSERT_EQ(found.notices.size(), 1u);
+      EXPECT_EQ(found.notices[0].code, NoticeCode::position_unreachable);
+      EXPECT_NEAR(test::number(found.notices[0], "jump_mm"), c.jump_mm, 0.1);
+      EXPECT_NEAR(test::number(found.notices[0], "position_mm"), 30, 0.1);
+      EXPECT_EQ(test::number(found.notices[0], "max_speed_mm_s"), 1e3 * c.options.max_speed_m_s);
     }
   }
 }

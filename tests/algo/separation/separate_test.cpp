@@ -245,7 +245,7 @@ TEST(Separation, UncertaintyIsThatOfTheNoise) {
     world.seed = static_cast<std::uint64_t>(trial) + 1;
     const auto found = separate(request_of(world, lain));
     ASSERT_TRUE(found) << found.error().message;
-    EXPECT_TRUE(found->warnings.empty());
+    EXPECT_TRUE(found->notices.empty());
     u = found->target.u_m;
     for (std::size_t i = 0; i < u.size(); ++i) {
       sum[i] += found->target.seen_m[i] / kTrials;
@@ -293,12 +293,13 @@ TEST(Separation, WithoutUncertaintyTheScatterTells) {
 TEST(Separation, AWrongShiftContradicts) {
   const World world{{}, 0, steps(25, 2.5 * kMm), 5 * kNm};
   auto request = request_of(world, {{}, {true, false, 0}, {false, false, 5 * kMm}});
-  EXPECT_TRUE(separate(request)->warnings.empty());
+  EXPECT_TRUE(separate(request)->notices.empty());
   request.set_ups[2].shift_m = -5 * kMm;
   const auto wrong = separate(request);
   ASSERT_TRUE(wrong);
-  ASSERT_EQ(wrong->warnings.size(), 1u);
-  EXPECT_NE(wrong->warnings[0].find("contradict"), std::string::npos);
+  ASSERT_EQ(wrong->notices.size(), 1u);
+  EXPECT_EQ(wrong->notices[0].code, NoticeCode::set_ups_contradict);
+  EXPECT_EQ(wrong->notices[0].severity, Severity::invalid);
 }
 
 TEST(Separation, WhatCannotBeIsRefusedWithARemedy) {

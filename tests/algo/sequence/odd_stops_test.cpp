@@ -133,17 +133,15 @@ TEST(OddStops, ARowOfFewVisitsGoesOn) {
 }
 
 TEST(OddStops, TheReasonSaysWhatThePlaceIs) {
-  EXPECT_EQ(
-      with_place({3, 2, 0}, 3, 3).reasons,
-      std::vector<std::string>(2, "visited 2 times, from one side only, between targets: a pause"));
+  EXPECT_EQ(with_place({3, 2, 0}, 3, 3).reasons,
+            std::vector<std::string>(2, "stop_between_targets"));
   EXPECT_EQ(with_place({62, 1, 1}, 3, 3).reasons,
-            std::vector<std::string>(2, "visited 2 times, beyond the end target: a turning point"));
+            std::vector<std::string>(2, "stop_beyond_targets"));
   EXPECT_EQ(with_place({3, 2, 2}, 4, 4).reasons,
-            std::vector<std::string>(4, "visited 4 times, between targets: a pause"));
+            std::vector<std::string>(4, "stop_between_targets"));
   EXPECT_EQ(with_place({-2, 1, 0}, 3, 3).reasons,
-            std::vector<std::string>{"visited once, before the first target"});
-  EXPECT_EQ(with_place({62, 1, 0}, 3, 3).reasons,
-            std::vector<std::string>{"visited once, beyond the end target: a turning point"});
+            std::vector<std::string>{"stop_before_first_target"});
+  EXPECT_EQ(with_place({62, 1, 0}, 3, 3).reasons, std::vector<std::string>{"stop_beyond_targets"});
 }
 
 // All places have one visit: a start off the grid, of four places and more.

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "tests/algo/measured_machine.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -25,16 +26,6 @@ Sequence check(const Machine& machine, const SequenceOptions& options = {}) {
   return s;
 }
 
-std::string all(const std::vector<std::string>& texts) {
-  std::string out;
-  for (const auto& text : texts) out += text + "\n";
-  return out;
-}
-
-bool says(const Sequence& s, const std::string& what) {
-  return all(s.warnings).find(what) != std::string::npos;
-}
-
 TEST(Cycle, StandardOnSixtyRandomPlans) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     std::mt19937_64 rng(seed);
@@ -50,7 +41,7 @@ TEST(Cycle, StandardOnSixtyRandomPlans) {
     m.standard(std::uniform_int_distribution<>(1, 5)(rng));
     const Sequence s = check(m);
     EXPECT_EQ(s.cycle, Cycle::standard) << seed;
-    EXPECT_TRUE(s.warnings.empty()) << seed << all(s.warnings);
+    EXPECT_EQ(test::shown(s.notices), "") << seed;
   }
 }
 
@@ -78,7 +69,7 @@ TEST(Cycle, Pilgrim) {
     EXPECT_EQ(s.cycle, Cycle::pilgrim);
     EXPECT_EQ(s.runs, runs);
     EXPECT_EQ(s.targets, m.count());
-    EXPECT_TRUE(s.warnings.empty()) << all(s.warnings);
+    EXPECT_EQ(test::shown(s.notices), "");
   }
 }
 
@@ -89,7 +80,7 @@ TEST(Cycle, PilgrimOneWayOnly) {
   }
   const Sequence s = check(m);
   EXPECT_EQ(s.cycle, Cycle::pilgrim);
-  EXPECT_TRUE(s.warnings.empty()) << all(s.warnings);
+  EXPECT_EQ(test::shown(s.notices), "");
 }
 
 TEST(Cycle, QuasiPilgrimAtEachTargetOverAndOver) {
@@ -139,7 +130,7 @@ TEST(Cycle, NoneIsSaidToBeNone) {
   }
   const Sequence s = check(m);
   EXPECT_EQ(s.cycle, Cycle::none);
-  EXPECT_TRUE(says(s, "no standard, pendulum, pilgrim or quasi-pilgrim cycle")) << all(s.warnings);
+  EXPECT_TRUE(test::has(s.notices, NoticeCode::cycle_unknown)) << test::shown(s.notices);
 }
 
 TEST(Cycle, OvershootOfEveryStopIsNoTurn) {
@@ -162,7 +153,7 @@ TEST(Cycle, OvershootOfEveryStopIsNoTurn) {
     EXPECT_EQ(s.runs, 3);
     EXPECT_EQ(s.cycle, Cycle::standard);
     // One that does not show as an approach from the other side needs no word.
-    EXPECT_EQ(says(s, "stops were overshot by up to 0.2500 mm"), by_m > 60e-6) << by_m;
+    EXPECT_EQ(test::has(s.notices, NoticeCode::stop_overshot), by_m > 60e-6) << by_m;
   }
 }
 
@@ -193,7 +184,7 @@ TEST(Cycle, PausesBetweenTargetsAreLeftOut) {
   const Sequence s = check(m);
   EXPECT_EQ(s.left_out.size(), 6u);
   EXPECT_EQ(s.cycle, Cycle::standard);
-  EXPECT_TRUE(says(s, "a pause")) << all(s.warnings);
+  EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_between_targets)) << test::shown(s.notices);
 }
 
 TEST(Cycle, TurningPointsAreLeftOut) {
@@ -206,7 +197,7 @@ TEST(Cycle, TurningPointsAreLeftOut) {
   }
   const Sequence s = check(m);
   EXPECT_EQ(s.left_out.size(), 6u);
-  EXPECT_TRUE(says(s, "a turning point")) << all(s.warnings);
+  EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_beyond_targets)) << test::shown(s.notices);
 }
 
 TEST(Cycle, TurningPointsAtEachTargetOfAPilgrimCycleAreLeftOut) {
@@ -236,7 +227,7 @@ TEST(Cycle, AParkedStartIsNoTarget) {
       EXPECT_EQ(s.targets, 7) << parked_m;
       ASSERT_EQ(s.left_out.size(), 1u) << parked_m;
       EXPECT_NEAR(s.left_out[0].position_m, parked_m, 1e-6);
-      EXPECT_TRUE(says(s, "parked")) << all(s.warnings);
+      EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_parked_at_start)) << test::shown(s.notices);
     }
   }
 }
@@ -249,7 +240,7 @@ TEST(Cycle, AParkedStartAtATargetIsNoVisit) {
   m.standard(2);
   const Sequence s = check(m);
   ASSERT_EQ(s.left_out.size(), 1u);
-  EXPECT_TRUE(says(s, "parked")) << all(s.warnings);
+  EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_parked_at_start)) << test::shown(s.notices);
 }
 
 TEST(Cycle, ALogThatBeginsOnTheFirstTargetKeepsIt) {
@@ -327,7 +318,7 @@ TEST(Cycle, GivenTargetsLeaveOtherStopsOut) {
   options.targets_m = m.targets;
   const Sequence s = check(m, options);
   EXPECT_EQ(s.left_out.size(), 1u);
-  EXPECT_TRUE(says(s, "near no target")) << all(s.warnings);
+  EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_near_no_target)) << test::shown(s.notices);
 }
 
 // Live, points are shown and kept as they come: those of a regular cycle keep their names.

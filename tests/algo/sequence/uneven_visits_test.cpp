@@ -14,6 +14,7 @@
 #include "algo/iso230/squareness.h"
 #include "algo/iso230/straightness.h"
 #include "algo/iso230/target_means.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -67,35 +68,28 @@ TEST(UnevenVisits, OfAWholeRunAreNone) {
   for (const int runs : {1, 3}) {
     const mdof::Run run = cut_run(runs, kAll);
     EXPECT_EQ(without_drift_of_runs(run.points).points.size(), run.points.size());
-    EXPECT_EQ(uneven_visits_text(run.points), "");
+    EXPECT_EQ(test::shown(uneven_visits(run.points)), "");
   }
   const mdof::Run one_way = cut_run(2, [](const Visit& v) { return v.direction > 0; });
   EXPECT_EQ(without_drift_of_runs(one_way.points).points.size(), 26);
-  EXPECT_EQ(uneven_visits_text(one_way.points), "");
+  EXPECT_EQ(test::shown(uneven_visits(one_way.points)), "");
 }
 
-TEST(UnevenVisits, AreTold) {
-  const auto told = [](int runs, const Kept& kept) {
-    return uneven_visits_text(cut_run(runs, kept).points);
+TEST(UnevenVisits, AreNoticed) {
+  const auto found = [](int runs, const Kept& kept) {
+    return test::shown(uneven_visits(cut_run(runs, kept).points));
   };
-  const std::string drift =
-      " visits that others have: means, slopes and squareness are made without the drift between "
-      "the "
-      "runs";
-  const std::string reversal =
-      " approached from one side only: means of both approaches, slopes and squareness take the "
-      "missing approach from the mean reversal of the other targets";
-  EXPECT_EQ(told(1, [](const Visit& v) { return v.direction > 0 || v.target > 4; }),
-            "targets 1 to 4 were" + reversal);
-  EXPECT_EQ(told(3, [](const Visit& v) { return v.run < 3 || v.target < 8; }),
-            "information: run 3 lacks" + drift);
-  EXPECT_EQ(told(3,
-                 [](const Visit& v) {
-                   return v.run == 1 ? v.target != 13 || v.direction > 0 : v.target < 8;
-                 }),
-            "runs 2, 3 lack" + drift + "; target 13 was" + reversal);
-  EXPECT_EQ(told(2, [](const Visit& v) { return v.run != v.target; }),
-            "information: runs 1, 2 lack" + drift);
+  EXPECT_EQ(found(1, [](const Visit& v) { return v.direction > 0 || v.target > 4; }),
+            "target_from_one_side targets=targets 1 to 4\n");
+  EXPECT_EQ(found(3, [](const Visit& v) { return v.run < 3 || v.target < 8; }),
+            "run_lacks_visits runs=run 3\n");
+  EXPECT_EQ(found(3,
+                  [](const Visit& v) {
+                    return v.run == 1 ? v.target != 13 || v.direction > 0 : v.target < 8;
+                  }),
+            "run_lacks_visits runs=runs 2, 3\ntarget_from_one_side targets=target 13\n");
+  EXPECT_EQ(found(2, [](const Visit& v) { return v.run != v.target; }),
+            "run_lacks_visits runs=runs 1, 2\n");
 }
 
 TEST(UnevenVisits, BacklashOfTargetsFromOneSideDoesNotTiltTheMean) {
@@ -159,15 +153,15 @@ TEST(UnevenVisits, ATableOfRunsWithOtherTargetsHasNoStep) {
                 whole.forward[0][i] - whole.forward[0][0], 1e-15);
     EXPECT_NEAR(table.u_forward[0][i], 5e-6, 1e-8);
   }
-  EXPECT_EQ(uneven_visits_of({longer, longer}).value(), "");
-  EXPECT_TRUE(
-      uneven_visits_of({longer, shorter}).value().starts_with("information: run 2 lacks visits"));
+  EXPECT_EQ(test::shown(uneven_visits_of({longer, longer}).value()), "");
+  EXPECT_EQ(test::shown(uneven_visits_of({longer, shorter}).value()),
+            "over all runs, counted on from one to the next: run_lacks_visits runs=run 2\n");
 }
 
-TEST(UnevenVisits, NoTargetFromBothSidesIsTold) {
+TEST(UnevenVisits, NoTargetFromBothSidesIsNoticed) {
   const mdof::Run run =
       cut_run(1, [](const Visit& v) { return (v.direction > 0) == (v.target < 6); });
-  EXPECT_TRUE(uneven_visits_text(run.points).starts_with("no target was approached from both"));
+  EXPECT_EQ(test::shown(uneven_visits(run.points)), "approaches_mixed\n");
 }
 
 // The least squares by going to and fro between the mean of each run and of each visit, without

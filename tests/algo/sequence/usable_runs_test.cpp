@@ -4,6 +4,7 @@
 
 #include "algo/compensation/compensation.h"
 #include "algo/iso230/squareness.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -52,9 +53,9 @@ TEST(UsableRuns, APartialRunIsTakenOnlyIfAskedFor) {
   EXPECT_TRUE(contains(why, "run 7 is partial")) << why;
   EXPECT_TRUE(contains(why, "--partial") && contains(why, "\"partial\": true")) << why;
   EXPECT_EQ(refusal({partial}, partial_too()), "");
-  const auto warnings = inherited_warnings({&partial});
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(contains(warnings[0], "run 7")) << warnings[0];
+  const Notices notices = inherited_notices({&partial});
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_EQ(test::shown(notices[0]), "made_from_partial run=7");
 }
 
 TEST(UsableRuns, AnAbortedOrFailedOneIsNeverTaken) {
@@ -62,16 +63,15 @@ TEST(UsableRuns, AnAbortedOrFailedOneIsNeverTaken) {
     const mdof::Run run = run_of(7, state, "a");
     EXPECT_TRUE(contains(refusal({run}, partial_too()), to_string(state)));
   }
-  EXPECT_TRUE(inherited_warnings(all_of({run_of(7, RunState::complete, "a")})).empty());
+  EXPECT_TRUE(inherited_notices(all_of({run_of(7, RunState::complete, "a")})).empty());
 }
 
 // A saturated end of the travel put a squareness out by 96 urad, and only the run said so.
 TEST(UsableRuns, WhatIsWrongWithARunIsWrongWithItsFigure) {
   mdof::Run a = run_of(7, RunState::complete, "a"), b = run_of(8, RunState::complete, "b");
-  b.header.warnings = {"target 3 was never visited", "probe A saturated"};
-  EXPECT_EQ(
-      inherited_warnings({&a, &b}),
-      (std::vector<std::string>{"run 8: target 3 was never visited", "run 8: probe A saturated"}));
+  b.header.notices = {notice(NoticeCode::cycle_unknown), notice(NoticeCode::probe_dead, "A")};
+  EXPECT_EQ(test::shown(inherited_notices({&a, &b})),
+            "run 8: cycle_unknown\nrun 8: probe_dead A\n");
 }
 
 TEST(UsableRuns, SimulatedAndMeasuredAreNotMixed) {

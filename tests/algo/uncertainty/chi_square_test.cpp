@@ -33,7 +33,7 @@ Rig rig_of(std::size_t probes) {
 
 struct Tested {
   std::vector<MeasuredPoint> points;
-  std::optional<std::string> warning;
+  std::optional<Notice> contradiction;
 };
 
 Tested measure(const SteppingLog& log, const FrameBlock& frames) {
@@ -49,7 +49,7 @@ Tested measure(const SteppingLog& log, const FrameBlock& frames) {
     p.errors = solver->solve(p.point.position_m, p.point.probe_m, p.point.probe_u_m);
     residuals.test(p);
   }
-  result.warning = residuals.warning(result.points);
+  result.contradiction = residuals.contradiction(result.points);
   return result;
 }
 
@@ -86,7 +86,7 @@ TEST(ChiSquare, ProbesThatAgreeRaiseNoAlarm) {
     log.runs = 1;
     log.probe_step_um = seed % 3 == 0 ? 0.1 : 1e-6;
     const auto result = measure(log, log.frames());
-    EXPECT_FALSE(result.warning) << seed << ": " << *result.warning;
+    EXPECT_FALSE(result.contradiction) << seed;
     ASSERT_EQ(result.points.size(), 26u);
     for (const auto& p : result.points) EXPECT_TRUE(p.point.flags.empty()) << seed;
   }
@@ -103,10 +103,9 @@ TEST(ChiSquare, NamesTheProbeThatContradictsTheOthers) {
       for (std::size_t i = frames.size() / 3; i < frames.size(); ++i)
         frames.probe_m[bad][i] += 0.5e-6;
       const auto result = measure(log, frames);
-      ASSERT_TRUE(result.warning) << probes << " " << bad;
-      EXPECT_NE(result.warning->find("probe \"" + log.ids()[bad] + "\" is the most suspect"),
-                std::string::npos)
-          << *result.warning;
+      ASSERT_TRUE(result.contradiction) << probes << " " << bad;
+      EXPECT_EQ(result.contradiction->code, NoticeCode::probes_contradict);
+      EXPECT_EQ(result.contradiction->subject, log.ids()[bad]);
       for (const auto& p : result.points)
         EXPECT_EQ(has_flag(p.point, "residual"), p.run > 1) << bad;
     }

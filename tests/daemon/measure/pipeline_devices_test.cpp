@@ -112,7 +112,7 @@ TEST(PipelineOfTwoDevices, HowDevicesTakeTurnsChangesNoBit) {
   for (const auto& [top, side] : {std::pair{1000u, 1000u}, {1u, 400u}, {1000u, 3u}}) {
     const mdof::Run replayed = measured(top, side);
     ASSERT_EQ(replayed.points.size(), live.points.size());
-    EXPECT_EQ(replayed.header.warnings, live.header.warnings);
+    EXPECT_EQ(replayed.header.notices, live.header.notices);
     for (std::size_t i = 0; i < live.points.size(); ++i) {
       EXPECT_EQ(replayed.points[i].point.probe_m, live.points[i].point.probe_m);
       EXPECT_EQ(replayed.points[i].point.probe_u_m, live.points[i].point.probe_u_m) << i;

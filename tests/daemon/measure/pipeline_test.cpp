@@ -5,6 +5,7 @@
 
 #include "algo/points/flags.h"
 #include "tests/daemon/measure/test_axis.h"
+#include "tests/shown.h"
 
 namespace mdof::daemon {
 namespace {
@@ -49,10 +50,8 @@ void lose(SampleBlock& block, std::size_t c, std::size_t begin, std::size_t end)
   }
 }
 
-std::string all_warnings(const Run& run) {
-  std::string all;
-  for (const auto& warning : run.header.warnings) all += warning + "\n";
-  return all;
+std::string all_notices(const Run& run) {
+  return test::shown(run.header.notices);
 }
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
@@ -91,11 +90,11 @@ TEST(Pipeline, AnAxisThatNeverStopsIsNotComplete) {
   const auto never = measured(moving);
   ASSERT_TRUE(never) << never.error().message;
   EXPECT_EQ(never->header.state, RunState::partial);
-  EXPECT_SAYS(all_warnings(*never), "stopped only at 0 and 60 mm");
-  EXPECT_SAYS(all_warnings(*never), "--on-the-fly");
+  EXPECT_SAYS(all_notices(*never), "axis_never_stops moving_percent=");
+  EXPECT_SAYS(all_notices(*never), " stops_mm=0 and 60\n");
   const auto between_two = measured(stepping);
   ASSERT_TRUE(between_two) << between_two.error().message;
-  EXPECT_EQ(between_two->header.state, RunState::complete) << all_warnings(*between_two);
+  EXPECT_EQ(between_two->header.state, RunState::complete) << all_notices(*between_two);
 }
 
 // A table that goes along - of M as the encoder grows, and a fixture that goes along +: in both the
@@ -164,14 +163,14 @@ TEST(Pipeline, AProbeThatIsDeadThroughoutIsTheReasonWhyNothingIsSolved) {
     return run ? "measured" : run.error().message;
   };
   const std::string missing = refusal([](SampleBlock& b) { lose(b, kC, 0, b.scans()); });
-  EXPECT_SAYS(missing, "probe \"C\" gave no usable value in any dwell");
+  EXPECT_SAYS(missing, "probe \"C\" gave no usable value in any stop");
   const std::string frozen =
       refusal([](SampleBlock& b) { std::fill(b.value[kC].begin(), b.value[kC].end(), 1.25); });
   EXPECT_SAYS(frozen, "probe \"C\" reads the same in every scan");
   const std::string saturated = refusal([](SampleBlock& b) {
     for (double& um : b.value[kC]) um += 150;
   });
-  EXPECT_SAYS(saturated, "probe \"C\" is at the end of its range (200 um) in every dwell");
+  EXPECT_SAYS(saturated, "probe \"C\" is at the end of its range (200 um) in every stop");
   EXPECT_SAYS(saturated, "range_um");
 }
 
@@ -189,7 +188,7 @@ TEST(Pipeline, ADeadProbeThatIsNotNeededIsAWarning) {
     block.quality[6].assign(block.scans(), Quality::missing);
   });
   ASSERT_TRUE(run) << run.error().message;
-  EXPECT_SAYS(all_warnings(*run), "probe \"F\" gave no usable value in any dwell");
+  EXPECT_SAYS(all_notices(*run), "probe_dead F");
   ASSERT_EQ(run->points.size(), 10u);
   for (const auto& p : run->points) expect_true_errors(p, 1e3 * p.target_m);
 }
@@ -241,7 +240,7 @@ TEST(Pipeline, WhatWasAskedForDecidesWhetherItIsComplete) {
   options.repeats = 2;
   const auto run = measured(both_ways(), five_probe_rig(), options);
   EXPECT_EQ(run->header.state, RunState::partial);
-  EXPECT_SAYS(all_warnings(*run), "10 of 20 points asked for are missing");
+  EXPECT_SAYS(all_notices(*run), "points_missing missing=10 of=20 ");
 }
 
 TEST(Pipeline, TheTemperatureIsTheMeanOfWhatWasRead) {
@@ -326,8 +325,7 @@ TEST(Pipeline, ARunHoldsSoManyStopsAndSaysHowManyAreLeftOut) {
   const auto run = pipeline.finish();
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(run->points.size(), 7u);
-  EXPECT_SAYS(all_warnings(*run),
-              "this run has 7 stops, the most that a run holds; 3 after them are left out");
+  EXPECT_SAYS(all_notices(*run), "stops_over_limit stops=7 left_out=3");
   const auto whole = measured(both_ways());
   for (std::size_t i = 0; i < 7; ++i)
     EXPECT_EQ(run->points[i].point.probe_m, whole->points[i].point.probe_m);

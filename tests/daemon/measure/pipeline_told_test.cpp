@@ -4,6 +4,7 @@
 
 #include "algo/points/flags.h"
 #include "tests/daemon/measure/test_axis.h"
+#include "tests/shown.h"
 
 namespace mdof::daemon {
 namespace {
@@ -21,9 +22,7 @@ constexpr std::size_t first_scan_of(std::size_t stop) {
 }
 
 std::string told_of(const Run& run) {
-  std::string all;
-  for (const auto& warning : run.header.warnings) all += warning + "\n";
-  return all;
+  return test::shown(run.header.notices);
 }
 
 #define EXPECT_HAS_PART(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
@@ -44,7 +43,7 @@ TEST(PipelineTold, TheAxisAndItsFiguresAreThoseOfTheRig) {
   EXPECT_TRUE(run->header.notes.empty());
 }
 
-TEST(PipelineTold, AHeightMapThatEndsBeforeTheTravelIsAWarning) {
+TEST(PipelineTold, AHeightMapThatEndsBeforeTheTravelIsNoticed) {
   const TestAxis axis = pass_over_five();
   Rig rig = five_probe_rig();
   for (const char* id : {"top", "side"}) {
@@ -55,15 +54,15 @@ TEST(PipelineTold, AHeightMapThatEndsBeforeTheTravelIsAWarning) {
   }
   HeightMap& map = rig.planes[1].flatness;
   map = {{-1, 1}, {0}, {0, 0}};
-  const auto warnings = [&] {
+  const auto notices = [&] {
     Pipeline pipeline = Pipeline::create(rig, {}).value();
-    return run_of(pipeline, {axis.whole()})->header.warnings;
+    return run_of(pipeline, {axis.whole()})->header.notices;
   };
-  const auto before = warnings();
+  const Notices before = notices();
   map.first_m = {-1, -30e-3};
-  const auto after = warnings();
+  const Notices after = notices();
   ASSERT_EQ(after.size(), before.size() + 1);
-  EXPECT_HAS_PART(after.back() + after.front(), "plane \"side\": its height map does not cover");
+  EXPECT_HAS_PART(test::shown(after), "map_too_short side ");
 }
 
 TEST(PipelineTold, PositionsWithoutADatumAreANote) {
@@ -92,8 +91,7 @@ TEST(PipelineTold, AStopWithoutAPlaceIsLeftOutAndItsTimeIsSaid) {
   EXPECT_EQ(run->points.size(), 9u);
   for (const auto& p : run->points)
     EXPECT_FALSE(p.target == 3 && p.point.direction < 0) << "the one at 10 mm on the way back";
-  EXPECT_HAS_PART(told_of(*run), "1 stop from 3.8");  // 3.7 s and what it is given to settle
-  EXPECT_HAS_PART(told_of(*run), "device \"daq\"");
+  EXPECT_HAS_PART(told_of(*run), "stops_not_placed daq points=1 from_s=3.8");  // 3.7 s and what it is given to settle
 }
 
 TEST(PipelineTold, WhatTheEncoderDidNotSeeIsAWarning) {
@@ -104,7 +102,7 @@ TEST(PipelineTold, WhatTheEncoderDidNotSeeIsAWarning) {
   after.lost = kToStop + 50;
   const auto run = run_of(pipeline, {axis.block(0, unseen), after});
   ASSERT_TRUE(run) << run.error().message;
-  EXPECT_HAS_PART(told_of(*run), "no position was recorded for 0.15");
+  EXPECT_HAS_PART(told_of(*run), "recording_hole length_s=0.15");
 }
 
 // Less than a window of the dwells: nothing can have happened in it.

@@ -30,7 +30,7 @@ TEST_F(CompensationMethods, ATableThatIsBuiltIsNotYetInForce) {
   EXPECT_EQ(built.at("/result/axis"), "\"X\"");
   EXPECT_EQ(built.at("/result/reference"), "\"fixture\"");
   EXPECT_EQ(built.at("/result/sha256").size(), 66u);
-  EXPECT_EQ(built.at("/result/warnings").front(), '[') << built.text();
+  EXPECT_EQ(built.at("/result/notices").front(), '[') << built.text();
   const Answer status = call("compensation.status");
   EXPECT_EQ(status.at("/result/generation"), "0");
   EXPECT_EQ(status.at("/result/axes"), "{}");

@@ -45,7 +45,7 @@ TEST_F(RunMethods, ARunIsStartedWithWhatWasAskedForAndStopped) {
   const Answer next = call("run.resume", R"({"run":1})");
   EXPECT_EQ(next.at("/result/run"), "2") << next.text();
   EXPECT_EQ(next.at("/result/targets_mm"), "[0,5,10]");
-  EXPECT_TEXT(next.at("/result/warnings"), "goes on from run 1");
+  EXPECT_TEXT(next.at("/result/notices"), R"("code":"run_goes_on")");
   EXPECT_EQ(call("run.stop", R"({"run":2,"abort":true})").at("/result/run"), "2");
   EXPECT_EQ(call("run.get", R"({"run":2})").at("/result/state"), "\"aborted\"");
   EXPECT_EQ(call("run.get", R"({"run":2})").at("/result/supersedes"), "1");
@@ -101,7 +101,7 @@ TEST_F(RunMethods, IntervalsThatHideTheScalesErrorAreWarnedOf) {
   add_axis();
   const Answer begun = call("run.start", R"({"axis":"X","from_mm":0,"to_mm":10,"interval_mm":1,)"
                                          R"("scale_period_um":20})");
-  EXPECT_EQ(begun.size("/result/warnings"), 1u) << begun.text();
+  EXPECT_EQ(begun.size("/result/notices"), 1u) << begun.text();
 }
 
 TEST_F(RunMethods, WhatCannotBeMeasuredIsRefusedByItsKey) {
@@ -257,7 +257,7 @@ TEST_F(RunMethods, APartialRunIsTakenOnlyWhenAskedFor) {
   EXPECT_TEXT(refused.message(), "partial");
   const Answer taken = call("squareness.fit", R"({"run_x":1,"run_y":2,"partial":true})");
   EXPECT_EQ(taken.code(), 0) << taken.text();
-  EXPECT_TEXT(taken.at("/result/warnings"), "partial");
+  EXPECT_TEXT(taken.at("/result/notices"), "made_from_partial");
 }
 
 TEST_F(RunMethods, HistoryComesByPage) {

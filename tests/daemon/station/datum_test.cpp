@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "schema/rig/rig.h"
+#include "tests/shown.h"
 
 namespace mdof::daemon {
 namespace {
@@ -73,10 +74,8 @@ Result<Run> measured(const LostCountAxis& axis, std::size_t scans, std::size_t p
   return pipeline.finish();
 }
 
-std::string warnings(const Run& run) {
-  std::string all;
-  for (const auto& warning : run.header.warnings) all += warning + "\n";
-  return all;
+std::string notices(const Run& run) {
+  return test::shown(run.header.notices);
 }
 
 constexpr int kRestart = 8;  // at 15 mm on the way back
@@ -95,11 +94,11 @@ TEST(Datum, StopsAfterItIsLostAreLeftOutAndCounted) {
       EXPECT_EQ(whole->points[i].point.position_m, before->points[i].point.position_m);
       EXPECT_TRUE(whole->points[i].errors.valid);
     }
-    const std::string told = warnings(*whole);
-    EXPECT_NE(told.find("cannot be placed"), std::string::npos) << told;
-    EXPECT_NE(told.find("device \"t7\""), std::string::npos) << told;
+    const std::string told = notices(*whole);
+    EXPECT_NE(told.find("stops_not_placed"), std::string::npos) << told;
+    EXPECT_NE(told.find("stops_not_placed t7"), std::string::npos) << told;
     EXPECT_EQ(told.find("five probes"), std::string::npos) << told;
-    EXPECT_EQ(warnings(*before).find("cannot be placed"), std::string::npos);
+    EXPECT_EQ(notices(*before).find("stops_not_placed"), std::string::npos);
   }
 }
 
@@ -129,7 +128,7 @@ TEST(Datum, SingleSuspectReadingsCostNoStop) {
   const auto run = pipeline.finish();
   ASSERT_TRUE(run);
   EXPECT_EQ(run->points.size(), measured(axis, axis.scans(), 50)->points.size());
-  EXPECT_EQ(warnings(*run).find("cannot be placed"), std::string::npos) << warnings(*run);
+  EXPECT_EQ(notices(*run).find("stops_not_placed"), std::string::npos) << notices(*run);
 }
 
 // A device whose encoder has nothing to say yet when the run begins.

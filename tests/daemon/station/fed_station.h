@@ -20,6 +20,7 @@
 #include "daemon/history.h"
 #include "daemon/station/station.h"
 #include "tests/daemon/measure/test_axis.h"
+#include "tests/shown.h"
 
 namespace mdof::daemon {
 
@@ -245,9 +246,9 @@ class FedStation : public ::testing::Test {
     auto store = store::Store::open(folder_ / "mdof.db", store::Access::read_only);
     return store.value().run(id).value();
   }
-  static std::string warnings(const mdof::Run& run) {
+  static std::string notices(const mdof::Run& run) {
     std::string all;
-    for (const auto& warning : run.header.warnings) all += warning + "\n";
+    all += test::shown(run.header.notices);
     return all;
   }
 

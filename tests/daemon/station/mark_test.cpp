@@ -60,7 +60,7 @@ TEST_F(StationMark, ARunBeforeTheMarkSaysSoAndOneAfterItIsInItsPlace) {
   pass_mark();
   EXPECT_SAYS(station_->encoder().note, "index at 12.5 mm, passed on 2");
   run = measured();
-  EXPECT_EQ(run.header.state, RunState::complete) << warnings(run);
+  EXPECT_EQ(run.header.state, RunState::complete) << notices(run);
   EXPECT_EQ(run.header.notes, std::vector<std::string>());
   const EncoderDatum datum = datum_of(run);
   EXPECT_EQ(datum.kind, EncoderDatum::Kind::index);
@@ -87,7 +87,7 @@ TEST_F(StationMark, ARunInWhichItIsPassedEndsThere) {
   wait_for([this] { return station_->run() == 0; });
   const mdof::Run run = stored(*id);
   EXPECT_EQ(run.header.state, RunState::aborted);
-  EXPECT_SAYS(warnings(run), "went over its reference mark");
+  EXPECT_SAYS(notices(run), "reference_mark_passed");
   EXPECT_EQ(datum_of(run).kind, EncoderDatum::Kind::none);
   for (const auto& p : run.points) EXPECT_LT(p.point.position_m, 0.0101);
   EXPECT_LE(run.header.scans, 1500u);

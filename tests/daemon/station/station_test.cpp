@@ -76,7 +76,7 @@ TEST_F(StationTest, ARunEndsByItselfWhenItIsFull) {
   EXPECT_EQ(station_->run(), 0);
   const mdof::Run run = stored(*id);
   EXPECT_EQ(run.points.size(), 3u);
-  EXPECT_SAYS(warnings(run), "this run has 3 stops, the most that a run holds");
+  EXPECT_SAYS(notices(run), "stops_over_limit stops=3 ");
 }
 
 TEST_F(StationTest, APointIsToldOnceItIsOnTheDiskAndTheEndAfterAll) {
@@ -135,7 +135,7 @@ TEST_F(StationTest, AnAbortedRunKeepsItsPointsAndSaysThatItWasAborted) {
   const mdof::Run run = stored(*id);
   EXPECT_EQ(run.header.state, RunState::aborted);
   EXPECT_GE(run.points.size(), 2u);
-  EXPECT_SAYS(warnings(run), "aborted");
+  EXPECT_SAYS(notices(run), "aborted\n");
   EXPECT_SAYS(events_.wait_for({"\"ended\""}), "\"state\":\"aborted\"");
 }
 
@@ -148,7 +148,7 @@ TEST_F(StationTest, ARunThatMeasuredNothingFailsWithTheReason) {
   const mdof::Run run = stored(*id);
   EXPECT_EQ(run.header.state, RunState::failed);
   EXPECT_TRUE(run.points.empty());
-  EXPECT_SAYS(warnings(run), "the encoder stays at 3 mm");
+  EXPECT_SAYS(notices(run), "the encoder stays at 3 mm");
 }
 
 TEST_F(StationTest, AStopEarlyIsPartialAndItGoesOnFromThere) {
@@ -157,8 +157,8 @@ TEST_F(StationTest, AStopEarlyIsPartialAndItGoesOnFromThere) {
   ASSERT_TRUE(stop());
   const mdof::Run first = stored(*id);
   EXPECT_EQ(first.header.state, RunState::partial);
-  EXPECT_SAYS(warnings(first), "3 of 6 points asked for are missing");
-  EXPECT_SAYS(warnings(first), "mdof record --resume RUN");
+  EXPECT_SAYS(notices(first), "points_missing missing=3 of=6 ");
+  EXPECT_SAYS(notices(first), "run_can_go_on");
 
   auto store = store::Store::open(folder_ / "mdof.db", store::Access::read_only);
   auto request = request_to_resume(*store, *id, station_->config());
@@ -174,7 +174,7 @@ TEST_F(StationTest, AStopEarlyIsPartialAndItGoesOnFromThere) {
   const mdof::Run whole = stored(*next);
   EXPECT_EQ(whole.header.state, RunState::complete);
   EXPECT_EQ(whole.header.supersedes, *id);
-  EXPECT_SAYS(warnings(whole), "goes on from run " + std::to_string(*id));
+  EXPECT_SAYS(notices(whole), "run_goes_on run=" + std::to_string(*id));
   for (const auto& p : whole.points) expect_true_errors(p, 1e3 * p.target_m);
   EXPECT_GE(whole.points.size(), 6u);
 
@@ -223,8 +223,8 @@ TEST_F(StationTest, TheDiskThatGivesUpOnARunEndsItWithTheReason) {
   EXPECT_SAYS(events_.wait_for({"\"ended\""}), "\"state\":\"failed\"");
   const mdof::Run run = stored(*id);
   EXPECT_EQ(run.header.state, RunState::failed);
-  EXPECT_SAYS(warnings(run), "the disk is full");
-  EXPECT_EQ(warnings(run).find("of another run"), std::string::npos);
+  EXPECT_SAYS(notices(run), "the disk is full");
+  EXPECT_EQ(notices(run).find("of another run"), std::string::npos);
   EXPECT_TRUE(start()) << "the axis is free again";
 }
 

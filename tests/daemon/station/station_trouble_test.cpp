@@ -29,12 +29,12 @@ TEST_F(StationTrouble, ADeviceThatGoesAndComesBackCostsWhatItDidNotSee) {
   const auto read = stop();  // that of the last approach is known only then
   ASSERT_TRUE(read) << read.error().message;
   const mdof::Run run = stored(*read);
-  EXPECT_EQ(run.header.state, RunState::complete) << warnings(run);
+  EXPECT_EQ(run.header.state, RunState::complete) << notices(run);
   EXPECT_GE(run.points.size(), 5u);
   for (const auto& p : run.points) expect_true_errors(p, 1e3 * p.target_m);
   EXPECT_GE(run.header.scans_lost, 299u);
-  EXPECT_TOLD(warnings(run), "device \"daq\"");
-  EXPECT_TOLD(warnings(run), "10.0.0.9: connection lost");
+  EXPECT_TOLD(notices(run), "device_trouble daq kind=lost");
+  EXPECT_TOLD(notices(run), "10.0.0.9: connection lost");
 }
 
 TEST_F(StationTrouble, WhileItsDeviceIsGoneARunCanBeStoppedAndHasWhatCameBefore) {
@@ -45,12 +45,12 @@ TEST_F(StationTrouble, WhileItsDeviceIsGoneARunCanBeStoppedAndHasWhatCameBefore)
   ASSERT_TRUE(stop());
   const mdof::Run run = stored(*id);
   EXPECT_GE(run.points.size(), 2u);
-  EXPECT_TOLD(warnings(run), "connection lost");
+  EXPECT_TOLD(notices(run), "connection lost");
   const auto next = start();
   ASSERT_TRUE(next);
   ASSERT_TRUE(stop());
   EXPECT_EQ(stored(*next).header.state, RunState::failed);
-  EXPECT_TOLD(warnings(stored(*next)), "no samples");
+  EXPECT_TOLD(notices(stored(*next)), "no samples");
 }
 
 TEST_F(StationTrouble, TheEndOfTheProgramEndsAnOpenRunAsAborted) {
@@ -61,7 +61,7 @@ TEST_F(StationTrouble, TheEndOfTheProgramEndsAnOpenRunAsAborted) {
   keeper_.reset();
   const mdof::Run run = stored(*id);
   EXPECT_EQ(run.header.state, RunState::aborted);
-  EXPECT_TOLD(warnings(run), "the daemon was stopped");
+  EXPECT_TOLD(notices(run), "daemon_stopped");
   EXPECT_GE(run.points.size(), 2u);
   EXPECT_EQ(run.header.provenance.recording_sha256.size(), 64u) << "its recording is sealed";
 }

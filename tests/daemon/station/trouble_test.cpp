@@ -1,4 +1,5 @@
 #include "daemon/station/trouble.h"
+#include "tests/shown.h"
 
 #include <gtest/gtest.h>
 
@@ -17,9 +18,9 @@ TEST(TroubleLog, ADeviceThatCameBackIsOneLineWithItsCause) {
   TroubleLog log;
   log.add(at("14:02:11", Kind::lost, "no packet for 2 s"));
   log.add(at("14:02:14", Kind::back, "it gives samples again after 3.2 s"));
-  EXPECT_EQ(log.summary(),
-            std::vector<std::string>{"device \"t7\": lost at 14:02:11 UTC: no packet for 2 s; it "
-                                     "gives samples again after 3.2 s"});
+  EXPECT_EQ(test::shown(log.summary()),
+            "device_trouble t7 kind=lost times=1 utc=2026-11-22T14:02:11.250Z reason=no packet for "
+            "2 s end=it gives samples again after 3.2 s\n");
 }
 
 TEST(TroubleLog, ManyAreSummarised) {
@@ -31,13 +32,13 @@ TEST(TroubleLog, ManyAreSummarised) {
   log.add(at("14:05:00", Kind::lost, "no route"));
   log.add(at("14:05:01", Kind::suspect, "the encoder's datum is lost"));
   log.add(at("14:05:02", Kind::slow, "it gives 1 of 10", "capa"));
-  const auto lines = log.summary();
-  ASSERT_EQ(lines.size(), 3u);
-  EXPECT_EQ(lines[0],
-            "device \"t7\": lost 151 times, first at 14:02:11 UTC: no route; it was not back when "
-            "the run ended");
-  EXPECT_EQ(lines[1], "device \"t7\": suspect at 14:05:01 UTC: the encoder's datum is lost");
-  EXPECT_EQ(lines[2], "device \"capa\": slow at 14:05:02 UTC: it gives 1 of 10");
+  EXPECT_EQ(test::shown(log.summary()),
+            "device_trouble t7 kind=lost times=151 utc=2026-11-22T14:02:11.250Z reason=no route "
+            "end=it was not back when the run ended\n"
+            "device_trouble t7 kind=suspect times=1 utc=2026-11-22T14:05:01.250Z reason=the "
+            "encoder's datum is lost end=\n"
+            "device_trouble capa kind=slow times=1 utc=2026-11-22T14:05:02.250Z reason=it gives 1 "
+            "of 10 end=\n");
 }
 
 MeasuredPoint stop(std::vector<double> probe_m, std::vector<std::string> flags, bool valid) {

@@ -9,6 +9,7 @@
 #include "daemon/store/recording_writer.h"
 #include "daemon/store/store.h"
 #include "tests/daemon/store/fixtures.h"
+#include "tests/shown.h"
 
 namespace mdof::store {
 namespace {
@@ -130,7 +131,7 @@ TEST_F(StoreTest, NothingAcknowledgedIsLostBySigkill) {
     auto store = writer();
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_GE(store->count_points(turn).value(), acknowledged);
-    EXPECT_EQ(store->run_header(turn)->warnings, std::vector<std::string>{"interrupted"});
+    EXPECT_EQ(test::shown(store->run_header(turn)->notices), "interrupted\n");
     const auto findings = store->verify();
     ASSERT_TRUE(findings && findings->empty());
   }

@@ -84,7 +84,8 @@ inline Run make_run(int points = 22, Axis axis = Axis::x) {
   run.header.note = "after shimming";
   run.header.scans = 123456;
   run.header.scans_lost = 7;
-  run.header.warnings = {"probe \"B\" saturated", "gap of 12 ms"};
+  run.header.notices = {notice(NoticeCode::probe_saturated, "B", {{"range_um", 200}}),
+                        notice(NoticeCode::cycle_unknown)};
   run.header.provenance = {"csv",   "/data/log.csv", std::string(64, 'a'),  "name = \"rig\"\n",
                            "exact", "0.1.0",         R"({"settle_s":0.2})", ""};
   for (int i = 0; i < points; ++i) run.points.push_back(make_point(1 + i / 2, 1 + i % 2));

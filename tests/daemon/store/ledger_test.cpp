@@ -6,6 +6,7 @@
 #include "daemon/store/file/told_head.h"
 #include "daemon/store/store.h"
 #include "tests/daemon/store/fixtures.h"
+#include "tests/shown.h"
 
 namespace mdof::store {
 namespace {
@@ -221,7 +222,9 @@ TEST_F(LedgerTest, ADamagedRunIsListedAsFailedAndSaysWhy) {
   const auto list = reader()->list_runs(0, 10).value();
   ASSERT_EQ(list.size(), 3u);
   EXPECT_EQ(list[1].state, RunState::failed);
-  EXPECT_TRUE(contains(list[1].warnings.front(), "run 2: is not what was stored"));
+  EXPECT_EQ(list[1].notices.front().code, NoticeCode::row_damaged);
+  EXPECT_TRUE(contains(test::shown(list[1].notices), "run 2: is not what was stored"))
+      << test::shown(list[1].notices);
   EXPECT_EQ(list[0].state, RunState::complete);
 }
 

@@ -4,6 +4,7 @@
 #include "daemon/store/file/migrate.h"
 #include "daemon/store/store.h"
 #include "tests/daemon/store/fixtures.h"
+#include "tests/shown.h"
 
 namespace mdof::store {
 namespace {
@@ -227,7 +228,7 @@ TEST_F(StoreTest, AnOldDatabaseKeepsWhatItHasAndTakesPartialRuns) {
   EXPECT_EQ(store->run_header(2)->state, RunState::complete);
   EXPECT_EQ(store->run_header(2)->scans, 5996u);
   EXPECT_EQ(store->run_header(3)->state, RunState::aborted);
-  EXPECT_EQ(store->run_header(3)->warnings, std::vector<std::string>{"interrupted"});
+  EXPECT_EQ(test::shown(store->run_header(3)->notices), "legacy words=interrupted\n");
   EXPECT_EQ(store->active(Axis::x)->table.runs, std::vector<std::int64_t>{1});
   mdof::Run run = make_run();
   run.header.state = RunState::partial;

@@ -7,6 +7,7 @@
 #include "schema/plausibility_json.h"
 #include "schema/sample.h"
 #include "tests/daemon/store/fixtures.h"
+#include "tests/shown.h"
 
 namespace mdof::store {
 namespace {
@@ -38,7 +39,7 @@ void expect_same(const RunHeader& a, const RunHeader& b) {
   EXPECT_EQ(a.supersedes, b.supersedes);
   EXPECT_EQ(a.scans, b.scans);
   EXPECT_EQ(a.scans_lost, b.scans_lost);
-  EXPECT_EQ(a.warnings, b.warnings);
+  EXPECT_EQ(a.notices, b.notices);
   const Provenance &p = a.provenance, &q = b.provenance;
   EXPECT_EQ(std::tie(p.recording_kind, p.recording_path, p.recording_sha256, p.rig_text, p.model),
             std::tie(q.recording_kind, q.recording_path, q.recording_sha256, q.rig_text, q.model));
@@ -158,7 +159,7 @@ TEST_F(StoreTest, ALiveRunIsFilledInPieces) {
   RunEnd end{RunState::complete,
              99,
              1,
-             {"w"},
+             {notice(NoticeCode::cycle_unknown)},
              std::string(64, 'c'),
              run.straightness,
              run.angles,
@@ -168,6 +169,7 @@ TEST_F(StoreTest, ALiveRunIsFilledInPieces) {
   const RunHeader back = store->run_header(id).value();
   EXPECT_EQ(back.state, RunState::complete);
   EXPECT_EQ(back.scans, 99u);
+  EXPECT_EQ(test::shown(back.notices), "cycle_unknown\n");
   EXPECT_EQ(back.temperature, (Temperature{20.125, 19.5, 20.75}));
   EXPECT_EQ(back.provenance.recording_sha256, std::string(64, 'c'));
   EXPECT_EQ(back.provenance.recording_path, header.provenance.recording_path);
@@ -187,12 +189,12 @@ TEST_F(StoreTest, ARunWithoutItsEndIsAbortedAndSaysSo) {
     ASSERT_TRUE(beginning);
     const RunHeader seen = reader()->run_header(1).value();
     EXPECT_EQ(seen.state, RunState::aborted);
-    EXPECT_EQ(seen.warnings, std::vector<std::string>{"interrupted"});
+    EXPECT_EQ(test::shown(seen.notices), "interrupted\n");
   }
   EXPECT_EQ(reader()->run_header(1)->state, RunState::aborted);  // before anyone writes again
   auto store = writer();
   EXPECT_EQ(store->run_header(1)->state, RunState::aborted);
-  EXPECT_EQ(store->run_header(1)->warnings, std::vector<std::string>{"interrupted"});
+  EXPECT_EQ(test::shown(store->run_header(1)->notices), "interrupted\n");
   EXPECT_EQ(store->points(1, 0, 100)->size(), run.points.size());
   EXPECT_TRUE(store->verify()->empty());
 }
@@ -200,12 +202,12 @@ TEST_F(StoreTest, ARunWithoutItsEndIsAbortedAndSaysSo) {
 TEST_F(StoreTest, APartialRunComesBackAsOne) {
   mdof::Run run = make_run();
   run.header.state = RunState::partial;
-  run.header.warnings = {"3 of 12 points asked for are missing"};
+  run.header.notices = {notice(NoticeCode::cycle_unknown)};
   auto store = writer();
   const auto id = store->add_run(run);
   ASSERT_TRUE(id) << id.error().message;
   EXPECT_EQ(store->run_header(*id)->state, RunState::partial);
-  EXPECT_EQ(store->run_header(*id)->warnings, run.header.warnings);
+  EXPECT_EQ(store->run_header(*id)->notices, run.header.notices);
   EXPECT_TRUE(store->verify()->empty());
 }
 

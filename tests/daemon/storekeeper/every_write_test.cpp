@@ -257,7 +257,7 @@ TEST_F(EveryWrite, ADiskThatIsFullFromAnyOneOnLosesNothingAndIsToldAndGoesOn) {
     if (told.run > 0) {
       const RunHeader run = store->run_header(told.run).value();
       EXPECT_NE(run.state, RunState::open);
-      EXPECT_TRUE(whole || (run.state == RunState::failed && !run.warnings.empty()))
+      EXPECT_TRUE(whole || (run.state == RunState::failed && !run.notices.empty()))
           << "it does not say why";
     }
     fs::remove_all(life);

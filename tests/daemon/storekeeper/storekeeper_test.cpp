@@ -1,4 +1,5 @@
 #include "daemon/storekeeper/storekeeper.h"
+#include "tests/shown.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -127,9 +128,7 @@ TEST_F(StorekeeperTest, WhatSupersedesARunIsStoredInOneTransactionWithItsEnd) {
   keeper_.reset();  // what waits is written out
   const mdof::Run run = stored(id);
   EXPECT_EQ(run.header.state, RunState::failed);
-  ASSERT_EQ(run.header.warnings.size(), 1u);
-  EXPECT_EQ(run.header.warnings[0].find("supersedes"), std::string::npos) << "of a run that is not";
-  EXPECT_NE(run.header.warnings[0].find("replay its recording"), std::string::npos);
+  EXPECT_EQ(test::shown(run.header.notices), "renumbering_refused\n");
 }
 
 // Samples that the disk does not take must not have points that it has.
@@ -221,7 +220,7 @@ TEST_F(HeldDatabase, IsWaitedForAndThenHasEveryPointAndTheEnd) {
   const mdof::Run run = stored(id);
   EXPECT_EQ(run.header.state, RunState::complete);
   EXPECT_EQ(run.points.size(), 1u);
-  EXPECT_TRUE(run.header.warnings.empty());
+  EXPECT_TRUE(run.header.notices.empty());
   EXPECT_EQ(keeper_->why_open(id), "");
   for (int i = 0; i < 100 && keeper_->storage().state != "ok"; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -262,9 +261,8 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredWithTheEndOfTheirRun) {
   const std::int64_t read = end(id, all, false);
   EXPECT_NE(read, id);
   EXPECT_EQ(stored(read).points.size(), 6u);
-  EXPECT_TRUE(stored(read).header.warnings.empty());
-  EXPECT_EQ(stored(id).header.warnings.front(),
-            "3 points could not be stored when they were measured");
+  EXPECT_TRUE(stored(read).header.notices.empty());
+  EXPECT_EQ(test::shown(stored(id).header.notices.front()), "points_not_stored points=3");
   // Once it was let go there is room again.
   ForeignLock again(folder_ / "mdof.db");
   for (int target = 2; target <= 4; ++target) append(other, point(target, 1));

@@ -1,5 +1,6 @@
 // How the driver comes to terms with a controller, simulated, over sockets.
 #include "tests/drivers/capancdt/rack.h"
+#include "tests/shown.h"
 
 namespace mdof::drivers::capancdt {
 namespace {
@@ -47,7 +48,7 @@ TEST(CapancdtSetup, SaysWhatTheControllerDoesToTheValues) {
   Rack plain(device);
   Capancdt without(plain.options);
   ASSERT_EQ(error_of(without.open()), "");
-  EXPECT_TRUE(without.info().warnings.empty());
+  EXPECT_TRUE(without.info().notices.empty());
 
   device.linearisation = {5, 3, 2, 0};  // inputs 1 and 3 are read
   device.low_pass = 1;
@@ -55,19 +56,15 @@ TEST(CapancdtSetup, SaysWhatTheControllerDoesToTheValues) {
   rack.options.channels[0].rig_corrects = true;
   Capancdt driver(rack.options);
   ASSERT_EQ(error_of(driver.open()), "");
-  const auto warnings = driver.info().warnings;
-  ASSERT_EQ(warnings.size(), 3u);
-  expect_has(warnings[0], "linearises \"A\" (LIN 5) and the rig does too");
-  expect_has(warnings[0], "$LIN1:0");
-  expect_has(warnings[1], "linearises \"B\" (LIN 2); its certificate");
-  expect_has(warnings[2], "low-pass is on (ALP 1)");
+  EXPECT_EQ(test::shown(driver.info().notices),
+            "linearised_twice A mode=5 input=1\nlinearised_by_controller B mode=2\n"
+            "low_pass_on mode=1\n");
 
   device.knows_corrections = false;
   Rack older(device);
   Capancdt untold(older.options);
   ASSERT_EQ(error_of(untold.open()), "");
-  ASSERT_EQ(untold.info().warnings.size(), 1u);
-  expect_has(untold.info().warnings[0], "does not say whether it linearises");
+  EXPECT_EQ(test::shown(untold.info().notices), "linearisation_unknown\n");
 }
 
 // 8 values of 131 ms are 1.05 s, longer than a stop is given to settle.

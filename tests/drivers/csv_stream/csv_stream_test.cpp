@@ -11,6 +11,7 @@
 #include "tests/drivers/collect.h"
 #include "tests/drivers/csv_stream/csv_stream_options.h"
 #include "tests/drivers/served_device.h"
+#include "tests/shown.h"
 
 namespace mdof::drivers {
 namespace {
@@ -90,8 +91,9 @@ TEST(CsvStream, BadLinesAreCountedAsLost) {
   const Collected all = collect(stream, 91);
   ASSERT_EQ(all.error, "");
   EXPECT_GE(all.lost, 10u);
-  ASSERT_FALSE(stream.warnings().empty());
-  EXPECT_NE(stream.warnings()[0].find("2 fields where the header has 1"), std::string::npos);
+  ASSERT_FALSE(stream.notices().empty());
+  EXPECT_NE(test::shown(stream.notices()[0]).find("2 fields where the header has 1"),
+            std::string::npos);
   const Collected more = collect(stream, 5000);
   EXPECT_NE(more.error.find("more than 100 bad lines of 10000"), std::string::npos) << more.error;
 }

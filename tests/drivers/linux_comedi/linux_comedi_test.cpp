@@ -4,6 +4,7 @@
 
 #include "tests/drivers/collect.h"
 #include "tests/drivers/linux_comedi/simulated_board.h"
+#include "tests/shown.h"
 
 namespace mdof::drivers::linux_comedi {
 namespace {
@@ -213,13 +214,13 @@ TEST_F(ComediBoard, SaysWhatItIs) {
   EXPECT_EQ(opened().description,
             "Comedi sim_driver sim-6221 at /dev/comedi0, subdevice 1, inputs 20 us apart, a buffer "
             "of 8.192 s, by the nominal ranges of its inputs");
-  EXPECT_TRUE(opened().warnings.empty());
+  EXPECT_TRUE(opened().notices.empty());
 }
 
 TEST_F(ComediBoard, TheKernelsTestBoardIsWarnedOf) {
   board_->driver = "comedi_test";
-  ASSERT_EQ(opened().warnings.size(), 1U);
-  EXPECT_NE(opened().warnings[0].find("it measures nothing"), std::string::npos);
+  ASSERT_EQ(opened().notices.size(), 1U);
+  EXPECT_EQ(opened().notices[0].code, NoticeCode::board_simulated);
 }
 
 TEST_F(ComediBoard, ACalibrationFileIsUsed) {
@@ -235,21 +236,23 @@ TEST_F(ComediBoard, ACalibrationFileIsUsed) {
   const DeviceInfo info = driver.info();
   EXPECT_NE(info.description.find(", calibrated by /var/lib/comedi/calibrations/sim"),
             std::string::npos);
-  ASSERT_EQ(info.warnings.size(), 1U);
-  EXPECT_NE(info.warnings[0].find("has nothing for CH5 at -10 to 10 V"), std::string::npos);
+  ASSERT_EQ(info.notices.size(), 1U);
+  EXPECT_NE(test::shown(info.notices[0]).find("has nothing for CH5 at -10 to 10 V"),
+            std::string::npos);
 }
 
 TEST_F(ComediBoard, NominalVoltsOfABoardThatNeedsAFileAreWarnedOf) {
   board_->subdevices[1].soft_calibrated = true;
-  ASSERT_EQ(opened().warnings.size(), 1U);
-  EXPECT_NE(opened().warnings[0].find("sim is not there; comedi_soft_calibrate makes it"),
-            std::string::npos);
+  ASSERT_EQ(opened().notices.size(), 1U);
+  EXPECT_NE(
+      test::shown(opened().notices[0]).find("sim is not there; comedi_soft_calibrate makes it"),
+      std::string::npos);
   board_->subdevices[1].soft_calibrated = false;
   board_->calibration.found = true;
   board_->calibration.wrong = "cannot be read, or is no calibration file";
   board_->code = [](std::uint64_t, unsigned) { return 1500U; };
-  ASSERT_EQ(opened().warnings.size(), 1U);
-  EXPECT_NE(opened().warnings[0].find("sim: cannot be read"), std::string::npos);
+  ASSERT_EQ(opened().notices.size(), 1U);
+  EXPECT_NE(test::shown(opened().notices[0]).find("sim: cannot be read"), std::string::npos);
   EXPECT_NE(opened().description.find("nominal"), std::string::npos);
 }
 

@@ -1,4 +1,5 @@
 #include "schema/recording/csv_row_parser.h"
+#include "tests/shown.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ namespace {
 struct Parsed {
   std::vector<SampleBlock> blocks;
   std::vector<std::string> bad_lines;
-  std::vector<std::string> missing;  // columns
+  Notices missing;  // columns
   std::string error;                 // empty: none
 
   std::vector<std::int64_t> times() const {
@@ -155,10 +156,9 @@ TEST(CsvRowParser, TakesAnEmptyFieldOrNanForAMissingValue) {
     EXPECT_EQ(p.blocks[0].quality_at(2, row), b_missing[row] ? Quality::missing : Quality::good);
   }
   EXPECT_TRUE(p.blocks[0].quality[0].empty());  // of the encoder: nothing is marked
-  ASSERT_EQ(p.missing.size(), 2u);
-  EXPECT_EQ(p.missing[0],
-            "x.csv: column A_um: 4 of 7 values are missing (empty or nan), the first at 0.000 s");
-  expect_contains(p.missing[1], {"column B_um", "3 of 7", "the first at 2.000 s"});
+  EXPECT_EQ(test::shown(p.missing),
+            "log_values_missing x.csv: column A_um missing=4 rows=7 first=at 0.000 s\n"
+            "log_values_missing x.csv: column B_um missing=3 rows=7 first=at 2.000 s\n");
 }
 
 TEST(CsvRowParser, SkipsALineWithoutAPlaceOrATime) {
@@ -170,8 +170,7 @@ TEST(CsvRowParser, SkipsALineWithoutAPlaceOrATime) {
   expect_contains(p.bad_lines[0], {"x.csv:3: ", "encoder_mm", "is empty"});
   expect_contains(p.bad_lines[1], {"x.csv:4: ", "time_s", "is empty"});
   expect_contains(p.bad_lines[2], {"x.csv:5: ", "encoder_mm", "nan"});
-  EXPECT_TRUE(p.missing.empty()) << "a line that is skipped has no missing values: "
-                                 << p.missing[0];
+  EXPECT_EQ(test::shown(p.missing), "") << "a line that is skipped has no missing values";
 }
 
 // A probe that is lost for good, and every other pattern in batches of 256 rows.

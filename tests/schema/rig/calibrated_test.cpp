@@ -10,6 +10,7 @@
 
 #include "schema/rig/rig_notes.h"
 #include "tests/algo/rigs.h"
+#include "tests/shown.h"
 
 namespace mdof {
 namespace {
@@ -127,7 +128,8 @@ TEST(CalibratedRig, OutOfDateIsAWarning) {
   EXPECT_TRUE(overdue_calibrations(rig, "2027-11-02T23:59:59Z").empty());
   const auto overdue = overdue_calibrations(rig, "2027-11-03T00:00:00Z");
   ASSERT_EQ(overdue.size(), 1U);
-  EXPECT_NE(overdue[0].find("mdof calibrate mounting"), std::string::npos);
+  EXPECT_EQ(overdue[0].code, NoticeCode::record_expired);
+  EXPECT_NE(test::shown(overdue[0]).find(" kind=mounting"), std::string::npos);
 }
 
 TEST(CalibratedRig, ATextWithoutItsRecordOrWithAChangedOneIsRefused) {

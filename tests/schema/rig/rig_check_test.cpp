@@ -1,6 +1,7 @@
 // What a wrong unit makes of a rig, key by key: each is found with its line, and right rigs,
 // however small, are left alone.
 #include "schema/rig/rig_check.h"
+#include "tests/shown.h"
 
 #include <gtest/gtest.h>
 
@@ -43,16 +44,17 @@ void expect_refused(const std::string& text, const std::vector<std::string>& wor
 void expect_warned(const std::string& text, const std::vector<std::string>& words) {
   const Result<Rig> rig = parse_rig(text, "r.toml");
   ASSERT_TRUE(rig) << rig.error().message;
-  const auto warnings = doubtful_values(*rig);
-  ASSERT_EQ(warnings.size(), 1u) << words[0];
+  const Notices found = doubtful_values(*rig);
+  ASSERT_EQ(found.size(), 1u) << words[0];
+  const std::string finding = test::shown(found);
   for (const std::string& word : words)
-    EXPECT_NE(warnings[0].find(word), std::string::npos) << warnings[0] << "\nlacks: " << word;
+    EXPECT_NE(finding.find(word), std::string::npos) << finding << "\nlacks: " << word;
 }
 
 void expect_right(const std::string& text) {
   const Result<Rig> rig = parse_rig(text, "r.toml");
   ASSERT_TRUE(rig) << rig.error().message;
-  for (const auto& warning : doubtful_values(*rig)) ADD_FAILURE() << warning;
+  EXPECT_EQ(test::shown(doubtful_values(*rig)), "");
 }
 
 // Two alike among more than a rig can have: the number is what is told, before any are compared.

@@ -7,13 +7,14 @@
 #include "algo/uncertainty/run_uncertainty.h"
 #include "schema/run_json.h"
 #include "schema/sample.h"
+#include "tests/shown.h"
 #include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/csv/log_csv.h"
 #include "tools/mdof/csv/run_csv.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
-#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -103,17 +104,18 @@ TEST(Fixed, HasNoMinusZeroAndNo300Digits) {
   EXPECT_EQ(fixed(kNaN, 4), "-");
 }
 
-TEST(Warnings, OfAKindAreThreeAndACount) {
-  std::vector<std::string> many{"another"};
+TEST(NoticeLines, OfACodeAreThreeAndACount) {
+  Notices many{notice(NoticeCode::cycle_unknown)};
   for (int i = 0; i < 100; ++i)
-    many.push_back("point " + std::to_string(i) + " at " + std::to_string(i * 1.25) + " mm: short");
+    many.push_back(notice(NoticeCode::probe_stepped, "A", {{"step_um", i}, {"time_s", 2}}));
   const auto few = summarised(many);
   ASSERT_EQ(few.size(), 5u);
-  EXPECT_EQ(few[0], "another");
+  EXPECT_EQ(few[0], many[0]);
   EXPECT_EQ(few[3], many[3]);
-  EXPECT_EQ(few[4], "and 97 more like it; --all-warnings shows them");
+  EXPECT_EQ(test::shown(few[4]), "not_shown count=97");
+  EXPECT_EQ(few[4].severity, Severity::doubtful);
   EXPECT_EQ(summarised(many, true), many);
-  const std::vector<std::string> four(many.begin() + 1, many.begin() + 5);
+  const Notices four(many.begin() + 1, many.begin() + 5);
   EXPECT_EQ(summarised(four), four);  // "and 1 more" would save nothing
 }
 
@@ -137,8 +139,7 @@ TEST(CsvText, KnowsWhatIsNotKnownAndQuotesWhatMustBe) {
 
 Run one_point(bool valid, const std::string& reason) {
   Run run;
-  run.header.warnings.assign(40, "a warning that is longer than eighty characters: " +
-                                     std::string("it must be broken into lines"));
+  run.header.notices.assign(40, notice(NoticeCode::cycle_unknown));
   MeasuredPoint p;
   p.target = 1;
   p.run = 1;
@@ -196,7 +197,8 @@ TEST(RunCsv, SaysTheErrorsOfTheBodyThatMoves) {
   run.header.sides.fixture_moves = true;
   EXPECT_NE(points_csv(run, noise_of(run)).find(",123.4567,"), std::string::npos)
       << points_csv(run, noise_of(run));
-  EXPECT_NE(run_json(run, noise_of(run), {}).find("\"EYX_um\":123.4567,"), std::string::npos);
+  EXPECT_NE(run_json(run, noise_of(run), {}, nullptr).find("\"EYX_um\":123.4567,"),
+            std::string::npos);
 }
 
 TEST(LogCsv, IsALogWithTimesToTheNanosecond) {

@@ -149,9 +149,9 @@ void FrameSolver::note_travel(double travel_m) {
 }
 
 // Only the rigid model takes maps, and it solves rows one by one.
-std::vector<std::string> FrameSolver::map_warnings(const Rig& rig) const {
+Notices FrameSolver::map_notices(const Rig& rig) const {
   if (!travels_m_) return {};
-  return algo::warnings_of_maps(rig, solver_.fixture(), (*travels_m_)[0], (*travels_m_)[1]);
+  return algo::map_notices(rig, solver_.fixture(), (*travels_m_)[0], (*travels_m_)[1]);
 }
 
 void FrameSolver::count_over_range(const SampleBlock& block) {

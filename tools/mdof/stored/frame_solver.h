@@ -11,6 +11,7 @@
 #include "daemon/measure/corrections/point_corrections.h"
 #include "drivers/calibration.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 #include "schema/sample.h"
 
@@ -43,7 +44,7 @@ class FrameSolver {
   // What was corrected (schema/rig/physics.h), and by how much at most; one sentence each.
   std::vector<std::string> notes() const;
   // Height maps of the rig that end before the rows do.
-  std::vector<std::string> map_warnings(const Rig& rig) const;
+  Notices map_notices(const Rig& rig) const;
 
  private:
   FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels);

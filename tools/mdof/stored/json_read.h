@@ -10,6 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/notice/notice.h"
+#include "schema/notice/notice_json.h"
+
 namespace mdof::tools {
 
 template <class Json>
@@ -42,6 +45,14 @@ std::vector<std::string> texts(const Json& of, std::string_view key) {
     if (!item.get_string().get(words)) found.emplace_back(words);
   }
   return found;
+}
+
+// Its "notices"; none where they cannot be read.
+template <class Json>
+Notices notices_of(const Json& of) {
+  simdjson::dom::element list;
+  if (of.at_key("notices").get(list)) return {};
+  return read_notices(simdjson::minify(list)).value_or(Notices());
 }
 
 template <class Json>

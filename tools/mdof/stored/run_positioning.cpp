@@ -7,6 +7,7 @@
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/positioning/positioning_budgets.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/words/words.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "tools/mdof/text/run_tables.h"
@@ -47,11 +48,11 @@ Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositi
   auto figures = algo::positioning(series.readings);
   if (!figures)
     return in_context("run " + std::to_string(run.header.id), std::move(figures.error()));
-  add_new(found.warnings, algo::plan_warnings(*figures, scale_period_m));
+  add_new(found.notices, algo::plan_notices(*figures, scale_period_m));
   if (series.left_out > 0)
-    add_new(found.warnings,
-            {std::to_string(series.left_out) + " of " + std::to_string(run.points.size()) +
-             " points are left out: not solved, or their approach is unknown"});
+    add_new(found.notices,
+            {notice(NoticeCode::readings_left_out, "",
+                    {{"left_out", series.left_out}, {"points", run.points.size()}})});
   const ErrorName& name = error_names(run.header.axis)[k];
   found.columns.push_back({name.name, name.angle, std::move(*figures)});
   return {};
@@ -81,7 +82,7 @@ Result<RunPositioning> run_positioning(const Run& run, const RunPositioningReque
   MDOF_TRY(const auto chosen, chosen_errors(request.errors, run.header.axis));
   RunPositioning found;
   found.keep_slope = request.keep_slope;
-  found.warnings = algo::inherited_warnings({&run});
+  found.notices = algo::inherited_notices({&run});
   for (const std::size_t k : chosen) MDOF_CHECK(add_error(run, k, scale_period_m, found));
   if (const Status known = add_uncertainty(run, chosen, found); !known)
     found.U_reason = known.error().message;
@@ -111,7 +112,7 @@ std::string run_positioning_json(const Run& run, const RunPositioning& found) {
   json.end_object();
   if (!found.U_reason.empty()) json.field("uncertainty_reason", found.U_reason);
   json.end_object();
-  return with_warnings(json.take(), found.warnings);
+  return with_notices(json.take(), found.notices, words::text);
 }
 
 namespace {

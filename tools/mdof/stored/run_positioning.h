@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/run.h"
 #include "tools/mdof/text/analyses/positioning_text.h"
 
@@ -19,7 +20,7 @@ struct RunPositioningRequest {
 
 struct RunPositioning {
   std::vector<PositioningColumn> columns;  // one an error
-  std::vector<std::string> warnings;       // of the run and of its plan
+  Notices notices;                         // of the run and of its plan
   bool keep_slope = false;
   std::string U_reason;  // why U is not known; "": it is
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "daemon/history.h"
+#include "daemon/words/words.h"
 #include "schema/imported/series.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -40,7 +41,7 @@ std::string imported_json(const Run& run, const std::string& result_sha256,
   const std::string key = error_of(run).key();
   JsonWriter json;
   json.begin_object();
-  write_header_members(json, run.header);
+  write_header_members(json, run.header, words::text);
   json.field("imported", true).field("error", run.header.provenance.model);
   json.field("sense", "actual - nominal, as the file has it");
   json.key("points").begin_array();

@@ -5,13 +5,13 @@
 #include <cstdio>
 
 #include "daemon/measure/replay/request_json.h"
+#include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/run_json.h"
-#include "schema/severity.h"
 #include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/plausibility_text.h"
 #include "tools/mdof/text/text_table.h"
-#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -130,8 +130,8 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   if (const auto datum = datum_of(options); !datum.empty()) out += labelled("datum", datum, width);
   if (h.temperature) out += labelled("at", temperature_text(*h.temperature), width);
   out += labelled("software", from.software_version, width);
-  for (const auto& warning : summarised(h.warnings, all_warnings))
-    out += labelled(label_of(severity_of(warning)), std::string(words_of_sentence(warning)), width);
+  for (const Notice& each : summarised(h.notices, all_warnings))
+    out += labelled(label_of(each.severity), words::text(each), width);
   for (const auto& note : h.notes) out += labelled("note", note, width);
   if (!result_sha256.empty()) out += labelled("sha256", result_sha256, width);
   return out;

@@ -27,7 +27,7 @@ std::string show_text(const Run& run, const RunUncertainty& uncertainty,
 // What `mdof analyse` and `mdof replay` print; `figures`: those of the mean of both approaches.
 std::string figures_text(const Run& run, const StatedFigures& figures, std::size_t width);
 
-// Identity, provenance, warnings. `result_sha256` may be empty.
+// Identity, provenance, notices. `result_sha256` may be empty.
 std::string head_text(const RunHeader& header, const std::string& result_sha256, std::size_t width,
                       bool all_warnings = false);
 // Five errors ± u, samples, flags.

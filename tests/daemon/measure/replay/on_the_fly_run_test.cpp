@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/daemon/measure/test_axis.h"
+#include "tests/shown.h"
 
 namespace mdof::daemon {
 namespace {
@@ -24,12 +25,6 @@ Result<Run> run_on_the_fly(SampleBlock block) {
   return run.finish();
 }
 
-std::string said_by(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const auto& text : texts) all += text + "\n";
-  return all;
-}
-
 // The encoder is suspect from 0.3 s to 0.4 s after the first scan: from 6 to 8 mm.
 TEST(OnTheFlyRun, PointsWhileTheEncoderWasSuspectAreLeftOut) {
   const auto all = run_on_the_fly(to_and_fro());
@@ -47,9 +42,9 @@ TEST(OnTheFlyRun, PointsWhileTheEncoderWasSuspectAreLeftOut) {
   }
   EXPECT_EQ(run->points.size(), expected);
   EXPECT_EQ(all->points.size(), expected + 3) << "at 6, 7 and 8 mm on the way forward";
-  const std::string warnings = said_by(run->header.warnings);
-  EXPECT_NE(warnings.find("3 points from 0.27"), std::string::npos) << warnings;
-  EXPECT_NE(warnings.find("device \"daq\""), std::string::npos) << warnings;
+  const std::string notices = test::shown(run->header.notices);
+  EXPECT_NE(notices.find("stops_not_placed daq points=3 from_s=0.27"), std::string::npos)
+      << notices;
 }
 
 TEST(OnTheFlyRun, AnEncoderThatIsSuspectThroughoutGivesNoRun) {

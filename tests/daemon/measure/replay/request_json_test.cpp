@@ -24,11 +24,14 @@ PipelineOptions asked_options() {
 }
 
 TEST(RequestJson, ComesBackAsItWas) {
-  const AskedFor asked{"after \"scraping\"\n", {"a warning", "another"}, asked_options()};
+  const AskedFor asked{
+      "after \"scraping\"\n",
+      {notice(NoticeCode::cycle_unknown), notice(NoticeCode::clock_not_settled, "t7")},
+      asked_options()};
   const auto back = read_request_json(request_json(asked), {});
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->note, asked.note);
-  EXPECT_EQ(back->warnings, asked.warnings);
+  EXPECT_EQ(back->notices, asked.notices);
   EXPECT_EQ(back->options.json(), asked.options.json());
   EXPECT_EQ(back->options.model, Model::exact);
   EXPECT_EQ(back->options.repeats, 3);

@@ -12,6 +12,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/analyses/mounting_text.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -61,7 +62,7 @@ double target_sign(const MountingCommand& command, const Rig& rig, Axis axis) {
 Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& rig,
                                      const NamedLog& log, Sources& sources) {
   MDOF_TRY(const auto found, daemon::read_stops(log.file, log.axis, rig));
-  for (const auto& warning : found.warnings) warn(warning);
+  show_notices(found.notices, true);
   const auto same = [&](const auto& file) { return file.sha256 == found.sha256; };
   const auto again = std::find_if(sources.files.begin(), sources.files.end(), same);
   if (again != sources.files.end())

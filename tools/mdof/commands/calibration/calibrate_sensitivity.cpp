@@ -11,6 +11,7 @@
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -100,7 +101,7 @@ Status calibrate(const SensitivityCommand& command) {
   calibration.polynomial_um.clear();
   MDOF_TRY(const Axis axis, algo::approaching_axis(rig, *at));
   MDOF_TRY(const auto log, daemon::read_stops(command.log, axis, rig));
-  for (const auto& warning : log.warnings) warn(warning);
+  show_notices(log.notices, true);
   const double own = axis == rig.axis ? rig.sides.target_travel_m(1) : 1;
   algo::Traverse traverse{axis, {}};
   for (const Point& stop : log.stops)

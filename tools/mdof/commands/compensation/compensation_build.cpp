@@ -3,6 +3,7 @@
 
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/words/words.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -12,7 +13,7 @@
 #include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/text/compensation_text.h"
-#include "tools/mdof/text/warnings.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -55,11 +56,11 @@ Result<daemon::BuiltTable> build_there(rpc::Client& mdofd, const BuildCommand& c
   simdjson::dom::parser parser;
   const auto json = parser.parse(simdjson::padded_string(reply));
   daemon::BuiltTable built;
-  built.warnings = texts(json, "warnings");
+  built.notices = notices_of(json);
   built.notes = texts(json, "notes");
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(built.table, store.table(integer(json, "table").value_or(0)));
-  MDOF_TRY(built.doubts, daemon::doubts_of_table(store, built.table));
+  MDOF_TRY(built.doubtful, daemon::doubtful_notices(store, built.table));
   return built;
 }
 
@@ -76,15 +77,15 @@ Status build(const BuildCommand& asked) {
   MDOF_CHECK(choose_runs(command));
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
-  const auto& [table, warnings, notes, doubts] = built;
-  for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
+  const auto& [table, notices, notes, doubtful] = built;
+  show_notices(notices, command.all_warnings);
   for (const auto& note : notes) say("note: " + note);
-  const std::string document = table_document(table, 0, !doubts.empty());
-  MDOF_CHECK(command.json
-                 ? write_line(with_texts(with_warnings(document, warnings), "notes", notes))
-                 : write_out(table_text(table, 0)));
+  const std::string document = table_document(table, 0, !doubtful.empty());
+  MDOF_CHECK(command.json ? write_line(with_texts(with_notices(document, notices, words::text),
+                                                  "notes", notes))
+                          : write_out(table_text(table, 0)));
   const std::string named = std::to_string(table.id) + (table.simulated ? " --simulated" : "") +
-                            (doubts.empty() ? "" : " --despite-warnings");
+                            (doubtful.empty() ? "" : " --despite-warnings");
   say(table.has_positioning()
           ? "stored; a controller gets it by: mdof compensation export " + named
           : "stored; put it in force with: mdof compensation activate " + named);

@@ -11,7 +11,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/text/compensation_text.h"
-#include "tools/mdof/text/warnings.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -45,17 +45,15 @@ Status show(const ShowTableCommand& command) {
   if (generation == 0)
     warn("table " + std::to_string(table.id) + " of axis " + letter(table.axis) +
          " is not in force");
-  // A run that cannot be read is a doubt, too.
-  const auto doubts = daemon::doubts_of_table(store, table);
-  const bool doubtful = !doubts || !doubts->empty();
-  if (!doubts) warn(doubts.error().message);
-  for (const auto& doubt : summarised(doubts.value_or(std::vector<std::string>()))) warn(doubt);
+  const auto read = daemon::doubtful_notices(store, table);
+  if (!read) warn(read.error().message);
+  const Notices doubtful = read.value_or(Notices{notice(NoticeCode::run_unreadable)});
+  show_notices(doubtful);
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");
   const auto marks =
-      daemon::marks_of({"table " + std::to_string(table.id), table.simulated,
-                        doubts.value_or(std::vector<std::string>{"a run of it cannot be read"})});
+      daemon::marks_of({"table " + std::to_string(table.id), table.simulated, doubtful});
   if (command.csv) return write_out(csv_marks(marks) + table_csv(table));
-  return command.json ? write_line(table_document(table, generation, doubtful))
+  return command.json ? write_line(table_document(table, generation, !doubtful.empty()))
                       : write_out(table_text(table, generation));
 }
 

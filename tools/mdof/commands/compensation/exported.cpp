@@ -45,7 +45,7 @@ Status judge_table(store::Store& store, const CompensationTable& table,
   auto& marks = out.options.marks;
   for (auto& mark : daemon::marks_of(judged)) marks.push_back(std::move(mark));
   out.simulated = out.simulated || judged.simulated;
-  out.doubtful = out.doubtful || !judged.doubts.empty();
+  out.doubtful = out.doubtful || !judged.doubtful.empty();
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   // Positioning is never in force: mdofd does not serve it.
   if (generation > 0 || table.has_positioning()) return {};

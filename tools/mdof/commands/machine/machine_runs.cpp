@@ -8,6 +8,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -74,7 +75,7 @@ Status add_runs(Machine& machine, const std::string& database,
   }
   for (const auto& [of, request] : requests) {
     MDOF_TRY(const auto built, daemon::calculate_table(store, request));
-    for (const std::string& warning : built.warnings) warn(warning);
+    show_notices(built.notices, true);
     MDOF_CHECK(take_table(machine, built.table));
   }
   return {};

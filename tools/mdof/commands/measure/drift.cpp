@@ -12,7 +12,7 @@
 #include "tools/mdof/progress_bar.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/analyses/parked_text.h"
-#include "tools/mdof/text/warnings.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -51,7 +51,7 @@ Status drift(const DriftCommand& command) {
              bar.show(progress);
              return true;
            }));
-  for (const auto& warning : summarised(log.warnings, command.all_warnings)) warn(warning);
+  show_notices(log.notices, command.all_warnings);
   const algo::WarmUp found = algo::warm_up(log.readings);
   MDOF_CHECK(command.json ? write_line(parked_json(log, found))
                           : write_out(parked_text(log, found, terminal_columns())));

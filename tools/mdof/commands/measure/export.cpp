@@ -9,6 +9,7 @@
 #include "tools/mdof/csv/log_csv.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -46,7 +47,7 @@ class Export {
     }
     MDOF_CHECK(files_.publish());
     for (const auto& name : names_) say(name);
-    for (const auto& warning : log_.warnings()) warn(warning);
+    show_notices(log_.notices(), true);
     tell_what_csv_cannot();
     return {};
   }

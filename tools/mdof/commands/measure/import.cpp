@@ -6,7 +6,9 @@
 #include "daemon/history.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/measure/imported/import.h"
+#include "daemon/words/words.h"
 #include "schema/imported/series.h"
+#include "schema/notice/notice_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -14,6 +16,7 @@
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/imported_text.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -38,9 +41,9 @@ std::string stored_json(const Run& run) {
   json.field("readings", static_cast<std::uint64_t>(run.points.size()));
   json.field("file", run.header.provenance.recording_path);
   json.field("sha256", run.header.provenance.recording_sha256);
-  json.field("simulated", run.header.simulated).key("warnings").begin_array();
-  for (const auto& warning : run.header.warnings) json.value(warning);
-  json.end_array().end_object();
+  json.field("simulated", run.header.simulated);
+  write_notices(json, "notices", run.header.notices, words::text);
+  json.end_object();
   return json.take();
 }
 
@@ -62,17 +65,17 @@ Status import(ImportCommand command) {
   MDOF_CHECK(take_u(command));
   MDOF_TRY(command.request.limits, command.limits.limits());
   MDOF_TRY(Run run, daemon::imported_run(command.request));
-  MDOF_CHECK(
-      daemon::check_gate({command.request.file, false, daemon::doubts_among(run.header.warnings)},
-                         command.consent, "it is not stored"));
+  MDOF_CHECK(daemon::check_gate(
+      {command.request.file, false, daemon::without_information(run.header.notices)},
+      command.consent, "it is not stored"));
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id,
            store.add_run(run, daemon::deed_now("run.import", daemon::this_process())));
-  for (const auto& warning : run.header.warnings) warn(warning);
+  show_notices(run.header.notices, true);
   say("stored; a table of it is made with: mdof compensation build " +
       std::to_string(run.header.id));
   if (command.json) return write_line(stored_json(run));
-  run.header.warnings.clear();  // said already
+  run.header.notices.clear();  // shown already
   return write_out(imported_text(run, "", terminal_columns(), false));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "daemon/rpc/line/client.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/measure/live_view.h"
@@ -78,15 +79,6 @@ void show_notes(const auto& reply) {
   }
 }
 
-void show_warnings(const auto& reply) {
-  simdjson::dom::array warnings;
-  if (reply.at_key("warnings").get_array().get(warnings)) return;
-  for (const element warning : warnings) {
-    std::string_view words;
-    if (!warning.get_string().get(words)) warn_wrapped(words);
-  }
-}
-
 // "point 3 of 26, next 15.000 mm"; a run without targets or repeats knows less. Of those asked for
 // only solved ones count, each once; further ones are told of.
 std::string progress_line(const auto& event) {
@@ -157,10 +149,10 @@ Status print_result(rpc::Client& client, std::int64_t run, const std::string& re
   const std::string id = std::to_string(run);
   return fail(ErrorCode::check,
               "run " + id + " is " + state +
-                  (state == "partial" ? ": its warnings say what is missing; go on with it: mdof "
+                  (state == "partial" ? ": its notices say what is missing; continue it: mdof "
                                         "record --resume " +
                                             id
-                                      : "; its warnings say why"));
+                                      : "; its notices say why"));
 }
 
 Status record(RecordCommand command) {
@@ -173,7 +165,7 @@ Status record(RecordCommand command) {
   const auto started = parser.parse(simdjson::padded_string(reply));
   const std::int64_t run = integer(started, "run").value_or(0);
   command.axis = text(started, "axis");
-  show_warnings(started);
+  for (const Notice& each : notices_of(started)) warn_wrapped(words::line(each));
   show_notes(started);
   say("run " + std::to_string(run) + " of axis " + command.axis +
       " is measuring; Ctrl-C ends and evaluates it");

@@ -8,6 +8,7 @@
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/replay/replay_request.h"
+#include "daemon/words/words.h"
 #include "schema/rig/calibrated.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
@@ -18,8 +19,8 @@
 #include "tools/mdof/stored/database_writer.h"
 #include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
-#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -135,12 +136,12 @@ Status replay(const ReplayCommand& command) {
   MDOF_TRY(Run run, command.keep_out ? replay_here(request) : replay_and_store(command, request));
   MDOF_TRY(const StatedAt at, asked_reference(command, run));
   run = algo::restate(std::move(run), at);  // what is stored is stated at the fixture
-  for (const auto& warning : summarised(run.header.warnings, command.all_warnings)) warn(warning);
+  show_notices(run.header.notices, command.all_warnings);
   if (command.json) {
     const daemon::StatedRun stated = daemon::stated_run(run);
-    return write_line(run_json(run, stated.points, stated.figures));
+    return write_line(run_json(run, stated.points, stated.figures, words::text));
   }
-  run.header.warnings.clear();  // said already
+  run.header.notices.clear();  // shown already
   const daemon::StatedRun stated = daemon::stated_run(run);
   return write_out(show_text(run, stated.points, "", terminal_columns()) + "\n" +
                    figures_text(run, stated.figures, terminal_columns()));

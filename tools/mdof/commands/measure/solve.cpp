@@ -10,6 +10,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/frame_solver.h"
 #include "tools/mdof/text/error_rows.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -41,7 +42,7 @@ Status solve_rows(drivers::CsvRows& frames, FrameSolver& solver, ErrorRows& out)
 }
 
 void warn_of_missing(const drivers::CsvRows& frames, const FrameSolver& solver) {
-  for (const std::string& column : frames.warnings()) warn(column);
+  show_notices(frames.notices(), true);
   if (solver.without_reading() == 0) return;
   warn(std::to_string(solver.without_reading()) + " of " + std::to_string(solver.rows()) +
        " rows lack a probe that their errors need: these are empty");
@@ -71,7 +72,7 @@ Status solve(const SolveCommand& command) {
   MDOF_CHECK(solve_rows(*frames, solver, out));
   MDOF_CHECK(out.finish());
   warn_of_missing(*frames, solver);
-  for (const std::string& map : solver.map_warnings(rig)) warn(map);
+  show_notices(solver.map_notices(rig), true);
   for (const std::string& note : solver.notes()) say(note);
   return judge(solver);
 }

@@ -15,9 +15,9 @@
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
-#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -99,7 +99,7 @@ Status budget(const BudgetCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto found,
            command.run_y.empty() ? of_one_run(store, command) : of_two_runs(store, command));
-  for (const auto& warning : summarised(found.warnings, command.all_warnings)) warn(warning);
+  show_notices(found.notices, command.all_warnings);
   if (const std::string text = not_declared_text(found.budgets); !text.empty()) warn(text);
   const auto decided =
       command.tolerance

@@ -8,7 +8,7 @@
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/run_choice.h"
-#include "tools/mdof/text/warnings.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 
@@ -30,7 +30,7 @@ Result<Run> load_run(store::Store& store, const ChosenRun& choice) {
 
 Status write_csv_of(const Run& run, const std::string& csv, bool all_warnings) {
   if (run.header.simulated) warn("simulated data: no machine was measured");
-  for (const auto& warning : summarised(run.header.warnings, all_warnings)) warn(warning);
+  show_notices(run.header.notices, all_warnings);
   return write_out(csv_marks(daemon::marks_of(run)) + csv);
 }
 

@@ -8,6 +8,7 @@
 #include "algo/iso230/positioning.h"
 #include "algo/iso230/positioning_uncertainty.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/words/words.h"
 #include "drivers/csv/positioning_csv.h"
 #include "schema/imported/series.h"
 #include "schema/iso230/iso230_json.h"
@@ -21,9 +22,9 @@
 #include "tools/mdof/stored/run_positioning.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/analyses/positioning_text.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
-#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -35,10 +36,6 @@ struct Iso230Command {
   std::optional<double> device_limit_um, drift_um;
   bool json = false, all_warnings = false;
 };
-
-void warn_all(const std::vector<std::string>& warnings, bool all) {
-  for (const auto& warning : summarised(warnings, all)) warn(warning);
-}
 
 // None: neither contribution is declared.
 std::optional<PositioningUncertainty> uncertainty_of(const Iso230Command& command) {
@@ -59,8 +56,8 @@ Status iso230_of_file(const Iso230Command& command) {
   MDOF_TRY(const auto csv, drivers::read_positioning_csv(command.file));
   auto figures = algo::positioning(csv.readings);
   if (!figures) return in_context(csv.source, std::move(figures.error()));
-  const auto warnings = algo::plan_warnings(*figures, from_mm(command.scale_period_mm));
-  warn_all(warnings, command.all_warnings);
+  const Notices notices = algo::plan_notices(*figures, from_mm(command.scale_period_mm));
+  show_notices(notices, command.all_warnings);
   const auto U = uncertainty_of(command);
   if (!command.json) {
     const PositioningColumn column{"deviation", false, std::move(*figures)};
@@ -74,7 +71,7 @@ Status iso230_of_file(const Iso230Command& command) {
   json.key("uncertainty");
   U ? write_positioning_uncertainty(json, *U) : static_cast<void>(json.null());
   json.end_object();
-  return write_line(with_warnings(json.take(), warnings));
+  return write_line(with_notices(json.take(), notices, words::text));
 }
 
 Status iso230_of_run(const Iso230Command& command) {
@@ -86,7 +83,7 @@ Status iso230_of_run(const Iso230Command& command) {
   MDOF_CHECK(check_measured(run.header, "--run (give the file itself to mdof iso230-2)"));
   MDOF_TRY(const RunPositioning found,
            run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
-  warn_all(found.warnings, command.all_warnings);
+  show_notices(found.notices, command.all_warnings);
   return command.json ? write_line(run_positioning_json(run, found))
                       : write_out(run_positioning_text(run, found, terminal_columns()));
 }

@@ -10,9 +10,9 @@
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
-#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -73,7 +73,7 @@ Status parallelism(const ParallelismCommand& command) {
   MDOF_TRY(request.run_b, run_number(store, command.word_b));
   request.partial = command.partial;
   MDOF_TRY(const auto found, daemon::find_parallelism(store, request));
-  for (const auto& warning : summarised(found.warnings, command.all_warnings)) warn(warning);
+  show_notices(found.notices, command.all_warnings);
   std::vector<Budget> budgets;
   for (const auto& plane : found.parallelism.planes) budgets.push_back(plane.budget);
   if (const std::string text = not_declared_text(budgets); !text.empty()) warn(text);

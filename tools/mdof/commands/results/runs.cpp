@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "daemon/words/words.h"
 #include "schema/imported/series.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
@@ -26,7 +27,7 @@ std::string runs_json(const std::vector<RunHeader>& runs, std::int64_t total) {
   json.begin_object().field("total", total).key("runs").begin_array();
   for (const auto& header : runs) {
     json.begin_object();
-    write_header_members(json, header);
+    write_header_members(json, header, words::text);
     json.end_object();
   }
   json.end_array().end_object();

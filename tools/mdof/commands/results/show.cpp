@@ -4,6 +4,7 @@
 #include "algo/iso230/straightness.h"
 #include "daemon/history.h"
 #include "daemon/measure/budgets.h"
+#include "daemon/words/words.h"
 #include "schema/imported/series.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
@@ -26,7 +27,7 @@ namespace {
 std::string with_lines_hash_and_history(const Run& run, const std::string& sha256,
                                         const std::vector<Deed>& deeds) {
   const daemon::StatedRun stated = daemon::stated_run(run);
-  std::string json = run_json(run, stated.points, stated.figures);
+  std::string json = run_json(run, stated.points, stated.figures, words::text);
   json.pop_back();
   JsonWriter lines, history;
   write_straightness_lines(lines, algo::straightness_lines(run.header.moving(), run.points));

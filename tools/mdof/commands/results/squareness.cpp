@@ -5,6 +5,7 @@
 #include "algo/iso230/squareness_lines.h"
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/words/words.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -17,9 +18,9 @@
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
-#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -118,13 +119,13 @@ Status squareness(SquarenessCommand command) {
   MDOF_TRY(command.run_y, run_number(command.database, command.word_y, Axis::y));
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   MDOF_TRY(const auto fitted, mdofd ? fit_there(*mdofd, command) : fit(command));
-  const auto& [s, budgets, warnings] = fitted;
-  for (const auto& warning : summarised(warnings, command.all_warnings)) warn(warning);
+  const auto& [s, budgets, notices] = fitted;
+  show_notices(notices, command.all_warnings);
   if (const std::string text = not_declared_text({budgets.front()}); !text.empty()) warn(text);
   MDOF_TRY(const SquarenessLines lines, lines_of_squareness(command.database, s));
-  return command.json
-             ? write_line(with_lines(with_warnings(squareness_json(s, budgets), warnings), lines))
-             : write_out(squareness_text(s, budgets, lines));
+  return command.json ? write_line(with_lines(
+                            with_notices(squareness_json(s, budgets), notices, words::text), lines))
+                      : write_out(squareness_text(s, budgets, lines));
 }
 
 Action declare_squareness(CLI::App& command) {

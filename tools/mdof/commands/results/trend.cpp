@@ -4,7 +4,9 @@
 #include <tuple>
 
 #include "daemon/measure/trends.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
+#include "schema/notice/notice_json.h"
 #include "schema/sample.h"
 #include "schema/uncertainty/run_uncertainty.h"
 #include "tools/mdof/commands/command.h"
@@ -151,7 +153,9 @@ void write_trend(JsonWriter& json, const daemon::Trend& trend) {
   write_covers(json, trend.u_covers, trend.u_not_declared);
   json.field("says", sentence_of(trend)).key("left_out").begin_array();
   for (const std::string& why : trend.left_out) json.value(why);
-  json.end_array().end_object();
+  json.end_array();
+  write_notices(json, "notices", trend.notices, words::text);
+  json.end_object();
 }
 
 std::string json_of(const std::vector<daemon::Trend>& trends) {
@@ -191,7 +195,7 @@ Status trend(const TrendCommand& command) {
   MDOF_TRY(const auto found, daemon::trends(store, {axis_from(command.axis), command.figure,
                                                     command.baseline, command.mixed}));
   for (const daemon::Trend& of : found)
-    for (const std::string& warning : of.warnings) warn(of.figure + ": " + warning);
+    for (const Notice& each : of.notices) warn(of.figure + ": " + words::line(each));
   if (command.csv)
     for (const daemon::Trend& of : found)
       for (const std::string& why : of.left_out) warn(of.figure + ": left out: " + why);

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "daemon/measure/budgets.h"
+#include "daemon/words/words.h"
 #include "schema/run_json.h"
 #include "schema/uncertainty/run_uncertainty.h"
 #include "schema/units.h"
@@ -13,9 +14,9 @@
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
-#include "tools/mdof/text/warnings.h"
 
 namespace mdof::tools {
 namespace {
@@ -47,7 +48,7 @@ std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& 
       .field("second_EC0Y_urad", to_urad(s.second_rad));
   write_covers(json, covers_of(s), found.not_declared);
   json.field("simulated", found.simulated).end_object();
-  return with_warnings(json.take(), found.warnings);
+  return with_notices(json.take(), found.notices, words::text);
 }
 
 std::string text_of(const SquareReversal& s, bool simulated) {
@@ -77,7 +78,7 @@ Status square(const SquareCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto found, daemon::square_reversal(store, {run[0], run[1], {}, command.partial},
                                                      {run[2], run[3], {}, command.partial}));
-  for (const auto& warning : summarised(found.warnings, command.all_warnings)) warn(warning);
+  show_notices(found.notices, command.all_warnings);
   Budget budget;
   budget.not_declared = found.not_declared;
   budget.noise_only = found.found.noise_only;

@@ -3,13 +3,14 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/paths.h"
+#include "daemon/words/words.h"
 #include "schema/run_json.h"
 #include "schema/separation/separation_json.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/analyses/separation_text.h"
-#include "tools/mdof/text/warnings.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -61,19 +62,19 @@ Status separate_and_print(LoadedSources loaded, const char* method, const Output
   record.method = method;
   record.created_utc = daemon::utc_now();
   record.result = std::move(*separated);
-  auto& warnings = loaded.warnings;
-  warnings.insert(warnings.end(), record.result.warnings.begin(), record.result.warnings.end());
-  auto& doubts = loaded.doubts;
-  doubts.insert(doubts.end(), warnings.begin(), warnings.end());
-  for (const auto& warning : summarised(warnings, options.all_warnings)) warn(warning);
+  Notices& notices = loaded.notices;
+  append(notices, record.result.notices);
+  show_notices(notices, options.all_warnings);
+  Notices all = loaded.datum;
+  append(all, notices);
   const daemon::Judged judged{"this separation", record.simulated,
-                              daemon::doubts_among(loaded.doubts)};
+                              daemon::without_information(std::move(all))};
   MDOF_CHECK(check_map(record, judged, options));
   record.marks = daemon::marks_of(judged);
-  record.doubtful = !judged.doubts.empty();
+  record.doubtful = !judged.doubtful.empty();
   if (options.rig_toml) return write_out(separation_plane_toml(record));
   if (options.csv) return write_out(separation_csv(record));
-  if (options.json) return write_line(with_warnings(separation_json(record), warnings));
+  if (options.json) return write_line(with_notices(separation_json(record), notices, words::text));
   return write_out(separation_text(record, terminal_columns()));
 }
 

@@ -128,9 +128,7 @@ Status check_places(const std::vector<Vec3>& at, const SourceOptions& options,
       if (i == static_cast<std::size_t>(loaded.record.axis))
         return bad_input(differ + ": it must be the same along " + letter(loaded.record.axis) +
                          ", or another place of the target is read");
-      loaded.warnings.push_back(differ +
-                                ": the angle errors of the axis times that lever are "
-                                "taken for the target's shape");
+      loaded.notices.push_back(notice(NoticeCode::places_differ, "", {{"difference", differ}}));
     }
   return {};
 }
@@ -180,18 +178,15 @@ Result<LoadedSources> load_runs(const SourceOptions& options) {
   loaded.request.u_is_noise = true;
   std::vector<Vec3> probe_at;
   for (const Run& run : runs) MDOF_CHECK(add_run(store, run, options, loaded, probe_at));
-  loaded.warnings = algo::inherited_warnings(algo::all_of(runs));
-  for (const std::string& note : daemon::datum_doubts(runs)) loaded.doubts.push_back(note);
+  loaded.notices = algo::inherited_notices(algo::all_of(runs));
+  loaded.datum = daemon::datum_notices(runs);
   loaded.record.probe = options.probe;
   if (!probe_at.empty()) {
     loaded.request.at.place_m = probe_at[0][static_cast<std::size_t>(loaded.record.axis)];
     MDOF_CHECK(check_places(probe_at, options, loaded));
   } else {
-    loaded.warnings.push_back(
-        loaded.record.error +
-        " is made of several probes, and each of their surfaces is in the "
-        "target's height; of a rig whose probes stand elsewhere than the default's it is no "
-        "profile of one line. --probe ID takes one probe alone");
+    loaded.notices.push_back(
+        notice(NoticeCode::made_of_several_probes, "", {{"error", loaded.record.error}}));
   }
   return loaded;
 }

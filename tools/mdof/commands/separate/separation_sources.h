@@ -7,6 +7,7 @@
 
 #include "algo/separation/separate.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/separation/separation.h"
 
 namespace CLI {
@@ -32,9 +33,9 @@ void add_source_options(CLI::App& command, SourceOptions& options);
 // All set-ups, not turned nor shifted yet, with what they are called.
 struct LoadedSources {
   algo::SeparationRequest request;
-  SeparationRecord record;            // without its result
-  std::vector<std::string> warnings;  // of the runs, and what they have in them
-  std::vector<std::string> doubts;    // of the runs, beside these: an encoder without datum
+  SeparationRecord record;  // without its result
+  Notices notices;          // of the runs, and what they have in them
+  Notices datum;            // of the runs, beside these: encoders without datum
 };
 
 // Errors: files beside runs, runs of several axes or sides, a rig that subtracts a height map

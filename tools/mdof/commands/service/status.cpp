@@ -68,11 +68,11 @@ std::string compensation_text(const element& status, std::size_t columns) {
 std::string runs_text(const element& list, std::size_t columns) {
   array runs;
   if (list["runs"].get_array().get(runs) || runs.size() == 0) return "none\n";
-  TextTable table({"run", "axis", "state", "started", "lost", "warnings", "note"});
+  TextTable table({"run", "axis", "state", "started", "lost", "notices", "note"});
   for (const element run : runs)
     table.add({or_dash(integer(run, "run")), text(run, "axis"), text(run, "state"),
                text(run, "started_utc").substr(0, 19), or_dash(integer(run, "scans_lost")),
-               std::to_string(texts(run, "warnings").size()), text(run, "note")});
+               std::to_string(notices_of(run).size()), text(run, "note")});
   return table.text(columns);
 }
 

@@ -9,6 +9,7 @@
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -51,7 +52,7 @@ Status verify_database(const std::string& option, const std::string& head, Sourc
 Status verify_recording(const std::string& file, SourceCheck& check) {
   drivers::RecordingLog log("recording", file);
   MDOF_CHECK(log.open());
-  for (const auto& warning : log.warnings()) warn(warning);
+  show_notices(log.notices(), true);
   SampleBlock block;
   for (;;) {
     const auto state = log.read(block, {});

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "daemon/words/words.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/text/run_tables.h"
@@ -176,7 +177,7 @@ std::string parked_json(const daemon::ParkedLog& log, const algo::WarmUp& found)
     write_series(json, log, found, s);
   }
   json.end_object().end_object();
-  return with_warnings(json.take(), log.warnings);
+  return with_notices(json.take(), log.notices, words::text);
 }
 
 }  // namespace mdof::tools

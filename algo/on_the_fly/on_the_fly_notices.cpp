@@ -1,4 +1,4 @@
-// What is said of a run in motion.
+// Notices of a run in motion.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,10 +6,7 @@
 
 #include "algo/on_the_fly/bin_fit.h"
 #include "algo/on_the_fly/on_the_fly.h"
-#include "algo/plausibility/sentences.h"
-#include "algo/points/dwell_notice.h"
 #include "schema/base/number/number_text.h"
-#include "schema/severity.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -64,42 +61,34 @@ std::string scatter_text(const std::vector<PassBins>& passes, const ProbesOfBins
   return text;
 }
 
-std::string lag_text(const std::vector<ReadingLag>& lags, const ProbesOfBins& probes) {
-  std::string told, untold;
+Notice delays_notice(const std::vector<ReadingLag>& lags, const ProbesOfBins& probes) {
+  std::string found, unknown;
   double worst_1 = 0;
   for (std::size_t k = 0; k < lags.size(); ++k) {
     const ReadingLag& lag = lags[k];
     worst_1 = std::max(worst_1, lag.steepest_1 * lag.speed_m_s);
     if (std::isnan(lag.delay_s)) {
-      untold += (untold.empty() ? "" : ", ") + probes.ids[k];
+      unknown += (unknown.empty() ? "" : ", ") + probes.ids[k];
       continue;
     }
     std::array<char, 96> text{};
     std::snprintf(text.data(), text.size(), "%s %+.1f ± %.1f µs", probes.ids[k].c_str(),
                   lag.delay_s * kMicroseconds, lag.u_delay_s * kMicroseconds);
-    told += (told.empty() ? "" : ", ") + std::string(text.data());
+    found += (found.empty() ? "" : ", ") + std::string(text.data());
   }
-  std::string out;
-  if (!told.empty()) out = "delay beside what is declared, by forward against reverse: " + told;
-  if (!untold.empty())
-    out += (out.empty() ? "" : "; ") + std::string("a delay of ") + untold +
-           " cannot be told from forward against reverse (passed one way only, too few targets, or "
-           "an even slope)";
-  return out + "; 100 µs that nobody declares move a reading by " +
-         plain_number(worst_1 * 100 / kMicroseconds * kNmPerM, 3) + " nm at the most";
+  return notice(NoticeCode::delays_by_motion, "",
+                {{"delays_us", found},
+                 {"unknown", unknown},
+                 {"effect_nm", worst_1 * 100 / kMicroseconds * kNmPerM}});
 }
 
-std::string lag_warning(const std::string& id, const ReadingLag& lag) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(),
-                "forward and reverse differ as by a delay of %.3f ± %.3f ms of probe %s (up to "
-                "%.0f nm each way at %.3g mm/s): declare its delay_us in the rig; if the axis "
-                "loses %.3g um when it turns (backlash before the encoder), that looks the same: "
-                "measure at another speed to tell them apart",
-                lag.delay_s * kMilliseconds, lag.u_delay_s * kMilliseconds, id.c_str(),
-                lag.effect_m * kNmPerM, to_mm(lag.speed_m_s),
-                to_um(2 * std::abs(lag.delay_s) * lag.speed_m_s));
-  return text.data();
+Notice delay_notice(const std::string& id, const ReadingLag& lag) {
+  return notice(NoticeCode::reading_delayed, id,
+                {{"delay_ms", lag.delay_s * kMilliseconds},
+                 {"u_delay_ms", lag.u_delay_s * kMilliseconds},
+                 {"effect_nm", lag.effect_m * kNmPerM},
+                 {"speed_mm_s", to_mm(lag.speed_m_s)},
+                 {"backlash_um", to_um(2 * std::abs(lag.delay_s) * lag.speed_m_s)}});
 }
 
 // Is it between bins of its pass that were taken? Else it is of the way up to speed, or down.
@@ -111,14 +100,13 @@ bool is_amid(const PassBins& pass, const BinLeftOut& left) {
   return n > 0 && n < static_cast<std::ptrdiff_t>(pass.bins.size());
 }
 
-std::string left_out_text(const BinLeftOut& left, std::int64_t begin_ns) {
-  const char* why = left.fault == BinFault::speed_changes ? "the axis changed its speed or stopped"
-                    : left.fault == BinFault::gap         ? "most of its scans are missing"
-                                                          : "it has too few scans";
-  return with_number("the bin at %.4f mm, ", to_mm(left.position_m)) +
-         with_number("%.3f s after the first scan, was left out: ",
-                     ns_to_s(left.begin_ns - begin_ns)) +
-         why;
+Notice left_out_notice(const BinLeftOut& left, std::int64_t begin_ns) {
+  const NoticeCode code = left.fault == BinFault::speed_changes ? NoticeCode::bin_of_changing_speed
+                          : left.fault == BinFault::gap         ? NoticeCode::bin_with_gap
+                                                                : NoticeCode::bin_with_few_scans;
+  return notice(
+      code, "",
+      {{"position_mm", to_mm(left.position_m)}, {"time_s", ns_to_s(left.begin_ns - begin_ns)}});
 }
 
 std::size_t count_left_out(const std::vector<PassBins>& passes, BinFault fault) {
@@ -167,51 +155,45 @@ Status OnTheFly::explain_nothing() const {
                    "the way; if it stops at targets, replay without --on-the-fly");
 }
 
-std::vector<std::string> OnTheFly::warnings() const {
-  std::vector<std::string> all, amid;
+Notices OnTheFly::notices() const {
+  Notices all, amid;
   for (const PassBins& pass : passes_)
     for (const BinLeftOut& left : pass.left_out)
       if (left.fault != BinFault::speed_changes || is_amid(pass, left))
-        amid.push_back(left_out_text(left, begin_ns_));
-  append_summarised(all, amid, "bins that were left out");
+        amid.push_back(left_out_notice(left, begin_ns_));
+  append_first(all, std::move(amid));
   const Speeds speeds = speeds_of(passes_);
   if (speeds.max_m_s > (1 + kOtherSpeed) * speeds.min_m_s)
-    all.push_back(information("the axis went at " + mm_s(speeds.min_m_s) + " to " +
-                              mm_s(speeds.max_m_s) +
-                              ": a delay that is not declared acts by the speed of each point"));
+    all.push_back(
+        notice(NoticeCode::speed_varies, "",
+               {{"from_mm_s", to_mm(speeds.min_m_s)}, {"to_mm_s", to_mm(speeds.max_m_s)}}));
   const auto found = lags();
   for (std::size_t k = 0; k < found.size(); ++k)
     if (found[k].significant && std::abs(found[k].delay_s) > kBriefDelay_s)
-      all.push_back(lag_warning(probes_.ids[k], found[k]));
-  for (auto& warning : places_.warnings(begin_ns_)) all.push_back(std::move(warning));
-  const auto dead = describe(watch_, probes_.ids, begin_ns_);
-  all.insert(all.end(), dead.begin(), dead.end());
+      all.push_back(delay_notice(probes_.ids[k], found[k]));
+  append(all, places_.notices(begin_ns_));
+  append(all, probe_notices(watch_, probes_.ids, begin_ns_));
   return all;
 }
 
-std::vector<std::string> OnTheFly::statements() const {
+Notices OnTheFly::statements() const {
   const Speeds speeds = speeds_of(passes_);
   if (speeds.n == 0) return {};
   const auto passes = std::count_if(passes_.begin(), passes_.end(),
                                     [](const PassBins& pass) { return !pass.bins.empty(); });
-  const std::size_t unsteady = count_left_out(passes_, BinFault::speed_changes);
   const double bin_mm = to_mm(grid_.bin_m());
-  const std::string first =
-      "measured on the fly: " + std::to_string(passes) +
-      (passes == 1 ? " pass at " : " passes at ") + mm_s(speeds.mean_m_s()) + " (" +
-      plain_number(to_mm(speeds.min_m_s), 4) + " to " + plain_number(to_mm(speeds.max_m_s), 4) +
-      "), each point a parabola through the readings of " + plain_number(bin_mm) +
-      " mm about its target; " + std::to_string(unsteady) +
-      " bins in which the axis changed its speed are left out; errors that change within " +
-      plain_number(kSeenWave * bin_mm, 3) + " mm are read too small";
-  return {information(first),
-          information("what motion adds: the readings scatter about the parabolas by " +
-                      scatter_text(passes_, probes_) +
-                      " nm rms (noise and vibration, in u); vibration slower than " +
-                      plain_number(2 * speeds.mean_m_s() / grid_.bin_m(), 3) +
-                      " Hz looks like form and only shows between runs"),
-          information(lag_text(lags(), probes_) +
-                      "; neither the uncertainty of a delay nor forces of motion are in u")};
+  return {notice(NoticeCode::measured_on_the_fly, "",
+                 {{"passes", passes},
+                  {"speed_mm_s", to_mm(speeds.mean_m_s())},
+                  {"from_mm_s", to_mm(speeds.min_m_s)},
+                  {"to_mm_s", to_mm(speeds.max_m_s)},
+                  {"bin_mm", bin_mm},
+                  {"left_out", count_left_out(passes_, BinFault::speed_changes)},
+                  {"seen_mm", kSeenWave * bin_mm}}),
+          notice(NoticeCode::motion_scatter, "",
+                 {{"scatter_nm", scatter_text(passes_, probes_)},
+                  {"slowest_hz", 2 * speeds.mean_m_s() / grid_.bin_m()}}),
+          delays_notice(lags(), probes_)};
 }
 
 }  // namespace mdof::algo

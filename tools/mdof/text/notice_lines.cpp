@@ -1,0 +1,42 @@
+#include "tools/mdof/text/notice_lines.h"
+
+#include <map>
+
+#include "daemon/words/words.h"
+#include "tools/mdof/output.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::size_t kKept = 3;
+
+// What has words of its own is like no other.
+bool has_own_words(const Notice& notice) {
+  return notice.code == NoticeCode::legacy || notice.code == NoticeCode::failure;
+}
+
+}  // namespace
+
+Notices summarised(const Notices& notices, bool all) {
+  if (all) return notices;
+  std::map<NoticeCode, std::size_t> count, seen;
+  for (const Notice& each : notices) ++count[each.code];
+  Notices kept;
+  for (const Notice& each : notices) {
+    const std::size_t alike = has_own_words(each) ? 1 : count[each.code];
+    const std::size_t turn = ++seen[each.code];
+    if (alike <= kKept + 1 || turn <= kKept) kept.push_back(each);
+    if (alike <= kKept + 1 || turn != kKept) continue;
+    Notice more = notice(NoticeCode::not_shown, "", {{"count", alike - kKept}});
+    more.severity = each.severity;
+    kept.push_back(std::move(more));
+  }
+  return kept;
+}
+
+void show_notices(const Notices& notices, bool all) {
+  for (const Notice& each : summarised(notices, all))
+    each.severity == Severity::doubtful ? warn(words::line(each)) : say(words::line(each));
+}
+
+}  // namespace mdof::tools

@@ -386,7 +386,7 @@ TEST(Separate, WhatIsDeclaredContradictsNothing) {
         }
         if (declared_scale > 0) readings.declared.push_back(shift);
       }
-      n += !separate(request).value().warnings.empty();
+      n += !separate(request).value().notices.empty();
     }
     return n;
   };

@@ -62,16 +62,18 @@ std::vector<std::string> drift_sentences(const RunDrift& drift, const MovingAxis
   return out;
 }
 
-std::string removed_sentence(const RunDrift& drift, const MovingAxis& moving) {
-  if (!drift.not_seen.empty()) return "no drift was removed: " + drift.not_seen;
-  std::string text = changes_text(drift, moving, false);
-  text = text.empty() ? "no drift was removed: none is significant"
-                      : "drift removed: " + text +
-                            "; errors refer to the first point, and the uncertainty of the drift "
-                            "is in that of each point and figure";
-  if (const auto steps = changes_text(drift, moving, true); !steps.empty())
-    text += "; changes that may be steps from run to run as well were left: " + steps;
-  return text;
+Notices removal_notices(const RunDrift& drift, const MovingAxis& moving) {
+  if (!drift.not_seen.empty())
+    return {notice(NoticeCode::drift_not_removed, "", {{"reason", drift.not_seen}})};
+  const std::string removed = changes_text(drift, moving, false);
+  const std::string left = changes_text(drift, moving, true);
+  Notices found;
+  found.push_back(removed.empty() ? notice(NoticeCode::drift_not_removed, "",
+                                           {{"reason", "none is significant"}})
+                                  : notice(NoticeCode::drift_removed, "", {{"changes", removed}}));
+  if (!left.empty())
+    found.push_back(notice(NoticeCode::steps_not_removed, "", {{"changes", left}}));
+  return found;
 }
 
 Notices over_limit(const RunDrift& drift, const Rig& rig) {

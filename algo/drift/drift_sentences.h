@@ -19,7 +19,7 @@ std::string changes_text(const RunDrift& drift, const MovingAxis& moving, bool s
 std::vector<std::string> drift_sentences(const RunDrift& drift, const MovingAxis& moving);
 
 // Of a run from which it was to be removed: what was.
-std::string removed_sentence(const RunDrift& drift, const MovingAxis& moving);
+Notices removal_notices(const RunDrift& drift, const MovingAxis& moving);
 
 // Of probes that drift by more than the rig's limit over the run, highest to lowest.
 Notices over_limit(const RunDrift& drift, const Rig& rig);

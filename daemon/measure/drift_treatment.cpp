@@ -12,9 +12,10 @@ void treat_drift(const Rig& rig, bool remove, Run& run) {
   const algo::DriftOfRun drift(run.points);
   append(run.header.notices, algo::over_limit(drift.found(), rig));
   if (rig.drift_limit_m_per_s && !drift.found().not_seen.empty())
-    run.header.notes.push_back("the limit of drift was not tested: " + drift.found().not_seen);
+    run.header.notices.push_back(
+        notice(NoticeCode::drift_limit_not_tested, "", {{"reason", drift.found().not_seen}}));
   if (!remove) return;
-  run.header.notes.push_back(algo::removed_sentence(drift.found(), rig.moving()));
+  append(run.header.notices, algo::removal_notices(drift.found(), rig.moving()));
   run.points = drift.without(std::move(run.points));
 }
 

@@ -53,12 +53,9 @@ void LargestChange::add(double change_m, const std::string& of_probe) {
   probe = of_probe;
 }
 
-std::string change_sentence(const char* what, bool corrected, const LargestChange& change) {
-  const std::string size = plain_number(to_um(change.size_m) * 1e3, 3) + " nm" +
-                           (change.probe.empty() ? "" : " (probe " + change.probe + ")");
-  return corrected ? std::string(what) + " corrected: at most " + size
-                   : std::string(what) + " not corrected: up to " + size +
-                         " of it are left in the readings, see mdof budget";
+Notice change_notice(const char* what, bool corrected, const LargestChange& change) {
+  return notice(corrected ? NoticeCode::reading_corrected : NoticeCode::reading_not_corrected, what,
+                {{"size_nm", to_um(change.size_m) * 1e3}, {"probe", change.probe}});
 }
 
 PointCorrections::PointCorrections(Rig rig) : rig_(std::move(rig)) {
@@ -135,22 +132,22 @@ void PointCorrections::tell(const algo::Solver& solver, const std::vector<Point>
                             Run& run) const {
   if (!rig_.physics) return;
   const auto points = kept(before, run);
-  auto& notes = run.header.notes;
+  Notices& notices = run.header.notices;
   const LargestChange linear = linearity(points);
   if (rig_.physics->linearity || linear.size_m > 0)
-    notes.push_back(change_sentence("linearity", rig_.physics->left_out.empty(), linear));
+    notices.push_back(change_notice("linearity", rig_.physics->left_out.empty(), linear));
   const Changes made = changes(solver, asked_, points);
   const algo::WhichCorrections left{known_.tilt && !asked_.tilt,
                                     known_.dielectric && !asked_.dielectric};
   const Changes not_made = changes(solver, left, points);
-  if (asked_.tilt)
-    notes.push_back(change_sentence("tilt", true, made.tilt) +
-                    "; what the tilt changed since the zero, how each probe stands in its clamp "
-                    "is not known (u_direction_mrad)");
-  if (left.tilt) notes.push_back(change_sentence("tilt", false, not_made.tilt));
-  if (asked_.dielectric) notes.push_back(change_sentence("dielectric", true, made.dielectric));
+  if (asked_.tilt) {
+    notices.push_back(change_notice("tilt", true, made.tilt));
+    notices.push_back(notice(NoticeCode::tilt_since_zero));
+  }
+  if (left.tilt) notices.push_back(change_notice("tilt", false, not_made.tilt));
+  if (asked_.dielectric) notices.push_back(change_notice("dielectric", true, made.dielectric));
   if (left.dielectric && not_made.dielectric.size_m > 0)
-    notes.push_back(change_sentence("dielectric", false, not_made.dielectric));
+    notices.push_back(change_notice("dielectric", false, not_made.dielectric));
   tell_air(run);
   tell_failures(run);
 }
@@ -160,13 +157,13 @@ void PointCorrections::tell_air(Run& run) const {
   if (!known_.dielectric || run.points.empty()) return;
   const auto first = air_at(run.points.front().point), last = air_at(run.points.back().point);
   if (!first || !last) return;
-  std::string text = "air of the run:";
+  std::string conditions;
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
     const std::string from = plain_number((*first)[q]), to = plain_number((*last)[q]);
-    text += std::string(q == 0 ? " " : ", ") + from + (from == to ? "" : " to " + to) + " " +
-            air_quantities()[q].unit;
+    conditions += std::string(q == 0 ? "" : ", ") + from + (from == to ? "" : " to " + to) + " " +
+                  air_quantities()[q].unit;
   }
-  run.header.notes.push_back(text);
+  run.header.notices.push_back(notice(NoticeCode::air_of_run, "", {{"conditions", conditions}}));
 }
 
 void PointCorrections::tell_failures(Run& run) const {

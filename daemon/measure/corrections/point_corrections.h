@@ -24,8 +24,8 @@ struct LargestChange {
   void add(double change_m, const std::string& of_probe);
 };
 
-// "tilt corrected: at most 13.5 nm (probe A)", "tilt not corrected: ..."
-std::string change_sentence(const char* what, bool corrected, const LargestChange& change);
+// `what`: "tilt", "dielectric", "linearity".
+Notice change_notice(const char* what, bool corrected, const LargestChange& change);
 
 // Thread-bound.
 class PointCorrections {
@@ -36,8 +36,8 @@ class PointCorrections {
   // Readings of these points, in the order of the rig. One that cannot be corrected becomes NaN,
   // and the point is flagged "gap_closed:A" or "no_air".
   void apply(const algo::Solver& solver, std::vector<Point>& points) const;
-  // Of a run whose points were corrected: by how much at most, and what is left in though it is
-  // known, as notes; points that could not be corrected, as notices. `before`: these points and
+  // Of a run whose points were corrected: by how much at most, what is left in though it is
+  // known, and points that could not be corrected. `before`: these points and
   // others as they were averaged.
   void tell(const algo::Solver& solver, const std::vector<Point>& before, Run& run) const;
 

@@ -68,13 +68,14 @@ TEST(DriftSentences, SayWhatToDo) {
 
 TEST(DriftSentences, SayWhatWasRemovedAndWhatWasNot) {
   RunDrift drift = three_changes();
-  EXPECT_EQ(removed_sentence(drift, {Axis::x, {}}).find("drift removed: EYX +0.2500"), 0U);
-  EXPECT_NE(removed_sentence(drift, {Axis::x, {}}).find("were left: EZX +0.5000"),
-            std::string::npos);
-  EXPECT_EQ(removed_sentence(RunDrift{}, {Axis::x, {}}),
-            "no drift was removed: none is significant");
+  const std::string both = test::shown(removal_notices(drift, {Axis::x, {}}));
+  EXPECT_EQ(both.find("drift_removed changes=EYX +0.2500"), 0U) << both;
+  EXPECT_NE(both.find("\nsteps_not_removed changes=EZX +0.5000"), std::string::npos) << both;
+  EXPECT_EQ(test::shown(removal_notices(RunDrift{}, {Axis::x, {}})),
+            "drift_not_removed reason=none is significant\n");
   drift.not_seen = "too few";
-  EXPECT_EQ(removed_sentence(drift, {Axis::x, {}}), "no drift was removed: too few");
+  EXPECT_EQ(test::shown(removal_notices(drift, {Axis::x, {}})),
+            "drift_not_removed reason=too few\n");
 }
 
 // 0.1 and 0.3 µm in 3 min are 2 and 6 µm/h.

@@ -132,13 +132,13 @@ bool FrameSolver::correct(const algo::ReadingCorrection& correction, const Sampl
   return true;
 }
 
-std::vector<std::string> FrameSolver::notes() const {
-  std::vector<std::string> notes;
-  if (!rig_.physics) return notes;
-  if (rig_.physics->tilt) notes.push_back(daemon::change_sentence("tilt", true, tilt_));
+Notices FrameSolver::correction_notices() const {
+  Notices found;
+  if (!rig_.physics) return found;
+  if (rig_.physics->tilt) found.push_back(daemon::change_notice("tilt", true, tilt_));
   if (rig_.physics->dielectric)
-    notes.push_back(daemon::change_sentence("dielectric", true, dielectric_));
-  return notes;
+    found.push_back(daemon::change_notice("dielectric", true, dielectric_));
+  return found;
 }
 
 void FrameSolver::note_travel(double travel_m) {

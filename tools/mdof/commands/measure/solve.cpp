@@ -73,7 +73,7 @@ Status solve(const SolveCommand& command) {
   MDOF_CHECK(out.finish());
   warn_of_missing(*frames, solver);
   show_notices(solver.map_notices(rig), true);
-  for (const std::string& note : solver.notes()) say(note);
+  show_notices(solver.correction_notices(), true);
   return judge(solver);
 }
 

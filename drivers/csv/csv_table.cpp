@@ -97,6 +97,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   table.source = header.source;
   table.header_line = header.lines;
   table.simulated = header.says_simulated();
+  table.noise_only = header.says_noise_only();
   const auto wanted = with_those_there(header, names, optional);
   MDOF_TRY(const auto channels, channels_of(header, wanted));
   table.columns.resize(wanted.size());

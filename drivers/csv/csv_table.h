@@ -14,6 +14,7 @@ struct CsvTable {
   std::string source;             // file name, for messages
   std::uint64_t header_line = 0;  // number of the line with the names
   bool simulated = false;         // a comment says so
+  bool noise_only = false;        // of its u, likewise
   // In the order in which they were asked for, then the optional ones; of one of these that the
   // file does not have: empty.
   std::vector<std::vector<double>> columns;

@@ -84,6 +84,7 @@ struct Machine {
   std::vector<MachineFrame> frames;  // from the work to the tool
   Vec3 tool_m{};                     // the tool's point
   bool simulated = false;
+  bool noise_only = false;  // a table of its errors has a u of noise and repeatability alone
   std::vector<ErrorSource> sources;
 
   const MachineFrame* find(std::string_view id) const;

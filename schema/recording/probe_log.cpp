@@ -173,6 +173,11 @@ bool CsvHeader::says_simulated() const {
                      });
 }
 
+bool CsvHeader::says_noise_only() const {
+  return std::any_of(comments.begin(), comments.end(),
+                     [](const std::string& text) { return text.starts_with("NOISE ONLY"); });
+}
+
 Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const std::string& source) {
   MDOF_CHECK(check_encoding(text, source));
   CsvHeader header;

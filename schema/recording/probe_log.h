@@ -49,6 +49,8 @@ struct CsvHeader {
   bool may_be_missing(std::size_t channel) const;
   // A comment begins so: no machine is behind the numbers.
   bool says_simulated() const;
+  // A comment begins so: u is that of noise and repeatability.
+  bool says_noise_only() const;
 };
 
 // `text` is the beginning of a file, or all of it; it must reach beyond the header line.

@@ -173,6 +173,7 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   MDOF_CHECK(reader.read(log, progress));
   ParkedLog parked;
   parked.axis = rig.axis;
+  parked.declares = rig.declares_uncertainty();
   parked.simulated = log.driver().info().simulated;
   parked.length_s = static_cast<double>(reader.encoder.size()) * kShortStep_s;
   parked.notices = log.notices();

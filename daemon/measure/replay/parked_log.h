@@ -29,6 +29,7 @@ struct ParkedLog {
   double position_m = 0, length_s = 0;
   std::optional<double> limit_m_per_s;  // that holds
   bool simulated = false;
+  bool declares = false;          // the rig, an uncertainty
   std::size_t probes = 0;         // the first series; the rest are the five errors
   algo::ParkedReadings readings;  // of the body that moves, at the fixture
   Notices notices;

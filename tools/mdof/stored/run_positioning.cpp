@@ -118,8 +118,9 @@ std::string run_positioning_json(const Run& run, const RunPositioning& found) {
 namespace {
 
 // What U covers, of the column that says most: before the figures.
-std::string U_text(const RunPositioning& found, std::size_t width) {
-  if (!found.U_reason.empty()) return wrapped("U is not known: " + found.U_reason, width) + "\n";
+std::string U_text(const RunPositioning& found, bool simulated, std::size_t width) {
+  if (!found.U_reason.empty())
+    return simulated_notice(simulated) + wrapped("U is not known: " + found.U_reason, width) + "\n";
   const auto covers_more = [](const PositioningColumn& column) {
     return !column.U->covers.starts_with("noise and repeatability only");
   };
@@ -128,14 +129,15 @@ std::string U_text(const RunPositioning& found, std::size_t width) {
   const auto& U = (noise_only ? found.columns.begin() : most)->U;
   std::string text = "U: expanded uncertainty, 95 %, " + U->covers;
   if (!U->not_declared.empty()) text += "; not declared: " + joined(U->not_declared);
-  return noise_only_notice(noise_only) + wrapped(text + ". " + kNotInR, width) + "\n\n";
+  return noise_only_notice(noise_only) + simulated_notice(simulated) +
+         wrapped(text + ". " + kNotInR, width) + "\n\n";
 }
 
 }  // namespace
 
 std::string run_positioning_text(const Run& run, const RunPositioning& found, std::size_t width) {
-  std::string text = simulated_notice(run.header.simulated) + U_text(found, width) +
-                     parameters_text(found.columns, width);
+  std::string text =
+      U_text(found, run.header.simulated, width) + parameters_text(found.columns, width);
   if (found.columns.size() == 1) text += "\n" + targets_text(found.columns[0], width);
   const std::string cycle = run.plausibility ? "; cycle: " + run.plausibility->cycle : "";
   return text + stated_text(run.header.stated) +

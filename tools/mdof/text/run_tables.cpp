@@ -73,6 +73,10 @@ std::string noise_only_notice(bool noise_only) {
              : "";
 }
 
+std::string noise_only_comment(bool noise_only) {
+  return noise_only ? "# " + noise_only_notice(true) : "";
+}
+
 std::string arrow(int direction) {
   return direction > 0 ? "+" : direction < 0 ? "-" : "?";
 }

@@ -17,6 +17,7 @@ std::string simulated_notice(bool simulated);
 
 // The first line of what shows an uncertainty that has nothing but noise in it, or nothing.
 std::string noise_only_notice(bool noise_only);
+std::string noise_only_comment(bool noise_only);  // the same of a CSV or TOML file
 
 std::string stated_text(const StatedAt& at);  // a line: where straightness is stated
 

@@ -150,7 +150,8 @@ Status calibrate(const MountingCommand& command) {
   fill(record, found, rig, sources.files);
   if (!command.record.out.empty())
     MDOF_CHECK(write_record(command.record.out, record_text(record)));
-  if (command.json) return write_line(mounting_json(found, record, command.record.out));
+  if (command.json)
+    return write_line(mounting_json(found, record, command.record.out, rig.declares_uncertainty()));
   MDOF_CHECK(write_out(mounting_text(found, rig, terminal_columns())));
   return command.record.out.empty()
              ? Status()

@@ -12,6 +12,7 @@
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/text/notice_lines.h"
+#include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -30,7 +31,7 @@ std::string ids_of(const Rig& rig) {
 }
 
 std::string json_of(const SensitivityCalibration& found, const CalibrationRecord& record,
-                    const std::string& file) {
+                    const std::string& file, bool rig_declares) {
   JsonWriter json;
   json.begin_object().field("kind", "sensitivity").field("rig", record.rig);
   json.field("date", record.date).field("valid_until", record.valid_until).key("record");
@@ -48,7 +49,10 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
   json.field("offset_um", found.offset_um).key("linearity").begin_array();
   for (const auto& [reading_um, correction_um] : found.linearity)
     json.begin_array().value(reading_um).value(correction_um).end_array();
-  json.end_array().end_object();
+  json.end_array()
+      .field("u_covers", rig_declares ? "noise, and what the rig declares" : "noise only")
+      .field("noise_only", !rig_declares)
+      .end_object();
   return json.take();
 }
 
@@ -61,12 +65,13 @@ std::string not_in_u(const SensitivityCalibration& found) {
   return text;
 }
 
-std::string text_of(const SensitivityCalibration& found) {
+std::string text_of(const SensitivityCalibration& found, bool rig_declares) {
   std::string text =
-      "probe " + found.id + ": " + with_u(found.sensitivity_1, found.u_sensitivity_1, 6) +
-      " of reading for displacement\n" + std::to_string(found.stops) + " stops, readings from " +
-      fixed(to_um(found.from_m), 3) + " to " + fixed(to_um(found.to_m), 3) +
-      " um; the line leaves " + fixed(to_um(found.linearity_m), 4) + " um at most, sd " +
+      noise_only_notice(!rig_declares) + "probe " + found.id + ": " +
+      with_u(found.sensitivity_1, found.u_sensitivity_1, 6) + " of reading for displacement\n" +
+      std::to_string(found.stops) + " stops, readings from " + fixed(to_um(found.from_m), 3) +
+      " to " + fixed(to_um(found.to_m), 3) + " um; the line leaves " +
+      fixed(to_um(found.linearity_m), 4) + " um at most, sd " +
       fixed(to_um(found.residual_sd_m), 4) + " um\n" + not_in_u(found) + "For the rig:\n";
   if (found.um_per_V) text += "um_per_V = " + plain_number(*found.um_per_V, 9) + "\n";
   if (found.um_per_V) text += "offset_um = " + plain_number(found.offset_um, 9) + "\n";
@@ -112,10 +117,11 @@ Status calibrate(const SensitivityCommand& command) {
   record.sources = {{command.log, log.sha256}};
   record.not_seen = found.not_seen;
   record.probes = {as_record(found, rig.probes[*at])};
+  const bool declares = rig.declares_uncertainty();
   if (!command.record.out.empty())
     MDOF_CHECK(write_record(command.record.out, record_text(record)));
-  return command.json ? write_line(json_of(found, record, command.record.out))
-                      : write_out(text_of(found));
+  return command.json ? write_line(json_of(found, record, command.record.out, declares))
+                      : write_out(text_of(found, declares));
 }
 
 Action declare_sensitivity(CLI::App& command) {

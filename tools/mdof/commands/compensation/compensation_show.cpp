@@ -12,6 +12,7 @@
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/text/compensation_text.h"
 #include "tools/mdof/text/notice_lines.h"
+#include "tools/mdof/text/run_tables.h"
 
 namespace mdof::tools {
 namespace {
@@ -52,7 +53,8 @@ Status show(const ShowTableCommand& command) {
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");
   const auto marks =
       daemon::marks_of({"table " + std::to_string(table.id), table.simulated, doubtful});
-  if (command.csv) return write_out(csv_marks(marks) + table_csv(table));
+  if (command.csv)
+    return write_out(noise_only_comment(table.noise_only()) + csv_marks(marks) + table_csv(table));
   return command.json ? write_line(table_document(table, generation, !doubtful.empty()))
                       : write_out(table_text(table, generation));
 }

@@ -189,7 +189,8 @@ std::string machine_budget_json(const Machine& machine, const BudgetRequest& req
   json.begin_object()
       .field("machine", machine.name)
       .field("chain", machine.chain.text)
-      .field("simulated", machine.simulated);
+      .field("simulated", machine.simulated)
+      .field("noise_only", machine.noise_only);
   write_command(json, "at", machine, request.at);
   write_place(json, "error_um", algo::exact_error(machine, request.at, model.values).head<3>());
   json.field("trials", request.trials)
@@ -214,9 +215,9 @@ std::string machine_budget_json(const Machine& machine, const BudgetRequest& req
 
 std::string machine_budget_text(const Machine& machine, const BudgetRequest& request,
                                 const FoundMachineBudget& found) {
-  std::string text = simulated_notice(machine.simulated) + machine.name + ", " +
-                     machine.chain.text + ", at" + at_text(machine, request.at) + "\n" +
-                     stage_text(found.now);
+  std::string text = noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
+                     machine.name + ", " + machine.chain.text + ", at" +
+                     at_text(machine, request.at) + "\n" + stage_text(found.now);
   if (!found.now.outputs.empty()) text += contributions_text(found);
   if (found.allocation)
     text +=

@@ -154,7 +154,12 @@ Result<algo::DiagonalLines> lines_of(const drivers::CsvTable& csv, double u_um) 
   return lines;
 }
 
-std::string squareness_json(const algo::SquarenessOfDiagonals& s, bool simulated) {
+const char* covers_of(const MachineDiagonalCommand& o) {
+  return o.u_um > 0 ? "repeatability and the declared u of each line" : "repeatability only";
+}
+
+std::string squareness_json(const MachineDiagonalCommand& o, const algo::SquarenessOfDiagonals& s,
+                            bool simulated) {
   JsonWriter json;
   json.begin_object()
       .field("angle_error_urad", to_urad(s.angle_error_rad))
@@ -165,6 +170,8 @@ std::string squareness_json(const algo::SquarenessOfDiagonals& s, bool simulated
       .field("nu_eff", s.freedom)
       .field("diagonals", s.two_diagonals ? 2 : 1)
       .field("sense", "the angle from the first to the second axis is 90 deg + angle_error")
+      .field("u_covers", covers_of(o))
+      .field("noise_only", !(o.u_um > 0))
       .field("simulated", simulated)
       .end_object();
   return json.take();
@@ -175,9 +182,10 @@ Status squareness(const MachineDiagonalCommand& o) {
   MDOF_TRY(const auto lines, lines_of(csv, o.u_um));
   auto s = algo::squareness_of_diagonals(lines);
   if (!s) return in_context(csv.source, std::move(s.error()));
-  if (o.json) return write_line(squareness_json(*s, csv.simulated));
+  if (o.json) return write_line(squareness_json(o, *s, csv.simulated));
   return write_out(
-      simulated_notice(csv.simulated) + "the angle from the first to the second axis is 90° + " +
+      noise_only_notice(!(o.u_um > 0)) + simulated_notice(csv.simulated) +
+      "the angle from the first to the second axis is 90° + " +
       with_u(urad_to_place(s->angle_error_rad, s->U_rad), urad_to_place(s->u_rad, s->u_rad)) +
       " µrad, U = " + urad_to_place(s->U_rad, s->U_rad) + " (k = " + fixed(s->k, 2) +
       ", 95 %)\nfrom " +

@@ -54,6 +54,7 @@ std::string error_json(const Machine& machine, const FoundError& found,
       .field("machine", machine.name)
       .field("chain", machine.chain.text)
       .field("simulated", machine.simulated)
+      .field("noise_only", machine.noise_only)
       .field("approach", approach);
   write_command(json, "at", machine, found.at);
   json.field("sense", "error of the tool against the work, actual - nominal, in its coordinates");
@@ -103,7 +104,8 @@ std::string error_text(const Machine& machine, const FoundError& found) {
   for (const auto& names : e.no_u)
     for (const auto& name : names)
       if (std::find(no_u.begin(), no_u.end(), name) == no_u.end()) no_u.push_back(name);
-  return simulated_notice(machine.simulated) + machine.name + ", " + machine.chain.text +
+  return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
+         machine.name + ", " + machine.chain.text +
          ": error of the tool against the work, actual - nominal\n" +
          table.text(terminal_columns()) + "without: errors that were not measured\n" +
          missing_text({}, no_u, terminal_columns()) +

@@ -51,6 +51,7 @@ Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
   f.reverse = from_key_unit(csv.columns[2]);
   if (!csv.columns[3].empty()) f.u = from_key_unit(csv.columns[3]);
   machine.simulated = machine.simulated || csv.simulated;
+  machine.noise_only = machine.noise_only || csv.noise_only;
   return take(f, k, csv.source + ": " + error_name(frame, k));
 }
 
@@ -82,6 +83,7 @@ Status read_shared_file(Machine& machine, MachineFrame& frame,
     any = true;
   }
   machine.simulated = machine.simulated || csv.simulated;
+  machine.noise_only = machine.noise_only || csv.noise_only;
   if (any) return {};
   return bad_input(csv.source + ": no column of an error of axis " + frame.id + ", such as " +
                    names[0] + "; add it or rename the one that holds it");

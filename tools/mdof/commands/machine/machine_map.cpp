@@ -31,7 +31,7 @@ std::string key_in_mm(std::size_t direction) {
   return std::string(1, "XYZ"[direction]) + "_mm";
 }
 
-std::string map_csv(const std::vector<FoundMap>& maps) {
+std::string map_csv(const Machine& machine, const std::vector<FoundMap>& maps) {
   CsvText csv;
   const auto& first = maps.front().map;
   if (maps.size() > 1) csv.cell("approach");
@@ -47,7 +47,7 @@ std::string map_csv(const std::vector<FoundMap>& maps) {
       for (int k = 0; k < 3; ++k) csv.cell(to_um(p.u[k]));
       csv.end_row();
     }
-  return csv.take();
+  return noise_only_comment(machine.noise_only) + csv.take();
 }
 
 void write_extremes(JsonWriter& json, const algo::PlaneMap& map) {
@@ -87,6 +87,7 @@ std::string map_json(const Machine& machine, const MachineMapCommand& o,
       .field("machine", machine.name)
       .field("chain", machine.chain.text)
       .field("simulated", machine.simulated)
+      .field("noise_only", machine.noise_only)
       .field("plane", o.plane)
       .field("without_angles", o.without_angles)
       .key("maps")
@@ -119,9 +120,10 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
       table.add({found.approach, std::string(1, "xyz"[k]), um_to_place(extreme.value, u_m),
                  um_to_place(u_m, u_m), in_mm(p.first_m), in_mm(p.second_m), in_um(extreme.range)});
     }
-  return simulated_notice(machine.simulated) + machine.name + ", " + machine.chain.text + ": " +
-         std::to_string(first.points.size()) + " points of the plane " + o.plane +
-         ", error of the tool against the work\n" + table.text(terminal_columns()) +
+  return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
+         machine.name + ", " + machine.chain.text + ": " + std::to_string(first.points.size()) +
+         " points of the plane " + o.plane + ", error of the tool against the work\n" +
+         table.text(terminal_columns()) +
          (o.without_angles ? "of positions, straightness and squareness; no angles\n" : "") +
          missing_text(first.not_measured, first.no_u, terminal_columns()) +
          "The points: --csv or --json\n";
@@ -151,7 +153,7 @@ Status machine_map(const MachineMapCommand& o) {
   if (o.csv || o.json) {
     if (o.csv && !maps.front().map.not_measured.empty())
       warn("not measured, and not in these figures: " + joined(maps.front().map.not_measured));
-    return o.csv ? write_out(map_csv(maps)) : write_line(map_json(machine, o, maps));
+    return o.csv ? write_out(map_csv(machine, maps)) : write_line(map_json(machine, o, maps));
   }
   return write_out(map_text(machine, o, maps));
 }

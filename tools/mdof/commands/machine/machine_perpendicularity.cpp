@@ -56,7 +56,8 @@ std::string perpendicularity_json(const algo::Perpendicularity& p, double radius
       .field("nu", p.freedom)
       .field("size_urad", to_urad(p.size_rad))
       .field("sense", "turns of the table's axis about X and Y against the normal of the XY plane")
-      .field("u_covers", "noise of the readings")
+      .field("u_covers", "noise of the readings only")
+      .field("noise_only", true)
       .field("radius_mm", radius_mm)
       .field("mean_um", to_um(p.mean_m))
       .field("residual_sd_um", to_um(p.residual_sd_m))
@@ -84,7 +85,7 @@ std::string perpendicularity_text(const algo::Perpendicularity& p, bool simulate
   const auto tilt = [&p](double tilt_rad) {
     return with_u(urad_to_place(tilt_rad, p.U_rad), urad_to_place(p.u_rad, p.u_rad));
   };
-  return simulated_notice(simulated) + "EA0C = " + tilt(p.EA0C_rad) +
+  return noise_only_notice(true) + simulated_notice(simulated) + "EA0C = " + tilt(p.EA0C_rad) +
          " µrad, EB0C = " + tilt(p.EB0C_rad) +
          " µrad, expanded U of each = " + urad_to_place(p.U_rad, p.U_rad) +
          " (k = " + fixed(p.k, 2) + ", 95 %)\n" + "the table's axis leans by " +

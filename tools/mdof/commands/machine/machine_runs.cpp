@@ -42,6 +42,7 @@ Status take_table(Machine& machine, const CompensationTable& table) {
   for (MachineFrame& frame : machine.frames) {
     if (frame.id != axis) continue;
     machine.simulated = machine.simulated || table.simulated;
+    machine.noise_only = machine.noise_only || table.noise_only();
     if (table.has_positioning())
       return take(frame, frame.direction,
                   function_of(table.position_m, table.positioning.forward,

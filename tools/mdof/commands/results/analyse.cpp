@@ -54,8 +54,11 @@ Status analyse(const ChosenRun& choice) {
   MDOF_TRY(store::Store store, open_to_read(choice.database));
   MDOF_TRY(const Run run, load_run(store, choice));
   MDOF_CHECK(check_measured(run.header, "an analysis"));
-  if (choice.csv)
-    return write_csv_of(run, figures_csv(run, daemon::figure_budgets(run)), choice.all_warnings);
+  if (choice.csv) {
+    const StatedFigures stated = daemon::figure_budgets(run);
+    return write_csv_of(run, are_noise_only(stated.budgets), figures_csv(run, stated),
+                        choice.all_warnings);
+  }
   if (choice.json) {
     MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
     std::vector<std::string> probes;

@@ -106,7 +106,8 @@ Status budget(const BudgetCommand& command) {
           ? std::optional(algo::decision(found.budgets.front(), from_um(*command.tolerance)))
           : std::nullopt;
   MDOF_TRY(const std::string lines, command.csv ? marks(store, command) : Result<std::string>());
-  MDOF_CHECK(command.csv    ? write_out(lines + budgets_csv(found.budgets))
+  MDOF_CHECK(command.csv    ? write_out(noise_only_comment(are_noise_only(found.budgets)) + lines +
+                                        budgets_csv(found.budgets))
              : command.json ? write_line(daemon::budgets_json(found, decided))
                             : write_out(text_of(found, decided)));
   if (!decided || decided->conformity == Conformity::conform) return {};

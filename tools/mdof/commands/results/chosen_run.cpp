@@ -9,6 +9,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/text/notice_lines.h"
+#include "tools/mdof/text/run_tables.h"
 
 namespace mdof::tools {
 
@@ -28,10 +29,10 @@ Result<Run> load_run(store::Store& store, const ChosenRun& choice) {
   return daemon::run_stated_at(store, id, reference);
 }
 
-Status write_csv_of(const Run& run, const std::string& csv, bool all_warnings) {
+Status write_csv_of(const Run& run, bool noise_only, const std::string& csv, bool all_warnings) {
   if (run.header.simulated) warn("simulated data: no machine was measured");
   show_notices(run.header.notices, all_warnings);
-  return write_out(csv_marks(daemon::marks_of(run)) + csv);
+  return write_out(noise_only_comment(noise_only) + csv_marks(daemon::marks_of(run)) + csv);
 }
 
 }  // namespace mdof::tools

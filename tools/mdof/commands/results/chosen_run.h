@@ -22,6 +22,6 @@ Result<Run> load_run(store::Store& store, const ChosenRun& choice);
 
 // A table of bare numbers, with what people must know of them: lines "# SIMULATED", "# DOUBTFUL"
 // before it, so that the file says it wherever it goes, and notices.
-Status write_csv_of(const Run& run, const std::string& csv, bool all_warnings);
+Status write_csv_of(const Run& run, bool noise_only, const std::string& csv, bool all_warnings);
 
 }  // namespace mdof::tools

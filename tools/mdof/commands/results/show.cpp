@@ -39,7 +39,7 @@ std::string with_lines_hash_and_history(const Run& run, const std::string& sha25
 Status show_imported(store::Store& store, const Run& run, const ChosenRun& choice) {
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
-  if (choice.csv) return write_csv_of(run, imported_csv(run), choice.all_warnings);
+  if (choice.csv) return write_csv_of(run, false, imported_csv(run), choice.all_warnings);
   if (choice.json) return write_line(imported_json(run, sha256, deeds));
   const std::size_t width = terminal_columns();
   return write_out(imported_text(run, sha256, width, choice.all_warnings) +
@@ -50,8 +50,11 @@ Status show(const ChosenRun& choice) {
   MDOF_TRY(store::Store store, open_to_read(choice.database));
   MDOF_TRY(const Run run, load_run(store, choice));
   if (is_imported(run.header)) return show_imported(store, run, choice);
-  if (choice.csv)
-    return write_csv_of(run, points_csv(run, daemon::uncertainty_of(run)), choice.all_warnings);
+  if (choice.csv) {
+    const RunUncertainty uncertainty = daemon::uncertainty_of(run);
+    return write_csv_of(run, uncertainty.noise_only, points_csv(run, uncertainty),
+                        choice.all_warnings);
+  }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
   if (choice.json) return write_line(with_lines_hash_and_history(run, sha256, deeds));

@@ -108,13 +108,16 @@ std::string text_of(const daemon::Trend& trend) {
   return out + wrapped(sentence_of(trend), terminal_columns()) + "\n";
 }
 
+bool any_noise_only(const std::vector<daemon::Trend>& trends) {
+  return std::any_of(trends.begin(), trends.end(),
+                     [](const daemon::Trend& trend) { return trend.noise_only; });
+}
+
 std::string text_of(const std::vector<daemon::Trend>& trends) {
   std::string out;
   for (const daemon::Trend& trend : trends) out += (out.empty() ? "" : "\n") + text_of(trend);
   if (out.empty()) return "no runs are stored that could be in a chart\n";
-  return noise_only_notice(std::any_of(trends.begin(), trends.end(),
-                                       [](const auto& trend) { return trend.noise_only; })) +
-         out;
+  return noise_only_notice(any_noise_only(trends)) + out;
 }
 
 void write_trend(JsonWriter& json, const daemon::Trend& trend) {
@@ -187,7 +190,7 @@ std::string csv_of(const std::vector<daemon::Trend>& trends) {
           {chart ? signal_of(*chart, i) : "", trend.u_covers, joined(trend.u_not_declared, " ")});
       csv.end_row();
     }
-  return csv.take();
+  return noise_only_comment(any_noise_only(trends)) + csv.take();
 }
 
 Status trend(const TrendCommand& command) {

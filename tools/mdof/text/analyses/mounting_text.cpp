@@ -5,6 +5,7 @@
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
+#include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -40,7 +41,7 @@ std::string mounting_text(const MountingCalibration& found, const Rig& rig, std:
     table.add({p.id, place(p, 0), place(p, 1), place(p, 2), turn(p, rig.probes[k]),
                p.zero_seen ? with_u(to_um(p.zero_m), to_um(p.u_zero_m), 3) : "as the rig"});
   }
-  std::string text = table.text(width);
+  std::string text = noise_only_notice(!rig.declares_uncertainty()) + table.text(width);
   text += "\n" + std::to_string(found.clampings) + " clampings, tilts up to " +
           plain_number(found.tilt_rad * 1e3, 3) + " mrad apart, " + std::to_string(found.readings) +
           " readings\nchi-square " + plain_number(found.chi_square, 4) + " of " +
@@ -57,7 +58,7 @@ std::string mounting_text(const MountingCalibration& found, const Rig& rig, std:
 }
 
 std::string mounting_json(const MountingCalibration& found, const CalibrationRecord& record,
-                          const std::string& file) {
+                          const std::string& file, bool rig_declares) {
   JsonWriter json;
   json.begin_object().field("kind", "mounting").field("rig", record.rig);
   json.field("date", record.date).field("valid_until", record.valid_until).key("record");
@@ -82,7 +83,10 @@ std::string mounting_json(const MountingCalibration& found, const CalibrationRec
   json.end_array().field("clampings", static_cast<std::uint64_t>(found.clampings));
   json.field("readings", static_cast<std::uint64_t>(found.readings));
   json.field("tilt_mrad", found.tilt_rad * 1e3).field("chi_square", found.chi_square);
-  json.field("freedom", found.freedom).field("explained", found.explained).end_object();
+  json.field("freedom", found.freedom).field("explained", found.explained);
+  json.field("u_covers", rig_declares ? "noise, and what the rig declares" : "noise only")
+      .field("noise_only", !rig_declares)
+      .end_object();
   return json.take();
 }
 

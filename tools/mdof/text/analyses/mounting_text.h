@@ -13,6 +13,6 @@ namespace mdof::tools {
 std::string mounting_text(const MountingCalibration& found, const Rig& rig, std::size_t width);
 // `file` empty: no record was written.
 std::string mounting_json(const MountingCalibration& found, const CalibrationRecord& record,
-                          const std::string& file);
+                          const std::string& file, bool rig_declares);
 
 }  // namespace mdof::tools

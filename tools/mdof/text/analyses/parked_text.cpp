@@ -119,7 +119,7 @@ std::string parked_verdict(const daemon::ParkedLog& log, const algo::WarmUp& fou
 
 std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found,
                         std::size_t width) {
-  std::string out = simulated_notice(log.simulated);
+  std::string out = noise_only_notice(!log.declares) + simulated_notice(log.simulated);
   out += "axis " + std::string(1, letter(log.axis)) + " parked at " + in_mm(log.position_m) +
          " mm, " + minutes(log.length_s) + " min, windows of " + minutes(found.window_s) + " min";
   if (log.limit_m_per_s) out += ", limit " + fixed(*log.limit_m_per_s * kPerHour, 1) + " nm/h";
@@ -159,6 +159,8 @@ std::string parked_json(const daemon::ParkedLog& log, const algo::WarmUp& found)
   json.begin_object()
       .field("axis", std::string_view(std::string(1, letter(log.axis))))
       .field("simulated", log.simulated)
+      .field("u_covers", "noise of the readings only")
+      .field("noise_only", !log.declares)
       .field("position_mm", to_mm(log.position_m))
       .field("length_s", log.length_s)
       .field("window_s", found.window_s)

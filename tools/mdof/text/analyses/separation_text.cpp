@@ -141,14 +141,14 @@ std::string separation_csv(const SeparationRecord& record) {
   };
   add("machine", record.result.machine);
   add("target", record.result.target);
-  return marks_text(record) + csv.take();
+  return noise_only_comment(record.result.noise_only) + marks_text(record) + csv.take();
 }
 
 std::string separation_plane_toml(const SeparationRecord& record) {
   const SeenSeries& target = record.result.target;
   const double u_m = mean_u(target);
   std::string text =
-      provenance_comment(record) +
+      noise_only_comment(record.result.noise_only) + provenance_comment(record) +
       "# A rig with a [[plane]] needs one for each surface that its probes look at.\n"
       "[[plane]]\nid = \"" +
       to_string(record.surface) + "\"\nnormal = \"" + along(record) +

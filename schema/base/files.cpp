@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 
 namespace mdof {
 namespace {
@@ -25,28 +26,55 @@ class Descriptor {
   int descriptor_;
 };
 
-}  // namespace
-
-Result<std::string> read_text_file(const std::filesystem::path& file, std::size_t limit_bytes) {
+// Of a regular file, or the reason why it cannot be read.
+Result<std::unique_ptr<Descriptor>> opened(const std::filesystem::path& file) {
   // O_NONBLOCK: a pipe that nobody writes to is not waited for.
-  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  auto in = std::make_unique<Descriptor>(
+      ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   struct stat status {};
-  if (in.get() < 0 || ::fstat(in.get(), &status) != 0)
+  if (in->get() < 0 || ::fstat(in->get(), &status) != 0)
     return bad_input(file.string() + ": cannot be read: " + std::strerror(errno));
   if (S_ISDIR(status.st_mode)) return bad_input(file.string() + ": is a folder; name a file");
   if (!S_ISREG(status.st_mode))
     return bad_input(file.string() + ": is a pipe or a device; name a regular file");
+  return in;
+}
+
+// What is read into `room`, 0 at the end.
+Result<std::size_t> read_some(const Descriptor& in, const std::filesystem::path& file, char* room,
+                              std::size_t size) {
+  for (;;) {
+    const ssize_t n = ::read(in.get(), room, size);
+    if (n >= 0) return static_cast<std::size_t>(n);
+    if (errno != EINTR)
+      return bad_input(file.string() + ": cannot be read: " + std::strerror(errno));
+  }
+}
+
+}  // namespace
+
+Result<std::string> read_text_file(const std::filesystem::path& file, std::size_t limit_bytes) {
+  MDOF_TRY(const auto in, opened(file));
   std::string text;  // no larger than the file: its owner may keep it
   std::array<char, 16 * 1024> piece;
   while (text.size() <= limit_bytes) {
-    const ssize_t n = ::read(in.get(), piece.data(), piece.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return bad_input(file.string() + ": cannot be read: " + std::strerror(errno));
+    MDOF_TRY(const std::size_t n, read_some(*in, file, piece.data(), piece.size()));
     if (n == 0) return text;
-    text.append(piece.data(), static_cast<std::size_t>(n));
+    text.append(piece.data(), n);
   }
   return bad_input(file.string() + ": larger than " + std::to_string(limit_bytes) +
                    " bytes; this is not the file meant");
+}
+
+Status read_in_pieces(const std::filesystem::path& file,
+                      const std::function<Status(std::string_view)>& take) {
+  MDOF_TRY(const auto in, opened(file));
+  std::string room(std::size_t{1} << 20, '\0');
+  for (;;) {
+    MDOF_TRY(const std::size_t n, read_some(*in, file, room.data(), room.size()));
+    if (n == 0) return {};
+    MDOF_CHECK(take(std::string_view(room).substr(0, n)));
+  }
 }
 
 }  // namespace mdof

@@ -1,0 +1,41 @@
+// A measured surface: heights over a grid of pixels, some of them missing.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace mdof {
+
+struct HeightMap {
+  static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+  std::string name;                  // of the file or run, for messages
+  double x0_m = 0, y0_m = 0;         // of the pixel (0, 0)
+  double dx_m = 0, dy_m = 0;         // from pixel to pixel, above 0
+  std::size_t nx = 0, ny = 0;        // columns along x, rows along y
+  std::vector<double> z_m;           // nx ny, row by row; kMissing where nothing was measured
+  std::vector<std::string> notices;  // what was assumed when it was read
+
+  double x_m(std::size_t column) const { return x0_m + static_cast<double>(column) * dx_m; }
+  double y_m(std::size_t row) const { return y0_m + static_cast<double>(row) * dy_m; }
+  double at(std::size_t column, std::size_t row) const { return z_m[row * nx + column]; }
+  std::size_t measured() const {
+    std::size_t count = 0;
+    for (const double z : z_m) count += std::isnan(z) ? 0 : 1;
+    return count;
+  }
+};
+
+// The same pixels without a height.
+inline HeightMap empty_like(const HeightMap& map) {
+  HeightMap empty{map.name, map.x0_m, map.y0_m, map.dx_m, map.dy_m, map.nx, map.ny, {}, {}};
+  empty.z_m.assign(map.z_m.size(), HeightMap::kMissing);
+  return empty;
+}
+
+inline constexpr std::size_t kMostPixels = 50'000'000;  // of one map; all are in memory
+
+}  // namespace mdof

@@ -1,0 +1,260 @@
+#include "schema/form/map_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "schema/base/number/number.h"
+#include "schema/base/trimmed.h"
+#include "schema/units.h"
+
+namespace mdof {
+namespace {
+
+constexpr std::array<const char*, 3> kColumns = {{"x_mm", "y_mm", "z_um"}};
+constexpr std::size_t kMostLine = 64 * 1024;  // bytes
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+// A number that fills the cell; empty cells and nan are missing.
+bool read_cell(std::string_view cell, double& x) {
+  cell = trimmed(cell);
+  if (cell.empty()) {
+    x = HeightMap::kMissing;
+    return true;
+  }
+  if (cell.front() == '+') cell.remove_prefix(1);
+  const char* const end = cell.data() + cell.size();
+  if (parse_double(cell.data(), end, x) == end) return !std::isinf(x);
+  if (cell == "NaN" || cell == "NAN") {
+    x = HeightMap::kMissing;
+    return true;
+  }
+  return false;
+}
+
+std::string shown(std::string_view cell) {
+  return "\"" + std::string(cell.substr(0, 40)) + (cell.size() > 40 ? "..." : "") + "\"";
+}
+
+std::optional<double> unit_m(std::string_view name) {
+  if (name == "m") return 1;
+  if (name == "mm") return 1e-3;
+  if (name == "um") return 1e-6;
+  if (name == "nm") return 1e-9;
+  return {};
+}
+
+// x / 1e3 is rounded once, x * 1e-3 twice.
+double in_m(double x, double unit_m) {
+  if (unit_m == 1e-3) return from_mm(x);
+  if (unit_m == 1e-6) return from_um(x);
+  return unit_m == 1 ? x : x / 1e9;
+}
+
+}  // namespace
+
+Result<XyzUnits> xyz_units(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const auto xy = unit_m(text.substr(0, comma));
+  const auto z = comma == std::string::npos ? xy : unit_m(text.substr(comma + 1));
+  if (xy && z) return XyzUnits{*xy, *z};
+  return fail(ErrorCode::usage, "--unit \"" + text +
+                                    "\": it must be m, mm, um or nm, or two of them for x and y, "
+                                    "and for z, such as mm,um; convert other units first");
+}
+
+std::string MapTextReader::place(std::size_t line) const {
+  return source_ + ":" + std::to_string(line) + ": ";
+}
+
+std::string MapTextReader::place_of_point(std::size_t point) const {
+  auto after = std::upper_bound(stretch_.begin(), stretch_.end(), point,
+                                [](std::size_t p, const auto& s) { return p < s.first; });
+  --after;
+  return place(after->second + point - after->first);
+}
+
+Status MapTextReader::feed(std::string_view piece) {
+  while (!piece.empty()) {
+    const std::size_t end = piece.find('\n');
+    if (end == std::string_view::npos) {
+      rest_.append(piece);
+      if (rest_.size() > kMostLine)
+        return bad_input(place(line_ + 1) + "a line of more than " + std::to_string(kMostLine) +
+                         " bytes: this is no map");
+      return {};
+    }
+    if (rest_.empty()) {
+      MDOF_CHECK(line(piece.substr(0, end)));
+    } else {
+      rest_.append(piece.substr(0, end));
+      MDOF_CHECK(line(rest_));
+      rest_.clear();
+    }
+    piece.remove_prefix(end + 1);
+  }
+  return {};
+}
+
+Status MapTextReader::line(std::string_view text) {
+  ++line_;
+  if (line_ == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  text = trimmed(text);
+  if (text.empty() || text.front() == '#') return {};
+  switch (form_) {
+    case Form::csv:
+      return csv_row(text);
+    case Form::xyz:
+      return xyz_row(text);
+    case Form::unknown:
+      break;
+  }
+  return first_line(text);
+}
+
+Status MapTextReader::first_line(std::string_view text) {
+  const char c = text.front();
+  if ((c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.') {
+    form_ = Form::xyz;
+    if (units_) {
+      xy_m_ = units_->xy_m;
+      z_m_ = units_->z_m;
+    } else {
+      notices_.push_back(source_ +
+                         ": has no header; x and y are taken as mm, z as µm (--unit mm,um)");
+    }
+    return xyz_row(text);
+  }
+  return header(text);
+}
+
+Status MapTextReader::header(std::string_view text) {
+  form_ = Form::csv;
+  std::vector<std::string> names;
+  for (std::string_view rest = text;;) {
+    const std::size_t comma = rest.find(',');
+    std::string_view name = trimmed(rest.substr(0, comma));
+    if (name.size() > 1 && name.front() == '"' && name.back() == '"')
+      name = name.substr(1, name.size() - 2);
+    names.emplace_back(name);
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string wanted = kColumns[k];
+    const auto at = std::find(names.begin(), names.end(), wanted);
+    if (at != names.end()) {
+      column_[k] = static_cast<std::size_t>(at - names.begin());
+      continue;
+    }
+    for (const std::string& name : names)
+      if (name == wanted.substr(0, 1) || name.starts_with(wanted.substr(0, 2)))
+        return bad_input(place(line_) + "column " + name + " is not in the unit of " + wanted +
+                         "; convert it and name it " + wanted);
+    return bad_input(place(line_) + "no column " + wanted + " in " + shown(text) +
+                     "; a map is a CSV with the header x_mm,y_mm,z_um, an XYZ without header, a "
+                     ".sdf (ISO 25178-71) or a Zygo .dat");
+  }
+  columns_ = names.size();
+  return {};
+}
+
+tl::unexpected<Error> MapTextReader::bad_cell(std::size_t column, std::string_view cell) const {
+  return bad_input(place(line_) + "column " + std::to_string(column + 1) + " is " +
+                   shown(trimmed(cell)) + ", which is no finite number");
+}
+
+Status MapTextReader::csv_row(std::string_view text) {
+  std::array<double, 3> xyz{};
+  std::size_t column = 0;
+  for (std::string_view rest = text;; ++column) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view cell = rest.substr(0, comma);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (column_[k] == column && !read_cell(cell, xyz[k])) return bad_cell(column, cell);
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  if (column + 1 != columns_)
+    return bad_input(place(line_) + "has " + std::to_string(column + 1) + " columns, the header " +
+                     std::to_string(columns_));
+  return add(xyz);
+}
+
+Status MapTextReader::xyz_row(std::string_view text) {
+  std::array<double, 3> xyz{};
+  std::size_t column = 0;
+  const auto is_between = [](char c) { return is_blank(c) || c == ',' || c == ';'; };
+  while (!text.empty()) {
+    std::size_t size = 0;
+    while (size < text.size() && !is_between(text[size])) ++size;
+    if (column < 3 && !read_cell(text.substr(0, size), xyz[column]))
+      return bad_cell(column, text.substr(0, size));
+    ++column;
+    while (size < text.size() && is_between(text[size])) ++size;
+    text.remove_prefix(size);
+  }
+  if (column != 3)
+    return bad_input(place(line_) + "has " + std::to_string(column) +
+                     " numbers; a row of a map without header is x y z");
+  return add(xyz);
+}
+
+Status MapTextReader::add(const std::array<double, 3>& xyz) {
+  if (std::isnan(xyz[0]) || std::isnan(xyz[1]))
+    return bad_input(place(line_) +
+                     "has no place (x or y is empty or nan); fill it in or take the "
+                     "line out");
+  const std::size_t point = points_.z_m.size();
+  if (point == kMostPixels)
+    return bad_input(place(line_) + "more than " + std::to_string(kMostPixels) +
+                     " pixels; take a coarser map");
+  if (stretch_.empty() || stretch_.back().second + (point - stretch_.back().first) != line_)
+    stretch_.emplace_back(point, line_);
+  points_.x_m.push_back(in_m(xyz[0], xy_m_));
+  points_.y_m.push_back(in_m(xyz[1], xy_m_));
+  points_.z_m.push_back(in_m(xyz[2], z_m_));
+  return {};
+}
+
+Result<HeightMap> MapTextReader::finish() {
+  if (!rest_.empty()) {
+    const std::string last = std::move(rest_);
+    MDOF_CHECK(line(last));
+  }
+  if (form_ == Form::unknown)
+    return bad_input(source_ + ": is empty; a map is a CSV with the header x_mm,y_mm,z_um");
+  MDOF_TRY(HeightMap map,
+           grid_of(points_, source_, [this](std::size_t point) { return place_of_point(point); }));
+  map.notices = std::move(notices_);
+  return map;
+}
+
+Status write_map_csv(const HeightMap& map, const std::function<Status(std::string_view)>& take) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  std::string text = "x_mm,y_mm,z_um\n";
+  std::array<char, 64> room;
+  const auto number = [&](double x, int digits) {
+    const auto end = std::to_chars(room.data(), room.data() + room.size(), x + 0.0,
+                                   std::chars_format::general, digits);
+    text.append(room.data(), end.ptr);
+  };
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i) {
+      number(to_mm(map.x_m(i)), 12);
+      text += ',';
+      number(to_mm(map.y_m(j)), 12);
+      text += ',';
+      if (const double z = map.at(i, j); !std::isnan(z)) number(to_um(z), 12);
+      text += '\n';
+      if (text.size() < kPiece) continue;
+      MDOF_CHECK(take(text));
+      text.clear();
+    }
+  return take(text);
+}
+
+}  // namespace mdof

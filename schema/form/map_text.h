@@ -1,0 +1,67 @@
+// Height maps as text, a pixel a row: CSV with the header x_mm,y_mm,z_um, and XYZ, the same
+// without a header, between blanks.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/form/height_map.h"
+#include "schema/form/map_grid.h"
+
+namespace mdof {
+
+// Units of a file without header, as a factor to metres.
+struct XyzUnits {
+  double xy_m = 1e-3, z_m = 1e-6;
+};
+// "mm": of all three columns; "mm,um": of x and y, and of z. Known: m, mm, um, nm.
+Result<XyzUnits> xyz_units(const std::string& text);
+
+// Reads pieces of any size of one file. Rows in any order; the columns of a header too, among
+// others. Missing: a pixel without row, an empty z, nan. Lines that begin with # are left out.
+// Errors name file and line. Without `units` an XYZ file is read as the CSV would be, with a
+// notice.
+class MapTextReader {
+ public:
+  MapTextReader(std::string source, std::optional<XyzUnits> units)
+      : source_(std::move(source)), units_(units) {}
+  Status feed(std::string_view piece);
+  Result<HeightMap> finish();
+
+ private:
+  enum class Form { unknown, csv, xyz };
+  Status line(std::string_view text);
+  Status first_line(std::string_view text);
+  Status header(std::string_view text);
+  Status csv_row(std::string_view text);
+  Status xyz_row(std::string_view text);
+  Status add(const std::array<double, 3>& xyz);
+  std::string place(std::size_t line) const;
+  tl::unexpected<Error> bad_cell(std::size_t column, std::string_view cell) const;
+  std::string place_of_point(std::size_t point) const;
+
+  std::string source_;
+  std::optional<XyzUnits> units_;
+  Form form_ = Form::unknown;
+  std::array<std::size_t, 3> column_{{0, 1, 2}};  // of x, y, z
+  std::size_t columns_ = 3;
+  double xy_m_ = 1e-3, z_m_ = 1e-6;
+  std::string rest_;  // of a line that goes on in the next piece
+  std::size_t line_ = 0;
+  MapPoints points_;
+  // Where points begin that follow each other line by line: (point, its line).
+  std::vector<std::pair<std::size_t, std::size_t>> stretch_;
+  std::vector<std::string> notices_;
+};
+
+// As such a CSV, every pixel with its row, handed on in pieces.
+Status write_map_csv(const HeightMap& map, const std::function<Status(std::string_view)>& take);
+
+}  // namespace mdof

@@ -1,0 +1,114 @@
+// The binary form of Zygo's MetroPro: a header, the intensities, the connected phase. Numbers are
+// big-endian; the phase is a whole number of which `phase_res` says how many make a fringe:
+// height = phase * intf_scale_factor * obliquity_factor * wavelength / counts of a fringe.
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "schema/form/surface_files.h"
+
+namespace mdof {
+namespace {
+
+constexpr std::string_view kMagic = "\x88\x1b\x03";  // and 'o', 'p' or 'q' of the format
+constexpr std::size_t kLeastHeader = 834;
+constexpr std::int32_t kNoPhase = 2147483640;  // from here on
+
+// Where the header has what is read here.
+enum Offset : std::size_t {
+  kHeaderSize = 6,
+  kIntensityBytes = 60,
+  kOrgX = 64,
+  kOrgY = 66,
+  kWidth = 68,
+  kHeight = 70,
+  kScaleFactor = 164,
+  kWavelength = 168,
+  kObliquity = 176,
+  kLateral = 184,
+  kPhaseRes = 218,
+  kSign = 232
+};
+
+class Header {
+ public:
+  explicit Header(std::string_view bytes) : bytes_(bytes) {}
+  std::uint32_t u32(std::size_t at) const {
+    return std::uint32_t{byte(at)} << 24 | std::uint32_t{byte(at + 1)} << 16 |
+           std::uint32_t{byte(at + 2)} << 8 | std::uint32_t{byte(at + 3)};
+  }
+  std::uint16_t u16(std::size_t at) const {
+    return static_cast<std::uint16_t>(byte(at) << 8 | byte(at + 1));
+  }
+  std::int16_t i16(std::size_t at) const { return static_cast<std::int16_t>(u16(at)); }
+  double real(std::size_t at) const { return std::bit_cast<float>(u32(at)); }
+
+ private:
+  unsigned char byte(std::size_t at) const { return static_cast<unsigned char>(bytes_[at]); }
+  std::string_view bytes_;
+};
+
+Result<double> height_of_a_count(const Header& header, const std::string& source) {
+  double counts = 0;
+  switch (header.i16(kPhaseRes)) {
+    case 0:
+      counts = 4096;
+      break;
+    case 1:
+      counts = 32768;
+      break;
+    case 2:
+      counts = 131072;
+      break;
+    default:
+      return bad_input(source + ": phase_res is " + std::to_string(header.i16(kPhaseRes)) +
+                       "; 0, 1 and 2 are known: this is no MetroPro file, or it is damaged");
+  }
+  const double scale_m =
+      header.real(kScaleFactor) * header.real(kObliquity) * header.real(kWavelength) / counts;
+  if (!(std::isfinite(scale_m) && scale_m != 0))
+    return bad_input(source + ": its header has no wavelength, scale factor or obliquity factor");
+  return header.i16(kSign) == 0 ? scale_m : -scale_m;
+}
+
+}  // namespace
+
+bool is_zygo_dat(std::string_view bytes) {
+  return bytes.size() >= 4 && bytes.starts_with(kMagic) && bytes[3] >= 'o' && bytes[3] <= 'q';
+}
+
+Result<HeightMap> parse_zygo_dat(std::string_view bytes, const std::string& source) {
+  if (bytes.size() < kLeastHeader)
+    return bad_input(source + ": ends within the header of a MetroPro file");
+  const Header header(bytes);
+  HeightMap map;
+  map.name = source;
+  map.nx = header.u16(kWidth);
+  map.ny = header.u16(kHeight);
+  if (map.nx == 0 || map.ny == 0)
+    return bad_input(source + ": has no connected phase, so no heights; save it with phase data");
+  if (map.nx * map.ny > kMostPixels)
+    return bad_input(source + ": has more than " + std::to_string(kMostPixels) + " pixels");
+  const std::size_t begin =
+      std::size_t{header.u32(kHeaderSize)} + std::size_t{header.u32(kIntensityBytes)};
+  if (header.u32(kHeaderSize) < kLeastHeader || begin + 4 * map.nx * map.ny > bytes.size())
+    return bad_input(source + ": has " + std::to_string(bytes.size()) + " bytes, and its header " +
+                     std::to_string(begin + 4 * map.nx * map.ny) + ": it is cut off or damaged");
+  map.dx_m = map.dy_m = header.real(kLateral);
+  if (!(map.dx_m > 0 && std::isfinite(map.dx_m)))
+    return bad_input(source +
+                     ": its lateral resolution is 0, so the size of a pixel is unknown; "
+                     "calibrate it in MetroPro, or export x, y and z");
+  map.x0_m = header.i16(kOrgX) * map.dx_m;
+  map.y0_m = header.i16(kOrgY) * map.dy_m;
+  MDOF_TRY(const double scale_m, height_of_a_count(header, source));
+  map.z_m.resize(map.nx * map.ny);
+  for (std::size_t k = 0; k < map.z_m.size(); ++k) {
+    const auto phase = static_cast<std::int32_t>(header.u32(begin + 4 * k));
+    map.z_m[k] = phase >= kNoPhase ? HeightMap::kMissing : phase * scale_m;
+  }
+  if (map.measured() == 0) return bad_input(source + ": no pixel has a phase");
+  return map;
+}
+
+}  // namespace mdof

@@ -24,6 +24,7 @@ constexpr Group kGroups[] = {
     {"calibrate", "Calibrate the fixture in place: records that a rig refers to", ""},
     {"compensation", "Build, show and activate compensation tables", ""},
     {"machine", "The machine as a chain: errors at the tool, maps, tests", ""},
+    {"form", "Height maps of a surface: clamping, cutting, path of a fast tool servo", ""},
     {"separate", "Tell the machine's error from the shape of the target", ""},
     {"encoder", "Where an axis stands whose encoder counts", ""},
     {"device", "The devices: list, probe, monitor",

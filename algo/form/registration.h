@@ -1,0 +1,39 @@
+// Two maps of the same part, laid onto each other: B - A at the pixels of A. SI.
+#pragma once
+
+#include <cstddef>
+
+#include "schema/base/result.h"
+#include "schema/form/height_map.h"
+
+namespace mdof::algo {
+
+enum class Register {
+  rigid,  // shift, turn, piston and tilt of B against A are taken out
+  plane,  // piston and tilt
+  none
+};
+
+// How B lies against A: what is at p in A is at R(turn) p + shift in B.
+struct MapPose {
+  double shift_x_m = 0, shift_y_m = 0, turn_rad = 0;
+};
+
+struct Comparison {
+  HeightMap difference;  // B - A, over the pixels of A
+  MapPose pose;
+  // Directions among shift x, shift y and turn that the shape does not tell (a sphere can turn, and
+  // be tilted instead of shifted): they were taken as 0.
+  std::size_t untold = 0;
+  double pv_m = 0, rms_m = 0;  // rms about the mean
+  std::size_t pixels = 0;
+};
+
+// Error bad_input: less than a tenth of A's pixels has a counterpart in B.
+Result<Comparison> compare(const HeightMap& a, const HeightMap& b, Register how);
+
+// B - A where both have pixels, B between its pixels where they do not coincide; nothing taken out.
+// The same error.
+Result<HeightMap> difference(const HeightMap& a, const HeightMap& b);
+
+}  // namespace mdof::algo

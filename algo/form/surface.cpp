@@ -1,0 +1,179 @@
+#include "algo/form/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kForSlopes = 6;  // rings more, so that slopes have their pixels at corners
+constexpr double kOnPixel = 1e-9;      // of a pixel: no neighbour has a part
+
+// Weights of the pixels -2 ... 3 of a row for the height at t in [0, 1] between 0 and 1, and for
+// its derivative.
+struct Weights {
+  std::array<double, 6> value{}, slope{};
+};
+
+// Hermite: h00 f0 + h10 d0 + h01 f1 + h11 d1 with d = (f-2 - 8 f-1 + 8 f1 - f2) / 12.
+void add_derivative(double at_0, double at_1, std::array<double, 6>& w) {
+  constexpr std::array<double, 5> kFive = {{1. / 12, -8. / 12, 0, 8. / 12, -1. / 12}};
+  for (std::size_t k = 0; k < 5; ++k) {
+    w[k] += at_0 * kFive[k];
+    w[k + 1] += at_1 * kFive[k];
+  }
+}
+Weights six(double t) {
+  const double u = 1 - t;
+  Weights w;
+  w.value[2] = (1 + 2 * t) * u * u;
+  w.value[3] = (3 - 2 * t) * t * t;
+  add_derivative(t * u * u, -t * t * u, w.value);
+  w.slope[2] = -6 * t * u;
+  w.slope[3] = 6 * t * u;
+  add_derivative(u * (u - 2 * t), t * (t - 2 * u), w.slope);
+  return w;
+}
+Weights four(double t) {
+  const double u = 1 - t;
+  Weights w;
+  w.value = {{0, -t * u * u / 2, (1 + 2 * t) * u * u + t * t * u / 2,
+              (3 - 2 * t) * t * t + t * u * u / 2, -t * t * u / 2, 0}};
+  const double d0 = u * (u - 2 * t) / 2, d1 = t * (t - 2 * u) / 2;
+  w.slope = {{0, -d0, -6 * t * u - d1, 6 * t * u + d0, d1, 0}};
+  return w;
+}
+Weights two(double t) {
+  return {{{0, 0, 1 - t, t, 0, 0}}, {{0, 0, -1, 1, 0, 0}}};
+}
+
+// From the next pixel on away from the place that is filled.
+constexpr std::array<std::array<double, 4>, 4> kLine = {
+    {{{1, 0, 0, 0}}, {{2, -1, 0, 0}}, {{4. / 3, 1. / 3, -2. / 3, 0}}, {{1, 0.5, 0, -0.5}}}};
+constexpr std::array<std::array<double, 4>, 4> kParabola = {
+    {{{1, 0, 0, 0}}, {{2, -1, 0, 0}}, {{3, -3, 1, 0}}, {{3, -3, 1, 0}}}};
+
+}  // namespace
+
+Surface::Surface(const HeightMap& map, std::size_t extension, Extension how)
+    : dx_m_(map.dx_m), dy_m_(map.dy_m) {
+  const std::size_t rings = std::min<std::size_t>(extension + kForSlopes, kNone - 1);
+  const std::size_t pad = rings + 3;  // at() reads three pixels beyond any other
+  nx_ = map.nx + 2 * pad;
+  ny_ = map.ny + 2 * pad;
+  x0_m_ = map.x_m(0);
+  y0_m_ = map.y_m(0);
+  x0_m_ -= static_cast<double>(pad) * dx_m_;
+  y0_m_ -= static_cast<double>(pad) * dy_m_;
+  z_m_.assign(nx_ * ny_, HeightMap::kMissing);
+  ring_.assign(nx_ * ny_, kNone);
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i)
+      if (const double z = map.at(i, j); !std::isnan(z)) {
+        z_m_[(j + pad) * nx_ + i + pad] = z;
+        ring_[(j + pad) * nx_ + i + pad] = 0;
+      }
+  extend(rings, how);
+}
+
+void Surface::extend(std::size_t rings, Extension how) {
+  const auto& weights = how == Extension::line ? kLine : kParabola;
+  const std::array<std::ptrdiff_t, 4> ways = {
+      {1, -1, static_cast<std::ptrdiff_t>(nx_), -static_cast<std::ptrdiff_t>(nx_)}};
+  std::vector<std::size_t> front, next;
+  // All missing pixels beside a filled one; afterwards those beside what was filled last.
+  for (std::size_t k = 3 * nx_; k + 3 * nx_ < z_m_.size(); ++k)
+    if (ring_[k] == kNone)
+      for (const auto way : ways)
+        if (ring_[k + static_cast<std::size_t>(way)] == 0) {
+          front.push_back(k);
+          break;
+        }
+  for (std::size_t ring = 1; ring <= rings && !front.empty(); ++ring) {
+    std::vector<double> filled;
+    filled.reserve(front.size());
+    for (const std::size_t k : front) {
+      std::size_t most = 0;
+      double sum = 0, count = 0;
+      for (const auto way : ways) {
+        std::array<double, 4> z{};
+        std::size_t n = 0;
+        for (std::size_t at = k; n < 4; ++n) {
+          at += static_cast<std::size_t>(way);
+          if (at >= z_m_.size() || ring_[at] >= ring) break;
+          z[n] = z_m_[at];
+        }
+        if (n == 0 || n < most) continue;
+        if (n > most) sum = count = 0;
+        most = n;
+        double value = 0;
+        for (std::size_t i = 0; i < n; ++i) value += weights[n - 1][i] * z[i];
+        sum += value;
+        count += 1;
+      }
+      filled.push_back(sum / count);
+    }
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      z_m_[front[i]] = filled[i];
+      ring_[front[i]] = static_cast<std::uint8_t>(ring);
+    }
+    next.clear();
+    for (const std::size_t k : front)
+      for (const auto way : ways)
+        if (const std::size_t beside = k + static_cast<std::size_t>(way); ring_[beside] == kNone)
+          next.push_back(beside);
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    front.swap(next);
+  }
+}
+
+bool Surface::at(double x_m, double y_m, std::size_t rings, SurfacePoint& point) const {
+  double x = (x_m - x0_m_) / dx_m_, y = (y_m - y0_m_) / dy_m_;
+  if (const double near = std::nearbyint(x); std::abs(x - near) < kOnPixel) x = near;
+  if (const double near = std::nearbyint(y); std::abs(y - near) < kOnPixel) y = near;
+  if (!(x >= 2 && y >= 2 && x < static_cast<double>(nx_) - 3 && y < static_cast<double>(ny_) - 3))
+    return false;
+  const auto i = static_cast<std::size_t>(x), j = static_cast<std::size_t>(y);
+  const double tx = x - static_cast<double>(i), ty = y - static_cast<double>(j);
+  const std::uint8_t* const ring = ring_.data() + j * nx_ + i;
+  std::uint8_t farthest = ring[0];
+  if (tx > 0) farthest = std::max(farthest, ring[1]);
+  if (ty > 0) farthest = std::max(farthest, ring[nx_]);
+  if (tx > 0 && ty > 0) farthest = std::max(farthest, ring[nx_ + 1]);
+  if (farthest > rings || farthest == kNone) return false;
+  const double* const z = z_m_.data() + (j - 2) * nx_ + i - 2;
+  const auto sum = [&](const Weights& wx, const Weights& wy, std::size_t first, std::size_t last) {
+    double value = 0, slope_x = 0, slope_y = 0;
+    for (std::size_t b = first; b <= last; ++b) {
+      const double* const row = z + b * nx_;
+      double v = 0, s = 0;
+      for (std::size_t a = first; a <= last; ++a) {
+        v += wx.value[a] * row[a];
+        s += wx.slope[a] * row[a];
+      }
+      value += wy.value[b] * v;
+      slope_x += wy.value[b] * s;
+      slope_y += wy.slope[b] * v;
+    }
+    point = {value, slope_x / dx_m_, slope_y / dy_m_};
+    return !std::isnan(value) && !std::isnan(slope_x) && !std::isnan(slope_y);
+  };
+  if (sum(six(tx), six(ty), 0, 5) || sum(four(tx), four(ty), 1, 4)) return true;
+  // What has no part in the place may be missing.
+  const auto pixel = [&](std::size_t a, std::size_t b, double otherwise) {
+    const double found = z[(b + 2) * nx_ + a + 2];
+    return std::isnan(found) ? otherwise : found;
+  };
+  const double z00 = pixel(0, 0, 0), z10 = pixel(1, 0, z00), z01 = pixel(0, 1, z00),
+               z11 = pixel(1, 1, z10 + z01 - z00);
+  const Weights wx = two(tx), wy = two(ty);
+  point.z_m = wy.value[2] * (wx.value[2] * z00 + wx.value[3] * z10) +
+              wy.value[3] * (wx.value[2] * z01 + wx.value[3] * z11);
+  point.slope_x = (wy.value[2] * (z10 - z00) + wy.value[3] * (z11 - z01)) / dx_m_;
+  point.slope_y = (wx.value[2] * (z01 - z00) + wx.value[3] * (z11 - z10)) / dy_m_;
+  return true;
+}
+
+}  // namespace mdof::algo

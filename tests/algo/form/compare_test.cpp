@@ -1,0 +1,117 @@
+// Maps of a known surface that is shifted, turned and tilted: what is found, and what is left.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/form/map_figures.h"
+#include "algo/form/registration.h"
+#include "algo/form/surface.h"
+#include "tests/algo/form/known_maps.h"
+
+namespace mdof::algo {
+namespace {
+
+// The surface of A lies in B at R p + shift.
+HeightMap moved(double sx_m, double sy_m, double turn_deg, double x0_m, double d_m,
+                std::size_t nx) {
+  const double c = std::cos(turn_deg * kDeg), s = std::sin(turn_deg * kDeg);
+  return map_of(
+      [=](double x, double y) {
+        const double u = x - sx_m, v = y - sy_m;
+        return bumps(c * u + s * v, -s * u + c * v) + 3e-6 + 40e-6 * x - 70e-6 * y;
+      },
+      x0_m, -25e-3, d_m, nx, 121);
+}
+
+TEST(FormCompare, FindsShiftAndTurn) {
+  const HeightMap a = map_of(bumps);
+  struct Case {
+    double sx_mm, sy_mm, turn_deg;
+  };
+  for (const Case& k : {Case{0.3, -0.21, 0}, Case{-1.7, 2.9, 1.5}, Case{5, -4, -4}}) {
+    const HeightMap b = moved(k.sx_mm * 1e-3, k.sy_mm * 1e-3, k.turn_deg, -40e-3, 0.41e-3, 196);
+    const auto found = compare(a, b, Register::rigid);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_NEAR(found->pose.shift_x_m, k.sx_mm * 1e-3, 2e-7);
+    EXPECT_NEAR(found->pose.shift_y_m, k.sy_mm * 1e-3, 2e-7);
+    EXPECT_NEAR(found->pose.turn_rad / kDeg, k.turn_deg, 5e-4);
+    EXPECT_LT(found->rms_m, 0.05e-9);
+    EXPECT_LT(found->pv_m, 2e-9);
+    EXPECT_EQ(found->untold, 0u);
+    EXPECT_GT(found->pixels, 7000u);
+  }
+}
+
+TEST(FormCompare, PlaneAndNone) {
+  const HeightMap a = map_of(bumps);
+  const HeightMap b =
+      map_of([](double x, double y) { return 2 * bumps(x, y) + 1e-6 + 1e-5 * x - 2e-5 * y; });
+  const auto none = compare(a, b, Register::none);
+  // B - A is the bumps and the plane.
+  EXPECT_NEAR(none->difference.at(7, 5),
+              bumps(a.x_m(7), a.y_m(5)) + 1e-6 + 1e-5 * a.x_m(7) - 2e-5 * a.y_m(5), 1e-18);
+  const auto plane = compare(a, b, Register::plane);
+  HeightMap flat = a;
+  remove_plane(flat);
+  EXPECT_NEAR(plane->rms_m, figures_of(flat).rms_m, 1e-15);
+  EXPECT_EQ(plane->pose.shift_x_m, 0);
+  EXPECT_EQ(plane->pixels, a.z_m.size());
+}
+
+TEST(FormCompare, ShapesThatTellNoShift) {
+  const auto ball = [](double x, double y) { return (x * x + y * y) / 2; };
+  const HeightMap a = map_of(ball);
+  const auto found =
+      compare(a, map_of([&](double x, double y) { return ball(x - 1e-3, y); }), Register::rigid);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->untold, 3u);
+  EXPECT_NEAR(found->pose.shift_x_m, 0, 1e-9);
+  EXPECT_LT(found->rms_m, 1e-12);
+  // Waves along x alone: no shift along y, and the turn is known.
+  const auto waves = [](double x, double) { return 1e-6 * std::sin(x / 5e-3); };
+  const auto along =
+      compare(map_of(waves), map_of([&](double x, double y) { return waves(x - 0.4e-3, y); }),
+              Register::rigid);
+  EXPECT_EQ(along->untold, 1u);
+  EXPECT_NEAR(along->pose.shift_x_m, 0.4e-3, 1e-7);
+}
+
+TEST(FormCompare, HolesAndNoOverlap) {
+  HeightMap a = map_of(bumps), b = map_of(bumps, -30.2e-3, -20.1e-3);
+  for (std::size_t j = 30; j < 50; ++j)
+    for (std::size_t i = 20; i < 60; ++i) b.z_m[j * b.nx + i] = HeightMap::kMissing;
+  const auto found = compare(a, b, Register::none);
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->pv_m, 2e-9);  // beside the hole too
+  EXPECT_LT(found->pixels, 9801u - 20u * 40u);
+  const auto far = compare(a, map_of(bumps, 200e-3), Register::rigid);
+  ASSERT_FALSE(far);
+  EXPECT_NE(far.error().message.find("counterpart"), std::string::npos);
+}
+
+TEST(Surface, IsExactAtPixelsAndContinuous) {
+  const HeightMap a = map_of(bumps);
+  const Surface surface(a, 3, Extension::line);
+  SurfacePoint p;
+  ASSERT_TRUE(surface.at(a.x_m(0), a.y_m(80), 0, p));
+  EXPECT_DOUBLE_EQ(p.z_m, a.at(0, 80));
+  double worst = 0, slope = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const double x = -29e-3 + k * 0.029e-3, y = 19e-3 - k * 0.019e-3, h = 1e-9;
+    SurfacePoint before, after;
+    ASSERT_TRUE(surface.at(x, y, 0, p) && surface.at(x - h, y, 0, before) &&
+                surface.at(x + h, y, 0, after));
+    worst = std::max(worst, std::abs(p.z_m - bumps(x, y)));
+    slope = std::max(slope, std::abs((after.z_m - before.z_m) / (2 * h) - p.slope_x));
+  }
+  EXPECT_LT(worst, 0.05e-9);
+  EXPECT_LT(slope, 1e-7);
+  // Beyond the edge by three pixels, not more, and not as measured.
+  EXPECT_FALSE(surface.at(-30.1e-3, 0, 0, p));
+  EXPECT_TRUE(surface.at(-31.5e-3, 0, 3, p));
+  EXPECT_NEAR(p.z_m, bumps(-31.5e-3, 0), 0.15e-6);
+  EXPECT_FALSE(surface.at(-31.6e-3, 0, 3, p));
+}
+
+}  // namespace
+}  // namespace mdof::algo

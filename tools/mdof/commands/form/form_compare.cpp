@@ -1,0 +1,100 @@
+// mdof form compare A B: what a map differs by from another one.
+#include <CLI/CLI.hpp>
+#include <numbers>
+
+#include "algo/form/registration.h"
+#include "schema/base/json_writer.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/form/map_file.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct FormCompareCommand {
+  std::string a, b, register_how = "rigid", out;
+  MapOptions maps;
+  bool json = false;
+};
+
+algo::Register register_from(const std::string& name) {
+  return name == "rigid"   ? algo::Register::rigid
+         : name == "plane" ? algo::Register::plane
+                           : algo::Register::none;
+}
+
+std::string compare_json(const algo::Comparison& found, const FormCompareCommand& o) {
+  JsonWriter json;
+  json.begin_object()
+      .field("pv_um", to_um(found.pv_m))
+      .field("rms_um", to_um(found.rms_m))
+      .key("shift_mm")
+      .begin_array()
+      .value(to_mm(found.pose.shift_x_m))
+      .value(to_mm(found.pose.shift_y_m))
+      .end_array()
+      .field("turn_deg", found.pose.turn_rad * 180 / std::numbers::pi)
+      .field("pixels", static_cast<std::uint64_t>(found.pixels))
+      .field("register", o.register_how)
+      .field("untold_directions", static_cast<std::uint64_t>(found.untold))
+      .end_object();
+  return json.take();
+}
+
+std::string compare_text(const algo::Comparison& found, const FormCompareCommand& o) {
+  std::string text = o.b + " - " + o.a + ": PV " + in_um(found.pv_m) + " µm, RMS " +
+                     in_um(found.rms_m) + " µm about the mean, " + std::to_string(found.pixels) +
+                     " pixels\n";
+  if (o.register_how == "rigid")
+    text += "lies at x " + in_mm(found.pose.shift_x_m) + " mm, y " + in_mm(found.pose.shift_y_m) +
+            " mm, turned by " + fixed(found.pose.turn_rad * 180 / std::numbers::pi, 5) +
+            "° about (0, 0)\n";
+  if (o.register_how != "none") text += "piston and tilt are removed\n";
+  return text;
+}
+
+Status form_compare(const FormCompareCommand& o) {
+  MDOF_TRY(const HeightMap a, load_map(o.a, o.maps));
+  MDOF_TRY(const HeightMap b, load_map(o.b, o.maps));
+  MDOF_TRY(const algo::Comparison found, algo::compare(a, b, register_from(o.register_how)));
+  if (found.untold > 0)
+    warn(o.a + ": its shape does not determine " + std::to_string(found.untold) +
+         " of shift x, shift y and turn; these are taken as 0");
+  if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
+  return o.json ? write_line(compare_json(found, o)) : write_out(compare_text(found, o));
+}
+
+Action declare_form_compare(CLI::App& command) {
+  const auto o = std::make_shared<FormCompareCommand>();
+  command.add_option("A", o->a, "Height map: CSV x_mm,y_mm,z_um, XYZ, .sdf, Zygo .dat")
+      ->required()
+      ->type_name("");
+  command.add_option("B", o->b, "Height map that is compared with it")->required()->type_name("");
+  command
+      .add_option("--register", o->register_how,
+                  "What is removed before: rigid (shift, turn, piston, tilt), plane (piston, tilt)")
+      ->check(CLI::IsMember({"rigid", "plane", "none"}))
+      ->capture_default_str();
+  command.add_option("--out", o->out, "Write the difference as a map (CSV)")->type_name("FILE");
+  add_map_options(command, o->maps);
+  add_json_flag(command, o->json);
+  return [o] { return form_compare(*o); };
+}
+
+}  // namespace
+
+Command form_compare_command() {
+  return {.name = "form compare",
+          .summary = "Difference of two height maps of a surface",
+          .footer =
+              "The shift says where B lies against A.\n"
+              "Examples:\n"
+              "  mdof form compare before.csv after.csv\n"
+              "  mdof form compare wanted.sdf cut.dat --register plane --json",
+          .declare = declare_form_compare};
+}
+
+}  // namespace mdof::tools

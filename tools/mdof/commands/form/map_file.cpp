@@ -1,0 +1,87 @@
+#include "tools/mdof/commands/form/map_file.h"
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <utility>
+
+#include "schema/base/files.h"
+#include "schema/base/output/output_files.h"
+#include "schema/form/map_text.h"
+#include "schema/form/surface_files.h"
+#include "schema/units.h"
+#include "tools/mdof/output.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{2} << 30;  // of a file that is read whole
+
+// The first piece tells what the file is. Text is read piece by piece, so that a map of many pixels
+// is not in memory as text too.
+class MapReader {
+ public:
+  MapReader(std::string file, std::optional<XyzUnits> units)
+      : file_(std::move(file)), text_(file_, units) {}
+
+  Status take(std::string_view piece) {
+    if (!is_told_) {
+      is_told_ = true;
+      is_whole_ = is_sdf(piece) || is_zygo_dat(piece);
+      if (piece.starts_with("PK\x03\x04"))
+        return bad_input(file_ + ": is an archive, such as .x3p; export it as .sdf or x, y, z");
+    }
+    if (!is_whole_) return text_.feed(piece);
+    if (whole_.size() + piece.size() > kMostBytes)
+      return bad_input(file_ + ": larger than 2 GiB; this is not the file meant");
+    whole_.append(piece);
+    return {};
+  }
+  Result<HeightMap> map() {
+    if (!is_whole_) return text_.finish();
+    return is_sdf(whole_) ? parse_sdf(whole_, file_) : parse_zygo_dat(whole_, file_);
+  }
+
+ private:
+  std::string file_, whole_;
+  MapTextReader text_;
+  bool is_told_ = false, is_whole_ = false;
+};
+
+}  // namespace
+
+void add_map_options(CLI::App& command, MapOptions& options) {
+  command
+      .add_option("--unit", options.unit,
+                  "Of maps without header (XYZ): m, mm, um or nm of all columns, or mm,um for x, y "
+                  "and for z [default: mm,um]")
+      ->type_name("NAME");
+}
+
+Result<HeightMap> load_map(const std::string& file, const MapOptions& options) {
+  std::optional<XyzUnits> units;
+  if (!options.unit.empty()) {
+    MDOF_TRY(units, xyz_units(options.unit));
+  }
+  MapReader reader(file, units);
+  MDOF_CHECK(read_in_pieces(file, [&](std::string_view piece) { return reader.take(piece); }));
+  MDOF_TRY(HeightMap map, reader.map());
+  for (const std::string& notice : map.notices) warn(notice);
+  return map;
+}
+
+Status save_map(const HeightMap& map, const std::string& file) {
+  OutputFiles out(Existing::replace);
+  MDOF_TRY(const std::size_t number, out.add(file));
+  MDOF_CHECK(write_map_csv(map, [&](std::string_view text) { return out.write(number, text); }));
+  return out.publish();
+}
+
+void write_um(JsonWriter& json, const char* key, double pv_m, double rms_m) {
+  json.key(key)
+      .begin_object()
+      .field("pv_um", to_um(pv_m))
+      .field("rms_um", to_um(rms_m))
+      .end_object();
+}
+
+}  // namespace mdof::tools

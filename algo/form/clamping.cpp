@@ -1,0 +1,71 @@
+#include "algo/form/clamping.h"
+
+#include <cmath>
+#include <string>
+
+#include "algo/form/map_figures.h"
+#include "algo/form/registration.h"
+#include "schema/base/number/number_text.h"
+
+namespace mdof::algo {
+namespace {
+
+HeightMap scaled(const HeightMap& map, double factor) {
+  HeightMap result = map;
+  for (double& z : result.z_m) z *= factor;
+  return result;
+}
+
+// Missing where `other` has no height: all parts have the same pixels.
+void keep_common(HeightMap& map, const HeightMap& other) {
+  for (std::size_t k = 0; k < map.z_m.size(); ++k)
+    if (std::isnan(other.z_m[k])) map.z_m[k] = HeightMap::kMissing;
+}
+
+}  // namespace
+
+Result<Clamping> clamping_by_K(const HeightMap& before, const HeightMap& after, double K) {
+  if (!(K > -1 && std::isfinite(K)))
+    return fail(ErrorCode::usage, "K is " + plain_number(K) +
+                                      "; it must be above -1, as the "
+                                      "elastic part is the clamping divided by 1 + K");
+  Clamping result;
+  MDOF_TRY(result.clamping, difference(before, after));
+  remove_plane(result.clamping);
+  result.K = K;
+  result.elastic = scaled(result.clamping, 1 / (1 + K));
+  result.plastic = scaled(result.elastic, K);
+  return result;
+}
+
+Result<Clamping> clamping_by_release(const HeightMap& before, const HeightMap& after,
+                                     const HeightMap& released) {
+  Clamping result;
+  MDOF_TRY(result.clamping, difference(before, after));
+  MDOF_TRY(result.plastic, difference(before, released));
+  keep_common(result.clamping, result.plastic);
+  keep_common(result.plastic, result.clamping);
+  if (result.clamping.measured() < 4)
+    return bad_input(before.name + ", " + after.name + " and " + released.name +
+                     " have less than 4 pixels in common; give all in the same coordinates");
+  remove_plane(result.clamping);
+  remove_plane(result.plastic);
+  result.elastic = result.clamping;
+  double square = 0, product = 0;
+  for (std::size_t k = 0; k < result.elastic.z_m.size(); ++k) {
+    result.elastic.z_m[k] -= result.plastic.z_m[k];
+    if (std::isnan(result.elastic.z_m[k])) continue;
+    square += result.elastic.z_m[k] * result.elastic.z_m[k];
+    product += result.elastic.z_m[k] * result.plastic.z_m[k];
+  }
+  if (!(square > 0))
+    return bad_input(after.name + " and " + released.name +
+                     " are the same: nothing sprang back, so K is unknown");
+  result.K = product / square;
+  HeightMap left = result.plastic;
+  for (std::size_t k = 0; k < left.z_m.size(); ++k) left.z_m[k] -= result.K * result.elastic.z_m[k];
+  result.K_unexplained_rms_m = figures_of(left).rms_m;
+  return result;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,43 @@
+// What clamping does to a surface: the part that springs back, the part that stays, and the stress
+// that it makes. Wang et al., A high-precision machining method of weak-stiffness mirror based on
+// fast tool servo error compensation strategy, Micromachines 12 (2021) 607; README.md has the
+// equations. SI.
+#pragma once
+
+#include <optional>
+
+#include "schema/base/result.h"
+#include "schema/form/height_map.h"
+
+namespace mdof::algo {
+
+struct Clamping {
+  HeightMap clamping, elastic, plastic;  // without piston and tilt
+  double K = 0;                          // plastic = K elastic
+  // Of the measured plastic part, what K times the elastic one leaves; only with `released`.
+  std::optional<double> K_unexplained_rms_m;
+};
+
+// Before clamping, clamped, and released again: elastic = after - released, plastic = released -
+// before, K by least squares. Without `released` both follow from K.
+// Errors: K at or below -1, maps that do not overlap.
+Result<Clamping> clamping_by_release(const HeightMap& before, const HeightMap& after,
+                                     const HeightMap& released);
+Result<Clamping> clamping_by_K(const HeightMap& before, const HeightMap& after, double K);
+
+struct Plate {
+  double thickness_m = 0, youngs_modulus_Pa = 0, poisson = 0;
+};
+
+struct PlateStress {
+  double max_Pa = 0;  // von Mises, at the face
+  double x_m = 0, y_m = 0;
+  std::size_t pixels = 0;  // at which the curvature is known
+};
+
+// A thin plate of which one face is bent by `form`. The curvature is that of a parabola fitted over
+// a square of the side `smooth_m` about each pixel; pixels with less than half of the square are
+// left out. Error bad_input: no pixel is left, or the square is smaller than 3 pixels.
+Result<PlateStress> plate_stress(const HeightMap& form, const Plate& plate, double smooth_m);
+
+}  // namespace mdof::algo

@@ -1,0 +1,193 @@
+// mdof form clamp BEFORE AFTER [RELEASED]: what clamping does to a surface, and whether it stays
+// elastic.
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "algo/form/clamping.h"
+#include "algo/form/map_figures.h"
+#include "schema/base/json_writer.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/form/map_file.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr double kPaPerMPa = 1e6;
+
+struct FormClampCommand {
+  std::string before, after, released, out;
+  std::optional<double> K, thickness_mm, young_GPa, poisson, yield_MPa;
+  double smooth_mm = 10;
+  MapOptions maps;
+  bool json = false;
+};
+
+struct Clamped {
+  algo::Clamping clamping;
+  std::optional<algo::PlateStress> stress;
+  std::optional<bool> is_elastic;
+};
+
+// A stress needs the plate, and a verdict its yield limit too; part of them is a slip.
+Status check_plate(const FormClampCommand& o) {
+  const std::pair<const char*, bool> plate[] = {{"--thickness-mm", o.thickness_mm.has_value()},
+                                                {"--young-GPa", o.young_GPa.has_value()},
+                                                {"--poisson", o.poisson.has_value()}};
+  std::string given, missing;
+  for (const auto& [name, is_given] : plate)
+    (is_given ? given : missing) +=
+        std::string((is_given ? given : missing).empty() ? "" : ", ") + name;
+  if (o.yield_MPa) given += given.empty() ? "--yield-MPa" : ", --yield-MPa";
+  if (!given.empty() && !missing.empty())
+    return fail(ErrorCode::usage, "missing option " + missing + " beside " + given +
+                                      ": the stress needs thickness, modulus and Poisson's ratio");
+  return {};
+}
+
+Result<Clamped> clamped(const FormClampCommand& o) {
+  Clamped found;
+  MDOF_TRY(const HeightMap before, load_map(o.before, o.maps));
+  MDOF_TRY(const HeightMap after, load_map(o.after, o.maps));
+  if (!o.released.empty()) {
+    MDOF_TRY(const HeightMap released, load_map(o.released, o.maps));
+    MDOF_TRY(found.clamping, algo::clamping_by_release(before, after, released));
+  } else {
+    MDOF_TRY(found.clamping, algo::clamping_by_K(before, after, o.K.value_or(0)));
+  }
+  if (!o.thickness_mm) return found;
+  const algo::Plate plate{from_mm(*o.thickness_mm), *o.young_GPa * 1e9, *o.poisson};
+  MDOF_TRY(found.stress, algo::plate_stress(found.clamping.clamping, plate, from_mm(o.smooth_mm)));
+  if (o.yield_MPa) found.is_elastic = found.stress->max_Pa < *o.yield_MPa * kPaPerMPa;
+  return found;
+}
+
+void write_part(JsonWriter& json, const char* key, const HeightMap& part) {
+  const algo::MapFigures figures = algo::figures_of(part);
+  write_um(json, key, figures.pv_m, figures.rms_m);
+}
+
+std::string clamp_json(const Clamped& found, const FormClampCommand& o) {
+  JsonWriter json;
+  json.begin_object();
+  write_part(json, "clamping", found.clamping.clamping);
+  write_part(json, "elastic", found.clamping.elastic);
+  write_part(json, "plastic", found.clamping.plastic);
+  json.field("K", found.clamping.K)
+      .field("K_source", !o.released.empty() ? "measured"
+                         : o.K               ? "given"
+                                             : "assumed: all of the clamping springs back");
+  if (found.clamping.K_unexplained_rms_m)
+    json.field("K_unexplained_rms_um", to_um(*found.clamping.K_unexplained_rms_m));
+  else
+    json.key("K_unexplained_rms_um").null();
+  json.field("pixels",
+             static_cast<std::uint64_t>(algo::figures_of(found.clamping.clamping).pixels));
+  if (found.stress) {
+    json.field("stress_max_MPa", found.stress->max_Pa / kPaPerMPa)
+        .key("stress_at")
+        .begin_object()
+        .field("x_mm", to_mm(found.stress->x_m))
+        .field("y_mm", to_mm(found.stress->y_m))
+        .end_object()
+        .field("smooth_mm", o.smooth_mm);
+  } else {
+    json.key("stress_max_MPa").null();
+    json.field("stress_reason", "no plate: --thickness-mm, --young-GPa and --poisson");
+  }
+  json.key("is_elastic");
+  if (found.is_elastic)
+    json.value(*found.is_elastic);
+  else
+    json.null();
+  json.end_object();
+  return json.take();
+}
+
+std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
+  TextTable table({"", "PV/µm", "RMS/µm"});
+  const auto add = [&](const char* name, const HeightMap& part) {
+    const algo::MapFigures figures = algo::figures_of(part);
+    table.add({name, in_um(figures.pv_m), in_um(figures.rms_m)});
+  };
+  add("clamping", found.clamping.clamping);
+  add("elastic", found.clamping.elastic);
+  add("plastic", found.clamping.plastic);
+  std::string text = table.text() + "K = " + plain_number(found.clamping.K) +
+                     (!o.released.empty() ? ", measured"
+                      : o.K               ? ", given"
+                                          : ", assumed: all of the clamping springs back") +
+                     "; piston and tilt are removed\n";
+  if (found.clamping.K_unexplained_rms_m)
+    text += "plastic part that K does not explain: RMS " +
+            in_um(*found.clamping.K_unexplained_rms_m) + " µm\n";
+  if (!found.stress) return text;
+  text += "largest stress " + fixed(found.stress->max_Pa / kPaPerMPa, 3) +
+          " MPa (von Mises) at x " + in_mm(found.stress->x_m) + " mm, y " +
+          in_mm(found.stress->y_m) + " mm; curvature over squares of " + plain_number(o.smooth_mm) +
+          " mm\n";
+  if (found.is_elastic)
+    text += std::string(*found.is_elastic ? "elastic: below" : "NOT ELASTIC: not below") +
+            " the yield limit of " + plain_number(*o.yield_MPa) + " MPa\n";
+  return text;
+}
+
+Status form_clamp(const FormClampCommand& o) {
+  MDOF_CHECK(check_plate(o));
+  if (o.K && !o.released.empty())
+    return fail(ErrorCode::usage, "--K is measured where RELEASED is given; leave one of them out");
+  MDOF_TRY(const Clamped found, clamped(o));
+  if (o.released.empty() && !o.K)
+    warn("no RELEASED and no --K: all of the clamping is taken as elastic (K = 0)");
+  if (!o.out.empty()) MDOF_CHECK(save_map(found.clamping.elastic, o.out));
+  MDOF_CHECK(o.json ? write_line(clamp_json(found, o)) : write_out(clamp_text(found, o)));
+  if (!found.is_elastic || *found.is_elastic) return {};
+  return fail(ErrorCode::check, o.after + ": the stress of the clamping, " +
+                                    plain_number(found.stress->max_Pa / kPaPerMPa) +
+                                    " MPa, is not below the yield limit of " +
+                                    plain_number(*o.yield_MPa) + " MPa; clamp with less force");
+}
+
+Action declare_form_clamp(CLI::App& command) {
+  const auto o = std::make_shared<FormClampCommand>();
+  command.add_option("BEFORE", o->before, "Height map before clamping")->required()->type_name("");
+  command.add_option("AFTER", o->after, "Clamped")->required()->type_name("");
+  command.add_option("RELEASED", o->released, "Released again: measures K")->type_name("");
+  command.add_option("--K", o->K, "Plastic over elastic deformation [default: 0]")
+      ->check(finite_number());
+  command.add_option("--thickness-mm", o->thickness_mm, "Of the part")->check(positive_number());
+  command.add_option("--young-GPa", o->young_GPa, "Its modulus of elasticity")
+      ->check(positive_number());
+  command.add_option("--poisson", o->poisson, "Its Poisson's ratio")->check(number_in(0, 0.5));
+  command
+      .add_option("--yield-MPa", o->yield_MPa, "Its yield limit; exit 1 if the stress reaches it")
+      ->check(positive_number());
+  command
+      .add_option("--smooth-mm", o->smooth_mm,
+                  "Side of the square over which a curvature is fitted: noise of single pixels "
+                  "makes stress")
+      ->check(positive_number())
+      ->capture_default_str();
+  command.add_option("--out", o->out, "Write the elastic part as a map (CSV)")->type_name("FILE");
+  add_map_options(command, o->maps);
+  add_json_flag(command, o->json);
+  return [o] { return form_clamp(*o); };
+}
+
+}  // namespace
+
+Command form_clamp_command() {
+  return {.name = "form clamp",
+          .summary = "Elastic and plastic deformation by clamping, and its stress",
+          .footer =
+              "Example:\n"
+              "  mdof form clamp before.csv clamped.csv --thickness-mm 2.5 --young-GPa 70 "
+              "--poisson 0.33 --yield-MPa 275 --out elastic.csv",
+          .declare = declare_form_clamp};
+}
+
+}  // namespace mdof::tools

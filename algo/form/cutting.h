@@ -1,0 +1,40 @@
+// Iterative correction of a cut surface: the next path from what the passes before left, and how
+// much of their error comes again. README.md has the equations (Eq. 4-7). SI.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "algo/form/map_figures.h"
+#include "schema/base/result.h"
+#include "schema/form/height_map.h"
+
+namespace mdof::algo {
+
+enum class CuttingGain {
+  one,  // the error of the last pass (Eq. 5)
+  mean  // the mean of all passes: their random shares average out
+};
+
+struct CuttingPasses {
+  HeightMap wanted;             // z1, and the path of the first pass
+  std::vector<HeightMap> cuts;  // measured after each pass, in order
+  bool repeated = false;        // all were cut with the path of the first; else each with the next
+  CuttingGain gain = CuttingGain::one;
+};
+
+struct CuttingResult {
+  std::vector<MapFigures> error;  // actual - wanted of each pass
+  // Of two passes and more. What a pass leaves against its own path is a share that comes again and
+  // a random one, RMS of one pass; the first is freed of what of the second is in the mean.
+  std::optional<double> repeatable_rms_m, random_rms_m;
+  std::optional<double> floor_gain_one_m, floor_mean_m;  // of the next pass, for ever
+  std::optional<bool> converges;
+  std::size_t pixels = 0;  // that all maps have
+  HeightMap next;          // the path of the next pass, over the pixels of `wanted`
+};
+
+// Error bad_input: maps that do not overlap.
+Result<CuttingResult> next_cut(const CuttingPasses& passes);
+
+}  // namespace mdof::algo

@@ -1,0 +1,128 @@
+// mdof form cut WANTED CUT... --out NEXT: the path of the next pass from what the passes left.
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "algo/form/cutting.h"
+#include "schema/base/json_writer.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/form/map_file.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr const char* kOnePass =
+    "one pass: what of its error comes again is unknown; cut once more with the same path";
+
+struct FormCutCommand {
+  std::string wanted, gain = "1", out;
+  std::vector<std::string> cuts;
+  bool repeated = false, json = false;
+  MapOptions maps;
+};
+
+void write_optional(JsonWriter& json, const char* key, const std::optional<double>& x_m) {
+  json.key(key);
+  if (x_m)
+    json.value(to_um(*x_m));
+  else
+    json.null();
+}
+
+std::string cut_json(const algo::CuttingResult& found, const FormCutCommand& o) {
+  JsonWriter json;
+  json.begin_object().key("error").begin_array();
+  for (const algo::MapFigures& error : found.error)
+    json.begin_object()
+        .field("pv_um", to_um(error.pv_m))
+        .field("rms_um", to_um(error.rms_m))
+        .end_object();
+  json.end_array();
+  write_optional(json, "repeatable_rms_um", found.repeatable_rms_m);
+  write_optional(json, "random_rms_um", found.random_rms_m);
+  json.key("floor_rms_um").begin_object();
+  write_optional(json, "gain_1", found.floor_gain_one_m);
+  write_optional(json, "mean", found.floor_mean_m);
+  json.end_object().key("converges");
+  if (found.converges)
+    json.value(*found.converges);
+  else
+    json.null();
+  if (!found.converges) json.field("converges_reason", kOnePass);
+  json.field("gain", o.gain)
+      .field("repeated", o.repeated)
+      .field("pixels", static_cast<std::uint64_t>(found.pixels))
+      .field("next", o.out)
+      .end_object();
+  return json.take();
+}
+
+std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) {
+  TextTable table({"pass", "PV/µm", "RMS/µm"});
+  for (std::size_t k = 0; k < found.error.size(); ++k)
+    table.add({std::to_string(k + 1), in_um(found.error[k].pv_m), in_um(found.error[k].rms_m)});
+  std::string text = "error = cut - wanted\n" + table.text();
+  if (!found.converges) return text + kOnePass + "\nnext path: " + o.out + "\n";
+  text += "of it comes again: RMS " + in_um(*found.repeatable_rms_m) +
+          " µm; random: " + in_um(*found.random_rms_m) +
+          " µm a pass\nfloor of further passes: RMS " + in_um(*found.floor_gain_one_m) +
+          " µm with gain 1, " + in_um(*found.floor_mean_m) + " µm with the mean of all passes\n" +
+          (*found.converges ? "converges" : "DOES NOT CONVERGE") + "\nnext path: " + o.out + "\n";
+  return text;
+}
+
+Status form_cut(const FormCutCommand& o) {
+  algo::CuttingPasses passes;
+  MDOF_TRY(passes.wanted, load_map(o.wanted, o.maps));
+  for (const std::string& file : o.cuts) {
+    MDOF_TRY(HeightMap cut, load_map(file, o.maps));
+    passes.cuts.push_back(std::move(cut));
+  }
+  passes.repeated = o.repeated;
+  passes.gain = o.gain == "mean" ? algo::CuttingGain::mean : algo::CuttingGain::one;
+  MDOF_TRY(const algo::CuttingResult found, algo::next_cut(passes));
+  MDOF_CHECK(save_map(found.next, o.out));
+  return o.json ? write_line(cut_json(found, o)) : write_out(cut_text(found, o));
+}
+
+Action declare_form_cut(CLI::App& command) {
+  const auto o = std::make_shared<FormCutCommand>();
+  command.add_option("WANTED", o->wanted, "Height map that was wanted, and path of the first pass")
+      ->required()
+      ->type_name("");
+  command.add_option("CUT", o->cuts, "Measured after each pass, in the order of passes")
+      ->required()
+      ->type_name("");
+  command.add_flag("--repeated", o->repeated,
+                   "All passes were cut with the path of the first [default: each with the next]");
+  command
+      .add_option("--gain", o->gain,
+                  "Correct by the error of the last pass (1), or by the mean of all passes (mean)")
+      ->check(CLI::IsMember({"1", "mean"}))
+      ->capture_default_str();
+  command.add_option("--out", o->out, "Write the path of the next pass as a map (CSV)")
+      ->required()
+      ->type_name("FILE");
+  add_map_options(command, o->maps);
+  add_json_flag(command, o->json);
+  return [o] { return form_cut(*o); };
+}
+
+}  // namespace
+
+Command form_cut_command() {
+  return {.name = "form cut",
+          .summary = "Path of the next pass from what the passes before left",
+          .footer =
+              "Passes that were not --repeated are taken as cut with the paths that this command "
+              "writes, with the same --gain.\n"
+              "Example:\n"
+              "  mdof form cut wanted.csv cut1.csv --out path2.csv",
+          .declare = declare_form_cut};
+}
+
+}  // namespace mdof::tools

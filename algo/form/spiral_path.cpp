@@ -1,0 +1,219 @@
+#include "algo/form/spiral_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "schema/base/number/number_text.h"
+#include "schema/base/random.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kMostPoints = 1e10;
+constexpr double kTouching = 1e-6;  // of the tool's radius: the last step of the contact
+constexpr int kMostSteps = 40;
+
+// Eq. 9 over s in [0, L], from height and slope at one end to those at the other.
+double hermite(double s, double L, double z0, double slope0, double z1, double slope1) {
+  const double t = s / L, u = 1 - t;
+  return (1 + 2 * t) * u * u * z0 + (3 - 2 * t) * t * t * z1 +
+         L * t * u * (u * slope0 - t * slope1);
+}
+
+}  // namespace
+
+SpiralPath::SpiralPath(const HeightMap& map, const SpiralRequest& request)
+    : request_(request), surface_(map, request.extend_pixels, Extension::line) {
+  const std::size_t n = request.points_per_turn;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double turns = static_cast<double>(k) / static_cast<double>(n);
+    cos_.push_back(sine_of_turns(turns + 0.25));
+    sin_.push_back(sine_of_turns(turns));
+  }
+}
+
+Result<SpiralPath> SpiralPath::over(const HeightMap& map, const SpiralRequest& request) {
+  const double steps =
+      request.outer_radius_m / request.feed_m * static_cast<double>(request.points_per_turn);
+  if (!(steps < kMostPoints))
+    return fail(ErrorCode::usage, "a path of " + plain_number(steps) +
+                                      " points; take a smaller radius, a larger feed or fewer "
+                                      "points a turn");
+  SpiralPath path(map, request);
+  // A radius that is a whole number of turns ends in the centre, whatever was rounded.
+  path.points_ = static_cast<std::size_t>(std::floor(steps * (1 + 1e-12) + 1e-9)) + 1;
+  // The first that is on the part is not found twice: each() looks for it again, which is cheap
+  // where it is near the edge.
+  Touch found;
+  for (std::size_t k = 0; k < path.points_; ++k)
+    if (path.touch(k, found)) return path;
+  const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 6); };
+  return bad_input(map.name + ": no point of a spiral of radius " + mm(request.outer_radius_m) +
+                   " mm about x = " + mm(request.x_centre_m) +
+                   " mm, y = " + mm(request.y_centre_m) +
+                   " mm is on a measured pixel; see --centre-mm and "
+                   "--outer-radius-mm");
+}
+
+double SpiralPath::rho_m(std::size_t index) const {
+  return std::max(0.0, request_.outer_radius_m -
+                           request_.feed_m * (static_cast<double>(index) /
+                                              static_cast<double>(request_.points_per_turn)));
+}
+
+bool SpiralPath::at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part) const {
+  if (surface_.at(x_m, y_m, 0, point)) {
+    on_part = OnPart::measured;
+    return true;
+  }
+  on_part = OnPart::extended;
+  return request_.extend_pixels > 0 && surface_.at(x_m, y_m, request_.extend_pixels, point);
+}
+
+// In the plane of rho and z: the circle of the tool's edge touches where the surface is steeper by
+// d / sqrt(r^2 - d^2), d from its lowest point; z is that point's.
+bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) const {
+  const double r = request_.tool_radius_m;
+  const auto surface_at = [&](double rho, SurfacePoint& point, OnPart& on_part) {
+    return at(request_.x_centre_m + rho * cos, request_.y_centre_m + rho * sin, point, on_part);
+  };
+  SurfacePoint point;
+  if (!surface_at(rho_m, point, found.on_part)) return false;
+  double d = 0;
+  OnPart there = found.on_part;
+  for (int step = 0; r > 0 && step < kMostSteps; ++step) {
+    const double slope = point.slope_x * cos + point.slope_y * sin;
+    const double next = r * slope / std::sqrt(1 + slope * slope);
+    const bool is_last = std::abs(next - d) < kTouching * r;
+    d = next;
+    if (!surface_at(rho_m + d, point, there)) return false;
+    if (is_last) break;
+    found.is_too_sharp = step + 1 == kMostSteps;
+  }
+  const auto lowest = [&](double z, double off) {
+    return z - off * off / (r + std::sqrt(r * r - off * off));
+  };
+  if (found.is_too_sharp) {  // the highest of many places
+    double best = -1e300, best_d = 0;
+    for (int k = -32; k <= 32; ++k) {
+      SurfacePoint other;
+      if (const double off = r * k / 33.0; surface_at(rho_m + off, other, there))
+        if (const double z = lowest(other.z_m, off); z > best) {
+          best = z;
+          best_d = off;
+        }
+    }
+    d = best_d;
+    if (!surface_at(rho_m + d, point, there)) return false;
+  }
+  found.z_m = r > 0 ? lowest(point.z_m, d) : point.z_m;
+  // The path turns: its direction is across rho.
+  found.along = point.slope_y * cos - point.slope_x * sin;
+  return true;
+}
+
+bool SpiralPath::touch(std::size_t index, Touch& found) const {
+  const std::size_t k = index % request_.points_per_turn;
+  found = {};
+  return contact(rho_m(index), cos_[k], sin_[k], found);
+}
+
+// Of the projection onto the plane: rho dtheta, and the feed, which is small beside it.
+double SpiralPath::arc_m(std::size_t from, std::size_t to) const {
+  const double steps = static_cast<double>(to - from);
+  const double angle = 2 * std::numbers::pi * steps / static_cast<double>(request_.points_per_turn);
+  const double across = rho_m(from) - rho_m(to), around = angle * (rho_m(from) + rho_m(to)) / 2;
+  return std::sqrt(around * around + across * across);
+}
+
+// Points that are on no pixel, between two that are: Eq. 9 over their arc. One of more than a turn
+// goes to the mean of both heights within half a turn and stays there, as a slope would carry a
+// cubic of that length far away; one at an end of the path keeps the height of its one neighbour.
+struct SpiralPath::Gap {
+  const SpiralPath& path;
+  bool has_before = false, has_after = false;
+  std::size_t before_at = 0, after_at = 0;
+  Touch before, after;
+
+  double z_m(std::size_t index) const {
+    if (!has_before) return after.z_m;
+    if (!has_after) return before.z_m;
+    const std::size_t turn = path.request_.points_per_turn, half = turn / 2 + 1;
+    if (after_at - before_at <= turn)
+      return hermite(path.arc_m(before_at, index), path.arc_m(before_at, after_at), before.z_m,
+                     before.along, after.z_m, after.along);
+    const double mean = (before.z_m + after.z_m) / 2;
+    if (index - before_at < half)
+      return hermite(path.arc_m(before_at, index), path.arc_m(before_at, before_at + half),
+                     before.z_m, before.along, mean, 0);
+    if (after_at - index < half)
+      return hermite(path.arc_m(after_at - half, index), path.arc_m(after_at - half, after_at),
+                     mean, 0, after.z_m, after.along);
+    return mean;
+  }
+};
+
+Result<SpiralCounts> SpiralPath::each(const std::function<Status(const PathPoint&)>& take) const {
+  SpiralCounts counts;
+  counts.points = points_;
+  Gap gap{*this, false, false, 0, 0, {}, {}};
+  Touch found;
+  for (std::size_t k = 0; k < points_; ++k) {
+    if (touch(k, found)) {
+      ++(found.on_part == OnPart::measured ? counts.measured : counts.extended);
+      counts.too_sharp += found.is_too_sharp ? 1 : 0;
+      MDOF_CHECK(take({rho_m(k), found.z_m, k, found.on_part}));
+      gap.has_before = true;
+      gap.before_at = k;
+      gap.before = found;
+      continue;
+    }
+    gap.has_after = false;
+    for (gap.after_at = k + 1; gap.after_at < points_ && !gap.has_after; ++gap.after_at)
+      gap.has_after = touch(gap.after_at, gap.after);
+    if (gap.has_after) --gap.after_at;
+    const std::size_t end = gap.after_at;
+    for (; k < end; ++k) {
+      ++counts.bridged;
+      MDOF_CHECK(take({rho_m(k), gap.z_m(k), k, OnPart::bridged}));
+    }
+    --k;
+  }
+  return counts;
+}
+
+MapReach middle_of(const HeightMap& map) {
+  std::size_t least_i = map.nx, most_i = 0, least_j = map.ny, most_j = 0;
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i) {
+      if (std::isnan(map.at(i, j))) continue;
+      least_i = std::min(least_i, i);
+      most_i = std::max(most_i, i);
+      least_j = std::min(least_j, j);
+      most_j = j;
+    }
+  return {(map.x_m(least_i) + map.x_m(most_i)) / 2, (map.y_m(least_j) + map.y_m(most_j)) / 2};
+}
+
+double reach_m(const HeightMap& map, double x_centre_m, double y_centre_m) {
+  double square = 0;
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i) {
+      if (std::isnan(map.at(i, j))) continue;
+      const double x = map.x_m(i) - x_centre_m, y = map.y_m(j) - y_centre_m;
+      square = std::max(square, x * x + y * y);
+    }
+  return std::sqrt(square);
+}
+
+FeedRoughness feed_roughness(double tool_radius_m, double feed_m) {
+  const double r = tool_radius_m, half = feed_m / 2;
+  if (!(r > half)) return {r, r};  // no arc is left between two turns
+  const double Rt = half * half / (r + std::sqrt(r * r - half * half));
+  return {Rt, 4 * Rt / (9 * std::numbers::sqrt3)};
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,84 @@
+// The path of a fast tool servo over a map: a spiral from outside in, the round tool touching the
+// surface, the gaps outside of the part bridged. README.md has the equations. SI, rad; computed
+// point by point, so that its memory does not grow with its length.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "algo/form/surface.h"
+#include "schema/base/result.h"
+#include "schema/form/height_map.h"
+
+namespace mdof::algo {
+
+struct SpiralRequest {
+  double x_centre_m = 0, y_centre_m = 0;  // of the spindle, in the coordinates of the map
+  double outer_radius_m = 0;
+  double feed_m = 0;  // towards the centre, a turn
+  std::size_t points_per_turn = 720;
+  double tool_radius_m = 0;       // 0: a pointed tool
+  std::size_t extend_pixels = 3;  // beyond the edge the surface goes on by so many
+};
+
+enum class OnPart : std::uint8_t { bridged = 0, measured = 1, extended = 2 };
+
+struct PathPoint {
+  double rho_m = 0, z_m = 0;
+  std::size_t index = 0;  // turns times points a turn
+  OnPart on_part = OnPart::bridged;
+};
+
+struct SpiralCounts {
+  std::size_t points = 0, measured = 0, extended = 0, bridged = 0;
+  std::size_t too_sharp = 0;  // the tool touches in two places: its radius is above the surface's
+};
+
+class SpiralPath {
+ public:
+  // Errors: nothing of the spiral is on the part (holes over the whole of it, a centre elsewhere);
+  // more than 10^10 points.
+  static Result<SpiralPath> over(const HeightMap& map, const SpiralRequest& request);
+
+  std::size_t points() const { return points_; }
+  // One after the other, from the outermost in; an error of `take` ends it.
+  Result<SpiralCounts> each(const std::function<Status(const PathPoint&)>& take) const;
+
+ private:
+  struct Touch {
+    double z_m = 0, along = 0;  // dz/ds in the direction of the path
+    OnPart on_part = OnPart::bridged;
+    bool is_too_sharp = false;
+  };
+  struct Gap;
+  SpiralPath(const HeightMap& map, const SpiralRequest& request);
+  double rho_m(std::size_t index) const;
+  bool touch(std::size_t index, Touch& found) const;
+  bool contact(double rho_m, double cos, double sin, Touch& found) const;
+  bool at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part) const;
+  // Along the path from the first index on.
+  double arc_m(std::size_t from, std::size_t to) const;
+
+  SpiralRequest request_;
+  Surface surface_;
+  std::size_t points_ = 0;
+  std::vector<double> cos_, sin_;  // of the points of a turn
+};
+
+// The radius of the farthest measured pixel, and the middle of the measured part.
+struct MapReach {
+  double x_mid_m = 0, y_mid_m = 0;
+};
+MapReach middle_of(const HeightMap& map);
+double reach_m(const HeightMap& map, double x_centre_m, double y_centre_m);
+
+// Roughness that a round tool leaves between two turns: height and mean deviation of arcs of the
+// radius r, feed apart: Rt = r - sqrt(r^2 - feed^2 / 4), Ra = 4 Rt / (9 sqrt 3).
+struct FeedRoughness {
+  double Rt_m = 0, Ra_m = 0;
+};
+FeedRoughness feed_roughness(double tool_radius_m, double feed_m);
+
+}  // namespace mdof::algo

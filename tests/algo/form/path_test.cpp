@@ -1,0 +1,216 @@
+// The path of a fast tool servo: spiral, tool radius, edges, bridges, undulations.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "algo/form/spiral_path.h"
+#include "algo/form/turn_spectrum.h"
+
+namespace mdof::algo {
+namespace {
+
+template <class F>
+HeightMap map_of(F&& z, double d_m = 0.2e-3, std::size_t n = 201) {
+  const double x0_m = -d_m * static_cast<double>(n - 1) / 2;
+  HeightMap map{"map", x0_m, x0_m, d_m, d_m, n, n, {}, {}};
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i) map.z_m.push_back(z(map.x_m(i), map.y_m(j)));
+  return map;
+}
+
+struct Walked {
+  std::vector<PathPoint> points;
+  SpiralCounts counts;
+};
+Walked walk(const HeightMap& map, const SpiralRequest& request) {
+  Walked walked;
+  const auto path = SpiralPath::over(map, request);
+  EXPECT_TRUE(path) << path.error().message;
+  walked.counts = *path->each([&](const PathPoint& p) {
+    walked.points.push_back(p);
+    return Status();
+  });
+  EXPECT_EQ(walked.points.size(), path->points());
+  return walked;
+}
+
+struct XY {
+  double x, y;
+};
+XY place(const PathPoint& p, std::size_t per_turn) {
+  const double angle =
+      2 * std::numbers::pi * static_cast<double>(p.index) / static_cast<double>(per_turn);
+  return {p.rho_m * std::cos(angle), p.rho_m * std::sin(angle)};
+}
+
+TEST(SpiralPath, FromOutsideInAnglesGrowing) {
+  const auto tilted = [](double x, double y) { return 1e-3 * x + 2e-3 * y; };
+  const Walked walked = walk(map_of(tilted), {0, 0, 15e-3, 0.1e-3, 90, 0, 3});
+  ASSERT_EQ(walked.points.size(), 150u * 90 + 1);
+  EXPECT_EQ(walked.points.front().rho_m, 15e-3);
+  EXPECT_NEAR(walked.points.back().rho_m, 0, 1e-15);
+  EXPECT_NEAR(walked.points[90].rho_m, 14.9e-3, 1e-12);
+  for (const PathPoint& p : walked.points) {
+    const XY at = place(p, 90);
+    ASSERT_NEAR(p.z_m, tilted(at.x, at.y), 1e-14);
+    ASSERT_EQ(p.on_part, OnPart::measured);
+  }
+}
+
+// A ball of radius R offset by the tool's radius is a ball of R + r.
+TEST(SpiralPath, RoundToolOnASphere) {
+  constexpr double kR = 60e-3, r = 0.5e-3;
+  const auto ball = [](double x, double y) { return std::sqrt(kR * kR - x * x - y * y) - kR; };
+  for (const double sign : {1.0, -1.0}) {
+    const HeightMap map = map_of([&](double x, double y) { return sign * ball(x, y); });
+    const Walked walked = walk(map, {0, 0, 18e-3, 0.5e-3, 60, r, 3});
+    double compensated = 0;
+    for (const PathPoint& p : walked.points) {
+      const double R = kR + sign * r, expected = sign * (std::sqrt(R * R - p.rho_m * p.rho_m) - R);
+      ASSERT_NEAR(p.z_m, expected, 1e-10) << p.rho_m << " " << sign;
+      compensated = std::max(compensated, std::abs(p.z_m - sign * ball(p.rho_m, 0)));
+    }
+    EXPECT_GT(compensated, 20e-6);
+    EXPECT_EQ(walked.counts.too_sharp, 0u);
+  }
+}
+
+TEST(SpiralPath, AToolThatDoesNotFitIsCounted) {
+  const Walked walked =
+      walk(map_of([](double x, double) { return 20e-6 * std::cos(x / 0.3e-3); }, 0.05e-3),
+           {0, 0, 4e-3, 0.2e-3, 60, 8e-3, 3});
+  EXPECT_GT(walked.counts.too_sharp, 0u);
+  // It rests on the crests.
+  for (const PathPoint& p : walked.points) {
+    ASSERT_GT(p.z_m, -20e-6);
+    ASSERT_LE(p.z_m, 20.1e-6);
+  }
+}
+
+// A part half as wide as it is long: measured inside, three pixels more, and bridges between.
+TEST(SpiralPath, EdgesAreExtendedAndBridged) {
+  const double d = 0.2e-3, half = 8e-3;
+  const auto wave = [](double x, double y) { return 1e-6 * std::sin(x / 5e-3) + 40e-6 * y; };
+  HeightMap map = map_of(wave);
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i)
+      if (std::abs(map.y_m(j)) > half + 1e-9) map.z_m[j * map.nx + i] = HeightMap::kMissing;
+  const std::size_t per_turn = 720;
+  const Walked walked = walk(map, {0, 0, 20e-3, 1e-3, per_turn, 0, 3});
+  std::size_t counted[3] = {0, 0, 0};
+  double steepest = 0, step = 0;
+  for (std::size_t k = 0; k < walked.points.size(); ++k) {
+    const PathPoint& p = walked.points[k];
+    const XY at = place(p, per_turn);
+    ++counted[static_cast<int>(p.on_part)];
+    if (std::abs(at.x) < 19.9e-3 && std::abs(std::abs(at.y) - half) > 1e-9 &&
+        std::abs(std::abs(at.y) - half - 3 * d) > 1e-9) {
+      const OnPart expected = std::abs(at.y) < half           ? OnPart::measured
+                              : std::abs(at.y) < half + 3 * d ? OnPart::extended
+                                                              : OnPart::bridged;
+      ASSERT_EQ(p.on_part, expected) << at.x << " " << at.y;
+    }
+    if (p.on_part == OnPart::extended) {
+      ASSERT_NEAR(p.z_m, wave(at.x, at.y), 0.02e-6);
+    }
+    if (k > 1) {
+      step = std::max(step, std::abs(p.z_m - walked.points[k - 1].z_m));
+      steepest = std::max(
+          steepest, std::abs(p.z_m - 2 * walked.points[k - 1].z_m + walked.points[k - 2].z_m));
+    }
+  }
+  EXPECT_EQ(counted[0], walked.counts.bridged);
+  EXPECT_EQ(counted[1], walked.counts.measured);
+  EXPECT_EQ(counted[2], walked.counts.extended);
+  EXPECT_GT(counted[0], 1000u);
+  EXPECT_LT(step, 0.042e-6);      // no jump: 2 pi 20 mm / 720 at a slope of 0.24 um/mm
+  EXPECT_LT(steepest, 0.003e-6);  // no kink
+}
+
+// Between two ends Eq. 9 by an own program; it rises and falls at most twice.
+TEST(SpiralPath, BridgeIsHermitesCubic) {
+  HeightMap map = map_of([](double x, double y) { return 30e-6 * x - 10e-6 * y * (1 + x / 5e-3); });
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i)
+      if (std::abs(map.y_m(j)) > 5e-3 + 1e-9) map.z_m[j * map.nx + i] = HeightMap::kMissing;
+  const std::size_t n = 3600;
+  const double feed = 1e-8;
+  const auto path = SpiralPath::over(map, {0, 0, 15e-3, feed, n, 0, 0});
+  ASSERT_TRUE(path) << path.error().message;
+  std::vector<PathPoint> p;
+  (void)path->each([&](const PathPoint& point) {
+    p.push_back(point);
+    return p.size() < 2 * n ? Status() : bad_input("enough");
+  });
+  std::size_t first = 0;
+  while (p[first].on_part != OnPart::bridged || p[first - 1].on_part == OnPart::bridged) ++first;
+  std::size_t last = first;
+  while (p[last].on_part == OnPart::bridged) ++last;
+  const std::size_t b = first - 1;  // B and A are on the part
+  const double ds = 2 * std::numbers::pi * 15e-3 / static_cast<double>(n);
+  const double Bk = (3 * p[b].z_m - 4 * p[b - 1].z_m + p[b - 2].z_m) / (2 * ds),
+               Ak = (-3 * p[last].z_m + 4 * p[last + 1].z_m - p[last + 2].z_m) / (2 * ds);
+  const double L = ds * static_cast<double>(last - b), Bz = p[b].z_m, Az = p[last].z_m;
+  for (std::size_t k = first; k < last; ++k) {
+    const double l = ds * static_cast<double>(k - b);
+    const double z = (L + 2 * l) * (L - l) * (L - l) / (L * L * L) * Bz +
+                     (3 * L - 2 * l) * l * l / (L * L * L) * Az +
+                     l * (L - l) * (L - l) / (L * L) * Bk + l * l * (l - L) / (L * L) * Ak;
+    ASSERT_NEAR(p[k].z_m, z, 0.05e-9) << k;
+  }
+}
+
+TEST(SpiralPath, HolesOverAllOfIt) {
+  HeightMap map = map_of([](double, double) { return 0; });
+  const auto far = SpiralPath::over(map, {1, 0, 5e-3, 1e-4, 90, 0, 3});
+  ASSERT_FALSE(far);
+  EXPECT_NE(far.error().message.find("--centre-mm"), std::string::npos);
+  EXPECT_FALSE(SpiralPath::over(map, {0, 0, 1, 1e-12, 720, 0, 3}));
+  // A ring about the centre: what is amid is bridged, and stays near.
+  map = map_of([](double x, double) { return 1e-3 * x; });
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i)
+      if (std::hypot(map.x_m(i), map.y_m(j)) < 6e-3) map.z_m[j * map.nx + i] = HeightMap::kMissing;
+  const Walked walked = walk(map, {0, 0, 12e-3, 0.1e-3, 90, 0, 3});
+  for (const PathPoint& p : walked.points) ASSERT_LE(std::abs(p.z_m), 12.1e-6);
+  EXPECT_EQ(walked.points.back().on_part, OnPart::bridged);
+}
+
+TEST(TurnSpectrum, HarmonicsOfAnyLength) {
+  for (const std::size_t n : {8u, 30u, 97u, 720u}) {
+    TurnSpectrum spectrum(n, 10);
+    const std::size_t highest = n / 2 > 15 ? 15 : 3;
+    for (int turn = 0; turn < 3; ++turn)
+      for (std::size_t k = 0; k < n; ++k) {
+        const double a = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
+        spectrum.add(5 + std::cos(a) + 0.3 * std::sin(3 * a) +
+                     0.02 * (turn + 1) / 3 * std::cos(static_cast<double>(highest) * a + 1));
+      }
+    spectrum.add(99);  // of a turn that does not end
+    EXPECT_EQ(spectrum.turns(), 3u);
+    EXPECT_EQ(spectrum.undulations(0.01), highest) << n;
+    EXPECT_EQ(spectrum.undulations(0.1), 3u) << n;
+    EXPECT_EQ(spectrum.undulations(0.9), 1u) << n;
+    if (highest == 15) {
+      EXPECT_NEAR(spectrum.left_out().pv, 0.04, 0.001) << n;
+      // RMS of three turns of 1, 2 and 3 thirds.
+      EXPECT_NEAR(spectrum.left_out().rms, 0.02 * std::sqrt(14. / 27 / 2), 1e-9) << n;
+    } else {
+      EXPECT_NEAR(spectrum.left_out().pv, 0, 1e-14);
+    }
+  }
+  TurnSpectrum flat(360, -1);
+  for (int k = 0; k < 720; ++k) flat.add(1e-3);
+  EXPECT_EQ(flat.undulations(0.01), 0u);
+}
+
+TEST(FeedRoughness, OfThePaper) {
+  const FeedRoughness rough = feed_roughness(0.2e-3, 4e-6);
+  EXPECT_NEAR(rough.Ra_m, 2.6e-9, 0.05e-9);
+  EXPECT_NEAR(rough.Rt_m, 10e-9, 0.01e-9);
+}
+
+}  // namespace
+}  // namespace mdof::algo

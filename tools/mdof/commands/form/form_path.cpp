@@ -1,0 +1,269 @@
+// mdof form path MAP --out FILE: the path of a fast tool servo over a map.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "algo/form/spiral_path.h"
+#include "algo/form/turn_spectrum.h"
+#include "schema/base/json_writer.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/form/map_file.h"
+#include "tools/mdof/commands/form/path_writer.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct FormPathCommand {
+  std::string map, out, centre;
+  double speed_rpm = 0, feed_mm_min = 0, undulation_share = 0.01;
+  std::optional<double> outer_radius_mm, bandwidth_hz, stroke_limit_um;
+  double tool_radius_mm = 0, points_per_rev = 720, extend_pixels = 3;
+  MapOptions maps;
+  bool json = false;
+};
+
+struct FoundPath {
+  algo::SpiralRequest request;
+  algo::SpiralCounts counts;
+  std::size_t undulations = 0;
+  double frequency_hz = 0, stroke_m = 0, acceleration_m_s2 = 0, duration_s = 0;
+  std::optional<algo::PassedBand> left_out;
+};
+
+CLI::Validator whole_number_in(double least, double most) {
+  const std::string range =
+      "a whole number from " + plain_number(least) + " to " + plain_number(most, 9);
+  return CLI::Validator(
+      [=](const std::string& text) {
+        const double x = std::strtod(text.c_str(), nullptr);
+        return x >= least && x <= most && x == std::floor(x) ? std::string()
+                                                             : text + " is not " + range;
+      },
+      "");
+}
+
+// Largest acceleration by second differences, and extremes.
+class Motion {
+ public:
+  void add(double z_m) {
+    least_ = std::min(least_, z_m);
+    most_ = std::max(most_, z_m);
+    if (count_ >= 2) change_ = std::max(change_, std::abs(z_m - 2 * last_ + before_));
+    before_ = last_;
+    last_ = z_m;
+    ++count_;
+  }
+  double stroke_m() const { return most_ - least_; }
+  double acceleration_m_s2(double step_s) const { return change_ / (step_s * step_s); }
+
+ private:
+  double least_ = 1e300, most_ = -1e300, last_ = 0, before_ = 0, change_ = 0;
+  std::size_t count_ = 0;
+};
+
+Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const HeightMap& map) {
+  algo::SpiralRequest request;
+  const algo::MapReach middle = algo::middle_of(map);
+  request.x_centre_m = middle.x_mid_m;
+  request.y_centre_m = middle.y_mid_m;
+  if (!o.centre.empty()) {
+    double x = 0, y = 0;
+    char after = 0;
+    std::string text = o.centre;
+    const std::size_t comma = text.find(',');
+    if (comma != std::string::npos) text[comma] = ' ';
+    if (comma == std::string::npos ||
+        std::sscanf(text.c_str(), "%lf %lf %c", &x, &y, &after) != 2 || !std::isfinite(x) ||
+        !std::isfinite(y))
+      return fail(ErrorCode::usage,
+                  "--centre-mm \"" + o.centre + "\": it must be two numbers, such as 0,-1.5");
+    request.x_centre_m = from_mm(x);
+    request.y_centre_m = from_mm(y);
+  }
+  request.outer_radius_m = o.outer_radius_mm
+                               ? from_mm(*o.outer_radius_mm)
+                               : algo::reach_m(map, request.x_centre_m, request.y_centre_m);
+  request.feed_m = from_mm(o.feed_mm_min / o.speed_rpm);
+  request.points_per_turn = static_cast<std::size_t>(o.points_per_rev);
+  request.tool_radius_m = from_mm(o.tool_radius_mm);
+  request.extend_pixels = static_cast<std::size_t>(o.extend_pixels);
+  return request;
+}
+
+Result<FoundPath> write_path(const FormPathCommand& o, const HeightMap& map) {
+  FoundPath found;
+  MDOF_TRY(found.request, request_of(o, map));
+  MDOF_TRY(const algo::SpiralPath path, algo::SpiralPath::over(map, found.request));
+  const double per_s = o.speed_rpm / 60;
+  algo::TurnSpectrum spectrum(found.request.points_per_turn,
+                              o.bandwidth_hz ? *o.bandwidth_hz / per_s : -1);
+  Motion motion;
+  const PathRates rates{o.speed_rpm, found.request.points_per_turn};
+  PathWriter writer(o.out, rates);
+  MDOF_CHECK(writer.begin());
+  MDOF_TRY(found.counts, path.each([&](const algo::PathPoint& point) {
+    motion.add(point.z_m);
+    spectrum.add(point.z_m);
+    return writer.add(point);
+  }));
+  MDOF_CHECK(writer.finish());
+  found.undulations = spectrum.undulations(o.undulation_share);
+  found.frequency_hz = static_cast<double>(found.undulations) * per_s;
+  found.stroke_m = motion.stroke_m();
+  found.acceleration_m_s2 = motion.acceleration_m_s2(rates.t_s(1));
+  found.duration_s = rates.t_s(found.counts.points - 1);
+  if (o.bandwidth_hz) found.left_out = spectrum.left_out();
+  if (spectrum.turns() == 0)
+    warn(o.out + ": has less than one turn, so that undulations are unknown");
+  if (found.counts.too_sharp > 0)
+    warn(o.map + ": at " + std::to_string(found.counts.too_sharp) +
+         " points the surface is bent more sharply than the tool, which leaves material there");
+  return found;
+}
+
+std::string path_json(const FoundPath& found, const FormPathCommand& o) {
+  JsonWriter json;
+  json.begin_object()
+      .field("undulations", static_cast<std::uint64_t>(found.undulations))
+      .field("frequency_hz", found.frequency_hz)
+      .field("stroke_um", to_um(found.stroke_m))
+      .field("points", static_cast<std::uint64_t>(found.counts.points))
+      .key("left_by_bandwidth_um");
+  if (found.left_out)
+    json.begin_object()
+        .field("pv", to_um(found.left_out->pv))
+        .field("rms", to_um(found.left_out->rms))
+        .end_object();
+  else
+    json.null();
+  json.key("centre_mm")
+      .begin_array()
+      .value(to_mm(found.request.x_centre_m))
+      .value(to_mm(found.request.y_centre_m))
+      .end_array()
+      .field("outer_radius_mm", to_mm(found.request.outer_radius_m))
+      .field("feed_um_per_turn", to_um(found.request.feed_m))
+      .field("turns", static_cast<double>(found.counts.points - 1) / o.points_per_rev)
+      .field("duration_s", found.duration_s)
+      .field("acceleration_max_m_s2", found.acceleration_m_s2)
+      .key("points_by_part")
+      .begin_object()
+      .field("measured", static_cast<std::uint64_t>(found.counts.measured))
+      .field("extended", static_cast<std::uint64_t>(found.counts.extended))
+      .field("bridged", static_cast<std::uint64_t>(found.counts.bridged))
+      .end_object();
+  if (found.request.tool_radius_m > 0) {
+    const auto rough = algo::feed_roughness(found.request.tool_radius_m, found.request.feed_m);
+    json.field("Ra_nm", rough.Ra_m * 1e9).field("Rt_nm", rough.Rt_m * 1e9);
+  }
+  json.field("out", o.out).end_object();
+  return json.take();
+}
+
+std::string path_text(const FoundPath& found, const FormPathCommand& o) {
+  const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 7); };
+  std::string text =
+      o.out + ": " + std::to_string(found.counts.points) + " points from radius " +
+      mm(found.request.outer_radius_m) + " mm in, about x = " + mm(found.request.x_centre_m) +
+      " mm, y = " + mm(found.request.y_centre_m) + " mm; " + plain_number(found.duration_s / 60) +
+      " min\n" + "measured " + std::to_string(found.counts.measured) + ", extended " +
+      std::to_string(found.counts.extended) + ", bridged " + std::to_string(found.counts.bridged) +
+      "\n";
+  text += std::to_string(found.undulations) + " undulations a turn, " +
+          plain_number(found.frequency_hz) + " Hz; stroke " + in_um(found.stroke_m) +
+          " µm; acceleration up to " + plain_number(found.acceleration_m_s2) + " m/s²\n";
+  if (found.left_out)
+    text += "a low pass of " + plain_number(*o.bandwidth_hz) + " Hz leaves out: PV " +
+            in_um(found.left_out->pv) + " µm, RMS " + in_um(found.left_out->rms) + " µm\n";
+  if (found.request.tool_radius_m > 0) {
+    const auto rough = algo::feed_roughness(found.request.tool_radius_m, found.request.feed_m);
+    text += "roughness by feed and tool radius: Ra " + plain_number(rough.Ra_m * 1e9) + " nm, Rt " +
+            plain_number(rough.Rt_m * 1e9) + " nm\n";
+  }
+  return text;
+}
+
+Status form_path(const FormPathCommand& o) {
+  MDOF_TRY(const HeightMap map, load_map(o.map, o.maps));
+  MDOF_TRY(const FoundPath found, write_path(o, map));
+  MDOF_CHECK(o.json ? write_line(path_json(found, o)) : write_out(path_text(found, o)));
+  if (o.bandwidth_hz && found.frequency_hz > *o.bandwidth_hz)
+    return fail(ErrorCode::check, o.map + ": needs " + plain_number(found.frequency_hz) +
+                                      " Hz, above --bandwidth-hz " + plain_number(*o.bandwidth_hz) +
+                                      "; turn more slowly");
+  if (o.stroke_limit_um && to_um(found.stroke_m) > *o.stroke_limit_um)
+    return fail(ErrorCode::check,
+                o.map + ": needs a stroke of " + plain_number(to_um(found.stroke_m)) +
+                    " µm, above --stroke-limit-um " + plain_number(*o.stroke_limit_um));
+  return {};
+}
+
+Action declare_form_path(CLI::App& command) {
+  const auto o = std::make_shared<FormPathCommand>();
+  command.add_option("MAP", o->map, "Height map that is cut")->required()->type_name("");
+  command.add_option("--speed-rpm", o->speed_rpm, "Of the spindle")
+      ->required()
+      ->check(positive_number());
+  command.add_option("--feed-mm-min", o->feed_mm_min, "Towards the centre")
+      ->required()
+      ->check(positive_number());
+  command
+      .add_option("--out", o->out,
+                  "Write t_s,rho_mm,theta_deg,z_um,on_part (1 measured, 2 extended, 0 bridged); "
+                  "G-code where it ends in .ngc, .nc, .gcode or .tap")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option("--centre-mm", o->centre,
+                  "Axis of the spindle [default: middle of the measured part]")
+      ->type_name("X,Y");
+  command
+      .add_option("--outer-radius-mm", o->outer_radius_mm,
+                  "Where it begins [default: the farthest measured pixel]")
+      ->check(positive_number());
+  command.add_option("--points-per-rev", o->points_per_rev, "Points a turn")
+      ->check(whole_number_in(4, 1'000'000))
+      ->capture_default_str();
+  command.add_option("--tool-radius-mm", o->tool_radius_mm, "Of the round tool; 0: pointed")
+      ->check(not_negative_number())
+      ->capture_default_str();
+  command.add_option("--extend-pixels", o->extend_pixels, "The surface goes on beyond the edge by")
+      ->check(whole_number_in(0, 100))
+      ->capture_default_str();
+  command
+      .add_option("--undulation-share", o->undulation_share,
+                  "Of the largest amplitude: what is below it is no undulation")
+      ->check(number_in(1e-9, 1))
+      ->capture_default_str();
+  command.add_option("--bandwidth-hz", o->bandwidth_hz, "Of the servo; exit 1 if it needs more")
+      ->check(positive_number());
+  command
+      .add_option("--stroke-limit-um", o->stroke_limit_um, "Of the servo; exit 1 if it needs more")
+      ->check(positive_number());
+  add_map_options(command, o->maps);
+  add_json_flag(command, o->json);
+  return [o] { return form_path(*o); };
+}
+
+}  // namespace
+
+Command form_path_command() {
+  return {.name = "form path",
+          .summary = "Path of a fast tool servo over a height map",
+          .footer =
+              "Example:\n"
+              "  mdof form path elastic.csv --speed-rpm 300 --feed-mm-min 1.2 --tool-radius-mm 0.2 "
+              "--bandwidth-hz 500 --out path.csv",
+          .declare = declare_form_path};
+}
+
+}  // namespace mdof::tools

@@ -122,26 +122,32 @@ bool SpiralPath::touch(std::size_t index, Touch& found) const {
 }
 
 // Of the projection onto the plane: rho dtheta, and the feed, which is small beside it.
-double SpiralPath::arc_m(std::size_t from, std::size_t to) const {
+double SpiralPath::arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const {
   const double steps = static_cast<double>(to - from);
   const double angle = 2 * std::numbers::pi * steps / static_cast<double>(request_.points_per_turn);
-  const double across = rho_m(from) - rho_m(to), around = angle * (rho_m(from) + rho_m(to)) / 2;
+  const auto rho = [this](std::ptrdiff_t index) {
+    return rho_m(static_cast<std::size_t>(std::max<std::ptrdiff_t>(index, 0)));
+  };
+  const double across = rho(from) - rho(to), around = angle * (rho(from) + rho(to)) / 2;
   return std::sqrt(around * around + across * across);
 }
 
 // Points that are on no pixel, between two that are: Eq. 9 over their arc. One of more than a turn
 // goes to the mean of both heights within half a turn and stays there, as a slope would carry a
-// cubic of that length far away; one at an end of the path keeps the height of its one neighbour.
+// cubic of that length far away; one at the end of the path keeps the height before it. At the
+// beginning of the path what comes before is taken from the end of the first turn, as if a turn at
+// the same radius went before: a servo that held the first height would have to jump.
 struct SpiralPath::Gap {
   const SpiralPath& path;
   bool has_before = false, has_after = false;
-  std::size_t before_at = 0, after_at = 0;
+  std::ptrdiff_t before_at = 0, after_at = 0;  // before: may be negative
   Touch before, after;
 
-  double z_m(std::size_t index) const {
+  double z_m(std::ptrdiff_t index) const {
     if (!has_before) return after.z_m;
     if (!has_after) return before.z_m;
-    const std::size_t turn = path.request_.points_per_turn, half = turn / 2 + 1;
+    const auto turn = static_cast<std::ptrdiff_t>(path.request_.points_per_turn),
+               half = turn / 2 + 1;
     if (after_at - before_at <= turn)
       return hermite(path.arc_m(before_at, index), path.arc_m(before_at, after_at), before.z_m,
                      before.along, after.z_m, after.along);
@@ -156,6 +162,16 @@ struct SpiralPath::Gap {
   }
 };
 
+void SpiralPath::look_back(std::size_t first, Gap& gap) const {
+  const std::size_t turn = request_.points_per_turn;
+  for (std::size_t k = std::min(first + turn, points_); k-- > first;)
+    if (touch(k, gap.before)) {
+      gap.has_before = true;
+      gap.before_at = static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(turn);
+      return;
+    }
+}
+
 Result<SpiralCounts> SpiralPath::each(const std::function<Status(const PathPoint&)>& take) const {
   SpiralCounts counts;
   counts.points = points_;
@@ -167,18 +183,18 @@ Result<SpiralCounts> SpiralPath::each(const std::function<Status(const PathPoint
       counts.too_sharp += found.is_too_sharp ? 1 : 0;
       MDOF_CHECK(take({rho_m(k), found.z_m, k, found.on_part}));
       gap.has_before = true;
-      gap.before_at = k;
+      gap.before_at = static_cast<std::ptrdiff_t>(k);
       gap.before = found;
       continue;
     }
-    gap.has_after = false;
-    for (gap.after_at = k + 1; gap.after_at < points_ && !gap.has_after; ++gap.after_at)
-      gap.has_after = touch(gap.after_at, gap.after);
-    if (gap.has_after) --gap.after_at;
-    const std::size_t end = gap.after_at;
+    std::size_t end = k + 1;
+    while (end < points_ && !touch(end, gap.after)) ++end;
+    gap.has_after = end < points_;
+    gap.after_at = static_cast<std::ptrdiff_t>(end);
+    if (!gap.has_before && gap.has_after) look_back(end, gap);
     for (; k < end; ++k) {
       ++counts.bridged;
-      MDOF_CHECK(take({rho_m(k), gap.z_m(k), k, OnPart::bridged}));
+      MDOF_CHECK(take({rho_m(k), gap.z_m(static_cast<std::ptrdiff_t>(k)), k, OnPart::bridged}));
     }
     --k;
   }

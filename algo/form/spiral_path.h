@@ -59,7 +59,9 @@ class SpiralPath {
   bool contact(double rho_m, double cos, double sin, Touch& found) const;
   bool at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part) const;
   // Along the path from the first index on.
-  double arc_m(std::size_t from, std::size_t to) const;
+  double arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const;
+  // The last touch before `first`, as if the first turn had another one before it.
+  void look_back(std::size_t first, Gap& gap) const;
 
   SpiralRequest request_;
   Surface surface_;

@@ -127,6 +127,13 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   EXPECT_GT(counted[0], 1000u);
   EXPECT_LT(step, 0.042e-6);      // no jump: 2 pi 20 mm / 720 at a slope of 0.24 um/mm
   EXPECT_LT(steepest, 0.003e-6);  // no kink
+  // It begins on no pixel, where the end of the first turn goes on.
+  const double shift_m = half + 6 * d;
+  const Walked beside = walk(map, {0, -shift_m, 20e-3, 1e-5, per_turn, 0, 3});
+  ASSERT_EQ(beside.points.front().on_part, OnPart::bridged);
+  EXPECT_NEAR(beside.points[0].z_m, beside.points[per_turn].z_m, 0.01e-6);
+  EXPECT_NEAR(beside.points[1].z_m - beside.points[0].z_m,
+              beside.points[0].z_m - beside.points[per_turn - 1].z_m, 0.02e-6);
 }
 
 // Between two ends Eq. 9 by an own program; it rises and falls at most twice.

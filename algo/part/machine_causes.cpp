@@ -1,0 +1,93 @@
+#include "algo/part/machine_causes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algo/machine/tool_error.h"
+
+namespace mdof::algo {
+namespace {
+
+// Of frame, k and kind in the order of derivatives().
+struct Known {
+  std::size_t frame = 0, k = 0;
+  bool of_line = false;
+  std::size_t cause = 0;
+};
+
+bool is_known(const MachineFrame& frame, std::size_t k, bool of_line) {
+  return of_line ? frame.location[k].value.has_value() : frame.error[k].known();
+}
+
+PartCause new_cause(const std::string& name, std::size_t points) {
+  return {0, name, std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero()),
+          std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero())};
+}
+
+std::vector<Known> known_errors(const Machine& machine, std::size_t points, MachineCauses& causes) {
+  std::vector<Known> known;
+  for (std::size_t f = 0; f < machine.frames.size(); ++f)
+    for (const bool of_line : {false, true})
+      for (std::size_t k = 0; k < kBodyErrors; ++k) {
+        const MachineFrame& frame = machine.frames[f];
+        if (!is_known(frame, k, of_line)) continue;
+        known.push_back({f, k, of_line, causes.axes.size()});
+        causes.axes.push_back(
+            new_cause(of_line ? location_name(frame, k) : error_name(frame, k), points));
+      }
+  return known;
+}
+
+// What a unit of the source does to the tool here; errors that were measured have it in their
+// value.
+Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, const Command& command,
+                          const std::vector<ErrorDerivative>& all) {
+  Eigen::Vector3d effect = Eigen::Vector3d::Zero();
+  for (const SourceEffect& acts : source.acts_on) {
+    if (is_known(machine.frames[acts.frame], acts.k, acts.of_line)) continue;
+    double factor = acts.factor;
+    if (acts.factor_per_position != 0)
+      factor += acts.factor_per_position * command_of(machine.frames[acts.of], command);
+    for (const ErrorDerivative& d : all)
+      if (d.frame == acts.frame && d.k == acts.k && d.of_line == acts.of_line)
+        effect += factor * d.d.head<3>();
+  }
+  return effect;
+}
+
+}  // namespace
+
+MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m) {
+  MachineCauses causes;
+  const std::vector<Known> known = known_errors(machine, at_m.size(), causes);
+  for (const ErrorSource& source : machine.sources)
+    causes.budget.push_back(new_cause(source.name, at_m.size()));
+  for (std::size_t p = 0; p < at_m.size(); ++p) {
+    Command command{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      command[axis] = at_m[p](static_cast<Eigen::Index>(axis));
+    const auto values = values_at(machine, command, MachineApproach::mean);
+    const auto all = derivatives(machine, command);
+    for (const Known& one : known)
+      for (const ErrorDerivative& d : all) {
+        if (d.frame != one.frame || d.k != one.k || d.of_line != one.of_line) continue;
+        const FrameValues& v = values[one.frame];
+        causes.axes[one.cause].value_m[p] +=
+            d.d.head<3>() * (one.of_line ? v.location : v.error)[one.k];
+        causes.axes[one.cause].u_m[p] +=
+            d.d.head<3>() * (one.of_line ? v.u_location : v.u_error)[one.k];
+      }
+    for (std::size_t s = 0; s < machine.sources.size(); ++s)
+      causes.budget[s].u_m[p] =
+          effect_of(machine, machine.sources[s], command, all) * machine.sources[s].u;
+    const ToolError error = tool_error(machine, command, MachineApproach::mean);
+    for (std::size_t k = 0; k < 3; ++k) {
+      add_new(error.not_measured[k], causes.not_measured);
+      add_new(error.no_u[k], causes.no_u);
+    }
+    add_new(error.beyond, causes.beyond);
+  }
+  return causes;
+}
+
+}  // namespace mdof::algo

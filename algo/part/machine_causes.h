@@ -1,0 +1,22 @@
+// The machine's part in the error of a part: measured errors of its axes, and sources that were not
+// measured, over the points of a path. SI.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algo/part/part_error.h"
+#include "schema/machine/machine.h"
+
+namespace mdof::algo {
+
+struct MachineCauses {
+  std::vector<PartCause> axes;    // of each error that is known: "EYX", "EC0Y"
+  std::vector<PartCause> budget;  // of each source, on what is not measured
+  std::vector<std::string> not_measured, no_u, beyond;  // as of ToolError
+};
+
+// Places of the path are commands of X, Y and Z; an axis that the chain has not stays.
+MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m);
+
+}  // namespace mdof::algo

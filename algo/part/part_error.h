@@ -1,0 +1,48 @@
+// The error of a part along its path from the causes of its layers, each with its uncertainty, and
+// the share of each (README.md). SI.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mdof::algo {
+
+// One cause over the points of a path: error = value + xi u, xi one number of variance 1 for the
+// whole path, as a squareness or a scale is not known better by looking at it twice.
+struct PartCause {
+  std::size_t layer = 0;
+  std::string name;
+  std::vector<Eigen::Vector3d> value_m, u_m;
+};
+
+struct PartPath {
+  std::vector<Eigen::Vector3d> at_m;
+  // Outward, of length 1: the error is what points along it. Empty: the length of the error counts.
+  std::vector<Eigen::Vector3d> normal;
+};
+
+struct PartShare {
+  double rms_m = 0, U_rms_m = 0;  // of the layer or cause, with what is not known of it
+  double share = 0, U_share = 0;  // of the sum of all mean squares
+};
+
+struct PartError {
+  double p95_m = 0, U_p95_m = 0, max_m = 0, U_max_m = 0;
+  std::size_t worst = 0;  // of the points
+  std::vector<PartShare> layers, causes;
+};
+
+struct PartTrials {
+  std::uint64_t seed = 1;
+  std::size_t shares = 2000, errors = 400;
+};
+
+// U for 95 %, by Monte Carlo over the xi: how far from the estimate 95 % of the trials are. A layer
+// that is not known at all but in its u (a budget) has its expected mean square.
+PartError part_error(const PartPath& path, const std::vector<PartCause>& causes, std::size_t layers,
+                     const PartTrials& trials = {});
+
+}  // namespace mdof::algo

@@ -1,0 +1,169 @@
+// Shares of planted causes: closed forms, and whether the truth lies within U as often as U says.
+#include "algo/part/part_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "algo/part/machine_causes.h"
+
+namespace mdof::algo {
+namespace {
+
+using Field = std::vector<Eigen::Vector3d>;
+constexpr std::size_t kPoints = 200;
+
+PartPath path_of(bool with_normals) {
+  PartPath path;
+  for (std::size_t k = 0; k < kPoints; ++k) {
+    path.at_m.emplace_back(static_cast<double>(k) * 1e-3, 0, 0);
+    if (with_normals) path.normal.emplace_back(0, 0, 1);
+  }
+  return path;
+}
+
+// Shapes over the path, of which a cause has a multiple.
+Field shape(int k) {
+  Field field;
+  for (std::size_t p = 0; p < kPoints; ++p) {
+    const double t = static_cast<double>(p) / kPoints;
+    const double z = k == 0 ? 2 * t - 1 : k == 1 ? 1 : k == 2 ? std::sin(9 * t) : t * t;
+    field.emplace_back(0.3 * z, 0, z);
+  }
+  return field;
+}
+Field times(const Field& field, double factor) {
+  Field result = field;
+  for (Eigen::Vector3d& v : result) v *= factor;
+  return result;
+}
+double mean_square(const Field& field) {
+  double sum = 0;
+  for (const Eigen::Vector3d& v : field) sum += v(2) * v(2);
+  return sum / kPoints;
+}
+
+TEST(PartError, SharesInClosedForm) {
+  const double size[] = {2e-6, 1e-6, 0.5e-6};
+  std::vector<PartCause> causes;
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    causes.push_back({static_cast<std::size_t>(k), "c", times(shape(k), size[k]),
+                      Field(kPoints, Eigen::Vector3d::Zero())});
+    sum += mean_square(causes.back().value_m);
+  }
+  const PartError found = part_error(path_of(true), causes, 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(found.layers[k].share, mean_square(causes[k].value_m) / sum, 1e-12);
+    EXPECT_NEAR(found.layers[k].rms_m, std::sqrt(mean_square(causes[k].value_m)), 1e-18);
+    EXPECT_EQ(found.layers[k].U_share, 0);
+  }
+  // The largest: at the end of the path, where all add up.
+  double most = 0;
+  std::size_t at = 0;
+  for (std::size_t p = 0; p < kPoints; ++p) {
+    double z = 0;
+    for (const PartCause& c : causes) z += c.value_m[p](2);
+    if (std::abs(z) > most) {
+      most = std::abs(z);
+      at = p;
+    }
+  }
+  EXPECT_NEAR(found.max_m, most, 1e-18);
+  EXPECT_EQ(found.worst, at);
+  EXPECT_LT(found.p95_m, found.max_m);
+  // Without normals the length counts.
+  EXPECT_NEAR(part_error(path_of(false), causes, 3).max_m, most * std::sqrt(1.09), 1e-15);
+}
+
+// Two causes of one layer add up with their signs; of a budget the expected square counts.
+TEST(PartError, WithinALayerAndUnknown) {
+  std::vector<PartCause> causes = {{0, "a", times(shape(1), 3e-6), times(shape(1), 0)},
+                                   {0, "b", times(shape(1), -1e-6), times(shape(1), 0)},
+                                   {1, "source", times(shape(1), 0), times(shape(1), 2e-6)}};
+  const PartError found = part_error(path_of(true), causes, 2);
+  EXPECT_NEAR(found.layers[0].rms_m, 2e-6, 1e-15);
+  EXPECT_NEAR(found.layers[1].rms_m, 2e-6, 1e-15);
+  EXPECT_NEAR(found.layers[0].share, 0.5, 1e-12);
+  EXPECT_NEAR(found.causes[0].share, 9. / 14, 1e-12);
+  // |2 + 2 xi| - 2 is beyond 1.645 u in one trial of twenty: the other way it cannot go so far.
+  EXPECT_NEAR(found.U_max_m, 1.645 * 2e-6, 0.35e-6);
+}
+
+// 1,000 parts: each cause is measured with its u, and the true share compared with what is said.
+TEST(PartError, PlantedSharesAreWithinTheirU) {
+  const double size[] = {2e-6, 1.5e-6, 1e-6, 1.2e-6}, u[] = {0.1e-6, 0.08e-6, 0.1e-6, 0.05e-6};
+  std::mt19937 engine(3);
+  std::normal_distribution<double> normal;
+  double truth[4], sum = 0;
+  for (int k = 0; k < 4; ++k) sum += truth[k] = mean_square(times(shape(k), size[k]));
+  constexpr int kParts = 1000;
+  int within = 0, rms_within = 0;
+  for (int part = 0; part < kParts; ++part) {
+    std::vector<PartCause> causes;
+    for (int k = 0; k < 4; ++k)
+      causes.push_back({static_cast<std::size_t>(k), "c",
+                        times(shape(k), size[k] + u[k] * normal(engine)), times(shape(k), u[k])});
+    PartTrials trials;
+    trials.seed = static_cast<std::uint64_t>(part);
+    trials.errors = 0;
+    const PartError found = part_error(path_of(true), causes, 4, trials);
+    for (std::size_t k = 0; k < 4; ++k) {
+      within += std::abs(found.layers[k].share - truth[k] / sum) <= found.layers[k].U_share ? 1 : 0;
+      rms_within +=
+          std::abs(found.layers[k].rms_m - std::sqrt(truth[k])) <= found.layers[k].U_rms_m ? 1 : 0;
+    }
+  }
+  const double share = 100.0 * within / (4 * kParts), rms = 100.0 * rms_within / (4 * kParts);
+  std::printf("true shares within U: %.2f %%, true RMS %.2f %% of %d parts\n", share, rms, kParts);
+  EXPECT_GE(share, 94);
+  EXPECT_LE(share, 96.5);
+  EXPECT_GE(rms, 94);
+  EXPECT_LE(rms, 96.5);
+}
+
+// By hand: X under Y of a table; the tool above the point at which the errors hold.
+TEST(MachineCauses, LeversAndSources) {
+  const auto machine = parse_machine(R"(name = "m"
+machine = {chain = "w-Y-b-X-t"}
+tool = {point_mm = [0, 0, 100]}
+[[axis]]
+id = "X"
+holds_at_mm = [0, 0, 0]
+point = "moving"
+EXX_um = [[0, 0], [100, 4]]
+EBX_urad = 10
+u_EBX_urad = 2
+[[axis]]
+id = "Y"
+holds_at_mm = [0, 0, 0]
+point = "standing"
+EC0Y_urad = 25
+u_EC0Y_urad = 1
+[[source]]
+name = "screw"
+u = 0.5
+unit = "um"
+acts_on = [ { error = "EYY", factor = 2 }, { error = "EXX", factor = 9 } ]
+)",
+                                     "m.toml");
+  ASSERT_TRUE(machine) << machine.error().message;
+  const std::vector<Eigen::Vector3d> at = {{0, 0, 0}, {0.05, 0.04, 0}};
+  const MachineCauses found = machine_causes(*machine, at);
+  ASSERT_EQ(found.axes.size(), 3u);
+  EXPECT_EQ(found.axes[0].name, "EC0Y");
+  EXPECT_EQ(found.axes[1].name, "EXX");
+  EXPECT_EQ(found.axes[2].name, "EBX");
+  EXPECT_NEAR(found.axes[1].value_m[1](0), 2e-6, 1e-12);
+  EXPECT_NEAR(found.axes[2].value_m[1](0), 10e-6 * 0.1, 1e-12);  // 10 urad at 100 mm
+  EXPECT_NEAR(std::abs(found.axes[2].u_m[1](0)), 2e-6 * 0.1, 1e-12);
+  EXPECT_NEAR(std::abs(found.axes[0].value_m[1](0)), 25e-6 * 0.04, 1e-12);
+  // On what was measured, EXX, the source does not act.
+  ASSERT_EQ(found.budget.size(), 1u);
+  EXPECT_NEAR(std::abs(found.budget[0].u_m[1](1)), 1e-6, 1e-12);
+  EXPECT_EQ(found.budget[0].u_m[1](0), 0);
+}
+
+}  // namespace
+}  // namespace mdof::algo

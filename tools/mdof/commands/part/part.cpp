@@ -1,0 +1,162 @@
+// mdof part PART.toml: the error of a part along its path, what makes it, and what takes it out.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "algo/part/part_error.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/machine/machine_file.h"
+#include "tools/mdof/commands/part/part_layers.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct PartCommand {
+  std::string file, database;
+  bool json = false;
+};
+
+struct FoundPart {
+  LoadedPart part;
+  algo::PartError error, left;
+  std::vector<std::size_t> layers, causes;  // the largest share first
+};
+
+std::vector<std::size_t> ranked(const std::vector<algo::PartShare>& shares) {
+  std::vector<std::size_t> order(shares.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return shares[a].share > shares[b].share; });
+  return order;
+}
+
+void write_share(JsonWriter& json, const algo::PartShare& share) {
+  json.field("share", share.share)
+      .field("U_share", share.U_share)
+      .field("rms_um", to_um(share.rms_m))
+      .field("U_rms_um", to_um(share.U_rms_m));
+}
+
+std::string part_json(const FoundPart& found) {
+  const LoadedPart& part = found.part;
+  JsonWriter json;
+  json.begin_object()
+      .field("name", part.plan.name)
+      .field("machine", part.machine.name)
+      .field("simulated", part.machine.simulated)
+      .field("points", static_cast<std::uint64_t>(part.path.at_m.size()))
+      .field("along_normals", !part.path.normal.empty())
+      .key("error_um")
+      .begin_object()
+      .field("p95", to_um(found.error.p95_m))
+      .field("U_p95", to_um(found.error.U_p95_m))
+      .field("max", to_um(found.error.max_m))
+      .field("U_max", to_um(found.error.U_max_m))
+      .end_object()
+      .key("layers")
+      .begin_array();
+  for (const std::size_t k : found.layers) {
+    const LoadedLayer& layer = part.layers[k];
+    json.begin_object().field("name", layer.plan.name);
+    write_share(json, found.error.layers[k]);
+    json.field("compensated", layer.plan.compensated).key("compensated_by");
+    if (layer.compensated_by.empty())
+      json.null();
+    else
+      json.value(layer.compensated_by);
+    json.field("left_um", to_um(found.left.layers[k].rms_m)).end_object();
+  }
+  json.end_array().key("causes").begin_array();
+  for (const std::size_t k : found.causes) {
+    json.begin_object()
+        .field("name", part.causes[k].name)
+        .field("layer", part.layers[part.causes[k].layer].plan.name);
+    write_share(json, found.error.causes[k]);
+    json.end_object();
+  }
+  const Eigen::Vector3d& worst = part.path.at_m[found.error.worst];
+  json.end_array()
+      .key("worst")
+      .begin_object()
+      .field("x_mm", to_mm(worst(0)))
+      .field("y_mm", to_mm(worst(1)))
+      .field("z_mm", to_mm(worst(2)))
+      .end_object();
+  write_strings(json, "not_measured", part.not_measured);
+  write_strings(json, "u_not_declared", part.no_u);
+  json.end_object();
+  return json.take();
+}
+
+std::string part_text(const FoundPart& found) {
+  const LoadedPart& part = found.part;
+  const Eigen::Vector3d& worst = part.path.at_m[found.error.worst];
+  std::string text = simulated_notice(part.machine.simulated);
+  if (!part.plan.name.empty()) text += part.plan.name + ": ";
+  text += "error of the part, " +
+          std::string(part.path.normal.empty() ? "length of its vector" : "along the normals") +
+          ", over " + std::to_string(part.path.at_m.size()) + " points\n95 % of them below " +
+          in_um(found.error.p95_m) + " µm (U = " + in_um(found.error.U_p95_m) + "), largest " +
+          in_um(found.error.max_m) + " µm (U = " + in_um(found.error.U_max_m) + ") at x " +
+          in_mm(worst(0)) + ", y " + in_mm(worst(1)) + ", z " + in_mm(worst(2)) + " mm\n";
+  TextTable layers({"layer", "share/%", "U/%", "RMS/µm", "U/µm", "left/µm", "taken out by"});
+  for (const std::size_t k : found.layers) {
+    const algo::PartShare& share = found.error.layers[k];
+    layers.add({part.layers[k].plan.name, fixed(100 * share.share, 1),
+                fixed(100 * share.U_share, 1), in_um(share.rms_m), in_um(share.U_rms_m),
+                in_um(found.left.layers[k].rms_m), part.layers[k].compensated_by});
+  }
+  TextTable causes({"cause", "layer", "share/%", "U/%", "RMS/µm"});
+  for (const std::size_t k : found.causes)
+    causes.add({part.causes[k].name, part.layers[part.causes[k].layer].plan.name,
+                fixed(100 * found.error.causes[k].share, 1),
+                fixed(100 * found.error.causes[k].U_share, 1), in_um(found.error.causes[k].rms_m)});
+  return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
+         "share: of the sum of mean squares; left: RMS when it is compensated\n" +
+         missing_text(part.not_measured, part.no_u, terminal_columns());
+}
+
+Status part(const PartCommand& o) {
+  FoundPart found;
+  MDOF_TRY(found.part, load_part(o.file, o.database));
+  const std::size_t layers = found.part.layers.size();
+  found.error = algo::part_error(found.part.path, found.part.causes, layers);
+  algo::PartTrials none;
+  none.shares = none.errors = 0;
+  found.left = algo::part_error(found.part.path, found.part.left, layers, none);
+  found.layers = ranked(found.error.layers);
+  found.causes = ranked(found.error.causes);
+  return o.json ? write_line(part_json(found)) : write_out(part_text(found));
+}
+
+Action declare_part(CLI::App& command) {
+  const auto o = std::make_shared<PartCommand>();
+  command
+      .add_option("PART", o->file,
+                  "PART.toml: machine, path, and layers: axes, budget, form, milling")
+      ->required()
+      ->type_name("");
+  add_database_option(command, o->database);
+  add_json_flag(command, o->json);
+  return [o] { return part(*o); };
+}
+
+}  // namespace
+
+Command part_command() {
+  return {.name = "part",
+          .summary = "Error of a part along its path, what makes it and what takes it out",
+          .footer = "Example:\n  mdof part part.toml",
+          .declare = declare_part};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,243 @@
+#include "tools/mdof/commands/part/part_layers.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "algo/form/surface.h"
+#include "algo/milling/milling.h"
+#include "algo/part/machine_causes.h"
+#include "drivers/csv/csv_table.h"
+#include "schema/base/files.h"
+#include "schema/base/number/number_text.h"
+#include "schema/milling/milling_plan.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/form/map_file.h"
+#include "tools/mdof/commands/machine/machine_file.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+using Field = std::vector<Eigen::Vector3d>;
+constexpr std::size_t kMostPoints = 100'000;
+
+// ---- the path ----
+
+Result<algo::PartPath> load_path(const std::string& file) {
+  MDOF_TRY(const auto csv, drivers::read_csv_table(file, {"x_mm", "y_mm", "z_mm"},
+                                                   {"nx", "ny", "nz"}, kMostPoints));
+  algo::PartPath path;
+  const bool has_normals = !csv.columns[3].empty();
+  for (std::size_t k = 4; k < 6; ++k)
+    if (csv.columns[k].empty() == has_normals)
+      return bad_input(csv.source + ": has not all of nx, ny, nz; give all three or none");
+  if (csv.rows() < 2) return bad_input(csv.source + ": a path has at least two points");
+  for (std::size_t k = 0; k < csv.rows(); ++k) {
+    path.at_m.emplace_back(from_mm(csv.columns[0][k]), from_mm(csv.columns[1][k]),
+                           from_mm(csv.columns[2][k]));
+    if (!has_normals) continue;
+    const Eigen::Vector3d n(csv.columns[3][k], csv.columns[4][k], csv.columns[5][k]);
+    if (!(n.norm() > 0.5 && n.norm() < 2))
+      return bad_input(csv.where(k) + "nx, ny, nz has the length " + plain_number(n.norm()) +
+                       "; a normal has 1");
+    path.normal.push_back(n / n.norm());
+  }
+  return path;
+}
+
+// ---- axes and budget ----
+
+// Into the machine, as columns of a file would be.
+Status add_table(Machine& machine, const CompensationTable& table, const std::string& from) {
+  for (MachineFrame& frame : machine.frames) {
+    if (frame.kind != FrameKind::linear || frame.id != std::string(1, letter(table.axis))) continue;
+    for (std::size_t named = 0; named < error_names(table.axis).size(); ++named) {
+      const ErrorName& name = error_names(table.axis)[named];
+      const std::size_t k =
+          std::string_view(name.angle ? "ABC" : "XYZ").find(name.name[1]) + (name.angle ? 3 : 0);
+      ErrorFunction& f = frame.error[k];
+      if (f.known())
+        return bad_input(from + ": " + error_name(frame, k) +
+                         " is in the machine's file too; give it once");
+      for (std::size_t row = 0; row < table.position_m.size(); ++row) {
+        const double forward = table.forward[named][row], reverse = table.reverse[named][row];
+        const double value = std::isnan(reverse)   ? forward
+                             : std::isnan(forward) ? reverse
+                                                   : (forward + reverse) / 2;
+        if (std::isnan(value)) continue;
+        f.position.push_back(table.position_m[row]);
+        f.forward.push_back(value);
+        f.u.push_back(
+            table.u_of(std::isnan(forward) ? table.u_reverse : table.u_forward, named, row));
+      }
+      if (f.forward.empty()) f = {};
+    }
+    machine.simulated = machine.simulated || table.simulated;
+    return {};
+  }
+  return bad_input(from + ": is of axis " + std::string(1, letter(table.axis)) +
+                   ", which the chain " + machine.chain.text + " has not");
+}
+
+Status add_tables(LoadedPart& part, const PartLayer& layer, const std::string& database) {
+  if (layer.from.empty()) return {};
+  MDOF_TRY(store::Store store, open_to_read(database));
+  for (const std::string& from : layer.from) {
+    MDOF_TRY(const CompensationTable table, store.table(*table_number(from)));
+    MDOF_CHECK(add_table(part.machine, table, from));
+  }
+  return {};
+}
+
+// ---- form and milling ----
+
+algo::PartCause new_cause(const std::string& name, std::size_t points) {
+  return {0, name, Field(points, Eigen::Vector3d::Zero()), Field(points, Eigen::Vector3d::Zero())};
+}
+
+// The part springs back by the elastic deformation: what was cut to its place goes to -z.
+Result<algo::PartCause> form_cause(const LoadedPart& part, const PartLayer& layer,
+                                   const std::string& file) {
+  MDOF_TRY(const HeightMap map, load_map(file, {}));
+  const algo::Surface surface(map, 1, algo::Extension::line);
+  algo::PartCause cause = new_cause("spring-back", part.path.at_m.size());
+  std::size_t off = 0;
+  for (std::size_t k = 0; k < part.path.at_m.size(); ++k) {
+    algo::SurfacePoint at;
+    if (!surface.at(part.path.at_m[k](0), part.path.at_m[k](1), 1, at)) {
+      ++off;
+      continue;
+    }
+    cause.value_m[k](2) = -at.z_m;
+    cause.u_m[k](2) = layer.u_m.value_or(0);
+  }
+  if (off == part.path.at_m.size())
+    return bad_input(file + ": no point of the path " + part.plan.path +
+                     " is on it; both have the coordinates of the part");
+  if (off > 0)
+    warn(file + ": " + std::to_string(off) +
+         " points of the path are off the map; no spring-back "
+         "is counted there");
+  return cause;
+}
+
+// From the wall to the tool, in the plane of X and Y: of the normals, or across the path (down cut:
+// the tool is left of the wall's edge; a spindle that turns clockwise, M3).
+Field wall_normals(const algo::PartPath& path, bool is_up) {
+  Field normals;
+  const std::size_t n = path.at_m.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!path.normal.empty()) {
+      normals.emplace_back(path.normal[k](0), path.normal[k](1), 0);
+      continue;
+    }
+    const Eigen::Vector3d way = path.at_m[std::min(k + 1, n - 1)] - path.at_m[k > 0 ? k - 1 : 0];
+    const double length = std::hypot(way(0), way(1)), side = is_up ? -1 : 1;
+    if (length > 0)
+      normals.emplace_back(-way(1) / length * side, way(0) / length * side, 0);
+    else
+      normals.emplace_back(0, 0, 0);
+  }
+  return normals;
+}
+
+Result<std::vector<algo::PartCause>> milling_causes(const LoadedPart& part,
+                                                    const std::string& file) {
+  MDOF_TRY(const std::string text, read_text_file(file));
+  MDOF_TRY(const DeclaredMillingPlan declared, parse_milling_plan(text, file));
+  MDOF_TRY(const algo::MillingResult result, algo::milling(declared.plan));
+  MDOF_TRY(const algo::WearOffset offset, algo::wear_offset(declared));
+  const Field normals = wall_normals(part.path, declared.plan.is_up);
+  std::vector<algo::PartCause> causes = {
+      new_cause("tool deflection", part.path.at_m.size()),
+      new_cause("deflection over the depth", part.path.at_m.size())};
+  for (std::size_t k = 0; k < normals.size(); ++k) {
+    // Outward is into the wall.
+    causes[0].value_m[k] = -result.wall.offset_mean_m * normals[k];
+    if (std::isfinite(offset.u_m)) causes[0].u_m[k] = offset.u_m * normals[k];
+    // From tip to root a slope: its standard deviation over the depth.
+    causes[1].u_m[k] = result.wall.form_m / std::sqrt(12.0) * normals[k];
+  }
+  return causes;
+}
+
+// ---- all layers ----
+
+// A compensation takes out the value; what is not known of it stays.
+algo::PartCause without_value(algo::PartCause cause) {
+  for (Eigen::Vector3d& value : cause.value_m) value.setZero();
+  return cause;
+}
+
+void add_layer(LoadedPart& part, const PartLayer& plan, const std::string& compensated_by,
+               const std::vector<algo::PartCause>& causes) {
+  const std::size_t number = part.layers.size();
+  part.layers.push_back({plan, compensated_by});
+  for (algo::PartCause cause : causes) {
+    cause.layer = number;
+    part.left.push_back(without_value(cause));
+    part.causes.push_back(plan.compensated ? part.left.back() : cause);
+  }
+}
+
+Status add_machine_layers(LoadedPart& part, const std::string& database) {
+  const PartLayer *axes = nullptr, *budget = nullptr;
+  for (const PartLayer& layer : part.plan.layers) {
+    if (layer.on && layer.name == "axes") axes = &layer;
+    if (layer.on && layer.name == "budget") budget = &layer;
+  }
+  if (axes) MDOF_CHECK(add_tables(part, *axes, database));
+  if (!axes && !budget) return {};
+  const algo::MachineCauses found = algo::machine_causes(part.machine, part.path.at_m);
+  if (axes && found.axes.empty())
+    return bad_input(part.plan.machine +
+                     ": has no measured error; layer axes needs some, or "
+                     "axes = \"table:N\"");
+  if (budget && found.budget.empty())
+    return bad_input(part.plan.machine + ": has no [[source]]; layer budget needs some");
+  part.not_measured = found.not_measured;
+  warn_beyond(found.beyond);
+  if (axes) {
+    add_layer(part, *axes, "compensating command (mdof machine error, mdof compensation export)",
+              found.axes);
+    part.no_u = found.no_u;
+  }
+  if (budget) {
+    if (budget->compensated)
+      return bad_input(part.plan.machine +
+                       ": layer budget cannot be compensated: its sources "
+                       "were not measured");
+    add_layer(part, *budget, "", found.budget);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<LoadedPart> load_part(const std::string& file, const std::string& database) {
+  LoadedPart part;
+  MDOF_TRY(const std::string text, read_text_file(file));
+  MDOF_TRY(part.plan, parse_part_plan(text, file));
+  const auto folder = std::filesystem::path(file).parent_path();
+  const auto beside = [&folder](const std::string& name) { return (folder / name).string(); };
+  MDOF_TRY(part.machine, load_machine(beside(part.plan.machine)));
+  MDOF_TRY(part.path, load_path(beside(part.plan.path)));
+  MDOF_CHECK(add_machine_layers(part, database));
+  for (const PartLayer& layer : part.plan.layers) {
+    if (!layer.on) continue;
+    if (layer.name == "form") {
+      MDOF_TRY(const auto cause, form_cause(part, layer, beside(layer.from.front())));
+      add_layer(part, layer, "path of a fast tool servo (mdof form path)", {cause});
+      if (!layer.u_m) part.no_u.push_back("form");
+    }
+    if (layer.name == "milling") {
+      MDOF_TRY(const auto causes, milling_causes(part, beside(layer.from.front())));
+      add_layer(part, layer, "radius wear offset (mdof milling --offset)", causes);
+    }
+  }
+  return part;
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,233 @@
+// The paper's mirror, 295 x 95 mm in pixels of 0.66 mm, through clamping, passes and release, as
+// distributions over many mirrors. MDOF_MIRRORS: how many (3; the campaign takes 200, and has the
+// bars). The random share is taken for drift over the hours of a pass, so for waves as long as the
+// others: how much of the PV it makes depends on that (tests/CAMPAIGNS.md).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "algo/form/clamping.h"
+#include "algo/form/cutting.h"
+#include "algo/form/map_figures.h"
+
+namespace mdof::algo {
+namespace {
+
+// RMS in um by the paper's maps; papers without a number: what these imply (README.md).
+constexpr double kBefore = 0.467, kClamping = 0.934, kCutting = 0.296, kRelease = 0.074,
+                 kRandom = 0.048, kNoise = 0.003, kBeforeWithClamping = -0.414,
+                 kCuttingWithClamping = -0.131;
+
+class Mirror {
+ public:
+  explicit Mirror(unsigned seed) : engine_(seed) {}
+
+  // RMS 1 um without a plane: waves of the two lengths and between, in all directions.
+  HeightMap waves(double least_mm, double most_mm) {
+    HeightMap map = blank();
+    std::vector<double> cx(map.nx), sx(map.nx);
+    for (int wave = 0; wave < 60; ++wave) {
+      const double length = least_mm * std::pow(most_mm / least_mm, uniform_(engine_)),
+                   way = 2 * std::numbers::pi * uniform_(engine_),
+                   phase = 2 * std::numbers::pi * uniform_(engine_), size = normal_(engine_),
+                   kx = 2 * std::numbers::pi / length * 0.66 * std::cos(way),
+                   ky = 2 * std::numbers::pi / length * 0.66 * std::sin(way);
+      for (std::size_t i = 0; i < map.nx; ++i) {
+        cx[i] = size * std::cos(kx * static_cast<double>(i) + phase);
+        sx[i] = size * std::sin(kx * static_cast<double>(i) + phase);
+      }
+      for (std::size_t j = 0; j < map.ny; ++j) {
+        const double c = std::cos(ky * static_cast<double>(j)),
+                     s = std::sin(ky * static_cast<double>(j));
+        for (std::size_t i = 0; i < map.nx; ++i) map.z_m[j * map.nx + i] += c * cx[i] - s * sx[i];
+      }
+    }
+    return normed(map);
+  }
+  // Of RMS 1 um with this correlation to `other`, which has RMS 1 um too.
+  HeightMap correlated(HeightMap map, const HeightMap& other, double correlation) {
+    add(map, other, -product(map, other));
+    map = normed(map);
+    HeightMap result = blank();
+    add(result, other, correlation);
+    add(result, map, std::sqrt(1 - correlation * correlation));
+    return normed(result);
+  }
+  HeightMap measured(HeightMap map) {
+    const double tilt = normal_(engine_), piston = normal_(engine_);
+    for (std::size_t k = 0; k < map.z_m.size(); ++k)
+      map.z_m[k] += 1e-6 * (kNoise * normal_(engine_) + piston +
+                            tilt * static_cast<double>(k % map.nx) / static_cast<double>(map.nx));
+    return map;
+  }
+  // Of a part that stays clamped: no tilt of its own between two measurements.
+  HeightMap measured_in_place(HeightMap map) {
+    for (double& z : map.z_m) z += 1e-6 * kNoise * normal_(engine_);
+    return map;
+  }
+  static void add(HeightMap& to, const HeightMap& map, double factor) {
+    for (std::size_t k = 0; k < to.z_m.size(); ++k) to.z_m[k] += factor * map.z_m[k];
+  }
+  static HeightMap sum(HeightMap a, const HeightMap& b, double factor = 1) {
+    add(a, b, factor);
+    return a;
+  }
+  static HeightMap times(const HeightMap& map, double factor) { return sum(blank(), map, factor); }
+  static double rms_um(const HeightMap& map) { return figures_of(map).rms_m * 1e6; }
+
+ private:
+  static HeightMap blank() {
+    HeightMap map{"mirror", 0, 0, 0.66e-3, 0.66e-3, 447, 144, {}, {}};
+    map.z_m.assign(map.nx * map.ny, 0.0);
+    return map;
+  }
+  static HeightMap normed(HeightMap map) {
+    remove_plane(map);
+    return times(map, 1 / rms_um(map));
+  }
+  static double product(const HeightMap& a, const HeightMap& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.z_m.size(); ++k) sum += a.z_m[k] * b.z_m[k];
+    return sum * 1e12 / static_cast<double>(a.z_m.size());
+  }
+  std::mt19937 engine_;
+  std::normal_distribution<double> normal_;
+  std::uniform_real_distribution<double> uniform_;
+};
+
+using Figures = std::map<std::string, std::vector<double>>;
+
+void note(Figures& figures, const std::string& name, const HeightMap& map) {
+  HeightMap flat = map;
+  remove_plane(flat);
+  figures[name + " RMS"].push_back(figures_of(flat).rms_m * 1e6);
+  figures[name + " PV"].push_back(figures_of(flat).pv_m * 1e6);
+}
+
+// Four passes: what each cut leaves against `wanted`; `second`: the cut of the second.
+std::vector<HeightMap> passes(Mirror& mirror, const HeightMap& wanted, const HeightMap& repeats,
+                              const std::vector<HeightMap>& random, CuttingGain gain,
+                              HeightMap& second) {
+  CuttingPasses request{wanted, {}, false, gain};
+  HeightMap path = wanted;
+  std::vector<HeightMap> errors;
+  for (std::size_t k = 0; k < random.size(); ++k) {
+    const HeightMap cut = Mirror::sum(Mirror::sum(path, repeats), random[k]);
+    errors.push_back(Mirror::sum(cut, wanted, -1));
+    if (k == 1) second = cut;
+    request.cuts.push_back(mirror.measured_in_place(cut));
+    path = next_cut(request)->next;
+  }
+  return errors;
+}
+
+void through_the_paper(unsigned seed, Figures& figures) {
+  Mirror mirror(seed);
+  const HeightMap shape = mirror.waves(60, 400), before = Mirror::times(shape, kBefore);
+  const HeightMap bent = mirror.correlated(mirror.waves(70, 400), shape, kBeforeWithClamping),
+                  clamping = Mirror::times(bent, kClamping);
+  const double share = std::sqrt(kCutting * kCutting - kRandom * kRandom);
+  const HeightMap repeats =
+      Mirror::times(mirror.correlated(mirror.waves(50, 300), bent, kCuttingWithClamping), share);
+  const HeightMap release = Mirror::times(mirror.waves(30, 200), kRelease);
+  std::vector<HeightMap> random;
+  for (int k = 0; k < 4; ++k) random.push_back(mirror.waves(80, 400));
+  note(figures, "8 the same, passes drawn alone",
+       Mirror::times(Mirror::sum(random[1], random[0], -1), kRandom));
+  // Passes have nothing in common but what repeats: sqrt(2) sigma in each mirror, not on average.
+  for (std::size_t k = 1; k < 4; ++k)
+    for (std::size_t j = 0; j < k; ++j) random[k] = mirror.correlated(random[k], random[j], 0);
+  for (HeightMap& pass : random) pass = Mirror::times(pass, kRandom);
+
+  // Clamped, and the first path from what was measured.
+  const HeightMap after = Mirror::sum(before, clamping);
+  const HeightMap wanted =
+      clamping_by_K(mirror.measured(before), mirror.measured(after), 0)->elastic;
+  note(figures, "1 before clamping", before);
+  note(figures, "2 after clamping", after);
+  note(figures, "3 clamping", wanted);
+  HeightMap second, unused;
+  const auto one = passes(mirror, wanted, repeats, random, CuttingGain::one, second);
+  const auto mean = passes(mirror, wanted, repeats, random, CuttingGain::mean, unused);
+  note(figures, "4 first machining", Mirror::sum(wanted, one[0]));
+  note(figures, "5 cutting error", one[0]);
+  note(figures, "6 second machining", second);
+  note(figures, "8 cutting error, second", one[1]);
+  for (std::size_t k = 1; k < 4; ++k) {
+    figures["gain 1, pass " + std::to_string(k + 1) + " RMS"].push_back(Mirror::rms_um(one[k]));
+    figures["mean, pass " + std::to_string(k + 1) + " RMS"].push_back(Mirror::rms_um(mean[k]));
+  }
+  for (int k = 0; k < 3; ++k)  // Table 2
+    note(figures, "repeated cut", Mirror::sum(repeats, random[static_cast<std::size_t>(k)]));
+  // Released: the spring is the clamping, but for what the release adds.
+  const HeightMap spring = Mirror::sum(clamping, release);
+  HeightMap released = Mirror::sum(second, spring, -1);
+  remove_plane(released);
+  note(figures, "7 final", released);
+  HeightMap by_release = Mirror::sum(released, one[1], -1);
+  remove_plane(by_release);
+  figures["clamping taken out"].push_back(1 - Mirror::rms_um(by_release) / Mirror::rms_um(spring));
+  figures["share of the release in the final square"].push_back(
+      std::pow(Mirror::rms_um(by_release) / Mirror::rms_um(released), 2));
+}
+
+double quantile(std::vector<double> values, double p) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+double average(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double x : values) sum += x;
+  return sum / static_cast<double>(values.size());
+}
+
+TEST(Mirrors, ThroughThePaper) {
+  const char* const asked = std::getenv("MDOF_MIRRORS");
+  const unsigned mirrors = asked ? static_cast<unsigned>(std::atoi(asked)) : 3;
+  ASSERT_GT(mirrors, 0u);
+  Figures figures;
+  for (unsigned k = 0; k < mirrors; ++k) through_the_paper(1000 + k, figures);
+  std::printf("%-44s %8s %8s %8s\n", "", "mean", "5 %", "95 %");
+  for (const auto& [name, values] : figures)
+    std::printf("%-44s %8.4f %8.4f %8.4f\n", name.c_str(), average(values), quantile(values, 0.05),
+                quantile(values, 0.95));
+  // The paper's RMS.
+  const bool is_campaign = mirrors >= 100;
+  const double few = is_campaign ? 1 : 4;  // a few mirrors vary more
+  EXPECT_NEAR(average(figures["2 after clamping RMS"]), 0.854, 0.002);
+  EXPECT_NEAR(average(figures["4 first machining RMS"]), 0.942, 0.004 * few);
+  EXPECT_NEAR(average(figures["6 second machining RMS"]), 0.925, 0.014 * few);
+  EXPECT_NEAR(average(figures["7 final RMS"]), 0.098, 0.004 * few);
+  EXPECT_GE(quantile(figures["clamping taken out"], 0.05), 0.9);
+  // A third pass does not help with gain 1, the mean of three does.
+  EXPECT_NEAR(average(figures["gain 1, pass 3 RMS"]), 0.068, 0.002 * few);
+  EXPECT_NEAR(average(figures["gain 1, pass 4 RMS"]), 0.068, 0.002 * few);
+  EXPECT_NEAR(average(figures["mean, pass 4 RMS"]), 0.0554, 0.0006 * 2 * few);
+  const auto within = [&](const char* name) {
+    const auto& pv = figures[name];
+    return 100.0 *
+           static_cast<double>(
+               std::count_if(pv.begin(), pv.end(), [](double x) { return x <= 0.4; })) /
+           static_cast<double>(mirrors);
+  };
+  const double share = within("8 cutting error, second PV");
+  std::printf("second cutting error PV <= 0.4 um in %.1f %% of %u mirrors; drawn alone %.1f %%\n",
+              share, mirrors, within("8 the same, passes drawn alone PV"));
+  if (!is_campaign) return;
+  // 90 % is wanted; the tail of waves as long as the part does not allow it (tests/CAMPAIGNS.md).
+  EXPECT_GE(share, 80);
+  EXPECT_LE(average(figures["mean, pass 4 RMS"]), 0.056);
+  EXPECT_GE(average(figures["share of the release in the final square"]), 0.5);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -25,7 +25,7 @@ double hermite(double s, double L, double z0, double slope0, double z1, double s
 
 }  // namespace
 
-SpiralPath::SpiralPath(const HeightMap& map, const SpiralRequest& request)
+SpiralPath::SpiralPath(const SurfaceMap& map, const SpiralRequest& request)
     : request_(request), surface_(map, request.extend_pixels, Extension::line) {
   const std::size_t n = request.points_per_turn;
   for (std::size_t k = 0; k < n; ++k) {
@@ -35,7 +35,7 @@ SpiralPath::SpiralPath(const HeightMap& map, const SpiralRequest& request)
   }
 }
 
-Result<SpiralPath> SpiralPath::over(const HeightMap& map, const SpiralRequest& request) {
+Result<SpiralPath> SpiralPath::over(const SurfaceMap& map, const SpiralRequest& request) {
   const double steps =
       request.outer_radius_m / request.feed_m * static_cast<double>(request.points_per_turn);
   if (!(steps < kMostPoints))
@@ -164,7 +164,7 @@ struct SpiralPath::Gap {
 
 void SpiralPath::look_back(std::size_t first, Gap& gap) const {
   const std::size_t turn = request_.points_per_turn;
-  for (std::size_t k = std::min(first + turn, points_); k-- > first;)
+  for (std::size_t k = std::min(turn, points_); k-- > first;)  // a turn on, behind the beginning
     if (touch(k, gap.before)) {
       gap.has_before = true;
       gap.before_at = static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(turn);
@@ -201,7 +201,7 @@ Result<SpiralCounts> SpiralPath::each(const std::function<Status(const PathPoint
   return counts;
 }
 
-MapReach middle_of(const HeightMap& map) {
+MapReach middle_of(const SurfaceMap& map) {
   std::size_t least_i = map.nx, most_i = 0, least_j = map.ny, most_j = 0;
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i) {
@@ -214,7 +214,7 @@ MapReach middle_of(const HeightMap& map) {
   return {(map.x_m(least_i) + map.x_m(most_i)) / 2, (map.y_m(least_j) + map.y_m(most_j)) / 2};
 }
 
-double reach_m(const HeightMap& map, double x_centre_m, double y_centre_m) {
+double reach_m(const SurfaceMap& map, double x_centre_m, double y_centre_m) {
   double square = 0;
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i) {

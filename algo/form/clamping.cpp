@@ -10,21 +10,21 @@
 namespace mdof::algo {
 namespace {
 
-HeightMap scaled(const HeightMap& map, double factor) {
-  HeightMap result = map;
+SurfaceMap scaled(const SurfaceMap& map, double factor) {
+  SurfaceMap result = map;
   for (double& z : result.z_m) z *= factor;
   return result;
 }
 
 // Missing where `other` has no height: all parts have the same pixels.
-void keep_common(HeightMap& map, const HeightMap& other) {
+void keep_common(SurfaceMap& map, const SurfaceMap& other) {
   for (std::size_t k = 0; k < map.z_m.size(); ++k)
-    if (std::isnan(other.z_m[k])) map.z_m[k] = HeightMap::kMissing;
+    if (std::isnan(other.z_m[k])) map.z_m[k] = SurfaceMap::kMissing;
 }
 
 }  // namespace
 
-Result<Clamping> clamping_by_K(const HeightMap& before, const HeightMap& after, double K) {
+Result<Clamping> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K) {
   if (!(K > -1 && std::isfinite(K)))
     return fail(ErrorCode::usage, "K is " + plain_number(K) +
                                       "; it must be above -1, as the "
@@ -38,8 +38,8 @@ Result<Clamping> clamping_by_K(const HeightMap& before, const HeightMap& after, 
   return result;
 }
 
-Result<Clamping> clamping_by_release(const HeightMap& before, const HeightMap& after,
-                                     const HeightMap& released) {
+Result<Clamping> clamping_by_release(const SurfaceMap& before, const SurfaceMap& after,
+                                     const SurfaceMap& released) {
   Clamping result;
   MDOF_TRY(result.clamping, difference(before, after));
   MDOF_TRY(result.plastic, difference(before, released));
@@ -62,7 +62,7 @@ Result<Clamping> clamping_by_release(const HeightMap& before, const HeightMap& a
     return bad_input(after.name + " and " + released.name +
                      " are the same: nothing sprang back, so K is unknown");
   result.K = product / square;
-  HeightMap left = result.plastic;
+  SurfaceMap left = result.plastic;
   for (std::size_t k = 0; k < left.z_m.size(); ++k) left.z_m[k] -= result.K * result.elastic.z_m[k];
   result.K_unexplained_rms_m = figures_of(left).rms_m;
   return result;

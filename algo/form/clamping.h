@@ -12,8 +12,8 @@
 namespace mdof::algo {
 
 struct Clamping {
-  HeightMap clamping, elastic, plastic;  // without piston and tilt
-  double K = 0;                          // plastic = K elastic
+  SurfaceMap clamping, elastic, plastic;  // without piston and tilt
+  double K = 0;                           // plastic = K elastic
   // Of the measured plastic part, what K times the elastic one leaves; only with `released`.
   std::optional<double> K_unexplained_rms_m;
 };
@@ -21,9 +21,9 @@ struct Clamping {
 // Before clamping, clamped, and released again: elastic = after - released, plastic = released -
 // before, K by least squares. Without `released` both follow from K.
 // Errors: K at or below -1, maps that do not overlap.
-Result<Clamping> clamping_by_release(const HeightMap& before, const HeightMap& after,
-                                     const HeightMap& released);
-Result<Clamping> clamping_by_K(const HeightMap& before, const HeightMap& after, double K);
+Result<Clamping> clamping_by_release(const SurfaceMap& before, const SurfaceMap& after,
+                                     const SurfaceMap& released);
+Result<Clamping> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K);
 
 struct Plate {
   double thickness_m = 0, youngs_modulus_Pa = 0, poisson = 0;
@@ -38,6 +38,6 @@ struct PlateStress {
 // A thin plate of which one face is bent by `form`. The curvature is that of a parabola fitted over
 // a square of the side `smooth_m` about each pixel; pixels with less than half of the square are
 // left out. Error bad_input: no pixel is left, or the square is smaller than 3 pixels.
-Result<PlateStress> plate_stress(const HeightMap& form, const Plate& plate, double smooth_m);
+Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, double smooth_m);
 
 }  // namespace mdof::algo

@@ -13,16 +13,16 @@ namespace {
 constexpr double kGrowth = 1.5;  // of an error that varies at its floor
 
 // Actual - wanted of each pass, over the pixels that all have.
-Result<std::vector<HeightMap>> errors_of(const CuttingPasses& passes) {
-  std::vector<HeightMap> errors;
-  for (const HeightMap& cut : passes.cuts) {
-    MDOF_TRY(HeightMap error, difference(passes.wanted, cut));
+Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
+  std::vector<SurfaceMap> errors;
+  for (const SurfaceMap& cut : passes.cuts) {
+    MDOF_TRY(SurfaceMap error, difference(passes.wanted, cut));
     errors.push_back(std::move(error));
   }
   for (std::size_t k = 0; k < passes.wanted.z_m.size(); ++k)
     if (std::any_of(errors.begin(), errors.end(),
-                    [k](const HeightMap& error) { return std::isnan(error.z_m[k]); }))
-      for (HeightMap& error : errors) error.z_m[k] = HeightMap::kMissing;
+                    [k](const SurfaceMap& error) { return std::isnan(error.z_m[k]); }))
+      for (SurfaceMap& error : errors) error.z_m[k] = SurfaceMap::kMissing;
   if (errors.front().measured() < 2)
     return bad_input(
         passes.wanted.name +
@@ -32,17 +32,17 @@ Result<std::vector<HeightMap>> errors_of(const CuttingPasses& passes) {
 
 // What each pass left against its own path, and the correction of the next path.
 struct Shares {
-  std::vector<HeightMap> left;
-  HeightMap correction;  // the next path is wanted - correction
+  std::vector<SurfaceMap> left;
+  SurfaceMap correction;  // the next path is wanted - correction
 };
 
-Shares shares_of(std::vector<HeightMap> errors, bool repeated, CuttingGain gain) {
+Shares shares_of(std::vector<SurfaceMap> errors, bool repeated, CuttingGain gain) {
   Shares shares;
-  HeightMap& correction = shares.correction;
+  SurfaceMap& correction = shares.correction;
   correction = errors.front();
   std::fill(correction.z_m.begin(), correction.z_m.end(), 0.0);
   for (std::size_t pass = 0; pass < errors.size(); ++pass) {
-    HeightMap& error = errors[pass];
+    SurfaceMap& error = errors[pass];
     const double part = gain == CuttingGain::one ? 1 : 1 / static_cast<double>(pass + 1);
     for (std::size_t k = 0; k < error.z_m.size(); ++k) {
       double& c = correction.z_m[k];
@@ -55,20 +55,20 @@ Shares shares_of(std::vector<HeightMap> errors, bool repeated, CuttingGain gain)
   return shares;
 }
 
-void split(std::vector<HeightMap>& left, CuttingResult& result) {
+void split(std::vector<SurfaceMap>& left, CuttingResult& result) {
   const auto n = static_cast<double>(left.size());
-  for (HeightMap& map : left) {
+  for (SurfaceMap& map : left) {
     const double mean = figures_of(map).mean_m;
     for (double& z : map.z_m) z -= mean;
   }
   double repeats = 0, varies = 0, pixels = 0;
   for (std::size_t k = 0; k < left.front().z_m.size(); ++k) {
     double mean = 0;
-    for (const HeightMap& map : left) mean += map.z_m[k] / n;
+    for (const SurfaceMap& map : left) mean += map.z_m[k] / n;
     if (std::isnan(mean)) continue;
     pixels += 1;
     repeats += mean * mean;
-    for (const HeightMap& map : left) varies += (map.z_m[k] - mean) * (map.z_m[k] - mean);
+    for (const SurfaceMap& map : left) varies += (map.z_m[k] - mean) * (map.z_m[k] - mean);
   }
   const double variance = varies / (n - 1) / pixels;
   const double random = std::sqrt(variance);
@@ -98,8 +98,8 @@ bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
 
 Result<CuttingResult> next_cut(const CuttingPasses& passes) {
   CuttingResult result;
-  MDOF_TRY(std::vector<HeightMap> errors, errors_of(passes));
-  for (const HeightMap& error : errors) result.error.push_back(figures_of(error));
+  MDOF_TRY(std::vector<SurfaceMap> errors, errors_of(passes));
+  for (const SurfaceMap& error : errors) result.error.push_back(figures_of(error));
   result.pixels = result.error.front().pixels;
   Shares shares = shares_of(std::move(errors), passes.repeated, passes.gain);
   result.next = empty_like(passes.wanted);

@@ -17,9 +17,9 @@ enum class CuttingGain {
 };
 
 struct CuttingPasses {
-  HeightMap wanted;             // z1, and the path of the first pass
-  std::vector<HeightMap> cuts;  // measured after each pass, in order
-  bool repeated = false;        // all were cut with the path of the first; else each with the next
+  SurfaceMap wanted;             // z1, and the path of the first pass
+  std::vector<SurfaceMap> cuts;  // measured after each pass, in order
+  bool repeated = false;         // all were cut with the path of the first; else each with the next
   CuttingGain gain = CuttingGain::one;
 };
 
@@ -31,7 +31,7 @@ struct CuttingResult {
   std::optional<double> floor_gain_one_m, floor_mean_m;  // of the next pass, for ever
   std::optional<bool> converges;
   std::size_t pixels = 0;  // that all maps have
-  HeightMap next;          // the path of the next pass, over the pixels of `wanted`
+  SurfaceMap next;         // the path of the next pass, over the pixels of `wanted`
 };
 
 // Error bad_input: maps that do not overlap.

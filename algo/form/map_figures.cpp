@@ -8,7 +8,7 @@
 
 namespace mdof::algo {
 
-MapFigures figures_of(const HeightMap& map) {
+MapFigures figures_of(const SurfaceMap& map) {
   MapFigures figures;
   double least = std::numeric_limits<double>::infinity(), most = -least, sum = 0;
   for (const double z : map.z_m) {
@@ -29,7 +29,7 @@ MapFigures figures_of(const HeightMap& map) {
   return figures;
 }
 
-Plane plane_of(const HeightMap& map) {
+Plane plane_of(const SurfaceMap& map) {
   Plane plane;
   double n = 0, sum_x = 0, sum_y = 0, sum_z = 0;
   for (std::size_t j = 0; j < map.ny; ++j)
@@ -64,7 +64,7 @@ Plane plane_of(const HeightMap& map) {
   return plane;
 }
 
-void remove_plane(HeightMap& map) {
+void remove_plane(SurfaceMap& map) {
   const Plane plane = plane_of(map);
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)

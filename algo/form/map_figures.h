@@ -13,7 +13,7 @@ struct MapFigures {
   double mean_m = 0;
   std::size_t pixels = 0;  // measured
 };
-MapFigures figures_of(const HeightMap& map);
+MapFigures figures_of(const SurfaceMap& map);
 
 // z = piston + tilt_x (x - x_mean) + tilt_y (y - y_mean) by least squares over the measured pixels;
 // a tilt that they do not tell (a single row or column) is 0.
@@ -23,7 +23,7 @@ struct Plane {
     return piston_m + tilt_x * (x_m - x_mean_m) + tilt_y * (y_m - y_mean_m);
   }
 };
-Plane plane_of(const HeightMap& map);
-void remove_plane(HeightMap& map);
+Plane plane_of(const SurfaceMap& map);
+void remove_plane(SurfaceMap& map);
 
 }  // namespace mdof::algo

@@ -24,7 +24,7 @@ struct Curvature {
 
 class Square {
  public:
-  Square(const HeightMap& map, double side_m)
+  Square(const SurfaceMap& map, double side_m)
       : map_(map),
         ni_(static_cast<std::ptrdiff_t>(std::floor(side_m / 2 / map.dx_m + 1e-9))),
         nj_(static_cast<std::ptrdiff_t>(std::floor(side_m / 2 / map.dy_m + 1e-9))),
@@ -126,7 +126,7 @@ class Square {
     return true;
   }
 
-  const HeightMap& map_;
+  const SurfaceMap& map_;
   std::ptrdiff_t ni_, nj_;
   double half_x_m_, half_y_m_;
   std::array<std::vector<double>, 3> weight_;  // of u^2, u v, v^2
@@ -142,7 +142,7 @@ double von_mises_Pa(const Curvature& c, const Plate& plate) {
 
 }  // namespace
 
-Result<PlateStress> plate_stress(const HeightMap& form, const Plate& plate, double smooth_m) {
+Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, double smooth_m) {
   const Square square(form, smooth_m);
   if (!square.is_large_enough())
     return fail(ErrorCode::usage, "--smooth-mm " + plain_number(to_mm(smooth_m)) +

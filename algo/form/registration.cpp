@@ -41,7 +41,7 @@ struct Places {
   std::vector<double> x_m, y_m, z_m;
 };
 
-Places places_of(const HeightMap& a, std::size_t most) {
+Places places_of(const SurfaceMap& a, std::size_t most) {
   Places places;
   const std::size_t measured = a.measured(), every = std::max<std::size_t>(1, measured / most);
   std::size_t least_i = a.nx, most_i = 0, least_j = a.ny, most_j = 0, k = 0;
@@ -222,8 +222,8 @@ MapPose about_origin(const MapPose& about_middle, const Places& a) {
   return pose;
 }
 
-Fit registered(const HeightMap& a, const Surface& b, double pixel_m, const Places& places) {
-  HeightMap flat = a;
+Fit registered(const SurfaceMap& a, const Surface& b, double pixel_m, const Places& places) {
+  SurfaceMap flat = a;
   remove_plane(flat);
   const Places few = places_of(flat, kForSearch);
   Fit fit = fitted_from(few, b, {}, pixel_m, 30);
@@ -241,8 +241,8 @@ Fit registered(const HeightMap& a, const Surface& b, double pixel_m, const Place
   return fitted_from(places, b, fit.pose, pixel_m, 6);
 }
 
-HeightMap difference_at(const HeightMap& a, const Surface& b, const MapPose& pose) {
-  HeightMap difference = empty_like(a);
+SurfaceMap difference_at(const SurfaceMap& a, const Surface& b, const MapPose& pose) {
+  SurfaceMap difference = empty_like(a);
   const Turn turn(pose.turn_rad);
   for (std::size_t j = 0; j < a.ny; ++j)
     for (std::size_t i = 0; i < a.nx; ++i) {
@@ -256,13 +256,13 @@ HeightMap difference_at(const HeightMap& a, const Surface& b, const MapPose& pos
   return difference;
 }
 
-std::string extent(const HeightMap& map) {
+std::string extent(const SurfaceMap& map) {
   const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 6); };
   return "x " + mm(map.x0_m) + " to " + mm(map.x_m(map.nx - 1)) + " mm, y " + mm(map.y0_m) +
          " to " + mm(map.y_m(map.ny - 1)) + " mm";
 }
 
-Status check_overlap(const HeightMap& a, const HeightMap& b, std::size_t pixels) {
+Status check_overlap(const SurfaceMap& a, const SurfaceMap& b, std::size_t pixels) {
   const std::size_t measured = a.measured();
   if (pixels > 1 && static_cast<double>(pixels) >= kLeastOverlap * static_cast<double>(measured))
     return {};
@@ -275,13 +275,13 @@ Status check_overlap(const HeightMap& a, const HeightMap& b, std::size_t pixels)
 
 }  // namespace
 
-Result<HeightMap> difference(const HeightMap& a, const HeightMap& b) {
-  HeightMap found = difference_at(a, Surface(b, 0, Extension::parabola), {});
+Result<SurfaceMap> difference(const SurfaceMap& a, const SurfaceMap& b) {
+  SurfaceMap found = difference_at(a, Surface(b, 0, Extension::parabola), {});
   MDOF_CHECK(check_overlap(a, b, found.measured()));
   return found;
 }
 
-Result<Comparison> compare(const HeightMap& a, const HeightMap& b, Register how) {
+Result<Comparison> compare(const SurfaceMap& a, const SurfaceMap& b, Register how) {
   Comparison result;
   const Surface surface(b, 0, Extension::parabola);
   if (how == Register::rigid) {

@@ -20,7 +20,7 @@ struct MapPose {
 };
 
 struct Comparison {
-  HeightMap difference;  // B - A, over the pixels of A
+  SurfaceMap difference;  // B - A, over the pixels of A
   MapPose pose;
   // Directions among shift x, shift y and turn that the shape does not tell (a sphere can turn, and
   // be tilted instead of shifted): they were taken as 0.
@@ -30,10 +30,10 @@ struct Comparison {
 };
 
 // Error bad_input: less than a tenth of A's pixels has a counterpart in B.
-Result<Comparison> compare(const HeightMap& a, const HeightMap& b, Register how);
+Result<Comparison> compare(const SurfaceMap& a, const SurfaceMap& b, Register how);
 
 // B - A where both have pixels, B between its pixels where they do not coincide; nothing taken out.
 // The same error.
-Result<HeightMap> difference(const HeightMap& a, const HeightMap& b);
+Result<SurfaceMap> difference(const SurfaceMap& a, const SurfaceMap& b);
 
 }  // namespace mdof::algo

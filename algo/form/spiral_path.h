@@ -40,7 +40,7 @@ class SpiralPath {
  public:
   // Errors: nothing of the spiral is on the part (holes over the whole of it, a centre elsewhere);
   // more than 10^10 points.
-  static Result<SpiralPath> over(const HeightMap& map, const SpiralRequest& request);
+  static Result<SpiralPath> over(const SurfaceMap& map, const SpiralRequest& request);
 
   std::size_t points() const { return points_; }
   // One after the other, from the outermost in; an error of `take` ends it.
@@ -53,7 +53,7 @@ class SpiralPath {
     bool is_too_sharp = false;
   };
   struct Gap;
-  SpiralPath(const HeightMap& map, const SpiralRequest& request);
+  SpiralPath(const SurfaceMap& map, const SpiralRequest& request);
   double rho_m(std::size_t index) const;
   bool touch(std::size_t index, Touch& found) const;
   bool contact(double rho_m, double cos, double sin, Touch& found) const;
@@ -73,8 +73,8 @@ class SpiralPath {
 struct MapReach {
   double x_mid_m = 0, y_mid_m = 0;
 };
-MapReach middle_of(const HeightMap& map);
-double reach_m(const HeightMap& map, double x_centre_m, double y_centre_m);
+MapReach middle_of(const SurfaceMap& map);
+double reach_m(const SurfaceMap& map, double x_centre_m, double y_centre_m);
 
 // Roughness that a round tool leaves between two turns: height and mean deviation of arcs of the
 // radius r, feed apart: Rt = r - sqrt(r^2 - feed^2 / 4), Ra = 4 Rt / (9 sqrt 3).

@@ -56,7 +56,7 @@ constexpr std::array<std::array<double, 4>, 4> kParabola = {
 
 }  // namespace
 
-Surface::Surface(const HeightMap& map, std::size_t extension, Extension how)
+Surface::Surface(const SurfaceMap& map, std::size_t extension, Extension how)
     : dx_m_(map.dx_m), dy_m_(map.dy_m) {
   const std::size_t rings = std::min<std::size_t>(extension + kForSlopes, kNone - 1);
   const std::size_t pad = rings + 3;  // at() reads three pixels beyond any other
@@ -66,7 +66,7 @@ Surface::Surface(const HeightMap& map, std::size_t extension, Extension how)
   y0_m_ = map.y_m(0);
   x0_m_ -= static_cast<double>(pad) * dx_m_;
   y0_m_ -= static_cast<double>(pad) * dy_m_;
-  z_m_.assign(nx_ * ny_, HeightMap::kMissing);
+  z_m_.assign(nx_ * ny_, SurfaceMap::kMissing);
   ring_.assign(nx_ * ny_, kNone);
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)

@@ -27,7 +27,7 @@ struct SurfacePoint {
 class Surface {
  public:
   // The outermost `extension` pixels are heights; a few more are there for the slopes alone.
-  Surface(const HeightMap& map, std::size_t extension, Extension how);
+  Surface(const SurfaceMap& map, std::size_t extension, Extension how);
 
   // False: a pixel with a part in this place is farther than `rings` pixels from a measured one
   // (0: all of them are measured).

@@ -9,7 +9,7 @@
 
 namespace mdof {
 
-struct HeightMap {
+struct SurfaceMap {
   static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
   std::string name;                  // of the file or run, for messages
@@ -30,9 +30,9 @@ struct HeightMap {
 };
 
 // The same pixels without a height.
-inline HeightMap empty_like(const HeightMap& map) {
-  HeightMap empty{map.name, map.x0_m, map.y0_m, map.dx_m, map.dy_m, map.nx, map.ny, {}, {}};
-  empty.z_m.assign(map.z_m.size(), HeightMap::kMissing);
+inline SurfaceMap empty_like(const SurfaceMap& map) {
+  SurfaceMap empty{map.name, map.x0_m, map.y0_m, map.dx_m, map.dy_m, map.nx, map.ny, {}, {}};
+  empty.z_m.assign(map.z_m.size(), SurfaceMap::kMissing);
   return empty;
 }
 

@@ -117,8 +117,8 @@ tl::unexpected<Error> off_grid(const std::string& place, char axis, double x_m,
 
 }  // namespace
 
-Result<HeightMap> grid_of(const MapPoints& points, const std::string& source,
-                          const std::function<std::string(std::size_t)>& place) {
+Result<SurfaceMap> grid_of(const MapPoints& points, const std::string& source,
+                           const std::function<std::string(std::size_t)>& place) {
   if (points.z_m.empty()) return bad_input(source + ": has no pixel; write rows x, y, z");
   MDOF_TRY(const Steps columns, steps_of(points.x_m, 'x', source));
   MDOF_TRY(const Steps rows, steps_of(points.y_m, 'y', source));
@@ -129,7 +129,7 @@ Result<HeightMap> grid_of(const MapPoints& points, const std::string& source,
     return bad_input(source + ": " + std::to_string(points.z_m.size()) + " points on a grid of " +
                      std::to_string(columns.count) + " x " + std::to_string(rows.count) +
                      " pixels: too few to be a map; resample them to rows and columns");
-  HeightMap map;
+  SurfaceMap map;
   map.name = source;
   map.x0_m = columns.first_m;
   map.y0_m = rows.first_m;
@@ -137,7 +137,7 @@ Result<HeightMap> grid_of(const MapPoints& points, const std::string& source,
   map.dy_m = rows.count > 1 ? rows.step_m : columns.step_m;
   map.nx = columns.count;
   map.ny = rows.count;
-  map.z_m.assign(map.nx * map.ny, HeightMap::kMissing);
+  map.z_m.assign(map.nx * map.ny, SurfaceMap::kMissing);
   std::vector<bool> taken(map.z_m.size());
   for (std::size_t k = 0; k < points.z_m.size(); ++k) {
     const std::size_t i = columns.index(points.x_m[k]), j = rows.index(points.y_m[k]);

@@ -22,14 +22,14 @@ bool is_blank(char c) {
 bool read_cell(std::string_view cell, double& x) {
   cell = trimmed(cell);
   if (cell.empty()) {
-    x = HeightMap::kMissing;
+    x = SurfaceMap::kMissing;
     return true;
   }
   if (cell.front() == '+') cell.remove_prefix(1);
   const char* const end = cell.data() + cell.size();
   if (parse_double(cell.data(), end, x) == end) return !std::isinf(x);
   if (cell == "NaN" || cell == "NAN") {
-    x = HeightMap::kMissing;
+    x = SurfaceMap::kMissing;
     return true;
   }
   return false;
@@ -220,20 +220,20 @@ Status MapTextReader::add(const std::array<double, 3>& xyz) {
   return {};
 }
 
-Result<HeightMap> MapTextReader::finish() {
+Result<SurfaceMap> MapTextReader::finish() {
   if (!rest_.empty()) {
     const std::string last = std::move(rest_);
     MDOF_CHECK(line(last));
   }
   if (form_ == Form::unknown)
     return bad_input(source_ + ": is empty; a map is a CSV with the header x_mm,y_mm,z_um");
-  MDOF_TRY(HeightMap map,
+  MDOF_TRY(SurfaceMap map,
            grid_of(points_, source_, [this](std::size_t point) { return place_of_point(point); }));
   map.notices = std::move(notices_);
   return map;
 }
 
-Status write_map_csv(const HeightMap& map, const std::function<Status(std::string_view)>& take) {
+Status write_map_csv(const SurfaceMap& map, const std::function<Status(std::string_view)>& take) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   std::string text = "x_mm,y_mm,z_um\n";
   std::array<char, 64> room;

@@ -33,7 +33,7 @@ class MapTextReader {
   MapTextReader(std::string source, std::optional<XyzUnits> units)
       : source_(std::move(source)), units_(units) {}
   Status feed(std::string_view piece);
-  Result<HeightMap> finish();
+  Result<SurfaceMap> finish();
 
  private:
   enum class Form { unknown, csv, xyz };
@@ -62,6 +62,6 @@ class MapTextReader {
 };
 
 // As such a CSV, every pixel with its row, handed on in pieces.
-Status write_map_csv(const HeightMap& map, const std::function<Status(std::string_view)>& take);
+Status write_map_csv(const SurfaceMap& map, const std::function<Status(std::string_view)>& take);
 
 }  // namespace mdof

@@ -14,9 +14,9 @@ class SdfReader {
  public:
   SdfReader(std::string_view text, const std::string& source) : rest_(text), source_(source) {}
 
-  Result<HeightMap> read() {
+  Result<SurfaceMap> read() {
     MDOF_CHECK(read_header());
-    HeightMap map;
+    SurfaceMap map;
     map.name = source_;
     MDOF_TRY(map.nx, count("NumPoints"));
     MDOF_TRY(map.ny, count("NumProfiles"));
@@ -109,7 +109,7 @@ class SdfReader {
     return x;
   }
 
-  Status read_heights(HeightMap& map, double z_scale) {
+  Status read_heights(SurfaceMap& map, double z_scale) {
     const std::size_t wanted = map.nx * map.ny;
     map.z_m.reserve(wanted);
     std::string_view line;
@@ -119,7 +119,7 @@ class SdfReader {
         const std::string_view word = line.substr(0, end);
         line = end == std::string_view::npos ? "" : trimmed(line.substr(end + 1));
         if (word.empty()) continue;
-        double z = HeightMap::kMissing;
+        double z = SurfaceMap::kMissing;
         const char* const last = word.data() + word.size();
         const char* const first = word.data() + (word.starts_with('+') ? 1 : 0);
         if (word != "BAD" && (parse_double(first, last, z) != last || !std::isfinite(z)))
@@ -148,7 +148,7 @@ bool is_sdf(std::string_view bytes) {
          (bytes.substr(1, 4) == "ISO-" || bytes.substr(1, 4) == "BCR-");
 }
 
-Result<HeightMap> parse_sdf(std::string_view text, const std::string& source) {
+Result<SurfaceMap> parse_sdf(std::string_view text, const std::string& source) {
   const std::string_view magic = trimmed(text.substr(0, text.find('\n')));
   if (magic == "aISO-1.0" || magic == "aISO-2.0" || magic == "aBCR-1.0")
     return SdfReader(text, source).read();

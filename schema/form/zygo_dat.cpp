@@ -77,11 +77,11 @@ bool is_zygo_dat(std::string_view bytes) {
   return bytes.size() >= 4 && bytes.starts_with(kMagic) && bytes[3] >= 'o' && bytes[3] <= 'q';
 }
 
-Result<HeightMap> parse_zygo_dat(std::string_view bytes, const std::string& source) {
+Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& source) {
   if (bytes.size() < kLeastHeader)
     return bad_input(source + ": ends within the header of a MetroPro file");
   const Header header(bytes);
-  HeightMap map;
+  SurfaceMap map;
   map.name = source;
   map.nx = header.u16(kWidth);
   map.ny = header.u16(kHeight);
@@ -105,7 +105,7 @@ Result<HeightMap> parse_zygo_dat(std::string_view bytes, const std::string& sour
   map.z_m.resize(map.nx * map.ny);
   for (std::size_t k = 0; k < map.z_m.size(); ++k) {
     const auto phase = static_cast<std::int32_t>(header.u32(begin + 4 * k));
-    map.z_m[k] = phase >= kNoPhase ? HeightMap::kMissing : phase * scale_m;
+    map.z_m[k] = phase >= kNoPhase ? SurfaceMap::kMissing : phase * scale_m;
   }
   if (map.measured() == 0) return bad_input(source + ": no pixel has a phase");
   return map;

@@ -13,20 +13,20 @@ namespace {
 
 // An independent program of the same parts: K by sums over all pixels.
 TEST(Clamping, PartsAndK) {
-  const HeightMap before = map_of(bumps);
+  const SurfaceMap before = map_of(bumps);
   const auto elastic = [](double x, double y) {
     return 1e-6 * std::sin(x / 10e-3) * (1 + y / 40e-3);
   };
   const auto rest = [](double x, double y) { return 0.05e-6 * std::cos(x / 4e-3 + y / 3e-3); };
-  const HeightMap after = map_of([&](double x, double y) {
+  const SurfaceMap after = map_of([&](double x, double y) {
     return bumps(x, y) + 1.2 * elastic(x, y) + rest(x, y) + 2e-6 + 1e-5 * x;
   });
-  const HeightMap released = map_of([&](double x, double y) {
+  const SurfaceMap released = map_of([&](double x, double y) {
     return bumps(x, y) + 0.2 * elastic(x, y) + rest(x, y) - 1e-6 * x;
   });
   const auto found = clamping_by_release(before, after, released);
   ASSERT_TRUE(found);
-  HeightMap e = map_of(elastic), r = map_of(rest);
+  SurfaceMap e = map_of(elastic), r = map_of(rest);
   remove_plane(e);
   remove_plane(r);
   double er = 0, ee = 0;
@@ -58,9 +58,9 @@ TEST(PlateStress, ClosedForms) {
       plate_stress(map_of([&](double x, double y) { return c * x * y; }), plate, 5e-3);
   EXPECT_NEAR(twist->max_Pa, std::sqrt(3) * 70e9 * 2.5e-3 / 2 / 1.33 * c, 1e-6 * s);
   // A paraboloid with a hole: the same at its edge.
-  HeightMap dish = map_of([&](double x, double y) { return c * (x * x + y * y) / 2; });
+  SurfaceMap dish = map_of([&](double x, double y) { return c * (x * x + y * y) / 2; });
   for (std::size_t j = 30; j < 50; ++j)
-    for (std::size_t i = 20; i < 60; ++i) dish.z_m[j * dish.nx + i] = HeightMap::kMissing;
+    for (std::size_t i = 20; i < 60; ++i) dish.z_m[j * dish.nx + i] = SurfaceMap::kMissing;
   EXPECT_NEAR(plate_stress(dish, plate, 5e-3)->max_Pa, s * 1.33, 1e-6 * s);
   EXPECT_FALSE(plate_stress(dish, plate, 0.9e-3));
 }

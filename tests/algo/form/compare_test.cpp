@@ -12,8 +12,8 @@ namespace mdof::algo {
 namespace {
 
 // The surface of A lies in B at R p + shift.
-HeightMap moved(double sx_m, double sy_m, double turn_deg, double x0_m, double d_m,
-                std::size_t nx) {
+SurfaceMap moved(double sx_m, double sy_m, double turn_deg, double x0_m, double d_m,
+                 std::size_t nx) {
   const double c = std::cos(turn_deg * kDeg), s = std::sin(turn_deg * kDeg);
   return map_of(
       [=](double x, double y) {
@@ -24,12 +24,12 @@ HeightMap moved(double sx_m, double sy_m, double turn_deg, double x0_m, double d
 }
 
 TEST(FormCompare, FindsShiftAndTurn) {
-  const HeightMap a = map_of(bumps);
+  const SurfaceMap a = map_of(bumps);
   struct Case {
     double sx_mm, sy_mm, turn_deg;
   };
   for (const Case& k : {Case{0.3, -0.21, 0}, Case{-1.7, 2.9, 1.5}, Case{5, -4, -4}}) {
-    const HeightMap b = moved(k.sx_mm * 1e-3, k.sy_mm * 1e-3, k.turn_deg, -40e-3, 0.41e-3, 196);
+    const SurfaceMap b = moved(k.sx_mm * 1e-3, k.sy_mm * 1e-3, k.turn_deg, -40e-3, 0.41e-3, 196);
     const auto found = compare(a, b, Register::rigid);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_NEAR(found->pose.shift_x_m, k.sx_mm * 1e-3, 2e-7);
@@ -43,15 +43,15 @@ TEST(FormCompare, FindsShiftAndTurn) {
 }
 
 TEST(FormCompare, PlaneAndNone) {
-  const HeightMap a = map_of(bumps);
-  const HeightMap b =
+  const SurfaceMap a = map_of(bumps);
+  const SurfaceMap b =
       map_of([](double x, double y) { return 2 * bumps(x, y) + 1e-6 + 1e-5 * x - 2e-5 * y; });
   const auto none = compare(a, b, Register::none);
   // B - A is the bumps and the plane.
   EXPECT_NEAR(none->difference.at(7, 5),
               bumps(a.x_m(7), a.y_m(5)) + 1e-6 + 1e-5 * a.x_m(7) - 2e-5 * a.y_m(5), 1e-18);
   const auto plane = compare(a, b, Register::plane);
-  HeightMap flat = a;
+  SurfaceMap flat = a;
   remove_plane(flat);
   EXPECT_NEAR(plane->rms_m, figures_of(flat).rms_m, 1e-15);
   EXPECT_EQ(plane->pose.shift_x_m, 0);
@@ -60,7 +60,7 @@ TEST(FormCompare, PlaneAndNone) {
 
 TEST(FormCompare, ShapesThatTellNoShift) {
   const auto ball = [](double x, double y) { return (x * x + y * y) / 2; };
-  const HeightMap a = map_of(ball);
+  const SurfaceMap a = map_of(ball);
   const auto found =
       compare(a, map_of([&](double x, double y) { return ball(x - 1e-3, y); }), Register::rigid);
   ASSERT_TRUE(found);
@@ -77,9 +77,9 @@ TEST(FormCompare, ShapesThatTellNoShift) {
 }
 
 TEST(FormCompare, HolesAndNoOverlap) {
-  HeightMap a = map_of(bumps), b = map_of(bumps, -30.2e-3, -20.1e-3);
+  SurfaceMap a = map_of(bumps), b = map_of(bumps, -30.2e-3, -20.1e-3);
   for (std::size_t j = 30; j < 50; ++j)
-    for (std::size_t i = 20; i < 60; ++i) b.z_m[j * b.nx + i] = HeightMap::kMissing;
+    for (std::size_t i = 20; i < 60; ++i) b.z_m[j * b.nx + i] = SurfaceMap::kMissing;
   const auto found = compare(a, b, Register::none);
   ASSERT_TRUE(found);
   EXPECT_LT(found->pv_m, 2e-9);  // beside the hole too
@@ -90,7 +90,7 @@ TEST(FormCompare, HolesAndNoOverlap) {
 }
 
 TEST(Surface, IsExactAtPixelsAndContinuous) {
-  const HeightMap a = map_of(bumps);
+  const SurfaceMap a = map_of(bumps);
   const Surface surface(a, 3, Extension::line);
   SurfacePoint p;
   ASSERT_TRUE(surface.at(a.x_m(0), a.y_m(80), 0, p));

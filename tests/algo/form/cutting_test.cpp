@@ -11,8 +11,8 @@ namespace {
 
 class Cutting : public ::testing::Test {
  protected:
-  HeightMap map(double scale_m, bool is_random) {
-    HeightMap result{"m", 0, 0, 1e-3, 1e-3, 60, 40, {}, {}};
+  SurfaceMap map(double scale_m, bool is_random) {
+    SurfaceMap result{"m", 0, 0, 1e-3, 1e-3, 60, 40, {}, {}};
     std::normal_distribution<double> normal;
     for (std::size_t j = 0; j < 40; ++j)
       for (std::size_t i = 0; i < 60; ++i)
@@ -22,16 +22,16 @@ class Cutting : public ::testing::Test {
     return result;
   }
   // The machine: what it cuts of a path.
-  HeightMap cut(const HeightMap& path, double response = 1) {
-    HeightMap result = path;
-    const HeightMap repeats = map(0.3e-6, false), random = map(kSigma_m, true);
+  SurfaceMap cut(const SurfaceMap& path, double response = 1) {
+    SurfaceMap result = path;
+    const SurfaceMap repeats = map(0.3e-6, false), random = map(kSigma_m, true);
     for (std::size_t k = 0; k < result.z_m.size(); ++k)
       result.z_m[k] = response * result.z_m[k] + repeats.z_m[k] + random.z_m[k];
     return result;
   }
   CuttingResult passes(CuttingGain gain, std::size_t n, double response = 1) {
     CuttingPasses p{map(0.9e-6, false), {}, false, gain};
-    HeightMap path = p.wanted;
+    SurfaceMap path = p.wanted;
     CuttingResult result;
     for (std::size_t k = 0; k < n; ++k) {
       p.cuts.push_back(cut(path, response));

@@ -16,9 +16,9 @@ inline double bumps(double x_m, double y_m) {
 }
 
 template <class F>
-HeightMap map_of(F&& z, double x0_m = -30e-3, double y0_m = -20e-3, double d_m = 0.5e-3,
-                 std::size_t nx = 121, std::size_t ny = 81) {
-  HeightMap map{"map", x0_m, y0_m, d_m, d_m, nx, ny, {}, {}};
+SurfaceMap map_of(F&& z, double x0_m = -30e-3, double y0_m = -20e-3, double d_m = 0.5e-3,
+                  std::size_t nx = 121, std::size_t ny = 81) {
+  SurfaceMap map{"map", x0_m, y0_m, d_m, d_m, nx, ny, {}, {}};
   for (std::size_t j = 0; j < ny; ++j)
     for (std::size_t i = 0; i < nx; ++i) map.z_m.push_back(z(map.x_m(i), map.y_m(j)));
   return map;

@@ -31,8 +31,8 @@ class Mirror {
   explicit Mirror(unsigned seed) : engine_(seed) {}
 
   // RMS 1 um without a plane: waves of the two lengths and between, in all directions.
-  HeightMap waves(double least_mm, double most_mm) {
-    HeightMap map = blank();
+  SurfaceMap waves(double least_mm, double most_mm) {
+    SurfaceMap map = blank();
     std::vector<double> cx(map.nx), sx(map.nx);
     for (int wave = 0; wave < 60; ++wave) {
       const double length = least_mm * std::pow(most_mm / least_mm, uniform_(engine_)),
@@ -53,15 +53,15 @@ class Mirror {
     return normed(map);
   }
   // Of RMS 1 um with this correlation to `other`, which has RMS 1 um too.
-  HeightMap correlated(HeightMap map, const HeightMap& other, double correlation) {
+  SurfaceMap correlated(SurfaceMap map, const SurfaceMap& other, double correlation) {
     add(map, other, -product(map, other));
     map = normed(map);
-    HeightMap result = blank();
+    SurfaceMap result = blank();
     add(result, other, correlation);
     add(result, map, std::sqrt(1 - correlation * correlation));
     return normed(result);
   }
-  HeightMap measured(HeightMap map) {
+  SurfaceMap measured(SurfaceMap map) {
     const double tilt = normal_(engine_), piston = normal_(engine_);
     for (std::size_t k = 0; k < map.z_m.size(); ++k)
       map.z_m[k] += 1e-6 * (kNoise * normal_(engine_) + piston +
@@ -69,31 +69,33 @@ class Mirror {
     return map;
   }
   // Of a part that stays clamped: no tilt of its own between two measurements.
-  HeightMap measured_in_place(HeightMap map) {
+  SurfaceMap measured_in_place(SurfaceMap map) {
     for (double& z : map.z_m) z += 1e-6 * kNoise * normal_(engine_);
     return map;
   }
-  static void add(HeightMap& to, const HeightMap& map, double factor) {
+  static void add(SurfaceMap& to, const SurfaceMap& map, double factor) {
     for (std::size_t k = 0; k < to.z_m.size(); ++k) to.z_m[k] += factor * map.z_m[k];
   }
-  static HeightMap sum(HeightMap a, const HeightMap& b, double factor = 1) {
+  static SurfaceMap sum(SurfaceMap a, const SurfaceMap& b, double factor = 1) {
     add(a, b, factor);
     return a;
   }
-  static HeightMap times(const HeightMap& map, double factor) { return sum(blank(), map, factor); }
-  static double rms_um(const HeightMap& map) { return figures_of(map).rms_m * 1e6; }
+  static SurfaceMap times(const SurfaceMap& map, double factor) {
+    return sum(blank(), map, factor);
+  }
+  static double rms_um(const SurfaceMap& map) { return figures_of(map).rms_m * 1e6; }
 
  private:
-  static HeightMap blank() {
-    HeightMap map{"mirror", 0, 0, 0.66e-3, 0.66e-3, 447, 144, {}, {}};
+  static SurfaceMap blank() {
+    SurfaceMap map{"mirror", 0, 0, 0.66e-3, 0.66e-3, 447, 144, {}, {}};
     map.z_m.assign(map.nx * map.ny, 0.0);
     return map;
   }
-  static HeightMap normed(HeightMap map) {
+  static SurfaceMap normed(SurfaceMap map) {
     remove_plane(map);
     return times(map, 1 / rms_um(map));
   }
-  static double product(const HeightMap& a, const HeightMap& b) {
+  static double product(const SurfaceMap& a, const SurfaceMap& b) {
     double sum = 0;
     for (std::size_t k = 0; k < a.z_m.size(); ++k) sum += a.z_m[k] * b.z_m[k];
     return sum * 1e12 / static_cast<double>(a.z_m.size());
@@ -105,22 +107,22 @@ class Mirror {
 
 using Figures = std::map<std::string, std::vector<double>>;
 
-void note(Figures& figures, const std::string& name, const HeightMap& map) {
-  HeightMap flat = map;
+void note(Figures& figures, const std::string& name, const SurfaceMap& map) {
+  SurfaceMap flat = map;
   remove_plane(flat);
   figures[name + " RMS"].push_back(figures_of(flat).rms_m * 1e6);
   figures[name + " PV"].push_back(figures_of(flat).pv_m * 1e6);
 }
 
 // Four passes: what each cut leaves against `wanted`; `second`: the cut of the second.
-std::vector<HeightMap> passes(Mirror& mirror, const HeightMap& wanted, const HeightMap& repeats,
-                              const std::vector<HeightMap>& random, CuttingGain gain,
-                              HeightMap& second) {
+std::vector<SurfaceMap> passes(Mirror& mirror, const SurfaceMap& wanted, const SurfaceMap& repeats,
+                               const std::vector<SurfaceMap>& random, CuttingGain gain,
+                               SurfaceMap& second) {
   CuttingPasses request{wanted, {}, false, gain};
-  HeightMap path = wanted;
-  std::vector<HeightMap> errors;
+  SurfaceMap path = wanted;
+  std::vector<SurfaceMap> errors;
   for (std::size_t k = 0; k < random.size(); ++k) {
-    const HeightMap cut = Mirror::sum(Mirror::sum(path, repeats), random[k]);
+    const SurfaceMap cut = Mirror::sum(Mirror::sum(path, repeats), random[k]);
     errors.push_back(Mirror::sum(cut, wanted, -1));
     if (k == 1) second = cut;
     request.cuts.push_back(mirror.measured_in_place(cut));
@@ -131,30 +133,30 @@ std::vector<HeightMap> passes(Mirror& mirror, const HeightMap& wanted, const Hei
 
 void through_the_paper(unsigned seed, Figures& figures) {
   Mirror mirror(seed);
-  const HeightMap shape = mirror.waves(60, 400), before = Mirror::times(shape, kBefore);
-  const HeightMap bent = mirror.correlated(mirror.waves(70, 400), shape, kBeforeWithClamping),
-                  clamping = Mirror::times(bent, kClamping);
+  const SurfaceMap shape = mirror.waves(60, 400), before = Mirror::times(shape, kBefore);
+  const SurfaceMap bent = mirror.correlated(mirror.waves(70, 400), shape, kBeforeWithClamping),
+                   clamping = Mirror::times(bent, kClamping);
   const double share = std::sqrt(kCutting * kCutting - kRandom * kRandom);
-  const HeightMap repeats =
+  const SurfaceMap repeats =
       Mirror::times(mirror.correlated(mirror.waves(50, 300), bent, kCuttingWithClamping), share);
-  const HeightMap release = Mirror::times(mirror.waves(30, 200), kRelease);
-  std::vector<HeightMap> random;
+  const SurfaceMap release = Mirror::times(mirror.waves(30, 200), kRelease);
+  std::vector<SurfaceMap> random;
   for (int k = 0; k < 4; ++k) random.push_back(mirror.waves(80, 400));
   note(figures, "8 the same, passes drawn alone",
        Mirror::times(Mirror::sum(random[1], random[0], -1), kRandom));
   // Passes have nothing in common but what repeats: sqrt(2) sigma in each mirror, not on average.
   for (std::size_t k = 1; k < 4; ++k)
     for (std::size_t j = 0; j < k; ++j) random[k] = mirror.correlated(random[k], random[j], 0);
-  for (HeightMap& pass : random) pass = Mirror::times(pass, kRandom);
+  for (SurfaceMap& pass : random) pass = Mirror::times(pass, kRandom);
 
   // Clamped, and the first path from what was measured.
-  const HeightMap after = Mirror::sum(before, clamping);
-  const HeightMap wanted =
+  const SurfaceMap after = Mirror::sum(before, clamping);
+  const SurfaceMap wanted =
       clamping_by_K(mirror.measured(before), mirror.measured(after), 0)->elastic;
   note(figures, "1 before clamping", before);
   note(figures, "2 after clamping", after);
   note(figures, "3 clamping", wanted);
-  HeightMap second, unused;
+  SurfaceMap second, unused;
   const auto one = passes(mirror, wanted, repeats, random, CuttingGain::one, second);
   const auto mean = passes(mirror, wanted, repeats, random, CuttingGain::mean, unused);
   note(figures, "4 first machining", Mirror::sum(wanted, one[0]));
@@ -168,11 +170,11 @@ void through_the_paper(unsigned seed, Figures& figures) {
   for (int k = 0; k < 3; ++k)  // Table 2
     note(figures, "repeated cut", Mirror::sum(repeats, random[static_cast<std::size_t>(k)]));
   // Released: the spring is the clamping, but for what the release adds.
-  const HeightMap spring = Mirror::sum(clamping, release);
-  HeightMap released = Mirror::sum(second, spring, -1);
+  const SurfaceMap spring = Mirror::sum(clamping, release);
+  SurfaceMap released = Mirror::sum(second, spring, -1);
   remove_plane(released);
   note(figures, "7 final", released);
-  HeightMap by_release = Mirror::sum(released, one[1], -1);
+  SurfaceMap by_release = Mirror::sum(released, one[1], -1);
   remove_plane(by_release);
   figures["clamping taken out"].push_back(1 - Mirror::rms_um(by_release) / Mirror::rms_um(spring));
   figures["share of the release in the final square"].push_back(

@@ -12,9 +12,9 @@ namespace mdof::algo {
 namespace {
 
 template <class F>
-HeightMap map_of(F&& z, double d_m = 0.2e-3, std::size_t n = 201) {
+SurfaceMap map_of(F&& z, double d_m = 0.2e-3, std::size_t n = 201) {
   const double x0_m = -d_m * static_cast<double>(n - 1) / 2;
-  HeightMap map{"map", x0_m, x0_m, d_m, d_m, n, n, {}, {}};
+  SurfaceMap map{"map", x0_m, x0_m, d_m, d_m, n, n, {}, {}};
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t i = 0; i < n; ++i) map.z_m.push_back(z(map.x_m(i), map.y_m(j)));
   return map;
@@ -24,7 +24,7 @@ struct Walked {
   std::vector<PathPoint> points;
   SpiralCounts counts;
 };
-Walked walk(const HeightMap& map, const SpiralRequest& request) {
+Walked walk(const SurfaceMap& map, const SpiralRequest& request) {
   Walked walked;
   const auto path = SpiralPath::over(map, request);
   EXPECT_TRUE(path) << path.error().message;
@@ -64,7 +64,7 @@ TEST(SpiralPath, RoundToolOnASphere) {
   constexpr double kR = 60e-3, r = 0.5e-3;
   const auto ball = [](double x, double y) { return std::sqrt(kR * kR - x * x - y * y) - kR; };
   for (const double sign : {1.0, -1.0}) {
-    const HeightMap map = map_of([&](double x, double y) { return sign * ball(x, y); });
+    const SurfaceMap map = map_of([&](double x, double y) { return sign * ball(x, y); });
     const Walked walked = walk(map, {0, 0, 18e-3, 0.5e-3, 60, r, 3});
     double compensated = 0;
     for (const PathPoint& p : walked.points) {
@@ -93,10 +93,10 @@ TEST(SpiralPath, AToolThatDoesNotFitIsCounted) {
 TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   const double d = 0.2e-3, half = 8e-3;
   const auto wave = [](double x, double y) { return 1e-6 * std::sin(x / 5e-3) + 40e-6 * y; };
-  HeightMap map = map_of(wave);
+  SurfaceMap map = map_of(wave);
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)
-      if (std::abs(map.y_m(j)) > half + 1e-9) map.z_m[j * map.nx + i] = HeightMap::kMissing;
+      if (std::abs(map.y_m(j)) > half + 1e-9) map.z_m[j * map.nx + i] = SurfaceMap::kMissing;
   const std::size_t per_turn = 720;
   const Walked walked = walk(map, {0, 0, 20e-3, 1e-3, per_turn, 0, 3});
   std::size_t counted[3] = {0, 0, 0};
@@ -138,10 +138,11 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
 
 // Between two ends Eq. 9 by an own program; it rises and falls at most twice.
 TEST(SpiralPath, BridgeIsHermitesCubic) {
-  HeightMap map = map_of([](double x, double y) { return 30e-6 * x - 10e-6 * y * (1 + x / 5e-3); });
+  SurfaceMap map =
+      map_of([](double x, double y) { return 30e-6 * x - 10e-6 * y * (1 + x / 5e-3); });
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)
-      if (std::abs(map.y_m(j)) > 5e-3 + 1e-9) map.z_m[j * map.nx + i] = HeightMap::kMissing;
+      if (std::abs(map.y_m(j)) > 5e-3 + 1e-9) map.z_m[j * map.nx + i] = SurfaceMap::kMissing;
   const std::size_t n = 3600;
   const double feed = 1e-8;
   const auto path = SpiralPath::over(map, {0, 0, 15e-3, feed, n, 0, 0});
@@ -170,7 +171,7 @@ TEST(SpiralPath, BridgeIsHermitesCubic) {
 }
 
 TEST(SpiralPath, HolesOverAllOfIt) {
-  HeightMap map = map_of([](double, double) { return 0; });
+  SurfaceMap map = map_of([](double, double) { return 0; });
   const auto far = SpiralPath::over(map, {1, 0, 5e-3, 1e-4, 90, 0, 3});
   ASSERT_FALSE(far);
   EXPECT_NE(far.error().message.find("--centre-mm"), std::string::npos);
@@ -179,7 +180,7 @@ TEST(SpiralPath, HolesOverAllOfIt) {
   map = map_of([](double x, double) { return 1e-3 * x; });
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)
-      if (std::hypot(map.x_m(i), map.y_m(j)) < 6e-3) map.z_m[j * map.nx + i] = HeightMap::kMissing;
+      if (std::hypot(map.x_m(i), map.y_m(j)) < 6e-3) map.z_m[j * map.nx + i] = SurfaceMap::kMissing;
   const Walked walked = walk(map, {0, 0, 12e-3, 0.1e-3, 90, 0, 3});
   for (const PathPoint& p : walked.points) ASSERT_LE(std::abs(p.z_m), 12.1e-6);
   EXPECT_EQ(walked.points.back().on_part, OnPart::bridged);

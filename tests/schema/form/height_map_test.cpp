@@ -13,8 +13,8 @@
 namespace mdof {
 namespace {
 
-Result<HeightMap> read(const std::string& text, std::optional<XyzUnits> units = {},
-                       std::size_t piece = 7) {
+Result<SurfaceMap> read(const std::string& text, std::optional<XyzUnits> units = {},
+                        std::size_t piece = 7) {
   MapTextReader reader("map.csv", units);
   for (std::size_t at = 0; at < text.size(); at += piece)
     MDOF_CHECK(reader.feed(std::string_view(text).substr(at, piece)));
@@ -109,8 +109,8 @@ TEST(HeightMapXyz, UnitsAndBlanks) {
 }
 
 TEST(HeightMapCsv, IsReadBackAsItWasWritten) {
-  HeightMap map{"m", -0.1475, 0.01, 0.66e-3, 0.5e-3, 3, 2, {}, {}};
-  map.z_m = {1e-6, HeightMap::kMissing, 0.123456789e-6, -3e-9, 0, 2e-3};
+  SurfaceMap map{"m", -0.1475, 0.01, 0.66e-3, 0.5e-3, 3, 2, {}, {}};
+  map.z_m = {1e-6, SurfaceMap::kMissing, 0.123456789e-6, -3e-9, 0, 2e-3};
   std::string text;
   ASSERT_TRUE(write_map_csv(map, [&](std::string_view piece) {
     text += piece;

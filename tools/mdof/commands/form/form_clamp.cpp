@@ -51,10 +51,10 @@ Status check_plate(const FormClampCommand& o) {
 
 Result<Clamped> clamped(const FormClampCommand& o) {
   Clamped found;
-  MDOF_TRY(const HeightMap before, load_map(o.before, o.maps));
-  MDOF_TRY(const HeightMap after, load_map(o.after, o.maps));
+  MDOF_TRY(const SurfaceMap before, load_map(o.before, o.maps));
+  MDOF_TRY(const SurfaceMap after, load_map(o.after, o.maps));
   if (!o.released.empty()) {
-    MDOF_TRY(const HeightMap released, load_map(o.released, o.maps));
+    MDOF_TRY(const SurfaceMap released, load_map(o.released, o.maps));
     MDOF_TRY(found.clamping, algo::clamping_by_release(before, after, released));
   } else {
     MDOF_TRY(found.clamping, algo::clamping_by_K(before, after, o.K.value_or(0)));
@@ -66,7 +66,7 @@ Result<Clamped> clamped(const FormClampCommand& o) {
   return found;
 }
 
-void write_part(JsonWriter& json, const char* key, const HeightMap& part) {
+void write_part(JsonWriter& json, const char* key, const SurfaceMap& part) {
   const algo::MapFigures figures = algo::figures_of(part);
   write_um(json, key, figures.pv_m, figures.rms_m);
 }
@@ -110,7 +110,7 @@ std::string clamp_json(const Clamped& found, const FormClampCommand& o) {
 
 std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
   TextTable table({"", "PV/µm", "RMS/µm"});
-  const auto add = [&](const char* name, const HeightMap& part) {
+  const auto add = [&](const char* name, const SurfaceMap& part) {
     const algo::MapFigures figures = algo::figures_of(part);
     table.add({name, in_um(figures.pv_m), in_um(figures.rms_m)});
   };

@@ -57,8 +57,8 @@ std::string compare_text(const algo::Comparison& found, const FormCompareCommand
 }
 
 Status form_compare(const FormCompareCommand& o) {
-  MDOF_TRY(const HeightMap a, load_map(o.a, o.maps));
-  MDOF_TRY(const HeightMap b, load_map(o.b, o.maps));
+  MDOF_TRY(const SurfaceMap a, load_map(o.a, o.maps));
+  MDOF_TRY(const SurfaceMap b, load_map(o.b, o.maps));
   MDOF_TRY(const algo::Comparison found, algo::compare(a, b, register_from(o.register_how)));
   if (found.untold > 0)
     warn(o.a + ": its shape does not determine " + std::to_string(found.untold) +

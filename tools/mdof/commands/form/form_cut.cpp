@@ -79,7 +79,7 @@ Status form_cut(const FormCutCommand& o) {
   algo::CuttingPasses passes;
   MDOF_TRY(passes.wanted, load_map(o.wanted, o.maps));
   for (const std::string& file : o.cuts) {
-    MDOF_TRY(HeightMap cut, load_map(file, o.maps));
+    MDOF_TRY(SurfaceMap cut, load_map(file, o.maps));
     passes.cuts.push_back(std::move(cut));
   }
   passes.repeated = o.repeated;

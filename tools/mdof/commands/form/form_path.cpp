@@ -70,7 +70,7 @@ class Motion {
   std::size_t count_ = 0;
 };
 
-Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const HeightMap& map) {
+Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMap& map) {
   algo::SpiralRequest request;
   const algo::MapReach middle = algo::middle_of(map);
   request.x_centre_m = middle.x_mid_m;
@@ -99,7 +99,7 @@ Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const HeightMap
   return request;
 }
 
-Result<FoundPath> write_path(const FormPathCommand& o, const HeightMap& map) {
+Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   FoundPath found;
   MDOF_TRY(found.request, request_of(o, map));
   MDOF_TRY(const algo::SpiralPath path, algo::SpiralPath::over(map, found.request));
@@ -193,7 +193,7 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
 }
 
 Status form_path(const FormPathCommand& o) {
-  MDOF_TRY(const HeightMap map, load_map(o.map, o.maps));
+  MDOF_TRY(const SurfaceMap map, load_map(o.map, o.maps));
   MDOF_TRY(const FoundPath found, write_path(o, map));
   MDOF_CHECK(o.json ? write_line(path_json(found, o)) : write_out(path_text(found, o)));
   if (o.bandwidth_hz && found.frequency_hz > *o.bandwidth_hz)

@@ -36,7 +36,7 @@ class MapReader {
     whole_.append(piece);
     return {};
   }
-  Result<HeightMap> map() {
+  Result<SurfaceMap> map() {
     if (!is_whole_) return text_.finish();
     return is_sdf(whole_) ? parse_sdf(whole_, file_) : parse_zygo_dat(whole_, file_);
   }
@@ -57,19 +57,19 @@ void add_map_options(CLI::App& command, MapOptions& options) {
       ->type_name("NAME");
 }
 
-Result<HeightMap> load_map(const std::string& file, const MapOptions& options) {
+Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options) {
   std::optional<XyzUnits> units;
   if (!options.unit.empty()) {
     MDOF_TRY(units, xyz_units(options.unit));
   }
   MapReader reader(file, units);
   MDOF_CHECK(read_in_pieces(file, [&](std::string_view piece) { return reader.take(piece); }));
-  MDOF_TRY(HeightMap map, reader.map());
+  MDOF_TRY(SurfaceMap map, reader.map());
   for (const std::string& notice : map.notices) warn(notice);
   return map;
 }
 
-Status save_map(const HeightMap& map, const std::string& file) {
+Status save_map(const SurfaceMap& map, const std::string& file) {
   OutputFiles out(Existing::replace);
   MDOF_TRY(const std::size_t number, out.add(file));
   MDOF_CHECK(write_map_csv(map, [&](std::string_view text) { return out.write(number, text); }));

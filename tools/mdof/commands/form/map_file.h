@@ -19,10 +19,10 @@ struct MapOptions {
 void add_map_options(CLI::App& command, MapOptions& options);
 
 // Told by what is in it: .sdf, Zygo .dat, CSV, XYZ. What was assumed of it is said as a warning.
-Result<HeightMap> load_map(const std::string& file, const MapOptions& options);
+Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options);
 
 // As CSV, whole or not at all; replaces a file of that name.
-Status save_map(const HeightMap& map, const std::string& file);
+Status save_map(const SurfaceMap& map, const std::string& file);
 
 void write_um(JsonWriter& json, const char* key, double pv_m, double rms_m);  // {pv_um, rms_um}
 

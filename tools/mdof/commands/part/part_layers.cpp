@@ -75,6 +75,7 @@ Status add_table(Machine& machine, const CompensationTable& table, const std::st
       if (f.forward.empty()) f = {};
     }
     machine.simulated = machine.simulated || table.simulated;
+    machine.noise_only = machine.noise_only || table.noise_only();
     return {};
   }
   return bad_input(from + ": is of axis " + std::string(1, letter(table.axis)) +
@@ -100,7 +101,7 @@ algo::PartCause new_cause(const std::string& name, std::size_t points) {
 // The part springs back by the elastic deformation: what was cut to its place goes to -z.
 Result<algo::PartCause> form_cause(const LoadedPart& part, const PartLayer& layer,
                                    const std::string& file) {
-  MDOF_TRY(const HeightMap map, load_map(file, {}));
+  MDOF_TRY(const SurfaceMap map, load_map(file, {}));
   const algo::Surface surface(map, 1, algo::Extension::line);
   algo::PartCause cause = new_cause("spring-back", part.path.at_m.size());
   std::size_t off = 0;

@@ -14,7 +14,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kU_m = 0.05e-6, kL_m = 0.010, kUp_m = 0.020;
+constexpr double kU_m = 0.05e-6, kAcross_m = 0.010, kAbove_m = 0.020;
 
 std::string planes(double length_mm, const std::string& side_normal, const std::string& top) {
   return "[[plane]]\nid = \"" + top +
@@ -23,7 +23,7 @@ std::string planes(double length_mm, const std::string& side_normal, const std::
          "\"\n";
 }
 
-Rig rig_y(const std::string& end) {
+Rig rig_along_y(const std::string& end) {
   std::string toml = "name = \"y\"\naxis = \"Y\"\n";
   const auto probe = [](const char* id, const char* place, const char* measures) {
     return std::string("[[probe]]\nid = \"") + id + "\"\nposition_mm = " + place +
@@ -52,18 +52,19 @@ double squareness_error(const test_faults::DrawnSurface& top, const std::vector<
   std::vector<double> eyx, exy;
   const auto height = [&](double x, double y) { return top.height_m(x, y); };
   for (const double d : travel) {
-    const double b = height(-d, kL_m) - height(0, kL_m), c = height(-d, -kL_m) - height(0, -kL_m);
-    eyx.push_back(kUp_m * (b - c) / (2 * kL_m));
-    const double b_y = height(-kL_m, -d) - height(-kL_m, 0);
-    const double c_y = height(kL_m, -d) - height(kL_m, 0);
-    exy.push_back(-kUp_m * (b_y - c_y) / (2 * kL_m));
+    const double b = height(-d, kAcross_m) - height(0, kAcross_m),
+                 c = height(-d, -kAcross_m) - height(0, -kAcross_m);
+    eyx.push_back(kAbove_m * (b - c) / (2 * kAcross_m));
+    const double b_y = height(-kAcross_m, -d) - height(-kAcross_m, 0);
+    const double c_y = height(kAcross_m, -d) - height(kAcross_m, 0);
+    exy.push_back(-kAbove_m * (b_y - c_y) / (2 * kAcross_m));
   }
   return -slope(travel, eyx) - slope(travel, exy);
 }
 
 double stated_u(double length_mm, const std::string& top_of_y) {
   const Rig along_x = test::rig_x_with("", "", planes(length_mm, "+Y", "top"));
-  const Rig along_y = rig_y(planes(length_mm, "-X", top_of_y));
+  const Rig along_y = rig_along_y(planes(length_mm, "-X", top_of_y));
   const auto budget =
       squareness_budget(along_x, SyntheticRun{.rig = along_x}.measure(), along_y,
                         SyntheticRun{.rig = along_y}.measure(), SquareArtefact{1, 0, 0});

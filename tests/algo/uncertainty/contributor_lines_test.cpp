@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-Errors5 truth(double d) {
+Errors5 curved_axis(double d) {
   return {2e-3 * d * d, 1e-3 * d * d, 1e-3 * d, -2e-3 * d, 3e-3 * d};
 }
 
@@ -25,8 +25,8 @@ TEST(ContributorLines, ShowWhatTheRigDeclares) {
       "u_square_gradient_K_per_m = [0.1, 0.28, 0.2]\nsquare_ppm_per_K = 11\n"
       "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\nu_flatness_um = 0.29\n"
       "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\n");
-  const auto all =
-      contributors(rig, SyntheticRun{.rig = rig, .stated = kAtCarriage, .truth = truth}.measure());
+  const auto all = contributors(
+      rig, SyntheticRun{.rig = rig, .stated = kAtCarriage, .truth = curved_axis}.measure());
   ASSERT_TRUE(all) << all.error().message;
   struct Shown {
     double value;

@@ -1,6 +1,8 @@
 #include "tools/mdof/text/notice_lines.h"
 
 #include <map>
+#include <string>
+#include <utility>
 
 #include "daemon/words/words.h"
 #include "tools/mdof/output.h"
@@ -19,12 +21,13 @@ bool has_own_words(const Notice& notice) {
 
 Notices summarised(const Notices& notices, bool all) {
   if (all) return notices;
-  std::map<NoticeCode, std::size_t> count, seen;
-  for (const Notice& each : notices) ++count[each.code];
+  using Kind = std::pair<NoticeCode, std::string>;
+  std::map<Kind, std::size_t> count, seen;
+  for (const Notice& each : notices) ++count[{each.code, each.subject}];
   Notices kept;
   for (const Notice& each : notices) {
-    const std::size_t alike = has_own_words(each) ? 1 : count[each.code];
-    const std::size_t turn = ++seen[each.code];
+    const std::size_t alike = has_own_words(each) ? 1 : count[{each.code, each.subject}];
+    const std::size_t turn = ++seen[{each.code, each.subject}];
     if (alike <= kKept + 1 || turn <= kKept) kept.push_back(each);
     if (alike <= kKept + 1 || turn != kKept) continue;
     Notice more = notice(NoticeCode::not_shown, "", {{"count", alike - kKept}});

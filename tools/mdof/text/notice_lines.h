@@ -8,8 +8,8 @@
 
 namespace mdof::tools {
 
-// Of a code with more than a few the first ones are kept, and how many more there are. `all`:
-// nothing is left out.
+// Of a code and subject with more than a few the first ones are kept, and how many more there are.
+// `all`: nothing is left out.
 Notices summarised(const Notices& notices, bool all = false);
 
 // The same, a line each on the standard error, marked by its severity.

@@ -19,8 +19,8 @@ namespace {
 struct Parsed {
   std::vector<SampleBlock> blocks;
   std::vector<std::string> bad_lines;
-  Notices missing;  // columns
-  std::string error;                 // empty: none
+  Notices missing;    // columns
+  std::string error;  // empty: none
 
   std::vector<std::int64_t> times() const {
     std::vector<std::int64_t> all;

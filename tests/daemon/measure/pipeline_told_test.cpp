@@ -91,7 +91,9 @@ TEST(PipelineTold, AStopWithoutAPlaceIsLeftOutAndItsTimeIsSaid) {
   EXPECT_EQ(run->points.size(), 9u);
   for (const auto& p : run->points)
     EXPECT_FALSE(p.target == 3 && p.point.direction < 0) << "the one at 10 mm on the way back";
-  EXPECT_HAS_PART(told_of(*run), "stops_not_placed daq points=1 from_s=3.8");  // 3.7 s and what it is given to settle
+  EXPECT_HAS_PART(
+      told_of(*run),
+      "stops_not_placed daq points=1 from_s=3.8");  // 3.7 s and what it is given to settle
 }
 
 TEST(PipelineTold, WhatTheEncoderDidNotSeeIsAWarning) {

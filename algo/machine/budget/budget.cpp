@@ -27,7 +27,7 @@ double per_unit_at(const Machine& machine, const SourceEffect& effect, const Com
 }
 
 BudgetCause cause_of(const ErrorSource& source, BudgetModel& model, BudgetStage stage) {
-  BudgetCause cause{source.name, source.unit, source.u, source.shape, {}, {}};
+  BudgetCause cause{source.name, source.unit, source.u, source.shape, {}, Eigen::Vector3d::Zero()};
   for (const SourceEffect& effect : source.acts_on) {
     const MachineFrame& frame = model.machine.frames[effect.frame];
     if (stage == BudgetStage::measured && is_measured(frame, effect.k, effect.of_line)) {
@@ -54,7 +54,7 @@ void add_measured(BudgetModel& model) {
                                 u * 1e6,
                                 SourceShape::normal,
                                 {{i, k, of_line, 1e-6}},
-                                {}});
+                                Eigen::Vector3d::Zero()});
       }
   }
 }

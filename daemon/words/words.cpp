@@ -1,6 +1,8 @@
 #include "daemon/words/words.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 
@@ -8,6 +10,22 @@
 
 namespace mdof::words {
 namespace {
+
+constexpr std::size_t kCodes = 0
+#define NOTICE(code, severity, keys) +1
+#include "schema/notice/notice_codes.inc"
+#undef NOTICE
+    ;
+
+constexpr std::array<const char*, kCodes> kPatterns = [] {
+  std::array<const char*, kCodes> all{};
+#define WORDS(code, english) all[static_cast<std::size_t>(NoticeCode::code)] = english;
+#include "daemon/words/notices.inc"
+#undef WORDS
+  return all;
+}();
+static_assert(std::find(kPatterns.begin(), kPatterns.end(), nullptr) == kPatterns.end(),
+              "each code of notice_codes.inc has its words in notices.inc");
 
 std::string number_text(double x, const std::string& format) {
   if (format.empty()) return plain_number(x);
@@ -44,14 +62,7 @@ std::string field_text(const Notice& notice, const std::string& field) {
 }  // namespace
 
 const char* pattern(NoticeCode code) {
-  switch (code) {
-#define WORDS(code, english) \
-  case NoticeCode::code:     \
-    return english;
-#include "daemon/words/notices.inc"
-#undef WORDS
-  }
-  return "";
+  return kPatterns[static_cast<std::size_t>(code)];
 }
 
 std::string filled(const char* pattern, const Notice& notice) {

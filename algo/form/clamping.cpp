@@ -24,12 +24,12 @@ void keep_common(SurfaceMap& map, const SurfaceMap& other) {
 
 }  // namespace
 
-Result<Clamping> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K) {
+Result<ClampingParts> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K) {
   if (!(K > -1 && std::isfinite(K)))
     return fail(ErrorCode::usage, "K is " + plain_number(K) +
                                       "; it must be above -1, as the "
                                       "elastic part is the clamping divided by 1 + K");
-  Clamping result;
+  ClampingParts result;
   MDOF_TRY(result.clamping, difference(before, after));
   remove_plane(result.clamping);
   result.K = K;
@@ -38,9 +38,9 @@ Result<Clamping> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after
   return result;
 }
 
-Result<Clamping> clamping_by_release(const SurfaceMap& before, const SurfaceMap& after,
-                                     const SurfaceMap& released) {
-  Clamping result;
+Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const SurfaceMap& after,
+                                          const SurfaceMap& released) {
+  ClampingParts result;
   MDOF_TRY(result.clamping, difference(before, after));
   MDOF_TRY(result.plastic, difference(before, released));
   keep_common(result.clamping, result.plastic);

@@ -11,7 +11,7 @@
 
 namespace mdof::algo {
 
-struct Clamping {
+struct ClampingParts {
   SurfaceMap clamping, elastic, plastic;  // without piston and tilt
   double K = 0;                           // plastic = K elastic
   // Of the measured plastic part, what K times the elastic one leaves; only with `released`.
@@ -21,9 +21,9 @@ struct Clamping {
 // Before clamping, clamped, and released again: elastic = after - released, plastic = released -
 // before, K by least squares. Without `released` both follow from K.
 // Errors: K at or below -1, maps that do not overlap.
-Result<Clamping> clamping_by_release(const SurfaceMap& before, const SurfaceMap& after,
-                                     const SurfaceMap& released);
-Result<Clamping> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K);
+Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const SurfaceMap& after,
+                                          const SurfaceMap& released);
+Result<ClampingParts> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K);
 
 struct Plate {
   double thickness_m = 0, youngs_modulus_Pa = 0, poisson = 0;

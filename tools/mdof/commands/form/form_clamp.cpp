@@ -28,7 +28,7 @@ struct FormClampCommand {
 };
 
 struct Clamped {
-  algo::Clamping clamping;
+  algo::ClampingParts clamping;
   std::optional<algo::PlateStress> stress;
   std::optional<bool> is_elastic;
 };

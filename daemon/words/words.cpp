@@ -88,10 +88,4 @@ std::string line(const Notice& notice) {
   return marked ? std::string(to_string(notice.severity)) + ": " + text(notice) : text(notice);
 }
 
-std::vector<std::string> lines(const Notices& notices) {
-  std::vector<std::string> all;
-  for (const Notice& notice : notices) all.push_back(line(notice));
-  return all;
-}
-
 }  // namespace mdof::words

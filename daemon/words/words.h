@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "schema/notice/notice.h"
 
@@ -14,7 +13,6 @@ std::string text(const Notice& notice);
 
 // With it where it is not doubtful: "information: the axis was parked …".
 std::string line(const Notice& notice);
-std::vector<std::string> lines(const Notices& notices);
 
 // `pattern` with the values of the notice put for its fields:
 //   {key}          a name, or a number of four digits (schema/base/number/number_text.h)

@@ -7,17 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "schema/notice/notice.h"
+
 namespace mdof {
 
 struct SurfaceMap {
   static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-  std::string name;                  // of the file or run, for messages
-  double x0_m = 0, y0_m = 0;         // of the pixel (0, 0)
-  double dx_m = 0, dy_m = 0;         // from pixel to pixel, above 0
-  std::size_t nx = 0, ny = 0;        // columns along x, rows along y
-  std::vector<double> z_m;           // nx ny, row by row; kMissing where nothing was measured
-  std::vector<std::string> notices;  // what was assumed when it was read
+  std::string name;            // of the file or run, for messages
+  double x0_m = 0, y0_m = 0;   // of the pixel (0, 0)
+  double dx_m = 0, dy_m = 0;   // from pixel to pixel, above 0
+  std::size_t nx = 0, ny = 0;  // columns along x, rows along y
+  std::vector<double> z_m;     // nx ny, row by row; kMissing where nothing was measured
+  Notices notices;             // what was assumed when it was read
 
   double x_m(std::size_t column) const { return x0_m + static_cast<double>(column) * dx_m; }
   double y_m(std::size_t row) const { return y0_m + static_cast<double>(row) * dy_m; }

@@ -61,9 +61,10 @@ Result<XyzUnits> xyz_units(const std::string& text) {
   const auto xy = unit_m(text.substr(0, comma));
   const auto z = comma == std::string::npos ? xy : unit_m(text.substr(comma + 1));
   if (xy && z) return XyzUnits{*xy, *z};
-  return fail(ErrorCode::usage, "--unit \"" + text +
-                                    "\": it must be m, mm, um or nm, or two of them for x and y, "
-                                    "and for z, such as mm,um; convert other units first");
+  return fail(ErrorCode::usage,
+              "\"" + text +
+                  "\" is no unit: it must be m, mm, um or nm, or two of them for x and y, "
+                  "and for z, such as mm,um; convert other units first");
 }
 
 std::string MapTextReader::place(std::size_t line) const {
@@ -123,8 +124,7 @@ Status MapTextReader::first_line(std::string_view text) {
       xy_m_ = units_->xy_m;
       z_m_ = units_->z_m;
     } else {
-      notices_.push_back(source_ +
-                         ": has no header; x and y are taken as mm, z as µm (--unit mm,um)");
+      notices_.push_back(notice(NoticeCode::map_units_assumed, source_));
     }
     return xyz_row(text);
   }

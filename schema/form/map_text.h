@@ -58,7 +58,7 @@ class MapTextReader {
   MapPoints points_;
   // Where points begin that follow each other line by line: (point, its line).
   std::vector<std::pair<std::size_t, std::size_t>> stretch_;
-  std::vector<std::string> notices_;
+  Notices notices_;
 };
 
 // As such a CSV, every pixel with its row, handed on in pieces.

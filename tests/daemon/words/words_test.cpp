@@ -66,7 +66,6 @@ TEST(Catalogue, ALineNamesSourceAndSeverity) {
   EXPECT_EQ(words::line(doubtful), words::text(doubtful));
   EXPECT_EQ(words::line(known),
             "information: run 3: " + words::text(notice(NoticeCode::run_can_go_on)));
-  EXPECT_EQ(words::lines({doubtful, known}).at(1), words::line(known));
 }
 
 // What a number of a real run looks like in its sentence.

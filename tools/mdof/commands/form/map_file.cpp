@@ -10,6 +10,7 @@
 #include "schema/form/surface_files.h"
 #include "schema/units.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -60,12 +61,14 @@ void add_map_options(CLI::App& command, MapOptions& options) {
 Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options) {
   std::optional<XyzUnits> units;
   if (!options.unit.empty()) {
-    MDOF_TRY(units, xyz_units(options.unit));
+    auto named = xyz_units(options.unit);
+    if (!named) return in_context("--unit", std::move(named.error()));
+    units = *named;
   }
   MapReader reader(file, units);
   MDOF_CHECK(read_in_pieces(file, [&](std::string_view piece) { return reader.take(piece); }));
   MDOF_TRY(SurfaceMap map, reader.map());
-  for (const std::string& notice : map.notices) warn(notice);
+  show_notices(map.notices, true);
   return map;
 }
 

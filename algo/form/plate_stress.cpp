@@ -145,9 +145,9 @@ double von_mises_Pa(const Curvature& c, const Plate& plate) {
 Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, double smooth_m) {
   const Square square(form, smooth_m);
   if (!square.is_large_enough())
-    return fail(ErrorCode::usage, "--smooth-mm " + plain_number(to_mm(smooth_m)) +
-                                      " is below two pixels (" + plain_number(to_mm(form.dx_m)) +
-                                      " x " + plain_number(to_mm(form.dy_m)) +
+    return fail(ErrorCode::usage, plain_number(to_mm(smooth_m)) + " mm are less than two pixels (" +
+                                      plain_number(to_mm(form.dx_m)) + " x " +
+                                      plain_number(to_mm(form.dy_m)) +
                                       " mm); a curvature needs a square of 3 x 3 pixels");
   PlateStress stress;
   for (std::size_t j = 0; j < form.ny; ++j)
@@ -163,7 +163,7 @@ Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, dou
     }
   if (stress.pixels > 0) return stress;
   return bad_input(form.name +
-                   ": no pixel has half of the square of --smooth-mm about it; take a "
+                   ": no pixel has half of the square of smoothing about it; take a "
                    "smaller one");
 }
 

@@ -61,7 +61,9 @@ Result<Clamped> clamped(const FormClampCommand& o) {
   }
   if (!o.thickness_mm) return found;
   const algo::Plate plate{from_mm(*o.thickness_mm), *o.young_GPa * 1e9, *o.poisson};
-  MDOF_TRY(found.stress, algo::plate_stress(found.clamping.clamping, plate, from_mm(o.smooth_mm)));
+  auto stress = algo::plate_stress(found.clamping.clamping, plate, from_mm(o.smooth_mm));
+  if (!stress) return in_context("--smooth-mm", std::move(stress.error()));
+  found.stress = *stress;
   if (o.yield_MPa) found.is_elastic = found.stress->max_Pa < *o.yield_MPa * kPaPerMPa;
   return found;
 }

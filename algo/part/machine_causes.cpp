@@ -1,5 +1,7 @@
 #include "algo/part/machine_causes.h"
 
+#include "algo/machine/budget/budget.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,22 +17,13 @@ struct Known {
   std::size_t cause = 0;
 };
 
-bool is_known(const MachineFrame& frame, std::size_t k, bool of_line) {
-  return of_line ? frame.location[k].value.has_value() : frame.error[k].known();
-}
-
-PartCause new_cause(const std::string& name, std::size_t points) {
-  return {0, name, std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero()),
-          std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero())};
-}
-
 std::vector<Known> known_errors(const Machine& machine, std::size_t points, MachineCauses& causes) {
   std::vector<Known> known;
   for (std::size_t f = 0; f < machine.frames.size(); ++f)
     for (const bool of_line : {false, true})
       for (std::size_t k = 0; k < kBodyErrors; ++k) {
         const MachineFrame& frame = machine.frames[f];
-        if (!is_known(frame, k, of_line)) continue;
+        if (!frame.is_known(k, of_line)) continue;
         known.push_back({f, k, of_line, causes.axes.size()});
         causes.axes.push_back(
             new_cause(of_line ? location_name(frame, k) : error_name(frame, k), points));
@@ -44,10 +37,8 @@ Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, con
                           const std::vector<ErrorDerivative>& all) {
   Eigen::Vector3d effect = Eigen::Vector3d::Zero();
   for (const SourceEffect& acts : source.acts_on) {
-    if (is_known(machine.frames[acts.frame], acts.k, acts.of_line)) continue;
-    double factor = acts.factor;
-    if (acts.factor_per_position != 0)
-      factor += acts.factor_per_position * command_of(machine.frames[acts.of], command);
+    if (machine.frames[acts.frame].is_known(acts.k, acts.of_line)) continue;
+    const double factor = per_unit_at(machine, acts, command);
     for (const ErrorDerivative& d : all)
       if (d.frame == acts.frame && d.k == acts.k && d.of_line == acts.of_line)
         effect += factor * d.d.head<3>();

@@ -18,6 +18,12 @@ struct PartCause {
   std::vector<Eigen::Vector3d> value_m, u_m;
 };
 
+// Without error as yet.
+inline PartCause new_cause(const std::string& name, std::size_t points) {
+  return {0, name, std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero()),
+          std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero())};
+}
+
 struct PartPath {
   std::vector<Eigen::Vector3d> at_m;
   // Outward, of length 1: the error is what points along it. Empty: the length of the error counts.

@@ -56,7 +56,12 @@ struct MachineFrame {
   std::array<ErrorFunction, kBodyErrors> error;
   std::array<LocationError, kBodyErrors> location;
   std::optional<std::array<double, 2>> range;  // of the command that is used, m or rad
-  std::string file;                            // columns of several errors; empty: none
+
+  // Whether the error was measured; `of_line`: that of the location.
+  bool is_known(std::size_t k, bool of_line) const {
+    return of_line ? location[k].value.has_value() : error[k].known();
+  }
+  std::string file;  // columns of several errors; empty: none
 };
 
 // What may vary and was not measured: a screw, a clearance, an assembly. It may act at several

@@ -10,27 +10,15 @@ namespace {
 
 constexpr double kMostTurn_rad = 0.1, kMostShift_m = 0.01;
 
-bool is_measured(const MachineFrame& frame, std::size_t k, bool of_line) {
-  return of_line ? frame.location[k].value.has_value() : frame.error[k].known();
-}
-
 std::string name_of(const MachineFrame& frame, std::size_t k, bool of_line) {
   return of_line ? location_name(frame, k) : error_name(frame, k);
-}
-
-double per_unit_at(const Machine& machine, const SourceEffect& effect, const Command& at) {
-  const double by_place =
-      effect.factor_per_position == 0
-          ? 0
-          : effect.factor_per_position * command_of(machine.frames[effect.of], at);
-  return effect.factor + by_place;
 }
 
 BudgetCause cause_of(const ErrorSource& source, BudgetModel& model, BudgetStage stage) {
   BudgetCause cause{source.name, source.unit, source.u, source.shape, {}, Eigen::Vector3d::Zero()};
   for (const SourceEffect& effect : source.acts_on) {
     const MachineFrame& frame = model.machine.frames[effect.frame];
-    if (stage == BudgetStage::measured && is_measured(frame, effect.k, effect.of_line)) {
+    if (stage == BudgetStage::measured && frame.is_known(effect.k, effect.of_line)) {
       model.replaced.push_back(source.name + " on " + name_of(frame, effect.k, effect.of_line));
       continue;
     }
@@ -136,6 +124,11 @@ double measured_square(const MachineFrame& frame, std::size_t k, bool of_line) {
 
 }  // namespace
 
+double per_unit_at(const Machine& machine, const SourceEffect& effect, const Command& at) {
+  if (effect.factor_per_position == 0) return effect.factor;
+  return effect.factor + effect.factor_per_position * command_of(machine.frames[effect.of], at);
+}
+
 Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
                                  MachineApproach approach, BudgetStage stage) {
   BudgetModel model{machine, at, {}, {}, {}, {}};
@@ -166,7 +159,7 @@ std::vector<MeasuredError> designed_against_measured(const Machine& machine, con
   std::vector<MeasuredError> all;
   for (const ErrorDerivative& d : derivatives(machine, at)) {
     const MachineFrame& frame = machine.frames[d.frame];
-    if (!is_measured(frame, d.k, d.of_line)) continue;
+    if (!frame.is_known(d.k, d.of_line)) continue;
     MeasuredError e;
     e.name = name_of(frame, d.k, d.of_line);
     e.k = d.k;

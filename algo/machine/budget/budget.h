@@ -40,6 +40,9 @@ struct BudgetModel {
   std::vector<std::string> not_declared;  // act on the tool, and have neither a cause nor a u
 };
 
+// What a unit of the source makes of the error at this command: m or rad.
+double per_unit_at(const Machine& machine, const SourceEffect& effect, const Command& at);
+
 // Errors: a cause so large that an error leaves 0.1 rad or 10 mm at this command.
 Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
                                  MachineApproach approach, BudgetStage stage);

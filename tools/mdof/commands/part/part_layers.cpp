@@ -88,22 +88,22 @@ Status add_tables(LoadedPart& part, const PartLayer& layer, const std::string& d
   for (const std::string& from : layer.from) {
     MDOF_TRY(const CompensationTable table, store.table(*table_number(from)));
     MDOF_CHECK(add_table(part.machine, table, from));
+    if (table.slope_removed)
+      warn(from +
+           ": its straightness is about a line, so that its slopes (squareness) are not in "
+           "the error of the part; build it with --keep-slope to have them");
   }
   return {};
 }
 
 // ---- form and milling ----
 
-algo::PartCause new_cause(const std::string& name, std::size_t points) {
-  return {0, name, Field(points, Eigen::Vector3d::Zero()), Field(points, Eigen::Vector3d::Zero())};
-}
-
 // The part springs back by the elastic deformation: what was cut to its place goes to -z.
 Result<algo::PartCause> form_cause(const LoadedPart& part, const PartLayer& layer,
                                    const std::string& file) {
   MDOF_TRY(const SurfaceMap map, load_map(file, {}));
   const algo::Surface surface(map, 1, algo::Extension::line);
-  algo::PartCause cause = new_cause("spring-back", part.path.at_m.size());
+  algo::PartCause cause = algo::new_cause("spring-back", part.path.at_m.size());
   std::size_t off = 0;
   for (std::size_t k = 0; k < part.path.at_m.size(); ++k) {
     algo::SurfacePoint at;
@@ -152,8 +152,8 @@ Result<std::vector<algo::PartCause>> milling_causes(const LoadedPart& part,
   MDOF_TRY(const algo::WearOffset offset, algo::wear_offset(declared));
   const Field normals = wall_normals(part.path, declared.plan.is_up);
   std::vector<algo::PartCause> causes = {
-      new_cause("tool deflection", part.path.at_m.size()),
-      new_cause("deflection over the depth", part.path.at_m.size())};
+      algo::new_cause("tool deflection", part.path.at_m.size()),
+      algo::new_cause("deflection over the depth", part.path.at_m.size())};
   for (std::size_t k = 0; k < normals.size(); ++k) {
     // Outward is into the wall.
     causes[0].value_m[k] = -result.wall.offset_mean_m * normals[k];

@@ -10,6 +10,7 @@
 #include "algo/compensation/compensation.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
+#include "tests/coverage_runs.h"
 
 namespace mdof::algo {
 namespace {
@@ -34,7 +35,7 @@ std::map<std::string, Spread> spreads(double level_m, double slope_m, bool remov
   options.stated = kAtFixture;
   options.remove_slope = remove_slope;
   std::map<std::string, Spread> all;
-  for (int table = 0; table < 250; ++table) {
+  for (int table = 0; table < test::coverage_runs(250); ++table) {
     std::map<int, std::array<double, 2>> of_pass;
     synthetic.added = [&](std::size_t k, double, double, double time_s) {
       const int pass = static_cast<int>((time_s - 5) / 90);

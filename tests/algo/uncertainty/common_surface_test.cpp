@@ -10,6 +10,7 @@
 #include "tests/algo/uncertainty/drawn_surface.h"
 #include "tests/algo/uncertainty/faulty_fixture.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
+#include "tests/coverage_runs.h"
 
 namespace mdof::algo {
 namespace {
@@ -77,10 +78,10 @@ TEST(CommonSurface, OfTheTopIsOneInXAndY) {
   for (const double length_mm : {4.0, 30.0, 400.0}) {
     auto engine = test_faults::well_mixed(31);
     double square = 0;
-    constexpr int kSurfaces = 1500;
-    for (int i = 0; i < kSurfaces; ++i)
+    const int surfaces = test::coverage_runs(1500);
+    for (int i = 0; i < surfaces; ++i)
       square += std::pow(squareness_error({kU_m, length_mm * 1e-3, engine}, travel), 2);
-    const double spread = std::sqrt(square / kSurfaces), u = stated_u(length_mm, "top");
+    const double spread = std::sqrt(square / surfaces), u = stated_u(length_mm, "top");
     std::printf("L %.0f mm: u / spread %.3f, as two surfaces %.3f\n", length_mm, u / spread,
                 stated_u(length_mm, "another") / spread);
     EXPECT_NEAR(u / spread, 1, 0.06) << length_mm;

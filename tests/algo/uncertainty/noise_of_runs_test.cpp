@@ -11,6 +11,7 @@
 #include "algo/uncertainty/statistics/range_interval.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
+#include "tests/coverage_runs.h"
 
 namespace mdof::algo {
 namespace {
@@ -23,8 +24,7 @@ struct Held {
 };
 
 int wanted() {
-  const char* runs = std::getenv("MDOF_COVERAGE_RUNS");
-  return runs ? std::atoi(runs) : 150;
+  return test::coverage_runs(150);
 }
 
 Errors5 bend(double d, double height_m, double angle_rad) {
@@ -35,7 +35,7 @@ Errors5 bend(double d, double height_m, double angle_rad) {
 // Of all figures, by name: those that hold the truth of the same axis without noise.
 std::map<std::string, Held> held(int runs, double height_m, double angle_rad) {
   const Rig rig = test::rig_x_with("", "");
-  std::mt19937_64 engine(99);
+  std::mt19937_64 engine(test::coverage_seed(99));
   std::normal_distribution<> normal(0, kNoise_m);
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = runs};
   synthetic.truth = [&](double d) { return bend(d, height_m, angle_rad); };

@@ -35,9 +35,9 @@ struct PlateStress {
   std::size_t pixels = 0;  // at which the curvature is known
 };
 
-// A thin plate of which one face is bent by `form`. The curvature is that of a parabola fitted over
-// a square of the side `smooth_m` about each pixel; pixels with less than half of the square are
-// left out. Error bad_input: no pixel is left, or the square is smaller than 3 pixels.
+// The stress of a thin plate whose face is bent by `form`. The curvature is that of a parabola
+// fitted over a square of the side `smooth_m` about each pixel; pixels with less than half of the
+// square are left out. Error bad_input: no pixel is left, or the square is smaller than 3 pixels.
 Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, double smooth_m);
 
 }  // namespace mdof::algo

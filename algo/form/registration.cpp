@@ -24,7 +24,7 @@ constexpr double kSearchOverlap = 0.6;   // of a start that was searched for
 constexpr double kSearchShift = 0.2;     // of the size of A, to each side
 constexpr int kSearchSteps = 10;         // to each side
 constexpr double kSearchTurn_deg = 2;    // a step; five to each side
-constexpr double kUntold = 1e-7;         // share of the slopes that no plane explains
+constexpr double kUndetermined = 1e-7;   // share of the slopes that no plane explains
 constexpr double kAlike = 1e-6;          // share of A's mean square: no search is needed
 constexpr double kFitted_pixels = 1e-4;  // the last step
 
@@ -114,7 +114,7 @@ Sums sums_at(const Places& a, const Surface& b, const MapPose& about_middle, boo
 struct Step {
   double mean_square = 0;          // of the residual, without its best plane
   std::array<double, 3> change{};  // shift x, y, turn times size
-  std::size_t untold = 0;
+  std::size_t undetermined = 0;
 };
 
 Step step_of(const Sums& sums, bool with_plane_only) {
@@ -139,13 +139,13 @@ Step step_of(const Sums& sums, bool with_plane_only) {
   const Eigen::VectorXd right = m - C.transpose() * fitted;
   // Each unknown in its own scale, so that directions can be told apart by their eigenvalues.
   Eigen::VectorXd scale(3);
-  const double least = kUntold * kUntold * M.trace();  // below it, rounding
+  const double least = kUndetermined * kUndetermined * M.trace();  // below it, rounding
   for (int u = 0; u < 3; ++u) scale(u) = M(u, u) > least ? 1 / std::sqrt(M(u, u)) : 0;
   const SingularValues found = singular_values(scale.asDiagonal() * left * scale.asDiagonal());
   Eigen::VectorXd change = Eigen::VectorXd::Zero(3);
   for (int k = 0; k < 3; ++k) {
-    if (!(found.values(k) > kUntold)) {
-      ++step.untold;
+    if (!(found.values(k) > kUndetermined)) {
+      ++step.undetermined;
       continue;
     }
     const double along = found.U.col(k).dot(scale.cwiseProduct(right)) / found.values(k);
@@ -158,7 +158,7 @@ Step step_of(const Sums& sums, bool with_plane_only) {
 struct Fit {
   MapPose pose;  // about the middle
   double mean_square = 0, overlap = 0;
-  std::size_t untold = 0;
+  std::size_t undetermined = 0;
 };
 
 Fit fitted_from(const Places& a, const Surface& b, MapPose pose, double pixel_m, int most) {
@@ -190,7 +190,7 @@ Fit fitted_from(const Places& a, const Surface& b, MapPose pose, double pixel_m,
   fit.pose = pose;
   fit.mean_square = step.mean_square;
   fit.overlap = sums.count / all;
-  fit.untold = step.untold;
+  fit.undetermined = step.undetermined;
   return fit;
 }
 
@@ -289,7 +289,7 @@ Result<Comparison> compare(const SurfaceMap& a, const SurfaceMap& b, Register ho
     const Places places = places_of(a, kForFit);
     const Fit fit = registered(a, surface, pixel_m, places);
     result.pose = about_origin(fit.pose, places);
-    result.untold = fit.untold;
+    result.undetermined = fit.undetermined;
   }
   result.difference = difference_at(a, surface, result.pose);
   MDOF_CHECK(check_overlap(a, b, result.difference.measured()));

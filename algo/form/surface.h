@@ -10,8 +10,8 @@
 
 namespace mdof::algo {
 
-// How a missing pixel beside measured ones gets its height, along each row and column of which it
-// is the next pixel; where it has several, their mean.
+// How a missing pixel gets its height from measured ones beside it in its row or column. Where
+// several sides have some, it is their mean.
 enum class Extension {
   line,     // the line through the last four pixels (least squares): little noise
   parabola  // through the last three: keeps the interpolation at the edge as it is within

@@ -92,7 +92,7 @@ Notice delay_notice(const std::string& id, const ReadingLag& lag) {
 }
 
 // Is it between bins of its pass that were taken? Else it is of the way up to speed, or down.
-bool is_amid(const PassBins& pass, const BinLeftOut& left) {
+bool is_within(const PassBins& pass, const BinLeftOut& left) {
   const auto beyond = [&](const BinPoint& bin) {
     return (bin.point.position_m - left.position_m) * pass.direction > 0;
   };
@@ -156,12 +156,12 @@ Status OnTheFly::explain_nothing() const {
 }
 
 Notices OnTheFly::notices() const {
-  Notices all, amid;
+  Notices all, within;
   for (const PassBins& pass : passes_)
     for (const BinLeftOut& left : pass.left_out)
-      if (left.fault != BinFault::speed_changes || is_amid(pass, left))
-        amid.push_back(left_out_notice(left, begin_ns_));
-  append_first(all, std::move(amid));
+      if (left.fault != BinFault::speed_changes || is_within(pass, left))
+        within.push_back(left_out_notice(left, begin_ns_));
+  append_first(all, std::move(within));
   const Speeds speeds = speeds_of(passes_);
   if (speeds.max_m_s > (1 + kOtherSpeed) * speeds.min_m_s)
     all.push_back(

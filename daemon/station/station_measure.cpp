@@ -299,8 +299,7 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
   if (result) {
     run = std::move(*result);
   } else {
-    run.header.notices.push_back(
-        notice(NoticeCode::failure, "", {{"words", result.error().message}}));
+    append(run.header.notices, failure(result.error().message));
     if (state == RunState::complete) state = RunState::failed;
   }
   // Else as it turned out: complete or partial.

@@ -1,5 +1,5 @@
 // The binary form of Zygo's MetroPro: a header, the intensities, the connected phase. Numbers are
-// big-endian; the phase is a whole number of which `phase_res` says how many make a fringe:
+// big-endian; the phase is a whole number, and `phase_res` says how many counts are a fringe:
 // height = phase * intf_scale_factor * obliquity_factor * wavelength / counts of a fringe.
 #include <bit>
 #include <cmath>

@@ -37,7 +37,7 @@ TEST(FormCompare, FindsShiftAndTurn) {
     EXPECT_NEAR(found->pose.turn_rad / kDeg, k.turn_deg, 5e-4);
     EXPECT_LT(found->rms_m, 0.05e-9);
     EXPECT_LT(found->pv_m, 2e-9);
-    EXPECT_EQ(found->untold, 0u);
+    EXPECT_EQ(found->undetermined, 0u);
     EXPECT_GT(found->pixels, 7000u);
   }
 }
@@ -64,7 +64,7 @@ TEST(FormCompare, ShapesThatTellNoShift) {
   const auto found =
       compare(a, map_of([&](double x, double y) { return ball(x - 1e-3, y); }), Register::rigid);
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->untold, 3u);
+  EXPECT_EQ(found->undetermined, 3u);
   EXPECT_NEAR(found->pose.shift_x_m, 0, 1e-9);
   EXPECT_LT(found->rms_m, 1e-12);
   // Waves along x alone: no shift along y, and the turn is known.
@@ -72,7 +72,7 @@ TEST(FormCompare, ShapesThatTellNoShift) {
   const auto along =
       compare(map_of(waves), map_of([&](double x, double y) { return waves(x - 0.4e-3, y); }),
               Register::rigid);
-  EXPECT_EQ(along->untold, 1u);
+  EXPECT_EQ(along->undetermined, 1u);
   EXPECT_NEAR(along->pose.shift_x_m, 0.4e-3, 1e-7);
 }
 

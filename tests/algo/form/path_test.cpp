@@ -176,7 +176,7 @@ TEST(SpiralPath, HolesOverAllOfIt) {
   ASSERT_FALSE(far);
   EXPECT_NE(far.error().message.find("--centre-mm"), std::string::npos);
   EXPECT_FALSE(SpiralPath::over(map, {0, 0, 1, 1e-12, 720, 0, 3}));
-  // A ring about the centre: what is amid is bridged, and stays near.
+  // A ring about the centre: its middle is bridged, near the heights beside it.
   map = map_of([](double x, double) { return 1e-3 * x; });
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)

@@ -47,7 +47,7 @@ TEST(HeightMapCsv, RowsInAnyOrderWithHoles) {
   EXPECT_EQ(map->measured(), 3u);
 }
 
-// Three decimals of a pitch of two thirds, and 300 columns missing amid.
+// Three decimals of a pitch of two thirds, and 300 columns missing in the middle.
 TEST(HeightMapCsv, RoundedPlaces) {
   std::string text = "x_mm,y_mm,z_um\n";
   for (int j = 0; j < 3; ++j)

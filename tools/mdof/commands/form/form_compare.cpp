@@ -39,7 +39,7 @@ std::string compare_json(const algo::Comparison& found, const FormCompareCommand
       .field("turn_deg", found.pose.turn_rad * 180 / std::numbers::pi)
       .field("pixels", static_cast<std::uint64_t>(found.pixels))
       .field("register", o.register_how)
-      .field("untold_directions", static_cast<std::uint64_t>(found.untold))
+      .field("undetermined_directions", static_cast<std::uint64_t>(found.undetermined))
       .end_object();
   return json.take();
 }
@@ -60,8 +60,8 @@ Status form_compare(const FormCompareCommand& o) {
   MDOF_TRY(const SurfaceMap a, load_map(o.a, o.maps));
   MDOF_TRY(const SurfaceMap b, load_map(o.b, o.maps));
   MDOF_TRY(const algo::Comparison found, algo::compare(a, b, register_from(o.register_how)));
-  if (found.untold > 0)
-    warn(o.a + ": its shape does not determine " + std::to_string(found.untold) +
+  if (found.undetermined > 0)
+    warn(o.a + ": its shape does not determine " + std::to_string(found.undetermined) +
          " of shift x, shift y and turn; these are taken as 0");
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
   return o.json ? write_line(compare_json(found, o)) : write_out(compare_text(found, o));

@@ -13,7 +13,6 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
-constexpr int kDecimals = 9;  // ns, pm, a billionth of a degree
 
 }  // namespace
 
@@ -24,7 +23,8 @@ PathForm path_form(const std::string& file) {
 }
 
 // Fixed decimals through a whole number: a path has a hundred million of them.
-void PathWriter::number(double x, int decimals) {
+void PathWriter::word(const char* before, double x, int decimals) {
+  text_ += before;
   static constexpr std::array<double, 10> kTens = {
       {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9}};
   const double scaled = std::nearbyint(std::abs(x) * kTens[static_cast<std::size_t>(decimals)]);
@@ -64,32 +64,24 @@ Status PathWriter::begin() {
 
 Status PathWriter::add(const algo::PathPoint& point) {
   if (form_ == PathForm::table) {
-    number(rates_.t_s(point.index), kDecimals);
-    text_ += ',';
-    number(to_mm(point.rho_m), kDecimals);
-    text_ += ',';
-    number(rates_.theta_deg(point.index), kDecimals);
-    text_ += ',';
-    number(to_um(point.z_m), kDecimals);
+    word("", rates_.t_s(point.index));
+    word(",", to_mm(point.rho_m));
+    word(",", rates_.theta_deg(point.index));
+    word(",", to_um(point.z_m));
     text_ += ',';
     text_ += static_cast<char>('0' + static_cast<int>(point.on_part));
     text_ += '\n';
   } else {
+    const double x_mm = to_mm(point.rho_m), c_deg = rates_.theta_deg(point.index);
     if (is_first_) {
-      text_ += "G0 X";
-      number(to_mm(point.rho_m), kDecimals);
-      text_ += " C";
-      number(rates_.theta_deg(point.index), kDecimals);
+      word("G0 X", x_mm);
+      word(" C", c_deg);
       text_ += "\nG93\n";
     }
-    text_ += "G1 X";
-    number(to_mm(point.rho_m), kDecimals);
-    text_ += " C";
-    number(rates_.theta_deg(point.index), kDecimals);
-    text_ += " Z";
-    number(to_mm(point.z_m), kDecimals);
-    text_ += " F";
-    number(rates_.speed_rpm * static_cast<double>(rates_.points_per_turn), 3);
+    word("G1 X", x_mm);
+    word(" C", c_deg);
+    word(" Z", to_mm(point.z_m));
+    word(" F", rates_.speed_rpm * static_cast<double>(rates_.points_per_turn), 3);
     text_ += '\n';
     is_first_ = false;
   }

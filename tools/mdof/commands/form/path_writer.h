@@ -37,7 +37,8 @@ class PathWriter {
 
  private:
   Status flush();
-  void number(double x, int decimals);
+  // `before`, and x in fixed decimals: 9 are ns, pm, a billionth of a degree.
+  void word(const char* before, double x, int decimals = 9);
   std::string file_;
   PathRates rates_;
   PathForm form_;

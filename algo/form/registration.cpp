@@ -123,7 +123,7 @@ Step step_of(const Sums& sums, bool with_plane_only) {
   Eigen::VectorXd p(3), m(3);
   for (int u = 0; u < 3; ++u) {
     p(u) = sums.b[static_cast<std::size_t>(u)];
-    m(u) = sums.b[static_cast<std::size_t>(u + 3)];
+    m(u) = sums.b[static_cast<std::size_t>(u) + 3];
     for (int v = 0; v < 3; ++v) {
       const auto a = static_cast<std::size_t>(u), b = static_cast<std::size_t>(v);
       P(u, v) = sums.A[a][b];

@@ -5,17 +5,19 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 
 #include "schema/base/number/number_text.h"
 
 namespace mdof::words {
 namespace {
 
-constexpr std::size_t kCodes = 0
-#define NOTICE(code, severity, keys) +1
+constexpr NoticeCode kAll[] = {
+#define NOTICE(code, severity, keys) NoticeCode::code,
 #include "schema/notice/notice_codes.inc"
 #undef NOTICE
-    ;
+};
+constexpr std::size_t kCodes = std::size(kAll);
 
 constexpr std::array<const char*, kCodes> kPatterns = [] {
   std::array<const char*, kCodes> all{};

@@ -6,7 +6,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr const char* kHead =
+constexpr const char* kRulesHead =
     R"(# Made from the rows of drivers/registry.cpp.
 # Devices that mdof reads, for the group mdof (mdof.sysusers makes it) and for whoever is logged in
 # at the machine. A stable name by serial number: /dev/mdof/<serial>.
@@ -79,7 +79,7 @@ std::string rule_of(const SysfsFile& sysfs) {
 }  // namespace
 
 std::string udev_rules(const std::vector<DriverRow>& rows) {
-  std::string text = kHead;
+  std::string text = kRulesHead;
   for (const DriverRow& row : rows) {
     if (!row.node) continue;
     text += std::visit(

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "algo/points/flags.h"
 #include "schema/point.h"
 #include "schema/sample.h"
 
@@ -108,19 +109,15 @@ inline std::size_t row_at(const FrameBlock& frames, double time_s) {
 // Rows from ... to - 1.
 inline FrameBlock cut_frames(const FrameBlock& frames, std::size_t from, std::size_t to) {
   const auto cut = [&](const auto& c) {
-    using Column = std::decay_t<decltype(c)>;
-    if (c.empty()) return Column{};
-    return Column(c.begin() + static_cast<std::ptrdiff_t>(from),
-                  c.begin() + static_cast<std::ptrdiff_t>(to));
+    using Cut = std::decay_t<decltype(c)>;
+    if (c.empty()) return Cut{};
+    return Cut(c.begin() + static_cast<std::ptrdiff_t>(from),
+               c.begin() + static_cast<std::ptrdiff_t>(to));
   };
   FrameBlock part{cut(frames.time_ns), cut(frames.encoder_m), {}, {}};
   for (const auto& column : frames.probe_m) part.probe_m.push_back(cut(column));
   for (const auto& column : frames.probe_quality) part.probe_quality.push_back(cut(column));
   return part;
-}
-
-inline bool has_flag(const Point& point, const std::string& flag) {
-  return std::find(point.flags.begin(), point.flags.end(), flag) != point.flags.end();
 }
 
 }  // namespace mdof::algo

@@ -1,14 +1,42 @@
-# The files of a folder are compiled together (tests in four parts), as most of the time of a build from nothing goes
-# to headers (tests/CAMPAIGNS.md has the figures). So under sanitizers, in tools/quickstart and .ci/run; who edits one
-# file builds faster without. Names of the anonymous namespaces of a folder must then differ; a file with a name that
-# stands elsewhere too ("redefinition", "ambiguous") gets another name for it, or shares what is the same by a header.
+# All files of a target are compiled together, as most of the time of a build from nothing goes to headers and to
+# templates (tests/CAMPAIGNS.md has the figures). So under sanitizers, in tools/quickstart and .ci/run; who edits one
+# file builds faster without. Names of the anonymous namespaces must then differ. Where those of two folders are the
+# same, the folders stand in different parts below; tests are divided by the first letter of the file, too. For a new
+# clash ("redefinition", "ambiguous"): another name, a shared header, or another part for the folder.
 # Alone is what Highway includes again for each instruction set, and what cannot be together for another such reason.
 set(MDOF_COMPILE_TOGETHER "$ENV{MDOF_COMPILE_TOGETHER}" CACHE STRING
-    "Compile the files of a folder together (ON, OFF; default: of the environment, else under sanitizers)")
+    "Compile the files of a target together (ON, OFF; default: of the environment, else under sanitizers)")
 set(MDOF_COMPILED_ALONE
   schema/base/number/number_columns_vector.cpp
   schema/base/number/number_digits.cpp
 )
+set(MDOF_PART_2 algo_model algo_on_the_fly algo_sensitivity_plan algo_sensitivity_statistics
+  algo_uncertainty_positioning daemon_measure_replay daemon_rpc_session daemon_store_study daemon_storekeeper
+  drivers_imported drivers_linux_comedi drivers_qsb schema_calibration schema_machine schema_recording schema_study
+  tests_algo_compensation_d tests_algo_drift_m tests_algo_iso230_m tests_algo_m
+  tests_algo_plausibility_d tests_algo_sensitivity_d tests_algo_sensitivity_s tests_algo_uncertainty_m
+  tests_algo_uncertainty_s tests_daemon_measure_s tests_daemon_rpc_line_d tests_daemon_rpc_line_m
+  tests_daemon_rpc_session_s tests_daemon_station_a tests_daemon_store_m tests_daemon_storekeeper_s
+  tests_drivers_linux_counter_m tests_drivers_modbus_d tests_drivers_qsb_m tests_drivers_s tests_schema_m
+  tests_schema_recording_a tests_schema_rig_s tests_schema_study_m tools_mdof tools_mdof_commands_form
+  tools_mdof_commands_milling tools_mdof_commands_part tools_mdof_csv tools_mdof_study)
+set(MDOF_PART_3 algo_drift algo_sequence algo_uncertainty_effects drivers_labjack_u6 drivers_modbus tests_algo_form_m
+  tests_algo_iso230_d tests_algo_iso230_s tests_algo_model_m tests_algo_on_the_fly_m tests_algo_plausibility_m
+  tests_algo_sensitivity_a tests_algo_sequence_s tests_algo_uncertainty_a tests_daemon_station_d
+  tools_mdof_commands_calibration tools_mdof_commands_compensation tools_mdof_commands_machine
+  tools_mdof_commands_measure tools_mdof_commands_separate tools_mdof_study_running)
+set(MDOF_PART_4 algo_compensation algo_milling algo_separation drivers_csv_stream drivers_mcc_usb1608fs_plus
+  tests_algo_compensation_a tests_algo_points_d tests_algo_separation_s tests_algo_uncertainty_d tools_mdof_text_analyses)
+set(MDOF_PART_5 algo_calibration algo_uncertainty drivers_pokeys57u tests_algo_form_a tests_algo_machine_s
+  tests_algo_separation_m)
+set(MDOF_PART_6 algo_plausibility drivers_simulator)
+set(MDOF_PART_7 algo_machine)
+set(MDOF_PART_8 algo_sensitivity_kernels)
+foreach(part RANGE 2 8)
+  foreach(group ${MDOF_PART_${part}})
+    set(MDOF_PART_OF_${group} ${part})
+  endforeach()
+endforeach()
 foreach(file ${MDOF_COMPILED_ALONE})
   if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${file})
     message(FATAL_ERROR "cmake/compile_together.cmake names ${file}, which is not there: give its new name, or leave it out")
@@ -29,16 +57,20 @@ function(mdof_compile_together target)
     if(path IN_LIST MDOF_COMPILED_ALONE)
       set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     else()
-      set(part "")
+      string(MAKE_C_IDENTIFIER "${folder}" group)
       if(folder MATCHES "^tests")
         # By the first letter, so that a new file does not change who is compiled with whom.
-        string(REGEX REPLACE "^[a-c].*" "_a" part "${name}")
-        string(REGEX REPLACE "^[d-l].*" "_d" part "${part}")
-        string(REGEX REPLACE "^[m-r].*" "_m" part "${part}")
-        string(REGEX REPLACE "^[s-z].*" "_s" part "${part}")
+        string(REGEX REPLACE "^[a-c].*" "a" part "${name}")
+        string(REGEX REPLACE "^[d-l].*" "d" part "${part}")
+        string(REGEX REPLACE "^[m-r].*" "m" part "${part}")
+        string(REGEX REPLACE "^[s-z].*" "s" part "${part}")
+        set(group "${group}_${part}")
       endif()
-      string(MAKE_C_IDENTIFIER "${folder}${part}" group)
-      set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${group})
+      set(part 1)
+      if(DEFINED MDOF_PART_OF_${group})
+        set(part ${MDOF_PART_OF_${group}})
+      endif()
+      set_source_files_properties(${file} PROPERTIES UNITY_GROUP part_${part})
     endif()
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

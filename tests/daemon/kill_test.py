@@ -62,8 +62,11 @@ def check(database, run, acknowledged, client, mdof, states=("aborted",)):
     answer = count(database, "PRAGMA integrity_check")
     assert answer == "ok", f"integrity_check: {answer}"
     stored = client.points(run)
-    lost = [p for i, p in enumerate(acknowledged.points) if i >= len(stored) or stored[i] != p]
-    assert not lost, f"{len(lost)} acknowledged points of run {run} are lost or changed"
+    lost = len(acknowledged.points) - len(stored)
+    assert lost <= 0, f"{lost} of {len(acknowledged.points)} acknowledged points of run {run} are lost"
+    changed = [(p, stored[i]) for i, p in enumerate(acknowledged.points) if stored[i] != p]
+    assert not changed, f"{len(changed)} acknowledged points of run {run} are changed: " \
+                        f"{changed[0][0]} was told, {changed[0][1]} is stored"
     header = client.call("run.get", run=run)
     assert header["state"] in states, header["state"]
     recording = header["recording"]["path"]

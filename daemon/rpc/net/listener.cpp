@@ -17,10 +17,7 @@ constexpr auto kPause = std::chrono::milliseconds(100);
 
 Listener::Listener(EventLoop::Core& loop, Descriptor socket, std::function<void(int)> adopt,
                    std::function<void(const std::string&)> log)
-    : socket_(*loop.context, socket.release()),
-      pause_(*loop.context),
-      adopt_(std::move(adopt)),
-      log_(std::move(log)) {}
+    : socket_(*loop.context, socket.release()), adopt_(std::move(adopt)), log_(std::move(log)) {}
 
 void Listener::start() {
   socket_.async_wait(asio::posix::stream_descriptor::wait_read,
@@ -33,7 +30,7 @@ void Listener::stop() {
   adopt_ = nullptr;
   std::error_code ignored;
   socket_.close(ignored);
-  pause_.cancel();
+  pause_.reset();
 }
 
 void Listener::accept_some() {
@@ -53,8 +50,8 @@ void Listener::accept_some() {
 // Out of descriptors or memory: the waiting client would wake the loop without end.
 void Listener::wait_a_little(int why) {
   log_("cannot accept a client, trying again: " + system_error_text(why));
-  pause_.expires_after(kPause);
-  pause_.async_wait([self = shared_from_this()](const std::error_code& error) {
+  pause_.emplace(socket_.get_executor(), kPause);
+  pause_->async_wait([self = shared_from_this()](const std::error_code& error) {
     if (!error && self->adopt_) self->start();
   });
 }

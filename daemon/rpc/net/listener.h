@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "daemon/rpc/net/asio.h"
@@ -26,7 +27,7 @@ class Listener : public std::enable_shared_from_this<Listener> {
   void wait_a_little(int why);
 
   asio::posix::stream_descriptor socket_;
-  asio::steady_timer pause_;
+  std::optional<asio::steady_timer> pause_;
   std::function<void(int)> adopt_;
   std::function<void(const std::string&)> log_;
 };

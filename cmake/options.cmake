@@ -8,7 +8,8 @@ target_compile_definitions(mdof_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL
 target_compile_options(mdof_options INTERFACE
   -ffp-contract=off
   -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Werror
-  # Files that are compiled together may use one name twice, in different functions.
+  # A local name may be that of another file's anonymous namespace, once both are compiled together. g++ still sees
+  # locals that hide locals; all the rest is seen where files are compiled one by one.
   $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # false alarms of g++ 12 on std::string + (GCC bug 105329)
   -fstack-protector-strong)
@@ -35,8 +36,8 @@ if(MOLD)
   target_link_options(mdof_options INTERFACE -fuse-ld=mold)
 endif()
 
-# For what computes: loops over samples, trials and digits. All else is not optimised under sanitizers, where the
-# compiler takes three times as long for -O2.
+# For what computes: loops over samples, trials and digits. Under sanitizers -O2 takes the compiler three times as
+# long: only this and the next are given it.
 add_library(mdof_hot INTERFACE)
 target_compile_options(mdof_hot INTERFACE $<$<CONFIG:Release>:-O3>)
 if(MDOF_SANITIZE)

@@ -8,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kSideBySide = 8;
+constexpr std::size_t kLanes = 8;
 constexpr double kAbove = 8;         // what the probe does around
 constexpr double kOthers = 0.25;     // of the step, at most, in the other probes
 constexpr double kStays = 0.6;       // of the step, at least, some scans later
@@ -17,10 +17,10 @@ constexpr double kAxis_m = 2e-6;     // the noise of an encoder
 
 // Largest |x[i] - x[i-1]| for i = first ... last - 1, in lanes so that it becomes vectors.
 double largest_change(const double* x, std::size_t first, std::size_t last) {
-  std::array<double, kSideBySide> most{};
+  std::array<double, kLanes> most{};
   std::size_t i = first;
-  for (; i + kSideBySide <= last; i += kSideBySide) {
-    for (std::size_t k = 0; k < kSideBySide; ++k) {
+  for (; i + kLanes <= last; i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
       const double change = std::abs(x[i + k] - x[i + k - 1]);
       most[k] = change > most[k] ? change : most[k];
     }

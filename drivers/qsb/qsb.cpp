@@ -11,6 +11,7 @@ namespace mdof::drivers {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::steady_clock;
 
 constexpr milliseconds kConnect{2000}, kAnswer{300}, kBannerWait{1000};
 constexpr milliseconds kQuiet{50}, kDrain{500};
@@ -181,13 +182,13 @@ Result<QsbReply> Qsb::ask(char type, std::uint8_t reg, std::optional<std::uint32
 
 // The next reply about `reg`, what else comes is passed over. Nothing: silence.
 Result<std::optional<QsbReply>> Qsb::one_reply(std::uint8_t reg, milliseconds timeout) {
-  const auto until = std::chrono::steady_clock::now() + timeout;
+  const auto until = steady_clock::now() + timeout;
   for (;;) {
     while (const auto line = next_line()) {
       const auto reply = parse_qsb_line(*line);
       if (reply && reply->reg == reg) return reply;
     }
-    const auto left = std::chrono::ceil<milliseconds>(until - std::chrono::steady_clock::now());
+    const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
     if (left.count() <= 0) return std::nullopt;
     std::array<char, 512> bytes;
     MDOF_TRY(const std::size_t n, stream_->read(bytes, left));

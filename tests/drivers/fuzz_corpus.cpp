@@ -1,25 +1,48 @@
 // Gives a fuzzer each file of a folder once: what was found before stays mended.
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <vector>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+#define FUZZER(name) extern "C" int fuzz_##name(const std::uint8_t* data, std::size_t size);
+#include "fuzz/fuzzers.inc"  // made by tests/CMakeLists.txt
+#undef FUZZER
+
+namespace {
+
+struct Fuzzer {
+  const char* name;
+  int (*take)(const std::uint8_t* data, std::size_t size);
+};
+
+constexpr Fuzzer kFuzzers[] = {
+#define FUZZER(name) {#name, fuzz_##name},
+#include "fuzz/fuzzers.inc"
+#undef FUZZER
+};
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2 || !std::filesystem::is_directory(argv[1])) {
-    std::fprintf(stderr, "usage: %s FOLDER\n", argv[0]);
+  if (argc != 3 || !std::filesystem::is_directory(argv[2])) {
+    std::fprintf(stderr, "usage: %s FUZZER FOLDER\n", argv[0]);
     return 2;
   }
-  int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(argv[1])) {
-    std::ifstream in(entry.path(), std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-    ++files;
+  for (const auto& fuzzer : kFuzzers) {
+    if (std::strcmp(fuzzer.name, argv[1]) != 0) continue;
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(argv[2])) {
+      std::ifstream in(entry.path(), std::ios::binary);
+      const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
+      fuzzer.take(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+      ++files;
+    }
+    std::printf("%d inputs\n", files);
+    return files > 0 ? 0 : 1;
   }
-  std::printf("%d inputs\n", files);
-  return files > 0 ? 0 : 1;
+  std::fprintf(stderr, "no fuzzer \"%s\"\n", argv[1]);
+  return 2;
 }

@@ -6,9 +6,8 @@
 #include "drivers/labjack_t7/modbus_server.h"
 #include "drivers/labjack_t7/protocol.h"
 
-using namespace mdof::drivers::labjack_t7;
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace mdof::drivers::labjack_t7;
   if (size < 2) return 0;
   const std::size_t words = 1 + data[0] % 8, portion = 1 + data[1];
   const std::string bytes(reinterpret_cast<const char*>(data) + 2, size - 2);

@@ -5,9 +5,8 @@
 
 #include "drivers/labjack_u6/protocol.h"
 
-using namespace mdof::drivers::labjack_u6;
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace mdof::drivers::labjack_u6;
   if (size < 2) return 0;
   const std::size_t samples = 1 + data[0] % 25;
   std::string bytes(reinterpret_cast<const char*>(data) + 2, size - 2);

@@ -5,10 +5,9 @@
 
 #include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
 
-using namespace mdof::drivers::mcc_usb1608fs_plus;
-namespace usb = mdof::drivers::usb;
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace mdof::drivers::mcc_usb1608fs_plus;
+  namespace usb = mdof::drivers::usb;
   if (size < 2) return 0;
   const std::string bytes(reinterpret_cast<const char*>(data) + 2, size - 2);
   (void)read_status(bytes);

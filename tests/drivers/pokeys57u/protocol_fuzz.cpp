@@ -5,9 +5,8 @@
 
 #include "drivers/pokeys57u/simulated_pokeys57u.h"
 
-using namespace mdof::drivers::pokeys57u;
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace mdof::drivers::pokeys57u;
   std::string bytes(reinterpret_cast<const char*>(data), size);
   (void)may_be_serial(bytes, 12345);
   // With a right checksum, so that the rest is reached.

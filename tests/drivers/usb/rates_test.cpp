@@ -18,7 +18,6 @@ namespace mdof::drivers {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::steady_clock;
 
 constexpr double kFor_s = 3;
 
@@ -28,13 +27,14 @@ struct Count {
   std::int64_t unasked_ns = 0;  // the longest without a transfer waiting
 };
 
-// Reads for a while; `wrong(block, scan, k)` says that scan k of all is not the one it should be.
+// Reads what a device takes in `seconds`, however long it is under way: a loaded machine is late.
+// `wrong(block, scan, k)` says that scan k of all is not the one it should be.
 template <class Wrong>
-Count read_for(Driver& driver, double seconds, const Wrong& wrong) {
+Count read_for(Driver& driver, double seconds, double rate_hz, const Wrong& wrong) {
   Count count;
   SampleBlock block;
-  const auto until = steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (steady_clock::now() < until) {
+  const double due = seconds * rate_hz;
+  while (static_cast<double>(count.scans) < due) {
     const auto state = driver.read(block, milliseconds(20));
     if (!state) {
       count.error = state.error().message;
@@ -50,12 +50,10 @@ void expect_all(const Count& count, double rate_hz) {
   EXPECT_EQ(count.error, "");
   EXPECT_EQ(count.wrong, 0U);
   EXPECT_EQ(count.lost, 0U);
-  const double due = rate_hz * kFor_s;
-  EXPECT_GT(static_cast<double>(count.scans), due * 0.5);  // a loaded machine is late
+  EXPECT_GE(static_cast<double>(count.scans), rate_hz * kFor_s);
   std::printf(
-      "%.0f scans of %.0f at %.0f Hz, %.0f wrong, %.0f lost; at most %.1f ms without a transfer "
-      "waiting\n",
-      static_cast<double>(count.scans), due, rate_hz, static_cast<double>(count.wrong),
+      "%.0f scans at %.0f Hz, %.0f wrong, %.0f lost; at most %.1f ms without a transfer waiting\n",
+      static_cast<double>(count.scans), rate_hz, static_cast<double>(count.wrong),
       static_cast<double>(count.lost), static_cast<double>(count.unasked_ns) * 1e-6);
 }
 
@@ -102,8 +100,8 @@ class UsbU6Rates : public testing::Test {
     EXPECT_TRUE(opened) << opened.error().message;
     double first = 0, last = 0;
     const std::size_t at = counter ? ains : 0;
-    Count count =
-        read_for(*made, kFor_s, [&](const SampleBlock& block, std::size_t i, std::uint64_t k) {
+    Count count = read_for(
+        *made, kFor_s, rate_hz_, [&](const SampleBlock& block, std::size_t i, std::uint64_t k) {
           const double value = counter
                                    ? block.value[at][i]
                                    : std::round(block.value[0][i] / c.positive_slope + c.centre);
@@ -169,8 +167,8 @@ class Usb1608Rates : public testing::Test {
     const Status opened = made->open();
     EXPECT_TRUE(opened) << opened.error().message;
     std::uint64_t expected = 0;
-    Count count =
-        read_for(*made, seconds, [&](const SampleBlock& block, std::size_t i, std::uint64_t k) {
+    Count count = read_for(
+        *made, seconds, rate_hz, [&](const SampleBlock& block, std::size_t i, std::uint64_t k) {
           bool wrong = false;
           for (std::size_t c = 0; c < inputs; ++c) {
             const auto code =

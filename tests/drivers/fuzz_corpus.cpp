@@ -8,7 +8,7 @@
 #include <vector>
 
 #define FUZZER(name) extern "C" int fuzz_##name(const std::uint8_t* data, std::size_t size);
-#include "fuzz/fuzzers.inc"  // made by tests/CMakeLists.txt
+#include <fuzz/fuzzers.inc>  // made by tests/CMakeLists.txt
 #undef FUZZER
 
 namespace {
@@ -20,7 +20,7 @@ struct Fuzzer {
 
 constexpr Fuzzer kFuzzers[] = {
 #define FUZZER(name) {#name, fuzz_##name},
-#include "fuzz/fuzzers.inc"
+#include <fuzz/fuzzers.inc>
 #undef FUZZER
 };
 

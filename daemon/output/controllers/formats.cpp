@@ -4,6 +4,7 @@
 #include "daemon/output/controllers/error_rows.h"
 #include "daemon/output/controllers/export.h"
 #include "daemon/output/controllers/linuxcnc.h"
+#include "daemon/output/controllers/siemens_cec.h"
 #include "daemon/output/controllers/table_json.h"
 
 namespace mdof::controllers {
@@ -43,6 +44,19 @@ const std::vector<Format>& formats() {
        .takes_home = false,
        .write = write_lec,
        .read = read_lec},
+      {.name = "siemens-cec",
+       .of = "Siemens SINUMERIK, cross error compensation (sag, CEC)",
+       .holds = "positioning and straightness, both approaches; one file of all axes",
+       .limits = "200 points at equal steps, 8 tables in an 828D; linear between them, end values "
+                 "hold",
+       .sense = "value = correction in mm, added to the command of the output axis",
+       .source = "form: manual of the 828D and 840D sl, 03/2013, which does not state the sign; "
+                 "another program writes nominal - measured; not run on a control",
+       .sign_confirmed = false,
+       .quantum_m = 2e-9,
+       .takes_home = false,
+       .write = write_cec,
+       .read = read_cec},
       {.name = "beckhoff-ssfk",
        .of = "Beckhoff TwinCAT CNC, lead screw compensation (kw.ssfk)",
        .holds = "positioning, positive and negative travel; a file an axis",

@@ -3,6 +3,7 @@
 
 #include "daemon/output/controllers/error_rows.h"
 #include "daemon/output/controllers/series.h"
+#include "daemon/output/controllers/siemens_steps.h"
 #include "daemon/output/controllers/text_lines.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -10,43 +11,16 @@
 namespace mdof::controllers {
 namespace {
 
-constexpr std::size_t kMostOfLec = 200, kMostBefore = 20'000;
-constexpr double kSameStep_m = 1e-9;
-
-struct EqualSteps {
-  double first_m = 0, step_m = 0;
-  std::vector<double> error;  // mean of both approaches
-  double loss_m = 0;          // at a point of the table, by resampling
-};
-
-double error_at(const EqualSteps& e, double at_m) {
-  const double place =
-      std::clamp((at_m - e.first_m) / e.step_m, 0.0, static_cast<double>(e.error.size() - 1));
-  const auto i = std::min(static_cast<std::size_t>(place), e.error.size() - 2);
-  return e.error[i] + (e.error[i + 1] - e.error[i]) * (place - static_cast<double>(i));
-}
-
-// As many steps as the smallest of the table asks for; steps of whole nanometres, as they are
-// written.
-EqualSteps equal_steps(const Series& s) {
-  const auto& x = s.position_m;
-  const double range = x.back() - x.front();
-  double smallest = range;
-  for (std::size_t i = 1; i < x.size(); ++i) smallest = std::min(smallest, x[i] - x[i - 1]);
-  const double wanted = std::min(std::round(range / smallest), static_cast<double>(kMostOfLec - 1));
-  EqualSteps e;
-  e.first_m = std::round(x.front() / kSameStep_m) * kSameStep_m;
-  e.step_m = std::round(range / std::max(wanted, 1.0) / kSameStep_m) * kSameStep_m;
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(std::max(wanted, 1.0)); ++i)
-    e.error.push_back(mean_error_at(s, e.first_m + static_cast<double>(i) * e.step_m));
-  for (const double at : x)
-    e.loss_m = std::max(e.loss_m, std::abs(error_at(e, at) - mean_error_at(s, at)));
-  return e;
+// ENC_COMP has one value for both approaches.
+Series mean_of_approaches(Series s) {
+  for (std::size_t i = 0; i < s.position_m.size(); ++i)
+    s.forward[i] = s.reverse[i] = 0.5 * (s.forward[i] + s.reverse[i]);
+  return s;
 }
 
 std::string lec_text(const CompensationTable& table, const Series& s, const EqualSteps& e,
                      const ExportOptions& options) {
-  const std::string axis = "AX" + std::to_string(static_cast<int>(table.axis) + 1);
+  const std::string axis = siemens_axis(s.along);
   const std::string of = "[0," + axis + "]=";
   std::string text;
   for (const std::string& line :
@@ -58,12 +32,11 @@ std::string lec_text(const CompensationTable& table, const Series& s, const Equa
   text += "; " + axis + " is taken for the machine axis " + s.along +
           ". Load with MD32700 = 0, then enable and reset; the axis must be referenced.\n"
           "CHANDATA(1)\n";
-  for (std::size_t i = 0; i < e.error.size(); ++i)
+  for (std::size_t i = 0; i < e.forward.size(); ++i)
     text += "$AA_ENC_COMP[0," + std::to_string(i) + "," + axis +
-            "]=" + fixed(to_mm(e.error[i]), 6) + "\n";
-  const double last_m = e.first_m + e.step_m * static_cast<double>(e.error.size() - 1);
+            "]=" + fixed(to_mm(e.forward[i]), 6) + "\n";
   return text + "$AA_ENC_COMP_STEP" + of + fixed(to_mm(e.step_m), 6) + "\n$AA_ENC_COMP_MIN" + of +
-         fixed(to_mm(e.first_m), 6) + "\n$AA_ENC_COMP_MAX" + of + fixed(to_mm(last_m), 6) +
+         fixed(to_mm(e.first_m), 6) + "\n$AA_ENC_COMP_MAX" + of + fixed(to_mm(e.last_m()), 6) +
          "\n$AA_ENC_COMP_IS_MODULO" + of + "0\nM17\n";
 }
 
@@ -75,7 +48,7 @@ std::optional<double> assigned(std::string_view line, const std::string& to) {
 
 Result<AppliedCorrection> read_lec_file(const ControllerFile& file) {
   const char letter_of_axis = file.name.at(0);
-  const std::string axis = std::string("AX") + static_cast<char>('1' + (letter_of_axis - 'X'));
+  const std::string axis = siemens_axis(letter_of_axis);
   AppliedCorrection read{
       {'E', letter_of_axis, letter_of_axis}, letter_of_axis, letter_of_axis, {}, {}, {}};
   auto lines = lines_of(file.text);
@@ -100,8 +73,8 @@ Result<AppliedCorrection> read_lec_file(const ControllerFile& file) {
     figures[k] = *value;
   }
   const auto n = static_cast<double>(read.forward.size());
-  if (at + 1 != lines.size() || lines[at] != "M17" || n < 2 || n > kMostOfLec || figures[3] != 0 ||
-      std::abs(figures[1] + figures[0] * (n - 1) - figures[2]) > 1e-7)
+  if (at + 1 != lines.size() || lines[at] != "M17" || n < 2 || n > kMostOfSiemens ||
+      figures[3] != 0 || std::abs(figures[1] + figures[0] * (n - 1) - figures[2]) > 1e-7)
     return bad_input(file.name + ": points, step, MIN and MAX do not fit, or M17 is not its end");
   for (std::size_t i = 0; i < read.forward.size(); ++i)
     read.position_m.push_back(from_mm(figures[1] + figures[0] * static_cast<double>(i)));
@@ -120,21 +93,14 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
   if (options.tolerance_m > 0)
     out.notes.emplace_back("--tolerance-um is of no effect: the points stand at equal steps");
   for (const CompensationTable& table : tables) {
-    MDOF_TRY(const Series s, positioning_of(table, kMostBefore, as_measured, "ENC_COMP", out));
-    const EqualSteps e = equal_steps(s);
+    MDOF_TRY(const Series s, positioning_of(table, kMostBeforeSteps, as_measured, "ENC_COMP", out));
     double reversal = 0;
     for (std::size_t i = 0; i < s.position_m.size(); ++i)
       reversal = std::max(reversal, std::abs(s.forward[i] - s.reverse[i]));
     if (reversal > 0)
       out.left_out.push_back(s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
                              " um: ENC_COMP has one value for both approaches, their mean");
-    if (e.loss_m > kSameStep_m)
-      out.notes.push_back(s.error + ": " + std::to_string(s.position_m.size()) + " points became " +
-                          std::to_string(e.error.size()) + " at equal steps of " +
-                          plain_number(to_mm(e.step_m), 7) + " mm, by which up to " +
-                          plain_number(to_um(e.loss_m)) + " um are lost");
-    out.written.back().points = e.error.size();
-    out.written.back().largest_deviation = e.loss_m;
+    MDOF_TRY(const EqualSteps e, equal_steps(mean_of_approaches(s), out));
     out.files.push_back({std::string(1, s.along) + "_EEC.INI", lec_text(table, s, e, options)});
   }
   return out;

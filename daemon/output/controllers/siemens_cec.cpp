@@ -1,0 +1,226 @@
+#include "daemon/output/controllers/siemens_cec.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/output/controllers/series.h"
+#include "daemon/output/controllers/siemens_steps.h"
+#include "daemon/output/controllers/text_lines.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::controllers {
+namespace {
+
+constexpr std::size_t kTablesOf828D = 8;
+constexpr double kSamePlace_m = 1e-10;
+constexpr const char* kFile = "NC_CEC.INI";
+
+// One table of the control.
+struct CecTable {
+  char input = 'X', output = 'X';
+  int direction = 0;  // of the input axis: 1 positive, -1 negative, 0 both
+  double first_m = 0, step_m = 0;
+  std::vector<double> correction_m;
+};
+
+std::string cec_text(std::size_t t, const CecTable& table, const std::string& error) {
+  const std::string index = "[" + std::to_string(t) + "]=";
+  std::string text = "; " + error + "\n";
+  for (std::size_t i = 0; i < table.correction_m.size(); ++i)
+    text += "$AN_CEC[" + std::to_string(t) + "," + std::to_string(i) +
+            "]=" + fixed(to_mm(table.correction_m[i]), 6) + "\n";
+  const double last_m =
+      table.first_m + table.step_m * static_cast<double>(table.correction_m.size() - 1);
+  return text + "$AN_CEC_INPUT_AXIS" + index + "(" + siemens_axis(table.input) +
+         ")\n$AN_CEC_OUTPUT_AXIS" + index + "(" + siemens_axis(table.output) + ")\n$AN_CEC_STEP" +
+         index + fixed(to_mm(table.step_m), 6) + "\n$AN_CEC_MIN" + index +
+         fixed(to_mm(table.first_m), 6) + "\n$AN_CEC_MAX" + index + fixed(to_mm(last_m), 6) +
+         "\n$AN_CEC_DIRECTION" + index + std::to_string(table.direction) +
+         "\n$AN_CEC_MULT_BY_TABLE" + index + "0\n$AN_CEC_IS_MODULO" + index + "0\n";
+}
+
+CecTable table_of(const Series& s, const EqualSteps& e, const std::vector<double>& errors,
+                  int direction) {
+  CecTable table{s.along, s.command, direction, e.first_m, e.step_m, {}};
+  for (const double error : errors) table.correction_m.push_back(s.factor * error);
+  return table;
+}
+
+// The errors of one table of mdof; `t` is the control's next one.
+Status add_errors(const CompensationTable& table, const ExportOptions& options, Export& out,
+                  std::string& text, std::size_t& t) {
+  const std::string of_table = " of table " + std::to_string(table.id) + ": ";
+  const std::size_t before = t;
+  for (const Series& measured : series_of(table)) {
+    if (measured.angle || measured.factor == 0) {
+      out.left_out.push_back(measured.error + of_table +
+                             (measured.angle ? "an angle acts by its lever, and a CEC table knows "
+                                               "the position of one axis alone"
+                                             : measured.gap));
+      continue;
+    }
+    MDOF_TRY(const Series s, fitted(measured, table.id, kMostBeforeSteps, options, out));
+    MDOF_TRY(const EqualSteps e, equal_steps(s, out));
+    const bool both = e.forward == e.reverse;
+    text += cec_text(t++, table_of(s, e, e.forward, both ? 0 : 1), s.error);
+    if (!both) text += cec_text(t++, table_of(s, e, e.reverse, -1), s.error);
+    if (s.along != s.command)
+      out.notes.push_back(s.error + ": the squareness of " + s.along + " and " + s.command +
+                          " is not in it");
+  }
+  if (t == before)
+    return bad_input("table " + std::to_string(table.id) +
+                     " has no error that CEC can hold: positioning, or straightness whose "
+                     "correction is known");
+  return {};
+}
+
+// The lines of one file, one after the other.
+class Lines {
+ public:
+  explicit Lines(const ControllerFile& file) : name_(file.name), lines_(lines_of(file.text)) {}
+  bool take(std::string_view line) {
+    skip();
+    if (at_ >= lines_.size() || lines_[at_] != line) return false;
+    ++at_;
+    return true;
+  }
+  // "KEY=value" with this key.
+  std::optional<std::string_view> value(const std::string& key) {
+    skip();
+    if (at_ >= lines_.size() || !lines_[at_].starts_with(key + "=")) return std::nullopt;
+    return lines_[at_++].substr(key.size() + 1);
+  }
+  std::optional<double> number(const std::string& key) {
+    const auto text = value(key);
+    return text ? decimal_from(*text) : std::nullopt;
+  }
+  bool at_end() const { return at_ == lines_.size(); }
+  tl::unexpected<Error> expected(const std::string& what) const {
+    return wrong_at(name_, at_ + 1, what + " is expected");
+  }
+
+ private:
+  void skip() {
+    while (at_ < lines_.size() && lines_[at_].starts_with(";")) ++at_;
+  }
+  std::string name_;
+  std::vector<std::string_view> lines_;
+  std::size_t at_ = 0;
+};
+
+// "(AX2)"
+std::optional<char> axis_in(const std::optional<std::string_view>& text) {
+  for (const char axis : {'X', 'Y', 'Z'})
+    if (text && *text == "(" + siemens_axis(axis) + ")") return axis;
+  return std::nullopt;
+}
+
+Result<CecTable> read_table(Lines& lines, std::size_t t) {
+  const std::string index = "[" + std::to_string(t) + "]";
+  CecTable table;
+  while (const auto x = lines.number("$AN_CEC[" + std::to_string(t) + "," +
+                                     std::to_string(table.correction_m.size()) + "]"))
+    table.correction_m.push_back(from_mm(*x));
+  const auto input = axis_in(lines.value("$AN_CEC_INPUT_AXIS" + index));
+  if (!input) return lines.expected("$AN_CEC_INPUT_AXIS" + index);
+  const auto output = axis_in(lines.value("$AN_CEC_OUTPUT_AXIS" + index));
+  if (!output) return lines.expected("$AN_CEC_OUTPUT_AXIS" + index);
+  double figures[6] = {};
+  const char* const keys[] = {"STEP", "MIN", "MAX", "DIRECTION", "MULT_BY_TABLE", "IS_MODULO"};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto x = lines.number(std::string("$AN_CEC_") + keys[k] + index);
+    if (!x) return lines.expected(std::string("$AN_CEC_") + keys[k] + index);
+    figures[k] = *x;
+  }
+  const std::size_t n = table.correction_m.size();
+  const double last = figures[1] + figures[0] * (static_cast<double>(n) - 1);
+  if (n < 2 || n > kMostOfSiemens || std::abs(last - figures[2]) > 1e-7 || figures[4] != 0 ||
+      figures[5] != 0)
+    return lines.expected("a table whose points, step, MIN and MAX fit");
+  table.input = *input;
+  table.output = *output;
+  table.step_m = from_mm(figures[0]);
+  table.first_m = from_mm(figures[1]);
+  table.direction = static_cast<int>(figures[3]);
+  return table;
+}
+
+AppliedCorrection applied_by(const CecTable& table) {
+  AppliedCorrection applied{
+      {'E', table.output, table.input}, table.input, table.output, {}, {}, {}};
+  for (std::size_t i = 0; i < table.correction_m.size(); ++i)
+    applied.position_m.push_back(table.first_m + table.step_m * static_cast<double>(i));
+  const std::vector<double> none(table.correction_m.size(), 0.0);
+  applied.forward = table.direction >= 0 ? table.correction_m : none;
+  applied.reverse = table.direction <= 0 ? table.correction_m : none;
+  return applied;
+}
+
+// The control adds up its tables of one output axis; those of one error stand at the same places.
+bool add_to(std::vector<AppliedCorrection>& all, const AppliedCorrection& more) {
+  for (AppliedCorrection& one : all) {
+    if (one.error != more.error) continue;
+    if (one.position_m.size() != more.position_m.size() ||
+        std::abs(one.position_m.back() - more.position_m.back()) > kSamePlace_m)
+      return false;
+    for (std::size_t i = 0; i < one.position_m.size(); ++i) {
+      one.forward[i] += more.forward[i];
+      one.reverse[i] += more.reverse[i];
+    }
+    return true;
+  }
+  all.push_back(more);
+  return true;
+}
+
+}  // namespace
+
+Result<Export> write_cec(const std::vector<CompensationTable>& tables,
+                         const ExportOptions& options) {
+  MDOF_CHECK(check_one_table_an_axis(tables));
+  Export out;
+  ExportOptions as_measured = options;
+  as_measured.tolerance_m = 0;
+  if (options.tolerance_m > 0)
+    out.notes.emplace_back("--tolerance-um is of no effect: the points stand at equal steps");
+  if (options.home_m)
+    out.notes.emplace_back("--home-mm is of no effect: CEC has the errors as they are");
+  std::string head, text;
+  std::size_t t = 0;
+  for (const CompensationTable& table : tables) {
+    for (const std::string& line :
+         head_lines(table, options, "mm; value = what is added to the command of the output axis"))
+      head += "; " + line + "\n";
+    MDOF_CHECK(add_errors(table, as_measured, out, text, t));
+  }
+  if (t > kTablesOf828D)
+    out.notes.push_back(std::to_string(t) + " CEC tables: an 828D has " +
+                        std::to_string(kTablesOf828D) + "; other controls by MD18342");
+  out.files.push_back(
+      {kFile, head +
+                  "; AX1, AX2, AX3 are taken for the machine axes X, Y, Z. Load with MD32710 = 0,\n"
+                  "; then enable it for each output axis, SD41300 for each table, and reset; the\n"
+                  "; input axis must be referenced.\n"
+                  "CHANDATA(1)\n" +
+                  text + "M17\n"});
+  return out;
+}
+
+Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile>& files) {
+  const ControllerFile* file = find_file(files, kFile);
+  if (!file) return bad_input(std::string(kFile) + ": is not there");
+  Lines lines(*file);
+  if (!lines.take("CHANDATA(1)")) return lines.expected("CHANDATA(1)");
+  std::vector<AppliedCorrection> all;
+  for (std::size_t t = 0; !lines.take("M17"); ++t) {
+    MDOF_TRY(const CecTable table, read_table(lines, t));
+    if (!add_to(all, applied_by(table)))
+      return lines.expected("the places of the table before, of the same axes");
+  }
+  if (!lines.at_end()) return lines.expected("the end of the file behind M17");
+  return all;
+}
+
+}  // namespace mdof::controllers

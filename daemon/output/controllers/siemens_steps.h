@@ -1,0 +1,31 @@
+// Points at equal steps, as Siemens' compensation tables have them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "daemon/output/controllers/series.h"
+
+namespace mdof::controllers {
+
+constexpr std::size_t kMostOfSiemens = 200;       // points of a table: 808D, 828D
+constexpr std::size_t kMostBeforeSteps = 20'000;  // of a series, before they are equal
+
+struct EqualSteps {
+  double first_m = 0, step_m = 0;
+  std::vector<double> forward, reverse;  // E; m
+  double loss_m = 0;                     // at a point of the series, by resampling
+
+  double last_m() const { return first_m + step_m * static_cast<double>(forward.size() - 1); }
+};
+
+// As many steps as the smallest of the series asks for, at most kMostOfSiemens - 1; of whole
+// nanometres, as they are written. What the series loses becomes a note of `out`, and its last
+// `written` has the points. Error (bad_input): fewer than two points.
+Result<EqualSteps> equal_steps(const Series& s, Export& out);
+
+// "AX1" of X.
+std::string siemens_axis(char axis);
+
+}  // namespace mdof::controllers

@@ -1,6 +1,7 @@
-// run.budget, squareness.budget, parallelism.fit.
+// run.budget, run.compare, squareness.budget, parallelism.fit.
 #include "daemon/measure/budgets.h"
 
+#include "daemon/measure/several_runs/comparison.h"
 #include "daemon/methods/methods.h"
 #include "schema/units.h"
 
@@ -58,6 +59,17 @@ Result<QueryThread::Work> parallelism(Methods&, const Params& params) {
   };
 }
 
+Result<QueryThread::Work> compare(Methods&, const Params& params) {
+  ComparisonRequest request{params.integer("before"), params.integer("after"), {}};
+  MDOF_TRY(request.reference, reference_param(params));
+  return [request](store::Store& store) -> Result<std::string> {
+    MDOF_CHECK(check_size(store, request.before));
+    MDOF_CHECK(check_size(store, request.after));
+    MDOF_TRY(const Comparison found, compare_runs(store, request));
+    return comparison_json(found);
+  };
+}
+
 }  // namespace
 
 void add_budget_methods(rpc::MethodTable& table, Methods& m) {
@@ -80,6 +92,17 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
              .result = result,
              .example = R"({"run": 1, "figure": "EYX_straightness_um"})",
              .handler = on_query(m, run_budget)});
+  table.add({.name = "run.compare",
+             .summary = "The figures of two runs of one axis, before and after a compensation.",
+             .params = {{"before", ParamType::integer, "id of the run before", true},
+                        {"after", ParamType::integer, "id of the run after", true},
+                        reference},
+             .result = "figures: of each before, after and change (|after| - |before|) with value, "
+                       "u, u_random, nu_eff, k, U for 95 %; effect: reduced, increased, or not "
+                       "shown, where the change is within its U; notes: what makes the runs differ "
+                       "beside",
+             .example = R"({"before": 1, "after": 2})",
+             .handler = on_query(m, compare)});
   table.add(
       {.name = "squareness.budget",
        .summary = "The uncertainty budget of EC0Y of a run along X and one along Y; the "

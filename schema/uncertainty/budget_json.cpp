@@ -34,7 +34,9 @@ void write_trials(JsonWriter& json, const BudgetTrials& trials) {
       .end_object();
 }
 
-void write_members(JsonWriter& json, const Budget& budget) {
+}  // namespace
+
+void write_stated_members(JsonWriter& json, const Budget& budget) {
   json.field("value", to_key_unit(budget.value))
       .field("u", to_key_unit(budget.u))
       .field("u_random", to_key_unit(budget.u_random))
@@ -44,13 +46,11 @@ void write_members(JsonWriter& json, const Budget& budget) {
       .field("U_by", budget.U_by_trials ? "Monte Carlo" : "GUM");
 }
 
-}  // namespace
-
 void write_stated(JsonWriter& json, const StatedFigures& figures) {
   json.key("uncertainty").begin_object();
   for (const Budget& budget : figures.budgets) {
     json.key(budget.figure).begin_object();
-    write_members(json, budget);
+    write_stated_members(json, budget);
     json.end_object();
   }
   json.end_object();
@@ -67,7 +67,7 @@ void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
   json.begin_object();
   for (const Budget& budget : budgets) {
     json.key(budget.figure).begin_object();
-    write_members(json, budget);
+    write_stated_members(json, budget);
     json.field("noise_only", budget.noise_only).field("u_covers", covers_text(budget));
     json.key("not_declared").begin_array();
     for (const std::string& key : budget.not_declared) json.value(key);

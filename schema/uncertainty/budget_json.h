@@ -20,6 +20,9 @@ namespace mdof {
 void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
                    const std::optional<Decision>& decision = std::nullopt);
 
+// "value", "u", "u_random", "nu_eff", "k", "U", "U_by" of an open object.
+void write_stated_members(JsonWriter& json, const Budget& budget);
+
 // "uncertainty": {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by"}} of
 // an open object: what budgets come to, without their contributors. Where they are left out:
 // "uncertainty_reason" behind it.

@@ -27,10 +27,10 @@ NOT_DECLARED = ["u_flatness_um", "[encoder] u_um", "u_offset_mm"]
 EXACT = 1e-12  # relative
 
 # What states the uncertainty of a run, of two, or of a table of runs is compared here ...
-COMPARED = {"analyse", "budget", "compensation build", "compensation show", "parallelism", "replay", "show",
+COMPARED = {"analyse", "budget", "compare", "compensation build", "compensation show", "parallelism", "replay", "show",
             "squareness", "trend"}
 COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status",
-                    "parallelism.fit", "run.budget", "run.get", "run.points", "squareness.budget", "squareness.fit"}
+                    "parallelism.fit", "run.budget", "run.compare", "run.get", "run.points", "squareness.budget", "squareness.fit"}
 # ... and what states none, or that of other things: of files, of studies, of calibrations, of a machine's description.
 OTHERS = {"clearance", "completion", "help", "machine kinematics", "machine budget", "milling",
           "form compare", "form clamp", "form cut", "form path", "part",
@@ -171,6 +171,7 @@ class OneQuantity(unittest.TestCase):
         cls.ask("trend", ("--axis", "X"), "tjc", "trend")
         cls.ask("trend", ("--figure", "EC0Y_urad"), "tjc", "trend of EC0Y")
         cls.ask("budget", (2, 3), "tjc", "budget of two")
+        cls.ask("compare", (1, 2), "j")
         for name in ("EYX_slope_urad", "EYX_straightness_um"):
             cls.ask("budget", (1, "--figure", name), "t", f"budget {name}")
         mdof("compensation", "activate", 1, "--despite-warnings", *cls.db)
@@ -197,6 +198,8 @@ class OneQuantity(unittest.TestCase):
         replies["squareness.fit"] = client.call("squareness.fit", run_x=2, run_y=3)
         replies["squareness.budget"] = client.call("squareness.budget", run_x=2, run_y=3)
         replies["parallelism.fit"] = client.call("parallelism.fit", run_a=1, run_b=2)
+        compared = client.call("run.compare", before=1, after=2)
+        replies["run.compare"] = compared | {"figures": {k: f["before"] for k, f in compared["figures"].items()}}
         replies["compensation.build"] = client.call("compensation.build", runs=[1])
         replies["compensation.status"] = client.call("compensation.status")
         replies["compensation.grid"] = client.call("compensation.grid", axis="X", offset=0, count=100)
@@ -220,6 +223,7 @@ class OneQuantity(unittest.TestCase):
             straightness(n, where, block["straightness"])
         for where in ("budget", "budget of two", "parallelism"):
             figures(n, where, cls.documents[where]["figures"])
+        figures(n, "compare", {k: f["before"] for k, f in cls.documents["compare"]["figures"].items()})
         for where, reply in cls.replies.items():
             if "figures" in reply:
                 figures(n, where, reply["figures"])
@@ -300,7 +304,7 @@ class OneQuantity(unittest.TestCase):
     def test_one_value_one_u_one_U(self):
         self.assertEqual(self.notes.contradictions(), [])
         self.assertGreater(len(self.notes.said), 2500)
-        self.assertEqual(len(self.notes.places("EYX_slope_urad")), 19)
+        self.assertEqual(len(self.notes.places("EYX_slope_urad")), 21)
         self.assertEqual(len(self.notes.places("EC0Y_urad")), 12)
 
     # A comparison that finds nothing in numbers that differ would prove nothing.

@@ -116,6 +116,7 @@ class Bench:
         self.methods = client.call("rpc.discover")["methods"]
         # What there is, so that the methods have something to do.
         self.world = {"run": runs + [99], "runs": [[r] for r in runs] + [runs], "run_x": runs, "run_y": runs, "run_a": runs,
+                      "before": runs, "after": runs,
                       "run_b": runs, "table": [table, 2, 99], "axis": ["X", "Y", "Z"], "path": logs, "position_mm": [0, 1.5, 3],
                       "rig": list(texts.values()), "figure": ["EYX_um", "EAX_urad", "EYX_straightness_um", "ECX_range_urad"], "at_mm": [0, 1, 2, 3],
                       "reference": ["fixture", "carriage", "tool"], "despite_warnings": [True], "offset": [0, 1],

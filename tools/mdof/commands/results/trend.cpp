@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "daemon/measure/trends.h"
+#include "daemon/measure/several_runs/trends.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "schema/notice/notice_json.h"

@@ -1,4 +1,4 @@
-#include "daemon/measure/trends.h"
+#include "daemon/measure/several_runs/trends.h"
 
 #include <algorithm>
 #include <array>

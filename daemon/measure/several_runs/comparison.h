@@ -1,0 +1,47 @@
+// The figures of an axis before and after something was done to it, as a compensation: what it did.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "daemon/measure/budgets.h"
+
+namespace mdof::daemon {
+
+enum class Effect {
+  reduced,
+  increased,
+  not_shown,  // the change is within its U
+};
+const char* to_string(Effect effect);  // "reduced", "increased", "not shown"
+
+struct ComparedFigure {
+  Budget before, after;
+  // value: |after| - |before|, so that a reduction is negative whatever the sign of a slope is. The
+  // two runs are taken as independent: what they share (a probe's gain, the mounting) cancels, so
+  // that u is too large rather than too small.
+  Budget change;
+  Effect effect = Effect::not_shown;
+};
+
+struct ComparisonRequest {
+  std::int64_t before = 0, after = 0;  // runs
+  Reference reference = Reference::fixture;
+};
+struct Comparison {
+  std::int64_t before = 0, after = 0;
+  Axis axis = Axis::x;
+  StatedAt stated;
+  std::vector<ComparedFigure> figures;  // those that both have
+  std::vector<std::string> notes;       // what makes the two differ beside what was done
+  Notices notices;                      // of the runs
+  bool simulated = false;
+};
+// Errors: those of run_budgets(); one run twice; runs of two axes; no figure that both have.
+Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request);
+
+// What `mdof compare --json` and the RPC say of it.
+std::string comparison_json(const Comparison& comparison);
+
+}  // namespace mdof::daemon

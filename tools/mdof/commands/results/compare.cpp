@@ -1,0 +1,97 @@
+// mdof compare RUN_BEFORE RUN_AFTER: what a compensation, or a repair, did to an axis.
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "daemon/measure/several_runs/comparison.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/notice_lines.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+struct CompareCommand {
+  std::string database, before, after, reference = "fixture";
+  bool json = false, all_warnings = false;
+};
+
+std::string with_U(const Budget& budget) {
+  return budget.figure.ends_with("_um")
+             ? with_u(um_to_place(budget.value, budget.U), um_to_place(budget.U, budget.U))
+             : with_u(urad_to_place(budget.value, budget.U), urad_to_place(budget.U, budget.U));
+}
+
+// "reduced, to 1/9.8": the factor only where what is left is seen.
+std::string effect_text(const daemon::ComparedFigure& figure) {
+  std::string text = daemon::to_string(figure.effect);
+  if (figure.effect != daemon::Effect::reduced) return text;
+  const double left = std::abs(figure.after.value), before = std::abs(figure.before.value);
+  return left > figure.after.U ? text + ", to 1/" + fixed(before / left, 1)
+                               : text + ", what is left is within its U";
+}
+
+std::string comparison_text(const daemon::Comparison& c) {
+  TextTable table({"figure", "before, run " + std::to_string(c.before),
+                   "after, run " + std::to_string(c.after), "change", "effect"});
+  std::vector<Budget> changes;
+  for (const auto& figure : c.figures) {
+    table.add({figure.change.figure, with_U(figure.before), with_U(figure.after),
+               with_U(figure.change), effect_text(figure)});
+    changes.push_back(figure.change);
+  }
+  std::string text = noise_only_notice(are_noise_only(changes)) + simulated_notice(c.simulated) +
+                     stated_text(c.stated) + table.text(terminal_columns());
+  for (const std::string& note : c.notes)
+    text += wrapped("note: " + note, terminal_columns()) + "\n";
+  return text +
+         wrapped("± is the expanded uncertainty U (95 %); u: " + covers_text(changes) +
+                     ". The change is that of the absolute value; the runs are taken as "
+                     "independent: what they share cancels, so that its U is too large rather "
+                     "than too small.",
+                 terminal_columns()) +
+         "\n";
+}
+
+Status compare(const CompareCommand& command) {
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  daemon::ComparisonRequest request;
+  MDOF_TRY(request.before, run_number(store, command.before));
+  MDOF_TRY(request.after, run_number(store, command.after));
+  reference_from(command.reference, request.reference);  // the option takes no other
+  MDOF_TRY(const auto found, daemon::compare_runs(store, request));
+  show_notices(found.notices, command.all_warnings);
+  std::vector<Budget> changes;
+  for (const auto& figure : found.figures) changes.push_back(figure.change);
+  if (const std::string text = not_declared_text(changes); !text.empty()) warn(text);
+  return command.json ? write_line(daemon::comparison_json(found))
+                      : write_out(comparison_text(found));
+}
+
+Action declare_compare(CLI::App& command) {
+  const auto o = std::make_shared<CompareCommand>();
+  add_run_argument(command, "RUN_BEFORE", o->before, "The run before, or latest");
+  add_run_argument(command, "RUN_AFTER", o->after, "The run of the same axis after, or latest");
+  add_reference_option(command, o->reference)->capture_default_str();
+  add_database_option(command, o->database);
+  add_json_flag(command, o->json);
+  add_all_warnings_flag(command, o->all_warnings);
+  return [o] { return compare(*o); };
+}
+
+}  // namespace
+
+Command compare_command() {
+  return {.name = "compare",
+          .summary = "What a compensation did: figures of two runs of an axis, with U",
+          .footer = "Example:\n  mdof compare 1 7",
+          .declare = declare_compare};
+}
+
+}  // namespace mdof::tools

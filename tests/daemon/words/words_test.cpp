@@ -48,7 +48,7 @@ TEST(Catalogue, FieldsAreFilledByTheirFormat) {
   const Notice n = notice(NoticeCode::delays_by_motion, "B",
                           {{"delays_us", ""}, {"unknown", "A, C"}, {"effect_nm", 1234567.891}});
   const auto filled = [&](const char* pattern) { return words::filled(pattern, n); };
-  EXPECT_EQ(filled("probe {subject}: {effect_nm}"), "probe B: 1235000");
+  EXPECT_EQ(filled("probe {subject}: {effect_nm}"), "probe B: 1234568");
   EXPECT_EQ(filled("{effect_nm:9}|{effect_nm:+.1f}|{effect_nm:.3g}"),
             "1234567.89|+1234567.9|1.23e+06");
   EXPECT_EQ(filled("{unknown}{unknown:? unknown|}{delays_us:?x|y}"), "A, C unknowny");

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
+#include <string_view>
 
 #include "schema/base/number/number_text.h"
 
@@ -19,15 +20,44 @@ constexpr NoticeCode kAll[] = {
 };
 constexpr std::size_t kCodes = std::size(kAll);
 
-constexpr std::array<const char*, kCodes> kPatterns = [] {
-  std::array<const char*, kCodes> all{};
-#define WORDS(code, english) all[static_cast<std::size_t>(NoticeCode::code)] = english;
+struct Pattern {
+  const char* english;
+  const char* german;
+};
+constexpr std::array<Pattern, kCodes> kPatterns = [] {
+  std::array<Pattern, kCodes> all{};
+#define WORDS(code, english, german) \
+  all[static_cast<std::size_t>(NoticeCode::code)] = {english, german};
 #include "daemon/words/notices.inc"
 #undef WORDS
   return all;
 }();
-static_assert(std::find(kPatterns.begin(), kPatterns.end(), nullptr) == kPatterns.end(),
+static_assert(std::none_of(kPatterns.begin(), kPatterns.end(),
+                           [](const Pattern& p) { return p.english == nullptr; }),
               "each code of notice_codes.inc has its words in notices.inc");
+
+// Values that algo/points/ranges_text.h and the approaches give: "targets 1-3", "forward".
+struct GermanName {
+  std::string_view english, german;
+};
+constexpr GermanName kNames[] = {{"forward", "vorwärts"},         {"reverse", "rückwärts"},
+                                 {"target ", "Sollposition "},    {"run ", "Lauf "},
+                                 {"targets ", "Sollpositionen "}, {"runs ", "Läufe "}};
+
+std::string german_name(const std::string& name) {
+  for (const auto& [english, german] : kNames) {
+    const bool whole = !english.ends_with(' ');
+    if (whole ? name == english : name.starts_with(english))
+      return std::string(german) + name.substr(english.size());
+  }
+  return name;
+}
+
+// "run 3" is a stored run here, not one pass over the targets.
+std::string source_text(const std::string& source, Language language) {
+  const bool is_run = source.starts_with("run ");
+  return language == Language::german && is_run ? "Messung " + source.substr(4) : source;
+}
 
 std::string number_text(double x, const std::string& format) {
   if (format.empty()) return plain_number(x);
@@ -42,52 +72,61 @@ bool is_one_or_named(const NoticeValue& x) {
   return number ? *number == 1 : !std::get<std::string>(x).empty();
 }
 
-std::string value_text(const NoticeValue& x, const std::string& format) {
+std::string value_text(const NoticeValue& x, const std::string& format, Language language) {
   if (format.starts_with('?')) {
     const auto bar = format.find('|');
     return is_one_or_named(x) ? format.substr(1, bar - 1) : format.substr(bar + 1);
   }
   const double* number = std::get_if<double>(&x);
-  return number ? number_text(*number, format) : std::get<std::string>(x);
+  if (number) return number_text(*number, format);
+  const std::string& name = std::get<std::string>(x);
+  return language == Language::german ? german_name(name) : name;
 }
 
 // "key" or "key:format".
-std::string field_text(const Notice& notice, const std::string& field) {
+std::string field_text(const Notice& notice, const std::string& field, Language language) {
   const auto colon = field.find(':');
   const std::string key = field.substr(0, colon);
   const std::string format = colon == std::string::npos ? "" : field.substr(colon + 1);
-  if (key == "subject") return value_text(NoticeValue(notice.subject), format);
-  const NoticeValue* x = value(notice, key);
-  return x ? value_text(*x, format) : "unknown";
+  if (key == "subject") return value_text(NoticeValue(notice.subject), format, Language::english);
+  if (const NoticeValue* x = value(notice, key)) return value_text(*x, format, language);
+  return language == Language::german ? "unbekannt" : "unknown";
 }
 
 }  // namespace
 
-const char* pattern(NoticeCode code) {
-  return kPatterns[static_cast<std::size_t>(code)];
+const char* pattern(NoticeCode code, Language language) {
+  const Pattern& row = kPatterns[static_cast<std::size_t>(code)];
+  return language == Language::german ? row.german : row.english;
 }
 
-std::string filled(const char* pattern, const Notice& notice) {
+std::string filled(const char* pattern, const Notice& notice, Language language) {
   std::string out;
   for (std::string rest = pattern; !rest.empty();) {
     const auto open = rest.find('{');
     out += rest.substr(0, open);
     if (open == std::string::npos) break;
     const auto close = rest.find('}', open);
-    out += field_text(notice, rest.substr(open + 1, close - open - 1));
+    out += field_text(notice, rest.substr(open + 1, close - open - 1), language);
     rest.erase(0, close + 1);
   }
   return out;
 }
 
 std::string text(const Notice& notice) {
-  const std::string own = filled(pattern(notice.code), notice);
-  return notice.source.empty() ? own : notice.source + ": " + own;
+  return text(notice, Language::english);
 }
 
-std::string line(const Notice& notice) {
-  const bool marked = notice.severity != Severity::doubtful;
-  return marked ? std::string(to_string(notice.severity)) + ": " + text(notice) : text(notice);
+std::string text(const Notice& notice, Language language) {
+  const std::string own = filled(pattern(notice.code, language), notice, language);
+  return notice.source.empty() ? own : source_text(notice.source, language) + ": " + own;
+}
+
+std::string line(const Notice& notice, Language language) {
+  const std::string own = text(notice, language);
+  if (notice.severity == Severity::doubtful) return own;
+  if (language == Language::english) return std::string(to_string(notice.severity)) + ": " + own;
+  return (notice.severity == Severity::invalid ? "ungültig: " : "Hinweis: ") + own;
 }
 
 }  // namespace mdof::words

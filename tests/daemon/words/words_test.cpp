@@ -30,18 +30,63 @@ std::vector<NoticeCode> all_codes() {
   return codes;
 }
 
+constexpr words::Language kLanguages[] = {words::Language::english, words::Language::german};
+
 // A sentence shows only what its notice carries, and leaves no number of it out.
 TEST(Catalogue, EachCodeHasItsWordsWithItsKeys) {
   for (const NoticeCode code : all_codes()) {
-    const std::string pattern = words::pattern(code);
-    std::set<std::string> fields = fields_of(pattern);
-    fields.erase("subject");
-    EXPECT_FALSE(pattern.empty()) << to_string(code);
-    EXPECT_EQ(fields, keys_of(code)) << to_string(code);
-    EXPECT_EQ(std::count(pattern.begin(), pattern.end(), '{'),
-              std::count(pattern.begin(), pattern.end(), '}'))
-        << to_string(code);
+    for (const auto language : kLanguages) {
+      const std::string pattern = words::pattern(code, language);
+      std::set<std::string> fields = fields_of(pattern);
+      fields.erase("subject");
+      EXPECT_FALSE(pattern.empty()) << to_string(code);
+      EXPECT_EQ(fields, keys_of(code)) << to_string(code);
+      EXPECT_EQ(std::count(pattern.begin(), pattern.end(), '{'),
+                std::count(pattern.begin(), pattern.end(), '}'))
+          << to_string(code);
+    }
   }
+}
+
+// Both name what it is about or neither does; only words that the notice carries are the same.
+TEST(Catalogue, GermanSaysTheSameInOtherWords) {
+  const auto names_subject = [](const std::string& pattern) {
+    return pattern.find("{subject") != std::string::npos;
+  };
+  for (const NoticeCode code : all_codes()) {
+    const std::string english = words::pattern(code),
+                      german = words::pattern(code, words::Language::german);
+    EXPECT_EQ(names_subject(german), names_subject(english)) << to_string(code);
+    if (english != "{words}") {
+      EXPECT_NE(german, english) << to_string(code);
+    }
+  }
+}
+
+TEST(Catalogue, GermanLinesHaveSingularAndPlural) {
+  const auto line = [](const Notice& n) { return words::line(n, words::Language::german); };
+  const auto left_out = [](int stops) {
+    return notice(NoticeCode::stop_at_end_of_log, "", {{"stops", stops}, {"positions_mm", "5.5"}});
+  };
+  EXPECT_EQ(line(left_out(1)),
+            "Hinweis: 1 Halt weggelassen (einmal angefahren, am Ende des Protokolls): bei 5.5 mm");
+  EXPECT_EQ(line(left_out(2)),
+            "Hinweis: 2 Halte weggelassen (einmal angefahren, am Ende des Protokolls): bei 5.5 mm");
+  const auto missing = [](int n) {
+    return notice(NoticeCode::targets_missing, "",
+                  {{"missing", n}, {"of", 9}, {"targets", "targets 2, 4"}});
+  };
+  EXPECT_EQ(line(inherited("run 3", missing(1))),
+            "Messung 3: 1 von 9 Sollpositionen wurde nie gemessen: Sollpositionen 2, 4");
+  EXPECT_EQ(line(missing(2)), "2 von 9 Sollpositionen wurden nie gemessen: Sollpositionen 2, 4");
+  EXPECT_EQ(
+      line(notice(NoticeCode::set_ups_contradict, "", {{"chi_square", 40.5}, {"freedom", 8}})),
+      "ungültig: die Aufspannungen widersprechen sich: Chi-Quadrat ist 40.5 bei 8 "
+      "Freiheitsgraden, was Rauschen allein kaum je ergibt; Verschiebungen und Drehungen, "
+      "Wiederholpräzision der Maschine und u der Messwerte prüfen");
+  Notice older = notice(NoticeCode::u_unknown, "", {{"reason", "a"}});
+  older.values.clear();
+  EXPECT_EQ(line(older), "u ist unbekannt: unbekannt");
 }
 
 TEST(Catalogue, FieldsAreFilledByTheirFormat) {

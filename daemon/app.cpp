@@ -15,6 +15,7 @@
 #include "daemon/store/file/told_head.h"
 #include "daemon/systemd/notify.h"
 #include "daemon/version.h"
+#include "daemon/words/error_text.h"
 #include "schema/base/database/journal_watch.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/output/printable.h"
@@ -119,7 +120,7 @@ Status App::Parts::open_store() {
   events.failed = [this](std::int64_t run, const Error& error) {
     loop.post([this, run, error] {
       std::fprintf(stderr, "run %lld: %s\n", static_cast<long long>(run),
-                   printable(error.message).c_str());
+                   printable(words::text(error)).c_str());
       for (auto& station : stations) {
         if (station->run() == run) station->storage_failed(run, error);
       }
@@ -180,7 +181,7 @@ std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
   auto last = reader->last_datum(axis);
   if (last) return std::move(*last);
   std::fprintf(stderr, "axis %c: where it stood last is not known: %s\n", letter(axis),
-               last.error().message.c_str());
+               words::text(last.error()).c_str());
   return std::nullopt;
 }
 
@@ -283,7 +284,7 @@ void App::Parts::heed_signals() {
 void App::Parts::watch_hotplug() {
   auto watched = Hotplug::watch();
   if (!watched) {
-    std::fprintf(stderr, "%s\n", watched.error().message.c_str());
+    std::fprintf(stderr, "%s\n", words::text(watched.error()).c_str());
     return;
   }
   hotplug.emplace(std::move(*watched));

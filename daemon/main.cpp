@@ -13,6 +13,7 @@
 #include "daemon/methods/replayer.h"
 #include "daemon/station/check_start.h"
 #include "daemon/version.h"
+#include "daemon/words/error_text.h"
 #include "schema/base/instruction_set.h"
 #include "schema/base/output/printable.h"
 
@@ -39,7 +40,7 @@ void set_ending_signals(void (*handler)(int)) {
 }
 
 int failed(const mdof::Error& error) {
-  std::fprintf(stderr, "mdofd: %s\n", mdof::printable(error.message).c_str());
+  std::fprintf(stderr, "mdofd: %s\n", mdof::printable(mdof::words::text(error)).c_str());
   return error.code == mdof::ErrorCode::io ? 4 : error.code == mdof::ErrorCode::usage ? 2 : 3;
 }
 

@@ -29,7 +29,7 @@ Result<std::filesystem::path> default_database() {
   if (const char* home = environment("HOME")) {
     return std::filesystem::path(home) / ".local/state/mdof/mdof.db";
   }
-  return fail(ErrorCode::usage, "no place for the database: set HOME or give --db FILE");
+  return fail(ErrorCode::usage, "no place for the database", Remedy::name_database);
 }
 
 std::string default_socket() {

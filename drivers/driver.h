@@ -26,13 +26,14 @@ struct DeviceInfo {
   bool simulated = false;           // no machine behind it: said on every result
   std::optional<ClockState> clock;  // of a device that counts or stamps its samples
   // Of an encoder that counts from where it was switched on, once it has been without power since
-  // it was first opened: why, and what to do. Its places are suspect from then on, for the life of
+  // it was first opened: why. Its places are suspect from then on, for the life of
   // the driver. "": its datum holds, or it is absolute.
   std::string datum_lost = {};
   // Of its settings, that a result should carry: what it does to the readings by itself.
   Notices notices = {};
   // As datum_lost, of the encoders of further axes (DriverContext::further), by channel.
   std::map<std::string, std::string> further_datum_lost = {};
+  Remedy datum_remedy = Remedy::set_encoder;  // where a datum is lost, of all its encoders
 };
 
 // What positions an encoder of a device shows.

@@ -35,9 +35,7 @@ constexpr const char* kResetOnly =
 
 Status check_index(const DriverRow& row, const EncoderOrigin& encoder) {
   if (!encoder.index_mm || !row.no_index) return {};
-  return bad_input(encoder.index_where + ": " + row.no_index +
-                   ". Take index_mm away and say where the axis stands (mdof encoder set), or let "
-                   "a QSB (qsb) or a 104-QUAD-8 (linux_counter) count the encoder");
+  return bad_input(encoder.index_where + ": " + row.no_index, Remedy::count_without_mark);
 }
 
 }  // namespace

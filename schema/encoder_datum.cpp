@@ -48,10 +48,7 @@ std::string datum_note(Kind kind, const std::string& device) {
   return "the encoder (device \"" + device +
          "\") has no datum: it counts from where it was switched on, so positions are not those of "
          "the machine; errors against each other are right, but a table is in place only where the "
-         "count began at the machine's zero. See what its motion may touch (mdof clearance "
-         "RIG.toml), "
-         "bring the axis to a known place and say where it is: "
-         "mdof encoder set AXIS POSITION_MM";
+         "count began at the machine's zero";
 }
 
 std::string datum_text(const EncoderDatum& datum) {

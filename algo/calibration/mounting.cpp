@@ -66,7 +66,8 @@ class Fit {
     }
     return fail(ErrorCode::check,
                 "no mounting and tilts of the target give these readings; check that each log is "
-                "of one clamping, of its axis, and which way the target goes on it (--reversed)");
+                "of one clamping, of its axis, and which way the target goes on it",
+                Remedy::reverse_target);
   }
 
   double step_of_poses() {
@@ -253,12 +254,12 @@ Status check_places(const Rig& rig, const MountingFit& fit) {
     const double x = fit.change(unknown_of(k, kPlace1)), y = fit.change(unknown_of(k, kPlace2));
     const double away_m = std::sqrt(x * x + y * y);
     if (away_m <= kFarthest_m) continue;
-    return fail(
-        ErrorCode::check,
-        rig.source + ": probe \"" + rig.probes[k].id + "\" would be " +
-            plain_number(to_mm(away_m), 3) +
-            " mm from its position_mm, more than any clamping leaves: an axis on which the "
-            "target goes the other way (--reversed), probes exchanged, or position_mm wrong");
+    return fail(ErrorCode::check,
+                rig.source + ": probe \"" + rig.probes[k].id + "\" would be " +
+                    plain_number(to_mm(away_m), 3) +
+                    " mm from its position_mm, more than any clamping leaves: an axis on which the "
+                    "target goes the other way, probes exchanged, or position_mm wrong",
+                Remedy::reverse_target);
   }
   return {};
 }

@@ -146,7 +146,7 @@ class Naming {
                                ", at tilts and readings as small as these");
     if (unseen(unknown_of(k, kScale)))
       out_.sentences.push_back("the sensitivity of " + id +
-                               " (mdof calibrate sensitivity shows it)");
+                               " (a calibration of the sensitivity shows it)");
   }
 
   const MountingModel& model_;

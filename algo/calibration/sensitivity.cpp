@@ -116,13 +116,15 @@ std::vector<Reading> places_of(std::vector<Reading> all, double apart_m) {
 
 Status check(const Probe& probe, const Line& line) {
   if (line.slope >= kLeast && line.slope <= kMost) return {};
-  return fail(
-      ErrorCode::check,
-      "probe \"" + probe.id + "\" would read " + plain_number(line.slope, 4) +
-          " um for a um of travel, which no probe does; " +
-          (line.slope < 0 ? "the target goes the other way on this axis (--reversed), or the rig's "
-                            "reads or measures is wrong"
-                          : "check the rig's um_per_V and the unit of the encoder"));
+  const std::string wrong = "probe \"" + probe.id + "\" would read " + plain_number(line.slope, 4) +
+                            " um for a um of travel, which no probe does";
+  if (line.slope < 0)
+    return fail(ErrorCode::check,
+                wrong +
+                    ": the target goes the other way on this axis, or the rig's reads or "
+                    "measures is wrong",
+                Remedy::reverse_target);
+  return fail(ErrorCode::check, wrong + "; check the rig's um_per_V and the unit of the encoder");
 }
 
 // Where the probe is in volts its scale takes the sensitivity; the rest is a table.

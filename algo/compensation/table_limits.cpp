@@ -24,9 +24,9 @@ std::string slope_text(double slope, bool angle) {
   return plain_number(slope * 1e3, 6) + (angle ? " urad/mm" : " um/mm");
 }
 
-Result<double> asked_number(const char* option, double x, double most, const char* unit) {
+Result<double> asked_number(const char* key, double x, double most, const char* unit) {
   if (x > 0 && x <= most) return x;
-  return fail(ErrorCode::usage, std::string(option) + " must be above 0 and at most " +
+  return fail(ErrorCode::usage, std::string(key) + " must be above 0 and at most " +
                                     plain_number(most, 6) + " " + unit);
 }
 
@@ -35,12 +35,12 @@ Result<double> asked_number(const char* option, double x, double most, const cha
 Result<TableLimits> TableLimits::asked(const double* um, const double* um_per_mm) {
   TableLimits limits;
   if (um) {
-    MDOF_TRY(const double x, asked_number("--limit-um (limit_um)", *um, kMostOfAny_um, "um"));
+    MDOF_TRY(const double x, asked_number("limit_um", *um, kMostOfAny_um, "um"));
     limits.length_m = limits.angle_rad = x * 1e-6;
   }
   if (um_per_mm) {
-    MDOF_TRY(const double x, asked_number("--limit-um-per-mm (limit_um_per_mm)", *um_per_mm,
-                                          kSteepestOfAny_um_per_mm, "um/mm"));
+    MDOF_TRY(const double x,
+             asked_number("limit_um_per_mm", *um_per_mm, kSteepestOfAny_um_per_mm, "um/mm"));
     limits.length_slope = limits.angle_slope_rad_per_m = x * 1e-3;
   }
   return limits;
@@ -55,20 +55,17 @@ Status check_limits(const std::string& name, bool angle, const std::vector<doubl
     if (std::isnan(values[i])) continue;
     if (!(std::abs(values[i]) <= most))
       return bad_input(name + ": " + value_text(values[i], angle) + " at " + mm_of(position_m[i]) +
-                       " is more than " + value_text(most, angle) + ", the limit: are they in " +
-                       (angle ? "urad" : "um") +
-                       "? Where they are right, raise the limit with --limit-um (angles: urad), in "
-                       "the call with "
-                       "limit_um");
+                           " is more than " + value_text(most, angle) +
+                           ", the limit: are they in " + (angle ? "urad?" : "um?"),
+                       Remedy::raise_value_limit);
     if (before < values.size()) {
       const double slope = (values[i] - values[before]) / (position_m[i] - position_m[before]);
       if (!(std::abs(slope) <= steepest))
         return bad_input(name + ": changes by " + slope_text(slope, angle) + " from " +
-                         mm_of(position_m[before]) + " to " + mm_of(position_m[i]) +
-                         ", the limit is " + slope_text(steepest, angle) +
-                         ": are value and position in their units? Where it is right, raise the "
-                         "limit with --limit-um-per-mm (angles: urad/mm), in the call with "
-                         "limit_um_per_mm");
+                             mm_of(position_m[before]) + " to " + mm_of(position_m[i]) +
+                             ", the limit is " + slope_text(steepest, angle) +
+                             ": are value and position in their units?",
+                         Remedy::raise_slope_limit);
     }
     before = i;
   }

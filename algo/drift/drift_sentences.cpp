@@ -50,18 +50,6 @@ std::string changes_text(const RunDrift& drift, const MovingAxis& moving, bool s
          plain_number(drift.length_s / kSecondsPerMinute, 3) + " min)";
 }
 
-std::vector<std::string> drift_sentences(const RunDrift& drift, const MovingAxis& moving) {
-  std::vector<std::string> out;
-  if (const auto changes = changes_text(drift, moving, false); !changes.empty())
-    out.push_back("drift: " + changes +
-                  ": it is in every error of one approach and against the start; let the system "
-                  "warm up (mdof drift says when it has), or replay the log with --remove-drift");
-  if (const auto changes = changes_text(drift, moving, true); !changes.empty())
-    out.push_back("changes from run to run: " + changes +
-                  "; they may be steps as well as a drift, so that --remove-drift leaves them");
-  return out;
-}
-
 Notices removal_notices(const RunDrift& drift, const MovingAxis& moving) {
   if (!drift.not_seen.empty())
     return {notice(NoticeCode::drift_not_removed, "", {{"reason", drift.not_seen}})};

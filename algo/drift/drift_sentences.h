@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "algo/drift/run_drift.h"
 #include "schema/axis.h"
@@ -14,9 +13,6 @@ namespace mdof::algo {
 // "EYX +0.2131 ± 0.0040 µm, ECX -3.10 ± 0.12 µrad from the first point to the last (2.60 min)": of
 // the body that moves; the significant ones that may be steps, or cannot be. Empty: there is none.
 std::string changes_text(const RunDrift& drift, const MovingAxis& moving, bool steps);
-
-// Of a run from which none was removed: what is significant, what it does, and the remedy.
-std::vector<std::string> drift_sentences(const RunDrift& drift, const MovingAxis& moving);
 
 // Of a run from which it was to be removed: what was.
 Notices removal_notices(const RunDrift& drift, const MovingAxis& moving);

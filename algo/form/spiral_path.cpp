@@ -52,10 +52,9 @@ Result<SpiralPath> SpiralPath::over(const SurfaceMap& map, const SpiralRequest& 
     if (path.touch(k, found)) return path;
   const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 6); };
   return bad_input(map.name + ": no point of a spiral of radius " + mm(request.outer_radius_m) +
-                   " mm about x = " + mm(request.x_centre_m) +
-                   " mm, y = " + mm(request.y_centre_m) +
-                   " mm is on a measured pixel; see --centre-mm and "
-                   "--outer-radius-mm");
+                       " mm about x = " + mm(request.x_centre_m) +
+                       " mm, y = " + mm(request.y_centre_m) + " mm is on a measured pixel",
+                   Remedy::change_spiral);
 }
 
 double SpiralPath::rho_m(std::size_t index) const {

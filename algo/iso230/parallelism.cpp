@@ -59,10 +59,10 @@ Status common_travel(const ReferenceLines& a, const ReferenceLines& b, Paralleli
 Result<Parallelism> parallelism(const Run& run_a, const Run& run_b, bool take_partial) {
   if (run_a.header.axis != run_b.header.axis)
     return bad_input("run " + std::to_string(run_a.header.id) + " is of axis " +
-                     letter(run_a.header.axis) + " and run " + std::to_string(run_b.header.id) +
-                     " of axis " + letter(run_b.header.axis) +
-                     ": parallelism is that of two motions along one axis; mdof squareness "
-                     "compares two axes");
+                         letter(run_a.header.axis) + " and run " + std::to_string(run_b.header.id) +
+                         " of axis " + letter(run_b.header.axis) +
+                         ": parallelism is that of two motions along one axis",
+                     Remedy::compare_two_axes);
   MDOF_CHECK(check_usable({&run_a, &run_b}, take_partial, "a parallelism"));
   Parallelism found;
   found.run_a = run_a.header.id;

@@ -40,11 +40,10 @@ std::string in_urad(double rad) {
 }
 
 tl::unexpected<Error> contradiction(const Rig& x, const Rig& y, const char* key, double of_x,
-                                    double of_y, const char* option) {
+                                    double of_y, Remedy remedy) {
   return bad_input(std::string(key) + " is " + in_urad(of_x) + " in " + x.source + " and " +
-                   in_urad(of_y) + " in " + y.source +
-                   ": both runs look at one square; correct a rig, or say which holds with " +
-                   option);
+                       in_urad(of_y) + " in " + y.source + ": both runs look at one square",
+                   remedy);
 }
 
 // Slope of the horizontal straightness, EYX for X and EXY for Y: the first named error of both.
@@ -163,11 +162,12 @@ Result<SquareArtefact> artefact_of(const Rig& rig_x, const Rig& rig_y, const Art
   SquareArtefact artefact;
   const auto x = rig_x.artefact_angle_error_rad, y = rig_y.artefact_angle_error_rad;
   if (!given.angle_error_rad && x && y && *x != *y)
-    return contradiction(rig_x, rig_y, kAngle, *x, *y, "--artefact-urad");
+    return contradiction(rig_x, rig_y, kAngle, *x, *y, Remedy::choose_artefact_angle);
   artefact.angle_error_rad = given.angle_error_rad.value_or(x.value_or(y.value_or(0)));
   const double u_x = rig_x.u_artefact_angle_rad, u_y = rig_y.u_artefact_angle_rad;
   if (!given.u_rad && u_x > 0 && u_y > 0 && u_x != u_y)
-    return contradiction(rig_x, rig_y, "u_artefact_angle_urad", u_x, u_y, "--u-artefact-urad");
+    return contradiction(rig_x, rig_y, "u_artefact_angle_urad", u_x, u_y,
+                         Remedy::choose_artefact_u);
   artefact.u_rad = given.u_rad.value_or(std::max(u_x, u_y));
   MDOF_TRY(const int face_x, side_of_face(rig_x));
   MDOF_TRY(const int face_y, side_of_face(rig_y));

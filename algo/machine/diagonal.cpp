@@ -127,7 +127,7 @@ Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines
     squares += repeat * repeat + declared * declared;
   }
   if (!(squares > 0))
-    return bad_input("nothing tells the uncertainty: give each line several times, or --u-um");
+    return bad_input("the uncertainty of the lines is unknown", Remedy::give_u_of_lines);
   s.u_rad = std::sqrt(squares);
   s.freedom = effective_freedom(parts);
   s.k = coverage_factor(s.freedom);

@@ -128,9 +128,8 @@ Status OnTheFly::explain_nothing() const {
   if (summary_.scans == 0) return bad_input("no scan has a position of the encoder");
   if (passes_.empty())
     return bad_input("the axis goes from " + travel + ", and no whole bin of " +
-                     plain_number(to_mm(grid_.bin_m())) +
-                     " mm about a target lies within: give a smaller --interval-mm or --bin-mm, "
-                     "other --from-mm and --to-mm, or let the axis go further");
+                         plain_number(to_mm(grid_.bin_m())) + " mm about a target lies within",
+                     Remedy::smaller_bins);
   std::size_t bins = 0;
   double way_m = 0, passed_s = 0;
   bool dense = false;
@@ -144,15 +143,17 @@ Status OnTheFly::explain_nothing() const {
     const double speed_m_s = way_m / passed_s, rate_hz = 1 / summary_.period_s;
     const double needed_m = static_cast<double>(kFewestOfBin + 1) * speed_m_s / rate_hz;
     return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz a bin of " +
-                     plain_number(to_mm(grid_.bin_m())) + " mm has " +
-                     plain_number(grid_.bin_m() / speed_m_s * rate_hz, 3) + " scans, needed are " +
-                     std::to_string(kFewestOfBin) + ": take an --interval-mm and --bin-mm of " +
-                     plain_number(to_mm(needed_m), 3) + " or more, record faster, or go slower");
+                         plain_number(to_mm(grid_.bin_m())) + " mm has " +
+                         plain_number(grid_.bin_m() / speed_m_s * rate_hz, 3) +
+                         " scans, needed are " + std::to_string(kFewestOfBin),
+                     Remedy::larger_bins, plain_number(to_mm(needed_m), 3));
   }
-  return bad_input("in none of " + std::to_string(bins) + " bins from " + travel + " (" +
-                   plain_number(to_mm(travel_m), 4) +
-                   " mm) does the axis go on at a steady speed: it stops or changes its speed all "
-                   "the way; if it stops at targets, replay without --on-the-fly");
+  return bad_input(
+      "in none of " + std::to_string(bins) + " bins from " + travel + " (" +
+          plain_number(to_mm(travel_m), 4) +
+          " mm) does the axis go on at a steady speed: it stops or changes its speed all "
+          "the way",
+      Remedy::replay_with_stops);
 }
 
 Notices OnTheFly::notices() const {

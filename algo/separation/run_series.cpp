@@ -115,8 +115,8 @@ Result<ProbeSeries> probe_series(const Run& run, const Rig& rig, const std::stri
   const double along = found.direction[static_cast<std::size_t>(normal)];
   if (std::abs(along) < 1 - kAcross)
     return bad_input(rig.source + ": probe \"" + probe + "\" does not look along " +
-                     letter(normal) + ", across this surface; take one that does, or the other " +
-                     "--surface");
+                         letter(normal) + ", across this surface",
+                     Remedy::take_other_surface);
   const double sense = along > 0 ? 1.0 : -1.0;
   ProbeSeries series{series_of(run, with_reading(run, *index, sense), 0), found.position_m};
   MDOF_TRY(series.set_up.declared, declared_of_probe(run, rig, *index, sense));

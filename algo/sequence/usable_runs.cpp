@@ -13,13 +13,13 @@ std::string name_of(const Run& run) {
 Status check_state(const Run& run, bool take_partial, const std::string& what) {
   const RunState state = run.header.state;
   if (state == RunState::complete || (take_partial && state == RunState::partial)) return {};
-  const std::string remedy =
-      state == RunState::partial
-          ? ": its notices say what is missing. Build " + what +
-                " from complete runs, or ask for a partial one: --partial on the command line, "
-                "\"partial\": true in the call"
-          : "; build " + what + " from complete runs";
-  return bad_input(name_of(run) + " is " + to_string(state) + remedy);
+  const std::string is = name_of(run) + " is " + to_string(state);
+  if (state == RunState::partial)
+    return bad_input(is + ", and " + what +
+                         " is built from complete runs: its notices say what is "
+                         "missing",
+                     Remedy::take_partial_runs);
+  return bad_input(is + "; build " + what + " from complete runs");
 }
 
 bool goes_on_from(const Run& run, const Run& other) {

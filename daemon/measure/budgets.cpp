@@ -10,6 +10,7 @@
 #include "algo/uncertainty/run_uncertainty.h"
 #include "algo/uncertainty/stated.h"
 #include "algo/uncertainty/two_runs.h"
+#include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
 #include "schema/base/number/number_text.h"
 #include "schema/iso230/iso230_json.h"
@@ -59,16 +60,16 @@ RunUncertainty noise_of(const Run& run, const Error& error) {
   Rig nothing_declared;
   nothing_declared.axis = run.header.axis;
   RunUncertainty noise = algo::run_uncertainty(nothing_declared, run);
-  noise.why = error.message;
+  noise.why = words::text(error);
   return noise;
 }
 
 StatedFigures stated_figures(const Run& run, const Result<algo::RunBudgets>& of_run) {
-  if (!of_run) return {{}, of_run.error().message};
+  if (!of_run) return {{}, words::text(of_run.error())};
   if (of_run->cost() > kMostCost)
     return {{},
             "it takes more than a second for " + std::to_string(of_run->means().targets.size()) +
-                " targets and all that the rig declares; mdof budget makes it"};
+                " targets and all that the rig declares; " + words::remedy(Remedy::budget_run)};
   StatedFigures stated{of_run->of(algo::figures_of_run(run.header.axis)), ""};
   std::erase_if(stated.budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
   if (stated.budgets.empty()) stated.why = "the run has too few solved targets for any figure";
@@ -90,12 +91,12 @@ RunUncertainty uncertainty_of_stops(const Run& part) {
 StatedFigures figure_budgets(const Run& run) {
   const auto rig = rig_of(run.header);
   return rig ? stated_figures(run, algo::RunBudgets::create(*rig, run))
-             : StatedFigures{{}, rig.error().message};
+             : StatedFigures{{}, words::text(rig.error())};
 }
 
 StatedRun stated_run(const Run& run) {
   const auto rig = rig_of(run.header);
-  if (!rig) return {noise_of(run, rig.error()), {{}, rig.error().message}};
+  if (!rig) return {noise_of(run, rig.error()), {{}, words::text(rig.error())}};
   algo::StatedUncertainty stated = algo::stated_uncertainty(*rig, run);
   return {std::move(stated.points), stated_figures(run, stated.figures)};
 }
@@ -124,8 +125,9 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
   }
   if (found.budgets.empty())
     return bad_input("run " + std::to_string(request.run) +
-                     " has too few solved targets for any figure, so that there is nothing to "
-                     "budget; see mdof show");
+                         " has too few solved targets for any figure, so that there is nothing to "
+                         "budget",
+                     Remedy::show_points);
   return found;
 }
 

@@ -290,7 +290,7 @@ Status read_axis(AxisTables tables, const std::filesystem::path& base,
   }
   if (const auto settles = check_settling(with_delays(config.measure, axis.rig, axis.delays));
       !settles)
-    return bad_input(axis.rig.source + ": " + settles.error().message);
+    return in_context(axis.rig.source, settles.error());
   take_machine(table, config.machine, axis.rig);
   if (axis.devices.empty()) {
     table.reject("device", "is missing; add [axis.device] with driver = \"...\"");

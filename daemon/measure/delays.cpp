@@ -29,10 +29,9 @@ std::string doubt_of(const std::string& id, const Rig& rig) {
 }
 
 std::string too_long(double delay_s, double settle_s) {
-  const std::string delay = plain_number(delay_s, kDigits);
-  return "readings that come " + delay + " s late are of the way to a stop for longer than " +
-         "settle_s = " + plain_number(settle_s, kDigits) + " s: raise settle_s of [measure] to " +
-         delay + " or more (mdof replay: --settle-s), or filter for a shorter time";
+  return "readings that come " + plain_number(delay_s, kDigits) +
+         " s late are of the way to a stop for longer than settle_s = " +
+         plain_number(settle_s, kDigits) + " s";
 }
 
 }  // namespace
@@ -49,7 +48,8 @@ void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDela
                                      "is read; what is earlier than the others gets 0, and the "
                                      "others the difference");
     } else if (delay_us / 1e6 > settle_s) {
-      channel.reject("delay_us", too_long(delay_us / 1e6, settle_s));
+      channel.reject("delay_us", too_long(delay_us / 1e6, settle_s), Remedy::raise_settle,
+                     plain_number(delay_us / 1e6, kDigits));
     }
     delays[id] = delay_us / 1e6;
   }
@@ -82,7 +82,8 @@ PipelineOptions with_delays_of(const Rig& rig, const Rig& recorded, PipelineOpti
 
 Status check_settling(const PipelineOptions& options) {
   if (options.dwell.leave_s <= options.dwell.settle_s) return {};
-  return bad_input(too_long(options.dwell.leave_s, options.dwell.settle_s));
+  return bad_input(too_long(options.dwell.leave_s, options.dwell.settle_s), Remedy::raise_settle,
+                   plain_number(options.dwell.leave_s, kDigits));
 }
 
 }  // namespace mdof::daemon

@@ -13,6 +13,7 @@
 #include "daemon/history.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/paths.h"
+#include "daemon/words/error_text.h"
 #include "schema/base/toml_reader.h"
 #include "schema/imported/series.h"
 #include "schema/run_json.h"
@@ -166,7 +167,7 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
   MDOF_TRY(Notices notices, table_notices(runs));
   if (!declared)
     notices.push_back(
-        notice(NoticeCode::declared_not_in_u, "", {{"reason", declared.error().message}}));
+        notice(NoticeCode::declared_not_in_u, "", {{"reason", words::text(declared.error())}}));
   MDOF_TRY(Notices doubtful, doubtful_notices(store, table));
   return BuiltTable{std::move(table), std::move(notices), table_notes(runs), std::move(doubtful)};
 }
@@ -189,8 +190,8 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   if (table.has_positioning())
     return fail(ErrorCode::conflict,
                 "table " + std::to_string(table.id) + " holds " + positioning_name(table.axis) +
-                    ", which mdofd does not serve: the controller has it from a file, mdof "
-                    "compensation export");
+                    ", which mdofd does not serve: the controller has it from a file",
+                Remedy::export_table);
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);
   const bool in_force = now && now->table.id == request.table;

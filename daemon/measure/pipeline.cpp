@@ -237,14 +237,13 @@ Status Pipeline::explain_nothing() const {
                      " stops is near a given target; check targets_mm");
   }
   return bad_input("no dwell found in " + std::to_string(s.scans) + " scans from " +
-                   plain_number(to_mm(s.encoder_min_m), 6) + " to " +
-                   plain_number(to_mm(s.encoder_max_m), 6) + " mm" + ": the longest stop was " +
-                   plain_number(s.longest_still_s) + " s" + " within " +
-                   plain_number(to_um(s.tolerance_m)) + " um" + ", needed are " +
-                   plain_number(options_.dwell.shortest_s()) + " s" +
-                   "; dwell longer, or change --settle-s, --min-length-s or --tolerance-um; an "
-                   "axis that is to move all the time is measured by mdof replay --on-the-fly" +
-                   (doubt ? "; " + words::text(*doubt) : ""));
+                       plain_number(to_mm(s.encoder_min_m), 6) + " to " +
+                       plain_number(to_mm(s.encoder_max_m), 6) + " mm" + ": the longest stop was " +
+                       plain_number(s.longest_still_s) + " s" + " within " +
+                       plain_number(to_um(s.tolerance_m)) + " um" + ", needed are " +
+                       plain_number(options_.dwell.shortest_s()) + " s" +
+                       (doubt ? "; " + words::text(*doubt) : ""),
+                   Remedy::stop_longer);
 }
 
 // A probe without a value is an error where the others are too few to do without it.

@@ -18,8 +18,9 @@ Status check_size(store::Store& store, std::int64_t run) {
   MDOF_TRY(const std::int64_t points, store.count_points(run));
   if (points <= kMostPoints) return {};
   return bad_input("run " + std::to_string(run) + " has " + std::to_string(points) +
-                   " points, too many for a budget by a call (at most " +
-                   std::to_string(kMostPoints) + "); mdof budget makes it");
+                       " points, too many for a budget by a call (at most " +
+                       std::to_string(kMostPoints) + ")",
+                   Remedy::budget_run);
 }
 
 Result<QueryThread::Work> run_budget(Methods&, const Params& params) {

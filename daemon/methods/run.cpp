@@ -10,6 +10,7 @@
 #include "daemon/rpc/list_page.h"
 #include "daemon/run_item.h"
 #include "daemon/station/resume.h"
+#include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_page.h"
 #include "schema/plausibility_json.h"
@@ -228,7 +229,8 @@ StatedRun stated_in_a_call(const Run& run) {
   if (run.points.size() <= kMostStated) return stated_run(run);
   Run beginning = run;
   beginning.points.resize(1);
-  return {uncertainty_of(beginning), {{}, "too many points for a call; mdof analyse makes it"}};
+  return {uncertainty_of(beginning),
+          {{}, "too many points for a call; " + words::remedy(Remedy::analyse_run)}};
 }
 
 std::string run_json(const Run& run, const StatedRun& stated, const RunHeader& header,
@@ -256,8 +258,8 @@ Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::i
   MDOF_TRY(const std::int64_t points, store.count_points(id));
   if (points > kMaxRunPoints)
     return bad_input("run " + std::to_string(id) + " has " + std::to_string(points) +
-                     " points, too many for one call; mdof show " + std::to_string(id) +
-                     " reads them");
+                         " points, too many for one call",
+                     Remedy::show_run, std::to_string(id));
   MDOF_TRY(auto run, run_stated_at(store, id, reference));
   explain(m, run.header);
   MDOF_TRY(const auto deeds, store.deeds_of_run(id));

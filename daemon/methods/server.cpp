@@ -7,6 +7,7 @@
 #include "daemon/methods/methods.h"
 #include "daemon/station/live_json.h"
 #include "daemon/version.h"
+#include "daemon/words/error_text.h"
 #include "schema/base/json_writer.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -143,7 +144,7 @@ Result<ActiveTables> load_active(store::Store& store) {
     auto active = store.active(axis);
     if (!active && active.error().code == ErrorCode::bad_input) {
       std::fprintf(stderr, "axis %c has no table in force: %s\n", letter(axis),
-                   active.error().message.c_str());
+                   words::text(active.error()).c_str());
       continue;
     }
     if (active && active->table.without_stated_point) {
@@ -169,15 +170,14 @@ Result<ActiveTables> load_active(store::Store& store) {
 }
 
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
-  table.add(
-      {.name = "server.info",
-       .summary = "Version, uptime, axes and the compensation generation in force.",
-       .result =
-           "identity of the daemon; chain: link and sha256 of the head of the chain of "
-           "hashes, for mdof verify --head; axes with their devices, the run under way and what "
-           "the positions of the encoder are counted from: datum (absolute, none, "
-           "configured, set, index), offset_mm, note",
-       .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
+  table.add({.name = "server.info",
+             .summary = "Version, uptime, axes and the compensation generation in force.",
+             .result = "identity of the daemon; chain: link and sha256 of the head of the chain of "
+                       "hashes, which a later check may name; axes with their devices, the run "
+                       "under way and what "
+                       "the positions of the encoder are counted from: datum (absolute, none, "
+                       "configured, set, index), offset_mm, note",
+             .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add({.name = "device.list",
              .summary = "Every device with its axis, state, last error, channels and counts.",
              .result = "devices",

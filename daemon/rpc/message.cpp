@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "daemon/rpc/codes.h"
+#include "daemon/words/error_text.h"
 #include "schema/base/json_writer.h"
 
 namespace mdof::rpc {
@@ -17,6 +19,21 @@ void append_json(std::string& out, std::string_view json) {
     out[i] = ' ';
 }
 
+JsonWriter begin_error(int code, std::string_view message) {
+  JsonWriter error;
+  error.begin_object().field("code", code).field("message", message.substr(0, kMaxErrorText));
+  return error;
+}
+
+void end_error(std::string& out, std::string_view id, JsonWriter& error) {
+  error.end_object();
+  out += R"({"jsonrpc":"2.0","error":)";
+  out += error.text();
+  out += R"(,"id":)";
+  out += id;
+  out += '}';
+}
+
 }  // namespace
 
 void append_result(std::string& out, std::string_view id, std::string_view json) {
@@ -29,15 +46,16 @@ void append_result(std::string& out, std::string_view id, std::string_view json)
 
 void append_error(std::string& out, std::string_view id, int code, std::string_view message,
                   std::string_view data) {
-  JsonWriter error;
-  error.begin_object().field("code", code).field("message", message.substr(0, kMaxErrorText));
+  JsonWriter error = begin_error(code, message);
   if (!data.empty()) error.field("data", data.substr(0, kMaxErrorText));
-  error.end_object();
-  out += R"({"jsonrpc":"2.0","error":)";
-  out += error.text();
-  out += R"(,"id":)";
-  out += id;
-  out += '}';
+  end_error(out, id, error);
+}
+
+void append_error(std::string& out, std::string_view id, const Error& error) {
+  JsonWriter json = begin_error(code_of(error.code), words::text(error));
+  if (error.remedy != Remedy::none)
+    json.key("data").begin_object().field("remedy", to_string(error.remedy)).end_object();
+  end_error(out, id, json);
 }
 
 void append_notification(std::string& out, std::string_view method, std::string_view params) {

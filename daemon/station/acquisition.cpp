@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "daemon/paths.h"
+#include "daemon/words/error_text.h"
 #include "drivers/long_step.h"
 
 namespace mdof::daemon {
@@ -128,7 +129,7 @@ void Acquisition::acquire(std::uint64_t pass) {
     turn_ = std::max(turn_.load(), until);
   };
   auto driver = spec_.make();
-  if (!driver) fail(driver.error().message);
+  if (!driver) fail(words::text(driver.error()));
   while (acquiring_) {
     turn_ = steady_clock::now();
     if (driver && open_and_read(**driver, pass)) {
@@ -152,7 +153,7 @@ bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
   const Status opened = driver.open();
   turn_ = steady_clock::now();
   if (!opened) {
-    fail(opened.error().message);
+    fail(words::text(opened.error()));
     return false;
   }
   set_state("open");
@@ -218,8 +219,8 @@ void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   for (const auto& [encoder, why] : lost) {
     if (why.empty() || !datum_lost_.insert(encoder).second) continue;
     tell(Trouble::Kind::suspect,
-         "the encoder's datum is lost and no stop can be placed any more: " + why +
-             " and measure anew",
+         "the encoder's datum is lost and no stop can be placed any more: " + why + "; " +
+             words::remedy(info.datum_remedy) + " and measure anew",
          encoder);
   }
 }
@@ -258,7 +259,7 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
     SampleBlock block;
     const auto state = driver.read(block, kReadTimeout);
     if (!state) {
-      fail(state.error().message);
+      fail(words::text(state.error()));
       return false;
     }
     if (block.scans() > 0) {

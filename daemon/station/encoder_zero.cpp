@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "daemon/words/error_text.h"
 #include "drivers/clock/monotonic.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -15,18 +16,18 @@ constexpr int kDigits = 9;        // nanometres of a metre
 constexpr double kRest_m = 5e-6;  // an axis that holds its place may tremble so far
 constexpr std::int64_t kRest_ns = 200'000'000, kStale_ns = 1'000'000'000;
 
-constexpr const char* kDriveOver =
-    "drive the axis over its reference mark once (first see what its motion may touch: mdof "
-    "clearance RIG.toml), and its positions are the machine's; until "
-    "then: ";
+std::string advised_datum_note(const EncoderDatum& datum) {
+  const std::string note = datum_note(datum.kind, datum.device);
+  return note.empty() ? note : note + "; " + words::remedy(Remedy::set_encoder);
+}
 
 // Of what was said and does not hold any more.
 std::string lost_note(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
-  std::string note = "set to " + plain_number(to_mm(said.position_m), kDigits) + " mm on " +
-                     said.utc + ", lost " +
-                     (since_start ? "when its device was without power" : "by a restart of mdofd") +
-                     ": set it again (mdof encoder set " + letter(said.axis) + " POSITION_MM); ";
-  const std::string none = datum_note(now.kind, now.device);
+  std::string note =
+      "set to " + plain_number(to_mm(said.position_m), kDigits) + " mm on " + said.utc + ", lost " +
+      (since_start ? "when its device was without power" : "by a restart of mdofd") + ": " +
+      words::remedy(Remedy::set_encoder_again, std::string(1, letter(said.axis))) + "; ";
+  const std::string none = advised_datum_note(now);
   if (!none.empty()) return note + none;
   if (now.kind == EncoderDatum::Kind::configured)
     return note + "until then offset_mm of the configuration holds";
@@ -65,8 +66,10 @@ EncoderState EncoderZero::state() const {
   const std::lock_guard lock(mutex_);
   if (datum_.kind == EncoderDatum::Kind::index) return {datum_, datum_text(datum_)};
   if (index_m_ && datum_.kind == EncoderDatum::Kind::none)
-    return {datum_, kDriveOver + datum_note(datum_.kind, datum_.device)};
-  if (!last_) return {datum_, datum_note(datum_.kind, datum_.device)};
+    return {datum_, "its positions are the machine's once it passed its reference mark (" +
+                        words::remedy(Remedy::pass_reference_mark) +
+                        "); until then: " + advised_datum_note(datum_)};
+  if (!last_) return {datum_, advised_datum_note(datum_)};
   if (datum_.kind != EncoderDatum::Kind::set)
     return {datum_, lost_note(*last_, since_start_, datum_)};
   return {datum_, "set to " + plain_number(to_mm(last_->position_m), kDigits) + " mm on " +
@@ -131,7 +134,8 @@ Result<DatumSetting> EncoderZero::find(Axis axis, double position_m, const std::
   if (drivers::monotonic_ns() - last_ns_ > kStale_ns)
     return fail(ErrorCode::conflict,
                 "nothing has come from the encoder for a second, so what it shows at this place is "
-                "not known; see mdof device list");
+                "not known",
+                Remedy::list_devices);
   if (count_ == 0 || last_ns_ - since_ns_ < kRest_ns)
     return fail(ErrorCode::conflict,
                 "the axis moves (or has not been still for 0.2 s): stop it at a known place, then "

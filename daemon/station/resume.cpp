@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "daemon/measure/replay/request_json.h"
+#include "daemon/words/error_text.h"
 #include "drivers/recording/recording_log.h"
 
 namespace mdof::daemon {
@@ -13,8 +14,9 @@ constexpr std::chrono::milliseconds kLogTimeout{1000};
 constexpr std::int64_t kPause_ns = 5'000'000'000;
 constexpr int kBlocksPerCommit = 64;
 
-tl::unexpected<Error> refused(std::int64_t run, const std::string& why) {
-  return fail(ErrorCode::conflict, "run " + std::to_string(run) + " cannot go on: " + why);
+tl::unexpected<Error> refused(std::int64_t run, const std::string& why,
+                              Remedy remedy = Remedy::none) {
+  return fail(ErrorCode::conflict, "run " + std::to_string(run) + " cannot go on: " + why, remedy);
 }
 
 Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisConfig& axis) {
@@ -54,7 +56,7 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   MDOF_TRY(const RunHeader header, reader.run_header(run));
   MDOF_CHECK(check_can_go_on(reader, header, axis));
   const auto options = read_options_json(header.provenance.options_json, {});
-  if (!options) return refused(run, "what it was asked for: " + options.error().message);
+  if (!options) return refused(run, "what it was asked for: " + words::text(options.error()));
   RunRequest request;
   request.note = header.note;
   request.targets_m = options->sequence.targets_m;
@@ -75,11 +77,10 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
   if (of_run.kind == Kind::index || now.kind == Kind::index) {
     if (alike) return {};
     if (now.kind != Kind::index)
-      return refused(
-          cut_off.id,
-          "its positions are counted from the reference mark of the encoder, and those "
-          "of the axis are not now: drive it over the mark first (what its motion may touch: mdof "
-          "clearance RIG.toml), or start a new run");
+      return refused(cut_off.id,
+                     "its positions are counted from the reference mark of the encoder, and those "
+                     "of the axis are not now",
+                     Remedy::pass_reference_mark_or_start);
     return refused(cut_off.id,
                    "since it ended the axis went over its reference mark, and its positions are "
                    "counted from elsewhere than those of the run; start a new run");
@@ -90,8 +91,8 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
   if (of_run.kind == Kind::none)
     return refused(cut_off.id,
                    "its encoder had no datum, and whether it has counted on since is not known: "
-                   "positions of the run and of now may lie apart. Say where the axis stands "
-                   "(mdof encoder set AXIS POSITION_MM) and start a new run");
+                   "positions of the run and of now may lie apart",
+                   Remedy::set_encoder_then_start);
   if (of_run.kind == Kind::absolute && now.kind != Kind::none)
     return refused(cut_off.id,
                    "its positions are as the device shows them, and those of the axis are not now; "
@@ -99,9 +100,8 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
   return refused(cut_off.id,
                  "its positions are the machine's (" + datum_text(of_run) +
                      "), and whether the encoder still counts from there is not known: "
-                     "its datum was lost since. See what its motion may touch (mdof clearance "
-                     "RIG.toml), bring the axis to a known "
-                     "place, say where it is (mdof encoder set AXIS POSITION_MM), then go on");
+                     "its datum was lost since",
+                 Remedy::set_encoder_then_resume);
 }
 
 Result<std::int64_t> record_again(const CutOffRun& cut_off, const Storekeeper& keeper, NewRun& run,

@@ -10,6 +10,7 @@
 #include "daemon/station/live_json.h"
 #include "daemon/station/open_run.h"
 #include "daemon/version.h"
+#include "daemon/words/error_text.h"
 
 namespace mdof::daemon {
 namespace {
@@ -242,7 +243,7 @@ void Station::storage_failed(std::int64_t run, const Error& error) {
   Item item;
   item.kind = Item::Kind::storage_failed;
   item.run = run;
-  item.reason = error.message;
+  item.reason = words::text(error);
   shared_->queue.push_always(std::move(item));
 }
 

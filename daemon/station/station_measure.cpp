@@ -12,6 +12,7 @@
 #include "daemon/station/run_events.h"
 #include "daemon/station/station.h"
 #include "daemon/store/result_hash.h"
+#include "daemon/words/error_text.h"
 #include "schema/base/json_writer.h"
 #include "schema/rig/calibrated.h"
 #include "schema/rig/rig_check.h"
@@ -220,7 +221,7 @@ void Station::take_samples(SampleBlock& block) {
   if (open_->continues) open_->continues->shift(block);
   if (config_.recorded()) keep_for_recording(block);
   if (const Status pushed = open_->pipeline.push(block); !pushed) {
-    return finish(RunState::failed, failure(pushed.error().message), {}, {});
+    return finish(RunState::failed, failure(words::text(pushed.error())), {}, {});
   }
   const auto& points = open_->pipeline.points();
   const std::size_t before = open_->stored.size();
@@ -299,7 +300,7 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
   if (result) {
     run = std::move(*result);
   } else {
-    append(run.header.notices, failure(result.error().message));
+    append(run.header.notices, failure(words::text(result.error())));
     if (state == RunState::complete) state = RunState::failed;
   }
   // Else as it turned out: complete or partial.

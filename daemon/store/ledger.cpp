@@ -104,7 +104,7 @@ constexpr const char* kUnlinked = "was not stored by mdof (it has no hash)";
 constexpr const char* kGone = "is gone";
 
 tl::unexpected<Error> damaged(const Connection& connection, const std::string& what) {
-  return bad_input(connection.file().string() + ": " + what + "; mdof verify tells all");
+  return bad_input(connection.file().string() + ": " + what, Remedy::verify_database);
 }
 
 // Calls visit(kind, row, previous, sha256) for each link, in order; gaps and unknown facts go to

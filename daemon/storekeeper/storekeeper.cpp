@@ -8,6 +8,7 @@
 
 #include "daemon/store/file/told_head.h"
 #include "daemon/storekeeper/storage_errors.h"
+#include "daemon/words/error_text.h"
 
 namespace mdof::daemon {
 namespace {
@@ -31,7 +32,7 @@ bool has_room(const std::filesystem::path& file) {
 }
 
 std::string not_writable(const Error& error) {
-  return error.message +
+  return words::text(error) +
          " mdofd serves the tables in force and tries again; until then nothing can be stored";
 }
 
@@ -133,7 +134,7 @@ void Storekeeper::open_again() {
 
 // A refusal of the disk holds until there is room again.
 void Storekeeper::note_full(const Error& error) {
-  if (is_full(error)) set(full_, error.message);
+  if (is_full(error)) set(full_, words::text(error));
 }
 
 void Storekeeper::note_space() {
@@ -185,7 +186,7 @@ std::string Storekeeper::chain_fault() {
   if (!store_) return {};
   const Status whole = store_->check_head(told_);
   if (whole || whole.error().code != ErrorCode::bad_input) return {};
-  return whole.error().message + ", and restart mdofd; until then nothing is stored";
+  return words::text(whole.error()) + ", and restart mdofd; until then nothing is stored";
 }
 
 // One that no longer has what was told before is not told anew: see watch_database().

@@ -2,6 +2,7 @@
 #include "daemon/paths.h"
 #include "daemon/storekeeper/storage_errors.h"
 #include "daemon/storekeeper/storekeeper.h"
+#include "daemon/words/error_text.h"
 
 namespace mdof::daemon {
 namespace {
@@ -41,7 +42,7 @@ store::RunEnd provisional_of(store::RunEnd whole, NoticeCode why) {
 
 // A run whose end was reported to the client as failed.
 store::RunEnd refused_at_first(store::RunEnd whole, const Error& error) {
-  whole.notices.push_back(notice(NoticeCode::end_refused, "", {{"reason", error.message}}));
+  whole.notices.push_back(notice(NoticeCode::end_refused, "", {{"reason", words::text(error)}}));
   return whole;
 }
 
@@ -123,7 +124,7 @@ void Storekeeper::explain(std::int64_t run, const std::string& why) {
 
 void Storekeeper::refused_end(Unended unended, const Error& error) {
   note_full(error);
-  explain(unended.run, "its end is not stored yet: " + error.message);
+  explain(unended.run, "its end is not stored yet: " + words::text(error));
   unended_.push_back(std::move(unended));
 }
 
@@ -143,7 +144,7 @@ void Storekeeper::store_what_waits() {
   for (; !waiting_ends_.empty(); waiting_ends_.pop_front()) {
     auto ended = end(waiting_ends_.front());
     if (is_busy(ended)) return try_later();
-    explain(waiting_ends_.front().run, ended ? "" : ended.error().message);
+    explain(waiting_ends_.front().run, ended ? "" : words::text(ended.error()));
     waiting_ends_.front().done(std::move(ended));
   }
   set(held_, "");
@@ -151,9 +152,9 @@ void Storekeeper::store_what_waits() {
 
 // mdofd ends: the runs stay without an end, as after a power cut, and their recordings have all.
 void Storekeeper::give_up_what_waits() {
-  const auto error = io_error(
-      "mdofd ended while a foreign program held the database: the recording has the run, go on "
-      "with it (mdof record --resume RUN) or replay it");
+  const auto error =
+      io_error("mdofd ended while a foreign program held the database: the recording has the run",
+               Remedy::resume_or_replay);
   for (const Points& points : waiting_points_) points.done(error);
   for (const Ending& ending : waiting_ends_) ending.done(error);
 }
@@ -167,7 +168,7 @@ void Storekeeper::seal(Ending& ending) {
     if (!sealed) {
       header.state = RunState::failed;
       header.notices.push_back(
-          notice(NoticeCode::failure, "", {{"words", sealed.error().message}}));
+          notice(NoticeCode::failure, "", {{"words", words::text(sealed.error())}}));
     } else {
       header.provenance.recording_sha256 = *sealed;
     }

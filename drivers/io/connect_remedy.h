@@ -1,14 +1,13 @@
-// What to do where a device on a network cannot be reached.
+// Why a device on a network cannot be reached, and what to do.
 #pragma once
 
-#include <string>
-
 #include "drivers/io/byte_stream.h"
+#include "schema/base/result.h"
 
 namespace mdof::drivers {
 
 // `error` of connect(2). `service`: this program was started by systemd, which may keep it from the
 // network: packets are then refused, or dropped without a word.
-std::string connect_remedy(const Endpoint& to, int error, bool service);
+Error connect_error(const Endpoint& to, int error, bool service);
 
 }  // namespace mdof::drivers

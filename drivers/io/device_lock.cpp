@@ -52,17 +52,16 @@ pid_t holder_of(Name& name) {
   return known ? peer.pid : 0;
 }
 
-std::string in_use_by(pid_t pid) {
+tl::unexpected<Error> in_use_by(pid_t pid) {
   if (pid == ::getpid())
-    return "two devices of the configuration are this one; take one of them away";
-  const std::string remedy =
-      "; ask mdofd for it (mdof device list, mdof live), or end that program first";
-  if (pid == 0) return "it is in use by another program" + remedy;
+    return io_error("two devices of the configuration are this one; take one of them away");
+  if (pid == 0) return io_error("it is in use by another program", Remedy::ask_daemon_for_device);
   std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
   std::string program;
   std::getline(file, program);
   if (program.empty()) program = "another program";
-  return "it is in use by " + program + " (process " + std::to_string(pid) + ")" + remedy;
+  return io_error("it is in use by " + program + " (process " + std::to_string(pid) + ")",
+                  Remedy::ask_daemon_for_device);
 }
 
 }  // namespace
@@ -96,7 +95,7 @@ Result<DeviceLock> DeviceLock::take(const std::string& identity, bool shared) {
   if (errno != EADDRINUSE) return lock;
   const pid_t holder = holder_of(name);
   if (shared && holder == ::getpid()) return DeviceLock(-1);
-  return io_error(in_use_by(holder));
+  return in_use_by(holder);
 }
 
 void DeviceLock::answer_inquiries() const {

@@ -27,15 +27,15 @@ std::string narrow(const wchar_t* text) {
 }
 
 // hidapi does not say in a form that can be judged: opened once more, without it.
-std::string why_not_opened(const std::string& path) {
+tl::unexpected<Error> not_opened(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   const int error = fd < 0 ? errno : 0;
   if (fd >= 0) ::close(fd);
   if (error == EACCES || error == EPERM)
-    return "no permission; install the udev rules (mdof doctor shows how) and become a member of "
-           "the group mdof (sudo usermod -aG mdof $USER, log in anew)";
-  if (error == ENOENT || error == ENODEV || error == ENXIO) return "was unplugged just now";
-  return narrow(::hid_error(nullptr));
+    return io_error(path + ": no permission", Remedy::install_udev_rules);
+  if (error == ENOENT || error == ENODEV || error == ENXIO)
+    return io_error(path + ": was unplugged just now");
+  return io_error(path + ": " + narrow(::hid_error(nullptr)));
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ Result<HidDevice> HidDevice::open(const std::string& path) {
   const std::lock_guard lock(library());
   if (hid_device* const device = ::hid_open_path(path.c_str()))
     return HidDevice(std::move(*own), device, path);
-  return io_error(path + ": " + why_not_opened(path));
+  return not_opened(path);
 }
 
 void HidDevice::Close::operator()(void* device) const {

@@ -28,13 +28,14 @@ const Rate* find_rate(int baud) {
   return nullptr;
 }
 
-std::string why_not_opened(int error) {
+tl::unexpected<Error> not_opened(const std::string& path, int error) {
   if (error == EACCES)
-    return "no permission; install the udev rules (mdof doctor shows how) and become a member of "
-           "the groups mdof and dialout (sudo usermod -aG mdof,dialout $USER, log in anew)";
-  if (error == ENOENT) return "is not there; plug the device in or correct the path";
-  if (error == EBUSY || error == EWOULDBLOCK) return "is in use by another program; end that one";
-  return std::strerror(error);
+    return io_error(path + ": no permission", Remedy::install_udev_rules_for_serial);
+  if (error == ENOENT)
+    return io_error(path + ": is not there; plug the device in or correct the path");
+  if (error == EBUSY || error == EWOULDBLOCK)
+    return io_error(path + ": is in use by another program; end that one");
+  return io_error(path + ": " + std::strerror(error));
 }
 
 termios raw_mode(const SerialSettings& s, speed_t rate) {
@@ -62,10 +63,10 @@ Result<ByteStream> open_serial(const std::string& path, const SerialSettings& se
   const Rate* rate = find_rate(settings.baud);
   if (!rate) return bad_input(path + ": " + std::to_string(settings.baud) + " is no baud rate");
   const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  if (fd < 0) return io_error(path + ": " + why_not_opened(errno));
+  if (fd < 0) return not_opened(path, errno);
   ByteStream port(fd, path);
   if (::ioctl(fd, TIOCEXCL) != 0 || ::flock(fd, LOCK_EX | LOCK_NB) != 0)
-    return io_error(path + ": " + why_not_opened(errno));
+    return not_opened(path, errno);
   const termios t = raw_mode(settings, rate->code);
   if (::tcsetattr(fd, TCSANOW, &t) != 0)
     return io_error(path + ": " + std::strerror(errno) + "; is it a serial port?");

@@ -101,18 +101,19 @@ Result<ByteStream> connect_tcp(const Endpoint& to, milliseconds timeout) {
     if (error == 0) return stream;
   }
   const bool service = std::getenv("INVOCATION_ID") != nullptr;  // systemd's
-  return io_error(to.text() + ": " + std::strerror(error) + connect_remedy(to, error, service));
+  return tl::unexpected(connect_error(to, error, service));
 }
 
-std::string connect_remedy(const Endpoint& to, int error, bool service) {
-  const std::string access =
-      "the service mdofd may reach this machine only until it is told otherwise: sudo mdof setup "
-      "network " +
-      to.host;
-  if (error == EPERM || error == EACCES)
-    return "; a firewall, or systemd's IPAddressDeny, forbids it: " + access;
-  return "; is the device on, on the network, and is this its address?" +
-         (service && error == ETIMEDOUT ? " And " + access : "");
+Error connect_error(const Endpoint& to, int error, bool service) {
+  Error why{ErrorCode::io, to.text() + ": " + std::strerror(error)};
+  const bool forbidden = error == EPERM || error == EACCES;
+  why.message += forbidden ? "; a firewall, or systemd's IPAddressDeny, forbids it"
+                           : "; is the device on, on the network, and is this its address?";
+  if (forbidden || (service && error == ETIMEDOUT)) {
+    why.remedy = Remedy::allow_network;
+    why.remedy_for = to.host;
+  }
+  return why;
 }
 
 std::uint32_t peer_ipv4(const ByteStream& connection) {

@@ -59,8 +59,7 @@ double read_most_counts_per_s(TomlTable& channel);
 // For people: "counts to 3.5 mm/s", the speed of the axis that a counter can follow; "" for 0.
 std::string speed_text(double most_counts_per_s, double um_per_count);
 inline constexpr const char* kCountsLost =
-    "its encoder moved faster than most_counts_per_s and counts may be lost; move more slowly, "
-    "see what the axis may touch (mdof clearance RIG.toml), then go to a known place and tell it "
-    "by mdof encoder set";
+    "its encoder moved faster than most_counts_per_s and counts may be lost; from now on move more "
+    "slowly";
 
 }  // namespace mdof::drivers::labjack

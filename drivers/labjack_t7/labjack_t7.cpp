@@ -16,10 +16,7 @@ using std::chrono::steady_clock;
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr int kClockReads = 5;
 constexpr double kEnable_s = 2;  // to write STREAM_ENABLE, at most
-constexpr const char* kZeroLost =
-    "it was without power and its counter counts from 0 again; see what the axis may touch (mdof "
-    "clearance RIG.toml), then go to a known place and tell it by "
-    "mdof encoder set";
+constexpr const char* kZeroLost = "it was without power and its counter counts from 0 again";
 
 std::int64_t now_ns() {
   return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count();

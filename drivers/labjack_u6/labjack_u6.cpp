@@ -14,10 +14,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr double kSilence_s = 2;
-constexpr const char* kZeroLost =
-    "it was without power and its timer counts from 0 again; see what the axis may touch (mdof "
-    "clearance RIG.toml), then go to a known place and tell it by "
-    "mdof encoder set";
+constexpr const char* kZeroLost = "it was without power and its timer counts from 0 again";
 
 bool counts(const Input& input) {
   return input.ain < 0;

@@ -21,8 +21,8 @@ Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext
              if (channel.has("index_mm") && options.chip != kQuad8)
                channel.reject("index_mm",
                               "needs chip = \"104-quad-8\": of the kernel's counters only that one "
-                              "is known to load its count at a reference mark; else say where the "
-                              "axis stands (mdof encoder set)");
+                              "is known to load its count at a reference mark",
+                              Remedy::count_without_mark);
            }));
   MDOF_CHECK(table.finish());
   for (const auto& channel : options.channels) MDOF_CHECK(check_um_per_count(channel));

@@ -112,12 +112,8 @@ Result<SysfsDevice> open_counter(const LinuxCounterOptions& options) {
     return io_error(folder + "/name: is \"" + chip.value_or("") + "\" where chip is \"" +
                     options.chip + "\"; counters are numbered as they are found: correct device");
   SysfsDevice device;
-  device.datum_lost =
-      std::string("it was away, and whether it went on counting is not known; ") +
-      (has_mark(options) ? "see what the axis may touch (mdof clearance RIG.toml), then drive the "
-                           "axis over its reference mark"
-                         : "see what the axis may touch (mdof clearance RIG.toml), then go to a "
-                           "known place and tell it by mdof encoder set");
+  device.datum_lost = "it was away, and whether it went on counting is not known";
+  device.datum_remedy = has_mark(options) ? Remedy::pass_reference_mark : Remedy::set_encoder;
   device.description = "counter " + chip.value_or("without a name") + " at " + folder;
   for (const auto& channel : options.channels) {
     MDOF_TRY(SysfsInput input, open_count(options, folder, channel));

@@ -16,10 +16,7 @@ constexpr milliseconds kConnect{2000}, kSilence{2000};
 constexpr int kFailures = 20;
 // Between two attempts, where an adapter that has gone fails at once.
 constexpr milliseconds kBetweenAttempts{10};
-constexpr const char* kDatumLost =
-    "it was away, and whether it went on counting is not known; see what the axis may touch (mdof "
-    "clearance RIG.toml), then go to a known place and tell it by "
-    "mdof encoder set";
+constexpr const char* kDatumLost = "it was away, and whether it went on counting is not known";
 constexpr int kProof_timeouts = 10;  // to prove an RTU line at opening
 
 nanoseconds from_ms(double ms) {

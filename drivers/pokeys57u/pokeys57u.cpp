@@ -180,10 +180,7 @@ Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
   const auto behind = static_cast<std::int32_t>(
       before->ms + static_cast<std::uint32_t>(std::llround(passed_ms)) - now.ms);
   if (behind < kTickSlack_ms + passed_ms * kTickDrift) return reply->span;
-  doubt_ =
-      "it was without power and its encoders count from 0 again; see what the axis may touch (mdof "
-      "clearance RIG.toml), then go to a known place and tell it "
-      "by mdof encoder set";
+  doubt_ = "it was without power and its encoders count from 0 again";
   for (Counter& counter : counters_) {
     counter = {};
     counter.sure = false;
@@ -301,8 +298,7 @@ double PoKeys57u::value_of(std::size_t i, Time time, Quality& quality) {
   if (counter.sure && std::abs(step) > most + kStepSlack_counts) {
     counter.sure = false;
     doubt_ = input.name + " jumped by " + std::to_string(std::llround(step)) +
-             " counts, faster than it can count; see what the axis may touch (mdof clearance "
-             "RIG.toml), then go to a known place and tell it by mdof encoder set";
+             " counts, faster than it can count";
   }
   counter.last = count;
   counter.at = time;

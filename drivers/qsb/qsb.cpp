@@ -16,16 +16,10 @@ using std::chrono::steady_clock;
 constexpr milliseconds kConnect{2000}, kAnswer{300}, kBannerWait{1000};
 constexpr milliseconds kQuiet{50}, kDrain{500};
 constexpr std::size_t kLongestLine = 256;
-constexpr const char* kDatumLost =
-    "it was reset or without power and counts from 0 again; see what the axis may touch (mdof "
-    "clearance RIG.toml), then go to a known place and tell it by "
-    "mdof encoder set";
-constexpr const char* kMarkToPass =
-    "it was reset or without power and counts from 0 again; see what the axis may touch (mdof "
-    "clearance RIG.toml), then drive the axis over its reference mark";
+constexpr const char* kDatumLost = "it was reset or without power and counts from 0 again";
 constexpr const char* kAtMark =
     "its index is active wherever the axis goes (then index_inverted of its channel is wrong), or "
-    "the axis stands at the mark: see what it may touch (mdof clearance RIG.toml), then move it on";
+    "the axis stands at its reference mark";
 constexpr double kAhead_ns = 2e9;  // that a stamp may be before what the host's clock allows
 
 }  // namespace
@@ -44,16 +38,21 @@ DeviceInfo Qsb::info() const {
     text += " " + identity_.serial + ", firmware " + std::to_string(identity_.firmware);
   if (power_was_lost_) text += "; has been without power: its count began at 0";
   const double rate_hz = 1e9 / (tick_.ns() * options_.interval);
-  return {name_,   "qsb", text,           {{options_.channel.id, Unit::um}},
-          rate_hz, false, clock_.state(), datum_lost()};
+  DeviceInfo info{name_,   "qsb", text,          {{options_.channel.id, Unit::um}},
+                  rate_hz, false, clock_.state()};
+  if (stays_at_mark()) {
+    info.datum_lost = kAtMark;
+    info.datum_remedy = Remedy::move_off_reference_mark;
+  } else if (datum_lost_) {
+    info.datum_lost = kDatumLost;
+    if (options_.channel.index_mm) info.datum_remedy = Remedy::pass_reference_mark;
+  }
+  return info;
 }
 
-std::string Qsb::datum_lost() const {
-  const bool at_mark = mark_.state() == IndexMark::State::at_mark;
+bool Qsb::stays_at_mark() const {
   const std::chrono::nanoseconds there(monotonic_ns() - at_mark_since_ns_);
-  if (at_mark && there > options_.long_at_mark) return kAtMark;
-  if (!datum_lost_) return "";
-  return options_.channel.index_mm ? kMarkToPass : kDatumLost;
+  return mark_.state() == IndexMark::State::at_mark && there > options_.long_at_mark;
 }
 
 Status Qsb::open() {

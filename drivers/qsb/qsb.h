@@ -82,7 +82,7 @@ class Qsb final : public Driver {
   Status take_sample(const QsbReply& reply, std::int64_t received_ns);
   Status take_malformed();
   Result<IndexMark::State> watch_mark(std::int64_t count, std::int64_t received_ns);
-  std::string datum_lost() const;
+  bool stays_at_mark() const;
   void give_out(SampleBlock& block);
 
   std::string name_;

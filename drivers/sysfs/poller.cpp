@@ -33,14 +33,10 @@ SysfsPoller::SysfsPoller(std::string name, std::string driver, double rate_hz, s
       open_(std::move(open)) {}
 
 DeviceInfo SysfsPoller::info() const {
-  return {name_,
-          driver_,
-          device_.description,
-          channels_,
-          rate_hz_,
-          false,
-          {},
-          datum_lost_ ? device_.datum_lost : ""};
+  DeviceInfo info{name_, driver_, device_.description, channels_, rate_hz_, false, {}};
+  if (datum_lost_) info.datum_lost = device_.datum_lost;
+  info.datum_remedy = device_.datum_remedy;
+  return info;
 }
 
 Status SysfsPoller::open() {

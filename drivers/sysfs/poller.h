@@ -28,6 +28,7 @@ struct SysfsDevice {
   // Of an incremental encoder: what is to be said of its datum once it was opened again, from when
   // on its values are suspect. "": it has none to lose.
   std::string datum_lost = {};
+  Remedy datum_remedy = Remedy::set_encoder;
   std::vector<SysfsInput> inputs;
 };
 

@@ -91,7 +91,7 @@ class Search {
     Connection& connection = *handle.connection_;
     connection.context = context_;
     if (const int code = libusb_open(device, &connection.device); code != 0)
-      return io_error(not_opened(code));
+      return not_opened(code);
     if (serial_index != 0) handle.serial_ = read_serial(handle, serial_index);
     const bool other =
         !wanted_.serial.empty() && !handle.serial_.empty() && handle.serial_ != wanted_.serial;
@@ -116,12 +116,11 @@ class Search {
     return text;
   }
 
-  std::string not_opened(int code) const {
-    if (code != LIBUSB_ERROR_ACCESS) return text_of_error(code);
-    return std::string("no permission to use it: install the udev rule ") + kRules +
-           " (mdof doctor shows how), become a member of the group mdof (sudo usermod -aG mdof "
-           "$USER, log in anew), then unplug the " +
-           wanted_.model + " and plug it in again";
+  tl::unexpected<Error> not_opened(int code) const {
+    if (code != LIBUSB_ERROR_ACCESS) return io_error(text_of_error(code));
+    return io_error(std::string("no permission to use it, which the udev rules ") + kRules +
+                        " give to the group mdof",
+                    Remedy::install_udev_rules_for_usb, wanted_.model);
   }
 
   std::string all_seen() {

@@ -7,6 +7,8 @@
 #include <tl/expected.hpp>
 #include <utility>
 
+#include "schema/base/remedy/remedy.h"
+
 namespace mdof {
 
 enum class ErrorCode {
@@ -18,24 +20,31 @@ enum class ErrorCode {
   conflict,   // true a moment ago, no longer: generation changed, a run is under way
 };
 
-// `message` names the place (file, line, key, device, register) and the remedy.
+// `message` names the place (file, line, key, device, register) and what is wrong there, and the
+// remedy where that is no command or option of mdof; else `remedy` is its code and `remedy_for`
+// what it is for (a run, a kind, a value), which daemon/words puts into words.
 struct Error {
   ErrorCode code = ErrorCode::bad_input;
   std::string message;
+  Remedy remedy = Remedy::none;
+  std::string remedy_for = {};
 };
 
 template <class T>
 using Result = tl::expected<T, Error>;
 using Status = Result<void>;
 
-inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
-  return tl::unexpected<Error>(Error{code, std::move(message)});
+inline tl::unexpected<Error> fail(ErrorCode code, std::string message, Remedy remedy = Remedy::none,
+                                  std::string remedy_for = "") {
+  return tl::unexpected<Error>(Error{code, std::move(message), remedy, std::move(remedy_for)});
 }
-inline tl::unexpected<Error> bad_input(std::string message) {
-  return fail(ErrorCode::bad_input, std::move(message));
+inline tl::unexpected<Error> bad_input(std::string message, Remedy remedy = Remedy::none,
+                                       std::string remedy_for = "") {
+  return fail(ErrorCode::bad_input, std::move(message), remedy, std::move(remedy_for));
 }
-inline tl::unexpected<Error> io_error(std::string message) {
-  return fail(ErrorCode::io, std::move(message));
+inline tl::unexpected<Error> io_error(std::string message, Remedy remedy = Remedy::none,
+                                      std::string remedy_for = "") {
+  return fail(ErrorCode::io, std::move(message), remedy, std::move(remedy_for));
 }
 
 // Passes an error on with the place put before it: "rig.toml: probe \"A\": ...".

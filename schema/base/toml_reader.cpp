@@ -110,10 +110,10 @@ std::string TomlTable::where(std::string_view key) const {
   return place + ": " + node_->path + std::string(key);
 }
 
-void TomlTable::reject(std::string_view key, const std::string& why) {
-  if (!document_->error) {
-    document_->error = Error{ErrorCode::bad_input, where(key) + ": " + why};
-  }
+void TomlTable::reject(std::string_view key, const std::string& why, Remedy remedy,
+                       const std::string& remedy_for) {
+  if (!document_->error)
+    document_->error = Error{ErrorCode::bad_input, where(key) + ": " + why, remedy, remedy_for};
 }
 
 // One of the keys that nobody has asked for yet may be this one, misspelt.

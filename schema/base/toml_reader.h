@@ -39,7 +39,8 @@ class TomlTable {
   std::optional<TomlTable> table(std::string_view key);           // [key]
 
   // Records an error of the caller's at this key ("position_mm: outside the target").
-  void reject(std::string_view key, const std::string& why);
+  void reject(std::string_view key, const std::string& why, Remedy remedy = Remedy::none,
+              const std::string& remedy_for = "");
   // Ok, or the first error of this document, unknown keys of this table and its sub-tables
   // included. To be called once, after all keys were asked for.
   Status finish();

@@ -196,7 +196,7 @@ std::string record_text(const CalibrationRecord& record) {
   const std::string id =
       record.kind + "-" + record.date + "-" + sha256_hex(body).substr(0, kIdDigits);
   const std::string hashed = line("id", id) + body;
-  return "# Made by mdof calibrate " + record.kind +
+  return "# Made by a calibration of " + record.kind +
          ". A rig refers to it by calibration = \"this file\".\n# Not to be edited: the hash is of "
          "all that follows it.\n" +
          std::string(kRecordHead) + "\n" + std::string(kHashKey) + sha256_hex(hashed) + "\"\n" +

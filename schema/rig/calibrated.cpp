@@ -19,9 +19,6 @@ std::string too_many(std::size_t records) {
          std::to_string(kMostRecords) + ": the newest mounting and sensitivity";
 }
 
-constexpr const char* kRemedy =
-    "; make it anew with mdof calibrate, or take the line out of the rig";
-
 std::vector<std::string> names_of(TomlTable& rig) {
   if (!rig.has("calibration")) return {};
   if (rig.is_array("calibration")) return rig.strings("calibration");
@@ -41,14 +38,15 @@ std::string joined(const std::vector<std::string>& ids) {
 }
 
 void check_fit(const CalibrationRecord& record, const Fits& rig, TomlTable& table) {
-  const std::string remedy =
-      "; calibrate this one with mdof calibrate " + record.kind + ", or refer to its own record";
+  const auto reject = [&](const char* key, const std::string& why) {
+    table.reject(key, why, Remedy::calibrate_this_rig, record.kind);
+  };
   if (record.rig != rig.name)
-    return table.reject("rig", "is \"" + record.rig + "\", and " + rig.source + " is \"" +
-                                   rig.name + "\"" + remedy);
+    return reject("rig",
+                  "is \"" + record.rig + "\", and " + rig.source + " is \"" + rig.name + "\"");
   if (std::string(1, record.axis) != rig.axis)
-    return table.reject("axis", "is " + std::string(1, record.axis) + ", and that of " +
-                                    rig.source + " is " + rig.axis + remedy);
+    return reject("axis", "is " + std::string(1, record.axis) + ", and that of " + rig.source +
+                              " is " + rig.axis);
   std::vector<std::string> ids, more;
   for (const auto& probe : record.probes) ids.push_back(probe.id);
   for (const auto& id : ids)
@@ -57,8 +55,8 @@ void check_fit(const CalibrationRecord& record, const Fits& rig, TomlTable& tabl
     for (const auto& id : rig.probes)
       if (std::find(ids.begin(), ids.end(), id) == ids.end()) more.push_back(id);
   if (!more.empty())
-    table.reject("probe", "the record is of the probes " + joined(ids) + ", and " + rig.source +
-                              " has " + joined(rig.probes) + remedy);
+    reject("probe", "the record is of the probes " + joined(ids) + ", and " + rig.source + " has " +
+                        joined(rig.probes));
 }
 
 Fits fits_of(TomlTable& rig, const std::string& source) {
@@ -74,14 +72,13 @@ Result<std::string> read_one(const std::filesystem::path& file, const Fits& rig,
   MDOF_TRY(TomlTable table, TomlTable::parse(*text, file.string()));
   const auto parts = record_parts(*text);
   if (parts.size() != 1 || !table.is_array("calibration_record"))
-    return bad_input(file.string() + ": is no calibration record" + kRemedy);
+    return bad_input(file.string() + ": is no calibration record", Remedy::calibrate_anew);
   auto tables = table.tables("calibration_record");
   const CalibrationRecord record = read_record(tables.front());
   if (!is_unchanged(parts.front()))
     tables.front().reject("sha256",
-                          "is not that of the text below it: it was changed since it was "
-                          "made" +
-                              std::string(kRemedy));
+                          "is not that of the text below it: it was changed since it was made",
+                          Remedy::calibrate_anew);
   check_fit(record, rig, tables.front());
   MDOF_CHECK(table.finish());
   return std::string(parts.front());
@@ -181,15 +178,16 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
     return table.reject("calibration", "names " + too_many(parts.size()));
   for (const std::string_view part : parts)
     if (part.size() > kMostRecordBytes)
-      return table.reject("calibration", "a record has " + std::to_string(part.size()) +
-                                             " bytes; at most " + std::to_string(kMostRecordBytes) +
-                                             kRemedy);
+      return table.reject("calibration",
+                          "a record has " + std::to_string(part.size()) + " bytes; at most " +
+                              std::to_string(kMostRecordBytes),
+                          Remedy::calibrate_anew);
   Fits fits{rig.source, rig.name, std::string(1, letter(rig.axis)), {}};
   for (const Probe& probe : rig.probes) fits.probes.push_back(probe.id);
   for (std::size_t i = 0; i < tables.size(); ++i) {
     CalibrationRecord record = read_record(tables[i]);
     if (!is_unchanged(parts[i]))
-      tables[i].reject("sha256", "is not that of the text below it" + std::string(kRemedy));
+      tables[i].reject("sha256", "is not that of the text below it", Remedy::calibrate_anew);
     check_fit(record, fits, tables[i]);
     apply(record, rig);
     rig.records.push_back(std::move(record));

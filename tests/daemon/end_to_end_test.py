@@ -80,8 +80,9 @@ class EndToEnd(unittest.TestCase):
         table = self.client.call("compensation.build", runs=[run])["table"]
         with self.assertRaisesRegex(RpcError, "not put in force: .*despite_warnings"):
             self.client.call("compensation.activate", table=table, simulated=True)
-        with self.assertRaisesRegex(RpcError, "is simulated.*simulated"):
+        with self.assertRaisesRegex(RpcError, "is simulated.*--simulated, in the call with \"simulated\": true") as no:
             self.client.call("compensation.activate", table=table, despite_warnings=True)
+        self.assertEqual(no.exception.data, {"remedy": "allow_simulated"})
         for key in ("straightness", "angles", "state", "note", "options", "notices"):
             self.assertEqual(again[key], header[key])
         self.assertEqual(again["recording"]["sha256"], header["recording"]["sha256"])

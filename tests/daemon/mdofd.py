@@ -55,6 +55,7 @@ class RpcError(Exception):
     def __init__(self, error):
         super().__init__(error["message"])
         self.code = error["code"]
+        self.data = error.get("data")
 
 
 class Client:

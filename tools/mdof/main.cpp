@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/version.h"
+#include "daemon/words/error_text.h"
 #include "schema/base/instruction_set.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/exit_code.h"
@@ -57,7 +58,7 @@ int run(int argc, char** argv) {
   Status done = check_instruction_set();
   if (done) done = chosen();
   if (done) return kOk;
-  say("mdof: " + done.error().message);
+  say("mdof: " + words::text(done.error()));
   return exit_code_of(done.error().code);
 }
 

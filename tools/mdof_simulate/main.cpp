@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "daemon/version.h"
+#include "daemon/words/error_text.h"
 #include "tools/mdof/exit_code.h"
 #include "tools/mdof_simulate/plan.h"
 
@@ -52,7 +53,7 @@ int main(int argc, char** argv) try {
   ::sigaction(SIGTERM, &action, nullptr);
   const mdof::Status done = serve(plan, host);
   if (done) return 0;
-  std::fprintf(stderr, "mdof-simulate: %s\n", done.error().message.c_str());
+  std::fprintf(stderr, "mdof-simulate: %s\n", mdof::words::text(done.error()).c_str());
   return mdof::tools::exit_code_of(done.error().code);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "mdof-simulate: %s\n", e.what());

@@ -118,10 +118,10 @@ constexpr double kMostAdaptiveBlock = 1e7 + 1;
 tl::unexpected<Error> coverage_too_high(double coverage) {
   std::array<char, 32> digits;  // the shortest that read back to the same coverage
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), coverage);
-  return bad_input("coverage " + std::string(digits.data(), end.ptr) +
-                   ": adaptive trials come in blocks of 100 / (1 - coverage), here more than 1e7; "
-                   "give a fixed number of trials (--trials, without adaptive), or a coverage up "
-                   "to 0.99999");
+  return bad_input(
+      "coverage " + std::string(digits.data(), end.ptr) +
+          ": adaptive trials come in blocks of 100 / (1 - coverage), here more than 1e7",
+      Remedy::fix_number_of_trials);
 }
 
 std::vector<BlockFigures> figures_of(Values values, double coverage) {

@@ -71,9 +71,8 @@ Result<Judged> judged_table(store::Store& store, const CompensationTable& table)
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence) {
   if (judged.simulated && !consent.simulated)
     return fail(ErrorCode::conflict,
-                judged.what + " is simulated: no machine was measured, so that " + consequence +
-                    ". If simulated data are meant, ask with --simulated, in the call with "
-                    "\"simulated\": true");
+                judged.what + " is simulated: no machine was measured, so that " + consequence,
+                Remedy::allow_simulated);
   const auto wrong = std::find_if(judged.doubtful.begin(), judged.doubtful.end(),
                                   [](const Notice& n) { return n.severity == Severity::invalid; });
   if (wrong != judged.doubtful.end())
@@ -84,10 +83,8 @@ Status check_gate(const Judged& judged, const Consent& consent, const std::strin
   return fail(ErrorCode::conflict,
               judged.what + " is doubtful (" + std::to_string(n) +
                   (n == 1 ? " notice), so that " : " notices), so that ") + consequence + ": " +
-                  words::text(judged.doubtful.front()) +
-                  (n > 1 ? "; and more: see each run, mdof show RUN" : "") +
-                  ". If they do no harm, ask with --despite-warnings, in the call with "
-                  "\"despite_warnings\": true");
+                  words::text(judged.doubtful.front()) + (n > 1 ? "; and more" : ""),
+              Remedy::allow_doubtful);
 }
 
 std::vector<std::string> marks_of(const Judged& judged) {

@@ -59,8 +59,8 @@ Status OnTheFlyRun::check_room() {
     points_ += passes[passes_seen_].bins.size() + passes[passes_seen_].left_out.size();
   if (points_ <= options_.most_stops) return {};
   return bad_input("more than " + std::to_string(options_.most_stops) +
-                   " points on the fly, the most that a run holds; give a larger --interval-mm, or "
-                   "cut the log into several ones");
+                       " points on the fly, the most that a run holds",
+                   Remedy::larger_interval);
 }
 
 // Unlike a stop, a bin has its place from each of its scans.

@@ -110,8 +110,8 @@ Result<Rig> rig_of(const ParkedRequest& request, const ReplayLog& log) {
   if (!request.rig_source.empty()) return parse_rig(request.rig_text, request.rig_source);
   const std::string text = log.rig_text();
   if (!text.empty()) return parse_rig(text, request.log + " (its rig)");
-  return fail(ErrorCode::usage,
-              request.log + ": is a CSV log, which has no rig in it; give one with --rig RIG.toml");
+  return fail(ErrorCode::usage, request.log + ": is a CSV log, which has no rig in it",
+              Remedy::give_rig);
 }
 
 Status check_parked(const std::string& path, const std::vector<double>& encoder_m) {
@@ -126,9 +126,9 @@ Status check_parked(const std::string& path, const std::vector<double>& encoder_
   if (!any) return bad_input(path + ": no scan has a position of the encoder");
   if (high - low <= kMostTravel_m) return {};
   return bad_input(path + ": the axis went from " + plain_number(to_mm(low), 7) + " to " +
-                   plain_number(to_mm(high), 7) +
-                   " mm; a warm-up test needs an axis that stays where it is: park it and record "
-                   "again (the drift of a run is in mdof analyse)");
+                       plain_number(to_mm(high), 7) +
+                       " mm; a warm-up test needs an axis that stays where it is",
+                   Remedy::park_axis);
 }
 
 // The five errors of each step, of the body that moves.
@@ -186,10 +186,12 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
                                           static_cast<double>(reader.encoder.size() + 1)));
   const std::size_t steps = reader.encoder.size() / together;
   if (steps < algo::kStepsOfWindow)
-    return bad_input(
-        log.path() + ": has " + plain_number(parked.length_s) + " s, and a window takes " +
-        plain_number(std::max(per_step, kShortStep_s) * static_cast<double>(algo::kStepsOfWindow)) +
-        " s; record for longer, or give a shorter --window-s (1 s at least)");
+    return bad_input(log.path() + ": has " + plain_number(parked.length_s) +
+                         " s, and a window takes " +
+                         plain_number(std::max(per_step, kShortStep_s) *
+                                      static_cast<double>(algo::kStepsOfWindow)) +
+                         " s",
+                     Remedy::record_longer);
   parked.readings.step_s = static_cast<double>(together) * kShortStep_s;
   const auto encoder_m = reader.encoder.means(together, steps);
   MDOF_CHECK(check_parked(log.path(), encoder_m));

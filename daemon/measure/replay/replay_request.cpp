@@ -101,8 +101,10 @@ Result<PipelineOptions> delayed(PipelineOptions options, const ReplayRequest& re
   }
   options = with_delays_of(rig, before, std::move(options));
   if (options.on_the_fly) return options;  // which has no stops to settle in
-  if (const auto settles = check_settling(options); !settles)
-    return fail(ErrorCode::usage, settles.error().message);
+  if (auto settles = check_settling(options); !settles) {
+    settles.error().code = ErrorCode::usage;
+    return tl::unexpected(std::move(settles.error()));
+  }
   return options;
 }
 
@@ -110,8 +112,8 @@ Result<Rig> rig_of(const ReplayRequest& request, const ReplayLog& log) {
   if (!request.rig_source.empty()) return parse_rig(request.rig_text, request.rig_source);
   const std::string text = log.rig_text();
   if (!text.empty()) return parse_rig(text, request.log + " (its rig)");
-  return fail(ErrorCode::usage,
-              request.log + ": is a CSV log, which has no rig in it; give one with --rig RIG.toml");
+  return fail(ErrorCode::usage, request.log + ": is a CSV log, which has no rig in it",
+              Remedy::give_rig);
 }
 
 }  // namespace

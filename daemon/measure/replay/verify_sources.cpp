@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "daemon/words/error_text.h"
 #include "drivers/recording/recording_log.h"
 #include "schema/base/database/files.h"
 #include "schema/base/sha256.h"
@@ -78,7 +79,7 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
   }
   const auto actual = recording ? sha256_of_recording(path) : sha256_of_file(path);
   if (!actual) {
-    check.findings.push_back(of + ": " + actual.error().message);
+    check.findings.push_back(of + ": " + words::text(actual.error()));
   } else if (!expected.empty() && *actual != expected) {
     check.findings.push_back(of + ": the file " + path +
                              " is not the one that was measured: its sha256 is " + *actual +

@@ -11,6 +11,7 @@
 #include "algo/drift/removed_drift.h"
 #include "algo/uncertainty/budget.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/words/error_text.h"
 #include "schema/imported/series.h"
 #include "schema/units.h"
 
@@ -78,8 +79,8 @@ void choose_kind(Chosen& chosen, bool mixed) {
     return;
   }
   leave_out(chosen.left_out, others,
-            "another rig, model or treatment of drift, or on the fly, other than " + newest +
-                " (--mixed takes it)");
+            "another rig, model or treatment of drift, or on the fly, other than " + newest + " (" +
+                words::remedy(Remedy::mix_runs) + ")");
   std::erase_if(chosen.runs, [&](const RunHeader& run) { return kind_of(run) != kind; });
 }
 
@@ -139,7 +140,7 @@ Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>&
     const Budget budget = (whole ? *whole : noise).first_order(figures[f]);
     if (!whole)
       trends[f].notices.push_back(inherited(
-          run_name, notice(NoticeCode::u_unknown, "", {{"reason", whole.error().message}})));
+          run_name, notice(NoticeCode::u_unknown, "", {{"reason", words::text(whole.error())}})));
     if (std::isfinite(budget.value))
       add_value(trends[f], {header.id}, header.started_utc, budget, whole.has_value());
     else
@@ -198,8 +199,8 @@ Status add_squareness(store::Store& store, const TrendRequest& request, std::vec
   }
   if (!others.empty())
     trend.left_out.push_back(std::to_string(others.size()) +
-                             " fits with another artefact angle than the newest (--mixed takes "
-                             "them)");
+                             " fits with another artefact angle than the newest (" +
+                             words::remedy(Remedy::mix_runs) + ")");
   const auto started = [&](const Squareness& s) {
     return std::max(allowed[s.run_x]->started_utc, allowed[s.run_y]->started_utc);
   };

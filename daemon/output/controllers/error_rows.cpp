@@ -107,11 +107,10 @@ Result<Series> positioning_of(const CompensationTable& table, std::size_t most,
   const Series* along = find_series(series, error);
   if (!along)
     return bad_input("table " + std::to_string(table.id) + " has no " + error + ", and " +
-                     controller +
-                     " holds nothing else; import the positioning of the axis (mdof import) and "
-                     "build a table of it");
+                         controller + " holds nothing else",
+                     Remedy::import_positioning);
   if (options.home_m)
-    out.notes.push_back("--home-mm is of no effect: " + controller + " has the errors as they are");
+    out.notes.push_back("home_mm has no effect: " + controller + " has the errors as they are");
   return fitted(*along, table.id, most, options, out);
 }
 

@@ -5,6 +5,7 @@
 
 #include "daemon/output/controllers/series.h"
 #include "daemon/output/controllers/text_lines.h"
+#include "daemon/words/error_text.h"
 #include "schema/base/number/number_text.h"
 #include "schema/imported/series.h"
 #include "schema/units.h"
@@ -38,10 +39,9 @@ double zero_of(const Series& s, const ExportOptions& options, Export& out) {
     return there;
   }
   if (std::abs(there) > 1e-9)
-    out.notes.push_back(
-        s.error + ": the trim is " + um +
-        " at 0 mm, by which the first motion after homing steps; --home-mm takes it "
-        "out");
+    out.notes.push_back(s.error + ": the trim is " + um +
+                        " at 0 mm, by which the first motion after homing steps; " +
+                        words::remedy(Remedy::give_home));
   return 0;
 }
 
@@ -69,8 +69,8 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
   const Series* along = find_series(series, error);
   if (!along)
     return bad_input("table " + std::to_string(table.id) + " has no " + error +
-                     ", and a COMP_FILE of LinuxCNC holds nothing else; import the positioning of "
-                     "the axis (mdof import) and build a table of it");
+                         ", and a COMP_FILE of LinuxCNC holds nothing else",
+                     Remedy::import_positioning);
   MDOF_TRY(const Series s, fitted(*along, table.id, kMostRows, options, out));
   out.files.push_back(
       {std::string(1, letter(table.axis)) + ".comp", rows_text(s, zero_of(s, options, out))});

@@ -77,8 +77,7 @@ Result<Series> without_holes(const Series& s, std::int64_t table, bool cut, Expo
     return bad_input(missing + ", nor at two places in a row; nothing to export");
   const std::string range =
       place_text(s.position_m[first]) + " to " + place_text(s.position_m[end - 1]);
-  if (!cut)
-    return bad_input(missing + "; measure it, or take " + range + " alone with --cut-range");
+  if (!cut) return bad_input(missing, Remedy::cut_range, range);
   out.notes.push_back(missing + ": only " + range + " is exported, and the end values hold beyond");
   return range_of(s, {first, end});
 }
@@ -91,9 +90,8 @@ Result<Series> short_enough(const Series& s, std::int64_t table, std::size_t mos
   if (thin->kept.size() > most) {
     MDOF_TRY(const double enough, algo::tolerance_for(s.position_m, columns, most));
     return bad_input(of_table(s, table) + ": " + std::to_string(thin->kept.size()) +
-                     " points, and the controller takes " + std::to_string(most) +
-                     "; from --tolerance-um " + plain_number(to_um(enough * 1.01), 3) +
-                     " on they are few enough");
+                         " points, and the controller takes " + std::to_string(most),
+                     Remedy::raise_tolerance, plain_number(to_um(enough * 1.01), 3));
   }
   out.written.push_back({s.error, thin->kept.size(), s.position_m.size(), thin->largest_deviation});
   return part_of(s, thin->kept);

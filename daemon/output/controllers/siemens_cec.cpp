@@ -184,9 +184,9 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
   ExportOptions as_measured = options;
   as_measured.tolerance_m = 0;
   if (options.tolerance_m > 0)
-    out.notes.emplace_back("--tolerance-um is of no effect: the points stand at equal steps");
+    out.notes.emplace_back("tolerance_um has no effect: the points are at equal steps");
   if (options.home_m)
-    out.notes.emplace_back("--home-mm is of no effect: CEC has the errors as they are");
+    out.notes.emplace_back("home_mm has no effect: CEC has the errors as they are");
   std::string head, text;
   std::size_t t = 0;
   for (const CompensationTable& table : tables) {

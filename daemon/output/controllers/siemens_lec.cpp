@@ -91,7 +91,7 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
   ExportOptions as_measured = options;
   as_measured.tolerance_m = 0;
   if (options.tolerance_m > 0)
-    out.notes.emplace_back("--tolerance-um is of no effect: the points stand at equal steps");
+    out.notes.emplace_back("tolerance_um has no effect: the points are at equal steps");
   for (const CompensationTable& table : tables) {
     MDOF_TRY(const Series s, positioning_of(table, kMostBeforeSteps, as_measured, "ENC_COMP", out));
     double reversal = 0;

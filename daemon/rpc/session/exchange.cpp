@@ -21,7 +21,7 @@ std::string too_large(std::size_t bytes, std::size_t max_bytes) {
 
 void append_reply(std::string& out, std::string_view id, const Result<std::string>& result,
                   std::size_t max_bytes) {
-  if (!result) return append_error(out, id, code_of(result.error().code), result.error().message);
+  if (!result) return append_error(out, id, result.error());
   const std::size_t begin = out.size();
   append_result(out, id, *result);
   if (out.size() - begin < max_bytes) return;  // less, for a line end

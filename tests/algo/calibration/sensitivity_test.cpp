@@ -134,7 +134,7 @@ TEST(Sensitivity, WhatCannotBeIsRefused) {
   };
   says(along_z([](double z) { return z; }, 2), "at 2 places");
   says(along_z([](double z) { return z; }, 11, 1e-6), "as much of its range");
-  says(along_z([](double z) { return -z; }), "--reversed");
+  says(along_z([](double z) { return -z; }), "goes the other way");
   says(along_z([](double z) { return 2.5 * z; }), "um_per_V");
   says(along_z([](double) { return std::nan(""); }), "at 0 places");
   EXPECT_EQ(approaching_axis(rig, kA).value(), Axis::z);

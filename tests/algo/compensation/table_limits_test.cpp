@@ -27,9 +27,13 @@ TEST(TableLimits, ValueAndSlopeUpToTheLimitPass) {
 
 TEST(TableLimits, WhatIsBeyondIsNamedWithItsPlaceTheLimitAndTheOption) {
   expect_said(refusal(false, {0, 0.2e-3, 1.01e-3}),
-              {"EXX forward", "1010 um at 40 mm", "1000 um, the limit", "--limit-um"});
+              {"EXX forward", "1010 um at 40 mm", "1000 um, the limit"});
   expect_said(refusal(false, {0, 0.51e-3, 0.5e-3}),
-              {"51 um/mm from 0 mm to 10 mm", "limit is 50 um/mm", "--limit-um-per-mm"});
+              {"51 um/mm from 0 mm to 10 mm", "limit is 50 um/mm"});
+  EXPECT_EQ(check_limits("EXX", false, {0, 0.01}, {0, 1.01e-3}, {}).error().remedy,
+            Remedy::raise_value_limit);
+  EXPECT_EQ(check_limits("EXX", false, {0, 0.01}, {0, 0.51e-3}, {}).error().remedy,
+            Remedy::raise_slope_limit);
   expect_said(refusal(true, {0, -5.1e-3, 0}), {"-510 urad/mm", "500 urad/mm"});
   expect_said(refusal(false, {0, kNaN, -2.4e-3}), {"-2400 um at 40 mm"});
   expect_said(refusal(false, {0, 1e302, 0}), {"at 10 mm", "the limit"});

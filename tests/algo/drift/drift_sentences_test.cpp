@@ -58,14 +58,6 @@ TEST(DriftSentences, RoundAsTheUncertaintySays) {
   EXPECT_EQ(said(4321.4e-6, 123.4e-6), "EYX +4320 ± 120 µm");
 }
 
-TEST(DriftSentences, SayWhatToDo) {
-  const auto said = drift_sentences(three_changes(), {Axis::x, {}});
-  ASSERT_EQ(said.size(), 2U);
-  EXPECT_EQ(said[0].find("drift: EYX +0.2500"), 0U);
-  EXPECT_EQ(said[1].find("changes from run to run: EZX +0.5000"), 0U);
-  EXPECT_TRUE(drift_sentences(RunDrift{}, {Axis::x, {}}).empty());
-}
-
 TEST(DriftSentences, SayWhatWasRemovedAndWhatWasNot) {
   RunDrift drift = three_changes();
   const std::string both = test::shown(removal_notices(drift, {Axis::x, {}}));

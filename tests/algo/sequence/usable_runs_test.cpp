@@ -51,7 +51,7 @@ TEST(UsableRuns, APartialRunIsTakenOnlyIfAskedFor) {
   const mdof::Run partial = run_of(7, RunState::partial, "a");
   const std::string why = refusal({partial});
   EXPECT_TRUE(contains(why, "run 7 is partial")) << why;
-  EXPECT_TRUE(contains(why, "--partial") && contains(why, "\"partial\": true")) << why;
+  EXPECT_EQ(check_usable({&partial}, false, "a table").error().remedy, Remedy::take_partial_runs);
   EXPECT_EQ(refusal({partial}, partial_too()), "");
   const Notices notices = inherited_notices({&partial});
   ASSERT_EQ(notices.size(), 1u);

@@ -1,5 +1,6 @@
 // delay_us of channels: what is refused, what alignment is told, and what it does to a run.
 #include "daemon/measure/delays.h"
+#include "daemon/words/error_text.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +41,7 @@ TEST(Delays, WhatCannotBeIsRefusedWithTheRemedy) {
       {"id = \"A\", delay_us = 10_000_001", "must be from 0"},
       {"id = \"A\", delay_us = \"long\"", "delay_us"},
       {"id = \"A\", delay_us = 100_001",
-       "longer than settle_s = 0.1 s: raise settle_s of [measure] to 0.100001 or more"},
+       "longer than settle_s = 0.1 s; raise settle_s of [measure] to 0.100001 or more"},
       {"id = \"encodr\", delay_us = 1", "did you mean \"encoder\"?"},
       {"id = \"Z\", delay_us = 1", "is no probe of rig.toml"},
       {"id = \"A\", delay_ms = 1", "did you mean \"delay_us\"?"},
@@ -49,7 +50,7 @@ TEST(Delays, WhatCannotBeIsRefusedWithTheRemedy) {
     ChannelDelays delays;
     const auto read = read_with(std::string("channel = [{ ") + channel + " }]", delays);
     ASSERT_FALSE(read) << channel;
-    EXPECT_NE(read.error().message.find(says), std::string::npos) << read.error().message;
+    EXPECT_NE(words::text(read.error()).find(says), std::string::npos) << read.error().message;
   }
 }
 

@@ -69,7 +69,20 @@ class Replies : public ::testing::Test {
                        .handler = [](const Params& p) -> Result<std::string> {
                          return fail(static_cast<ErrorCode>(p.integer("code")), "why");
                        }});
+    for (const bool sync : {true, false}) server_.table.add(fail_with_remedy(sync));
     server_.start();
+  }
+  static Method fail_with_remedy(bool sync) {
+    const auto why = [] { return bad_input("run 7 is too long", Remedy::show_run, "7"); };
+    Method method;
+    method.name = sync ? "fail_at_once" : "fail_later";
+    method.summary = "Fails with a remedy.";
+    method.result = "none";
+    if (sync)
+      method.handler = [why](const Params&) -> Result<std::string> { return why(); };
+    else
+      method.handler = [why](const Params&, Reply reply) { reply(Result<std::string>(why())); };
+    return method;
   }
   static std::string later(int id) {
     const std::string n = std::to_string(id);
@@ -197,6 +210,24 @@ TEST_F(Replies, EveryErrorCodeHasItsNumberAndComesBackFromIt) {
     EXPECT_EQ(result.error().code, code);
     EXPECT_EQ(result.error().message, "why");
   }
+}
+
+// A client branches on the code; the words are for people.
+TEST_F(Replies, AnErrorHasItsRemedyAsWordsAndAsCode) {
+  RawClient client(server_.path);
+  for (const std::string method : {"fail_at_once", "fail_later"})
+    EXPECT_EQ(
+        client.ask(R"({"jsonrpc":"2.0","method":")" + method + R"(","id":1})"),
+        R"({"jsonrpc":"2.0","error":{"code":-32010,"message":"run 7 is too long; mdof show 7 )"
+        R"(reads them","data":{"remedy":"show_run"}},"id":1})");
+  EXPECT_EQ(
+      at(client.ask(R"({"jsonrpc":"2.0","method":"fail","params":[1],"id":2})"), "/error/data"),
+      "");
+  auto mdof = Client::connect(server_.path);
+  ASSERT_TRUE(mdof);
+  const auto result = mdof->call("fail_later");
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().message, "run 7 is too long; mdof show 7 reads them");
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ drivers::DriverSpec with_mark() {
 TEST(EncoderZero, FromTheMarkOnPositionsAreTheMachines) {
   EncoderZero zero({with_mark()});
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
-  EXPECT_TRUE(begins_with(zero.state().note, "drive the axis over its reference mark once"));
+  EXPECT_TRUE(begins_with(zero.state().note, "its positions are the machine's once it passed"));
   SampleBlock block = resting_at(3);
   zero.apply(block);
   EXPECT_EQ(block.value[0][0], 3);
@@ -177,7 +177,7 @@ TEST(EncoderZero, TheMarkGoesWithThePowerAndComesAgain) {
   zero.lose("t7");
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
   EXPECT_EQ(zero.datum().offset_m, 0);
-  EXPECT_TRUE(begins_with(zero.state().note, "drive the axis over its reference mark"));
+  EXPECT_TRUE(begins_with(zero.state().note, "its positions are the machine's once it passed"));
   ASSERT_TRUE(zero.pass_mark("t7", "later"));
   EXPECT_EQ(zero.state().note, "index at 12.5 mm, passed on later");
 }

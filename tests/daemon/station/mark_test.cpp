@@ -1,6 +1,7 @@
 // An encoder with a reference mark: before the axis has passed it, after it, in the midst of a run.
 #include "daemon/measure/replay/request_json.h"
 #include "daemon/station/resume.h"
+#include "daemon/words/error_text.h"
 #include "tests/daemon/station/fed_station.h"
 
 namespace mdof::daemon {
@@ -45,7 +46,7 @@ class StationMark : public FedStation {
     const auto request = request_to_resume(reader, run, station_->config());
     if (!request) return "no request: " + request.error().message;
     const auto id = start(*request);
-    return id ? "goes on" : id.error().message;
+    return id ? "goes on" : words::text(id.error());
   }
   TestAxis axis_;
 };
@@ -75,7 +76,7 @@ TEST_F(StationMark, AfterARestartItIsToBePassedAgain) {
   pass_mark();
   make_station(true, kMark_mm);
   EXPECT_EQ(kind(), EncoderDatum::Kind::none);
-  EXPECT_SAYS(station_->encoder().note, "drive the axis over its reference mark");
+  EXPECT_SAYS(station_->encoder().note, "drive it over its reference mark");
 }
 
 TEST_F(StationMark, ARunInWhichItIsPassedEndsThere) {
@@ -117,7 +118,7 @@ TEST_F(StationMark, ARunFromTheMarkGoesOnOnlyFromTheMark) {
   give(axis_, 0, 2500);
   ASSERT_TRUE(stop(true));
   make_station(true, kMark_mm);
-  EXPECT_SAYS(why_not_resumed(*id), "drive it over the mark first");
+  EXPECT_SAYS(why_not_resumed(*id), "drive it over its reference mark");
   pass_mark();
   EXPECT_EQ(why_not_resumed(*id), "goes on");
 }

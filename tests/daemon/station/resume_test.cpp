@@ -1,4 +1,5 @@
 #include "daemon/station/resume.h"
+#include "daemon/words/error_text.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ EncoderDatum datum(EncoderDatum::Kind kind, double offset_m) {
 
 std::string why_not(const EncoderDatum& of_run, const EncoderDatum& now, bool counts_on) {
   const Status same = check_same_datum({7, "", of_run, ""}, now, counts_on);
-  return same ? "goes on" : same.error().message;
+  return same ? "goes on" : words::text(same.error());
 }
 
 // Places 10 mm apart under one number are not mixed.

@@ -301,7 +301,7 @@ TEST_F(HeldDatabase, AnEndOfTheDaemonMeanwhileIsTold) {
   keeper_.reset();
   const auto read = ended.get_future().get();
   ASSERT_FALSE(read);
-  EXPECT_NE(read.error().message.find("--resume"), std::string::npos) << read.error().message;
+  EXPECT_EQ(read.error().remedy, Remedy::resume_or_replay) << read.error().message;
 }
 
 TEST_F(HeldDatabase, ARunThatDoesNotBeginLeavesNoRecording) {

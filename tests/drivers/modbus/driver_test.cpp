@@ -203,7 +203,8 @@ TEST(ModbusDriver, ACountingEncoderThatWasAwayIsSuspectUntilItIsTrusted) {
   EXPECT_EQ(driver->info().datum_lost, "");
   ASSERT_TRUE(driver->open());
   EXPECT_EQ(one_scan(*driver).quality_at(0, 0), Quality::suspect);
-  EXPECT_NE(driver->info().datum_lost.find("mdof encoder set"), std::string::npos);
+  EXPECT_NE(driver->info().datum_lost.find("was away"), std::string::npos);
+  EXPECT_EQ(driver->info().datum_remedy, Remedy::set_encoder);
   driver->trust_count();
   EXPECT_EQ(one_scan(*driver).quality_at(0, 0), Quality::good);
   EXPECT_EQ(driver->info().datum_lost, "");

@@ -147,8 +147,8 @@ TEST_F(QsbIndex, AfterAResetItIsSuspectUntilTheMarkIsPassedAgain) {
   EXPECT_NE(collect(*driver_, 1000).error.find("was reset in mid-stream"), std::string::npos);
   ASSERT_TRUE(driver_->open());
   expect_shown(1300, 100, Quality::suspect);  // 1100 counts as 0
-  EXPECT_NE(driver_->info().datum_lost.find("drive the axis over its reference mark"),
-            std::string::npos);
+  EXPECT_NE(driver_->info().datum_lost, "");
+  EXPECT_EQ(driver_->info().datum_remedy, Remedy::pass_reference_mark);
   expect_shown(900, -50);
   EXPECT_EQ(driver_->marks_passed(), 2);
   EXPECT_EQ(driver_->info().datum_lost, "");
@@ -182,6 +182,7 @@ TEST_F(QsbIndex, TheWrongPolarityIsToldAndNoPlaceIsKnown) {
   EXPECT_EQ(driver_->marks_passed(), 0);
   std::this_thread::sleep_for(std::chrono::milliseconds(150));
   EXPECT_NE(driver_->info().datum_lost.find("index_inverted"), std::string::npos);
+  EXPECT_EQ(driver_->info().datum_remedy, Remedy::move_off_reference_mark);
   options_.index_inverted = true;
   position_ = 0;
   open();

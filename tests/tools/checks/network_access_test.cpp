@@ -1,5 +1,6 @@
 // That the packaged service may reach a device on a network: the drop-in, and who tells of it.
 #include "tools/mdof/checks/network_access.h"
+#include "daemon/words/error_text.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -102,8 +103,8 @@ TEST_F(NetworkAccess, TheDoctorNamesWhatTheServiceMayNotReach) {
 TEST_F(NetworkAccess, ADriverThatCannotConnectNamesIt) {
   const drivers::Endpoint to{"192.168.0.7", 502};
   const auto names_it = [&](int error, bool service) {
-    return drivers::connect_remedy(to, error, service).find("mdof setup network 192.168.0.7") !=
-           std::string::npos;
+    const std::string text = words::text(drivers::connect_error(to, error, service));
+    return text.find("mdof setup network 192.168.0.7") != std::string::npos;
   };
   EXPECT_TRUE(names_it(EPERM, true));
   EXPECT_TRUE(names_it(EPERM, false));

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "daemon/words/error_text.h"
 #include "schema/base/json_writer.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/text/text_table.h"
@@ -110,7 +111,7 @@ DeviceFinding probe_device(const drivers::DriverSpec& device, double for_s, cons
   finding.name = device.name;
   finding.driver = device.driver;
   if (const Status done = open_and_read(device, for_s, stop, finding); !done)
-    finding.error = done.error().message;
+    finding.error = words::text(done.error());
   return finding;
 }
 

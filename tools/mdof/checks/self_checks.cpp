@@ -10,6 +10,7 @@
 #include "daemon/measure/pipeline.h"
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
+#include "daemon/words/error_text.h"
 #include "schema/units.h"
 
 namespace mdof::tools {
@@ -90,7 +91,7 @@ void check_model(const Rig& rig, Model model, std::vector<SelfCheck>& checks) {
   const bool simplified = model == Model::simplified;
   const auto worst = there_and_back(rig, model);
   const std::string name = std::string("model ") + to_string(model) + " there and back";
-  const std::string problem = worst ? "" : worst.error().message;
+  const std::string problem = worst ? "" : words::text(worst.error());
   const Worst w = worst.value_or(Worst{});
   checks.push_back({name + ", straightness", w.straightness_um,
                     simplified ? kStraightness_um : kExact, "um", problem});
@@ -167,7 +168,7 @@ Errors5 constant_at_fixture(double travel_m) {
 }
 
 void check_detection(const Result<Run>& run, std::vector<SelfCheck>& checks) {
-  const std::string problem = run ? "" : run.error().message;
+  const std::string problem = run ? "" : words::text(run.error());
   Worst worst;
   double missed = 2 * kTargets * kRepeats;
   if (run) {
@@ -223,7 +224,7 @@ Result<double> store_and_read_back(const Run& run) {
 void check_store(const Result<Run>& run, std::vector<SelfCheck>& checks) {
   const auto wrong = run ? store_and_read_back(*run) : tl::unexpected(run.error());
   checks.push_back({"store, rows that do not come back bit for bit", wrong.value_or(1), 0, "",
-                    wrong ? "" : wrong.error().message});
+                    wrong ? "" : words::text(wrong.error())});
 }
 
 }  // namespace
@@ -231,7 +232,7 @@ void check_store(const Result<Run>& run, std::vector<SelfCheck>& checks) {
 std::vector<SelfCheck> run_self_checks() {
   std::vector<SelfCheck> checks;
   const auto rig = parse_rig(kRig, "default fixture");
-  if (!rig) return {{"default fixture", 1, 0, "", rig.error().message}};
+  if (!rig) return {{"default fixture", 1, 0, "", words::text(rig.error())}};
   for (const Model model : {Model::simplified, Model::exact, Model::rigid})
     check_model(*rig, model, checks);
   const auto run = measure_synthetic_log(*rig);

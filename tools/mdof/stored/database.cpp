@@ -32,7 +32,7 @@ Result<store::Store> open_to_read(const std::string& option) {
 Result<store::Store> open_to_write(const std::string& option) {
   MDOF_TRY(const auto file, database_file(option));
   auto store = store::Store::open(file, store::Access::read_write);
-  if (!store && store.error().code == ErrorCode::conflict) return io_error(store.error().message);
+  if (!store && store.error().code == ErrorCode::conflict) store.error().code = ErrorCode::io;
   return store;
 }
 

@@ -7,6 +7,7 @@
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/positioning/positioning_budgets.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
@@ -85,7 +86,7 @@ Result<RunPositioning> run_positioning(const Run& run, const RunPositioningReque
   found.notices = algo::inherited_notices({&run});
   for (const std::size_t k : chosen) MDOF_CHECK(add_error(run, k, scale_period_m, found));
   if (const Status known = add_uncertainty(run, chosen, found); !known)
-    found.U_reason = known.error().message;
+    found.U_reason = words::text(known.error());
   return found;
 }
 

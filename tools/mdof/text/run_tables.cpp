@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "daemon/measure/replay/request_json.h"
+#include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/run_json.h"
@@ -137,6 +138,8 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   for (const Notice& each : summarised(h.notices, all_warnings))
     out += labelled(label_of(each.severity), words::text(each), width);
   for (const auto& note : h.notes) out += labelled("note", note, width);
+  if (options && options->datum.kind == EncoderDatum::Kind::none)
+    out += labelled("", words::remedy(Remedy::set_encoder), width);
   if (!result_sha256.empty()) out += labelled("sha256", result_sha256, width);
   return out;
 }

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/gate/gate.h"
+#include "daemon/words/error_text.h"
 #include "schema/axis.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/compensation/in_force.h"
@@ -47,7 +48,7 @@ Status show(const ShowTableCommand& command) {
     warn("table " + std::to_string(table.id) + " of axis " + letter(table.axis) +
          " is not in force");
   const auto read = daemon::doubtful_notices(store, table);
-  if (!read) warn(read.error().message);
+  if (!read) warn(words::text(read.error()));
   const Notices doubtful = read.value_or(Notices{notice(NoticeCode::run_unreadable)});
   show_notices(doubtful);
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");

@@ -19,10 +19,11 @@ namespace {
 Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
                  const OutputOptions& options) {
   if (!options.rig_toml) return {};
-  if (const Status passed =
-          check_gate(judged, options.consent, "there is nothing to put into a rig");
-      !passed)
-    return fail(ErrorCode::check, passed.error().message);
+  if (Status passed = check_gate(judged, options.consent, "there is nothing to put into a rig");
+      !passed) {
+    passed.error().code = ErrorCode::check;
+    return passed;
+  }
   if (options.despite_unseen || record.result.target.whole()) return {};
   return fail(ErrorCode::check,
               "these set-ups do not see all of the target's height (" +

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "daemon/rpc/line/client.h"
+#include "daemon/words/error_text.h"
 #include "drivers/registry.h"
 #include "schema/base/json_writer.h"
 #include "tools/mdof/checks/device_probe.h"
@@ -99,8 +100,8 @@ std::vector<Diagnosis> try_devices(const daemon::Config& config) {
 std::vector<Diagnosis> check_devices(const daemon::Config& config, const std::string& socket) {
   const auto runs = daemon_runs(socket);
   if (!runs)
-    return {
-        {Level::bad, "devices: not tried, as mdofd may hold them: " + runs.error().message, ""}};
+    return {{Level::bad, "devices: not tried, as mdofd may hold them: " + words::text(runs.error()),
+             ""}};
   return *runs ? ask_daemon(config, socket) : try_devices(config);
 }
 
@@ -121,7 +122,7 @@ std::vector<Diagnosis> examine(const DoctorCommand& command) {
   add(check_class_devices(machine));
   add(check_sysfs_files(machine, service_group()));
   if (!config) {
-    all.push_back({Level::bad, "configuration: " + config.error().message,
+    all.push_back({Level::bad, "configuration: " + words::text(config.error()),
                    "mdofd --check-config --config " + command.config});
     return all;
   }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/replay/verify_sources.h"
+#include "daemon/words/error_text.h"
 #include "drivers/recording/recording_log.h"
 #include "schema/base/json_writer.h"
 #include "tools/mdof/commands/command.h"
@@ -57,7 +58,7 @@ Status verify_recording(const std::string& file, SourceCheck& check) {
   for (;;) {
     const auto state = log.read(block, {});
     if (!state && state.error().code != ErrorCode::bad_input) return tl::unexpected(state.error());
-    if (!state) check.findings.push_back(state.error().message);
+    if (!state) check.findings.push_back(words::text(state.error()));
     if (!state || *state == drivers::ReadState::end) return {};
   }
 }

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/paths.h"
+#include "daemon/words/error_text.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/interrupt.h"
 #include "tools/mdof/output.h"
@@ -107,7 +108,7 @@ Status not_solved(const Study& study, const std::string& key, std::uint64_t tria
   return fail(ErrorCode::check, key + ": none of the " + std::to_string(trials) +
                                     " trials could be solved, there are no figures; " +
                                     (first ? "see what one draws with --trial 0"
-                                           : "trial 0: " + first.error().message));
+                                           : "trial 0: " + words::text(first.error())));
 }
 
 // Exit code 1: there is a result, but not the one that was asked for.

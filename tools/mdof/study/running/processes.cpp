@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "daemon/words/error_text.h"
 #include "tools/mdof/exit_code.h"
 #include "tools/mdof_mpi/mdof_mpi.h"
 
@@ -96,7 +97,7 @@ std::string Processes::receive(int from) {
 Status Processes::agree(const Status& mine) {
   if (size() == 1) return mine;
   Status all = mine;
-  if (!first()) send(0, mine ? std::string() : mine.error().message);
+  if (!first()) send(0, mine ? std::string() : words::text(mine.error()));
   if (first()) {
     for (int from = 1; from < size(); ++from) {
       const std::string message = receive(from);

@@ -4,6 +4,7 @@
 
 #include "daemon/paths.h"
 #include "daemon/version.h"
+#include "daemon/words/error_text.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 
@@ -82,7 +83,7 @@ void StudyRecorder::checkpoint(const StudyWork& state) const {
   auto store = open_to_write(database_);
   const Status kept =
       store ? store->save_checkpoint(*id_, checkpoint_of(state)) : tl::unexpected(store.error());
-  if (!kept) warn("no checkpoint was kept: " + kept.error().message);
+  if (!kept) warn("no checkpoint was kept: " + words::text(kept.error()));
 }
 
 Status StudyRecorder::end(const StudyResult& result, const std::string& figures_json,

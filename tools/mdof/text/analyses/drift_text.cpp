@@ -108,9 +108,22 @@ DriftOfStored drift_of(const Run& run) {
 }
 
 std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_t width) {
+  const std::string changes = algo::changes_text(drift, run.header.moving(), false);
+  const std::string steps = algo::changes_text(drift, run.header.moving(), true);
   std::string text;
-  for (const std::string& sentence : algo::drift_sentences(drift, run.header.moving()))
-    text += wrapped(sentence, width) + "\n";
+  if (!changes.empty())
+    text += wrapped("drift: " + changes +
+                        ": it is in every error of one approach and against the start; let the "
+                        "system warm up (mdof drift says when it has), or replay the log with "
+                        "--remove-drift",
+                    width) +
+            "\n";
+  if (!steps.empty())
+    text += wrapped("changes from run to run: " + steps +
+                        "; they may be steps as well as a drift, so that --remove-drift leaves "
+                        "them",
+                    width) +
+            "\n";
   return text;
 }
 

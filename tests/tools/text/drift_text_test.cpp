@@ -1,0 +1,37 @@
+#include "tools/mdof/text/analyses/drift_text.h"
+
+#include <gtest/gtest.h>
+
+namespace mdof::tools {
+namespace {
+
+// 3 min: δy +0.25 µm as a drift, δz +0.5 µm that may be steps.
+algo::RunDrift drift_and_steps() {
+  algo::RunDrift drift;
+  drift.length_s = 180;
+  const auto set = [&](std::size_t local, double change_m, bool steps) {
+    algo::SeriesDrift& of = drift.errors[local];
+    of.order = 1;
+    of.change = of.range = change_m;
+    of.u_change = 4e-9;
+    of.steps = steps;
+  };
+  set(kDy, 0.25e-6, false);
+  set(kDz, 0.5e-6, true);
+  return drift;
+}
+
+TEST(DriftText, SaysWhatToDo) {
+  mdof::Run run;
+  run.header.axis = Axis::x;
+  EXPECT_EQ(drift_notice(run, drift_and_steps(), 1000),
+            "drift: EYX +0.2500 ± 0.0040 µm from the first point to the last (3 min): it is in "
+            "every error of one approach and against the start; let the system warm up (mdof "
+            "drift says when it has), or replay the log with --remove-drift\n"
+            "changes from run to run: EZX +0.5000 ± 0.0040 µm from the first point to the last "
+            "(3 min); they may be steps as well as a drift, so that --remove-drift leaves them\n");
+  EXPECT_EQ(drift_notice(run, algo::RunDrift{}, 1000), "");
+}
+
+}  // namespace
+}  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// Where state and the socket are unless somebody says otherwise (DESIGN §6).
+// Where state and the socket are unless an option or the environment says otherwise.
 #pragma once
 
 #include <filesystem>

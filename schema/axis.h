@@ -2,7 +2,7 @@
 //
 // Local frame of an axis: x along the motion, z "up" (normal of the top target plane), y = z × x.
 //   X: local (x, y, z) = (+X, +Y, +Z)      Y: (+Y, -X, +Z)      Z: (+Z, +X, +Y), the cyclic turn
-// Five errors in the local frame (DESIGN §3): δy, δz, εx, εy, εz. Their ISO names by axis:
+// Five errors in the local frame: δy, δz, εx, εy, εz. Their ISO names by axis:
 //   X: EYX = δy   EZX = δz   EAX = εx   EBX = εy   ECX = εz
 //   Y: EXY = -δy  EZY = δz   EAY = -εy  EBY = εx   ECY = εz
 //   Z: EXZ = δy   EYZ = δz   EAZ = εy   EBZ = εz   ECZ = εx

@@ -26,7 +26,7 @@ void write_reference(JsonWriter& json, const StatedAt& at);
 // Identity, state and provenance, without points; the members of an open object.
 void write_header_members(JsonWriter& json, const RunHeader& header, NoticeWords words);
 
-// The whole run as `mdof replay --json` prints it (DESIGN §6); `figures` as of write_stated().
+// The whole run as `mdof replay --json` prints it; `figures` as of write_stated().
 std::string run_json(const Run& run, const RunUncertainty& uncertainty,
                      const StatedFigures& figures, NoticeWords words);
 

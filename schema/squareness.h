@@ -1,4 +1,4 @@
-// Squareness of two axes from one run along each against the same target square (DESIGN §3).
+// Squareness of two axes from one run along each against the same target square (Fig. 6).
 #pragma once
 
 #include <cstdint>

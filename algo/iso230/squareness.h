@@ -1,4 +1,4 @@
-// Squareness of two axes (DESIGN §3, Fig. 6 of the paper).
+// Squareness of two axes (Fig. 6, algo/README.md).
 #pragma once
 
 #include <optional>

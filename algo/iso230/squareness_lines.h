@@ -1,4 +1,4 @@
-// Squareness by each reference line of straightness (DESIGN §3, ISO 230-1).
+// Squareness by each reference line of straightness (ISO 230-1).
 #pragma once
 
 #include "schema/base/result.h"

@@ -1,4 +1,4 @@
-// Errors stated at another point of the metrology frame (DESIGN §3, schema/rig/reference.h).
+// Errors stated at another point of the metrology frame (Eq. 1, schema/rig/reference.h).
 //
 // The target's error at P is e(P) = X_MC (P - d x̂) - P = (R - I)(P - d x̂) + (0, δy, δz), so that
 // from P to P' it changes by (R - I)(P' - P); C's origin is at P = d x̂. The angles are the same

@@ -1,4 +1,4 @@
-// The rigid model (DESIGN §3): a true rotation, any probes, any target planes.
+// The rigid model (algo/README.md): a true rotation, any probes, any target planes.
 //
 // Pose of the carriage X_MC = (R, t): t = (d, δy, δz) in the local frame, R = Rz(C) Ry(B) Rx(A)
 // about the machine's axes (for the X axis Rz(εz) Ry(εy) Rx(εx)), turned into the local frame. A

@@ -1,4 +1,4 @@
-// The paper's small-angle models (DESIGN §3): exact outputs (Eq. 2-7), the simplified solution
+// The paper's small-angle models: exact outputs (Eq. 2-7), the simplified solution
 // (Eq. 8-12) and the exact solution. Local frame of the axis; m and rad.
 //
 // A fixture of three top probes (along ±z, on z = 0) and two side probes (along ±y, on y = h).

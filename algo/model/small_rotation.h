@@ -1,4 +1,4 @@
-// R = Rz(εz) Ry(εy) Rx(εx) and its derivatives, for the rigid model (DESIGN §3).
+// R = Rz(εz) Ry(εy) Rx(εx) and its derivatives, for the rigid model.
 #pragma once
 
 #include <Eigen/Core>

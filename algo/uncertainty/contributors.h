@@ -39,9 +39,9 @@ struct Contributor {
 };
 
 // Of what `rig` declares, in its order, and of a removed drift; the run is of that rig. What moves
-// or turns a probe counts by what it changes after the zero at d = 0 without errors (DESIGN §3,
-// simulation II): the zero itself is calibration's. So does a flatness, a random surface that is
-// the same for all visits of a place. Of a run by `simplified` what that model leaves out, last.
+// or turns a probe counts by what it changes after the zero at d = 0 without errors (simulation II
+// of algo/sensitivity): the zero itself is calibration's. So does a flatness, a random surface that
+// is the same for all visits of a place. Of a run by `simplified` what that model leaves out, last.
 // Error: a rig that cannot see all five errors, an angle beyond what the models take.
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run);
 

@@ -11,7 +11,7 @@
 
 namespace mdof::algo {
 
-// EC0Y = -slope(EXY) - slope(EYX) + α (DESIGN §3), of budgets of the two runs at the fixture. What
+// EC0Y = -slope(EXY) - slope(EYX) + α (Fig. 6), of budgets of the two runs at the fixture. What
 // goes with a probe and the surface of a plane that both rigs have (Contributor::common_as) are
 // common to both runs and add with their signs; all else that the rigs declare is taken as
 // independent between them.

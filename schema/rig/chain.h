@@ -1,6 +1,5 @@
-// The machine's kinematic chain, from the work to the tool: "w-Y-X-b-Z-t" (DESIGN §3, "Sides and
-// signs"). w work, b bed, t tool; axes between w and b carry the work, those between b and t the
-// tool.
+// The machine's kinematic chain, from the work to the tool: "w-Y-X-b-Z-t". w work, b bed, t tool;
+// axes between w and b carry the work, those between b and t the tool.
 #pragma once
 
 #include <optional>

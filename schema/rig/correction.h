@@ -1,4 +1,4 @@
-// The sign of a correction from the machine's chain (DESIGN §3, "Sides and signs").
+// The sign of a correction from the machine's chain (algo/README.md, "Frames and signs").
 //
 // E is an error of the body that the measured axis moves, c the correction: what is added to the
 // command of the axis k that the error's name has in second place (corrected_by()).

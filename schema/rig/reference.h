@@ -1,4 +1,4 @@
-// The point at which straightness is stated (DESIGN §3): an error e(P) of the target is that of its
+// The point at which straightness is stated: an error e(P) of the target is that of its
 // material which is at the point P of the metrology frame M.
 #pragma once
 

@@ -113,9 +113,9 @@ struct Rig {
 // and of the records that are out of date.
 Notices overdue_calibrations(const Rig& rig, std::string_view day);
 
-// Reads a rig (DESIGN §6); of one that refers to calibration records, with them behind it, as
-// load_rig_text() gives it. Errors name the file, line and key, and for an unknown key the nearest
-// known one.
+// Reads a rig (schema/README.md); of one that refers to calibration records, with them behind it,
+// as load_rig_text() gives it. Errors name the file, line and key, and for an unknown key the
+// nearest known one.
 Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name);
 Result<Rig> load_rig(const std::filesystem::path& file);
 

@@ -1,4 +1,4 @@
-// Which body moves, and which way (DESIGN §3, "Sides and signs").
+// Which body moves, and which way (algo/README.md, "Frames and signs").
 //
 // The fixture holds the probes and carries the metrology frame M; the target is what they look at.
 // A machine moves one of the two against the other, and its encoder may count either way.

@@ -1,4 +1,4 @@
-// Standard uncertainties that a rig declares (GUM 4.3, type B; DESIGN §6). All are optional: what
+// Standard uncertainties that a rig declares (GUM 4.3, type B). All are optional: what
 // is not declared is 0 here and named as missing where a result is stated. A declared 0 is a
 // statement as well: what is known to add nothing is not missing.
 #pragma once

@@ -95,7 +95,7 @@ struct PlannedRun {
   double speed_mm_s = 20;
 };
 
-enum class Forward { rigid, small_angle };  // what the probes read: DESIGN §3
+enum class Forward { rigid, small_angle };  // what the probes read: algo/model
 
 // Of the binned quantity: 33 MB of statistics a thread with five outputs, and a plan has ten at
 // most.

@@ -7,7 +7,7 @@
 
 namespace mdof::test {
 
-// The default fixture of DESIGN §3 with its three lengths, axis X.
+// The default fixture of the paper with its three lengths, axis X.
 inline std::string rig_x_toml(double l_mm = 10, double h_mm = 15, double z_mm = 20) {
   const auto probe = [](const std::string& id, double x, double y, double z, const char* measures) {
     return "[[probe]]\nid = \"" + id + "\"\nposition_mm = [" + std::to_string(x) + ", " +

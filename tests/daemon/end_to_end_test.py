@@ -21,7 +21,7 @@ from mdofd import DATA, Client, Daemon, RpcError, notice_lines, replay, simulato
 
 MDOFD, MDOF = sys.argv[1:3]
 TARGETS = [0, 2, 4.1, 6.2]
-# X and Y carry the work, Z the tool: the corrections of EYX and EZX go opposite ways (DESIGN 3).
+# X and Y carry the work, Z the tool: the corrections of EYX and EZX go opposite ways.
 MACHINE = '[machine]\nchain = "w-Y-X-b-Z-t"\n'
 # A run that begins in a stop has the warning that this stop was too short.
 MAYBE_BEGUN_IN_A_STOP = {"despite_warnings": True}

@@ -1,5 +1,5 @@
 // Storing runs against a bare prepared-statement loop into SQLite with the same rows and durability
-// (DESIGN §7: at least 0.8). The bare side gets a table without keys, checks or references, and its
+// (the bar: at least 0.8). The bare side gets a table without keys, checks or references, and its
 // rows ready to be bound; ours also keeps provenance, references and the hash of the results.
 //
 //   bench_store [FOLDER]    prints both rates and their ratio for small and for large runs; exit 1

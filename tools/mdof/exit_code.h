@@ -1,4 +1,4 @@
-// What the caller's script sees (DESIGN §6).
+// What the caller's script sees (man mdof).
 #pragma once
 
 #include "schema/base/result.h"

@@ -371,7 +371,7 @@ TEST(Axis, NamedAndLocalErrorsAreInverse) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     EXPECT_EQ(local_from_named(axis, named_from_local(axis, e)), e);
   }
-  const Errors5 y = named_from_local(Axis::y, e);  // DESIGN §3
+  const Errors5 y = named_from_local(Axis::y, e);  // schema/axis.h
   EXPECT_EQ(y, (Errors5{-1, 2, -4, 3, 5}));
 }
 

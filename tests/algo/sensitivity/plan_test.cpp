@@ -95,7 +95,7 @@ TEST(PlanExperiment, SimulationIAgreesWithTheory) {
   const auto e = make_plan_experiment(*plan);
   ASSERT_TRUE(e) << e.error().message;
   const auto x = run(**e, 200'000);
-  // DESIGN §3 and the derivation in README.md: products of two uniform numbers.
+  // algo/sensitivity/README.md: products of two uniform numbers.
   const double l2 = 20e-3;                        // l''
   const double a2 = 1e-6 / 3, d2 = 2500e-12 / 3;  // variances of an angle and an offset
   expect_sd(x[kEAX], 1.0 / 3, "EAX");

@@ -16,7 +16,7 @@
 namespace mdof::tools {
 namespace {
 
-// The default fixture (DESIGN §3).
+// The default fixture.
 constexpr const char* kRig = R"(
 name = "default fixture"
 axis = "X"

@@ -9,7 +9,7 @@
 
 namespace mdof::tools {
 
-// `option`: what --db gave; empty: the default of DESIGN §6.
+// `option`: what --db gave; empty: the default of daemon/paths.h.
 Result<std::filesystem::path> database_path(const std::string& option);
 Result<store::Store> open_to_read(const std::string& option);
 Result<store::Store> open_to_write(const std::string& option);

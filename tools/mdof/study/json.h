@@ -15,7 +15,7 @@ namespace mdof::tools {
 // seed, errors by key, bins, convergence, indices, allocations, comparison and warnings.
 std::string study_figures_json(const StudyResult& result);
 
-// The document of DESIGN §6: the figures with what is known of the run besides.
+// The document of --json: the figures with what is known of the run besides.
 std::string study_json(const StudyResult& result, const std::string& figures_json,
                        std::optional<std::int64_t> study);
 

@@ -48,7 +48,7 @@ std::int64_t now_ns(clockid_t clock) {
 std::string clock_json(double step_s) {
   JsonWriter json;
   json.begin_object().field("type", "clock").field("step_s", step_s);
-  json.field("text", "the time of day was set; what is measured goes on unharmed");
+  json.field("text", "the time of day was set; the measurement continues");
   json.field("utc", utc_now()).end_object();
   return json.take();
 }
@@ -263,8 +263,7 @@ void App::Parts::watch_clock() {
   const auto step_ns = clock.look(now_ns(CLOCK_REALTIME), now_ns(CLOCK_BOOTTIME));
   if (!step_ns) return;
   const double step_s = static_cast<double>(*step_ns) * 1e-9;
-  std::fprintf(stderr, "the time of day was set by %.3f s; what is measured goes on unharmed\n",
-               step_s);
+  std::fprintf(stderr, "the time of day was set by %.3f s; the measurement continues\n", step_s);
   tell(kRunTopic, clock_json(step_s));
 }
 

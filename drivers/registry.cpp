@@ -30,7 +30,7 @@ namespace mdof::drivers {
 namespace {
 
 constexpr const char* kResetOnly =
-    "a LabJack can at most set the count to 0 at the mark, and tells nobody: near 0 that looks "
+    "a LabJack can at most set the count to 0 at the mark, and reports nothing: near 0 that looks "
     "like motion, so that whether the mark was passed is not known";
 
 Status check_index(const DriverRow& row, const EncoderOrigin& encoder) {
@@ -144,7 +144,7 @@ const std::vector<DriverRow>& driver_rows() {
           .configure = configure_modbus,
           .simulated = {{64, "the values of the profile, in its order", "TCP or a serial line",
                          make_simulated_modbus}},
-          .no_index = "a Modbus device does not tell that the mark was passed",
+          .no_index = "a Modbus device does not report that the mark was passed",
       },
       {
           .name = "pokeys57u",
@@ -160,7 +160,7 @@ const std::vector<DriverRow>& driver_rows() {
           .simulated = {{pokeys57u::kEncoders, "encoders; the machine's where none is given",
                          "USB HID", pokeys57u::make_simulated_pokeys57u}},
           .no_index = "its maker's specification and its maker's own library (PoKeysLibEncoders.c) "
-                      "do not agree on how a PoKeys is told to look for the mark",
+                      "do not agree on how a PoKeys is made to look for the mark",
       },
       {
           .name = "qsb",

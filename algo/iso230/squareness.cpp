@@ -175,7 +175,7 @@ Result<SquareArtefact> artefact_of(const Rig& rig_x, const Rig& rig_y, const Art
   if (artefact.angle_error_rad == 0 || artefact.corner != 0) return artefact;
   const Rig& unclear = face_x == 0 ? rig_x : rig_y;
   return bad_input(unclear.source +
-                   ": its side probes do not tell on which side of the fixture the face of the "
+                   ": its side probes do not show on which side of the fixture the face of the "
                    "square lies, so that the sign of " +
                    kAngle +
                    " is not known; give the face's place in position_mm of the side probes, or as "

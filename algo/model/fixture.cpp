@@ -65,10 +65,11 @@ Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
                      "\" looks at none of the [[plane]] tables (its direction is more than 60° "
                      "from every normal); add the plane it measures");
   if (second && cosine(*second, probe) > cosine(*best, probe) - kDoubt)
-    return bad_input(rig.source + ": probe \"" + probe.id + "\" may look at the plane \"" +
-                     best->id + "\" or at \"" + second->id +
-                     "\": its direction leaves a doubt; say which with plane = \"...\" in its "
-                     "[[probe]]");
+    return bad_input(
+        rig.source + ": probe \"" + probe.id + "\" may look at the plane \"" + best->id +
+        "\" or at \"" + second->id +
+        "\": its direction fits more than one plane; say which with plane = \"...\" in its "
+        "[[probe]]");
   return best;
 }
 

@@ -37,7 +37,7 @@ bool all_alike(const SeparationRequest& request) {
 Status check_request(const SeparationRequest& request) {
   if (request.set_ups.size() < 2)
     return bad_input(
-        "one set-up cannot tell the machine from the target; measure again with the "
+        "one set-up cannot separate the machine from the target; measure again with the "
         "target turned or shifted");
   std::size_t readings = 0;
   for (std::size_t k = 0; k < request.set_ups.size(); ++k) {
@@ -49,7 +49,7 @@ Status check_request(const SeparationRequest& request) {
                      std::to_string(kMostReadings) + " can be separated at once; leave some out");
   if (!all_alike(request)) return {};
   return bad_input(
-      "the target lay alike in all set-ups, which cannot tell the machine from it; "
+      "the target lay alike in all set-ups, which cannot separate the machine from it; "
       "say which was turned or how far it was shifted, or measure so");
 }
 
@@ -67,7 +67,7 @@ Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups) {
     if (!shared)
       return bad_input(std::string("the set-ups have no place of the ") +
                        (at == &grid.at_position ? "machine" : "target") +
-                       " in common, so that nothing can be told apart; measure at the same "
+                       " in common, so that nothing can be separated; measure at the same "
                        "positions, and shift the target by less than the travel");
   }
   return {};

@@ -180,7 +180,7 @@ VectorXd judge(const Equations& e, const Solution& solution, Separation& result)
                         " degrees of freedom; no u above 0 of all readings is given" +
                         declared_text(result, e)
                   : "not known: no u above 0 of all readings is given, and nothing is left over to "
-                    "tell it by; give u_um";
+                    "estimate it from; give u_um";
   return VectorXd::Constant(e.u.size(), result.residual_m);
 }
 

@@ -16,14 +16,16 @@ double declared(const Budget& b) {
 
 Status check_corners(int first, int second) {
   if (first == 0 || second == 0)
-    return bad_input(std::string("the ") + (first == 0 ? "first" : "second") +
-                     " set-up does not tell at which corner of the square its two faces meet; give "
-                     "the offset_mm of the [[plane]] in both rigs");
+    return bad_input(
+        std::string("the ") + (first == 0 ? "first" : "second") +
+        " set-up does not state at which corner of the square its two faces meet; give "
+        "the offset_mm of the [[plane]] in both rigs");
   if (first == second)
     return bad_input(
-        "both set-ups see the angle of the square with the same sign, so that they cannot tell it "
-        "from the machine's: turn the square over about X or Y, so that one of the two faces comes "
-        "to the other side, and put the probes and the [[plane]] of that rig there");
+        "both set-ups see the angle of the square with the same sign, so that they cannot separate "
+        "it "
+        "from the machine's: turn the square over about X or Y, so that one of the two faces is "
+        "on the other side, and put the probes and the [[plane]] of that rig there");
   return {};
 }
 

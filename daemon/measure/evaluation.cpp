@@ -195,7 +195,7 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);
   const bool in_force = now && now->table.id == request.table;
-  if (!in_force) MDOF_CHECK(check_gate(judged, request.consent, "it is not put in force"));
+  if (!in_force) MDOF_CHECK(check_gate(judged, request.consent, "it is not activated"));
   return store::Marks{judged.simulated, !judged.doubtful.empty()};
 }
 

@@ -228,7 +228,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param axis{"axis", ParamType::string, "X, Y or Z", true};
   table.add(
       {.name = "compensation.build",
-       .summary = "Builds and stores a one-axis table from runs; it is not yet in force.",
+       .summary = "Builds and stores a one-axis table from runs; it is not yet active.",
        .params = {{"runs", ParamType::array, "ids of runs of one axis and the same targets", true},
                   {"keep_slope", ParamType::boolean,
                    "leave the slope in the straightness (by default squareness holds it)", false,
@@ -249,32 +249,33 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
   table.add(
       {.name = "compensation.activate",
-       .summary = "Puts a stored table in force on its axis, at once and for everybody.",
+       .summary = "Activates a stored table on its axis, at once and for everybody.",
        .params = {{"table", ParamType::integer, "id of the table", true},
                   {"simulated", ParamType::boolean, "also one of simulated data", false, "false"},
                   {"despite_warnings", ParamType::boolean,
                    "also one whose runs carry doubtful notices", false, "false"}},
-       .result = "table, generation, changed: false where it was in force already; "
+       .result = "table, generation, changed: false where it was active already; "
                  "simulated, doubtful",
        .example = R"({"table": 1})",
        .writes = true,
        .approves = true,
        .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
   table.add({.name = "compensation.deactivate",
-             .summary = "Takes the table in force on an axis out of force: none is from then on.",
+             .summary = "Deactivates the table of an axis: none is active from then on.",
              .params = {axis},
-             .result = "axis, generation, changed: false where none was in force",
+             .result = "axis, generation, changed: false where none was active",
              .example = R"({"axis": "X"})",
              .writes = true,
              .approves = true,
              .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
-  table.add({.name = "compensation.status",
-             .summary = "The tables in force by axis, with the generation that tells of a change.",
-             .result = "generation; axes: table, runs, range, sense, simulated, doubtful, who and "
-                       "when",
-             .handler = [&m](const Params&) -> Result<std::string> { return status(m); }});
+  table.add(
+      {.name = "compensation.status",
+       .summary = "The active tables by axis, with the generation, which grows with each change.",
+       .result = "generation; axes: table, runs, range, sense, simulated, doubtful, who and "
+                 "when",
+       .handler = [&m](const Params&) -> Result<std::string> { return status(m); }});
   table.add({.name = "compensation.grid",
-             .summary = "The grid of the table in force, a page at a time: errors, forward and "
+             .summary = "The grid of the active table, a page at a time: errors, forward and "
                         "reverse apart.",
              .params = {axis,
                         offset_param(),

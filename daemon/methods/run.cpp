@@ -190,7 +190,7 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
                              answer_with_run(std::move(reply), station->config().rig.axis));
   }
   reply(fail(ErrorCode::not_found,
-             "run " + std::to_string(id) + " is not under way; server.info tells which are"));
+             "run " + std::to_string(id) + " is not under way; server.info lists those that are"));
 }
 
 // A run that stands as open though nobody measures it says why.

@@ -143,7 +143,7 @@ Result<ActiveTables> load_active(store::Store& store) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     auto active = store.active(axis);
     if (!active && active.error().code == ErrorCode::bad_input) {
-      std::fprintf(stderr, "axis %c has no table in force: %s\n", letter(axis),
+      std::fprintf(stderr, "axis %c has no active table: %s\n", letter(axis),
                    words::text(active.error()).c_str());
       continue;
     }
@@ -171,7 +171,7 @@ Result<ActiveTables> load_active(store::Store& store) {
 
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
-             .summary = "Version, uptime, axes and the compensation generation in force.",
+             .summary = "Version, uptime, axes and the compensation generation.",
              .result = "identity of the daemon; chain: link and sha256 of the head of the chain of "
                        "hashes, which a later check may name; axes with their devices, the run "
                        "under way and what "

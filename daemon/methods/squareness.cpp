@@ -51,8 +51,8 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
                    {},
                    {.least = 0}},
                   {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
-       .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), form_urad (how "
-                 "crooked the axes are) and both slopes, at "
+       .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), form_urad "
+                 "(residual straightness of both axes) and both slopes, at "
                  "the fixture; notices",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,

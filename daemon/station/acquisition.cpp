@@ -249,7 +249,7 @@ void Acquisition::tell_clock(const drivers::ClockState& clock) {
              " s late, or its clock stood still: its samples are suspect until they are in time "
              "again; look at its network and at the load of this machine");
   else if (was && !clock.doubtful)
-    tell(Trouble::Kind::back, "the times of its samples are sure again");
+    tell(Trouble::Kind::back, "the times of its samples are valid again");
 }
 
 bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {

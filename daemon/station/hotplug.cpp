@@ -22,7 +22,7 @@ Result<Hotplug> Hotplug::watch() {
   for (const char* subsystem : {"usb", "hidraw", "tty", "counter", "iio"})
     udev_monitor_filter_add_match_subsystem_devtype(hotplug.monitor_.get(), subsystem, nullptr);
   if (udev_monitor_enable_receiving(hotplug.monitor_.get()) < 0)
-    return io_error("udev does not tell which devices are plugged in");
+    return io_error("udev does not report which devices are plugged in");
   return hotplug;
 }
 

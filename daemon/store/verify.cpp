@@ -35,7 +35,7 @@ Status Store::check_head(const ChainHead& told) {
   MDOF_TRY(const ChainHead now, chain_head());
   return bad_input(file().string() + ": its chain of hashes has no link " +
                    std::to_string(told.link) + " of hash " + told.sha256 +
-                   " any more, which mdofd told last, and ends at link " +
+                   " any more, which mdofd reported last, and ends at link " +
                    std::to_string(now.link) +
                    ": what was stored last is gone, or was changed. Restore the database; or, to "
                    "go on with this one, remove " +

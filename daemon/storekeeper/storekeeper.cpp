@@ -33,7 +33,7 @@ bool has_room(const std::filesystem::path& file) {
 
 std::string not_writable(const Error& error) {
   return words::text(error) +
-         " mdofd serves the tables in force and tries again; until then nothing can be stored";
+         " mdofd serves the active tables and tries again; until then nothing can be stored";
 }
 
 // What is there can be served, though nothing can be stored.

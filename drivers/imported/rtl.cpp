@@ -90,8 +90,9 @@ class Rtl {
                        " targets, and its Target-count is " + std::to_string(target_count_));
     for (std::size_t i = 1; i < targets_.size(); ++i)
       if (!(targets_[i] > targets_[i - 1]))
-        return bad_input(source_ + ": target " + std::to_string(i + 1) +
-                         " is not beyond the one before; forward would not be told from reverse");
+        return bad_input(
+            source_ + ": target " + std::to_string(i + 1) +
+            " is not beyond the one before; forward and reverse could not be distinguished");
     if (series_.readings.size() != run_count_ * target_count_)
       return bad_input(source_ + ": has " + std::to_string(series_.readings.size()) +
                        " deviations; Run-count " + std::to_string(run_count_) + " times " +

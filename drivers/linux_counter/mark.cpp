@@ -17,7 +17,7 @@ Status check_quad8(const std::string& folder, const std::string& count, std::uin
     return io_error(
         path + "/ceiling: is " + std::to_string(ceiling) + " and not " + std::to_string(kCeiling) +
         ", so that what it loads at the mark is not known: set count_mode to normal; an "
-        "old kernel counts a bit more, which a newer one has mended");
+        "old kernel counts a bit more, which a newer one has corrected");
   const std::string number = count.substr(std::string("count").size());
   const auto n = parse_sysfs_integer(number);
   if (!n || *n < 0 || *n > 7) return io_error(path + ": is no count of a " + kQuad8);

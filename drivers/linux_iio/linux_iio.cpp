@@ -31,7 +31,7 @@ Result<std::string> check_chip(const std::string& folder) {
   if (!(std::abs(pF / kAd7746_pF_per_count - 1) < 0.002))
     return io_error(folder + "/in_capacitance_scale: \"" + scale.value_or("") +
                     "\" is not the 0.000000488 pF that this program knows of the chip; the "
-                    "kernel's driver has changed, tell the authors");
+                    "kernel's driver has changed, inform the authors");
   return *chip;
 }
 

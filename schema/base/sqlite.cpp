@@ -44,7 +44,7 @@ struct Advice {
 
 constexpr Advice kAdvice[] = {
     {SQLITE_FULL, "SQLITE_FULL", ErrorCode::io,
-     "The disk is full: free some space and try again; what was stored before is unharmed."},
+     "The disk is full: free some space and try again; what was stored before is unchanged."},
     {SQLITE_READONLY, "SQLITE_READONLY", ErrorCode::io,
      "The file or its folder cannot be written: check their owner and mode and that the file "
      "system "

@@ -94,7 +94,7 @@ Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& sou
   } catch (const toml::parse_error& e) {
     std::ostringstream message;
     message << source_name << ":" << e.source().begin.line
-            << ": not valid TOML: " << e.description() << "; mend this line";
+            << ": not valid TOML: " << e.description() << "; correct this line";
     return bad_input(message.str());
   }
   auto node = std::make_shared<Node>();

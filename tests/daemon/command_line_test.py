@@ -261,8 +261,8 @@ class TheSame(unittest.TestCase):
             self.both("compensation", "build", 1, *form)
             self.both("compensation", "build", "latest", "--axis", "X", "--keep-slope", *form)
         first = self.both("compensation", "activate", 1)
-        self.assertEqual(first, "table 1 is in force, generation 1\n")
-        self.assertEqual(self.both("compensation", "activate", 1), "table 1 is already in force, generation 1\n")
+        self.assertEqual(first, "table 1 is active, generation 1\n")
+        self.assertEqual(self.both("compensation", "activate", 1), "table 1 is already active, generation 1\n")
         self.assertEqual(json.loads(self.both("compensation", "activate", 2, "--json")),
                          {"table": 2, "generation": 2, "changed": True, "simulated": False, "doubtful": False})
         for form in ((), ("--json",), ("--csv",)):
@@ -279,7 +279,7 @@ class TheSame(unittest.TestCase):
         self.assertEqual(self.both("compensation", "deactivate", "--axis", "X"),
                          "axis X is no longer compensated, generation 2\n")
         self.assertEqual(self.both("compensation", "deactivate", "--axis", "X"),
-                         "axis X: no table was in force, generation 2\n")
+                         "axis X: no table was active, generation 2\n")
         with self.assertRaisesRegex(RpcError, "no compensation table is active for axis X"):
             self.client.call("compensation.at", **at)
         status = self.client.call("compensation.status")
@@ -288,7 +288,7 @@ class TheSame(unittest.TestCase):
         self.daemon.stop()
         self.client = self.daemon.start()
         self.assertEqual(self.client.call("compensation.status"), status)
-        self.assertEqual(self.both("compensation", "activate", 1), "table 1 is in force, generation 3\n")
+        self.assertEqual(self.both("compensation", "activate", 1), "table 1 is active, generation 3\n")
         self.assertEqual(self.generation(self.client.call("compensation.at", **at)), 3)
 
 

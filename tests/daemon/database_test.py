@@ -65,7 +65,7 @@ class Database(unittest.TestCase):
             code, out, err = mdof("compensation", "activate", table, "--despite-warnings", "--db",
                                   os.path.join(self.folder.name, "symbolic.db"), "--socket", self.daemon.socket)
             self.assertEqual(code, 0, err)
-            self.assertIn("already in force", out)
+            self.assertIn("already active", out)
         finally:
             other.stop()
 
@@ -181,13 +181,13 @@ class Database(unittest.TestCase):
         self.daemon.kill()
         self.client = self.daemon.start()
         told = self.lost()
-        self.assertIn("which mdofd told last", told)
+        self.assertIn("which mdofd reported last", told)
         now = self.client.call("compensation.status")
         self.assertEqual(now["axes"], {})
         self.assertEqual(now["generation"], status["generation"])
         code, _, err = mdof("compensation", "show", "--db", self.daemon.database)
         self.assertEqual(code, 3)
-        self.assertIn("which mdofd told last", err)
+        self.assertIn("which mdofd reported last", err)
         self.daemon.stop()
         os.remove(self.daemon.database + ".head")  # as the message says
         self.client = self.daemon.start()
@@ -228,7 +228,7 @@ class Database(unittest.TestCase):
                         self.client = self.daemon.start()
                         self.assertEqual(self.client.call("compensation.status")["axes"], {})
                     self.assertIn(f"no link {chain['link']} of hash {chain['sha256']}", self.lost())
-                    self.refused("which mdofd told last", "run.start", axis="X")
+                    self.refused("which mdofd reported last", "run.start", axis="X")
                     code, _, err = mdof("verify", "--db", self.daemon.database, "--head", chain["sha256"])
                     self.assertEqual(code, 1)
                     self.assertIn("(--head)", err)

@@ -78,7 +78,7 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(again["points"], points)
         self.assertIn("periodic error", str(notice_lines(header)))
         table = self.client.call("compensation.build", runs=[run])["table"]
-        with self.assertRaisesRegex(RpcError, "not put in force: .*despite_warnings"):
+        with self.assertRaisesRegex(RpcError, "not activated: .*despite_warnings"):
             self.client.call("compensation.activate", table=table, simulated=True)
         with self.assertRaisesRegex(RpcError, "is simulated.*--simulated, in the call with \"simulated\": true") as no:
             self.client.call("compensation.activate", table=table, despite_warnings=True)

@@ -96,7 +96,7 @@ TEST(IndexSupport, WhoCannotTellSaysWhyAndWhatToDo) {
        "near 0 that looks like motion"},
       {"pokeys57u", channel + counter + "input = \"ultrafast\"\n", "PoKeysLibEncoders.c"},
       {"modbus", host + "profile = \"pokeys57e\"\n" + channel + counter + "input = \"encoder1\"\n",
-       "a Modbus device does not tell"},
+       "a Modbus device does not report"},
       {"mcc_usb1608fs_plus", channel + "input = \"CH0\"\n", "counts nothing"},
       {"qsb", "port = \"/dev/ttyUSB0\"\n" + channel + counter + "input = \"count\"\n", "accepted"},
   };

@@ -189,7 +189,7 @@ std::string cause_of(const Point& point) {
   if (const std::string flag = flag_of(point, kGapClosed); !flag.empty())
     return "the gap of probe " + flag.substr(kGapClosed.size()) +
            " is closed by its standoff_um and sensing_radius_mm: ";
-  if (algo::has_flag(point, kNoAir)) return "the air is not known: ";
+  if (algo::has_flag(point, kNoAir)) return "the ambient conditions are unknown: ";
   return "";
 }
 

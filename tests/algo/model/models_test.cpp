@@ -324,7 +324,7 @@ TEST(Solver, NamesTheErrorsThatFourProbesCannotSee) {
     EXPECT_NE(refused.error().message.find(word), std::string::npos) << refused.error().message;
   }
   EXPECT_EQ(refused.error().message.find("EZX"), std::string::npos);
-  EXPECT_NE(refused.error().message.find("probes A B C D cannot tell apart EYX and ECX (rank 4"),
+  EXPECT_NE(refused.error().message.find("probes A B C D cannot separate EYX and ECX (rank 4"),
             std::string::npos)
       << refused.error().message;
 }

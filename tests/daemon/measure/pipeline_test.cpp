@@ -142,7 +142,7 @@ TEST(Pipeline, AProbeThatIsMissingAtOneStopCostsThatPointAlone) {
     if (i != 2) expect_true_errors(p, 1e3 * p.target_m);
   }
   const auto& lost = run->points[2];
-  EXPECT_SAYS(lost.errors.reason, "probes A B D E cannot tell apart");
+  EXPECT_SAYS(lost.errors.reason, "probes A B D E cannot separate");
   EXPECT_TRUE(std::isnan(lost.point.probe_m[2]));
   EXPECT_FALSE(std::isnan(lost.point.probe_m[1]));
   EXPECT_TRUE(algo::has_flag(lost.point, "lost:C")) << lost.point.flags.size();

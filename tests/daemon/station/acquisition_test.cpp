@@ -349,7 +349,7 @@ TEST(Acquisition, WhileItsClockIsInDoubtSamplesAreSuspect) {
   const auto troubles = collector.troubles();
   ASSERT_EQ(troubles.size(), 2u);
   EXPECT_NE(troubles[0].find("clock: its packets come 0.3 s late"), std::string::npos);
-  EXPECT_NE(troubles[1].find("back: the times of its samples are sure again"), std::string::npos);
+  EXPECT_NE(troubles[1].find("back: the times of its samples are valid again"), std::string::npos);
   EXPECT_TRUE(acquisition.status().standing.empty());
 }
 

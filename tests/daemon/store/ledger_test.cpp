@@ -194,7 +194,7 @@ TEST_F(LedgerTest, AChainCalculatedAnewHasNotTheHeadThatWasTold) {
   for (const Status& noticed :
        {store->check_told_head(), Status(store->active(Axis::x).map([](auto&&) {}))}) {
     ASSERT_FALSE(noticed);
-    EXPECT_TRUE(contains(noticed.error().message, "which mdofd told last"))
+    EXPECT_TRUE(contains(noticed.error().message, "which mdofd reported last"))
         << noticed.error().message;
   }
   EXPECT_EQ(store->verify()->size(), 1u) << store->verify()->front();

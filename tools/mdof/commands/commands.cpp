@@ -25,7 +25,7 @@ constexpr Group kGroups[] = {
     {"compensation", "Build, show and activate compensation tables", ""},
     {"machine", "The machine as a chain: errors at the tool, maps, tests", ""},
     {"form", "Height maps of a surface: clamping, cutting, path of a fast tool servo", ""},
-    {"separate", "Tell the machine's error from the shape of the target", ""},
+    {"separate", "Separate the machine's error from the shape of the target", ""},
     {"encoder", "Where an axis stands whose encoder counts", ""},
     {"device", "The devices: list, probe, monitor",
      "Examples:\n"

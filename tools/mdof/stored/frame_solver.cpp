@@ -115,7 +115,9 @@ bool FrameSolver::correct(const algo::ReadingCorrection& correction, const Sampl
   std::optional<Air> air = Air{};
   if (rig_.physics->dielectric) air = air_of(block, row);
   if (!air) {
-    leave_unsolved(row, "the air of [corrections] dielectric is not known; give it in each row");
+    leave_unsolved(
+        row,
+        "the ambient conditions for [corrections] dielectric are unknown; give it in each row");
     return false;
   }
   const auto corrected = correction.correct(rig_.sides.target_travel_m(block.value[encoder_][row]),

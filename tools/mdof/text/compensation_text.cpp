@@ -77,7 +77,7 @@ std::string corrections_text(const CompensationTable& t, std::size_t width) {
 }
 
 std::string state_of(std::int64_t generation) {
-  return generation > 0 ? "in force, generation " + std::to_string(generation) : "not in force";
+  return generation > 0 ? "active, generation " + std::to_string(generation) : "not active";
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ std::string remarks(const element& device, std::size_t columns) {
   for (const auto& line : texts(device, "trouble")) lines += wrapped(line, columns, 2) + "\n";
   const std::string mended = text(device, "last_error");
   if (lines.empty() && !mended.empty())
-    lines = wrapped("device \"" + text(device, "device") + "\": mended at " +
+    lines = wrapped("device \"" + text(device, "device") + "\": recovered at " +
                         readable_utc(text(device, "mended_utc")) + ": " + mended,
                     columns, 2) +
             "\n";

@@ -35,8 +35,7 @@ Result<std::string> activated(const ActivateCommand& command) {
 Status activate(const ActivateCommand& command) {
   MDOF_TRY(const std::string reply, activated(command));
   const std::string table = "table " + std::to_string(command.table);
-  return print_activation(reply, table + " is in force", table + " is already in force",
-                          command.json);
+  return print_activation(reply, table + " is active", table + " is already active", command.json);
 }
 
 Action declare_activate(CLI::App& command) {
@@ -53,7 +52,7 @@ Action declare_activate(CLI::App& command) {
 
 Command compensation_activate_command() {
   return {.name = "compensation activate",
-          .summary = "Put a table in force on its axis",
+          .summary = "Activate a table on its axis",
           .footer = "Example:\n  mdof compensation activate 1",
           .declare = declare_activate};
 }

@@ -86,9 +86,8 @@ Status build(const BuildCommand& asked) {
                           : write_out(table_text(table, 0)));
   const std::string named = std::to_string(table.id) + (table.simulated ? " --simulated" : "") +
                             (doubtful.empty() ? "" : " --despite-warnings");
-  say(table.has_positioning()
-          ? "stored; a controller gets it by: mdof compensation export " + named
-          : "stored; put it in force with: mdof compensation activate " + named);
+  say(table.has_positioning() ? "stored; a controller gets it by: mdof compensation export " + named
+                              : "stored; activate it with: mdof compensation activate " + named);
   return {};
 }
 

@@ -31,7 +31,7 @@ Result<std::string> deactivated(const DeactivateCommand& command) {
 Status deactivate(const DeactivateCommand& command) {
   MDOF_TRY(const std::string reply, deactivated(command));
   return print_activation(reply, "axis " + command.axis + " is no longer compensated",
-                          "axis " + command.axis + ": no table was in force", command.json);
+                          "axis " + command.axis + ": no table was active", command.json);
 }
 
 Action declare_deactivate(CLI::App& command) {
@@ -49,7 +49,7 @@ Action declare_deactivate(CLI::App& command) {
 
 Command compensation_deactivate_command() {
   return {.name = "compensation deactivate",
-          .summary = "Take the table of an axis out of force",
+          .summary = "Deactivate the table of an axis",
           .footer = "Example:\n  mdof compensation deactivate --axis X",
           .declare = declare_deactivate};
 }

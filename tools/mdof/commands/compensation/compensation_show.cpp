@@ -45,8 +45,7 @@ Status show(const ShowTableCommand& command) {
   MDOF_TRY(const CompensationTable table, choose_table(store, command));
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   if (generation == 0)
-    warn("table " + std::to_string(table.id) + " of axis " + letter(table.axis) +
-         " is not in force");
+    warn("table " + std::to_string(table.id) + " of axis " + letter(table.axis) + " is not active");
   const auto read = daemon::doubtful_notices(store, table);
   if (!read) warn(words::text(read.error()));
   const Notices doubtful = read.value_or(Notices{notice(NoticeCode::run_unreadable)});
@@ -73,7 +72,7 @@ Action declare_show(CLI::App& command) {
 
 Command compensation_show_command() {
   return {.name = "compensation show",
-          .summary = "Show a table [default: the one in force, else the newest]",
+          .summary = "Show a table [default: the active one, else the newest]",
           .footer = "Example:\n  mdof compensation show --axis X --csv > table_X.csv",
           .declare = declare_show};
 }

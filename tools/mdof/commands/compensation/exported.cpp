@@ -50,9 +50,9 @@ Status judge_table(store::Store& store, const CompensationTable& table,
   // Positioning is never in force: mdofd does not serve it.
   if (generation > 0 || table.has_positioning()) return {};
   if (!request.not_in_force)
-    return bad_input(name + " is not in force; activate it (mdof compensation activate " +
+    return bad_input(name + " is not active; activate it (mdof compensation activate " +
                      std::to_string(table.id) + "), or ask with --not-in-force");
-  marks.push_back("NOT IN FORCE: " + name + " was not in force when it was exported");
+  marks.push_back("NOT ACTIVE: " + name + " was not active when it was exported");
   return {};
 }
 
@@ -98,7 +98,7 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
                    "Of a table with missing values, the longest range without");
   add_consent_flags(command, request.consent, "a table, marked as such,");
   command.add_flag("--not-in-force", request.not_in_force,
-                   "Also a table that is not in force, marked as such");
+                   "Also a table that is not active, marked as such");
   command.add_flag("--unverified-sign", request.unverified_sign,
                    "Also where the sense of the controller's values is not confirmed");
   add_database_option(command, request.database);

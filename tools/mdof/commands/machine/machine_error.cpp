@@ -77,7 +77,7 @@ std::string error_json(const Machine& machine, const FoundError& found,
 
 std::string compensating_text(const Machine& machine, const FoundError& found) {
   const auto& c = found.compensating;
-  std::string text = "the tool comes to the nominal place with";
+  std::string text = "the tool reaches the nominal position with";
   for (const MachineFrame& frame : machine.frames)
     if (frame.kind == FrameKind::linear) {
       const double to = algo::command_of(frame, c.command);

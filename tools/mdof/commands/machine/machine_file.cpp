@@ -122,7 +122,7 @@ void add_machine_argument(CLI::App& command, std::string& file) {
 void add_approach_option(CLI::App& command, std::string& approach) {
   command
       .add_option("--approach", approach,
-                  "The way the axes have come, where tables tell them apart")
+                  "The way the axes have come, where tables distinguish them")
       ->check(CLI::IsMember({"mean", "forward", "reverse"}))
       ->capture_default_str();
 }

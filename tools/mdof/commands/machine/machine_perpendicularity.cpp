@@ -36,11 +36,11 @@ std::string counted_text(const algo::Perpendicularity& p) {
   if (!p.tilt_known)
     text +=
         "The table's tilt motion is not given (EAC_urad, EBC_urad): its part that goes twice a "
-        "turn counts as a lean.\n";
+        "turn counts as a tilt.\n";
   if (!p.axes_known)
     text +=
         "The errors of X and Y are not given (axes_um): what of them goes once a turn counts as "
-        "a lean.\n";
+        "a tilt.\n";
   return text;
 }
 
@@ -88,10 +88,11 @@ std::string perpendicularity_text(const algo::Perpendicularity& p, bool simulate
   return noise_only_notice(true) + simulated_notice(simulated) + "EA0C = " + tilt(p.EA0C_rad) +
          " µrad, EB0C = " + tilt(p.EB0C_rad) +
          " µrad, expanded U of each = " + urad_to_place(p.U_rad, p.U_rad) +
-         " (k = " + fixed(p.k, 2) + ", 95 %)\n" + "the table's axis leans by " +
-         urad_to_place(p.size_rad, p.U_rad) + " µrad against the normal of the XY plane\n" +
-         table.text(terminal_columns()) + "residual " + in_um(p.residual_sd_m) +
-         " µm; ± one standard uncertainty, of the readings' noise\n" + counted_text(p);
+         " (k = " + fixed(p.k, 2) + ", 95 %)\n" +
+         "squareness of the table axis to the XY plane: " + urad_to_place(p.size_rad, p.U_rad) +
+         " µrad off its normal\n" + table.text(terminal_columns()) + "residual " +
+         in_um(p.residual_sd_m) + " µm; ± one standard uncertainty, of the readings' noise\n" +
+         counted_text(p);
 }
 
 Status machine_perpendicularity(const PerpendicularityCommand& o) {
@@ -127,7 +128,7 @@ Action declare_machine_perpendicularity(CLI::App& command) {
   command.add_option("--radius-mm", o->radius_mm, "Of the circle")
       ->required()
       ->check(positive_number());
-  command.add_option("--harmonics", o->harmonics, "That are told apart")
+  command.add_option("--harmonics", o->harmonics, "Number of harmonics that are separated")
       ->check(CLI::Range(1, 50))
       ->capture_default_str();
   add_json_flag(command, o->json);
@@ -138,7 +139,7 @@ Action declare_machine_perpendicularity(CLI::App& command) {
 
 Command machine_perpendicularity_command() {
   return {.name = "machine perpendicularity",
-          .summary = "How a rotary table leans against the XY plane, from a circle",
+          .summary = "Squareness of a rotary table's axis to the XY plane, from a circle",
           .footer = "Example:\n  mdof machine perpendicularity circle.csv --radius-mm 100",
           .declare = declare_machine_perpendicularity};
 }

@@ -82,7 +82,7 @@ Action declare_drift(CLI::App& command) {
 
 Command drift_command() {
   return {.name = "drift",
-          .summary = "Tell from a log of a parked axis when the system has warmed up",
+          .summary = "Find in a log of a parked axis when the system has warmed up",
           .footer =
               "Exit code 1: not ready yet. The drift of a run is in mdof analyse.\n"
               "Example:\n  mdof drift parked.csv --rig rig_X.toml --limit-nm-per-h 100",

@@ -91,7 +91,7 @@ Action declare_import(CLI::App& command) {
       .add_option("--error", o->request.error,
                   "What was measured, such as EYX [default: positioning, EXX of X]")
       ->type_name("NAME");
-  command.add_option("--format", o->request.format, "[default: told by the file]")
+  command.add_option("--format", o->request.format, "[default: as in the file]")
       ->check(CLI::IsMember({"csv", "iso230-2", "rtl"}));
   command
       .add_option("--u-um", o->u_um,

@@ -72,7 +72,7 @@ std::string squareness_text(const Squareness& s, const std::vector<Budget>& budg
          ", 95 %)\n"
          "the angle from +X to +Y is 90° + EC0Y\n"
          "form " +
-         in_urad(s.form_rad) + " µrad: how crooked the axes are\n" +
+         in_urad(s.form_rad) + " µrad: residual straightness of both axes\n" +
          wrapped("± one standard uncertainty: " + covers_text(budget) +
                      "; mdof budget has the contributors. Slopes at the fixture.",
                  terminal_columns()) +

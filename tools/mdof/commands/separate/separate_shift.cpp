@@ -66,7 +66,7 @@ Action declare_separate_shift(CLI::App& command) {
   command
       .add_option("--shift-mm", o->shift_mm,
                   "Of each set-up, how far the target lay along + of the axis: 0 for the first. Of "
-                  "one turned end for end, where its zero came to lie")
+                  "one turned end for end, where its zero is")
       ->required()
       ->expected(2, 64)
       ->type_name("MM");

@@ -107,7 +107,7 @@ Command separate_square_command() {
           .summary = "Squareness and the angle of the square, which was turned over in between",
           .footer =
               "EC0Y = (first + second)/2, and the square's own angle error is half of the "
-              "difference. Which way it goes in, the planes of the rigs tell.\n"
+              "difference. The planes of the rigs decide its sign.\n"
               "Example:\n"
               "  mdof separate square 1 2 3 4",
           .declare = declare_separate_square};

@@ -58,7 +58,7 @@ Status add_file(const SourceOptions& options, const std::string& file, LoadedSou
   for (const SeparationSource& before : loaded.record.sources)
     if (before.sha256 == source.sha256)
       return bad_input(file + ": has the same bytes as " + before.name +
-                       "; readings that count twice tell nothing apart: give each set-up its own");
+                       "; readings that count twice separate nothing: give each set-up its own");
   algo::SetUp set_up;
   for (const double x : csv.columns[0]) set_up.position_m.push_back(from_mm(x));
   for (const double x : csv.columns[1]) set_up.error_m.push_back(from_um(x));

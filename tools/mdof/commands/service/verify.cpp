@@ -87,7 +87,7 @@ Status verify(const VerifyCommand& command) {
     return fail(
         ErrorCode::usage,
         "verify: --head \"" + command.head +
-            "\" is not a SHA-256 of 64 digits 0-9 a-f; mdofd tells it in its journal and in "
+            "\" is not a SHA-256 of 64 digits 0-9 a-f; mdofd reports it in its journal and in "
             "server.info");
   SourceCheck check;
   store::ChainHead head;
@@ -113,9 +113,10 @@ Action declare_verify(CLI::App& command) {
                                     "Check this recording instead (or, with --db, too)")
                         ->type_name("FILE.mdofrec");
   command
-      .add_option("--head", o->head,
-                  "A hash that mdofd told (journal, server.info): find out whether what was stored "
-                  "until then was cut off or changed")
+      .add_option(
+          "--head", o->head,
+          "A hash that mdofd reported (journal, server.info): find out whether what was stored "
+          "until then was cut off or changed")
       ->type_name("HASH")
       ->excludes(recording);
   add_json_flag(command, o->json);

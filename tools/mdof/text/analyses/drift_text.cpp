@@ -131,7 +131,7 @@ std::string drift_text(const Run& run, const DriftOfStored& drift, std::size_t w
   std::string text;
   if (!drift.found.closures.empty()) text = closures_text(run, drift.found.closures, width) + "\n";
   if (!drift.found.not_seen.empty())
-    return text + wrapped("no drift can be told: " + drift.found.not_seen, width) + "\n";
+    return text + wrapped("no drift can be estimated: " + drift.found.not_seen, width) + "\n";
   text += changes_table(run, drift.found, width);
   if (!drift.without.empty()) text += "\n" + without_text(run, drift.without, width);
   const std::string notice = drift_notice(run, drift.found, width);

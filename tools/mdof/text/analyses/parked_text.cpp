@@ -59,7 +59,7 @@ std::string rates_text(const daemon::ParkedLog& log, const algo::WarmUp& found, 
 std::string temperature_text(const daemon::ParkedLog& log, const algo::WarmUp& found,
                              std::size_t width) {
   if (found.with_temperature.empty())
-    return "the log has no temperature_C: what drifts with it cannot be told\n";
+    return "the log has no temperature_C: what drifts with it is unknown\n";
   TextTable table({"with temperature", "per °C", "correlation"});
   for (std::size_t s = 0; s < found.with_temperature.size(); ++s) {
     const auto& with = found.with_temperature[s];
@@ -94,7 +94,7 @@ std::string what_keeps_it(const daemon::ParkedLog& log, const algo::WarmUp& foun
             with_u(shown(log, s, last.rate_per_s), shown(log, s, last.u_rate_per_s), 1) +
             (is_angle(log, s) ? " µrad/h" : " nm/h") +
             (last.verdict == algo::DriftVerdict::undecided
-                 ? ", too uncertain to tell: take longer windows (--window-s)"
+                 ? ", too uncertain to decide: take longer windows (--window-s)"
                  : "");
   }
   return worst;

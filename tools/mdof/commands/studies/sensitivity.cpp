@@ -4,12 +4,12 @@
 //   makes the analyses of the plan, stores, draws and prints
 #include <CLI/CLI.hpp>
 
+#include "daemon/output/charts/study/study_plots.h"
 #include "daemon/paths.h"
 #include "daemon/words/error_text.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/interrupt.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/plot/study_plots.h"
 #include "tools/mdof/study/analyses.h"
 #include "tools/mdof/study/json.h"
 #include "tools/mdof/study/output.h"
@@ -92,7 +92,7 @@ Result<Job> make_job(Start start, unsigned threads, Processes& processes) {
 }
 
 Status draw(const SensitivityCommand& command, const StudyResult& result) {
-  return command.plots.empty() ? Status() : write_study_plots(result, command.plots);
+  return command.plots.empty() ? Status() : charts::write_study_plots(result, command.plots);
 }
 
 // The key of an output that no trial gave; "": none.

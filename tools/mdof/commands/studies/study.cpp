@@ -1,9 +1,9 @@
 // mdof study ID: the result of a stored sensitivity study.
 #include <CLI/CLI.hpp>
 
+#include "daemon/output/charts/study/study_plots.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
-#include "tools/mdof/plot/study_plots.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/study/json.h"
 #include "tools/mdof/study/output.h"
@@ -34,7 +34,7 @@ Status show_study(const ShowStudyCommand& command) {
   result.started_utc = record.started_utc;
   result.elapsed_s = outcome->elapsed_s;
   result.state = outcome->state;
-  if (!command.plots.empty()) MDOF_CHECK(write_study_plots(result, command.plots));
+  if (!command.plots.empty()) MDOF_CHECK(charts::write_study_plots(result, command.plots));
   const StudyForm form = command.json  ? StudyForm::json
                          : command.csv ? StudyForm::csv
                                        : StudyForm::text;

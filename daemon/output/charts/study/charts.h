@@ -5,7 +5,7 @@
 
 #include "schema/study/study.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 
 // Each says whether its plot has anything to show, and draws it then.
 bool has_histogram(const OutputSummary& output);
@@ -23,4 +23,4 @@ std::string convergence_svg(const StudyResult& result);
 bool has_frontier(const StudyResult& result);
 std::string frontier_svg(const StudyResult& result);
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

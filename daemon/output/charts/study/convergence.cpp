@@ -5,12 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/mdof/plot/charts.h"
-#include "tools/mdof/plot/labels.h"
-#include "tools/mdof/plot/panel.h"
-#include "tools/mdof/plot/style.h"
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/panel.h"
+#include "daemon/output/charts/study/charts.h"
+#include "daemon/output/charts/style.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 constexpr std::size_t kMostDots = 40;
@@ -98,4 +98,4 @@ std::string convergence_svg(const StudyResult& result) {
   return svg.take();
 }
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 
 struct Place {
   double x = 0, y = 0;
@@ -44,4 +44,4 @@ class Svg {
   std::string text_;
 };
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

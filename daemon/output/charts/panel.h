@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/output/charts/axis.h"
+#include "daemon/output/charts/svg.h"
 #include "schema/study/study.h"
-#include "tools/mdof/plot/axis.h"
-#include "tools/mdof/plot/svg.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 
 inline constexpr double kMarginPx = 24;  // around everything
 
@@ -71,4 +71,4 @@ struct Step {
 void draw_band(Svg& svg, const Panel& panel, std::string_view mark, std::span<const Step> steps);
 void draw_steps(Svg& svg, const Panel& panel, std::string_view mark, std::span<const Step> steps);
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

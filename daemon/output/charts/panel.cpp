@@ -1,13 +1,13 @@
-#include "tools/mdof/plot/panel.h"
+#include "daemon/output/charts/panel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "tools/mdof/plot/labels.h"
-#include "tools/mdof/plot/style.h"
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/style.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 constexpr double kSignPx = 26, kItemGapPx = 22, kLegendRowPx = 20;  // of a legend
@@ -153,4 +153,4 @@ void draw_steps(Svg& svg, const Panel& panel, std::string_view mark, std::span<c
   });
 }
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/mdof/plot/charts.h"
-#include "tools/mdof/plot/labels.h"
-#include "tools/mdof/plot/panel.h"
-#include "tools/mdof/plot/style.h"
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/panel.h"
+#include "daemon/output/charts/study/charts.h"
+#include "daemon/output/charts/style.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 constexpr double kCausePx = 30, kBarPx = 9, kAboveCausesPx = 40, kBelowCausesPx = 52;
@@ -150,4 +150,4 @@ std::string indices_svg(const StudyResult& result) {
   return svg.take();
 }
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

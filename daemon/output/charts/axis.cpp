@@ -1,12 +1,12 @@
-#include "tools/mdof/plot/axis.h"
+#include "daemon/output/charts/axis.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tools/mdof/plot/labels.h"
-#include "tools/mdof/plot/style.h"
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/style.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 constexpr double kLargest = 1e300, kLeastSpan = 1e-290;
@@ -154,4 +154,4 @@ Axis logarithmic_axis(const Range& range, double length_px) {
   return axis;
 }
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

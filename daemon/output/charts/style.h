@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 
 inline constexpr double kWidthPx = 800;  // of every plot
 inline constexpr double kTitlePx = 17, kTextPx = 12, kTickPx = 11;
@@ -25,4 +25,4 @@ std::span<const Colour> colours();
 // librsvg, Inkscape and LibreOffice do not know. They show the light ones.
 std::string style_sheet();
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

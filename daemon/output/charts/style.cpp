@@ -1,8 +1,8 @@
-#include "tools/mdof/plot/style.h"
+#include "daemon/output/charts/style.h"
 
 #include <array>
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 constexpr std::array<Colour, 17> kColours = {{
@@ -60,4 +60,4 @@ std::string style_sheet() {
   return css + "}";
 }
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

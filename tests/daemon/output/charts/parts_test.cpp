@@ -8,13 +8,13 @@
 #include <limits>
 #include <set>
 
-#include "tests/tools/plot/xml_check.h"
-#include "tools/mdof/plot/axis.h"
-#include "tools/mdof/plot/labels.h"
-#include "tools/mdof/plot/style.h"
-#include "tools/mdof/plot/svg.h"
+#include "daemon/output/charts/axis.h"
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/style.h"
+#include "daemon/output/charts/svg.h"
+#include "tests/daemon/output/charts/xml_check.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -246,4 +246,4 @@ TEST(PlotStyle, SaysBothColoursOfEveryMark) {
 }
 
 }  // namespace
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

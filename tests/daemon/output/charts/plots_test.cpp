@@ -10,11 +10,11 @@
 #include <map>
 #include <set>
 
+#include "daemon/output/charts/study/study_plots.h"
 #include "schema/base/sha256.h"
-#include "tests/tools/plot/xml_check.h"
-#include "tools/mdof/plot/study_plots.h"
+#include "tests/daemon/output/charts/xml_check.h"
 
-namespace mdof::tools {
+namespace mdof {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,7 +111,7 @@ class Plots : public testing::Test {
 
   // Every file written, by its name; each has to be well-formed and free of NaN and infinity.
   std::map<std::string, std::string> write(const StudyResult& result) {
-    const Status written = write_study_plots(result, folder_);
+    const Status written = charts::write_study_plots(result, folder_);
     EXPECT_TRUE(written) << written.error().message;
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -263,13 +263,13 @@ TEST_F(Plots, SayWhenExtremesAreCutOff) {
 }
 
 TEST_F(Plots, NeedAFolderThatCanBeWritten) {
-  const Status in_a_file = write_study_plots(study(), "/dev/null/plots");
+  const Status in_a_file = charts::write_study_plots(study(), "/dev/null/plots");
   ASSERT_FALSE(in_a_file);
   EXPECT_EQ(in_a_file.error().code, ErrorCode::io);
   EXPECT_NE(in_a_file.error().message.find("/dev/null/plots: the folder"), std::string::npos);
   EXPECT_NE(in_a_file.error().message.find("name one that can be written"), std::string::npos);
   fs::create_directories(folder_ / "histogram-EYX_um.svg" / "full");
-  const Status no_file = write_study_plots(study(), folder_);
+  const Status no_file = charts::write_study_plots(study(), folder_);
   ASSERT_FALSE(no_file);
   EXPECT_NE(no_file.error().message.find("histogram-EYX_um.svg: cannot be written"),
             std::string::npos);
@@ -277,4 +277,4 @@ TEST_F(Plots, NeedAFolderThatCanBeWritten) {
 }
 
 }  // namespace
-}  // namespace mdof::tools
+}  // namespace mdof

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 
 // A power of ten, rounded once; 0 or infinite outside the range of a double.
 double power_of_ten(int exponent);
@@ -31,4 +31,4 @@ double text_width(std::string_view text, double font_px);
 // At most so many characters; what is left out is a "…".
 std::string shortened(std::string_view text, std::size_t characters);
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

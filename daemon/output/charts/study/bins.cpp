@@ -6,12 +6,12 @@
 #include <limits>
 #include <vector>
 
-#include "tools/mdof/plot/charts.h"
-#include "tools/mdof/plot/labels.h"
-#include "tools/mdof/plot/panel.h"
-#include "tools/mdof/plot/style.h"
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/panel.h"
+#include "daemon/output/charts/study/charts.h"
+#include "daemon/output/charts/style.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -135,4 +135,4 @@ std::string bins_svg(const StudyResult& result) {
   return svg.take();
 }
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

@@ -1,4 +1,4 @@
-#include "tools/mdof/plot/labels.h"
+#include "daemon/output/charts/labels.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "schema/base/number/number.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 struct Unit {
@@ -149,4 +149,4 @@ std::string shortened(std::string_view text, std::size_t characters) {
   return std::string(text);
 }
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

@@ -1,4 +1,4 @@
-#include "tools/mdof/plot/svg.h"
+#include "daemon/output/charts/svg.h"
 
 #include <simdjson.h>
 
@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "tools/mdof/plot/style.h"
+#include "daemon/output/charts/style.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 constexpr const char* kReplacement = "\xef\xbf\xbd";
@@ -140,4 +140,4 @@ std::string Svg::take() {
   return std::move(text_);
 }
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

@@ -1,14 +1,14 @@
-#include "tools/mdof/plot/study_plots.h"
+#include "daemon/output/charts/study/study_plots.h"
 
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/study/charts.h"
 #include "schema/base/output/output_files.h"
-#include "tools/mdof/plot/charts.h"
-#include "tools/mdof/plot/labels.h"
 
-namespace mdof::tools {
+namespace mdof::charts {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,7 +39,7 @@ std::string file_name(std::string_view key) {
 }
 
 std::string bins_file(const StudyResult& result) {
-  return "error-against-" + file_name(plot::split_key(result.binned_key).name) + ".svg";
+  return "error-against-" + file_name(split_key(result.binned_key).name) + ".svg";
 }
 
 }  // namespace
@@ -52,15 +52,13 @@ Status write_study_plots(const StudyResult& result, const fs::path& folder) {
     return files.write(file, svg);
   };
   for (const OutputSummary& output : result.outputs)
-    if (plot::has_histogram(output))
-      MDOF_CHECK(
-          add("histogram-" + file_name(output.key) + ".svg", plot::histogram_svg(result, output)));
-  if (plot::has_bins(result)) MDOF_CHECK(add(bins_file(result), plot::bins_svg(result)));
-  if (plot::has_indices(result)) MDOF_CHECK(add("sensitivity.svg", plot::indices_svg(result)));
-  if (plot::has_convergence(result))
-    MDOF_CHECK(add("convergence.svg", plot::convergence_svg(result)));
-  if (plot::has_frontier(result)) MDOF_CHECK(add("allocation.svg", plot::frontier_svg(result)));
+    if (has_histogram(output))
+      MDOF_CHECK(add("histogram-" + file_name(output.key) + ".svg", histogram_svg(result, output)));
+  if (has_bins(result)) MDOF_CHECK(add(bins_file(result), bins_svg(result)));
+  if (has_indices(result)) MDOF_CHECK(add("sensitivity.svg", indices_svg(result)));
+  if (has_convergence(result)) MDOF_CHECK(add("convergence.svg", convergence_svg(result)));
+  if (has_frontier(result)) MDOF_CHECK(add("allocation.svg", frontier_svg(result)));
   return files.publish();
 }
 
-}  // namespace mdof::tools
+}  // namespace mdof::charts

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/mdof/plot/charts.h"
-#include "tools/mdof/plot/labels.h"
-#include "tools/mdof/plot/panel.h"
-#include "tools/mdof/plot/style.h"
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/panel.h"
+#include "daemon/output/charts/study/charts.h"
+#include "daemon/output/charts/style.h"
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 namespace {
 
 constexpr double kIntervalPx = 22, kBarsPx = 250, kLeftPx = 132;
@@ -155,4 +155,4 @@ std::string histogram_svg(const StudyResult& result, const OutputSummary& output
   return svg.take();
 }
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace mdof::tools::plot {
+namespace mdof::charts {
 
 // What of a quantity is drawn. Numbers that are not finite are left out; magnitudes above 1e300
 // are taken as 1e300, so that no difference overflows.
@@ -47,4 +47,4 @@ Axis vertical_axis(const Range& range, double length_px);
 // Of what is within 1e±150. Ticks at powers of ten, and at 2 and 5 times those where there is room.
 Axis logarithmic_axis(const Range& range, double length_px);
 
-}  // namespace mdof::tools::plot
+}  // namespace mdof::charts

@@ -6,7 +6,7 @@
 #include "schema/base/result.h"
 #include "schema/study/study.h"
 
-namespace mdof::tools {
+namespace mdof::charts {
 
 // Writes into the folder, which is made where it is missing:
 //   histogram-KEY.svg         each output with a solved trial: histogram, mean, coverage intervals
@@ -19,4 +19,4 @@ namespace mdof::tools {
 // the keys. Error: io, naming the folder or file and the remedy. Any thread.
 Status write_study_plots(const StudyResult& result, const std::filesystem::path& folder);
 
-}  // namespace mdof::tools
+}  // namespace mdof::charts

@@ -90,6 +90,13 @@ void add_model_option(CLI::App& command, std::string& model) {
       ->capture_default_str();
 }
 
+void add_language_option(CLI::App& command, std::string& language) {
+  command.add_option("--language", language, "Of the labels: en or de")
+      ->check(CLI::IsMember({"en", "de"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+}
+
 CLI::Option* add_reference_option(CLI::App& command, std::string& reference) {
   return command
       .add_option("--reference", reference,

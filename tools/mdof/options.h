@@ -31,9 +31,10 @@ void add_limit_options(CLI::App& command, LimitOptions& limits);
 // --simulated and --despite-warnings: what passes the gate all the same. `what`: "a table".
 void add_consent_flags(CLI::App& command, daemon::Consent& consent, const std::string& what);
 void add_database_option(CLI::App& command, std::string& database);
-void add_socket_option(CLI::App& command, std::string& socket);   // sets the default
-void add_only_axis_option(CLI::App& command, std::string& axis);  // X, Y or Z
-void add_model_option(CLI::App& command, std::string& model);     // one of the three names
+void add_socket_option(CLI::App& command, std::string& socket);      // sets the default
+void add_only_axis_option(CLI::App& command, std::string& axis);     // X, Y or Z
+void add_model_option(CLI::App& command, std::string& model);        // one of the three names
+void add_language_option(CLI::App& command, std::string& language);  // "en" or "de"
 // One of the names of schema/rig/reference.h.
 CLI::Option* add_reference_option(CLI::App& command, std::string& reference);
 

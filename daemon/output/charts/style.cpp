@@ -41,6 +41,17 @@ constexpr const char* kShapes =
     ".mdof .dash{stroke-dasharray:6 3}"
     ".mdof .dot{stroke-dasharray:1.5 3}";
 
+constexpr const char* kMarksOfRuns =
+    ".mdof .hollow{fill:#ffffff}"
+    ".mdof rect.orange,.mdof polygon.ink{stroke-width:1.2}"
+    ".mdof .thin{stroke-width:1}"
+    ".mdof .cross{stroke:#1f2328;stroke-width:1.4}"
+    ".mdof .forward-band{fill:#0066a8;fill-opacity:.16;stroke:#0066a8;stroke-width:.6}"
+    ".mdof .reverse-band{fill:#b84a00;fill-opacity:.16;stroke:#b84a00;stroke-width:.6;"
+    "stroke-dasharray:4 2}"
+    ".mdof .grey-band{fill:#6e7781;fill-opacity:.16;stroke:#6e7781;stroke-width:.6}"
+    ".mdof .alarm{fill:#b3261e;font-weight:600}";
+
 void append_rules(std::string& css, const char* Colour::*shade) {
   for (const Colour& c : kColours)
     css += std::string(".mdof .") + c.mark + "{" + c.property + ":" + c.*shade + "}";
@@ -58,6 +69,12 @@ std::string style_sheet() {
   css += "@media (prefers-color-scheme:dark){";
   append_rules(css, &Colour::dark);
   return css + "}";
+}
+
+std::string printed_style_sheet() {
+  std::string css = kShapes;
+  append_rules(css, &Colour::light);
+  return css + kMarksOfRuns;
 }
 
 }  // namespace mdof::charts

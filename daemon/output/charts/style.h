@@ -24,5 +24,8 @@ std::span<const Colour> colours();
 // The style sheet. Plain colours with those for dark in a media query, and no CSS variables, which
 // librsvg, Inkscape and LibreOffice do not know. They show the light ones.
 std::string style_sheet();
+// In light colours alone, with the marks of runs: shapes and dashes that a black-and-white print
+// tells apart.
+std::string printed_style_sheet();
 
 }  // namespace mdof::charts

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "daemon/output/charts/style.h"
 
@@ -77,33 +78,41 @@ std::string xml_escaped(std::string_view text) {
   return out;
 }
 
-Svg::Svg(double width, double height, std::string_view title, std::string_view description) {
+std::string exact_text(double x) {
+  if (!std::isfinite(x)) return "";
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, x + 0.0).ptr};
+}
+
+Svg::Svg(double width, double height, std::string_view title, std::string_view description,
+         Theme theme) {
   text_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"";
   text_ += attribute("class", "mdof") + attribute("role", "img") + attribute("width", width) +
            attribute("height", height) +
            attribute("viewBox", "0 0 " + px(width) + ' ' + px(height)) + ">\n";
   text_ += "<title>" + xml_escaped(title) + "</title>\n";
   text_ += "<desc>" + xml_escaped(description) + "</desc>\n";
-  text_ += "<style>" + style_sheet() + "</style>\n";
+  text_ +=
+      "<style>" + (theme == Theme::light ? printed_style_sheet() : style_sheet()) + "</style>\n";
   rect("paper", {0, 0}, width, height);
 }
 
 void Svg::rect(std::string_view mark, Place corner, double width, double height) {
   text_ += "<rect" + attribute("class", mark) + attribute("x", corner.x) +
            attribute("y", corner.y) + attribute("width", std::max(width, 0.0)) +
-           attribute("height", std::max(height, 0.0)) + "/>\n";
+           attribute("height", std::max(height, 0.0)) + data_of_next() + "/>\n";
 }
 
 void Svg::line(std::string_view mark, Place from, Place to) {
   text_ += "<line" + attribute("class", mark) + attribute("x1", from.x) + attribute("y1", from.y) +
-           attribute("x2", to.x) + attribute("y2", to.y) + "/>\n";
+           attribute("x2", to.x) + attribute("y2", to.y) + data_of_next() + "/>\n";
 }
 
 void Svg::points(std::string_view element, std::string_view mark, std::span<const Place> places) {
   std::string list;
   for (const Place& p : places) list += (list.empty() ? "" : " ") + px(p.x) + ',' + px(p.y);
-  text_ +=
-      '<' + std::string(element) + attribute("class", mark) + attribute("points", list) + "/>\n";
+  text_ += '<' + std::string(element) + attribute("class", mark) + attribute("points", list) +
+           data_of_next() + "/>\n";
 }
 
 void Svg::polyline(std::string_view mark, std::span<const Place> places) {
@@ -116,7 +125,7 @@ void Svg::polygon(std::string_view mark, std::span<const Place> places) {
 
 void Svg::dot(std::string_view mark, Place centre, double radius) {
   text_ += "<circle" + attribute("class", mark) + attribute("cx", centre.x) +
-           attribute("cy", centre.y) + attribute("r", radius) + "/>\n";
+           attribute("cy", centre.y) + attribute("r", radius) + data_of_next() + "/>\n";
 }
 
 void Svg::text(std::string_view mark, Place base, Anchor anchor, std::string_view text) {
@@ -124,11 +133,29 @@ void Svg::text(std::string_view mark, Place base, Anchor anchor, std::string_vie
   text_ += "<text" + attribute("class", mark) + attribute("x", base.x) + attribute("y", base.y);
   if (anchor == Anchor::middle) text_ += attribute("text-anchor", "middle");
   if (anchor == Anchor::end) text_ += attribute("text-anchor", "end");
-  text_ += '>' + xml_escaped(text) + "</text>\n";
+  text_ += data_of_next() + '>' + xml_escaped(text) + "</text>\n";
+}
+
+Svg& Svg::data(std::string_view name, double value) {
+  const std::string number = exact_text(value);
+  return number.empty() ? *this : data(name, number);
+}
+
+Svg& Svg::data(std::string_view name, std::string_view value) {
+  data_ += attribute("data-" + std::string(name), xml_escaped(value));
+  return *this;
+}
+
+std::string Svg::data_of_next() {
+  return std::exchange(data_, "");
 }
 
 void Svg::begin_group(std::string_view tooltip) {
-  text_ += "<g><title>" + xml_escaped(tooltip) + "</title>\n";
+  text_ += "<g" + data_of_next() + "><title>" + xml_escaped(tooltip) + "</title>\n";
+}
+
+void Svg::begin_group() {
+  text_ += "<g" + data_of_next() + ">\n";
 }
 
 void Svg::end_group() {

@@ -19,11 +19,18 @@ enum class Anchor { start, middle, end };
 // UTF-8, as U+FFFD.
 std::string xml_escaped(std::string_view text);
 
+// As it is read back to the same bits; "" for what is not finite.
+std::string exact_text(double x);
+
+// Light: dark screens show it in light colours too, as what will be printed.
+enum class Theme { adaptive, light };
+
 class Svg {
  public:
   // `title` is what a browser shows as its name, `description` the plot in words for whoever
   // cannot see it.
-  Svg(double width, double height, std::string_view title, std::string_view description);
+  Svg(double width, double height, std::string_view title, std::string_view description,
+      Theme theme = Theme::adaptive);
 
   // `mark`: classes of style.h, separated by spaces.
   void rect(std::string_view mark, Place corner, double width, double height);
@@ -32,8 +39,13 @@ class Svg {
   void polygon(std::string_view mark, std::span<const Place> places);
   void dot(std::string_view mark, Place centre, double radius);
   void text(std::string_view mark, Place base, Anchor anchor, std::string_view text);  // "": none
+  // The next element carries it as data-NAME, for programs: a number as exact_text(), left out
+  // where that is empty.
+  Svg& data(std::string_view name, double value);
+  Svg& data(std::string_view name, std::string_view value);
   // What follows, up to end_group, has this as its tooltip.
   void begin_group(std::string_view tooltip);
+  void begin_group();  // without one
   void end_group();
 
   // The document with its end; nothing may follow.
@@ -41,7 +53,8 @@ class Svg {
 
  private:
   void points(std::string_view element, std::string_view mark, std::span<const Place> places);
-  std::string text_;
+  std::string data_of_next();
+  std::string text_, data_;
 };
 
 }  // namespace mdof::charts

@@ -2,9 +2,9 @@
 
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/study/charts.h"
 #include "schema/base/output/output_files.h"
 
@@ -13,31 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Status make_folder(const fs::path& folder) {
-  std::error_code ec;
-  fs::create_directories(folder, ec);
-  if (!ec && fs::is_directory(folder, ec)) return {};
-  return io_error(folder.string() + ": the folder for the plots cannot be made: " +
-                  (ec ? ec.message() : "a file has this name") + "; name one that can be written");
-}
-
-// Keys are words already; whatever else one contains becomes its bytes in hexadecimal, so that
-// different keys stay different files.
-std::string file_name(std::string_view key) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-";
-  std::string name;
-  for (const char c : key) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (kPlain.find(c) != std::string_view::npos)
-      name += c;
-    else
-      name += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
-  }
-  return name;
-}
-
 std::string bins_file(const StudyResult& result) {
   return "error-against-" + file_name(split_key(result.binned_key).name) + ".svg";
 }
@@ -45,7 +20,7 @@ std::string bins_file(const StudyResult& result) {
 }  // namespace
 
 Status write_study_plots(const StudyResult& result, const fs::path& folder) {
-  MDOF_CHECK(make_folder(folder));
+  MDOF_CHECK(make_plot_folder(folder));
   OutputFiles files(Existing::replace);
   const auto add = [&](const std::string& name, const std::string& svg) -> Status {
     MDOF_TRY(const std::size_t file, files.add(folder / name));

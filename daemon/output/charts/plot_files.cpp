@@ -1,0 +1,32 @@
+#include "daemon/output/charts/plot_files.h"
+
+#include <system_error>
+
+namespace mdof::charts {
+
+namespace fs = std::filesystem;
+
+Status make_plot_folder(const fs::path& folder) {
+  std::error_code ec;
+  fs::create_directories(folder, ec);
+  if (!ec && fs::is_directory(folder, ec)) return {};
+  return io_error(folder.string() + ": the folder for the plots cannot be made: " +
+                  (ec ? ec.message() : "a file has this name") + "; name one that can be written");
+}
+
+std::string file_name(std::string_view key) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-";
+  std::string name;
+  for (const char c : key) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (kPlain.find(c) != std::string_view::npos)
+      name += c;
+    else
+      name += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return name;
+}
+
+}  // namespace mdof::charts

@@ -1,0 +1,44 @@
+#include <string>
+
+#include "daemon/output/charts/plot_files.h"
+#include "daemon/output/charts/run/points.h"
+#include "daemon/output/charts/run/run_charts.h"
+#include "schema/axis.h"
+
+namespace mdof::charts {
+
+using output::Phrase;
+using output::phrase;
+
+RunCharts charts_of_run(const StatedResults& results, Language language) {
+  const std::string number = std::to_string(results.run.header.id);
+  const std::string run = "run " + number;
+  RunCharts all;
+  const auto add = [&](const std::string& name, std::string svg) {
+    all.charts.push_back({"run-" + number + "-" + name + ".svg", std::move(svg)});
+  };
+  if (!has_five_errors(results)) {
+    all.left_out.push_back(run + ": no point has errors, so nothing is drawn of it; mdof show " +
+                           number + " has the reasons");
+    return all;
+  }
+  add("five-errors", five_errors_svg(results, language));
+  if (has_straightness(results))
+    add("straightness", straightness_svg(results, language));
+  else
+    all.left_out.push_back(run + ": no chart of straightness, which takes at least three targets");
+  const std::string title =
+      phrase(Phrase::run_axis, language, {number, std::string(1, letter(results.run.header.axis))});
+  for (const Budget& budget : results.figures.budgets)
+    if (has_budget(budget))
+      add("budget-" + file_name(budget.figure), budget_svg(budget, title, results.marks, language));
+    else
+      all.left_out.push_back(run + ": no budget of " + budget.figure + ", whose u is not known");
+  if (results.figures.budgets.empty())
+    all.left_out.push_back(
+        run + ": no budget is drawn: " +
+        (results.figures.why.empty() ? "the run has no figures" : results.figures.why));
+  return all;
+}
+
+}  // namespace mdof::charts

@@ -1,0 +1,70 @@
+#include "daemon/output/charts/run/points.h"
+
+#include "schema/axis.h"
+#include "schema/units.h"
+
+namespace mdof::charts {
+
+using output::Phrase;
+using output::phrase;
+
+std::vector<Mark> marks_of_error(const StatedResults& results, std::size_t named) {
+  const Run& run = results.run;
+  std::vector<Mark> marks;
+  marks.reserve(run.points.size());
+  for (std::size_t row = 0; row < run.points.size(); ++row) {
+    const MeasuredPoint& p = run.points[row];
+    Mark mark;
+    mark.x = to_mm(p.point.position_m);
+    mark.y = p.errors.valid
+                 ? to_key_unit(named_from_local(run.header.moving(), p.errors.local)[named])
+                 : std::nan("");
+    if (p.errors.valid) mark.U = to_key_unit(results.uncertainty.points[row].U[named]);
+    mark.direction = p.point.direction;
+    mark.target = p.target;
+    mark.row = row;
+    for (const std::string& flag : p.point.flags)
+      mark.flags += (mark.flags.empty() ? "" : " ") + flag;
+    if (!p.errors.valid) mark.reason = p.errors.reason;
+    marks.push_back(std::move(mark));
+  }
+  return marks;
+}
+
+Legend legend_of(std::span<const Mark> marks) {
+  Legend legend;
+  for (const Mark& mark : marks) {
+    const bool known = std::isfinite(mark.y);
+    legend.unsolved |= !known;
+    legend.forward |= known && mark.direction > 0;
+    legend.reverse |= known && mark.direction < 0;
+    legend.unknown |= known && mark.direction == 0;
+    legend.flagged |= known && !mark.flags.empty();
+    legend.band |= known && std::isfinite(mark.U);
+  }
+  return legend;
+}
+
+std::string title_of_run(const RunHeader& header, const std::string& what, Language language) {
+  return phrase(Phrase::run_axis, language,
+                {std::to_string(header.id), std::string(1, letter(header.axis))}) +
+         ": " + what;
+}
+
+std::string about_run(const RunHeader& header, Language language) {
+  const std::string& sha256 = header.provenance.recording_sha256;
+  return phrase(Phrase::model_state, language, {header.provenance.model, to_string(header.state)}) +
+         (sha256.empty() ? "" : ", " + phrase(Phrase::recording, language, {sha256.substr(0, 16)}));
+}
+
+std::vector<std::string> head_marks(bool noise_only, std::vector<std::string> marks,
+                                    Language language) {
+  if (noise_only) marks.insert(marks.begin(), phrase(Phrase::noise_only, language));
+  return marks;
+}
+
+std::string position_key(Language language) {
+  return std::string(phrase(Phrase::position, language)) + "_mm";
+}
+
+}  // namespace mdof::charts

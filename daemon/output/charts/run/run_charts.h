@@ -1,0 +1,51 @@
+// One function a chart of a stored run: results in, an SVG document out. Pure: the same results
+// give the same bytes, and no time of making is in them. What is drawn carries its numbers, in the
+// units of the result documents, as data-… attributes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "daemon/output/phrases.h"
+#include "schema/iso230/reference_lines.h"
+#include "schema/run.h"
+#include "schema/uncertainty/budget.h"
+#include "schema/uncertainty/run_uncertainty.h"
+
+namespace mdof::charts {
+
+using output::Language;
+
+// A run as the commands state it.
+struct StatedResults {
+  Run run;
+  RunUncertainty uncertainty;            // of its points
+  StatedFigures figures;                 // budgets, or why there are none
+  std::vector<StraightnessLines> lines;  // about which straightness is told
+  std::vector<std::string> marks;        // "SIMULATED: …", "DOUBTFUL: …"; empty: neither
+};
+
+// Each says whether there is anything to show, and draws it then.
+bool has_five_errors(const StatedResults& results);
+std::string five_errors_svg(const StatedResults& results, Language language);
+
+bool has_straightness(const StatedResults& results);
+std::string straightness_svg(const StatedResults& results, Language language);
+
+// Of one figure; `title_of` says of which runs. Where u is 0 or not known there is nothing to show.
+bool has_budget(const Budget& budget);
+std::string budget_svg(const Budget& budget, const std::string& title_of,
+                       const std::vector<std::string>& marks, Language language);
+
+// All that there is to draw of a run.
+struct NamedChart {
+  std::string file;  // "run-3-straightness.svg"
+  std::string svg;
+};
+struct RunCharts {
+  std::vector<NamedChart> charts;
+  std::vector<std::string> left_out;  // which chart and why, a sentence each
+};
+RunCharts charts_of_run(const StatedResults& results, Language language);
+
+}  // namespace mdof::charts

@@ -1,0 +1,61 @@
+#include "daemon/output/phrases.h"
+
+#include <array>
+#include <cstddef>
+
+#include "daemon/words/words.h"
+
+namespace mdof::output {
+namespace {
+
+struct Row {
+  const char *english, *german;
+};
+constexpr std::array kRows = {
+#define PHRASE(key, english, german) Row{english, german},
+#include "daemon/output/phrases.inc"
+#undef PHRASE
+};
+
+}  // namespace
+
+bool language_from(std::string_view name, Language& language) {
+  if (name != "en" && name != "de") return false;
+  language = name == "en" ? Language::english : Language::german;
+  return true;
+}
+
+const char* code_of(Language language) {
+  return language == Language::english ? "en" : "de";
+}
+
+const char* phrase(Phrase phrase, Language language) {
+  const Row& row = kRows[static_cast<std::size_t>(phrase)];
+  return language == Language::english ? row.english : row.german;
+}
+
+std::string phrase(Phrase wanted, Language language, std::initializer_list<std::string> values) {
+  const std::string pattern = phrase(wanted, language);
+  std::string text;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    if (pattern[i] != '{' || i + 2 >= pattern.size() || pattern[i + 2] != '}') {
+      text += pattern[i];
+      continue;
+    }
+    const auto at = static_cast<std::size_t>(pattern[i + 1] - '0');
+    if (at < values.size()) text += *(values.begin() + at);
+    i += 2;
+  }
+  return text;
+}
+
+// The catalogue of notices is in English.
+bool has_notices_in(Language language) {
+  return language == Language::english;
+}
+
+std::string notice_text(const Notice& notice, Language) {
+  return words::text(notice);
+}
+
+}  // namespace mdof::output

@@ -1,0 +1,32 @@
+// Labels of charts and reports in each language that they are written in: one row a label in
+// phrases.inc. Pure.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "schema/base/result.h"
+#include "schema/notice/notice.h"
+
+namespace mdof::output {
+
+enum class Language { english, german };
+// "en" or "de"; false: it is neither.
+bool language_from(std::string_view name, Language& language);
+const char* code_of(Language language);
+
+enum class Phrase {
+#define PHRASE(key, english, german) key,
+#include "daemon/output/phrases.inc"
+#undef PHRASE
+};
+
+const char* phrase(Phrase phrase, Language language);
+// With {0}, {1} ... replaced.
+std::string phrase(Phrase phrase, Language language, std::initializer_list<std::string> values);
+
+// What a reader is told of a notice, and whether it is in the language that was asked for.
+std::string notice_text(const Notice& notice, Language language);
+bool has_notices_in(Language language);
+
+}  // namespace mdof::output

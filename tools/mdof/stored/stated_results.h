@@ -1,0 +1,24 @@
+// Stored results as charts and reports take them: what the other commands state, made the same way.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "daemon/output/charts/run/run_charts.h"
+#include "daemon/store/store.h"
+#include "schema/base/result.h"
+#include "schema/rig/reference.h"
+
+namespace mdof::tools {
+
+// Errors: no such run, an imported one.
+Result<charts::StatedResults> stated_results(store::Store& store, std::int64_t run,
+                                             Reference reference);
+
+// Numbers of what RUN… named, each once.
+Result<std::vector<std::int64_t>> run_numbers(store::Store& store,
+                                              const std::vector<std::string>& words,
+                                              const std::string& axis);
+
+}  // namespace mdof::tools

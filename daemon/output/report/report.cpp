@@ -1,0 +1,87 @@
+#include "daemon/output/report/report.h"
+
+#include "daemon/output/charts/run/points.h"
+#include "daemon/output/report/html.h"
+#include "daemon/output/report/replay_command.h"
+#include "daemon/output/report/sections.h"
+#include "schema/axis.h"
+
+namespace mdof::report {
+
+using output::Phrase;
+using output::phrase;
+
+namespace {
+
+std::string name_of_run(const ReportRun& run, Language language) {
+  const RunHeader& h = run.results.run.header;
+  return phrase(Phrase::run_axis, language, {std::to_string(h.id), std::string(1, letter(h.axis))});
+}
+
+// What a reader must not miss comes before everything else.
+void write_alarms(Html& html, const Report& report) {
+  for (const ReportRun& run : report.runs) {
+    const bool noise_only = run.results.uncertainty.noise_only;
+    for (const std::string& mark :
+         charts::head_marks(noise_only, run.results.marks, report.language))
+      html.element("p", name_of_run(run, report.language) + ": " + mark, "alarm");
+  }
+}
+
+void write_title(Html& html, const Report& report) {
+  const Language language = report.language;
+  const auto stated = [&](const std::string& text) {
+    return text.empty() ? std::string(phrase(Phrase::not_stated, language)) : text;
+  };
+  std::string runs;
+  for (const ReportRun& run : report.runs)
+    runs += (runs.empty() ? "" : "; ") + name_of_run(run, language);
+  html.element("h1", phrase(Phrase::report_title, language));
+  html.facts({{phrase(Phrase::customer, language), stated(report.title.customer)},
+              {phrase(Phrase::machine, language), stated(report.title.machine)},
+              {phrase(Phrase::serial, language), stated(report.title.serial)},
+              {phrase(Phrase::operator_name, language), stated(report.title.operator_name)},
+              {phrase(Phrase::runs, language), runs},
+              {phrase(Phrase::report_by, language), report.software_version}});
+  if (!output::has_notices_in(language))
+    html.element("p", phrase(Phrase::english_texts, language), "quiet");
+}
+
+}  // namespace
+
+void write_provenance(Html& html, const ReportRun& run, Language language) {
+  const RunHeader& h = run.results.run.header;
+  html.element("h3", phrase(Phrase::provenance, language));
+  html.facts({{phrase(Phrase::recording_file, language),
+               h.provenance.recording_kind + ", " + h.provenance.recording_path},
+              {phrase(Phrase::recording_sha256, language), h.provenance.recording_sha256},
+              {phrase(Phrase::result_sha256, language), run.result_sha256},
+              {phrase(Phrase::measured_by, language), h.provenance.software_version}});
+  html.element("p", phrase(Phrase::how_to_replay, language));
+  html.element("pre", replay_command(h), "replay");
+  if (const std::string file = rig_file(h); !file.empty()) {
+    html.element("p", phrase(Phrase::save_rig, language, {file}));
+    html.element("pre", h.provenance.rig_text, "rig");
+  }
+}
+
+std::string report_html(const Report& report) {
+  const Language language = report.language;
+  Html html;
+  write_alarms(html, report);
+  write_title(html, report);
+  for (const ReportRun& run : report.runs) {
+    html.element("h2", name_of_run(run, language));
+    write_results(html, run, language);
+    write_decisions(html, run, language);
+    write_conditions(html, run, language);
+    write_fixture(html, run, language);
+    write_notices(html, run, language);
+    write_charts(html, run, language);
+    write_points(html, run, language);
+    write_provenance(html, run, language);
+  }
+  return html.take(output::code_of(language), phrase(Phrase::report_title, language));
+}
+
+}  // namespace mdof::report

@@ -1,0 +1,47 @@
+// A report of stored runs for a customer: one HTML file that needs nothing else, without script,
+// made to be printed on A4. Pure: the same results give the same bytes, and no time of making is in
+// it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/output/charts/run/run_charts.h"
+#include "daemon/output/phrases.h"
+#include "schema/rig/rig.h"
+#include "schema/uncertainty/budget.h"
+#include "schema/uncertainty/conformity.h"
+
+namespace mdof::report {
+
+using output::Language;
+
+// What the user says of the machine; empty: the report says that nobody stated it.
+struct Title {
+  std::string customer, machine, serial, operator_name;
+};
+
+struct Decided {
+  std::string figure;
+  Decision decision;
+};
+
+struct ReportRun {
+  charts::StatedResults results;
+  Rig rig;
+  std::vector<Decided> decided;  // of the figures that have a tolerance
+  std::string result_sha256;
+  std::optional<std::int64_t> superseded_by;
+};
+
+struct Report {
+  Title title;
+  std::vector<ReportRun> runs;
+  std::string software_version;  // that made the report
+  Language language = Language::english;
+};
+
+std::string report_html(const Report& report);
+
+}  // namespace mdof::report

@@ -1,0 +1,239 @@
+#include "daemon/output/report/sections.h"
+
+#include <array>
+#include <cmath>
+
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/report/numbers.h"
+#include "schema/axis.h"
+#include "schema/units.h"
+
+namespace mdof::report {
+namespace {
+
+using charts::fixed_text;
+using output::Phrase;
+using output::phrase;
+
+constexpr std::size_t kMostListedPoints = 2000;
+
+std::string or_missing(const std::string& text, Language language) {
+  return text.empty() ? phrase(Phrase::not_stated, language) : text;
+}
+
+std::string scans_text(const RunHeader& h, Language language) {
+  const std::string scans = std::to_string(h.scans);
+  if (h.provenance.recording_kind == "csv" && h.scans_lost == 0)
+    return phrase(Phrase::scans_lost_unknown, language, {scans});
+  return phrase(Phrase::scans_lost, language, {scans, std::to_string(h.scans_lost)});
+}
+
+std::string temperature_of(const RunHeader& h, Language language) {
+  if (!h.temperature) return phrase(Phrase::not_recorded, language);
+  const auto C = [](double x) { return fixed_text(x, 2); };
+  return phrase(Phrase::temperature_value, language,
+                {C(h.temperature->mean_C), C(h.temperature->min_C), C(h.temperature->max_C)});
+}
+
+std::string stated_place(const StatedAt& at) {
+  std::string text = to_string(at.reference);
+  if (at.reference == Reference::tool)
+    for (const double x : at.point_m) text += " " + charts::number_text(to_mm(x), 6);
+  return at.reference == Reference::tool ? text + " mm" : text;
+}
+
+std::string vector_text(const Vec3& v, double factor) {
+  return charts::number_text(v[0] * factor, 6) + ", " + charts::number_text(v[1] * factor, 6) +
+         ", " + charts::number_text(v[2] * factor, 6);
+}
+
+std::string conformity_text(Conformity conformity, Language language) {
+  return phrase(conformity == Conformity::conform       ? Phrase::conform
+                : conformity == Conformity::not_conform ? Phrase::not_conform
+                                                        : Phrase::undecided,
+                language);
+}
+
+std::vector<std::string> point_row(const ReportRun& run, std::size_t row) {
+  const auto& [results, uncertainty] = std::tie(run.results.run, run.results.uncertainty);
+  const MeasuredPoint& p = results.points[row];
+  std::vector<std::string> cells = {std::to_string(p.target), std::to_string(p.run),
+                                    p.point.direction > 0   ? "+"
+                                    : p.point.direction < 0 ? "−"
+                                                            : "?",
+                                    fixed_text(to_mm(p.point.position_m), 4)};
+  const Errors5 named = named_from_local(results.header.moving(), p.errors.local);
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    const double U = to_key_unit(uncertainty.points[row].U[k]);
+    cells.push_back(p.errors.valid ? value_text(to_key_unit(named[k]), U) + "\u00a0±\u00a0" +
+                                         uncertainty_text(U)
+                                   : "–");
+  }
+  std::string flags;
+  for (const std::string& flag : p.point.flags) flags += (flags.empty() ? "" : " ") + flag;
+  if (!p.errors.valid) flags += (flags.empty() ? "" : "; ") + p.errors.reason;
+  cells.push_back(flags);
+  return cells;
+}
+
+}  // namespace
+
+void write_conditions(Html& html, const ReportRun& run, Language language) {
+  const RunHeader& h = run.results.run.header;
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  html.element("h3", of(Phrase::conditions));
+  std::string state = to_string(h.state);
+  if (run.superseded_by)
+    state += ", " + phrase(Phrase::superseded, language, {std::to_string(*run.superseded_by)});
+  html.facts({{of(Phrase::started), h.started_utc},
+              {of(Phrase::state), state},
+              {of(Phrase::temperature), temperature_of(h, language)},
+              {of(Phrase::model), h.provenance.model},
+              {of(Phrase::moves), std::string(h.sides.moves()) + ", " + h.sides.travel()},
+              {of(Phrase::stated_at), stated_place(h.stated)},
+              {of(Phrase::scans), scans_text(h, language)},
+              {of(Phrase::measured_by), h.provenance.software_version},
+              {of(Phrase::note), h.note}});
+}
+
+void write_fixture(Html& html, const ReportRun& run, Language language) {
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  html.element("h3", of(Phrase::fixture));
+  html.facts({{of(Phrase::rig_name), or_missing(run.rig.name, language)}});
+  std::vector<std::vector<std::string>> probes, calibrations;
+  for (const Probe& probe : run.rig.probes) {
+    probes.push_back({probe.id, vector_text(probe.position_m, 1e3), vector_text(probe.direction, 1),
+                      charts::number_text(to_um(probe.range_m))});
+    const Calibration& c = probe.calibration;
+    calibrations.push_back({probe.id, or_missing(c.certificate, language),
+                            or_missing(c.laboratory, language), or_missing(c.calibrated, language),
+                            or_missing(c.due, language)});
+  }
+  html.table({of(Phrase::probe), of(Phrase::probe_position), of(Phrase::probe_direction),
+              of(Phrase::probe_range)},
+             probes);
+  html.element("h3", of(Phrase::calibrations));
+  html.table({of(Phrase::probe), of(Phrase::certificate), of(Phrase::laboratory),
+              of(Phrase::calibrated), of(Phrase::due)},
+             calibrations);
+  for (const CalibrationRecord& record : run.rig.records)
+    html.element("p", of(Phrase::records_in_place) + ": " +
+                          phrase(Phrase::record_text, language,
+                                 {record.id, record.kind, record.date,
+                                  or_missing(record.valid_until, language)}));
+}
+
+void write_results(Html& html, const ReportRun& run, Language language) {
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  const StatedFigures& figures = run.results.figures;
+  html.element("h3", of(Phrase::results));
+  std::vector<std::vector<std::string>> rows;
+  const std::string unknown = of(Phrase::unknown);
+  for (const Budget& b : figures.budgets) {
+    const double U = to_key_unit(b.U), u = to_key_unit(b.u);
+    const bool known = b.u > 0 && std::isfinite(b.u);
+    const std::string U_text = known ? uncertainty_text(U) : unknown;
+    rows.push_back(
+        {charts::split_key(b.figure).name, value_text(to_key_unit(b.value), U),
+         unit_of_key(b.figure), known ? uncertainty_text(u) : unknown,
+         known && b.U_by_trials ? phrase(Phrase::by_monte_carlo, language, {U_text}) : U_text,
+         known ? fixed_text(b.coverage_factor, 2) : unknown});
+  }
+  if (figures.budgets.empty()) {
+    for (const StraightnessFigure& f : run.results.run.straightness)
+      if (f.approach == "mean")
+        rows.push_back({f.error_key.substr(0, 3) + "_straightness",
+                        value_text(to_um(f.straightness_least_squares_m), std::nan("")), "µm",
+                        unknown, unknown, unknown});
+    for (const AngleFigure& f : run.results.run.angles)
+      if (f.approach == "mean")
+        rows.push_back({f.error_key.substr(0, 3) + "_range",
+                        value_text(to_urad(f.max_rad - f.min_rad), std::nan("")), "µrad", unknown,
+                        unknown, unknown});
+  }
+  if (!rows.empty())
+    html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::unit), "u", "U (95 %)", "k"},
+               rows, "numbers");
+  html.element("p", of(Phrase::U_explained), "quiet");
+  if (figures.budgets.empty())
+    html.element("p",
+                 phrase(Phrase::U_missing_because, language,
+                        {figures.why.empty() ? "no figure of this run has one" : figures.why}));
+  else
+    html.element("p", phrase(Phrase::u_covers, language, {covers_text(figures.budgets)}));
+  std::string keys;
+  for (const std::string& key : run.results.uncertainty.not_declared)
+    keys += (keys.empty() ? "" : ", ") + key;
+  if (!keys.empty()) html.element("p", phrase(Phrase::not_declared, language, {keys}));
+}
+
+void write_decisions(Html& html, const ReportRun& run, Language language) {
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  html.element("h3", of(Phrase::decision));
+  if (run.decided.empty()) {
+    html.element("p", of(Phrase::no_decision));
+    return;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [figure, decision] : run.decided) {
+    const Budget* budget = find_budget(run.results.figures.budgets, figure);
+    const double U = budget ? to_key_unit(budget->U) : std::nan("");
+    rows.push_back({charts::split_key(figure).name,
+                    budget ? value_text(to_key_unit(budget->value), U) : "–",
+                    charts::number_text(to_key_unit(decision.limit), 6), unit_of_key(figure),
+                    conformity_text(decision.conformity, language),
+                    decision.rule + " = " + uncertainty_text(to_key_unit(decision.guard_band)) +
+                        (decision.reason.empty() ? "" : "; " + decision.reason)});
+  }
+  html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::tolerance), of(Phrase::unit),
+              of(Phrase::conformity), of(Phrase::reason)},
+             rows);
+}
+
+void write_notices(Html& html, const ReportRun& run, Language language) {
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  html.element("h3", of(Phrase::notices));
+  std::vector<std::vector<std::string>> rows;
+  const std::array<std::pair<Severity, Phrase>, 3> severities = {
+      {{Severity::invalid, Phrase::invalid},
+       {Severity::doubtful, Phrase::doubtful},
+       {Severity::information, Phrase::information}}};
+  for (const auto& [severity, name] : severities)
+    for (const Notice& notice : run.results.run.header.notices)
+      if (notice.severity == severity)
+        rows.push_back({of(name), output::notice_text(notice, language)});
+  for (const std::string& note : run.results.run.header.notes)
+    rows.push_back({of(Phrase::information), note});
+  if (rows.empty())
+    html.element("p", of(Phrase::no_notices));
+  else
+    html.table({of(Phrase::severity), of(Phrase::notices)}, rows, "long");
+}
+
+void write_charts(Html& html, const ReportRun& run, Language language) {
+  html.element("h3", phrase(Phrase::charts, language));
+  const charts::RunCharts drawn = charts::charts_of_run(run.results, language);
+  for (const charts::NamedChart& chart : drawn.charts) html.figure(chart.svg);
+  for (const std::string& text : drawn.left_out)
+    html.element("p", phrase(Phrase::left_out, language, {text}));
+}
+
+void write_points(Html& html, const ReportRun& run, Language language) {
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  const RunHeader& h = run.results.run.header;
+  const std::size_t all = run.results.run.points.size(), n = std::min(all, kMostListedPoints);
+  html.element("h3", of(Phrase::points));
+  html.element("p", of(Phrase::points_explained), "quiet");
+  if (n < all)
+    html.element("p", phrase(Phrase::points_left_out, language,
+                             {std::to_string(all), std::to_string(n), std::to_string(h.id)}));
+  std::vector<std::string> head = {of(Phrase::target), of(Phrase::pass), of(Phrase::approach),
+                                   of(Phrase::position) + " / mm"};
+  for (const ErrorName& name : error_names(h.axis)) head.push_back(charts::key_label(name.key));
+  head.push_back(of(Phrase::flags));
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t row = 0; row < n; ++row) rows.push_back(point_row(run, row));
+  html.table(head, rows, "long");
+}
+
+}  // namespace mdof::report

@@ -1,0 +1,18 @@
+// The sections of a report about one run.
+#pragma once
+
+#include "daemon/output/report/html.h"
+#include "daemon/output/report/report.h"
+
+namespace mdof::report {
+
+void write_conditions(Html& html, const ReportRun& run, Language language);
+void write_fixture(Html& html, const ReportRun& run, Language language);
+void write_results(Html& html, const ReportRun& run, Language language);
+void write_decisions(Html& html, const ReportRun& run, Language language);
+void write_notices(Html& html, const ReportRun& run, Language language);
+void write_charts(Html& html, const ReportRun& run, Language language);
+void write_points(Html& html, const ReportRun& run, Language language);
+void write_provenance(Html& html, const ReportRun& run, Language language);
+
+}  // namespace mdof::report

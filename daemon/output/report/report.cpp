@@ -1,10 +1,13 @@
 #include "daemon/output/report/report.h"
 
+#include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/run/points.h"
 #include "daemon/output/report/html.h"
+#include "daemon/output/report/numbers.h"
 #include "daemon/output/report/replay_command.h"
 #include "daemon/output/report/sections.h"
 #include "schema/axis.h"
+#include "schema/units.h"
 
 namespace mdof::report {
 
@@ -47,6 +50,28 @@ void write_title(Html& html, const Report& report) {
     html.element("p", phrase(Phrase::english_texts, language), "quiet");
 }
 
+void write_squareness(Html& html, const Report& report) {
+  const Language language = report.language;
+  if (!report.squareness && report.why_no_squareness.empty()) return;
+  html.element("h2", phrase(Phrase::squareness, language));
+  if (!report.squareness) {
+    html.element("p", phrase(Phrase::left_out, language, {report.why_no_squareness}));
+    return;
+  }
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  const Budget& b = report.squareness->budget;
+  const bool known = b.u > 0;
+  const double U = to_urad(b.U);
+  html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::unit), "u", "U (95 %)", "k"},
+             {{"EC0Y", value_text(to_urad(report.squareness->squareness.EC0Y_rad), U), "µrad",
+               known ? uncertainty_text(to_urad(b.u)) : of(Phrase::unknown),
+               known ? uncertainty_text(U) : of(Phrase::unknown),
+               known ? charts::fixed_text(b.coverage_factor, 2) : of(Phrase::unknown)}},
+             "numbers");
+  html.element("p", phrase(Phrase::u_covers, language, {covers_text(b)}));
+  html.figure(charts::squareness_svg(*report.squareness, language));
+}
+
 }  // namespace
 
 void write_provenance(Html& html, const ReportRun& run, Language language) {
@@ -81,6 +106,7 @@ std::string report_html(const Report& report) {
     write_points(html, run, language);
     write_provenance(html, run, language);
   }
+  write_squareness(html, report);
   return html.take(output::code_of(language), phrase(Phrase::report_title, language));
 }
 

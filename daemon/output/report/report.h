@@ -38,7 +38,10 @@ struct ReportRun {
 struct Report {
   Title title;
   std::vector<ReportRun> runs;
-  std::string software_version;  // that made the report
+  // Of the one run along X and the one along Y, where there are these.
+  std::optional<charts::SquarenessResults> squareness;
+  std::string why_no_squareness;  // it was to be had and failed
+  std::string software_version;   // that made the report
   Language language = Language::english;
 };
 

@@ -36,4 +36,29 @@ Result<std::vector<std::int64_t>> run_numbers(store::Store& store,
   return numbers;
 }
 
+Result<std::optional<charts::SquarenessResults>> squareness_of_runs(
+    store::Store& store, const std::vector<const charts::StatedResults*>& runs) {
+  const auto only = [&](Axis axis) -> const charts::StatedResults* {
+    const auto is_along = [axis](const charts::StatedResults* r) {
+      return r->run.header.axis == axis;
+    };
+    if (std::count_if(runs.begin(), runs.end(), is_along) != 1) return nullptr;
+    return *std::find_if(runs.begin(), runs.end(), is_along);
+  };
+  const charts::StatedResults *x = only(Axis::x), *y = only(Axis::y);
+  if (!x || !y) return std::optional<charts::SquarenessResults>();
+  daemon::SquarenessRequest request;
+  request.run_x = x->run.header.id;
+  request.run_y = y->run.header.id;
+  MDOF_TRY(auto fitted, daemon::calculate_squareness(store, request));
+  charts::SquarenessResults results;
+  results.squareness = fitted.squareness;
+  results.budget = std::move(fitted.budgets.front());
+  MDOF_TRY(results.run_x, daemon::run_stated_at(store, x->run.header.id, Reference::fixture));
+  MDOF_TRY(results.run_y, daemon::run_stated_at(store, y->run.header.id, Reference::fixture));
+  for (const auto* run : {x, y})
+    results.marks.insert(results.marks.end(), run->marks.begin(), run->marks.end());
+  return std::optional(std::move(results));
+}
+
 }  // namespace mdof::tools

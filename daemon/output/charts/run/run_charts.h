@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "daemon/output/phrases.h"
+#include "schema/compensation_table.h"
 #include "schema/iso230/reference_lines.h"
 #include "schema/run.h"
+#include "schema/squareness.h"
 #include "schema/uncertainty/budget.h"
 #include "schema/uncertainty/run_uncertainty.h"
 
@@ -36,6 +38,20 @@ std::string straightness_svg(const StatedResults& results, Language language);
 bool has_budget(const Budget& budget);
 std::string budget_svg(const Budget& budget, const std::string& title_of,
                        const std::vector<std::string>& marks, Language language);
+
+// `marks` as of a run.
+bool has_table(const CompensationTable& table);
+std::string table_svg(const CompensationTable& table, const std::vector<std::string>& marks,
+                      Language language);
+
+// X and Y as they were measured against one square, their errors enlarged.
+struct SquarenessResults {
+  Squareness squareness;
+  Budget budget;     // of EC0Y
+  Run run_x, run_y;  // stated at the fixture
+  std::vector<std::string> marks;
+};
+std::string squareness_svg(const SquarenessResults& results, Language language);
 
 // All that there is to draw of a run.
 struct NamedChart {

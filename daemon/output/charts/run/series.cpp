@@ -158,7 +158,7 @@ Range with_room(const Range& range) {
 void draw_mark(Svg& svg, const Panel& panel, const Mark& mark) {
   const bool known = std::isfinite(mark.y);
   const Place at = known ? panel.at(mark.x, mark.y) : Place{panel.px_x(mark.x), panel.corner.y + 6};
-  svg.data("x", mark.x).data("y", mark.y).data("U", mark.U);
+  svg.data("x", mark.x).data("y", mark.y).data(mark.is_standard ? "u" : "U", mark.U);
   svg.data("row", static_cast<double>(mark.row)).data("approach", name_of(mark.direction));
   if (!mark.flags.empty()) svg.data("flags", mark.flags);
   if (!known) svg.data("reason", mark.reason);
@@ -255,7 +255,7 @@ double draw_marks_legend(Svg& svg, double top, const Legend& legend,
                      legend.forward   ? "forward-band"
                      : legend.reverse ? "reverse-band"
                                       : "grey-band",
-                     phrase(Phrase::band_U, language)});
+                     phrase(legend.band_is_u ? Phrase::band_u : Phrase::band_U, language)});
   add(legend.flagged, Item::cross, 1, Phrase::flagged);
   add(legend.unsolved, Item::cross, 2, Phrase::unsolved);
   Place place{kMarginPx, top + 14};

@@ -17,6 +17,7 @@ namespace mdof::charts {
 struct Mark {
   double x = 0, y = 0;
   double U = std::nan("");
+  bool is_standard = false;  // it is u instead
   int direction = 0;
   int target = 0;
   std::size_t row = 0;  // of the result's points, from 0; drawn as data-row
@@ -58,7 +59,7 @@ double notes_height(const std::vector<std::string>& notes);
 // A legend of marks: forward, reverse and what else is in it.
 struct Legend {
   bool forward = false, reverse = false, unknown = false, flagged = false, unsolved = false;
-  bool band = false;
+  bool band = false, band_is_u = false;
 };
 // Two rows at most; gives where they end.
 double draw_marks_legend(Svg& svg, double top, const Legend& legend,

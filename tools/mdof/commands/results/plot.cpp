@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/run/run_charts.h"
 #include "schema/base/json_writer.h"
@@ -21,6 +22,7 @@ namespace {
 struct PlotCommand {
   std::string database, axis, out, reference = "fixture", language = "en";
   std::vector<std::string> runs;
+  std::vector<std::int64_t> tables;
   bool json = false;
 };
 
@@ -35,6 +37,33 @@ struct Plotted {
   }
 };
 
+// Runs that are no pair for it are drawn all the same.
+void draw_squareness(store::Store& store, const std::vector<charts::StatedResults>& runs,
+                     output::Language language, Plotted& plotted) {
+  std::vector<const charts::StatedResults*> all;
+  for (const auto& run : runs) all.push_back(&run);
+  const auto found = squareness_of_runs(store, all);
+  if (!found) plotted.left_out.push_back("no chart of squareness: " + found.error().message);
+  if (!found || !*found) return;
+  const Squareness& s = (*found)->squareness;
+  const std::string name =
+      "squareness-" + std::to_string(s.run_x) + "-" + std::to_string(s.run_y) + ".svg";
+  plotted.charts.push_back({name, charts::squareness_svg(**found, language)});
+}
+
+Status draw_table(store::Store& store, std::int64_t number, output::Language language,
+                  Plotted& plotted) {
+  MDOF_TRY(const CompensationTable table, store.table(number));
+  MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
+  const std::string name = "table-" + std::to_string(number);
+  if (charts::has_table(table))
+    plotted.charts.push_back(
+        {name + ".svg", charts::table_svg(table, daemon::marks_of(judged), language)});
+  else
+    plotted.left_out.push_back("table " + std::to_string(number) + ": has no values");
+  return {};
+}
+
 Result<Plotted> draw_all(const PlotCommand& command) {
   Reference reference{};
   output::Language language{};
@@ -43,10 +72,15 @@ Result<Plotted> draw_all(const PlotCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto numbers, run_numbers(store, command.runs, command.axis));
   Plotted plotted;
+  std::vector<charts::StatedResults> runs;
   for (const std::int64_t number : numbers) {
-    MDOF_TRY(const auto results, stated_results(store, number, reference));
+    MDOF_TRY(auto results, stated_results(store, number, reference));
     plotted.take(charts::charts_of_run(results, language));
+    runs.push_back(std::move(results));
   }
+  draw_squareness(store, runs, language, plotted);
+  for (const std::int64_t table : command.tables)
+    MDOF_CHECK(draw_table(store, table, language, plotted));
   return plotted;
 }
 
@@ -63,6 +97,8 @@ Status write_charts(const std::vector<charts::NamedChart>& charts,
 
 Status plot(const PlotCommand& command) {
   MDOF_TRY(const Plotted plotted, draw_all(command));
+  if (plotted.charts.empty() && plotted.left_out.empty())
+    return fail(ErrorCode::usage, "name a run or --table NUMBER");
   if (plotted.charts.empty())
     return fail(ErrorCode::bad_input, plotted.left_out.front() + "; no file is written");
   MDOF_CHECK(write_charts(plotted.charts, command.out));
@@ -84,7 +120,14 @@ Status plot(const PlotCommand& command) {
 
 Action declare_plot(CLI::App& command) {
   const auto o = std::make_shared<PlotCommand>();
-  add_run_arguments(command, o->runs, "Numbers of runs, see mdof runs; or latest");
+  auto* runs = add_run_arguments(command, o->runs, "Numbers of runs, see mdof runs; or latest");
+  runs->required(false);
+  command
+      .add_option("--table", o->tables,
+                  "Number of a compensation table, see mdof compensation list")
+      ->type_name("NUMBER")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--out", o->out, "Folder of the files, made where it is missing")
       ->required()
       ->type_name("DIR");
@@ -99,17 +142,20 @@ Action declare_plot(CLI::App& command) {
 }  // namespace
 
 Command plot_command() {
-  return {.name = "plot",
-          .summary = "Draw charts of stored runs as SVG files",
-          .footer =
-              "Writes run-N-five-errors.svg, run-N-straightness.svg and a run-N-budget-FIGURE.svg\n"
-              "for each figure. All files are written or none. What is drawn carries its numbers\n"
-              "as data- attributes, in the units of mdof show --json. The same results give the\n"
-              "same bytes.\n\n"
-              "Examples:\n"
-              "  mdof plot 12 --out plots\n"
-              "  mdof plot latest --axis X --out plots --language de",
-          .declare = declare_plot};
+  return {
+      .name = "plot",
+      .summary = "Draw charts of stored runs as SVG files",
+      .footer =
+          "Writes run-N-five-errors.svg, run-N-straightness.svg and a run-N-budget-FIGURE.svg\n"
+          "for each figure; of one run along X and one along Y also squareness-X-Y.svg, of a\n"
+          "table table-N.svg. All files are written or none. What is drawn carries its numbers\n"
+          "as data- attributes, in the units of mdof show --json. The same results give the\n"
+          "same bytes.\n\n"
+          "Examples:\n"
+          "  mdof plot 12 --out plots\n"
+          "  mdof plot 1 2 --table 1 --out plots\n"
+          "  mdof plot latest --axis X --out plots --language de",
+      .declare = declare_plot};
 }
 
 }  // namespace mdof::tools

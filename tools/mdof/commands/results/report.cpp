@@ -111,6 +111,13 @@ Status write_report(const ReportCommand& command) {
     all.runs.push_back(std::move(run));
   }
   MDOF_CHECK(decide(all, tolerances));
+  std::vector<const charts::StatedResults*> results;
+  for (const report::ReportRun& run : all.runs) results.push_back(&run.results);
+  auto squareness = squareness_of_runs(store, results);
+  if (squareness)
+    all.squareness = std::move(*squareness);
+  else
+    all.why_no_squareness = squareness.error().message;
   MDOF_CHECK(write_file(command.out, report::report_html(all), Existing::replace));
   for (const report::ReportRun& run : all.runs)
     for (const std::string& mark : run.results.marks) warn(mark);

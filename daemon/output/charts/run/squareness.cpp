@@ -1,0 +1,176 @@
+// The squareness of X and Y as a picture: both axes as the square shows them, errors enlarged.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "algo/iso230/target_means.h"
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/panel.h"
+#include "daemon/output/charts/run/points.h"
+#include "daemon/output/charts/run/run_charts.h"
+#include "daemon/output/charts/run/series.h"
+#include "daemon/output/charts/style.h"
+#include "schema/axis.h"
+#include "schema/units.h"
+
+namespace mdof::charts {
+namespace {
+
+using output::Phrase;
+using output::phrase;
+
+constexpr double kPicturePx = 430, kPictureLegendPx = 62;
+constexpr double kErrorShare = 0.25;  // of the length of an axis, for the largest error
+
+// One axis over the travel of its moving body: positions, errors across it towards + of the other,
+// and the line through them, which begins at 0 across.
+struct AxisPath {
+  std::vector<double> along_mm, across_um;
+  double from_mm = 0, to_mm = 0, slope_um_per_mm = 0;
+  double line_um(double at_mm) const { return slope_um_per_mm * (at_mm - from_mm); }
+};
+
+AxisPath path_of(const Run& run, std::size_t named, double slope_rad, double turned_rad) {
+  AxisPath path;
+  const MovingAxis moving = run.header.moving();
+  std::vector<algo::TargetMean> means =
+      algo::target_means(moving, run.points, algo::Approach::both);
+  if (means.empty()) return path;
+  const auto along = [&](const algo::TargetMean& m) {
+    return moving.sides.own_travel_m(m.position_m);
+  };
+  std::stable_sort(means.begin(), means.end(),
+                   [&](const auto& a, const auto& b) { return along(a) < along(b); });
+  path.from_mm = to_mm(along(means.front()));
+  path.to_mm = to_mm(along(means.back()));
+  path.slope_um_per_mm = (slope_rad + turned_rad) * 1e3;
+  double mean_left = 0;  // of the errors about the slope: it lies on the line
+  for (const algo::TargetMean& m : means) {
+    path.along_mm.push_back(to_mm(along(m)));
+    path.across_um.push_back(to_um(m.named[named] + turned_rad * along(m)));
+    mean_left += (path.across_um.back() - path.line_um(path.along_mm.back())) /
+                 static_cast<double>(means.size());
+  }
+  for (double& across : path.across_um) across -= mean_left;
+  return path;
+}
+
+// A round factor by which the largest error becomes a share of an axis.
+double enlargement(const AxisPath& x, const AxisPath& y) {
+  double largest_um = 0;
+  for (const AxisPath* path : {&x, &y}) {
+    for (const double across : path->across_um) largest_um = std::max(largest_um, std::abs(across));
+    largest_um = std::max(largest_um, std::abs(path->line_um(path->to_mm)));
+  }
+  const double length_mm = std::max({x.to_mm - x.from_mm, y.to_mm - y.from_mm, 1e-3});
+  if (!(largest_um > 0)) return 1;
+  return round_step(kErrorShare * length_mm * 1e3 / largest_um) / 2;
+}
+
+struct Picture {
+  Panel panel;
+  double factor = 1, x0_mm = 0, y0_mm = 0;
+  // X lies along the panel's x from 0; a + error of Y's direction goes up.
+  Place on_x(double along_mm, double across_um) const {
+    return panel.at(along_mm - x0_mm, across_um * factor / 1e3);
+  }
+  Place on_y(double along_mm, double across_um) const {
+    return panel.at(across_um * factor / 1e3, along_mm - y0_mm);
+  }
+};
+
+Picture picture_of(const AxisPath& x, const AxisPath& y, double top) {
+  Picture picture;
+  picture.factor = enlargement(x, y);
+  picture.x0_mm = x.from_mm;
+  picture.y0_mm = y.from_mm;
+  const double length = std::max({x.to_mm - x.from_mm, y.to_mm - y.from_mm, 1e-3});
+  Range across, up;
+  for (Range* range : {&across, &up}) {
+    range->include(-0.35 * length);
+    range->include(1.1 * length);
+  }
+  picture.panel.width = picture.panel.height = kPicturePx;  // true proportions
+  picture.panel.corner = {kMarginPx + 40, top};
+  picture.panel.x = horizontal_axis(across, kPicturePx);
+  picture.panel.y = vertical_axis(up, kPicturePx);
+  return picture;
+}
+
+template <class On>
+void draw_path(Svg& svg, const AxisPath& path, On on, int direction, const char* name) {
+  std::vector<Place> line;
+  for (std::size_t i = 0; i < path.along_mm.size(); ++i)
+    line.push_back(on(path.along_mm[i], path.across_um[i]));
+  svg.line("rule dash", on(path.from_mm, 0), on(path.to_mm, 0));
+  svg.data("line", name).data("slope-urad", path.slope_um_per_mm * 1e3);
+  svg.line("ink", on(path.from_mm, 0), on(path.to_mm, path.line_um(path.to_mm)));
+  if (line.size() > 1 && line.size() <= kMostMarks) svg.polyline(line_of(direction), line);
+  for (std::size_t i = 0; i < std::min(path.along_mm.size(), kMostMarks); ++i) {
+    const Place at = on(path.along_mm[i], path.across_um[i]);
+    svg.data("axis", name).data("along-mm", path.along_mm[i]);
+    svg.data("across-um", path.across_um[i]);
+    if (direction > 0)
+      svg.dot("blue-dot", at, 3);
+    else
+      svg.rect("orange hollow", {at.x - 3, at.y - 3}, 6, 6);
+  }
+}
+
+}  // namespace
+
+std::string squareness_svg(const SquarenessResults& results, Language language) {
+  const Squareness& s = results.squareness;
+  const Budget& b = results.budget;
+  // The square's own angle turns what was read against its second face.
+  const AxisPath x = path_of(results.run_x, 0, s.slope_EYX_rad, 0);
+  const AxisPath y =
+      path_of(results.run_y, 0, s.slope_EXY_rad, -s.artefact.corner * s.artefact.angle_error_rad);
+  const std::vector<std::string> marks = head_marks(b.noise_only, results.marks, language);
+  const std::string title = phrase(Phrase::squareness_of_runs, language,
+                                   {std::to_string(s.run_x), std::to_string(s.run_y)});
+  const double U = to_urad(b.U);
+  const int decimals = U > 0 ? std::clamp(1 - decimal_exponent(U), 0, 9) : 3;
+  const std::string angle =
+      "EC0Y = " + fixed_text(to_urad(s.EC0Y_rad), decimals) + " µrad, " +
+      (U > 0 ? phrase(Phrase::U_and_k, language,
+                      {number_text(U, 2) + " µrad", fixed_text(b.coverage_factor, 2)})
+             : std::string(phrase(Phrase::U_is_unknown, language)));
+  const double top = run_head_height(marks) + kPictureLegendPx;
+  const Picture picture = picture_of(x, y, top);
+  const std::vector<std::string> notes = {
+      phrase(Phrase::enlarged, language, {number_text(picture.factor, 6)}),
+      phrase(Phrase::squareness_sense, language),
+      phrase(Phrase::u_covers, language, {covers_text(b)})};
+  Svg svg(kWidthPx, top + kPicturePx + 44 + notes_height(notes) + 12, title, angle, Theme::light);
+  draw_run_head(svg, title, angle, marks, language);
+  const auto run_of = [&](const char* error, std::int64_t run) {
+    return phrase(Phrase::error_of_run, language, {error, std::to_string(run)});
+  };
+  const std::array<LegendItem, 4> lines = {
+      {{LegendSign::line, "blue thin", run_of("EYX", s.run_x)},
+       {LegendSign::line, "orange dash thin", run_of("EXY", s.run_y)},
+       {LegendSign::line, "ink", phrase(Phrase::least_squares, language)},
+       {LegendSign::line, "rule dash", phrase(Phrase::square_axes, language)}}};
+  draw_marks_legend(svg, top - kPictureLegendPx, {}, lines, language);
+  svg.data("panel", "EC0Y_urad").data("value", to_urad(s.EC0Y_rad)).data("U", U);
+  svg.data("enlargement", picture.factor);
+  svg.begin_group();
+  draw_axes(svg, picture.panel, "X_mm");
+  draw_y_title(svg, picture.panel, "Y_mm");
+  draw_path(
+      svg, x, [&](double a, double c) { return picture.on_x(a, c); }, 1, "X");
+  draw_path(
+      svg, y, [&](double a, double c) { return picture.on_y(a, c); }, -1, "Y");
+  const double right = picture.panel.corner.x + kPicturePx + 24;
+  svg.text("text title", {right, top + 60}, Anchor::start, "EC0Y");
+  svg.text("text", {right, top + 86}, Anchor::start,
+           fixed_text(to_urad(s.EC0Y_rad), decimals) + " µrad");
+  svg.text("text", {right, top + 108}, Anchor::start,
+           U > 0 ? "U = " + number_text(U, 2) + " µrad" : phrase(Phrase::U_is_unknown, language));
+  svg.end_group();
+  draw_notes(svg, top + kPicturePx + 40, notes);
+  return svg.take();
+}
+
+}  // namespace mdof::charts

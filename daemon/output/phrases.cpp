@@ -49,6 +49,22 @@ std::string phrase(Phrase wanted, Language language, std::initializer_list<std::
   return text;
 }
 
+const char* state_text(RunState state, Language language) {
+  switch (state) {
+    case RunState::open:
+      return phrase(Phrase::state_open, language);
+    case RunState::complete:
+      return phrase(Phrase::state_complete, language);
+    case RunState::partial:
+      return phrase(Phrase::state_partial, language);
+    case RunState::aborted:
+      return phrase(Phrase::state_aborted, language);
+    case RunState::failed:
+      break;
+  }
+  return phrase(Phrase::state_failed, language);
+}
+
 // The catalogue of notices is in English.
 bool has_notices_in(Language language) {
   return language == Language::english;

@@ -4,9 +4,10 @@
 
 #include <initializer_list>
 #include <string>
+#include <string_view>
 
-#include "schema/base/result.h"
 #include "schema/notice/notice.h"
+#include "schema/run.h"
 
 namespace mdof::output {
 
@@ -24,6 +25,8 @@ enum class Phrase {
 const char* phrase(Phrase phrase, Language language);
 // With {0}, {1} ... replaced.
 std::string phrase(Phrase phrase, Language language, std::initializer_list<std::string> values);
+
+const char* state_text(RunState state, Language language);
 
 // What a reader is told of a notice, and whether it is in the language that was asked for.
 std::string notice_text(const Notice& notice, Language language);

@@ -82,7 +82,7 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
   const RunHeader& h = run.results.run.header;
   const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
   html.element("h3", of(Phrase::conditions));
-  std::string state = to_string(h.state);
+  std::string state = output::state_text(h.state, language);
   if (run.superseded_by)
     state += ", " + phrase(Phrase::superseded, language, {std::to_string(*run.superseded_by)});
   html.facts({{of(Phrase::started), h.started_utc},
@@ -233,7 +233,7 @@ void write_points(Html& html, const ReportRun& run, Language language) {
   head.push_back(of(Phrase::flags));
   std::vector<std::vector<std::string>> rows;
   for (std::size_t row = 0; row < n; ++row) rows.push_back(point_row(run, row));
-  html.table(head, rows, "long");
+  html.table(head, rows, "long points");
 }
 
 }  // namespace mdof::report

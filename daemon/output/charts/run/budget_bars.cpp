@@ -55,12 +55,12 @@ std::vector<Bar> contributor_bars(const Budget& budget, Language language) {
 }
 
 std::string budget_line(const Budget& b) {
-  const auto [name, unit] = split_key(b.figure);
+  const Key key = split_key(b.figure);
   const auto shown = [&](double si, int digits) {
-    return number_text(to_key_unit(si), digits) + " " + unit;
+    return number_text(to_key_unit(si), digits) + " " + key.unit;
   };
-  return name + " = " + shown(b.value, 4) + ", u = " + shown(b.u, 2) + ", U = " + shown(b.U, 2) +
-         " (k = " + fixed_text(b.coverage_factor, 2) + ", 95 %" +
+  return key.name + " = " + shown(b.value, 4) + ", u = " + shown(b.u, 2) +
+         ", U = " + shown(b.U, 2) + " (k = " + fixed_text(b.coverage_factor, 2) + ", 95 %" +
          (b.U_by_trials ? ", Monte Carlo" : "") + ")";
 }
 

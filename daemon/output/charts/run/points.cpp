@@ -53,7 +53,8 @@ std::string title_of_run(const RunHeader& header, const std::string& what, Langu
 
 std::string about_run(const RunHeader& header, Language language) {
   const std::string& sha256 = header.provenance.recording_sha256;
-  return phrase(Phrase::model_state, language, {header.provenance.model, to_string(header.state)}) +
+  return phrase(Phrase::model_state, language,
+                {header.provenance.model, output::state_text(header.state, language)}) +
          (sha256.empty() ? "" : ", " + phrase(Phrase::recording, language, {sha256.substr(0, 16)}));
 }
 

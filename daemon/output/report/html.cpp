@@ -27,7 +27,7 @@ constexpr std::string_view kStyle =
     "dt{color:#59636e}dd{margin:0;overflow-wrap:anywhere}"
     "table{border-collapse:collapse;width:100%;font-size:8.5pt;break-inside:avoid}"
     "table.long{break-inside:auto;font-size:7.5pt}"
-    "table.points{font-size:7pt}table.points td:not(:last-child){white-space:nowrap}"
+    "table.points{font-size:7pt}table.tight td:not(:last-child){white-space:nowrap}"
     "td:first-child{white-space:nowrap}"
     "dl+table{margin-top:2mm}"
     "thead{display:table-header-group}tr{break-inside:avoid}"

@@ -187,7 +187,7 @@ void write_decisions(Html& html, const ReportRun& run, Language language) {
   }
   html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::tolerance), of(Phrase::unit),
               of(Phrase::conformity), of(Phrase::reason)},
-             rows);
+             rows, "tight");
 }
 
 void write_notices(Html& html, const ReportRun& run, Language language) {
@@ -233,7 +233,7 @@ void write_points(Html& html, const ReportRun& run, Language language) {
   head.push_back(of(Phrase::flags));
   std::vector<std::vector<std::string>> rows;
   for (std::size_t row = 0; row < n; ++row) rows.push_back(point_row(run, row));
-  html.table(head, rows, "long points");
+  html.table(head, rows, "long points tight");
 }
 
 }  // namespace mdof::report

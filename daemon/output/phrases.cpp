@@ -3,8 +3,6 @@
 #include <array>
 #include <cstddef>
 
-#include "daemon/words/words.h"
-
 namespace mdof::output {
 namespace {
 
@@ -63,15 +61,6 @@ const char* state_text(RunState state, Language language) {
       break;
   }
   return phrase(Phrase::state_failed, language);
-}
-
-// The catalogue of notices is in English.
-bool has_notices_in(Language language) {
-  return language == Language::english;
-}
-
-std::string notice_text(const Notice& notice, Language) {
-  return words::text(notice);
 }
 
 }  // namespace mdof::output

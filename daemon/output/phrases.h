@@ -6,12 +6,13 @@
 #include <string>
 #include <string_view>
 
-#include "schema/notice/notice.h"
+#include "daemon/words/words.h"
 #include "schema/run.h"
 
 namespace mdof::output {
 
-enum class Language { english, german };
+using words::Language;
+
 // "en" or "de"; false: it is neither.
 bool language_from(std::string_view name, Language& language);
 const char* code_of(Language language);
@@ -27,9 +28,5 @@ const char* phrase(Phrase phrase, Language language);
 std::string phrase(Phrase phrase, Language language, std::initializer_list<std::string> values);
 
 const char* state_text(RunState state, Language language);
-
-// What a reader is told of a notice, and whether it is in the language that was asked for.
-std::string notice_text(const Notice& notice, Language language);
-bool has_notices_in(Language language);
 
 }  // namespace mdof::output

@@ -46,7 +46,7 @@ void write_title(Html& html, const Report& report) {
               {phrase(Phrase::operator_name, language), stated(report.title.operator_name)},
               {phrase(Phrase::runs, language), runs},
               {phrase(Phrase::report_by, language), report.software_version}});
-  if (!output::has_notices_in(language))
+  if (language != Language::english)
     html.element("p", phrase(Phrase::english_texts, language), "quiet");
 }
 

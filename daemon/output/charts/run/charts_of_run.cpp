@@ -18,8 +18,7 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
     all.charts.push_back({"run-" + number + "-" + name + ".svg", std::move(svg)});
   };
   if (!has_five_errors(results)) {
-    all.left_out.push_back(run + ": no point has errors, so nothing is drawn of it; mdof show " +
-                           number + " has the reasons");
+    all.left_out.push_back(run + ": no point has errors, so nothing is drawn of it");
     return all;
   }
   add("five-errors", five_errors_svg(results, language));

@@ -38,10 +38,11 @@ TEST_F(MethodTableTest, WhoMayCallWhat) {
                                          "compensation.activate",
                                          "compensation.deactivate"};
   const std::set<std::string> reading = {
-      "rpc.discover",      "server.info",       "device.list",     "live.subscribe",
-      "live.unsubscribe",  "run.list",          "run.get",         "run.points",
-      "run.budget",        "squareness.budget", "history.list",    "compensation.status",
-      "compensation.grid", "compensation.at",   "parallelism.fit", "machine.at"};
+      "rpc.discover",        "server.info",       "device.list",       "live.subscribe",
+      "live.unsubscribe",    "run.list",          "run.get",           "run.points",
+      "run.budget",          "run.compare",       "squareness.budget", "history.list",
+      "compensation.status", "compensation.grid", "compensation.at",   "parallelism.fit",
+      "machine.at"};
   const std::set<std::string> approving = {"compensation.activate", "compensation.deactivate"};
   for (const auto& [name, method] : methods()) {
     EXPECT_EQ(method.writes, writing.contains(name)) << name;

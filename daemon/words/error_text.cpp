@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 
 namespace mdof::words {
 namespace {
 
-constexpr std::size_t kRemedies = 0
-#define REMEDY(code) +1
+constexpr Remedy kRemedy[] = {
+#define REMEDY(code) Remedy::code,
 #include "schema/base/remedy/remedies.inc"
 #undef REMEDY
-    ;
+};
+constexpr std::size_t kRemedies = std::size(kRemedy);
 
 struct RemedyWords {
   const char* english;

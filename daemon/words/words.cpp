@@ -123,7 +123,7 @@ std::string text(const Notice& notice, Language language) {
 }
 
 std::string line(const Notice& notice, Language language) {
-  const std::string own = text(notice, language);
+  std::string own = text(notice, language);
   if (notice.severity == Severity::doubtful) return own;
   if (language == Language::english) return std::string(to_string(notice.severity)) + ": " + own;
   return (notice.severity == Severity::invalid ? "ungültig: " : "Hinweis: ") + own;

@@ -181,10 +181,7 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
                          const ExportOptions& options) {
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
-  ExportOptions as_measured = options;
-  as_measured.tolerance_m = 0;
-  if (options.tolerance_m > 0)
-    out.notes.emplace_back("tolerance_um has no effect: the points are at equal steps");
+  const ExportOptions as_measured = without_tolerance(options, out);
   if (options.home_m)
     out.notes.emplace_back("home_mm has no effect: CEC has the errors as they are");
   std::string head, text;

@@ -88,10 +88,7 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
                          const ExportOptions& options) {
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
-  ExportOptions as_measured = options;
-  as_measured.tolerance_m = 0;
-  if (options.tolerance_m > 0)
-    out.notes.emplace_back("tolerance_um has no effect: the points are at equal steps");
+  const ExportOptions as_measured = without_tolerance(options, out);
   for (const CompensationTable& table : tables) {
     MDOF_TRY(const Series s, positioning_of(table, kMostBeforeSteps, as_measured, "ENC_COMP", out));
     double reversal = 0;

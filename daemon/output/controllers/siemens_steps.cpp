@@ -58,6 +58,14 @@ Result<EqualSteps> equal_steps(const Series& s, Export& out) {
   return e;
 }
 
+ExportOptions without_tolerance(const ExportOptions& options, Export& out) {
+  if (options.tolerance_m > 0)
+    out.notes.emplace_back("tolerance_um has no effect: the points are at equal steps");
+  ExportOptions all_points = options;
+  all_points.tolerance_m = 0;
+  return all_points;
+}
+
 std::string siemens_axis(char axis) {
   return "AX" + std::to_string(axis - 'X' + 1);
 }

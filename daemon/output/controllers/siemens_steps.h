@@ -25,6 +25,9 @@ struct EqualSteps {
 // `written` has the points. Error (bad_input): fewer than two points.
 Result<EqualSteps> equal_steps(const Series& s, Export& out);
 
+// Points at equal steps are not left out; a note says so where a tolerance was given.
+ExportOptions without_tolerance(const ExportOptions& options, Export& out);
+
 // "AX1" of X.
 std::string siemens_axis(char axis);
 

@@ -1,5 +1,5 @@
-// What a person can do about an error, as a code: whoever meets the error does not know whether a
-// command line, a program or a report shows it. daemon/words has the words.
+// What a person can do about an error, as a code: the code that finds an error does not know
+// whether a command line, a program or a report shows it. daemon/words has the words.
 #pragma once
 
 #include <cstddef>

@@ -142,6 +142,11 @@ bool TomlTable::is_table(std::string_view key) {
   return node && node->is_table();
 }
 
+bool TomlTable::is_string(std::string_view key) {
+  const auto* node = node_->table->get(key);
+  return node && node->is_string();
+}
+
 std::string TomlTable::string(std::string_view key, const std::optional<std::string>& fallback) {
   node_->asked.emplace(key);
   const auto* node = node_->table->get(key);

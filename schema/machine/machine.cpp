@@ -31,6 +31,12 @@ const MachineFrame* Machine::find(std::string_view id) const {
   return found == frames.end() ? nullptr : &*found;
 }
 
+bool Machine::names_stored_rows() const {
+  return squareness.any() || std::any_of(frames.begin(), frames.end(), [](const MachineFrame& f) {
+           return f.runs.any() || f.tables.any();
+         });
+}
+
 bool moves_along(const MachineFrame& frame) {
   return frame.kind == FrameKind::linear || frame.moves_with != 0;
 }

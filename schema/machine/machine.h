@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,14 @@ struct LocationError {
   std::optional<double> u;      // none: not declared
 };
 
+// Rows of the database that a description names; whoever has the database takes them
+// (daemon/measure/machine). Not known before that.
+struct StoredRows {
+  std::vector<std::int64_t> ids;
+  bool latest = false;  // the newest there is; without ids
+  bool any() const { return latest || !ids.empty(); }
+};
+
 enum class FrameKind { linear, rotary, fixed };
 
 struct MachineFrame {
@@ -61,7 +70,9 @@ struct MachineFrame {
   bool is_known(std::size_t k, bool of_line) const {
     return of_line ? location[k].value.has_value() : error[k].known();
   }
-  std::string file;  // columns of several errors; empty: none
+  std::string file;   // columns of several errors; empty: none
+  StoredRows runs;    // of the axis, five-probe runs or imported ones: their means
+  StoredRows tables;  // compensation tables of the axis
 };
 
 // What may vary and was not measured: a screw, a clearance, an assembly. It may act at several
@@ -91,8 +102,10 @@ struct Machine {
   bool simulated = false;
   bool noise_only = false;  // a table of its errors has a u of noise and repeatability alone
   std::vector<ErrorSource> sources;
+  StoredRows squareness;  // of X and Y: one, or the latest
 
   const MachineFrame* find(std::string_view id) const;
+  bool names_stored_rows() const;  // so that it needs the database
 };
 
 // Whether its body goes along a line, as a linear axis or with one.

@@ -102,6 +102,26 @@ void read_range(TomlTable& table, MachineFrame& frame) {
   frame.range = {position_from_written(frame, ends[0]), position_from_written(frame, ends[1])};
 }
 
+// Numbers of rows, one or a list; or "latest".
+StoredRows read_stored_rows(TomlTable& table, const std::string& key) {
+  StoredRows rows;
+  if (!table.has(key)) return rows;
+  if (table.is_string(key)) {
+    rows.latest = table.string(key) == "latest";
+    if (!rows.latest) table.reject(key, "must be a number, a list of numbers or \"latest\"");
+    return rows;
+  }
+  for (const double x : table.is_array(key) ? table.numbers(key) : std::vector{table.number(key)}) {
+    if (!(x >= 1 && x <= 1e15 && x == std::floor(x))) {
+      table.reject(key, "must have the numbers of stored rows, from 1 on");
+      return rows;
+    }
+    rows.ids.push_back(static_cast<std::int64_t>(x));
+  }
+  if (rows.ids.empty()) table.reject(key, "must not be empty; take it out, or name a row");
+  return rows;
+}
+
 void read_axis(TomlTable& table, MachineFrame& frame) {
   if (frame.kind == FrameKind::rotary) {
     if (!table.has("centre_mm"))
@@ -116,6 +136,10 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
       table.reject("point",
                    "must be \"standing\" (the errors hold where an indicator stands still) or "
                    "\"moving\" (at a point that goes with the axis)");
+    frame.runs = read_stored_rows(table, "runs");
+    frame.tables = read_stored_rows(table, "tables");
+    if (frame.tables.latest)
+      table.reject("tables", "must have numbers of tables; only runs and squareness have a latest");
   }
   frame.file = table.string("file", "");
   read_range(table, frame);
@@ -228,6 +252,8 @@ Result<Machine> parse_machine(std::string_view text, const std::string& source_n
     read_axes(root, machine);
   read_fixed_frames(root, machine);
   read_sources(root, machine);
+  machine.squareness = read_stored_rows(root, "squareness");
+  if (machine.squareness.ids.size() > 1) root.reject("squareness", "must be one number, or latest");
   if (auto tool = root.table("tool")) machine.tool_m = read_point(*tool, "point_mm");
   MDOF_CHECK(root.finish());
   return machine;

@@ -1,13 +1,14 @@
 // mdof machine budget --preset co-planar | MACHINE.toml: how far the tool may be off, what makes
 // it, and which tolerances keep it within a target.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/machine/budget_output.h"
 #include "tools/mdof/commands/machine/machine_file.h"
-#include "tools/mdof/commands/machine/machine_runs.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/study/running/workers.h"
 
@@ -33,13 +34,31 @@ std::vector<std::string> beyond_tables(const algo::BudgetModel& model) {
   return names;
 }
 
+// As if the description of their axes named them.
+Status name_runs(Machine& machine, const MachineBudgetCommand& o) {
+  if (o.runs.empty()) return {};
+  MDOF_TRY(store::Store store, open_to_read(o.database));
+  for (const std::string& word : o.runs) {
+    MDOF_TRY(const std::int64_t id, run_number(store, word));
+    MDOF_TRY(const RunHeader header, store.run_header(id));
+    const std::string axis(1, letter(header.axis));
+    const auto frame = std::find_if(machine.frames.begin(), machine.frames.end(),
+                                    [&](const MachineFrame& f) { return f.id == axis; });
+    if (frame == machine.frames.end())
+      return bad_input("--run: the chain " + machine.chain.text + " has no axis " + axis);
+    frame->runs.ids.push_back(id);
+  }
+  return {};
+}
+
 Status machine_budget(const MachineBudgetCommand& o) {
   if (o.file.empty() == o.preset.empty())
     return fail(ErrorCode::usage, "machine budget needs either MACHINE.toml or --preset co-planar");
   Machine machine;
-  MDOF_TRY(machine,
-           o.file.empty() ? parse_machine(co_planar_machine(), o.preset) : load_machine(o.file));
-  MDOF_CHECK(add_runs(machine, o.database, o.runs));
+  MDOF_TRY(machine, o.file.empty() ? parse_machine(co_planar_machine(), o.preset)
+                                   : described_machine(o.file));
+  MDOF_CHECK(name_runs(machine, o));
+  MDOF_CHECK(add_stored_errors(machine, o.database));
   BudgetRequest request;
   if (!o.at.empty()) {
     MDOF_TRY(request.at, command_from(machine, o.at));

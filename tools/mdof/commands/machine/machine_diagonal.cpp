@@ -18,7 +18,7 @@ namespace mdof::tools {
 namespace {
 
 struct MachineDiagonalCommand {
-  std::string file, plane = "XY", approach = "mean", measured;
+  std::string file, database, plane = "XY", approach = "mean", measured;
   std::size_t steps = 20;
   double u_um = 0;
   bool json = false;
@@ -117,7 +117,7 @@ std::string diagonals_text(const Machine& machine, const std::vector<algo::Diago
 }
 
 Status predict(const MachineDiagonalCommand& o) {
-  MDOF_TRY(const Machine machine, load_machine(o.file));
+  MDOF_TRY(const Machine machine, load_machine(o.file, o.database));
   MDOF_TRY(const auto diagonals, algo::plane_diagonals(machine, std::string("XYZ").find(o.plane[0]),
                                                        std::string("XYZ").find(o.plane[1]), o.steps,
                                                        approach_from(o.approach)));
@@ -224,6 +224,7 @@ Action declare_machine_diagonal(CLI::App& command) {
   command.add_option("--u-um", o->u_um, "Standard uncertainty of each measured line")
       ->check(not_negative_number());
   add_approach_option(command, o->approach);
+  add_database_option(command, o->database);
   add_json_flag(command, o->json);
   return [o] { return machine_diagonal(*o); };
 }

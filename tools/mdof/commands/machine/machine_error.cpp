@@ -16,7 +16,7 @@ namespace mdof::tools {
 namespace {
 
 struct MachineErrorCommand {
-  std::string file, at, approach = "mean";
+  std::string file, database, at, approach = "mean";
   bool json = false;
 };
 
@@ -113,7 +113,7 @@ std::string error_text(const Machine& machine, const FoundError& found) {
 }
 
 Status machine_error(const MachineErrorCommand& o) {
-  MDOF_TRY(const Machine machine, load_machine(o.file));
+  MDOF_TRY(const Machine machine, load_machine(o.file, o.database));
   FoundError found;
   MDOF_TRY(found.at, command_from(machine, o.at));
   const auto approach = approach_from(o.approach);
@@ -131,6 +131,7 @@ Action declare_machine_error(CLI::App& command) {
       ->required()
       ->type_name("X,Y,Z");
   add_approach_option(command, o->approach);
+  add_database_option(command, o->database);
   add_json_flag(command, o->json);
   return [o] { return machine_error(*o); };
 }

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <filesystem>
 
+#include "daemon/measure/machine/stored_errors.h"
 #include "drivers/csv/csv_table.h"
 #include "schema/base/files.h"
 #include "schema/units.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -101,7 +104,7 @@ Result<double> number_in(const std::string& text, const std::string& whole) {
 
 }  // namespace
 
-Result<Machine> load_machine(const std::string& file) {
+Result<Machine> described_machine(const std::string& file) {
   MDOF_TRY(const std::string text, read_text_file(file));
   MDOF_TRY(Machine machine, parse_machine(text, file));
   const auto folder = std::filesystem::path(file).parent_path();
@@ -110,6 +113,20 @@ Result<Machine> load_machine(const std::string& file) {
     for (std::size_t k = 0; k < kBodyErrors; ++k)
       if (!frame.error[k].file.empty()) MDOF_CHECK(read_own_file(machine, frame, k, folder));
   }
+  return machine;
+}
+
+Status add_stored_errors(Machine& machine, const std::string& database) {
+  if (!machine.names_stored_rows()) return {};
+  MDOF_TRY(store::Store store, open_to_read(database));
+  MDOF_TRY(const auto stored, daemon::take_stored_errors(store, machine));
+  show_notices(stored.notices, true);
+  return {};
+}
+
+Result<Machine> load_machine(const std::string& file, const std::string& database) {
+  MDOF_TRY(Machine machine, described_machine(file));
+  MDOF_CHECK(add_stored_errors(machine, database));
   return machine;
 }
 

@@ -15,8 +15,14 @@ class App;
 
 namespace mdof::tools {
 
-// Files stand relative to MACHINE.toml.
-Result<Machine> load_machine(const std::string& file);
+// With the tables of its files, which stand relative to MACHINE.toml; what it names of the database
+// is not in it yet.
+Result<Machine> described_machine(const std::string& file);
+// Adds the rows of the database that it names, and the notices of them are shown; opened only where
+// it names some. `database`: what --db gave.
+Status add_stored_errors(Machine& machine, const std::string& database);
+// Both.
+Result<Machine> load_machine(const std::string& file, const std::string& database);
 
 void add_machine_argument(CLI::App& command, std::string& file);
 void add_approach_option(CLI::App& command, std::string& approach);

@@ -17,7 +17,7 @@ namespace mdof::tools {
 namespace {
 
 struct MachineMapCommand {
-  std::string file, plane = "XY", at = "", approach = "mean";
+  std::string file, database, plane = "XY", at = "", approach = "mean";
   double step_mm = 10;
   bool without_angles = false, bidirectional = false, csv = false, json = false;
 };
@@ -132,7 +132,7 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
 Status machine_map(const MachineMapCommand& o) {
   if (!(o.step_mm > 0 && std::isfinite(o.step_mm)))
     return fail(ErrorCode::usage, "--step-mm must be a finite number above 0");
-  MDOF_TRY(const Machine machine, load_machine(o.file));
+  MDOF_TRY(const Machine machine, load_machine(o.file, o.database));
   algo::PlaneMapRequest request;
   request.first = std::string("XYZ").find(o.plane[0]);
   request.second = std::string("XYZ").find(o.plane[1]);
@@ -172,6 +172,7 @@ Action declare_machine_map(CLI::App& command) {
       ->excludes("--approach");
   command.add_flag("--without-angles", o->without_angles,
                    "Positions, straightness and squareness alone");
+  add_database_option(command, o->database);
   add_csv_and_json_flags(command, o->csv, o->json);
   return [o] { return machine_map(*o); };
 }

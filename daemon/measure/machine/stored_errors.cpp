@@ -1,0 +1,242 @@
+#include "daemon/measure/machine/stored_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "daemon/measure/evaluation.h"
+#include "daemon/measure/gate/gate.h"
+#include "schema/imported/series.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr std::int64_t kPage = 50;
+constexpr std::size_t kAboutZ = 5;  // of the six errors: EC
+
+// One error of a table, without the positions at which it has no value.
+ErrorFunction function_of(const std::vector<double>& position, const std::vector<double>& forward,
+                          const std::vector<double>& reverse, const std::vector<double>& u) {
+  ErrorFunction f;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const bool has_forward = std::isfinite(forward[i]), has_reverse = std::isfinite(reverse[i]);
+    if (!has_forward && !has_reverse) continue;
+    f.position.push_back(position[i]);
+    f.forward.push_back(has_forward ? forward[i] : reverse[i]);
+    f.reverse.push_back(has_reverse ? reverse[i] : forward[i]);
+    f.u.push_back(std::isfinite(u[i]) ? u[i] : 0);
+  }
+  return f;
+}
+
+std::string axis_of(const MachineFrame& frame) {
+  return "axis " + frame.id + " of the machine: ";
+}
+
+Status take(MachineFrame& frame, std::size_t k, ErrorFunction function) {
+  if (function.forward.empty()) return {};
+  const std::string name = error_name(frame, k);
+  if (frame.error[k].known() || !frame.error[k].file.empty())
+    return bad_input(axis_of(frame) + name + " is given twice; give it once");
+  MDOF_CHECK(check_function(function, k, axis_of(frame) + name));
+  frame.error[k] = std::move(function);
+  return {};
+}
+
+// What a description and the rigs of a table have to agree in, or a sign is wrong.
+Status check_set_up(const Machine& machine, const MachineFrame& frame,
+                    const CompensationTable& table) {
+  const std::string of = axis_of(frame);
+  if (table.without_stated_point || table.stated.reference == Reference::carriage)
+    return bad_input(of +
+                     "its table is stated at no point that stays with the fixture; build one "
+                     "that is stated at the fixture");
+  if (table.sides.fixture_moves != frame.point_moves)
+    return bad_input(of + "point must be \"" + (frame.point_moves ? "standing" : "moving") +
+                     "\": the rig says that the " + table.sides.moves() + " moves");
+  if (table.sides.against_encoder != frame.against_command)
+    return bad_input(of + "the rig says travel \"" + table.sides.travel() +
+                     "\", the machine the other; correct the one that is wrong");
+  if (table.machine.known() && table.machine != machine.chain)
+    return bad_input(of + "the rig says the chain " + table.machine.text + " (" +
+                     travels_of(table.machine) + "), the machine " + machine.chain.text + " (" +
+                     travels_of(machine.chain) + "); correct the one that is wrong");
+  return {};
+}
+
+// Of one body, a location error of the XY pair would count the slope again.
+bool is_of_squareness(const MachineFrame& frame) {
+  return frame.id == "X" || frame.id == "Y";
+}
+
+Status check_slope(const Machine& machine, const MachineFrame& frame,
+                   const CompensationTable& table) {
+  if (!machine.squareness.any() || !is_of_squareness(frame)) return {};
+  if (table.stated.reference != Reference::fixture)
+    return bad_input(axis_of(frame) + "its table is stated at the " +
+                     to_string(table.stated.reference) +
+                     ", the squareness at the fixture; build the table at the fixture");
+  if (table.slope_removed) return {};
+  return bad_input(axis_of(frame) +
+                   "its table has the slope of the straightness, and the squareness has it again; "
+                   "take one of them out");
+}
+
+Status take_table(Machine& machine, MachineFrame& frame, const CompensationTable& table) {
+  machine.simulated = machine.simulated || table.simulated;
+  machine.noise_only = machine.noise_only || table.noise_only();
+  if (table.has_positioning()) {
+    const PositioningErrors& along = table.positioning;
+    std::vector<double> u = along.u_forward;
+    for (std::size_t i = 0; table.has_declared() && i < u.size(); ++i)
+      u[i] = std::hypot(u[i], along.u_declared[i]);
+    return take(frame, frame.direction,
+                function_of(table.position_m, along.forward, along.reverse, u));
+  }
+  MDOF_CHECK(check_set_up(machine, frame, table));
+  MDOF_CHECK(check_slope(machine, frame, table));
+  for (std::size_t named = 0; named < 5; ++named) {
+    std::vector<double> u;
+    for (std::size_t row = 0; row < table.position_m.size(); ++row)
+      u.push_back(table.u_of(table.u_forward, named, row));
+    const std::string name = error_names(table.axis)[named].name;
+    MDOF_CHECK(take(frame, std::string_view("XYZABC").find(name[1]),
+                    function_of(table.position_m, table.forward[named], table.reverse[named], u)));
+  }
+  return {};
+}
+
+void add_new(const std::vector<std::int64_t>& from, std::vector<std::int64_t>& to) {
+  for (const std::int64_t id : from)
+    if (std::find(to.begin(), to.end(), id) == to.end()) to.push_back(id);
+}
+
+// The newest run of five errors that has ended, and the newest imported positioning.
+Result<std::vector<std::int64_t>> latest_runs(store::Store& store, const MachineFrame& frame) {
+  const auto axis = axis_from(frame.id);
+  std::optional<std::int64_t> measured, positioning;
+  for (std::int64_t offset = 0; axis && !(measured && positioning); offset += kPage) {
+    MDOF_TRY(const auto runs, store.list_runs(offset, kPage, axis, store::Store::Listed::results));
+    if (runs.empty()) break;
+    for (const RunHeader& run : runs) {
+      if (run.state != RunState::complete) continue;
+      const bool imported = is_imported(run);
+      if (!imported && !measured) measured = run.id;
+      if (imported && !positioning && run.provenance.model == positioning_name(*axis))
+        positioning = run.id;
+    }
+  }
+  std::vector<std::int64_t> ids;
+  for (const auto& id : {measured, positioning})
+    if (id) ids.push_back(*id);
+  if (!ids.empty()) return ids;
+  return fail(ErrorCode::not_found, store.file().string() + ": has no complete run of axis " +
+                                        frame.id + ", whose latest the machine names");
+}
+
+Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all) {
+  std::vector<std::int64_t> ids = frame.runs.ids;
+  if (frame.runs.latest) {
+    MDOF_TRY(ids, latest_runs(store, frame));
+  }
+  // Imported positioning and measured runs are tables of their own.
+  TableRequest measured, imported;
+  measured.reference = Reference::fixture;
+  for (const std::int64_t id : ids) {
+    MDOF_TRY(const RunHeader header, store.run_header(id));
+    if (letter(header.axis) != frame.id[0] || frame.kind != FrameKind::linear)
+      return bad_input(axis_of(frame) + "run " + std::to_string(id) + " is of axis " +
+                       letter(header.axis) + "; name runs of the axis");
+    (is_imported(header) ? imported : measured).runs.push_back(id);
+  }
+  for (const TableRequest* request : {&measured, &imported}) {
+    if (request->runs.empty()) continue;
+    MDOF_TRY(const BuiltTable built, calculate_table(store, *request));
+    append(all.notices, built.notices);
+    append(all.doubtful, built.doubtful);
+    MDOF_CHECK(take_table(machine, frame, built.table));
+  }
+  add_new(ids, all.runs);
+  return {};
+}
+
+Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all) {
+  for (const std::int64_t id : frame.tables.ids) {
+    MDOF_TRY(const CompensationTable table, store.table(id));
+    if (letter(table.axis) != frame.id[0] || frame.kind != FrameKind::linear)
+      return bad_input(axis_of(frame) + "table " + std::to_string(id) + " is of axis " +
+                       letter(table.axis) + "; name tables of the axis");
+    MDOF_TRY(Notices doubtful, doubtful_notices(store, table));
+    append(all.doubtful, std::move(doubtful));
+    MDOF_CHECK(take_table(machine, frame, table));
+    add_new(table.runs, all.runs);
+  }
+  return {};
+}
+
+bool has(const std::vector<std::int64_t>& ids, std::int64_t id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+// The newest fit of runs that the axes name; of axes without runs the newest.
+Result<Squareness> find_squareness(store::Store& store, const Machine& machine,
+                                   const std::vector<std::int64_t>& runs) {
+  for (std::int64_t offset = 0;; offset += kPage) {
+    MDOF_TRY(const auto list, store.list_squareness(offset, kPage));
+    if (list.empty()) break;
+    for (const Squareness& s : list) {
+      if (machine.squareness.latest ? runs.empty() || (has(runs, s.run_x) && has(runs, s.run_y))
+                                    : s.id == machine.squareness.ids.front())
+        return s;
+    }
+  }
+  if (!machine.squareness.latest)
+    return fail(ErrorCode::not_found, store.file().string() + ": has no squareness " +
+                                          std::to_string(machine.squareness.ids.front()));
+  return fail(ErrorCode::not_found,
+              store.file().string() +
+                  ": has no squareness of the runs that the machine names; fit "
+                  "one of a run of X and a run of Y among them");
+}
+
+Status take_squareness(store::Store& store, Machine& machine, StoredErrors& all) {
+  const auto frame = std::find_if(machine.frames.begin(), machine.frames.end(),
+                                  [](const MachineFrame& f) { return f.id == "Y"; });
+  if (!machine.find("X") || frame == machine.frames.end())
+    return bad_input("squareness of the machine: the chain " + machine.chain.text +
+                     " has not both X and Y");
+  LocationError& EC0Y = frame->location[kAboutZ];
+  if (EC0Y.value || machine.find("X")->location[kAboutZ].value)
+    return bad_input("squareness of the machine: EC0Y_urad or EC0X_urad is given too; give one");
+  MDOF_TRY(const Squareness stored, find_squareness(store, machine, all.runs));
+  MDOF_TRY(const FittedSquareness fitted, stored_squareness(store, stored));
+  EC0Y = {fitted.squareness.EC0Y_rad, fitted.squareness.u_EC0Y_rad};
+  machine.simulated = machine.simulated || fitted.squareness.simulated;
+  append(all.notices, fitted.notices);
+  append(all.doubtful, without_information(fitted.notices));
+  if (!all.runs.empty() && !(has(all.runs, stored.run_x) && has(all.runs, stored.run_y))) {
+    Notice other =
+        notice(NoticeCode::squareness_of_other_runs, "",
+               {{"squareness", stored.id}, {"run_x", stored.run_x}, {"run_y", stored.run_y}});
+    append(all.notices, {other});
+    append(all.doubtful, {other});
+  }
+  add_new({stored.run_x, stored.run_y}, all.runs);
+  return {};
+}
+
+}  // namespace
+
+Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine) {
+  StoredErrors all;
+  for (MachineFrame& frame : machine.frames) {
+    MDOF_CHECK(take_runs(store, machine, frame, all));
+    MDOF_CHECK(take_tables(store, machine, frame, all));
+  }
+  if (machine.squareness.any()) MDOF_CHECK(take_squareness(store, machine, all));
+  for (MachineFrame& frame : machine.frames) frame.runs = frame.tables = {};
+  machine.squareness = {};
+  return all;
+}
+
+}  // namespace mdof::daemon

@@ -16,15 +16,14 @@ Result<const MachineFrame*> linear_axis(const Machine& machine, std::size_t dire
                    std::string(kAxes.substr(direction, 1)) + "; ask for axes that it has");
 }
 
-// From end to end in equal steps of about step_m.
+}  // namespace
+
 std::vector<double> steps_over(const std::array<double, 2>& range, double step_m) {
   const double count = std::max(1.0, std::round((range[1] - range[0]) / step_m));
   std::vector<double> at;
   for (double i = 0; i <= count; ++i) at.push_back(range[0] + (range[1] - range[0]) * i / count);
   return at;
 }
-
-}  // namespace
 
 Result<std::array<double, 2>> range_of(const MachineFrame& frame) {
   if (frame.range) return *frame.range;

@@ -20,6 +20,9 @@ struct PlaneMap {
 // common. Error: neither.
 Result<std::array<double, 2>> range_of(const MachineFrame& frame);
 
+// From end to end in equal steps of about step_m, at least one.
+std::vector<double> steps_over(const std::array<double, 2>& range, double step_m);
+
 struct PlaneMapRequest {
   std::size_t first = 0, second = 1;
   double step_m = 0.01;

@@ -1,0 +1,40 @@
+// A machine with its measured errors -> a table of corrections over a plane or a volume, and the
+// table's value at a command.
+#pragma once
+
+#include <array>
+
+#include "algo/compensation/table_limits.h"
+#include "algo/machine/frames.h"
+#include "schema/base/result.h"
+#include "schema/volumetric/volumetric_table.h"
+
+namespace mdof::algo {
+
+struct VolumetricRequest {
+  std::array<bool, 3> along{true, true, true};  // X, Y, Z: those of the grid
+  double step_m = 0.01;                         // between two nodes, about
+  Command others{};                             // where the other axes stand
+  MachineApproach approach = MachineApproach::mean;
+  // Also where an error that would count was not measured; the table names it.
+  bool incomplete = false;
+  TableLimits limits;
+};
+
+// The compensating command at each node (algo/machine/compensating.h), less the node. Id, runs,
+// description and hash are the caller's.
+// Errors: an axis that the chain has not or without range; more nodes than kMostVolumetricNodes; an
+// error that was not measured, unless `incomplete`; a node without compensating command; a
+// correction beyond the limits.
+inline constexpr std::size_t kMostVolumetricNodes = 100'000;
+Result<VolumetricTable> build_volumetric(const Machine& machine, const VolumetricRequest& request);
+
+struct VolumetricValue {
+  Vec3 correction_m{}, u_m{};
+  bool inside = true;  // else the value of the nearest place of the grid
+};
+// Linear along each axis between the nodes. u is that of the nodes about it with what
+// interpolation may be off, of a rectangular distribution; at a node without it.
+VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m);
+
+}  // namespace mdof::algo

@@ -1,0 +1,53 @@
+#include "schema/volumetric/volumetric_table.h"
+
+#include <span>
+
+#include "schema/base/canonical.h"
+#include "schema/base/sha256.h"
+
+namespace mdof {
+
+Vec3 VolumetricTable::command_at(std::size_t node) const {
+  const std::size_t nx = command_m[0].size(), ny = command_m[1].size();
+  return {command_m[0][node % nx], command_m[1][node / nx % ny], command_m[2][node / (nx * ny)]};
+}
+
+std::string volumetric_sha256(const VolumetricTable& t) {
+  using canonical::put;
+  std::string bytes;
+  const auto put_text = [&](std::string_view text) { put(bytes, text); };
+  const auto put_vector = [&](const Vec3& v) { put(bytes, std::span<const double>(v)); };
+  put_text("mdof volumetric table 1");
+  put_text(t.name);
+  put_text(t.machine.text);
+  put_text(travels_of(t.machine));
+  put_text(t.description);
+  put(bytes, std::uint64_t{t.runs.size()});
+  for (const std::int64_t run : t.runs) put(bytes, run);
+  put(bytes, t.simulated ? 1 : 0);
+  put(bytes, t.noise_only ? 1 : 0);
+  put_text(t.approach);
+  put_vector(t.tool_m);
+  put_vector(t.rotary_rad);
+  for (const auto& commands : t.command_m) canonical::put_counted(bytes, commands);
+  for (const auto* nodes : {&t.correction_m, &t.u_m})
+    for (const Vec3& v : *nodes) put_vector(v);
+  put_vector(t.interpolation_m);
+  put(bytes, t.place_left_m);
+  put(bytes, t.turn_left_rad);
+  for (const auto* names : {&t.not_measured, &t.u_not_declared, &t.beyond_tables}) {
+    put(bytes, std::uint64_t{names->size()});
+    for (const std::string& name : *names) put_text(name);
+  }
+  return sha256_hex(bytes);
+}
+
+std::string covers_text(const VolumetricTable& table) {
+  std::string text = table.noise_only
+                         ? "noise and repeatability of the measured errors only, in part at least"
+                         : "the u of the errors, each independent of the others";
+  if (!table.u_not_declared.empty()) text += "; some errors have none";
+  return text + "; between nodes interpolation";
+}
+
+}  // namespace mdof

@@ -1,0 +1,65 @@
+// A compensation table over a plane or a volume of a machine: what is added to the commands of its
+// linear axes, so that the tool is where the commands should have brought it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "schema/axis.h"
+#include "schema/rig/chain.h"
+
+namespace mdof {
+
+// The nodes of the grid lie at all combinations of the commands, X fastest, then Y, then Z. An axis
+// with one command stands there: a plane has one such axis, or a machine without it.
+struct VolumetricTable {
+  std::int64_t id = 0;  // 0 until stored; no table of an axis has the same
+  std::string name;     // of the machine
+  Chain machine;
+  std::string description;         // MACHINE.toml, as it was given
+  std::vector<std::int64_t> runs;  // whose errors are in it
+  bool simulated = false;          // wholly or in part
+  bool noise_only = false;         // u is of noise and repeatability alone, in part at least
+  std::string approach = "mean";   // of all axes: "mean", "forward", "reverse"
+  Vec3 tool_m{};                   // the tool's point, in the machine's coordinates at 0
+  std::array<std::vector<double>, 3> command_m;  // X, Y, Z; each strictly increasing
+  Vec3 rotary_rad{};                             // where A, B, C stand
+
+  // By node: added to the commands of X, Y, Z, m; standard uncertainty of the tool's place along X,
+  // Y, Z of the work, m (NaN: nothing that counts declares one).
+  std::vector<Vec3> correction_m, u_m;
+  // The largest that straight lines between nodes are off the correction of the model, found in the
+  // middle of cells, faces and edges; m, by axis.
+  Vec3 interpolation_m{};
+  // The largest that stays with the corrected commands: of the place (m) what the linear axes
+  // cannot reach, and the turn of the tool, which they cannot change (rad).
+  double place_left_m = 0, turn_left_rad = 0;
+  // Names of errors: not measured, so not corrected; without u; whose table ends within the grid.
+  std::vector<std::string> not_measured, u_not_declared, beyond_tables;
+  std::string created_utc;
+  std::string sha256;  // volumetric_sha256()
+
+  std::size_t nodes() const {
+    return command_m[0].size() * command_m[1].size() * command_m[2].size();
+  }
+  std::size_t node(std::size_t x, std::size_t y, std::size_t z) const {
+    return x + command_m[0].size() * (y + command_m[1].size() * z);
+  }
+  Vec3 command_at(std::size_t node) const;
+};
+
+// SHA-256 of what the table says. Bytes hashed (schema/base/canonical.h):
+//   s "mdof volumetric table 1", s name, s chain, s travels, s description, i number of runs, i
+//   each run, i simulated, i noise_only, s approach, d tool_m[3], d rotary_rad[3], then of X, Y, Z
+//   i n, d command_m[n], d correction_m[nodes][3], d u_m[nodes][3], d interpolation_m[3],
+//   d place_left_m, d turn_left_rad, then of not_measured, u_not_declared, beyond_tables i n, s
+//   each
+std::string volumetric_sha256(const VolumetricTable& table);
+
+// What its u covers: one sentence for people, without a full stop.
+std::string covers_text(const VolumetricTable& table);
+
+}  // namespace mdof

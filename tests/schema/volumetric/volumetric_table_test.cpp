@@ -1,0 +1,94 @@
+// The hash of a volumetric table has all that the table says, and its nodes are in the order
+// stated.
+#include "schema/volumetric/volumetric_table.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "schema/volumetric/volumetric_json.h"
+
+namespace mdof {
+namespace {
+
+VolumetricTable small_table() {
+  VolumetricTable t;
+  t.name = "mill";
+  t.machine = parse_chain("w-X-b-Y-t").value();
+  t.description = "name = \"mill\"";
+  t.runs = {3, 5};
+  t.command_m = {{{0, 0.01, 0.02}, {0, 0.05}, {0.03}}};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double x = static_cast<double>(i);
+    t.correction_m.push_back({1e-6 * x, 2e-6, -3e-6});
+    t.u_m.push_back({1e-8, 2e-8 * x, 3e-8});
+  }
+  t.not_measured = {"EXX"};
+  return t;
+}
+
+TEST(VolumetricTable, XRunsFastestThenYThenZ) {
+  const VolumetricTable t = small_table();
+  ASSERT_EQ(t.nodes(), 6u);
+  EXPECT_EQ(t.command_at(0), (Vec3{0, 0, 0.03}));
+  EXPECT_EQ(t.command_at(2), (Vec3{0.02, 0, 0.03}));
+  EXPECT_EQ(t.command_at(3), (Vec3{0, 0.05, 0.03}));
+  EXPECT_EQ(t.command_at(5), (Vec3{0.02, 0.05, 0.03}));
+  for (std::size_t node = 0; node < 6; ++node) EXPECT_EQ(t.node(node % 3, node / 3, 0), node);
+}
+
+TEST(VolumetricTable, EveryStatementIsInItsHash) {
+  const std::vector<std::function<void(VolumetricTable&)>> changes = {
+      [](auto& t) { t.name = "other"; },
+      [](auto& t) { t.machine = parse_chain("w-X-b-Y-Z-t").value(); },
+      [](auto& t) { t.machine.axes[0].against_command = true; },
+      [](auto& t) { t.description += "\n"; },
+      [](auto& t) {
+        t.runs = {5, 3};
+      },
+      [](auto& t) { t.simulated = true; },
+      [](auto& t) { t.noise_only = true; },
+      [](auto& t) { t.approach = "forward"; },
+      [](auto& t) { t.tool_m[1] = 1e-9; },
+      [](auto& t) { t.rotary_rad[2] = 1; },
+      [](auto& t) { t.command_m[0][1] += 1e-12; },
+      [](auto& t) { t.correction_m[5][2] = -t.correction_m[5][2]; },
+      [](auto& t) { t.u_m[0][0] *= 2; },
+      [](auto& t) { t.interpolation_m[1] = 1e-9; },
+      [](auto& t) { t.place_left_m = 1e-9; },
+      [](auto& t) { t.turn_left_rad = 1e-9; },
+      [](auto& t) { t.not_measured = {}; },
+      [](auto& t) { std::swap(t.not_measured, t.u_not_declared); },
+      [](auto& t) { t.beyond_tables = {"EXX"}; },
+  };
+  std::set<std::string> hashes{volumetric_sha256(small_table())};
+  for (const auto& change : changes) {
+    VolumetricTable t = small_table();
+    change(t);
+    hashes.insert(volumetric_sha256(t));
+  }
+  EXPECT_EQ(hashes.size(), changes.size() + 1);
+  VolumetricTable stored = small_table();
+  stored.id = 7, stored.created_utc = "now";  // which the store adds
+  EXPECT_TRUE(hashes.contains(volumetric_sha256(stored)));
+}
+
+TEST(VolumetricTable, ANodeIsItsCommandsItsCorrectionsAndTheirUInMicrometres) {
+  JsonWriter json;
+  write_volumetric_node(json, small_table(), 4);
+  EXPECT_EQ(json.take(), "[10,50,30,4,2,-3,0.01,0.08,0.03]");
+}
+
+TEST(VolumetricTable, ItsWordsSayWhatUDoesNotHave) {
+  VolumetricTable t = small_table();
+  EXPECT_EQ(covers_text(t).find("noise"), std::string::npos);
+  t.noise_only = true;
+  EXPECT_NE(covers_text(t).find("noise"), std::string::npos);
+  EXPECT_EQ(covers_text(t).find("have none"), std::string::npos);
+  t.u_not_declared = {"EYX"};
+  EXPECT_NE(covers_text(t).find("have none"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof

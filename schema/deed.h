@@ -17,14 +17,15 @@ struct Actor {
 
 struct Deed {
   std::string name;  // "run.start", "run.resume", "run.stop", "run.abort", "run.replay",
-                     // "squareness.fit", "compensation.build", ".activate", ".deactivate",
-                     // "encoder.set"
+                     // "squareness.fit", "compensation.build", ".build_volume", ".activate",
+                     // ".deactivate", "encoder.set"
   Actor by;
   std::string utc;
   // Given when it is stored.
   std::int64_t id = 0, row = 0;
   std::string subject = {};  // the table with this row: run, squareness, compensation_table,
-                             // activation, deactivation, encoder_datum
+                             // activation, deactivation, encoder_datum, volumetric_table,
+                             // volumetric_activation
   std::string detail = {};   // for people, where there is more to say: setting_text()
 };
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -22,7 +23,7 @@ struct FactKind {
   const char* values;
 };
 
-constexpr std::array<FactKind, 8> kKinds = {{
+constexpr std::array<FactKind, 10> kKinds = {{
     {Fact::run, "run", "id", "run",
      "SELECT run.axis, run.started_utc, run.simulated, run.note, run.model, run.supersedes, "
      "recording.kind, recording.path, recording.sha256, rig.text, options.text, "
@@ -55,7 +56,21 @@ constexpr std::array<FactKind, 8> kKinds = {{
     {Fact::encoder_datum, "encoder_datum", "id", "encoder datum",
      "SELECT axis, device, before_m, position_m, offset_m, utc FROM encoder_datum NOT INDEXED "
      "WHERE id = ?"},
+    {Fact::volumetric_table, "volumetric_table", "id", "volumetric table",
+     "SELECT machine, document.text, chain, chain_travel, simulated, noise_only, approach, tool_m, "
+     "rotary_rad, X_m, Y_m, Z_m, correction_m, u_m, interpolation_m, place_left_m, turn_left_rad, "
+     "not_measured, u_not_declared, beyond_tables, created_utc, v.sha256, (SELECT "
+     "group_concat(run) FROM (SELECT run FROM volumetric_source AS s WHERE s.volumetric_table = "
+     "?1 ORDER BY s.row)) FROM volumetric_table AS v JOIN document ON document.id = v.description "
+     "WHERE v.id = ?1"},
+    {Fact::volumetric_activation, "volumetric_activation", "generation",
+     "volumetric activation of generation",
+     "SELECT volumetric_table, actor, activated_utc FROM volumetric_activation NOT INDEXED WHERE "
+     "generation = ?"},
 }};
+
+// Those that a database had when the ledger was new.
+constexpr std::size_t kFirstKinds = 6;
 
 const FactKind& kind_of(Fact fact) {
   return kKinds[static_cast<std::size_t>(fact)];
@@ -191,8 +206,7 @@ Result<bool> has_hash(Connection& connection, const std::string& sha256) {
 }
 
 Status link_old_facts(Connection& connection) {
-  for (const FactKind& kind : kKinds) {
-    if (kind.fact == Fact::deed || kind.fact == Fact::encoder_datum) continue;
+  for (const FactKind& kind : std::span(kKinds).first(kFirstKinds)) {
     std::vector<std::int64_t> rows;
     {
       MDOF_TRY(Statement keys, connection.prepare(std::string("SELECT ") + kind.key + " FROM " +
@@ -223,7 +237,8 @@ Status check_link(Connection& connection, Fact fact, std::int64_t row) {
 Status check_activations(Connection& connection) {
   std::vector<std::string> findings;
   MDOF_CHECK(check_all(connection, findings, [](Fact fact) {
-    return fact == Fact::activation || fact == Fact::deactivation;
+    return fact == Fact::activation || fact == Fact::deactivation ||
+           fact == Fact::volumetric_activation;
   }));
   return findings.empty() ? Status() : damaged(connection, findings.front());
 }

@@ -29,12 +29,22 @@ struct ChainHead {
   bool operator==(const ChainHead&) const = default;
 };
 
-enum class Fact { run, run_end, squareness, table, activation, deactivation, deed, encoder_datum };
+enum class Fact {
+  run,
+  run_end,
+  squareness,
+  table,
+  activation,
+  deactivation,
+  deed,
+  encoder_datum,
+  volumetric_table,
+  volumetric_activation,
+};
 
 // Within the transaction that stored the fact.
 Status add_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
-// Links all facts of a database from before it had a ledger; of deeds and encoder data there were
-// none.
+// Links all facts of a database from before it had a ledger; of the later kinds there were none.
 Status link_old_facts(sqlite::Connection& connection);
 
 Result<ChainHead> chain_head(sqlite::Connection& connection);
@@ -44,7 +54,8 @@ Result<bool> has_hash(sqlite::Connection& connection, const std::string& sha256)
 
 // Error (bad_input): the fact is not what was stored, or has no link.
 Status check_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
-// The same of every activation and deactivation, and that none is missing.
+// The same of every activation and deactivation, of axes and of the volume, and that none is
+// missing.
 Status check_activations(sqlite::Connection& connection);
 // The whole chain, and that every fact is in it. One sentence a finding.
 Status verify_ledger(sqlite::Connection& connection, std::vector<std::string>& findings);

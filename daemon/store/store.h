@@ -22,6 +22,7 @@
 #include "schema/notice/notice.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
+#include "schema/volumetric/volumetric_table.h"
 
 namespace mdof::store {
 
@@ -57,6 +58,14 @@ struct ActiveTable {
   std::string actor;
   std::string activated_utc;
   bool doubtful = false;  // by its runs; whoever reads it for a client says so
+};
+
+struct ActiveVolumetric {
+  VolumetricTable table;
+  std::int64_t generation = 0;
+  std::string actor;
+  std::string activated_utc;
+  bool doubtful = false;  // as of ActiveTable
 };
 
 // What a controller is to be told of a table.
@@ -138,6 +147,19 @@ class Store {
                                 const std::optional<Deed>& deed = std::nullopt);
   Result<ActiveTable> active(Axis axis);  // not_found where none is in force
   Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
+
+  // ---- volumetric tables ----
+  // Their numbers and generations are of one count with those of compensation tables.
+  Result<std::int64_t> add_volumetric(const VolumetricTable& table,
+                                      const std::optional<Deed>& deed = std::nullopt);
+  Result<VolumetricTable> volumetric(std::int64_t id);
+  Result<bool> is_volumetric(std::int64_t id);  // false: no such table, or one of an axis
+  Result<std::vector<VolumetricTable>> list_volumetric(std::int64_t offset, std::int64_t count);
+  // Activates one; without a table none is active from then on.
+  Result<Activation> change_volumetric(std::optional<std::int64_t> table, const std::string& actor,
+                                       const std::string& utc,
+                                       const std::optional<Deed>& deed = std::nullopt);
+  Result<ActiveVolumetric> active_volumetric();  // not_found where none is active
 
   // ---- where an axis stood when somebody said so ----
   Result<std::int64_t> add_datum(const DatumSetting& setting,  // its id is not used
@@ -228,8 +250,11 @@ class Store {
   Result<std::optional<Plausibility>> plausibility(std::int64_t run);
   // tables.cpp
   Result<CompensationTable> table_of(sqlite::Statement& row);
-  Result<std::vector<std::int64_t>> sources(std::int64_t table);
+  Result<std::vector<std::int64_t>> integers(std::string_view sql, std::int64_t of);
   Result<std::int64_t> next_generation(const std::string& utc);
+  // volumetric.cpp
+  Result<std::int64_t> next_table();
+  Result<VolumetricTable> volumetric_of(sqlite::Statement& row);
   // history.cpp
   Status insert_deed(std::string_view subject, std::int64_t row, const std::optional<Deed>& deed);
   Result<std::vector<Deed>> read_deeds(sqlite::Statement& rows);

@@ -183,20 +183,21 @@ Result<std::int64_t> Store::add_table(const CompensationTable& table,
   for (const std::int64_t run : table.runs)
     MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
-  MDOF_TRY(Statement insert,
-           connection_.prepare("INSERT INTO compensation_table (axis, simulated, slope_removed, "
-                               "created_utc, sha256, position_m, errors_m_rad, moves, travel, "
-                               "reference, point_m, chain, chain_travel) "
-                               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
+  MDOF_TRY(
+      Statement insert,
+      connection_.prepare("INSERT INTO compensation_table (id, axis, simulated, slope_removed, "
+                          "created_utc, sha256, position_m, errors_m_rad, moves, travel, "
+                          "reference, point_m, chain, chain_travel) "
+                          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
+  MDOF_TRY(const std::int64_t id, next_table());
   const char axis = letter(table.axis);
   const std::vector<double> errors = all_series(table);
-  insert.bind(std::string_view(&axis, 1)).bind(std::int64_t{table.simulated});
+  insert.bind(id).bind(std::string_view(&axis, 1)).bind(std::int64_t{table.simulated});
   insert.bind(std::int64_t{table.slope_removed});
   insert.bind(std::string_view(table.created_utc)).bind(std::string_view(table.sha256));
   insert.bind_bytes(bytes_of(table.position_m)).bind_bytes(bytes_of(errors));
   bind_statement(insert, table);
   MDOF_CHECK(insert.run());
-  const std::int64_t id = connection_.last_insert_rowid();
   MDOF_TRY(Statement source, connection_.prepare("INSERT INTO compensation_source VALUES (?,?,?)"));
   for (std::size_t row = 0; row < table.runs.size(); ++row)
     MDOF_CHECK(source.bind(id).bind(static_cast<std::int64_t>(row)).bind(table.runs[row]).run());
@@ -206,10 +207,9 @@ Result<std::int64_t> Store::add_table(const CompensationTable& table,
   return id;
 }
 
-Result<std::vector<std::int64_t>> Store::sources(std::int64_t table) {
-  MDOF_TRY(Statement rows, connection_.prepare("SELECT run FROM compensation_source WHERE "
-                                               "compensation_table = ? ORDER BY row"));
-  rows.bind(table);
+Result<std::vector<std::int64_t>> Store::integers(std::string_view sql, std::int64_t of) {
+  MDOF_TRY(Statement rows, connection_.prepare(sql));
+  rows.bind(of);
   std::vector<std::int64_t> list;
   for (;;) {
     MDOF_TRY(const bool row, rows.step());
@@ -235,7 +235,9 @@ Result<CompensationTable> Store::table_of(Statement& row) {
   MDOF_CHECK(check_link(connection_, Fact::table, table.id));
   set_series(table, *parts, errors);
   MDOF_CHECK(read_statement(row, table));
-  MDOF_TRY(table.runs, sources(table.id));
+  MDOF_TRY(table.runs, integers("SELECT run FROM compensation_source WHERE compensation_table = ? "
+                                "ORDER BY row",
+                                table.id));
   for (const std::int64_t run : table.runs) {
     MDOF_TRY(const RunHeader header, run_header(run));
     if (const auto rig = parse_rig(header.provenance.rig_text, "its rig"))
@@ -364,7 +366,8 @@ Result<ActiveTable> Store::active(Axis axis) {
 Result<std::int64_t> Store::generation() {
   return connection_.integer(
       "SELECT max(generation) FROM (SELECT generation FROM activation UNION ALL "
-      "SELECT generation FROM deactivation)");
+      "SELECT generation FROM deactivation UNION ALL SELECT generation FROM "
+      "volumetric_activation)");
 }
 
 }  // namespace mdof::store

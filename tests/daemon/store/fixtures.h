@@ -14,6 +14,7 @@
 #include <string>
 
 #include "daemon/store/store.h"
+#include "schema/sample.h"
 
 namespace mdof::store {
 
@@ -134,6 +135,31 @@ inline bool mount_read_only(const fs::path& folder) {
 
 inline bool mount_small_disk(const fs::path& folder, const char* size) {
   return mount("tmpfs", folder.c_str(), "tmpfs", 0, size) == 0;
+}
+
+inline VolumetricTable make_volume(const std::vector<std::int64_t>& runs = {}) {
+  VolumetricTable t;
+  t.name = "mill";
+  t.machine = chain_from("w-X-b-Y-C-t", "X- Y+ C+").value();
+  t.description = "name = \"mill\"\n";
+  t.runs = runs;
+  t.simulated = true;
+  t.approach = "reverse";
+  t.tool_m = {1e-3, -0.0, 0.1};
+  t.rotary_rad = {0, 0, 0.5};
+  t.command_m = {{{0, 0.01}, {-0.02, 0.05, 0.06}, {0.03}}};
+  for (int i = 0; i < 6; ++i) {
+    t.correction_m.push_back({1e-6 / 3 * i, -0.0, 7e-7});
+    t.u_m.push_back({1e-8, kNaN, 3e-8 * i});
+  }
+  t.interpolation_m = {1e-9, 2e-9, 3e-9};
+  t.place_left_m = 4e-9;
+  t.turn_left_rad = 5e-6;
+  t.not_measured = {"EZZ", "EA0Z"};
+  t.beyond_tables = {"EXX"};
+  t.created_utc = "utc";
+  t.sha256 = volumetric_sha256(t);
+  return t;
 }
 
 }  // namespace mdof::store

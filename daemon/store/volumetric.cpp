@@ -1,0 +1,208 @@
+// Store: volumetric tables and which of them is active.
+#include "daemon/store/bytes.h"
+#include "daemon/store/ledger.h"
+#include "daemon/store/store.h"
+#include "schema/base/json_writer.h"
+
+namespace mdof::store {
+
+using sqlite::Statement;
+using sqlite::Transaction;
+
+namespace {
+
+constexpr std::string_view kVolumetric =
+    "SELECT v.id, v.machine, document.text, v.chain, v.chain_travel, v.simulated, v.noise_only, "
+    "v.approach, v.tool_m, v.rotary_rad, v.X_m, v.Y_m, v.Z_m, v.correction_m, v.u_m, "
+    "v.interpolation_m, v.place_left_m, v.turn_left_rad, v.not_measured, v.u_not_declared, "
+    "v.beyond_tables, v.created_utc, v.sha256 "
+    "FROM volumetric_table AS v JOIN document ON document.id = v.description ";
+
+std::vector<double> flat(const std::vector<Vec3>& values) {
+  std::vector<double> all;
+  for (const Vec3& v : values) all.insert(all.end(), v.begin(), v.end());
+  return all;
+}
+
+std::vector<Vec3> vectors_from(std::string_view bytes) {
+  const std::vector<double> all = doubles_from(bytes);
+  std::vector<Vec3> values;
+  for (std::size_t i = 0; i + 2 < all.size(); i += 3)
+    values.push_back({all[i], all[i + 1], all[i + 2]});
+  return values;
+}
+
+std::string json_list(const std::vector<std::string>& names) {
+  JsonWriter json;
+  json.begin_array();
+  for (const std::string& name : names) json.value(name);
+  json.end_array();
+  return json.take();
+}
+
+Status check_shape(const VolumetricTable& t) {
+  if (t.nodes() > 0 && t.correction_m.size() == t.nodes() && t.u_m.size() == t.nodes()) return {};
+  return fail(ErrorCode::usage,
+              "volumetric table: must have one correction and one u for each of " +
+                  std::to_string(t.nodes()) + " nodes");
+}
+
+// The bytes are not copied: what is bound has to live until the statement has run.
+void bind_values(Statement& insert, const VolumetricTable& t, const std::vector<double>& correction,
+                 const std::vector<double>& u) {
+  insert.bind_bytes(bytes_of(t.tool_m)).bind_bytes(bytes_of(t.rotary_rad));
+  for (const auto& commands : t.command_m) insert.bind_bytes(bytes_of(commands));
+  insert.bind_bytes(bytes_of(correction)).bind_bytes(bytes_of(u));
+  insert.bind_bytes(bytes_of(t.interpolation_m)).bind(t.place_left_m).bind(t.turn_left_rad);
+  for (const auto* names : {&t.not_measured, &t.u_not_declared, &t.beyond_tables}) {
+    const std::string list = json_list(*names);
+    insert.bind(std::string_view(list));
+  }
+}
+
+}  // namespace
+
+Result<std::int64_t> Store::next_table() {
+  return connection_.integer(
+      "SELECT coalesce(max(id), 0) + 1 FROM (SELECT id FROM compensation_table UNION ALL SELECT id "
+      "FROM volumetric_table)");
+}
+
+Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
+                                           const std::optional<Deed>& deed) {
+  MDOF_CHECK(check_shape(table));
+  for (const std::int64_t run : table.runs)
+    MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
+  MDOF_TRY(const std::int64_t id, next_table());
+  MDOF_TRY(const std::int64_t description, document_id(table.description));
+  MDOF_TRY(Statement insert,
+           connection_.prepare(
+               "INSERT INTO volumetric_table (id, machine, description, chain, chain_travel, "
+               "simulated, noise_only, approach, created_utc, sha256, tool_m, rotary_rad, X_m, "
+               "Y_m, Z_m, correction_m, u_m, interpolation_m, place_left_m, turn_left_rad, "
+               "not_measured, u_not_declared, beyond_tables) "
+               "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
+  const std::string travels = travels_of(table.machine);
+  insert.bind(id).bind(std::string_view(table.name)).bind(description);
+  insert.bind(std::string_view(table.machine.text)).bind(std::string_view(travels));
+  insert.bind(std::int64_t{table.simulated}).bind(std::int64_t{table.noise_only});
+  insert.bind(std::string_view(table.approach)).bind(std::string_view(table.created_utc));
+  insert.bind(std::string_view(table.sha256));
+  const std::vector<double> correction = flat(table.correction_m), u = flat(table.u_m);
+  bind_values(insert, table, correction, u);
+  MDOF_CHECK(insert.run());
+  MDOF_TRY(Statement source, connection_.prepare("INSERT INTO volumetric_source VALUES (?,?,?)"));
+  for (std::size_t row = 0; row < table.runs.size(); ++row)
+    MDOF_CHECK(source.bind(id).bind(static_cast<std::int64_t>(row)).bind(table.runs[row]).run());
+  MDOF_CHECK(add_link(connection_, Fact::volumetric_table, id));
+  MDOF_CHECK(insert_deed("volumetric_table", id, deed));
+  MDOF_CHECK(transaction.commit());
+  return id;
+}
+
+Result<VolumetricTable> Store::volumetric_of(Statement& row) {
+  VolumetricTable t;
+  t.id = row.integer(0);
+  MDOF_CHECK(check_link(connection_, Fact::volumetric_table, t.id));
+  t.name = row.text(1);
+  t.description = row.text(2);
+  MDOF_TRY(t.machine, chain_from(row.text(3), row.text(4)));
+  t.simulated = row.integer(5) != 0;
+  t.noise_only = row.integer(6) != 0;
+  t.approach = row.text(7);
+  doubles_from(row.bytes(8), t.tool_m);
+  doubles_from(row.bytes(9), t.rotary_rad);
+  for (std::size_t k = 0; k < 3; ++k)
+    t.command_m[k] = doubles_from(row.bytes(10 + static_cast<int>(k)));
+  t.correction_m = vectors_from(row.bytes(13));
+  t.u_m = vectors_from(row.bytes(14));
+  doubles_from(row.bytes(15), t.interpolation_m);
+  t.place_left_m = row.real(16);
+  t.turn_left_rad = row.real(17);
+  int column = 18;
+  for (auto* names : {&t.not_measured, &t.u_not_declared, &t.beyond_tables}) {
+    MDOF_TRY(*names, texts(row.text(column++)));
+  }
+  t.created_utc = row.text(21);
+  t.sha256 = row.text(22);
+  if (!check_shape(t))
+    return bad_input(file().string() + ": volumetric table " + std::to_string(t.id) +
+                     " is damaged; restore the database from a backup");
+  MDOF_TRY(t.runs, integers("SELECT run FROM volumetric_source WHERE volumetric_table = ? ORDER BY "
+                            "row",
+                            t.id));
+  return t;
+}
+
+Result<VolumetricTable> Store::volumetric(std::int64_t id) {
+  MDOF_CHECK(check_exists("SELECT 1 FROM volumetric_table WHERE id = ?", "volumetric table", id));
+  MDOF_TRY(Statement row, connection_.prepare(std::string(kVolumetric) + "WHERE v.id = ?"));
+  MDOF_CHECK(row.bind(id).step());
+  return volumetric_of(row);
+}
+
+Result<bool> Store::is_volumetric(std::int64_t id) {
+  MDOF_TRY(Statement row, connection_.prepare("SELECT 1 FROM volumetric_table WHERE id = ?"));
+  return row.bind(id).step();
+}
+
+Result<std::vector<VolumetricTable>> Store::list_volumetric(std::int64_t offset,
+                                                            std::int64_t count) {
+  MDOF_TRY(Statement rows,
+           connection_.prepare(std::string(kVolumetric) + "ORDER BY v.id DESC LIMIT ?2 OFFSET ?1"));
+  rows.bind(offset).bind(count);
+  std::vector<VolumetricTable> list;
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return list;
+    MDOF_TRY(VolumetricTable table, volumetric_of(rows));
+    list.push_back(std::move(table));
+  }
+}
+
+Result<Activation> Store::change_volumetric(std::optional<std::int64_t> table,
+                                            const std::string& actor, const std::string& utc,
+                                            const std::optional<Deed>& deed) {
+  if (table)
+    MDOF_CHECK(
+        check_exists("SELECT 1 FROM volumetric_table WHERE id = ?", "volumetric table", *table));
+  const auto now = active_volumetric();
+  if (!now && now.error().code != ErrorCode::not_found && table) return tl::unexpected(now.error());
+  const bool none = !now && now.error().code == ErrorCode::not_found;
+  if (now && table == now->table.id) return Activation{now->generation, false};
+  if (none && !table) {
+    MDOF_TRY(const std::int64_t last, generation());
+    return Activation{last, false};
+  }
+  MDOF_TRY(const std::int64_t generation, next_generation(utc));
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
+  MDOF_TRY(Statement insert,
+           connection_.prepare("INSERT INTO volumetric_activation VALUES (?, ?, ?, ?)"));
+  insert.bind(generation).bind(table);
+  MDOF_CHECK(insert.bind(std::string_view(actor)).bind(std::string_view(utc)).run());
+  MDOF_CHECK(add_link(connection_, Fact::volumetric_activation, generation));
+  MDOF_CHECK(insert_deed("volumetric_activation", generation, deed));
+  MDOF_CHECK(transaction.commit());
+  return Activation{generation, true};
+}
+
+Result<ActiveVolumetric> Store::active_volumetric() {
+  MDOF_CHECK(check_told_head());
+  MDOF_CHECK(check_activations(connection_));
+  MDOF_TRY(Statement row,
+           connection_.prepare("SELECT generation, volumetric_table, actor, activated_utc FROM "
+                               "volumetric_activation NOT INDEXED ORDER BY generation DESC "
+                               "LIMIT 1"));
+  MDOF_TRY(const bool found, row.step());
+  if (!found || row.is_null(1))
+    return fail(ErrorCode::not_found, "no volumetric table is active; activate one");
+  ActiveVolumetric active;
+  active.generation = row.integer(0);
+  active.actor = row.text(2);
+  active.activated_utc = row.text(3);
+  MDOF_TRY(active.table, volumetric(row.integer(1)));
+  return active;
+}
+
+}  // namespace mdof::store

@@ -53,6 +53,14 @@ std::string clock_json(double step_s) {
   return json.take();
 }
 
+std::string compensation_json(std::int64_t generation) {
+  JsonWriter json;
+  json.begin_object().field("type", "compensation").field("generation", generation);
+  json.field("text", "another table is active, or none; read it anew");
+  json.field("utc", utc_now()).end_object();
+  return json.take();
+}
+
 rpc::ServerOptions server_options(const RpcAccess& access) {
   rpc::ServerOptions options;
   options.max_connections = access.connections;
@@ -212,6 +220,9 @@ Status App::Parts::listen() {
                                               config.database.string(), utc_now(),
                                               std::chrono::steady_clock::now()});
   methods->replayer = replayer.get();
+  methods->announce = [this](std::int64_t generation) {
+    tell(kRunTopic, compensation_json(generation));
+  };
   MDOF_TRY(methods->generation, reader->generation());
   // Never back, though what raised it is lost.
   methods->generation =

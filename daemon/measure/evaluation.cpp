@@ -12,6 +12,7 @@
 #include "algo/uncertainty/two_runs.h"
 #include "daemon/history.h"
 #include "daemon/measure/gate/gate.h"
+#include "daemon/measure/machine/volumetric.h"
 #include "daemon/paths.h"
 #include "daemon/words/error_text.h"
 #include "schema/base/toml_reader.h"
@@ -179,13 +180,19 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
 
 Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request,
                                            const store::Marks& marks) {
-  MDOF_TRY(auto done, store.activate(request.table, actor_text(request.deed.by), request.deed.utc,
-                                     request.deed));
+  MDOF_TRY(const bool volumetric, store.is_volumetric(request.table));
+  const std::string actor = actor_text(request.deed.by);
+  MDOF_TRY(auto done,
+           volumetric
+               ? store.change_volumetric(request.table, actor, request.deed.utc, request.deed)
+               : store.activate(request.table, actor, request.deed.utc, request.deed));
   done.marks = marks;
   return done;
 }
 
 Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request) {
+  MDOF_TRY(const bool volumetric, store.is_volumetric(request.table));
+  if (volumetric) return check_volumetric_activation(store, request.table, request.consent);
   MDOF_TRY(const CompensationTable table, store.table(request.table));
   if (table.has_positioning())
     return fail(ErrorCode::conflict,
@@ -195,6 +202,7 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);
   const bool in_force = now && now->table.id == request.table;
+  if (!in_force) MDOF_CHECK(check_no_volumetric(store));
   if (!in_force) MDOF_CHECK(check_gate(judged, request.consent, "it is not activated"));
   return store::Marks{judged.simulated, !judged.doubtful.empty()};
 }

@@ -6,6 +6,7 @@
 #include "algo/compensation/compensation.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
+#include "daemon/methods/volume.h"
 #include "daemon/paths.h"
 #include "daemon/rpc/list_page.h"
 #include "daemon/words/words.h"
@@ -32,7 +33,7 @@ constexpr std::int64_t kMaxGridPage = 100;
 
 Result<const store::ActiveTable*> active_table(const Methods& m, const Params& params) {
   MDOF_TRY(const Axis axis, axis_param(params));
-  const auto& table = m.active[static_cast<std::size_t>(axis)];
+  const auto& table = m.active.axes[static_cast<std::size_t>(axis)];
   if (table) return table.get();
   return fail(ErrorCode::not_found,
               std::string("no compensation table is active for axis ") + letter(axis) +
@@ -74,22 +75,6 @@ void build(Methods& m, const Params& params, Reply reply) {
       });
 }
 
-// Stores the change first, then puts it in force for everybody at once on the main thread; the
-// answer, `reply_members` with the generation, comes there after it.
-Change change_what_is_in_force(Methods& m, std::string reply_members,
-                               std::function<Result<store::Activation>(store::Store&)> change) {
-  return [&m, members = std::move(reply_members),
-          change = std::move(change)](store::Store& store) -> Result<std::string> {
-    MDOF_TRY(const auto done, change(store));
-    MDOF_TRY(auto tables, load_active(store));
-    m.loop.post([&m, done, tables = std::move(tables)] {
-      m.active = tables;
-      if (done.changed) m.generation = done.generation;
-    });
-    return activation_json(members, done);
-  };
-}
-
 void activate(Methods& m, const Params& params, Reply reply) {
   const ActivationRequest request{
       params.integer("table"),
@@ -97,30 +82,31 @@ void activate(Methods& m, const Params& params, Reply reply) {
       deed_of(params, "compensation.activate")};
   answer_with_change(m, std::move(reply), [&m, request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(const store::Marks marks, check_activation(reader, request));
-    return change_what_is_in_force(
+    return change_active(
         m, "\"table\":" + std::to_string(request.table),
         [request, marks](store::Store& store) { return activate_checked(store, request, marks); });
   });
 }
 
 void deactivate(Methods& m, const Params& params, Reply reply) {
+  if (is_volume(params)) return deactivate_volume(m, params, std::move(reply));
   const auto axis = axis_param(params);
   if (!axis) return reply(tl::unexpected(axis.error()));
   answer_with_change(
       m, std::move(reply),
       [&m, axis = *axis,
        deed = deed_of(params, "compensation.deactivate")](store::Store&) -> Result<Change> {
-        return change_what_is_in_force(
-            m, std::string("\"axis\":\"") + letter(axis) + "\"", [axis, deed](store::Store& store) {
-              return store.deactivate(axis, actor_text(deed.by), deed.utc, deed);
-            });
+        return change_active(m, std::string("\"axis\":\"") + letter(axis) + "\"",
+                             [axis, deed](store::Store& store) {
+                               return store.deactivate(axis, actor_text(deed.by), deed.utc, deed);
+                             });
       });
 }
 
 std::string status(const Methods& m) {
   JsonWriter json;
   json.begin_object().field("generation", m.generation).key("axes").begin_object();
-  for (const auto& active : m.active) {
+  for (const auto& active : m.active.axes) {
     if (!active) continue;
     json.key(std::string(1, letter(active->table.axis))).begin_object();
     write_table_members(json, active->table);
@@ -130,11 +116,14 @@ std::string status(const Methods& m) {
         .field("activated_by", active->actor)
         .end_object();
   }
-  json.end_object().end_object();
+  json.end_object().key("volume");
+  write_volume_status(json, m);
+  json.end_object();
   return json.take();
 }
 
 Result<std::string> grid(const Methods& m, const Params& params) {
+  if (is_volume(params)) return volume_grid(m, params);
   MDOF_TRY(const auto* active, active_table(m, params));
   const auto [offset, count] = list_page_of(params, kMaxGridPage);
   if (params.has("generation") && params.integer("generation") != active->generation) {
@@ -190,6 +179,9 @@ void write_correction(JsonWriter& json, const CompensationTable& table, const Er
 }
 
 Result<std::string> at(const Methods& m, const Params& params) {
+  if (is_volume(params)) return volume_at(m, params);
+  if (!params.has("position_mm"))
+    return fail(ErrorCode::usage, "position_mm is missing: where on the axis?");
   MDOF_TRY(const auto* active, active_table(m, params));
   const std::int64_t direction = params.integer("direction", 0);
   if (direction < -1 || direction > 1) {
@@ -225,7 +217,7 @@ Result<std::string> at(const Methods& m, const Params& params) {
 }  // namespace
 
 void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
-  const rpc::Param axis{"axis", ParamType::string, "X, Y or Z", true};
+  const rpc::Param axis{"axis", ParamType::string, "X, Y, Z or volume", true};
   table.add(
       {.name = "compensation.build",
        .summary = "Builds and stores a one-axis table from runs; it is not yet active.",
@@ -249,7 +241,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
   table.add(
       {.name = "compensation.activate",
-       .summary = "Activates a stored table on its axis, at once and for everybody.",
+       .summary = "Activates a stored table on its axis, or on the volume, at once and for "
+                  "everybody.",
        .params = {{"table", ParamType::integer, "id of the table", true},
                   {"simulated", ParamType::boolean, "also one of simulated data", false, "false"},
                   {"despite_warnings", ParamType::boolean,
@@ -261,7 +254,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .approves = true,
        .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
   table.add({.name = "compensation.deactivate",
-             .summary = "Deactivates the table of an axis: none is active from then on.",
+             .summary = "Deactivates the table of an axis or of the volume: none is active from "
+                        "then on.",
              .params = {axis},
              .result = "axis, generation, changed: false where none was active",
              .example = R"({"axis": "X"})",
@@ -272,34 +266,40 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "compensation.status",
        .summary = "The active tables by axis, with the generation, which grows with each change.",
        .result = "generation; axes: table, runs, range, sense, simulated, doubtful, who and "
-                 "when",
+                 "when; volume: the same of the volumetric table, null without one",
        .handler = [&m](const Params&) -> Result<std::string> { return status(m); }});
-  table.add({.name = "compensation.grid",
-             .summary = "The grid of the active table, a page at a time: errors, forward and "
-                        "reverse apart.",
-             .params = {axis,
-                        offset_param(),
-                        count_param(kMaxGridPage),
-                        {"generation", ParamType::integer,
-                         "of the pages before: error -32001 if it has changed", false}},
-             .result =
-                 "table members, doubtful, generation, points: errors (actual - nominal) in um and "
-                 "urad",
-             .example = R"({"axis": "X", "offset": 0, "count": 20})",
-             .handler = [&m](const Params& p) { return grid(m, p); }});
-  table.add({.name = "compensation.at",
-             .summary = "The correction at a position: linear between grid points, the end value "
-                        "outside, and it says so.",
-             .params = {axis,
-                        {"position_mm", ParamType::number, "of the axis", true},
-                        {"direction", ParamType::integer, "1 forward, -1 reverse, 0 their mean",
-                         false, "0"}},
-             .result =
-                 "error in um and urad; correction, to be added to the command, null with "
-                 "correction_reason where its sign is not known; u; inside: that approach was "
-                 "measured there; simulated; doubtful: its runs carry doubtful notices; generation",
-             .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
-             .handler = [&m](const Params& p) { return at(m, p); }});
+  table.add(
+      {.name = "compensation.grid",
+       .summary = "The grid of the active table, a page at a time: of an axis errors, forward "
+                  "and reverse apart; of the volume corrections.",
+       .params = {axis,
+                  offset_param(),
+                  count_param(kMaxNodesPage),
+                  {"generation", ParamType::integer,
+                   "of the pages before: error -32001 if it has changed", false}},
+       .result = "table members, doubtful, generation, points: errors (actual - nominal) in um and "
+                 "urad; of the volume nodes: each X, Y, Z in mm, their three corrections and three "
+                 "u in um",
+       .example = R"({"axis": "X", "offset": 0, "count": 20})",
+       .handler = [&m](const Params& p) { return grid(m, p); }});
+  table.add(
+      {.name = "compensation.at",
+       .summary = "The correction at a position: linear between grid points, the end value "
+                  "outside, and it says so.",
+       .params = {axis,
+                  {"position_mm", ParamType::number, "of the axis; needed for one", false},
+                  {"X_mm", ParamType::number, "command, of the volume", false, "0"},
+                  {"Y_mm", ParamType::number, "command, of the volume", false, "0"},
+                  {"Z_mm", ParamType::number, "command, of the volume", false, "0"},
+                  {"direction", ParamType::integer, "1 forward, -1 reverse, 0 their mean", false,
+                   "0"}},
+       .result =
+           "error in um and urad; correction, to be added to the command, null with "
+           "correction_reason where its sign is not known; u; inside: that approach was "
+           "measured there; simulated; doubtful: its runs carry doubtful notices; generation; of "
+           "the volume correction and u by axis",
+       .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
+       .handler = [&m](const Params& p) { return at(m, p); }});
 }
 
 }  // namespace mdof::daemon

@@ -1,6 +1,8 @@
 // machine.at.
 #include "algo/machine/budget/budget.h"
+#include "daemon/measure/machine/stored_errors.h"
 #include "daemon/methods/methods.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -25,20 +27,6 @@ Status check_no_files(const Machine& machine) {
           ": machine.at reads no files; give its tables in the text, as EXX_um = [[…]]");
   }
   return {};
-}
-
-Result<algo::Command> command_of(const Params& params, const Machine& machine) {
-  algo::Command command{};
-  for (std::size_t i = 0; i < kLetters.size(); ++i) {
-    const std::string letter(1, kLetters[i]), key = letter + (i < 3 ? "_mm" : "_deg");
-    if (!params.has(key)) continue;
-    const MachineFrame* frame = machine.find(letter);
-    if (!frame)
-      return fail(ErrorCode::usage,
-                  key + ": the chain " + machine.chain.text + " has no axis " + letter);
-    command[i] = position_from_written(*frame, params.number(key));
-  }
-  return command;
 }
 
 void write_error(JsonWriter& json, const char* key, const algo::Vector6& error) {
@@ -68,34 +56,69 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
 }
 
 Result<QueryThread::Work> machine_at(Methods&, const Params& params) {
-  const std::string source(params.string("machine_source", "machine"));
-  MDOF_TRY(const Machine machine, parse_machine(params.string("machine"), source));
-  MDOF_CHECK(check_no_files(machine));
+  MDOF_TRY(const Machine machine, machine_param(params));
   MDOF_TRY(const algo::Command at, command_of(params, machine));
-  return [machine, at](store::Store&) { return error_at(machine, at); };
+  return [machine, at](store::Store& store) -> Result<std::string> {
+    Machine measured = machine;
+    MDOF_TRY(const StoredErrors stored, take_stored_errors(store, measured));
+    MDOF_TRY(std::string json, error_at(measured, at));
+    return with_notices(std::move(json), stored.notices, words::text);
+  };
 }
 
 }  // namespace
 
-void add_machine_methods(rpc::MethodTable& table, Methods& m) {
+Result<Machine> machine_param(const Params& params) {
+  const std::string source(params.string("machine_source", "machine"));
+  MDOF_TRY(Machine machine, parse_machine(params.string("machine"), source));
+  MDOF_CHECK(check_no_files(machine));
+  return machine;
+}
+
+std::vector<rpc::Param> machine_params() {
+  return {{"machine", ParamType::string, "MACHINE.toml as text", true, {}, {.bytes = 60'000}},
+          {"machine_source", ParamType::string, "its file name, for messages", false}};
+}
+
+Result<algo::Command> command_of(const Params& params, const Machine& machine) {
+  algo::Command command{};
+  for (std::size_t i = 0; i < kLetters.size(); ++i) {
+    const std::string letter(1, kLetters[i]), key = letter + (i < 3 ? "_mm" : "_deg");
+    if (!params.has(key)) continue;
+    const MachineFrame* frame = machine.find(letter);
+    if (!frame)
+      return fail(ErrorCode::usage,
+                  key + ": the chain " + machine.chain.text + " has no axis " + letter);
+    command[i] = position_from_written(*frame, params.number(key));
+  }
+  return command;
+}
+
+std::vector<rpc::Param> command_params(const char* what) {
   const rpc::Bounds mm{.least = -1e6, .most = 1e6};
-  std::vector<rpc::Param> params = {
-      {"machine", ParamType::string, "MACHINE.toml as text", true, {}, {.bytes = 60'000}},
-      {"machine_source", ParamType::string, "its file name, for messages", false}};
+  std::vector<rpc::Param> params;
   for (std::size_t i = 0; i < kLetters.size(); ++i)
     params.push_back({std::string(1, kLetters[i]) + (i < 3 ? "_mm" : "_deg"), ParamType::number,
-                      "command of the axis", false, "0", mm});
-  table.add({.name = "machine.at",
-             .summary = "The error of the tool against the work at a command of a machine, with "
-                        "its u. Nothing is stored.",
-             .params = params,
-             .result = "error: x_um, y_um, z_um, a_urad, b_urad, c_urad, actual - nominal, by the "
-                       "exact product; u of the place by the linear form; not_measured, "
-                       "beyond_tables: names of errors",
-             .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
-                        R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
-                        R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",
-             .handler = on_query(m, machine_at)});
+                      what, false, "0", mm});
+  return params;
+}
+
+void add_machine_methods(rpc::MethodTable& table, Methods& m) {
+  std::vector<rpc::Param> params = machine_params();
+  for (rpc::Param& each : command_params("command of the axis")) params.push_back(std::move(each));
+  table.add(
+      {.name = "machine.at",
+       .summary = "The error of the tool against the work at a command of a machine, with "
+                  "its u. Nothing is stored.",
+       .params = params,
+       .result =
+           "error: x_um, y_um, z_um, a_urad, b_urad, c_urad, actual - nominal, by the "
+           "exact product; u of the place by the linear form; not_measured, "
+           "beyond_tables: names of errors; notices of the stored runs that the machine names",
+       .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
+                  R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
+                  R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",
+       .handler = on_query(m, machine_at)});
 }
 
 }  // namespace mdof::daemon

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "algo/machine/frames.h"
 #include "daemon/history.h"
 #include "daemon/methods/query_thread.h"
 #include "daemon/methods/replayer.h"
@@ -16,14 +18,18 @@
 #include "daemon/station/station.h"
 #include "daemon/store/store.h"
 #include "daemon/storekeeper/storekeeper.h"
+#include "schema/machine/machine.h"
 
 namespace mdof::daemon {
 
 inline constexpr const char* kLiveTopic = "live.update";  // newest value wins
 inline constexpr const char* kRunTopic = "run.event";     // each worth sending
 
-// The tables in force, by axis; on the main thread. Replaced whole when one is activated.
-using ActiveTables = std::array<std::shared_ptr<const store::ActiveTable>, 3>;
+// The active tables; on the main thread. Replaced whole when one is activated.
+struct ActiveTables {
+  std::array<std::shared_ptr<const store::ActiveTable>, 3> axes;
+  std::shared_ptr<const store::ActiveVolumetric> volume;
+};
 
 // What the methods work on. Lives as long as the server, on the main thread.
 struct Methods {
@@ -38,6 +44,7 @@ struct Methods {
   std::chrono::steady_clock::time_point started;
   std::int64_t generation = 0;   // of what is in force: rises with each change of it
   Replayer* replayer = nullptr;  // none: run.replay is refused
+  std::function<void(std::int64_t generation)> announce = {};  // of a change of what is active
 };
 
 #define METHODS(noun) void add_##noun##_methods(rpc::MethodTable& table, Methods& m);
@@ -54,6 +61,12 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 Deed deed_of(const rpc::Params& params, std::string name);  // by the caller, now
 Result<Axis> axis_param(const rpc::Params& params);
 Result<Reference> reference_param(const rpc::Params& params);  // not given: the fixture
+// MACHINE.toml as text, and the commands of its axes: machine.at and what is built of a machine.
+// Error: tables in files, which would be files of the daemon.
+std::vector<rpc::Param> machine_params();
+Result<Machine> machine_param(const rpc::Params& params);
+std::vector<rpc::Param> command_params(const char* what);
+Result<algo::Command> command_of(const rpc::Params& params, const Machine& machine);
 Result<Station*> station_of(Methods& m, Axis axis);
 // A handler of two parts: `read`(m, params) takes the parameters on the loop and gives the work
 // that makes the answer on the thread "query".
@@ -71,5 +84,9 @@ using Change = std::function<Result<std::string>(store::Store&)>;
 void answer_with_change(Methods& m, rpc::Reply reply,
                         std::function<Result<Change>(store::Store& reader)> calculate);
 Result<ActiveTables> load_active(store::Store& store);
+// Stores a change of what is active, then puts it in place for everybody at once on the main
+// thread; the answer, `reply_members` with the generation, comes there after it.
+Change change_active(Methods& m, std::string reply_members,
+                     std::function<Result<store::Activation>(store::Store&)> change);
 
 }  // namespace mdof::daemon

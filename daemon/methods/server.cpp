@@ -4,6 +4,7 @@
 
 #include "algo/compensation/between_targets.h"
 #include "daemon/measure/gate/gate.h"
+#include "daemon/measure/machine/volumetric.h"
 #include "daemon/methods/methods.h"
 #include "daemon/station/live_json.h"
 #include "daemon/version.h"
@@ -160,13 +161,40 @@ Result<ActiveTables> load_active(store::Store& store) {
       const auto doubtful = doubtful_notices(store, active->table);
       active->doubtful = !doubtful || !doubtful->empty();
       algo::add_curvatures(active->table);  // compensation.at is asked often
-      tables[static_cast<std::size_t>(axis)] =
+      tables.axes[static_cast<std::size_t>(axis)] =
           std::make_shared<const store::ActiveTable>(std::move(*active));
     } else if (active.error().code != ErrorCode::not_found) {
       return tl::unexpected(active.error());
     }
   }
+  auto volume = store.active_volumetric();
+  if (volume) {
+    const auto doubtful = doubtful_notices(store, volume->table);
+    volume->doubtful = !doubtful || !doubtful->empty();
+    tables.volume = std::make_shared<const store::ActiveVolumetric>(std::move(*volume));
+  } else if (volume.error().code == ErrorCode::bad_input) {
+    std::fprintf(stderr, "the volume has no active table: %s\n",
+                 words::text(volume.error()).c_str());
+  } else if (volume.error().code != ErrorCode::not_found) {
+    return tl::unexpected(volume.error());
+  }
   return tables;
+}
+
+Change change_active(Methods& m, std::string reply_members,
+                     std::function<Result<store::Activation>(store::Store&)> change) {
+  return [&m, members = std::move(reply_members),
+          change = std::move(change)](store::Store& store) -> Result<std::string> {
+    MDOF_TRY(const auto done, change(store));
+    MDOF_TRY(auto tables, load_active(store));
+    m.loop.post([&m, done, tables = std::move(tables)] {
+      m.active = tables;
+      if (!done.changed) return;
+      m.generation = done.generation;
+      if (m.announce) m.announce(done.generation);
+    });
+    return store::activation_json(members, done);
+  };
 }
 
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
@@ -185,7 +213,8 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add(
       {.name = "live.subscribe",
        .summary = "Sends live.update notifications, newest value wins, and run.event for "
-                  "each step of a run once it is on the disk.",
+                  "each step of a run once it is on the disk, and when another compensation table "
+                  "is active (type compensation, generation).",
        .params = {{"interval_ms",
                    ParamType::integer,
                    "least time between two updates",

@@ -97,7 +97,7 @@ struct Served {
     answer(R"({"jsonrpc":"2.0","id":1,"method":"compensation.build","params":{"runs":[1]}})");
     answer(R"({"jsonrpc":"2.0","id":1,"method":"compensation.activate",)"
            R"("params":{"table":1,"simulated":true,"despite_warnings":true}})");
-    if (!bench.active[0]) std::abort();  // else half of the methods have nothing to do
+    if (!bench.active.axes[0]) std::abort();  // else half of the methods have nothing to do
   }
 
   void answer(std::string_view line) {

@@ -25,12 +25,19 @@ TEXTS = ["", "X", "Y", "x", "fixture", "carriage", "tool", "EYX", "EC0Y", "rigid
          "é" * 40, "a" * 1025, "a" * 5000, "/", "..", "/dev/null", "/etc/passwd", "%s%n", "1", "null", "🙂", "-", "\\u0000"]
 
 MACHINE = """name = "m"
-machine = {chain = "w-b-X-t"}
+machine = {chain = "w-X-b-Y-t"}
 [[axis]]
 id = "X"
 holds_at_mm = [0, 0, 0]
-point = "moving"
+point = "standing"
+range_mm = [0, 10]
+runs = 1
 EXX_um = 2
+[[axis]]
+id = "Y"
+holds_at_mm = [0, 0, 0]
+point = "moving"
+range_mm = [0, 10]
 """
 
 
@@ -113,15 +120,16 @@ class Bench:
         runs = [client.call("run.replay", path=log, rig=texts[axis])["run"] for log, axis in zip(logs, "XYX")]
         table = client.call("compensation.build", runs=[runs[0]])["table"]
         client.call("compensation.activate", table=table, despite_warnings=True)
+        volume = client.call("compensation.build_volume", machine=MACHINE, axes="XY", step_mm=5, incomplete=True)["table"]
         self.methods = client.call("rpc.discover")["methods"]
         # What there is, so that the methods have something to do.
         self.world = {"run": runs + [99], "runs": [[r] for r in runs] + [runs], "run_x": runs, "run_y": runs, "run_a": runs,
                       "before": runs, "after": runs,
-                      "run_b": runs, "table": [table, 2, 99], "axis": ["X", "Y", "Z"], "path": logs, "position_mm": [0, 1.5, 3],
+                      "run_b": runs, "table": [table, 2, volume, 99], "axis": ["X", "Y", "Z", "volume"], "path": logs, "position_mm": [0, 1.5, 3],
                       "rig": list(texts.values()), "figure": ["EYX_um", "EAX_urad", "EYX_straightness_um", "ECX_range_urad"], "at_mm": [0, 1, 2, 3],
                       "reference": ["fixture", "carriage", "tool"], "despite_warnings": [True], "offset": [0, 1],
                       # A replay of many targets, or a run over kilometres, is a long one and no wrong one.
-                      "machine": [MACHINE], "X_mm": [0, 1],
+                      "machine": [MACHINE], "X_mm": [0, 1], "axes": ["XY"], "step_mm": [1], "incomplete": [True],
                       "targets_mm": [[], [0, 1, 2, 3]], "interval_mm": [1], "from_mm": [0], "to_mm": [3]}
         client.socket.close()
 

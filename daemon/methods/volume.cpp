@@ -1,0 +1,204 @@
+// compensation.build_volume, and compensation.* of the volume.
+#include "daemon/methods/volume.h"
+
+#include <algorithm>
+
+#include "daemon/measure/machine/volumetric.h"
+#include "daemon/rpc/list_page.h"
+#include "daemon/words/words.h"
+#include "schema/base/json_page.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+#include "schema/volumetric/volumetric_json.h"
+
+namespace mdof::daemon {
+namespace {
+
+using rpc::Params;
+using rpc::ParamType;
+using rpc::Reply;
+
+constexpr std::string_view kAxes = "XYZ";
+Result<const store::ActiveVolumetric*> active_volume(const Methods& m) {
+  if (m.active.volume) return m.active.volume.get();
+  return fail(ErrorCode::not_found,
+              "no volumetric table is active; build one of a machine with "
+              "compensation.build_volume and activate it");
+}
+
+Result<algo::VolumetricRequest> read_grid(const Params& params, const Machine& machine) {
+  algo::VolumetricRequest grid;
+  const std::string axes(params.string("axes"));
+  grid.along = {};
+  for (const char axis : axes) {
+    const std::size_t k = kAxes.find(axis);
+    if (k == std::string_view::npos || grid.along[k])
+      return fail(ErrorCode::usage,
+                  "axes \"" + axes + "\" must name axes of the grid once each: XYZ, XY, XZ, YZ");
+    grid.along[k] = true;
+  }
+  if (axes.size() < 2) return fail(ErrorCode::usage, "axes must be two or three of X, Y, Z");
+  grid.step_m = from_mm(params.number("step_mm"));
+  MDOF_TRY(grid.others, command_of(params, machine));
+  const std::string approach(params.string("approach", "mean"));
+  if (approach != "mean" && approach != "forward" && approach != "reverse")
+    return fail(ErrorCode::usage,
+                "approach \"" + approach + "\" is none of \"mean\", \"forward\", \"reverse\"");
+  grid.approach = approach == "forward"   ? algo::MachineApproach::forward
+                  : approach == "reverse" ? algo::MachineApproach::reverse
+                                          : algo::MachineApproach::mean;
+  grid.incomplete = params.boolean("incomplete", false);
+  const double um = params.number("limit_um", 0), slope = params.number("limit_um_per_mm", 0);
+  MDOF_TRY(grid.limits, algo::TableLimits::asked(params.has("limit_um") ? &um : nullptr,
+                                                 params.has("limit_um_per_mm") ? &slope : nullptr));
+  return grid;
+}
+
+Result<VolumetricTableRequest> read_request(const Params& params) {
+  VolumetricTableRequest request;
+  request.description = params.string("machine");
+  MDOF_TRY(request.machine, machine_param(params));
+  MDOF_TRY(request.grid, read_grid(params, request.machine));
+  return request;
+}
+
+std::string built_json(const BuiltVolumetric& built) {
+  JsonWriter json;
+  json.begin_object();
+  write_volumetric_members(json, built.table);
+  json.field("doubtful", !built.doubtful.empty()).end_object();
+  return with_notices(json.take(), built.notices, words::text);
+}
+
+void build_volume(Methods& m, const Params& params, Reply reply) {
+  auto request = read_request(params);
+  if (!request) return reply(tl::unexpected(request.error()));
+  answer_with_change(
+      m, std::move(reply),
+      [request = std::move(*request), deed = deed_of(params, "compensation.build_volume")](
+          store::Store& reader) -> Result<Change> {
+        MDOF_TRY(auto calculated, calculate_volumetric(reader, request));
+        return [built = std::move(calculated),
+                deed](store::Store& store) mutable -> Result<std::string> {
+          MDOF_CHECK(store_volumetric(store, built.table, deed));
+          return built_json(built);
+        };
+      });
+}
+
+void write_active(JsonWriter& json, const store::ActiveVolumetric& active) {
+  write_volumetric_members(json, active.table);
+  json.field("doubtful", active.doubtful).field("generation", active.generation);
+}
+
+}  // namespace
+
+bool is_volume(const Params& params) {
+  return params.string("axis") == "volume";
+}
+
+void deactivate_volume(Methods& m, const Params& params, Reply reply) {
+  answer_with_change(
+      m, std::move(reply),
+      [&m, deed = deed_of(params, "compensation.deactivate")](store::Store&) -> Result<Change> {
+        return change_active(m, R"("axis":"volume")", [deed](store::Store& store) {
+          return store.change_volumetric(std::nullopt, actor_text(deed.by), deed.utc, deed);
+        });
+      });
+}
+
+void write_volume_status(JsonWriter& json, const Methods& m) {
+  const auto& active = m.active.volume;
+  if (!active) return static_cast<void>(json.null());
+  json.begin_object();
+  write_active(json, *active);
+  json.field("activated_utc", active->activated_utc)
+      .field("activated_by", active->actor)
+      .end_object();
+}
+
+Result<std::string> volume_grid(const Methods& m, const Params& params) {
+  MDOF_TRY(const auto* active, active_volume(m));
+  const auto [offset, count] = list_page_of(params, kMaxNodesPage);
+  if (params.has("generation") && params.integer("generation") != active->generation)
+    return fail(ErrorCode::conflict, "generation changed to " + std::to_string(active->generation) +
+                                         "; read the grid again from offset 0");
+  const VolumetricTable& table = active->table;
+  JsonWriter json(48 * 1024);
+  json.begin_object();
+  write_active(json, *active);
+  json.field("offset", offset).key("points").begin_array();
+  const auto total = static_cast<std::int64_t>(table.nodes());
+  const std::int64_t end = std::min(total, offset + count);
+  append_page_of(json, static_cast<std::size_t>(std::min(offset, total)),
+                 static_cast<std::size_t>(std::max<std::int64_t>(end, 0)), [&](std::size_t node) {
+                   JsonWriter row;
+                   write_volumetric_node(row, table, node);
+                   return row.take();
+                 });
+  json.end_array().end_object();
+  return json.take();
+}
+
+Result<std::string> volume_at(const Methods& m, const Params& params) {
+  MDOF_TRY(const auto* active, active_volume(m));
+  const VolumetricTable& table = active->table;
+  Vec3 command_m{};
+  JsonWriter json(1280);
+  json.begin_object().field("axis", "volume");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string key = std::string(1, kAxes[k]) + "_mm";
+    // Of an axis that stands, its place is the default.
+    command_m[k] = params.has(key) || table.command_m[k].size() > 1 ? from_mm(params.number(key, 0))
+                                                                    : table.command_m[k].front();
+    json.field(key, to_mm(command_m[k]));
+  }
+  const algo::VolumetricValue value = algo::volumetric_at(table, command_m);
+  write_um(json, "correction", value.correction_m);
+  write_um(json, "u", value.u_m);
+  json.field("u_covers", covers_text(table));
+  write_strings(json, "not_declared", table.u_not_declared);
+  write_strings(json, "not_measured", table.not_measured);
+  json.field("inside", value.inside)
+      .field("approach", table.approach)
+      .field("simulated", table.simulated)
+      .field("doubtful", active->doubtful)
+      .field("table", table.id)
+      .field("generation", active->generation)
+      .end_object();
+  return json.take();
+}
+
+void add_volume_methods(rpc::MethodTable& table, Methods& m) {
+  std::vector<rpc::Param> params = machine_params();
+  params.push_back({"axes", ParamType::string, "of the grid: XYZ, XY, XZ or YZ", true});
+  params.push_back({"step_mm",
+                    ParamType::number,
+                    "between two nodes, about",
+                    true,
+                    {},
+                    {.least = 1e-3, .most = 1e6}});
+  for (rpc::Param& each : command_params("where an axis stands that the grid has not"))
+    params.push_back(std::move(each));
+  params.push_back({"approach", ParamType::string, "mean, forward or reverse", false, "\"mean\""});
+  params.push_back({"incomplete", ParamType::boolean,
+                    "also where an error that would count was not measured", false, "false"});
+  params.push_back({"limit_um", ParamType::number, "largest correction [1000 um]", false});
+  params.push_back(
+      {"limit_um_per_mm", ParamType::number, "largest slope of the correction [50 um/mm]", false});
+  table.add({.name = "compensation.build_volume",
+             .summary = "Builds and stores a table of corrections over a plane or a volume of a "
+                        "machine with its measured errors; it is not yet active.",
+             .params = std::move(params),
+             .result = "table, machine, commands of the nodes, interpolation, what stays, "
+                       "not_measured, simulated, doubtful, notices",
+             .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-Y-t\"}\n)"
+                        R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
+                        R"(range_mm = [0, 10]\nEXX_um = 2\n[[axis]]\nid = \"Y\"\n)"
+                        R"(holds_at_mm = [0, 0, 0]\npoint = \"moving\"\nrange_mm = [0, 10]\n",)"
+                        R"( "axes": "XY", "step_mm": 5, "incomplete": true})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) { build_volume(m, p, std::move(r)); }});
+}
+
+}  // namespace mdof::daemon

@@ -5,6 +5,7 @@
 #include "schema/imported/series.h"
 #include "schema/rig/correction.h"
 #include "schema/run_json.h"
+#include "schema/volumetric/volumetric_json.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
@@ -52,9 +53,9 @@ std::string side_text(const CompensationTable& t, const Columns& values, const C
   return out.text(terminal_columns());
 }
 
-std::string runs_of(const CompensationTable& t) {
+std::string runs_of(const std::vector<std::int64_t>& runs) {
   std::vector<std::string> ids;
-  for (const auto id : t.runs) ids.push_back(std::to_string(id));
+  for (const auto id : runs) ids.push_back(std::to_string(id));
   return joined(ids, " ");
 }
 
@@ -98,7 +99,7 @@ std::string table_of_positioning_text(const CompensationTable& t) {
   const PositioningErrors& along = t.positioning;
   return simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) +
-                     ", positioning of the imported runs " + runs_of(t) + ", " + t.created_utc,
+                     ", positioning of the imported runs " + runs_of(t.runs) + ", " + t.created_utc,
                  terminal_columns()) +
          "\nerrors: actual - nominal, as measured\n" + corrections_text(t, terminal_columns()) +
          "\nforward\n" + positioning_text(t, along.forward, along.u_forward) + "\nreverse\n" +
@@ -110,7 +111,8 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
   if (t.has_positioning()) return table_of_positioning_text(t);
   return noise_only_notice(t.noise_only()) + simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) + ", " +
-                     state_of(generation) + ", of the runs " + runs_of(t) + ", " + t.created_utc,
+                     state_of(generation) + ", of the runs " + runs_of(t.runs) + ", " +
+                     t.created_utc,
                  terminal_columns()) +
          "\nerrors: actual - nominal, of the " + t.sides.moves() + "\nstraightness " +
          (t.slope_removed ? "about its least-squares line" : "as measured") +
@@ -124,30 +126,41 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
          "\n";
 }
 
-std::string list_document(const std::vector<CompensationTable>& tables,
-                          const std::vector<std::int64_t>& generations) {
+std::string list_document(const ListedTables& list) {
   JsonWriter json;
   json.begin_object().key("tables").begin_array();
-  for (std::size_t i = 0; i < tables.size(); ++i) {
+  for (std::size_t i = 0; i < list.tables.size(); ++i) {
     json.begin_object();
-    write_table_members(json, tables[i]);
-    write_state(json, generations[i]);
+    write_table_members(json, list.tables[i]);
+    write_state(json, list.generations[i]);
+    json.end_object();
+  }
+  json.end_array().key("volumes").begin_array();
+  for (std::size_t i = 0; i < list.volumes.size(); ++i) {
+    json.begin_object();
+    write_volumetric_members(json, list.volumes[i]);
+    write_state(json, list.volume_generations[i]);
     json.end_object();
   }
   json.end_array().end_object();
   return json.take();
 }
 
-std::string list_text(const std::vector<CompensationTable>& tables,
-                      const std::vector<std::int64_t>& generations) {
+std::string list_text(const ListedTables& list) {
   TextTable out(
       {"table", "axis", "state", "data", "runs", "points", "from/mm", "to/mm", "created"});
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    const auto& t = tables[i];
-    out.add({std::to_string(t.id), std::string(1, letter(t.axis)), state_of(generations[i]),
-             t.simulated ? "SIMULATED" : "measured", runs_of(t),
+  for (std::size_t i = 0; i < list.tables.size(); ++i) {
+    const auto& t = list.tables[i];
+    out.add({std::to_string(t.id), std::string(1, letter(t.axis)), state_of(list.generations[i]),
+             t.simulated ? "SIMULATED" : "measured", runs_of(t.runs),
              std::to_string(t.position_m.size()), in_mm(t.position_m.front()),
              in_mm(t.position_m.back()), t.created_utc});
+  }
+  for (std::size_t i = 0; i < list.volumes.size(); ++i) {
+    const auto& t = list.volumes[i];
+    out.add({std::to_string(t.id), "volume", state_of(list.volume_generations[i]),
+             t.simulated ? "SIMULATED" : "measured", runs_of(t.runs), std::to_string(t.nodes()), "",
+             "", t.created_utc});
   }
   return out.text(terminal_columns());
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "schema/compensation_table.h"
+#include "schema/volumetric/volumetric_table.h"
 
 namespace mdof::tools {
 
@@ -13,9 +14,13 @@ namespace mdof::tools {
 std::string table_document(const CompensationTable& table, std::int64_t generation, bool doubtful);
 std::string table_text(const CompensationTable& table, std::int64_t generation);
 
-std::string list_document(const std::vector<CompensationTable>& tables,
-                          const std::vector<std::int64_t>& generations);
-std::string list_text(const std::vector<CompensationTable>& tables,
-                      const std::vector<std::int64_t>& generations);
+// Tables of axes and of volumes with the generation of each.
+struct ListedTables {
+  std::vector<CompensationTable> tables;
+  std::vector<VolumetricTable> volumes;
+  std::vector<std::int64_t> generations, volume_generations;
+};
+std::string list_document(const ListedTables& list);
+std::string list_text(const ListedTables& list);
 
 }  // namespace mdof::tools

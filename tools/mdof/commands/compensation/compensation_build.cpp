@@ -1,4 +1,5 @@
-// mdof compensation build: the mean errors of runs of one axis as a table, stored.
+// mdof compensation build: the mean errors of runs of one axis as a table, or the corrections over
+// a plane or a volume of a machine; stored.
 #include <CLI/CLI.hpp>
 
 #include "daemon/history.h"
@@ -6,6 +7,7 @@
 #include "daemon/words/words.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/compensation/volume_build.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
@@ -24,6 +26,7 @@ struct BuildCommand {
   std::vector<std::int64_t> runs;
   bool keep_slope = false, partial = false, json = false, all_warnings = false;
   LimitOptions limits;
+  VolumeOptions volume;
 };
 
 Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
@@ -72,7 +75,26 @@ Status choose_runs(BuildCommand& command) {
   return {};
 }
 
+// What is of tables of the other kind is refused, not left out in silence.
+Status check_kind(const BuildCommand& command) {
+  if (!command.volume.asked()) {
+    if (command.words.empty())
+      return fail(ErrorCode::usage, "which runs? Give their numbers; or --machine for a volume");
+    return command.volume.check_unused();
+  }
+  if (!command.words.empty() || !command.axis.empty() || command.keep_slope || command.partial ||
+      !command.reference.empty())
+    return fail(ErrorCode::usage,
+                "with --machine its file names the runs: RUN, --axis, --keep-slope, --partial and "
+                "--reference are of tables of one axis");
+  return {};
+}
+
 Status build(const BuildCommand& asked) {
+  MDOF_CHECK(check_kind(asked));
+  if (asked.volume.asked())
+    return build_volume(
+        {asked.volume, asked.limits, asked.database, asked.socket, asked.json, asked.all_warnings});
   BuildCommand command = asked;
   MDOF_CHECK(choose_runs(command));
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
@@ -94,7 +116,8 @@ Status build(const BuildCommand& asked) {
 Action declare_build(CLI::App& command) {
   const auto o = std::make_shared<BuildCommand>();
   add_database_option(command, o->database);
-  add_run_arguments(command, o->words, "Runs of one axis, the same targets; or latest");
+  add_run_arguments(command, o->words, "Runs of one axis, the same targets; or latest")
+      ->required(false);
   add_axis_of_latest(command, o->axis);
   command.add_flag("--keep-slope", o->keep_slope,
                    "Straightness as measured, not about its least-squares line");
@@ -102,6 +125,7 @@ Action declare_build(CLI::App& command) {
   add_reference_option(command, o->reference)
       ->description("fixture, carriage or tool [default: the rig's tool point, else the fixture]");
   add_limit_options(command, o->limits);
+  add_volume_options(command, o->volume);
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   add_all_warnings_flag(command, o->all_warnings);
@@ -111,12 +135,14 @@ Action declare_build(CLI::App& command) {
 }  // namespace
 
 Command compensation_build_command() {
-  return {
-      .name = "compensation build",
-      .summary = "Mean errors of runs of one axis as a table",
-      .footer =
-          "Examples:\n  mdof compensation build 1 3 5\n  mdof compensation build latest --axis X",
-      .declare = declare_build};
+  return {.name = "compensation build",
+          .summary = "Table of the mean errors of an axis, or of a machine's volume",
+          .footer =
+              "Examples:\n"
+              "  mdof compensation build 1 3 5\n"
+              "  mdof compensation build latest --axis X\n"
+              "  mdof compensation build --machine machine.toml --volume --step-mm 10",
+          .declare = declare_build};
 }
 
 }  // namespace mdof::tools

@@ -12,6 +12,8 @@
 namespace mdof::tools {
 namespace {
 
+constexpr const char* kVolume = "volume";
+
 struct DeactivateCommand {
   std::string database, socket, axis;
   bool json = false;
@@ -23,23 +25,27 @@ Result<std::string> deactivated(const DeactivateCommand& command) {
   if (mdofd) return mdofd->call("compensation.deactivate", "{" + axis + "}");
   MDOF_TRY(store::Store store, open_to_write(command.database));
   const Deed deed = daemon::deed_now("compensation.deactivate", daemon::this_process());
+  const std::string actor = daemon::actor_text(deed.by);
   MDOF_TRY(const auto done,
-           store.deactivate(*axis_from(command.axis), daemon::actor_text(deed.by), deed.utc, deed));
+           command.axis == kVolume
+               ? store.change_volumetric(std::nullopt, actor, deed.utc, deed)
+               : store.deactivate(*axis_from(command.axis), actor, deed.utc, deed));
   return store::activation_json(axis, done);
 }
 
 Status deactivate(const DeactivateCommand& command) {
   MDOF_TRY(const std::string reply, deactivated(command));
-  return print_activation(reply, "axis " + command.axis + " is no longer compensated",
-                          "axis " + command.axis + ": no table was active", command.json);
+  const std::string of = command.axis == kVolume ? "the volume" : "axis " + command.axis;
+  return print_activation(reply, of + " is no longer compensated", of + ": no table was active",
+                          command.json);
 }
 
 Action declare_deactivate(CLI::App& command) {
   const auto o = std::make_shared<DeactivateCommand>();
   add_database_option(command, o->database);
-  command.add_option("--axis", o->axis, "Of the machine")
+  command.add_option("--axis", o->axis, "Of the machine, or its volume")
       ->required()
-      ->check(CLI::IsMember({"X", "Y", "Z"}));
+      ->check(CLI::IsMember({"X", "Y", "Z", kVolume}));
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return deactivate(*o); };
@@ -49,7 +55,7 @@ Action declare_deactivate(CLI::App& command) {
 
 Command compensation_deactivate_command() {
   return {.name = "compensation deactivate",
-          .summary = "Deactivate the table of an axis",
+          .summary = "Deactivate the table of an axis or of the volume",
           .footer = "Example:\n  mdof compensation deactivate --axis X",
           .declare = declare_deactivate};
 }

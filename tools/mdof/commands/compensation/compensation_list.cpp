@@ -21,14 +21,20 @@ struct ListTablesCommand {
 
 Status list(const ListTablesCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const auto tables, store.list_tables(0, kMostTables, axis_from(command.axis)));
-  std::vector<std::int64_t> generations;
-  for (const auto& table : tables) {
+  ListedTables found;
+  MDOF_TRY(found.tables, store.list_tables(0, kMostTables, axis_from(command.axis)));
+  for (const auto& table : found.tables) {
     MDOF_TRY(const std::int64_t generation, generation_of(store, table));
-    generations.push_back(generation);
+    found.generations.push_back(generation);
   }
-  return command.json ? write_line(list_document(tables, generations))
-                      : write_out(list_text(tables, generations));
+  if (command.axis.empty()) {
+    MDOF_TRY(found.volumes, store.list_volumetric(0, kMostTables));
+  }
+  for (const auto& table : found.volumes) {
+    MDOF_TRY(const std::int64_t generation, generation_of(store, table));
+    found.volume_generations.push_back(generation);
+  }
+  return command.json ? write_line(list_document(found)) : write_out(list_text(found));
 }
 
 Action declare_list(CLI::App& command) {

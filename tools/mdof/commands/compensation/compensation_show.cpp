@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/gate/gate.h"
+#include "daemon/measure/machine/volumetric.h"
 #include "daemon/words/error_text.h"
 #include "schema/axis.h"
 #include "tools/mdof/commands/command.h"
@@ -14,6 +15,7 @@
 #include "tools/mdof/text/compensation_text.h"
 #include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/volumetric_text.h"
 
 namespace mdof::tools {
 namespace {
@@ -40,8 +42,24 @@ Result<CompensationTable> choose_table(store::Store& store, const ShowTableComma
                                         "; build one with mdof compensation build RUN");
 }
 
+Status show_volume(store::Store& store, const ShowTableCommand& command) {
+  MDOF_TRY(const VolumetricTable table, store.volumetric(command.table));
+  MDOF_TRY(const std::int64_t generation, generation_of(store, table));
+  if (generation == 0) warn("table " + std::to_string(table.id) + " of the volume is not active");
+  MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
+  show_notices(judged.doubtful);
+  if (command.csv && table.simulated) warn("simulated data: no machine was measured");
+  if (command.csv)
+    return write_out(noise_only_comment(table.noise_only) + csv_marks(daemon::marks_of(judged)) +
+                     volumetric_csv(table));
+  return command.json ? write_line(volumetric_document(table, generation, !judged.doubtful.empty()))
+                      : write_out(volumetric_text(table, generation));
+}
+
 Status show(const ShowTableCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const bool volume, store.is_volumetric(command.table));
+  if (volume) return show_volume(store, command);
   MDOF_TRY(const CompensationTable table, choose_table(store, command));
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   if (generation == 0)

@@ -5,11 +5,23 @@
 
 namespace mdof::tools {
 
-Result<std::int64_t> generation_of(store::Store& store, const CompensationTable& table) {
-  const auto active = store.active(table.axis);
-  if (active) return active->table.id == table.id ? active->generation : 0;
+namespace {
+
+template <class Active>
+Result<std::int64_t> generation_in(const Result<Active>& active, std::int64_t table) {
+  if (active) return active->table.id == table ? active->generation : 0;
   if (active.error().code == ErrorCode::not_found) return 0;
   return tl::unexpected(active.error());
+}
+
+}  // namespace
+
+Result<std::int64_t> generation_of(store::Store& store, const CompensationTable& table) {
+  return generation_in(store.active(table.axis), table.id);
+}
+
+Result<std::int64_t> generation_of(store::Store& store, const VolumetricTable& table) {
+  return generation_in(store.active_volumetric(), table.id);
 }
 
 Status print_activation(const std::string& reply, const std::string& done,

@@ -7,6 +7,7 @@ namespace mdof::tools {
 
 // The generation of a table that is in force, else 0.
 Result<std::int64_t> generation_of(store::Store& store, const CompensationTable& table);
+Result<std::int64_t> generation_of(store::Store& store, const VolumetricTable& table);
 
 // What came of an activation, from the JSON that mdofd and store::activation_json() give alike:
 // that JSON, or `done` or, where nothing changed, `already`, with the generation.

@@ -1,0 +1,139 @@
+#include "tools/mdof/commands/compensation/volume_build.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "daemon/history.h"
+#include "daemon/measure/machine/volumetric.h"
+#include "daemon/words/words.h"
+#include "schema/base/files.h"
+#include "schema/run_json.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/machine/machine_file.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/database_writer.h"
+#include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/text/notice_lines.h"
+#include "tools/mdof/text/volumetric_text.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::string_view kAxes = "XYZ";
+
+std::string axes_of(const VolumeOptions& o) {
+  return o.volume ? "XYZ" : o.plane;
+}
+
+Status check_options(const VolumeOptions& o) {
+  if (o.volume == !o.plane.empty())
+    return fail(ErrorCode::usage, "--machine needs either --plane XY or --volume");
+  if (!o.step_mm) return fail(ErrorCode::usage, "--step-mm is missing: how far apart are nodes?");
+  return {};
+}
+
+Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
+  const VolumeOptions& o = command.options;
+  daemon::VolumetricTableRequest request;
+  MDOF_TRY(request.description, read_text_file(o.machine));
+  MDOF_TRY(request.machine, described_machine(o.machine));
+  request.grid.along = {};
+  for (const char axis : axes_of(o)) request.grid.along[kAxes.find(axis)] = true;
+  request.grid.step_m = from_mm(*o.step_mm);
+  if (!o.at.empty()) {
+    MDOF_TRY(request.grid.others, command_from(request.machine, o.at));
+  }
+  request.grid.approach = approach_from(o.approach);
+  request.grid.incomplete = o.incomplete;
+  MDOF_TRY(request.grid.limits, command.limits.limits());
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  auto built = daemon::calculate_volumetric(store, request);
+  if (!built) return in_context(o.machine, std::move(built.error()));
+  MDOF_CHECK(daemon::store_volumetric(
+      store, built->table, daemon::deed_now("compensation.build_volume", daemon::this_process())));
+  return built;
+}
+
+// mdofd has the database: it builds and stores. What it stored is read and shown like a table of
+// this program's.
+Result<daemon::BuiltVolumetric> build_there(rpc::Client& mdofd, const VolumeBuild& command) {
+  const VolumeOptions& o = command.options;
+  MDOF_TRY(const std::string text, read_text_file(o.machine));
+  JsonWriter params;
+  params.begin_object().field("machine", text).field("machine_source", o.machine);
+  params.field("axes", axes_of(o)).field("step_mm", *o.step_mm);
+  if (!o.at.empty()) {
+    MDOF_TRY(const Machine machine, described_machine(o.machine));
+    MDOF_TRY(const algo::Command at, command_from(machine, o.at));
+    for (const MachineFrame& frame : machine.frames)
+      if (frame.kind != FrameKind::fixed)
+        params.field(frame.id + "_" + position_unit(frame),
+                     written_position(frame, algo::command_of(frame, at)));
+  }
+  if (!o.approach.empty()) params.field("approach", o.approach);
+  if (o.incomplete) params.field("incomplete", true);
+  if (command.limits.um) params.field("limit_um", *command.limits.um);
+  if (command.limits.um_per_mm) params.field("limit_um_per_mm", *command.limits.um_per_mm);
+  params.end_object();
+  MDOF_TRY(const std::string reply, mdofd.call("compensation.build_volume", params.text()));
+  simdjson::dom::parser parser;
+  const auto json = parser.parse(simdjson::padded_string(reply));
+  daemon::BuiltVolumetric built;
+  built.notices = notices_of(json);
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(built.table, store.volumetric(integer(json, "table").value_or(0)));
+  MDOF_TRY(built.doubtful, daemon::doubtful_notices(store, built.table));
+  return built;
+}
+
+}  // namespace
+
+Status VolumeOptions::check_unused() const {
+  const char* option = volume              ? "--volume"
+                       : incomplete        ? "--incomplete"
+                       : step_mm           ? "--step-mm"
+                       : !plane.empty()    ? "--plane"
+                       : !at.empty()       ? "--at"
+                       : !approach.empty() ? "--approach"
+                                           : nullptr;
+  if (!option) return {};
+  return fail(ErrorCode::usage, std::string(option) + " needs --machine MACHINE.toml");
+}
+
+void add_volume_options(CLI::App& command, VolumeOptions& o) {
+  command
+      .add_option("--machine", o.machine,
+                  "MACHINE.toml: corrections of all its measured errors over a plane or a volume")
+      ->type_name("FILE");
+  command.add_option("--plane", o.plane, "The two axes of the grid")
+      ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
+  command.add_flag("--volume", o.volume, "All three axes");
+  command.add_option("--step-mm", o.step_mm, "Between two nodes, about")->check(positive_number());
+  command.add_option("--at", o.at, "Where the other axes stand, such as Z=30 [default: at 0]")
+      ->type_name("AXIS=MM");
+  command
+      .add_option("--approach", o.approach,
+                  "The way the axes come, where tables distinguish them [default: mean]")
+      ->check(CLI::IsMember({"mean", "forward", "reverse"}));
+  command.add_flag("--incomplete", o.incomplete,
+                   "Also where an error that would count was not measured; the table names it");
+}
+
+Status build_volume(const VolumeBuild& command) {
+  MDOF_CHECK(check_options(command.options));
+  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
+  MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
+  const VolumetricTable& table = built.table;
+  show_notices(built.notices, command.all_warnings);
+  MDOF_CHECK(command.json
+                 ? write_line(with_notices(volumetric_document(table, 0, !built.doubtful.empty()),
+                                           built.notices, words::text))
+                 : write_out(volumetric_text(table, 0)));
+  say("stored; activate it with: mdof compensation activate " + std::to_string(table.id) +
+      (table.simulated ? " --simulated" : "") +
+      (built.doubtful.empty() ? "" : " --despite-warnings"));
+  return {};
+}
+
+}  // namespace mdof::tools

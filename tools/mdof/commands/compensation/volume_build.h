@@ -1,0 +1,30 @@
+// mdof compensation build --machine: the corrections over a plane or a volume, stored.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "schema/base/result.h"
+#include "tools/mdof/options.h"
+
+namespace mdof::tools {
+
+struct VolumeOptions {
+  std::string machine, plane, at, approach;
+  bool volume = false, incomplete = false;
+  std::optional<double> step_mm;
+
+  bool asked() const { return !machine.empty(); }
+  Status check_unused() const;  // error (usage): an option of these without --machine
+};
+void add_volume_options(CLI::App& command, VolumeOptions& options);
+
+struct VolumeBuild {
+  VolumeOptions options;
+  LimitOptions limits;
+  std::string database, socket;
+  bool json = false, all_warnings = false;
+};
+Status build_volume(const VolumeBuild& command);
+
+}  // namespace mdof::tools

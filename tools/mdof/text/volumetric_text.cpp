@@ -1,0 +1,128 @@
+#include "tools/mdof/text/volumetric_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/base/json_writer.h"
+#include "schema/units.h"
+#include "schema/volumetric/volumetric_json.h"
+#include "tools/mdof/csv/csv_text.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr std::string_view kAxes = "XYZ";
+
+void write_state_of(JsonWriter& json, std::int64_t generation) {
+  json.field("in_force", generation > 0).key("generation");
+  generation > 0 ? json.value(generation) : json.null();
+}
+
+std::string state_text(std::int64_t generation) {
+  return generation > 0 ? "active, generation " + std::to_string(generation) : "not active";
+}
+
+std::string grid_text(const VolumetricTable& t) {
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!t.machine.find(kAxes[k])) continue;
+    const auto& commands = t.command_m[k];
+    text += (text.empty() ? "" : ", ") + std::string(1, kAxes[k]) + " " + in_mm(commands.front());
+    if (commands.size() > 1)
+      text += " to " + in_mm(commands.back()) + " in " + std::to_string(commands.size());
+  }
+  return text + " mm";
+}
+
+struct Largest {
+  double correction_m = 0, u_m = 0;
+  std::size_t node = 0;
+};
+
+Largest largest_of(const VolumetricTable& t, std::size_t axis) {
+  Largest largest;
+  for (std::size_t node = 0; node < t.nodes(); ++node) {
+    const double c = t.correction_m[node][axis];
+    if (std::abs(c) > std::abs(largest.correction_m) || node == 0)
+      largest = {c, t.u_m[node][axis], node};
+  }
+  return largest;
+}
+
+std::string names_text(const char* what, const std::vector<std::string>& names) {
+  return names.empty() ? "" : wrapped(what + joined(names), terminal_columns()) + "\n";
+}
+
+std::string runs_text(const VolumetricTable& t) {
+  std::vector<std::string> ids;
+  for (const auto id : t.runs) ids.push_back(std::to_string(id));
+  return joined(ids, " ");
+}
+
+}  // namespace
+
+std::string volumetric_document(const VolumetricTable& t, std::int64_t generation, bool doubtful) {
+  JsonWriter json;
+  json.begin_object();
+  write_volumetric_members(json, t);
+  json.field("doubtful", doubtful);
+  write_state_of(json, generation);
+  json.key("points").begin_array();
+  for (std::size_t node = 0; node < t.nodes(); ++node) write_volumetric_node(json, t, node);
+  json.end_array().end_object();
+  return json.take();
+}
+
+std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
+  TextTable out({"command of", "largest correction/µm", "u/µm", "at X/mm", "Y/mm", "Z/mm",
+                 "between nodes/µm"});
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!t.machine.find(kAxes[k])) continue;
+    const Largest largest = largest_of(t, k);
+    const Vec3 at = t.command_at(largest.node);
+    out.add({std::string(1, kAxes[k]), um_to_place(largest.correction_m, largest.u_m),
+             um_to_place(largest.u_m, largest.u_m), in_mm(at[0]), in_mm(at[1]), in_mm(at[2]),
+             fixed(to_um(t.interpolation_m[k]), 4)});
+  }
+  const std::string of = t.runs.empty() ? "" : ", of the runs " + runs_text(t);
+  return noise_only_notice(t.noise_only) + simulated_notice(t.simulated) +
+         wrapped("table " + std::to_string(t.id) + ", volume of " + t.name + ", " +
+                     state_text(generation) + of + ", " + t.created_utc,
+                 terminal_columns()) +
+         "\n" +
+         wrapped("machine " + t.machine.text + " (" + travels_of(t.machine) + "), approach " +
+                     t.approach,
+                 terminal_columns()) +
+         "\n" + wrapped(std::to_string(t.nodes()) + " nodes: " + grid_text(t), terminal_columns()) +
+         "\nadded to the commands\n" + out.text(terminal_columns()) +
+         wrapped("between nodes: the most that straight lines are off; left: " +
+                     fixed(to_um(t.place_left_m), 4) + " µm of the place and " +
+                     fixed(to_urad(t.turn_left_rad), 2) +
+                     " µrad of the turn, which the linear axes cannot correct",
+                 terminal_columns()) +
+         "\n" + names_text("not measured, and not corrected: ", t.not_measured) +
+         names_text("beyond the ends of the tables of: ", t.beyond_tables) +
+         names_text("u is without that of: ", t.u_not_declared) +
+         wrapped("u, one standard uncertainty: " + covers_text(t), terminal_columns()) + "\n" +
+         "The nodes: --csv or --json\n";
+}
+
+std::string volumetric_csv(const VolumetricTable& t) {
+  CsvText csv;
+  csv.cells({"X_mm", "Y_mm", "Z_mm", "correction_X_um", "correction_Y_um", "correction_Z_um",
+             "u_X_um", "u_Y_um", "u_Z_um", "u_covers"});
+  csv.end_row();
+  const std::string covers = covers_text(t);
+  for (std::size_t node = 0; node < t.nodes(); ++node) {
+    for (const double x : t.command_at(node)) csv.cell(to_mm(x));
+    for (const double x : t.correction_m[node]) csv.cell(to_um(x) + 0.0);  // -0 is 0
+    for (const double x : t.u_m[node]) csv.cell(to_um(x));
+    csv.cell(covers).end_row();
+  }
+  return csv.take();
+}
+
+}  // namespace mdof::tools

@@ -29,6 +29,11 @@ ErrorFunction function_of(const std::vector<double>& position, const std::vector
   return f;
 }
 
+std::vector<double> scaled(std::vector<double> values, double by) {
+  for (double& x : values) x *= by;
+  return values;
+}
+
 std::string axis_of(const MachineFrame& frame) {
   return "axis " + frame.id + " of the machine: ";
 }
@@ -90,8 +95,11 @@ Status take_table(Machine& machine, MachineFrame& frame, const CompensationTable
     std::vector<double> u = along.u_forward;
     for (std::size_t i = 0; table.has_declared() && i < u.size(); ++i)
       u[i] = std::hypot(u[i], along.u_declared[i]);
+    // Its errors are those of the place in the controller's coordinates; the body's are along +.
+    const double body = frame.against_command ? -1 : 1;
     return take(frame, frame.direction,
-                function_of(table.position_m, along.forward, along.reverse, u));
+                function_of(table.position_m, scaled(along.forward, body),
+                            scaled(along.reverse, body), u));
   }
   MDOF_CHECK(check_set_up(machine, frame, table));
   MDOF_CHECK(check_slope(machine, frame, table));

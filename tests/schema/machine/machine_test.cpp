@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace mdof {
 namespace {
 
@@ -171,6 +173,40 @@ TEST(MachineToml, WhatIsWrongIsNamed) {
     ASSERT_FALSE(read) << bad.from << " -> " << bad.to;
     EXPECT_NE(read.error().message.find(bad.says), std::string::npos) << read.error().message;
     EXPECT_NE(read.error().message.find("m.toml"), std::string::npos) << read.error().message;
+  }
+}
+
+TEST(MachineToml, NamesRowsOfTheDatabase) {
+  const auto named = [](const std::string& root, const std::string& of_axis) {
+    return parse_machine(root +
+                             "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n[[axis]]\nid = \"X\"\n"
+                             "holds_at_mm = [0, 0, 0]\npoint = \"moving\"\n" +
+                             of_axis,
+                         "m.toml");
+  };
+  const auto none = named("", "");
+  EXPECT_FALSE(none->names_stored_rows());
+  const auto numbers = named("squareness = 7\n", "runs = [3, 5]\ntables = 4\n");
+  ASSERT_TRUE(numbers) << numbers.error().message;
+  EXPECT_TRUE(numbers->names_stored_rows());
+  EXPECT_EQ(numbers->squareness.ids, std::vector<std::int64_t>{7});
+  EXPECT_EQ(numbers->find("X")->runs.ids, (std::vector<std::int64_t>{3, 5}));
+  EXPECT_EQ(numbers->find("X")->tables.ids, std::vector<std::int64_t>{4});
+  EXPECT_FALSE(numbers->find("X")->runs.latest);
+  const auto latest = named("squareness = \"latest\"\n", "runs = \"latest\"\n");
+  EXPECT_TRUE(latest->squareness.latest && latest->find("X")->runs.latest);
+  EXPECT_TRUE(named("squareness = 1\n", "")->names_stored_rows());
+  EXPECT_TRUE(named("", "tables = [1]\n")->names_stored_rows());
+  for (const auto& [root, of_axis, says] : {std::array{"", "runs = \"newest\"\n", "latest"},
+                                            {"", "runs = [0]\n", "from 1 on"},
+                                            {"", "runs = [1.5]\n", "from 1 on"},
+                                            {"", "runs = []\n", "empty"},
+                                            {"", "runs = true\n", "number"},
+                                            {"", "tables = \"latest\"\n", "numbers of tables"},
+                                            {"squareness = [1, 2]\n", "", "one number"}}) {
+    const auto refused = named(root, of_axis);
+    ASSERT_FALSE(refused) << of_axis;
+    EXPECT_NE(refused.error().message.find(says), std::string::npos) << refused.error().message;
   }
 }
 

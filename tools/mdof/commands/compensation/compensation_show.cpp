@@ -1,5 +1,6 @@
 // mdof compensation show: a table, by default the one in force.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "daemon/measure/gate/gate.h"
 #include "daemon/measure/machine/volumetric.h"
@@ -26,24 +27,34 @@ struct ShowTableCommand {
   bool csv = false, json = false;
 };
 
-// The one asked for; else the one in force; else the newest.
-Result<CompensationTable> choose_table(store::Store& store, const ShowTableCommand& command) {
-  if (command.table != 0) return store.table(command.table);
+// The one asked for; else the active one, of the axis where it was given; else the newest. Of axis
+// or volume.
+Result<std::int64_t> choose_table(store::Store& store, const ShowTableCommand& command) {
+  if (command.table != 0) return command.table;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     if (!command.axis.empty() && axis_from(command.axis) != axis) continue;
-    auto active = store.active(axis);
-    if (active) return std::move(active->table);
+    const auto active = store.active(axis);
+    if (active) return active->table.id;
     if (active.error().code != ErrorCode::not_found) return tl::unexpected(active.error());
   }
-  MDOF_TRY(auto newest, store.list_tables(0, 1, axis_from(command.axis)));
-  if (!newest.empty()) return std::move(newest.front());
+  std::int64_t newest = 0;
+  if (command.axis.empty()) {
+    const auto active = store.active_volumetric();
+    if (active) return active->table.id;
+    if (active.error().code != ErrorCode::not_found) return tl::unexpected(active.error());
+    MDOF_TRY(const auto volumes, store.list_volumetric(0, 1));
+    if (!volumes.empty()) newest = volumes.front().id;
+  }
+  MDOF_TRY(const auto tables, store.list_tables(0, 1, axis_from(command.axis)));
+  if (!tables.empty()) newest = std::max(newest, tables.front().id);
+  if (newest > 0) return newest;
   return fail(ErrorCode::not_found, store.file().string() + ": has no compensation table" +
                                         (command.axis.empty() ? "" : " of " + command.axis) +
                                         "; build one with mdof compensation build RUN");
 }
 
-Status show_volume(store::Store& store, const ShowTableCommand& command) {
-  MDOF_TRY(const VolumetricTable table, store.volumetric(command.table));
+Status show_volume(store::Store& store, const ShowTableCommand& command, std::int64_t id) {
+  MDOF_TRY(const VolumetricTable table, store.volumetric(id));
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   if (generation == 0) warn("table " + std::to_string(table.id) + " of the volume is not active");
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
@@ -58,9 +69,10 @@ Status show_volume(store::Store& store, const ShowTableCommand& command) {
 
 Status show(const ShowTableCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const bool volume, store.is_volumetric(command.table));
-  if (volume) return show_volume(store, command);
-  MDOF_TRY(const CompensationTable table, choose_table(store, command));
+  MDOF_TRY(const std::int64_t id, choose_table(store, command));
+  MDOF_TRY(const bool volume, store.is_volumetric(id));
+  if (volume) return show_volume(store, command, id);
+  MDOF_TRY(const CompensationTable table, store.table(id));
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   if (generation == 0)
     warn("table " + std::to_string(table.id) + " of axis " + letter(table.axis) + " is not active");

@@ -117,6 +117,13 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
   MDOF_TRY(store::Store store, open_to_read(request.database));
   for (const std::int64_t id : request.tables) {
+    MDOF_TRY(const bool volume, store.is_volumetric(id));
+    if (volume)
+      return fail(ErrorCode::usage,
+                  "table " + std::to_string(id) +
+                      " is of a volume, which no file of a controller holds yet; controllers read "
+                      "it over the socket (compensation.grid), people by mdof compensation show " +
+                      std::to_string(id) + " --csv");
     MDOF_TRY(CompensationTable table, store.table(id));
     MDOF_CHECK(judge_table(store, table, request, out));
     MDOF_CHECK(algo::check_limits(table, limits));

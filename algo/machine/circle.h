@@ -1,0 +1,55 @@
+// The circular test (ISO 230-4): predicted from the errors of the machine, and evaluated.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "algo/machine/tool_error.h"
+
+namespace mdof::algo {
+
+// Radial deviations (actual radius - nominal radius, m) by the angle of the commands about the
+// centre, from the first axis of the plane towards the second. Counter-clockwise is that way.
+struct CircularPath {
+  std::vector<double> angle_rad;
+  std::vector<double> ccw_m, cw_m;  // one of them may be empty: not measured
+};
+
+// Figures of ISO 230-4:2005, about least-squares circles; NaN where a path is missing.
+//   G    circular deviation: range of the radial deviations about the circle of that path alone
+//   Gb   bi-directional circular deviation: range of both paths about the circle of both
+//   H    circular hysteresis: largest distance of the two paths at an angle
+//   D    mean bi-directional radial deviation: radius of the circle of both - nominal radius
+//   F    radial deviations, largest and smallest of a path, about the centre of the circle of all
+//        that was measured
+struct CircularFigures {
+  double G_ccw_m = 0, G_cw_m = 0, Gb_m = 0, H_m = 0, D_m = 0;
+  std::array<double, 2> F_ccw_m{}, F_cw_m{};  // largest, smallest
+  std::array<double, 2> centre_m{};  // of that circle, along the two axes: by how it was set up
+};
+
+// Deviations are small against the radius: the circle is the fit of r + a cos + b sin, which for
+// errors of machines is the least-squares circle to 1e-9 of the deviations. Errors: no path, fewer
+// than 8 angles, angles that leave more than a quarter of the circle out, lengths that differ.
+Result<CircularFigures> circular_figures(const CircularPath& path);
+// The deviations with that centre taken out.
+CircularPath centred(const CircularPath& path, const CircularFigures& figures);
+
+struct CircleRequest {
+  std::size_t first = 0, second = 1;  // directions of the axes of the plane
+  Command centre{};                   // of the circle, and where the other axes stand
+  double radius_m = 0;
+  std::size_t angles = 360;
+};
+struct PredictedCircle {
+  CircularPath path;
+  std::vector<std::string> not_measured, beyond;
+};
+// As a ball bar has it between the tool and a ball on the work that is where the tool was at the
+// centre: by the full product of the frames, each axis with the errors of the way that it comes.
+// Error: an axis that the chain has not, a radius or a number of angles that is none.
+Result<PredictedCircle> predicted_circle(const Machine& machine, const CircleRequest& request);
+
+}  // namespace mdof::algo

@@ -1,0 +1,266 @@
+// mdof machine circle MACHINE.toml --radius-mm R | FILE.csv: the circular test (ISO 230-4) as the
+// chain predicts it, and as a ball bar measured it.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "algo/machine/circle.h"
+#include "drivers/csv/csv_table.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/machine/machine_file.h"
+#include "tools/mdof/csv/csv_text.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr double kRadiansByDegree = std::numbers::pi / 180;
+
+struct MachineCircleCommand {
+  std::string file, database, plane = "XY", centre, measured;
+  std::optional<double> radius_mm;
+  std::size_t angles = 360;
+  bool csv = false, json = false;
+};
+
+// Predicted or measured, with its figures.
+struct FoundCircle {
+  algo::CircularPath path;  // with its centre taken out
+  algo::CircularFigures figures;
+};
+
+struct FoundCircles {
+  const Machine* machine = nullptr;  // none: only measured
+  std::vector<std::string> not_measured, beyond;
+  bool simulated = false;
+  std::optional<FoundCircle> predicted, measured;
+  std::optional<double> largest_difference_m;  // measured - predicted, where both are
+};
+
+Result<FoundCircle> evaluated(algo::CircularPath path) {
+  FoundCircle found;
+  MDOF_TRY(found.figures, algo::circular_figures(path));
+  found.path = algo::centred(path, found.figures);
+  return found;
+}
+
+Result<algo::CircularPath> read_path(const drivers::CsvTable& csv) {
+  algo::CircularPath path;
+  for (const double angle : csv.columns[0]) path.angle_rad.push_back(angle * kRadiansByDegree);
+  for (const double x : csv.columns[1]) path.ccw_m.push_back(from_um(x));
+  for (const double x : csv.columns[2]) path.cw_m.push_back(from_um(x));
+  return path;
+}
+
+// Of a prediction at equal angles from 0 on, linear between them.
+double at_angle(const std::vector<double>& deviations, double angle_rad) {
+  const auto n = static_cast<double>(deviations.size());
+  const double turns = angle_rad / (2 * std::numbers::pi);
+  const double place = (turns - std::floor(turns)) * n;
+  const auto i = static_cast<std::size_t>(place) % deviations.size();
+  const double part = place - std::floor(place);
+  return deviations[i] + (deviations[(i + 1) % deviations.size()] - deviations[i]) * part;
+}
+
+double largest_difference(const FoundCircle& measured, const FoundCircle& predicted) {
+  double largest = 0;
+  const auto compare = [&](const std::vector<double>& of, const std::vector<double>& by) {
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const double difference = of[i] - at_angle(by, measured.path.angle_rad[i]);
+      if (std::abs(difference) > std::abs(largest)) largest = difference;
+    }
+  };
+  compare(measured.path.ccw_m, predicted.path.ccw_m);
+  compare(measured.path.cw_m, predicted.path.cw_m);
+  return largest;
+}
+
+void write_figures(JsonWriter& json, const algo::CircularFigures& f) {
+  json.field("G_ccw_um", to_um(f.G_ccw_m))
+      .field("G_cw_um", to_um(f.G_cw_m))
+      .field("Gb_um", to_um(f.Gb_m))
+      .field("H_um", to_um(f.H_m))
+      .field("D_um", to_um(f.D_m))
+      .field("F_max_ccw_um", to_um(f.F_ccw_m[0]))
+      .field("F_min_ccw_um", to_um(f.F_ccw_m[1]))
+      .field("F_max_cw_um", to_um(f.F_cw_m[0]))
+      .field("F_min_cw_um", to_um(f.F_cw_m[1]));
+}
+
+void write_circle(JsonWriter& json, const char* key, const std::optional<FoundCircle>& circle) {
+  json.key(key);
+  if (!circle) return static_cast<void>(json.null());
+  json.begin_object();
+  write_figures(json, circle->figures);
+  json.key("points").begin_array();
+  const algo::CircularPath& path = circle->path;
+  for (std::size_t i = 0; i < path.angle_rad.size(); ++i) {
+    json.begin_object().field("angle_deg", path.angle_rad[i] / kRadiansByDegree);
+    if (!path.ccw_m.empty()) json.field("ccw_um", to_um(path.ccw_m[i]));
+    if (!path.cw_m.empty()) json.field("cw_um", to_um(path.cw_m[i]));
+    json.end_object();
+  }
+  json.end_array().end_object();
+}
+
+std::string circle_json(const MachineCircleCommand& o, const FoundCircles& found) {
+  JsonWriter json;
+  json.begin_object().key("machine");
+  found.machine ? json.value(found.machine->name) : json.null();
+  json.field("plane", o.plane).field("simulated", found.simulated);
+  json.field("sense",
+             "actual radius - nominal radius, about the least-squares centre of all paths");
+  json.field("u_reason", "no uncertainty is stated: a prediction and readings alone");
+  write_strings(json, "not_measured", found.not_measured);
+  write_strings(json, "beyond_tables", found.beyond);
+  write_circle(json, "predicted", found.predicted);
+  write_circle(json, "measured", found.measured);
+  json.key("largest_difference_um");
+  found.largest_difference_m ? json.value(to_um(*found.largest_difference_m)) : json.null();
+  json.end_object();
+  return json.take();
+}
+
+std::string circle_csv(const FoundCircles& found) {
+  const FoundCircle& circle = found.predicted ? *found.predicted : *found.measured;
+  CsvText csv;
+  csv.cell("angle_deg");
+  if (!circle.path.ccw_m.empty()) csv.cell("ccw_um");
+  if (!circle.path.cw_m.empty()) csv.cell("cw_um");
+  csv.end_row();
+  for (std::size_t i = 0; i < circle.path.angle_rad.size(); ++i) {
+    csv.cell(circle.path.angle_rad[i] / kRadiansByDegree);
+    if (!circle.path.ccw_m.empty()) csv.cell(to_um(circle.path.ccw_m[i]));
+    if (!circle.path.cw_m.empty()) csv.cell(to_um(circle.path.cw_m[i]));
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+std::string circle_text(const MachineCircleCommand& o, const FoundCircles& found) {
+  TextTable table({"", "predicted/µm", "measured/µm"});
+  const auto add = [&](const char* label, auto figure) {
+    const auto cell = [&](const std::optional<FoundCircle>& circle) {
+      const double x = circle ? figure(circle->figures) : NAN;
+      return std::isnan(x) ? std::string("-") : fixed(to_um(x), 3);
+    };
+    table.add({label, cell(found.predicted), cell(found.measured)});
+  };
+  using Figures = algo::CircularFigures;
+  add("G, counter-clockwise", [](const Figures& f) { return f.G_ccw_m; });
+  add("G, clockwise", [](const Figures& f) { return f.G_cw_m; });
+  add("G(b), both ways", [](const Figures& f) { return f.Gb_m; });
+  add("H, hysteresis", [](const Figures& f) { return f.H_m; });
+  add("D, mean radius", [](const Figures& f) { return f.D_m; });
+  add("F max, counter-clockwise", [](const Figures& f) { return f.F_ccw_m[0]; });
+  add("F min, counter-clockwise", [](const Figures& f) { return f.F_ccw_m[1]; });
+  add("F max, clockwise", [](const Figures& f) { return f.F_cw_m[0]; });
+  add("F min, clockwise", [](const Figures& f) { return f.F_cw_m[1]; });
+  std::string text = simulated_notice(found.simulated) +
+                     (found.machine ? found.machine->name + ": " : std::string()) +
+                     "circular test (ISO 230-4) in the plane " + o.plane +
+                     (o.radius_mm ? ", radius " + in_mm(from_mm(*o.radius_mm)) + " mm" : "") +
+                     "\n" + table.text(terminal_columns()) +
+                     wrapped(
+                         "G about the least-squares circle of each path, the others about that "
+                         "of all; no uncertainty is stated",
+                         terminal_columns()) +
+                     "\n";
+  if (found.largest_difference_m)
+    text += "measured - predicted: at most " + fixed(to_um(*found.largest_difference_m), 3) +
+            " µm at an angle\n";
+  return text + missing_text(found.not_measured, {}, terminal_columns()) +
+         "The angles: --csv or --json\n";
+}
+
+Status predict(const MachineCircleCommand& o, Machine& machine, FoundCircles& found) {
+  if (!o.radius_mm) return fail(ErrorCode::usage, "--radius-mm is missing: which circle?");
+  MDOF_TRY(machine, load_machine(o.file, o.database));
+  algo::CircleRequest request;
+  request.first = std::string("XYZ").find(o.plane[0]);
+  request.second = std::string("XYZ").find(o.plane[1]);
+  request.radius_m = from_mm(*o.radius_mm);
+  request.angles = o.angles;
+  if (!o.centre.empty()) {
+    MDOF_TRY(request.centre, command_from(machine, o.centre));
+  }
+  MDOF_TRY(auto predicted, algo::predicted_circle(machine, request));
+  MDOF_TRY(found.predicted, evaluated(std::move(predicted.path)));
+  found.machine = &machine;
+  found.simulated = machine.simulated;
+  found.not_measured = std::move(predicted.not_measured);
+  found.beyond = std::move(predicted.beyond);
+  return {};
+}
+
+Status machine_circle(const MachineCircleCommand& o) {
+  FoundCircles found;
+  Machine machine;
+  const bool described = o.file.size() > 5 && o.file.substr(o.file.size() - 5) == ".toml";
+  const std::string measured = described ? o.measured : o.file;
+  if (described) MDOF_CHECK(predict(o, machine, found));
+  if (!measured.empty()) {
+    MDOF_TRY(const auto csv, drivers::read_csv_table(measured, {"angle_deg"}, {"ccw_um", "cw_um"}));
+    MDOF_TRY(algo::CircularPath path, read_path(csv));
+    auto circle = evaluated(std::move(path));
+    if (!circle) return in_context(csv.source, std::move(circle.error()));
+    found.measured = std::move(*circle);
+    found.simulated = found.simulated || csv.simulated;
+  }
+  if (found.predicted && found.measured)
+    found.largest_difference_m = largest_difference(*found.measured, *found.predicted);
+  warn_beyond(found.beyond);
+  if (o.csv && !found.not_measured.empty())
+    warn("not measured, and not in these figures: " + joined(found.not_measured));
+  return o.csv    ? write_out(circle_csv(found))
+         : o.json ? write_line(circle_json(o, found))
+                  : write_out(circle_text(o, found));
+}
+
+Action declare_machine_circle(CLI::App& command) {
+  const auto o = std::make_shared<MachineCircleCommand>();
+  command
+      .add_option("FILE", o->file,
+                  "MACHINE.toml, whose errors predict the test; or a measured path, CSV: angle_deg "
+                  "from the first axis towards the second, ccw_um and cw_um (radial deviations)")
+      ->required()
+      ->type_name("");
+  command.add_option("--plane", o->plane, "The two axes")
+      ->check(CLI::IsMember({"XY", "XZ", "YZ"}))
+      ->capture_default_str();
+  command.add_option("--radius-mm", o->radius_mm, "Of the circle; needed for MACHINE.toml")
+      ->check(positive_number());
+  command
+      .add_option("--centre", o->centre,
+                  "Commands at the centre, and where the other axes stand, as X=20,Y=30 [default: "
+                  "at 0]")
+      ->type_name("AXIS=MM");
+  command.add_option("--angles", o->angles, "Number of angles that are predicted")
+      ->check(CLI::Range(8, 100'000))
+      ->capture_default_str();
+  command.add_option("--measured", o->measured, "A measured path as FILE.csv, to compare")
+      ->type_name("FILE");
+  add_database_option(command, o->database);
+  add_csv_and_json_flags(command, o->csv, o->json);
+  return [o] { return machine_circle(*o); };
+}
+
+}  // namespace
+
+Command machine_circle_command() {
+  return {.name = "machine circle",
+          .summary = "Circular test (ISO 230-4), predicted from the errors and measured",
+          .footer =
+              "Examples:\n"
+              "  mdof machine circle machine.toml --radius-mm 20 --centre X=30,Y=30\n"
+              "  mdof machine circle machine.toml --radius-mm 20 --measured ballbar.csv\n"
+              "  mdof machine circle ballbar.csv",
+          .declare = declare_machine_circle};
+}
+
+}  // namespace mdof::tools

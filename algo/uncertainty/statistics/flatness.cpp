@@ -42,14 +42,6 @@ double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return (a - b).norm();
 }
 
-// Covariance of two heights, each above its own at d = 0.
-double zeroed_m2(const FlatnessCovariance& covariance, const Footprint& a, const Footprint& b) {
-  return covariance.semivariogram_m2(distance(a.place, b.zero)) +
-         covariance.semivariogram_m2(distance(a.zero, b.place)) -
-         covariance.semivariogram_m2(distance(a.place, b.place)) -
-         covariance.semivariogram_m2(distance(a.zero, b.zero));
-}
-
 }  // namespace
 
 double one_minus_bessel_j0(double x) {
@@ -67,12 +59,17 @@ double FlatnessCovariance::semivariogram_m2(double apart_m) const {
   return variance_m2_ * sum / norm;
 }
 
+double FlatnessCovariance::zeroed_m2(const Footprint& a, const Footprint& b) const {
+  return semivariogram_m2(distance(a.place, b.zero)) + semivariogram_m2(distance(a.zero, b.place)) -
+         semivariogram_m2(distance(a.place, b.place)) - semivariogram_m2(distance(a.zero, b.zero));
+}
+
 Eigen::MatrixXd independent_heights(const FlatnessCovariance& covariance,
                                     const std::vector<Footprint>& footprints) {
   return independent_parts(
       footprints.size(),
       [&](std::size_t i, std::size_t j) {
-        return zeroed_m2(covariance, footprints[i], footprints[j]);
+        return covariance.zeroed_m2(footprints[i], footprints[j]);
       },
       kMostFlatnessParts);
 }

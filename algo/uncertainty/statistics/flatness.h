@@ -18,19 +18,21 @@ namespace mdof::algo {
 // 1 - J₀(x) to 3e-11, and to rounding of itself for a small x.
 double one_minus_bessel_j0(double x);
 
+// Where the line of a probe meets the plane, in C, and where it does at d = 0.
+struct Footprint {
+  Eigen::Vector3d place, zero;
+};
+
 class FlatnessCovariance {
  public:
   FlatnessCovariance(double u_m, double length_m) : variance_m2_(u_m * u_m), length_m_(length_m) {}
   // u² - C(r).
   double semivariogram_m2(double apart_m) const;
+  // Of two heights, each above its own at d = 0.
+  double zeroed_m2(const Footprint& a, const Footprint& b) const;
 
  private:
   double variance_m2_, length_m_;
-};
-
-// Where the line of a probe meets the plane, in C, and where it does at d = 0.
-struct Footprint {
-  Eigen::Vector3d place, zero;
 };
 
 // The heights of the footprints above those at d = 0, as independent_parts(): kMostFlatnessParts

@@ -1,0 +1,181 @@
+// Do probes beyond five contradict each other as much as the rig declares, and no more? Surfaces as
+// sums of plane waves, and probes displaced in the fixture itself: the mean of χ² is its degrees of
+// freedom.
+#include "algo/uncertainty/effects/reading_covariance.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <functional>
+#include <random>
+
+#include "algo/model/rigid.h"
+#include "algo/uncertainty/chi_square.h"
+#include "tests/algo/uncertainty/drawn_surface.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kWhite_m = 1e-9, kFlatness_m = 0.5e-6;
+
+struct PlacedProbe {
+  const char* id;
+  double x_mm, y_mm, z_mm;
+  bool top;
+};
+constexpr PlacedProbe kSevenProbes[] = {{"A", 10, 0, 0, true},    {"B", 0, 10, 0, true},
+                                        {"C", 0, -10, 0, true},   {"D", 0, 15, 20, false},
+                                        {"E", 10, 15, 20, false}, {"F", -10, 5, 0, true},
+                                        {"G", -10, 15, 10, false}};
+
+Rig rig_of_seven(double flatness_length_mm) {
+  std::string text = "name = \"seven\"\naxis = \"X\"\n";
+  for (const PlacedProbe& p : kSevenProbes)
+    text += std::string("[[probe]]\nid = \"") + p.id + "\"\nposition_mm = [" +
+            std::to_string(p.x_mm) + ", " + std::to_string(p.y_mm) + ", " + std::to_string(p.z_mm) +
+            "]\nmeasures = \"" + (p.top ? "+Z" : "+Y") + "\"\nrange_um = 200\n";
+  const std::string flatness =
+      flatness_length_mm > 0
+          ? "u_flatness_um = 0.5\nflatness_length_mm = " + std::to_string(flatness_length_mm) + "\n"
+          : "";
+  text += "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n" + flatness +
+          "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\n" + flatness;
+  return parse_rig(text, "seven.toml").value();
+}
+
+// Sum of χ² over its degrees of freedom.
+struct ChiSquares {
+  double sum = 0, freedom = 0;
+  double ratio() const { return sum / freedom; }
+  void add(const Agreement& agreement) {
+    sum += agreement.chi_square;
+    freedom += agreement.freedom;
+  }
+};
+
+Agreement agreement_of(const Rig& rig, const Solver& solver, double d,
+                       const std::vector<double>& readings_m) {
+  const AxisErrors errors = solver.solve(d, readings_m, std::vector<double>(7, kWhite_m));
+  Eigen::MatrixXd covariance = declared_covariance(rig, solver, d, errors.local, readings_m, 0.0);
+  covariance.diagonal().array() += kWhite_m * kWhite_m;
+  return agreement(solver, d, readings_m, covariance, errors);
+}
+
+std::vector<double> heights_m(const test_faults::DrawnSurface& top,
+                              const test_faults::DrawnSurface& side, double d) {
+  std::vector<double> all;
+  for (const PlacedProbe& p : kSevenProbes)
+    all.push_back(p.top ? top.above_zero_m(1e-3 * p.x_mm, 1e-3 * p.y_mm, d)
+                        : side.above_zero_m(1e-3 * p.x_mm, 1e-3 * p.z_mm, d));
+  return all;
+}
+
+// Waves far shorter than the probes are apart change each reading by itself, by twice their
+// variance since the zero; waves far longer are tilts and bows, which five errors explain but for
+// little.
+TEST(ReadingCovariance, OfASurfaceIsThatOfManyWavesOfAnyLength) {
+  std::mt19937_64 engine(21);
+  std::normal_distribution<> normal(0, kWhite_m);
+  for (const double length_mm : {4.0, 30.0, 400.0}) {
+    const Rig rig = rig_of_seven(length_mm);
+    const Solver solver = Solver::create(rig, Model::rigid).value();
+    ChiSquares all;
+    for (int surface = 0; surface < 500; ++surface) {
+      const test_faults::DrawnSurface top(kFlatness_m, length_mm * 1e-3, engine);
+      const test_faults::DrawnSurface side(kFlatness_m, length_mm * 1e-3, engine);
+      for (const double d : {7e-3, 20e-3, 40e-3}) {
+        std::vector<double> readings_m = heights_m(top, side, d);
+        for (double& reading : readings_m) reading += normal(engine);
+        all.add(agreement_of(rig, solver, d, readings_m));
+      }
+    }
+    std::printf("flatness length %3.0f mm: chi-square / freedom %.3f\n", length_mm, all.ratio());
+    EXPECT_NEAR(all.ratio(), 1, 0.15) << length_mm;
+  }
+}
+
+// So a fault of the size of the flatness is seen where the surface cannot have made it, and none is
+// seen where it can.
+TEST(ReadingCovariance, FindsAFaultBesideLongWavesAndAccusesNoShortOnes) {
+  std::mt19937_64 engine(22);
+  std::normal_distribution<> normal(0, kWhite_m);
+  const std::vector<double> range_m(7, 200e-6);
+  const auto accused = [&](double length_mm, double fault_m) {
+    const Rig rig = rig_of_seven(length_mm);
+    const Solver solver = Solver::create(rig, Model::rigid).value();
+    const Residuals residuals(solver, range_m, rig, 0);
+    int found = 0;
+    for (int surface = 0; surface < 2000; ++surface) {
+      const test_faults::DrawnSurface top(kFlatness_m, length_mm * 1e-3, engine);
+      const test_faults::DrawnSurface side(kFlatness_m, length_mm * 1e-3, engine);
+      constexpr double d = 20e-3;
+      MeasuredPoint p;
+      p.point.position_m = d;
+      p.point.probe_m = heights_m(top, side, d);
+      for (double& reading : p.point.probe_m) reading += normal(engine);
+      p.point.probe_m[5] += fault_m;
+      p.point.probe_u_m.assign(7, kWhite_m);
+      p.errors = solver.solve(d, p.point.probe_m, p.point.probe_u_m);
+      residuals.test(p);
+      found += p.point.flags.empty() ? 0 : 1;
+    }
+    return found;
+  };
+  EXPECT_EQ(accused(4, 0), 0);
+  EXPECT_EQ(accused(400, 0), 0);
+  EXPECT_EQ(accused(400, 0.5e-6), 2000);
+}
+
+// What a calibration found of the zeros and places of F and G, each zero nearly the opposite of
+// what its place does at a tilt of 5 mrad.
+constexpr double kPlace_m = 20e-6, kTilt_rad = 5e-3, kCorrelation = 0.95;
+
+TEST(ReadingCovariance, OfACalibrationHasItsCorrelations) {
+  Rig rig = rig_of_seven(0);
+  const double u_zero_m = kPlace_m * kTilt_rad;
+  CalibrationRecord& record = rig.records.emplace_back();
+  record.covariance.of = {"F.x", "F.zero", "G.x", "G.zero"};
+  record.covariance.m2.assign(4, std::vector<double>(4));
+  for (const std::size_t i : {0u, 2u}) {
+    const double both = kCorrelation * kPlace_m * u_zero_m;
+    record.covariance.m2[i][i] = kPlace_m * kPlace_m;
+    record.covariance.m2[i + 1][i + 1] = u_zero_m * u_zero_m;
+    record.covariance.m2[i][i + 1] = record.covariance.m2[i + 1][i] = both;
+    Probe& probe = rig.probes[i == 0 ? 5 : 6];
+    probe.uncertainty.position.u[0] = kPlace_m;
+    probe.uncertainty.calibration.u = u_zero_m;
+  }
+  const Solver solver = Solver::create(rig, Model::rigid).value();
+  const Fixture nominal = make_fixture(rig).value();
+  // The top falls by 5 µm a millimetre along x, the side comes nearer.
+  const Errors5 tilted = {0, 0, 0, kTilt_rad, -kTilt_rad};
+  std::mt19937_64 engine(23);
+  std::normal_distribution<> normal;
+  ChiSquares all;
+  for (int trial = 0; trial < 1500; ++trial) {
+    Fixture as_is = nominal;
+    std::vector<double> zero_m(7);
+    for (const std::size_t k : {5u, 6u}) {
+      const double place = normal(engine), other = normal(engine);
+      as_is.probes[k].p_MP.x() += kPlace_m * place;
+      zero_m[k] =
+          u_zero_m * (kCorrelation * place + std::sqrt(1 - kCorrelation * kCorrelation) * other);
+    }
+    constexpr double d = 1e-3;
+    const Eigen::VectorXd readings = rigid_readings(as_is, d, tilted) -
+                                     rigid_readings(as_is, 0, Errors5{}) +
+                                     rigid_readings(nominal, 0, Errors5{});
+    std::vector<double> readings_m;
+    for (std::size_t k = 0; k < 7; ++k)
+      readings_m.push_back(readings(static_cast<Eigen::Index>(k)) + zero_m[k] +
+                           kWhite_m * normal(engine));
+    all.add(agreement_of(rig, solver, d, readings_m));
+  }
+  std::printf("calibration: chi-square / freedom %.3f\n", all.ratio());
+  EXPECT_NEAR(all.ratio(), 1, 0.15);
+}
+
+}  // namespace
+}  // namespace mdof::algo

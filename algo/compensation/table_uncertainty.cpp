@@ -8,6 +8,7 @@
 
 #include "algo/sequence/uneven_visits.h"
 #include "algo/uncertainty/statistics/repeatability.h"
+#include "algo/uncertainty/statistics/run_shifts.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {
@@ -21,12 +22,13 @@ bool is_of(const MeasuredPoint& p, Approach approach) {
 struct OfApproach {
   std::vector<Errors5> variance;  // 0 where it has no mean
   std::vector<bool> has;
-  Errors5 shift{};  // of all of them together
+  Errors5 shift{};    // of all of them together
+  Errors5 u_visit{};  // of a visit, pooled
 };
 
 OfApproach of_approach(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                        const std::vector<TargetMean>& grid, Approach approach) {
-  OfApproach out{std::vector<Errors5>(grid.size()), std::vector<bool>(grid.size()), {}};
+  OfApproach out{std::vector<Errors5>(grid.size()), std::vector<bool>(grid.size()), {}, {}};
   std::vector<MeasuredPoint> own;
   std::copy_if(points.begin(), points.end(), std::back_inserter(own),
                [&](const MeasuredPoint& p) { return is_of(p, approach); });
@@ -44,8 +46,49 @@ OfApproach of_approach(const MovingAxis& moving, const std::vector<MeasuredPoint
   }
   for (std::size_t k = 0; k < kErrorCount; ++k)
     out.shift[k] = random.u_shift[k] * random.u_shift[k];
+  out.u_visit = random.u_visit;
   return out;
 }
+
+// What the shifts of runs that lack visits, and of their passes, do to the means of both approaches
+// together, by independent parts.
+class SharedShifts {
+ public:
+  SharedShifts(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+               const std::vector<TargetMean>& grid)
+      : grid_(grid) {
+    std::vector<MeasuredPoint> counted;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(counted), counts_in_means);
+    by_noise_ = parts_by_run_shifts(counted);
+    for (const auto& [where, left] : left_by_passes(counted))
+      left_[where] = named_from_local(moving, left);
+  }
+  // [part][target of the grid] of named error k, 0 where the approach has no mean.
+  std::vector<std::vector<double>> of(Approach approach, std::size_t k, double u_visit) const {
+    std::vector<std::vector<double>> parts;
+    for (const auto& part : by_noise_)
+      parts.push_back(on_grid(approach, part, [&](double by_one) { return by_one * u_visit; }));
+    if (!left_.empty())
+      parts.push_back(on_grid(approach, left_, [&](const Errors5& left) { return left[k]; }));
+    return parts;
+  }
+
+ private:
+  template <class T, class Change>
+  std::vector<double> on_grid(Approach approach, const std::map<TargetAndWay, T>& part,
+                              Change change) const {
+    std::vector<double> all;
+    for (const TargetMean& mean : grid_) {
+      const auto at = part.find({mean.target, approach == Approach::forward ? 1 : 0});
+      all.push_back(at == part.end() ? 0.0 : change(at->second));
+    }
+    return all;
+  }
+
+  const std::vector<TargetMean>& grid_;
+  std::vector<std::map<TargetAndWay, double>> by_noise_;
+  std::map<TargetAndWay, Errors5> left_;  // named
+};
 
 // Of half of what the two approaches differ by, over all targets that have both, from run to run:
 // the variance of its mean, without what the visits' own variance makes of it.
@@ -136,13 +179,18 @@ SeriesOfErrors table_uncertainty(
   const OfApproach own = of_approach(moving, points, grid, approach);
   const OfApproach other = of_approach(moving, points, grid, back);
   const Errors5 apart = half_difference(moving, points);
+  const SharedShifts shared(moving, points, grid);
   SeriesOfErrors u;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     u[k].assign(grid.size(), kNaN);
+    const auto own_shifts = shared.of(approach, k, own.u_visit[k]);
+    const auto other_shifts = shared.of(back, k, own.u_visit[k]);
     for (std::size_t i = 0; i < grid.size(); ++i) {
       if (!own.has[i]) continue;
       const Reference& reference = references[k][i];
       double variance = 0, referred = 0;
+      std::vector<double> shifts;
+      for (const auto& part : own_shifts) shifts.push_back(part[i]);
       for (std::size_t j = 0; j < grid.size(); ++j) {
         const double of_own = !own.has[j] ? 0 : other.has[j] ? 0.5 : 1;
         const double by_own = (i == j ? 1.0 : 0.0) - reference[j] * of_own;
@@ -150,8 +198,12 @@ SeriesOfErrors table_uncertainty(
         variance +=
             by_own * by_own * own.variance[j][k] + by_other * by_other * other.variance[j][k];
         referred += reference[j];
+        for (std::size_t p = 0; p < shifts.size(); ++p)
+          shifts[p] -=
+              reference[j] * (of_own * own_shifts[p][j] + (1 - of_own) * other_shifts[p][j]);
       }
       variance += referred > 0.5 ? apart[k] : own.shift[k];
+      for (const double shift : shifts) variance += shift * shift;
       u[k][i] = std::sqrt(variance);
     }
   }

@@ -12,6 +12,7 @@
 #include "algo/uncertainty/budget_draws.h"
 #include "algo/uncertainty/coverage.h"
 #include "algo/uncertainty/statistics/range_interval.h"
+#include "algo/uncertainty/statistics/target_noise.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {
@@ -77,38 +78,6 @@ class SomeParts {
   std::size_t n_ = 0, width_ = 0;
 };
 
-// The noise of the means at the targets, and the shift that they share, of the trials of a block.
-class TargetNoise {
- public:
-  TargetNoise(BlockOfDraws& draws, const Repeatability& random) : random_(random) {
-    const OneU normal(kInfinite);
-    for (std::size_t i = 0; i <= random.u.size(); ++i) drawn_.push_back(draws.next(normal));
-    for_freedom_ = draws.next(normal);
-  }
-  void add_to(MeanErrors& means, std::size_t trial, double factor) const {
-    const double shift = factor * drawn_.back()[trial];
-    for (std::size_t i = 0; i < means.targets.size(); ++i)
-      for (std::size_t k = 0; k < kErrorCount; ++k)
-        means.targets[i].named[k] +=
-            factor * drawn_[i][trial] * random_.u[i][k] + shift * random_.u_shift[k];
-  }
-  // By which normal numbers of one trial become those of Student's t: √(ν/χ²), by Wilson and
-  // Hilferty.
-  double student(std::size_t trial, double freedom) const {
-    if (!std::isfinite(freedom)) return 1;
-    const double variance = 2 / (9 * freedom);
-    const double root = 1 - variance + for_freedom_[trial] * std::sqrt(variance);
-    return std::pow(std::max(root, kLeastRoot), -1.5);
-  }
-
- private:
-  static constexpr double kLeastRoot = 0.1;
-
-  const Repeatability& random_;
-  std::vector<std::vector<double>> drawn_;  // of each target, and of the shift; by trial
-  std::vector<double> for_freedom_;
-};
-
 }  // namespace
 
 RunBudgets::RunBudgets(const Rig& rig, const Run& run)
@@ -126,7 +95,7 @@ Result<RunBudgets> RunBudgets::create(const Rig& rig, const Run& run) {
 }
 
 std::size_t RunBudgets::cost() const {
-  std::size_t parts = 1;
+  std::size_t parts = 1 + repeatability_.together.size();
   for (const Shifted& shifted : shifted_) parts += shifted.parts.size();
   return parts * means_.targets.size();
 }
@@ -190,6 +159,13 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
     if (part != 0 && !std::exchange(asked, true) && half_difference(figure, scattered) != 0)
       freedom = repeatability_.freedom;
     together.insert(together.end(), repeatability_.u_shift.begin(), repeatability_.u_shift.end());
+  }
+  for (const std::vector<Errors5>& part : repeatability_.together) {
+    MeanShifts shifts;
+    for (const Errors5& at_target : part)
+      shifts.insert(shifts.end(), at_target.begin(), at_target.end());
+    const double by_part = half_difference(figure, shifts);
+    square += by_part * by_part;
   }
   const double shift = std::abs(half_difference(figure, together));
   const std::array<UncertaintyPart, 2> both = {

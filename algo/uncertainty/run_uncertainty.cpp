@@ -4,11 +4,15 @@
 #include <cmath>
 
 #include "algo/drift/removed_drift.h"
+#include "algo/drift/run_drift.h"
 #include "algo/uncertainty/coverage.h"
 #include "schema/sample.h"
 
 namespace mdof::algo {
 namespace {
+
+// Of one normal quantity, χ² at 99.9 %.
+constexpr double kMostOfDrift = 10.83;
 
 ErrorsUncertainty not_known() {
   Errors5 nothing;
@@ -21,13 +25,16 @@ ErrorsUncertainty not_known() {
 PointUncertainties::PointUncertainties(const Run& run)
     : run_(run), sums_(run.points.size()), visits_(run.points) {
   std::vector<Errors5> named(run.points.size());
+  std::vector<double> time_s;
   for (std::size_t j = 0; j < sums_.size(); ++j) {
     const AxisErrors& errors = run.points[j].errors;
     const Covariance5 covariance = named_from_local(run.header.axis, errors.covariance);
     for (std::size_t k = 0; k < kErrorCount; ++k) sums_[j].noise[k] = covariance[6 * k];
     named[j] = named_from_local(run.header.moving(), errors.local);
+    time_s.push_back(time_of_s(run.points[j]));
   }
   seen_ = visits_.of(named);
+  steady_ = visits_.of_steady(named, time_s);
   repeatability_.fill(visits_.has_repeats());
   if (visits_.has_repeats()) covered_ = VisitsCovered::repeated;
   if (sums_.size() > kMostPointsOfRepeatability) leave_out_repeatability();
@@ -73,10 +80,14 @@ std::vector<ErrorsUncertainty> PointUncertainties::stated() const {
     const auto scans = static_cast<double>(run_.points[j].point.samples);
     for (std::size_t k = 0; k < kErrorCount; ++k) {
       double random = sums.noise[k], fourth = fourth_by(random, std::max(1.0, scans - 1));
-      const double repeatability = seen_.variance[k] - explained_[k];
+      const double by_time = seen_.variance[k] - steady_.variance[k];
+      const bool is_declared = explained_[k] > 0 && by_time <= kMostOfDrift * explained_[k];
+      const VisitScatter::Pooled& scatter = is_declared ? steady_ : seen_;
+      const double repeatability =
+          is_declared ? steady_.variance[k] : seen_.variance[k] - explained_[k];
       if (repeatability_[k] && repeatability > random) {
         random = repeatability;
-        fourth = fourth_by(seen_.variance[k], seen_.freedom[k]);
+        fourth = fourth_by(scatter.variance[k], scatter.freedom[k]);
       }
       const double square = random + sums.square[k];
       out.u[k] = std::sqrt(square);

@@ -16,9 +16,11 @@ namespace mdof::algo {
 // Of the errors as the run states them. GUM 5.1.2: the squares of what is random and of each
 // contributor's part add. Random is the noise of the point's own stop (degrees of freedom: its
 // scans less one), or, where it is more, the variance of a visit that repeats of the targets show
-// (visit_scatter.h) less what a declared drift does between them: it replaces that noise, which is
-// part of it. A removed drift has the slow noise in its own part, and the noise stays. What the rig
-// declares and cannot be calculated leaves the random part alone, and `why` says so.
+// (visit_scatter.h): it replaces that noise, which is part of it. What changes in proportion to
+// time is no repeatability where the declared drift explains it; where it is more than such a drift
+// shows by chance in one of a thousand runs, all of it is, less what the declared drift does. A
+// removed drift has the slow noise in its own part, and the noise stays. What the rig declares and
+// cannot be calculated leaves the random part alone, and `why` says so.
 RunUncertainty run_uncertainty(const Rig& rig, const Run& run);
 // A run with more points has none of the repeatability: its pages would take seconds.
 inline constexpr std::size_t kMostPointsOfRepeatability = 20'000;
@@ -49,6 +51,7 @@ class PointUncertainties {
   VisitScatter visits_;
   VisitsCovered covered_ = VisitsCovered::single;
   VisitScatter::Pooled seen_;                      // of the named errors
+  VisitScatter::Pooled steady_;                    // the same without what grows with time
   Errors5 explained_{};                            // of its variance, by the declared drift
   std::array<bool, kErrorCount> repeatability_{};  // whether it is taken
 };

@@ -9,6 +9,12 @@ namespace {
 
 constexpr int kInversionSteps = 5;  // right to a hundredth of U
 
+double point_of_95_percent(std::vector<double> off) {
+  const auto at = off.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(off.size()));
+  std::nth_element(off.begin(), at, off.end());
+  return *at;
+}
+
 }  // namespace
 
 RangeTrials::RangeTrials(std::vector<double> measured, std::vector<double> changes)
@@ -39,9 +45,18 @@ std::vector<double> RangeTrials::ranges(double cut) const {
 double RangeTrials::distance_of_95_percent(double true_range) const {
   std::vector<double> off = ranges((highest_ - lowest_ - true_range) / 2);
   for (double& v : off) v = std::abs(v - true_range);
-  const auto at = off.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(off.size()));
-  std::nth_element(off.begin(), at, off.end());
-  return *at;
+  return point_of_95_percent(std::move(off));
+}
+
+double RangeTrials::distance_of_ends() const {
+  const std::size_t n = measured_.size();
+  const auto [least, most] = std::minmax_element(measured_.begin(), measured_.end());
+  const auto low = static_cast<std::size_t>(least - measured_.begin());
+  const auto high = static_cast<std::size_t>(most - measured_.begin());
+  std::vector<double> off(changes_.size() / n);
+  for (std::size_t t = 0; t < off.size(); ++t)
+    off[t] = std::abs(changes_[t * n + high] - changes_[t * n + low]);
+  return point_of_95_percent(std::move(off));
 }
 
 // By regula falsi (Illinois): c(T) falls slowly as T grows.
@@ -69,7 +84,7 @@ double RangeTrials::U() const {
       side = -1;
     }
   }
-  return std::max(high, as_measured);
+  return std::max({high, as_measured, distance_of_ends()});
 }
 
 double RangeTrials::standard_deviation() const {

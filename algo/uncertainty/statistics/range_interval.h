@@ -13,6 +13,8 @@ namespace mdof::algo {
 // near an end brought together: clamped so that (R - T)/2 is cut off at both ends. So the bias is
 // in U; where c(0) >= R, U is c(0) and the interval holds 0. U is at least c(R), of the deviations
 // as measured: errors that are alike at neighbours vary less at a flat end than at a pointed one.
+// And U is at least the 95 % point of what the two ends as measured change by: a neighbour that is
+// nearly as high cuts the trials off below, which the true deviations need not do.
 class RangeTrials {
  public:
   // `changes`: trial after trial, as many as `measured` each; at least one trial.
@@ -24,6 +26,7 @@ class RangeTrials {
  private:
   // c(T)
   double distance_of_95_percent(double true_range) const;
+  double distance_of_ends() const;
   std::vector<double> ranges(double cut) const;  // of each trial
 
   std::vector<double> measured_, changes_;

@@ -7,8 +7,10 @@
 #include <map>
 #include <utility>
 
+#include "algo/iso230/target_changes.h"
 #include "algo/sequence/run_drifts.h"
 #include "algo/sequence/uneven_visits.h"
+#include "algo/uncertainty/statistics/run_shifts.h"
 
 namespace mdof::algo {
 namespace {
@@ -56,6 +58,8 @@ class Decomposition {
   bool by_scatter(std::size_t k) const {
     return freedom_ > 0 && scatter_[k] > noise_[k] * (1 + 0.84 * std::sqrt(2 / freedom_));
   }
+
+  double pooled_variance(std::size_t k) const { return by_scatter(k) ? scatter_[k] : noise_[k]; }
 
   // By target: of the mean of both approaches, or of the only one.
   std::map<int, Errors5> variances() const {
@@ -135,6 +139,33 @@ class Decomposition {
   double freedom_ = 0;
 };
 
+// What changes several means together where runs lack visits: what is not known of the shifts of
+// the runs, and, as a whole, what those of the passes leave. [part][target]
+std::vector<std::vector<Errors5>> parts_of_shifts(const MovingAxis& moving,
+                                                  const std::vector<MeasuredPoint>& counted,
+                                                  const Errors5& u_visit) {
+  const TargetChanges changes(moving, counted);
+  const auto by_visits = [&](const auto& change_of) {
+    std::vector<Errors5> all;
+    for (const MeasuredPoint& p : counted)
+      all.push_back(change_of({p.target, p.point.direction > 0 ? 1 : 0}));
+    return changes.of(all);
+  };
+  const auto left = left_by_passes(counted);
+  std::vector<std::vector<Errors5>> parts = {
+      by_visits([&](const TargetAndWay& where) { return left.at(where); })};
+  for (const auto& part : parts_by_run_shifts(counted)) {
+    parts.push_back(by_visits([&](const TargetAndWay& where) {
+      Errors5 change;
+      change.fill(part.at(where));
+      return change;
+    }));
+    for (Errors5& of_target : parts.back())
+      for (std::size_t k = 0; k < kErrorCount; ++k) of_target[k] *= u_visit[k];
+  }
+  return parts;
+}
+
 }  // namespace
 
 Repeatability repeatability(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
@@ -142,20 +173,13 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
   Repeatability found;
   std::vector<MeasuredPoint> counted;
   std::copy_if(points.begin(), points.end(), std::back_inserter(counted), counts_in_means);
-  if (any_run_lacks_visits(counted)) {
-    double freedom = 0;
-    for (const TargetMean& mean : means) {
-      found.u.push_back(mean.u);
-      freedom += std::max(0.0, static_cast<double>(mean.n) - 2);
-    }
-    if (freedom > 0) found.freedom = freedom;
-    found.by_scatter.fill(true);
-    return found;
-  }
   const Decomposition visits(moving, counted);
-  const bool one_way = visits.has_one_way_only();
+  const bool one_way = visits.has_one_way_only(), uneven = any_run_lacks_visits(counted);
+  const WithoutDrift without = uneven ? without_drift_of_runs(counted) : WithoutDrift{};
   const std::map<int, Errors5> variances = visits.variances();
-  for (const TargetMean& mean : means) {
+  // Of runs that lack visits without their level, which is the shift.
+  for (const TargetMean& mean :
+       uneven ? target_means(moving, without.points, Approach::both) : means) {
     Errors5& u = found.u.emplace_back(mean.u);
     if (!one_way && !visits.has_both(mean.target)) continue;
     const Errors5& variance = variances.at(mean.target);
@@ -163,8 +187,13 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
   }
   if (visits.freedom() > 0) found.freedom = visits.freedom();
   for (std::size_t k = 0; k < kErrorCount; ++k) found.by_scatter[k] = visits.by_scatter(k);
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    found.u_visit[k] = std::sqrt(visits.pooled_variance(k));
   const Errors5 shift = visits.shift_variance();
-  for (std::size_t k = 0; k < kErrorCount; ++k) found.u_shift[k] = std::sqrt(shift[k]);
+  const Errors5 level = named_from_local(moving, without.u_level);
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    found.u_shift[k] = uneven ? std::abs(level[k]) : std::sqrt(shift[k]);
+  if (uneven) found.together = parts_of_shifts(moving, counted, found.u_visit);
   if (visits.runs() > 1) found.shift_freedom = visits.runs() - 1;
   return found;
 }

@@ -16,6 +16,10 @@ struct Repeatability {
   // Of those errors whose u is by the scatter; a dwell's noise is that of many readings.
   double freedom = std::numeric_limits<double>::infinity();
   std::array<bool, kErrorCount> by_scatter{};
+  // What the shifts of runs that lack visits, and of their passes, do to several means together, by
+  // independent parts. [part][target]
+  std::vector<std::vector<Errors5>> together;
+  Errors5 u_visit{};  // of a visit, pooled
   Errors5 u_shift{};  // of all means together
   double shift_freedom = std::numeric_limits<double>::infinity();
 };
@@ -23,8 +27,9 @@ struct Repeatability {
 // `means`: target_means() of both approaches of these points. By least squares error = of the
 // target and its approach + of the pass: the scatter that this leaves, over all targets together,
 // is the variance of a visit where it is larger than the noise of its dwell, by more than one in
-// five logs have by chance. The shift is that of
-// the passes from run to run. Where runs lack visits: u of the means as it is, no shift.
+// five logs have by chance. The shift is that of the passes from run to run; where runs lack
+// visits, so that the means are made without the shifts of the runs, that of these
+// (uneven_visits.h).
 Repeatability repeatability(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                             const std::vector<TargetMean>& means);
 

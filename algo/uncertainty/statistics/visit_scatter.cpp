@@ -39,8 +39,35 @@ VisitScatter::VisitScatter(const std::vector<MeasuredPoint>& points) {
 }
 
 VisitScatter::Pooled VisitScatter::of(const std::vector<Errors5>& values) const {
+  return pooled(values, 0);
+}
+
+VisitScatter::Pooled VisitScatter::of_steady(const std::vector<Errors5>& values,
+                                             const std::vector<double>& time_s) const {
+  if (freedom_ < 2) return of(values);
+  std::vector<double> middle_s(visits_of_place_.size());
+  for (const Visit& visit : visits_)
+    middle_s[visit.place] += time_s[visit.point] / visits_of_place_[visit.place];
+  double square = 0;
+  Errors5 product{};
+  for (const Visit& visit : visits_) {
+    const double off_s = time_s[visit.point] - middle_s[visit.place];
+    square += off_s * off_s;
+    for (std::size_t k = 0; k < kErrorCount; ++k) product[k] += off_s * values[visit.point][k];
+  }
+  if (!(square > 0)) return of(values);
+  std::vector<Errors5> steady = values;
+  for (const Visit& visit : visits_)
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      steady[visit.point][k] -= product[k] / square * (time_s[visit.point] - middle_s[visit.place]);
+  return pooled(steady, 1);
+}
+
+VisitScatter::Pooled VisitScatter::pooled(const std::vector<Errors5>& values, double taken) const {
   Pooled pooled;
   if (!has_repeats()) return pooled;
+  const double freedom = freedom_ - taken;
+  const double freedom_of_passes = std::max(0.0, freedom_of_passes_ - taken);
   std::vector<Errors5> of_place(visits_of_place_.size()), of_pass(visits_of_pass_.size());
   for (const Visit& visit : visits_)
     for (std::size_t k = 0; k < kErrorCount; ++k)
@@ -57,11 +84,11 @@ VisitScatter::Pooled VisitScatter::of(const std::vector<Errors5>& values) const 
       shared[k] += visits_of_pass_[p] * of_pass[p][k] * of_pass[p][k];
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const double of_passes = std::min(shared[k], all[k]);
-    pooled.variance[k] = all[k] / freedom_;
+    pooled.variance[k] = all[k] / freedom;
     double fourths = 0;
-    if (freedom_of_passes_ > 0) fourths += fourth_by(of_passes / freedom_, freedom_of_passes_);
-    if (freedom_ > freedom_of_passes_)
-      fourths += fourth_by((all[k] - of_passes) / freedom_, freedom_ - freedom_of_passes_);
+    if (freedom_of_passes > 0) fourths += fourth_by(of_passes / freedom, freedom_of_passes);
+    if (freedom > freedom_of_passes)
+      fourths += fourth_by((all[k] - of_passes) / freedom, freedom - freedom_of_passes);
     pooled.freedom[k] = effective_freedom(pooled.variance[k], fourths);
   }
   return pooled;

@@ -24,8 +24,13 @@ class VisitScatter {
   // all targets of a pass share has the few degrees of freedom of the passes: both parts add by
   // Welch-Satterthwaite.
   Pooled of(const std::vector<Errors5>& values) const;
+  // Of what a change in proportion to time leaves, by least squares. `time_s`: of each point.
+  Pooled of_steady(const std::vector<Errors5>& values, const std::vector<double>& time_s) const;
 
  private:
+  // `taken`: degrees of freedom that were fitted.
+  Pooled pooled(const std::vector<Errors5>& values, double taken) const;
+
   struct Visit {
     std::size_t point = 0, place = 0, pass = 0;  // place: a target from one side
   };

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <random>
 
 #include "algo/uncertainty/coverage.h"
 #include "tests/algo/rigs.h"
@@ -102,6 +104,40 @@ TEST(RunUncertainty, ADeclaredDriftDoesNotCountTwice) {
   };
   for (const auto& point : run_uncertainty(rig, synthetic.measure()).points)
     EXPECT_LT(point.u_random[kEYX], 30e-9);  // 150 nm between visits
+}
+
+// Drifts drawn from what the rig declares: a run whose drift happens to be a large one shows it
+// between its visits, and is no more uncertain for that. Twenty times as much is not hidden.
+TEST(RunUncertainty, ADrawnDriftIsHeldByWhatIsDeclared) {
+  const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 3\n");
+  constexpr double kRate_m_per_s = 3e-6 / 3600, kNoise_m = 10e-9;
+  std::mt19937_64 engine(12);
+  std::normal_distribution<> normal;
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.u_reading_m = kNoise_m;
+  std::array<double, 5> rate{};
+  synthetic.added = [&](std::size_t k, double, double, double time_s) {
+    return rate[k] * (time_s - 10) + kNoise_m * normal(engine);  // the first point is at 10 s
+  };
+  int inside = 0, all = 0;
+  for (int run = 0; run < 1000; ++run) {
+    for (double& of_probe : rate) of_probe = kRate_m_per_s * normal(engine);
+    const auto measured = synthetic.measure();
+    const auto found = run_uncertainty(rig, measured);
+    for (const std::size_t j : {5u, 30u, 50u}) {
+      const Errors5 error = named_from_local(Axis::x, measured.points[j].errors.local);
+      for (std::size_t k = 0; k < 5; ++k) {
+        ++all;
+        inside += std::abs(error[k]) <= found.points[j].U[k];
+      }
+    }
+  }
+  std::printf("points of runs that drift as declared: %.1f %%\n", 100.0 * inside / all);
+  EXPECT_NEAR(100.0 * inside / all, 95, 1.5);
+  rate.fill(0);
+  rate[3] = 20 * kRate_m_per_s;
+  const auto found = run_uncertainty(rig, synthetic.measure());
+  EXPECT_GT(found.points[50].u_random[kEYX], 1e-6);  // 3 µm between the runs
 }
 
 // The two directions of a probe are one contributor with four degrees of freedom, not two.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "algo/sensitivity/random.h"
 #include "algo/uncertainty/point_sensitivity.h"
@@ -23,6 +24,10 @@ Run uneven_run(const Rig& rig) {
     return Errors5{1e-5 * std::sin(90 * d), 2e-4 * d, 1e-2 * d, -3e-2 * d, 2e-2 * d};
   };
   synthetic.u_reading_m = 5e-9;
+  // More than that from visit to visit, so that the degrees of freedom are few.
+  synthetic.added = [](std::size_t k, double, double, double time_s) {
+    return 20e-9 * std::sin(static_cast<double>(k + 1) * time_s);
+  };
   Run run = synthetic.measure();
   run.points.erase(run.points.begin() + 4, run.points.begin() + 7);
   run.points[9].errors.valid = false;

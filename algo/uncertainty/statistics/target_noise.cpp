@@ -1,0 +1,40 @@
+#include "algo/uncertainty/statistics/target_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kLeastRoot = 0.1;
+
+}  // namespace
+
+TargetNoise::TargetNoise(BlockOfDraws& draws, const Repeatability& random) : random_(random) {
+  const OneU normal(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i <= random.u.size(); ++i) drawn_.push_back(draws.next(normal));
+  for_freedom_ = draws.next(normal);
+  for (std::size_t p = 0; p < random.together.size(); ++p) together_.push_back(draws.next(normal));
+}
+
+void TargetNoise::add_to(MeanErrors& means, std::size_t trial, double factor) const {
+  const double shift = factor * drawn_.back()[trial];
+  for (std::size_t i = 0; i < means.targets.size(); ++i)
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      means.targets[i].named[k] +=
+          factor * drawn_[i][trial] * random_.u[i][k] + shift * random_.u_shift[k];
+  for (std::size_t p = 0; p < together_.size(); ++p)
+    for (std::size_t i = 0; i < means.targets.size(); ++i)
+      for (std::size_t k = 0; k < kErrorCount; ++k)
+        means.targets[i].named[k] += factor * together_[p][trial] * random_.together[p][i][k];
+}
+
+double TargetNoise::student(std::size_t trial, double freedom) const {
+  if (!std::isfinite(freedom)) return 1;
+  const double variance = 2 / (9 * freedom);
+  const double root = 1 - variance + for_freedom_[trial] * std::sqrt(variance);
+  return std::pow(std::max(root, kLeastRoot), -1.5);
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,29 @@
+// The noise of the means at the targets, and the shift that they share, of the trials of a block.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "algo/uncertainty/budget_draws.h"
+#include "algo/uncertainty/figures.h"
+#include "algo/uncertainty/statistics/repeatability.h"
+
+namespace mdof::algo {
+
+class TargetNoise {
+ public:
+  // Keeps a reference to `random`.
+  TargetNoise(BlockOfDraws& draws, const Repeatability& random);
+  void add_to(MeanErrors& means, std::size_t trial, double factor) const;
+  // By which normal numbers of one trial become those of Student's t: √(ν/χ²), by Wilson and
+  // Hilferty.
+  double student(std::size_t trial, double freedom) const;
+
+ private:
+  const Repeatability& random_;
+  std::vector<std::vector<double>> drawn_;     // of each target, and of the shift; by trial
+  std::vector<std::vector<double>> together_;  // of each part that changes several targets
+  std::vector<double> for_freedom_;
+};
+
+}  // namespace mdof::algo

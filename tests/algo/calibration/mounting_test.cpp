@@ -149,6 +149,9 @@ TEST(Mounting, SensitivitiesThatAreDeclaredDoNoHarm) {
   };
   EXPECT_GT(worst(exact), 5e-6);
   EXPECT_LT(worst(unsure), 1e-6);
+  const auto fit = fit_mounting(unsure, logs).value();
+  for (std::size_t k = 0; k < fit.found.probes.size(); ++k)
+    EXPECT_EQ(fit.found.probes[k].scale_1, fit.change(static_cast<Eigen::Index>(6 * k + 5))) << k;
 }
 
 TEST(Mounting, ResidualsThatNothingExplainsWidenTheUncertainties) {

@@ -136,9 +136,24 @@ TEST(Sensitivity, WhatCannotBeIsRefused) {
   says(along_z([](double z) { return z; }, 11, 1e-6), "as much of its range");
   says(along_z([](double z) { return -z; }), "goes the other way");
   says(along_z([](double z) { return 2.5 * z; }), "um_per_V");
-  says(along_z([](double) { return std::nan(""); }), "at 0 places");
+  says(along_z([](double) { return std::nan(""); }), "at 0 places over 0 um");
   EXPECT_EQ(approaching_axis(rig, kA).value(), Axis::z);
   EXPECT_EQ(approaching_axis(rig, 3).value(), Axis::y);
+}
+
+// A probe that reads as the axis travels is right as it is, wherever both have their zero.
+TEST(Sensitivity, TheTableOfAStraightProbeCorrectsNothing) {
+  int k = 0;
+  const auto found = fit_sensitivity(
+      test::rig_x(), kA, along_z([&](double z) { return 3e-6 + z + (k++ % 2 ? 1e-15 : 0); }));
+  ASSERT_TRUE(found) << found.error().message;
+  ASSERT_EQ(found->linearity.size(), 11u);
+  for (std::size_t i = 0; i < 11; ++i) {
+    EXPECT_NEAR(found->linearity[i][0], 3 - 80 + 16.0 * static_cast<double>(i), 1e-6);
+    EXPECT_NEAR(found->linearity[i][1], 0, 1e-6);
+  }
+  EXPECT_NEAR(found->from_m, -77e-6, 1e-12);
+  EXPECT_NEAR(found->to_m, 83e-6, 1e-12);
 }
 
 }  // namespace

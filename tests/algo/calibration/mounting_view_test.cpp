@@ -1,0 +1,112 @@
+// The names of what clampings do not show, for combinations that are given.
+#include "algo/calibration/mounting_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/algo/rigs.h"
+
+namespace mdof::algo {
+namespace {
+
+// A, B and C look at one plane, D and E at another; all places are known to 20 um.
+MountingModel model_of_two_planes() {
+  Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 300");
+  for (Probe& probe : rig.probes) probe.uncertainty.position.u = {20e-6, 20e-6, 20e-6};
+  return MountingModel::create(rig, {}).value();
+}
+
+// Nothing but these directions, in units of scale(), is unseen.
+Unseen named(const MountingModel& model, const std::vector<Eigen::VectorXd>& directions) {
+  MountingView view;
+  view.unseen = Eigen::MatrixXd(model.unknowns(), static_cast<Eigen::Index>(directions.size()));
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    view.unseen.col(static_cast<Eigen::Index>(i)) = directions[i].normalized();
+  return unseen_of(model, view);
+}
+Eigen::VectorXd unit(const MountingModel& model, std::size_t probe, MountingUnknown which) {
+  return Eigen::VectorXd::Unit(model.unknowns(), unknown_of(probe, which));
+}
+// The same unknown of several probes, each along the first one's way.
+Eigen::VectorXd together(const MountingModel& model, const std::vector<std::size_t>& probes,
+                         MountingUnknown which) {
+  const std::size_t j = which == kPlace1 ? 0 : 1;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(model.unknowns());
+  for (const std::size_t k : probes)
+    sum += model.along(probes[0], j).dot(model.along(k, j)) * unit(model, k, which);
+  return sum;
+}
+
+TEST(MountingView, NamesAProbeBesideTheOthers) {
+  const MountingModel model = model_of_two_planes();
+  const auto sentences = [&](std::size_t probe, MountingUnknown which) {
+    const Unseen unseen = named(model, {unit(model, probe, which)});
+    EXPECT_EQ(unseen.apart.cols(), 1);
+    for (Eigen::Index i = 0; i < model.unknowns(); ++i)
+      EXPECT_NEAR(unseen.share(i), i == unknown_of(probe, which) ? 1 : 0, 1e-12);
+    EXPECT_EQ(unseen.u_together_m, Vec3{});
+    return unseen.sentences;
+  };
+  using Sentences = std::vector<std::string>;
+  EXPECT_EQ(sentences(1, kZero), Sentences{"the zero of B beside the others"});
+  for (const auto which : {kTowards1, kTowards2})
+    EXPECT_EQ(sentences(4, which),
+              Sentences{"the direction of E, at tilts and readings as small as these"});
+  EXPECT_EQ(sentences(3, algo::kScale),
+            Sentences{"the sensitivity of D (a calibration of the sensitivity shows it)"});
+  // D looks along Y.
+  for (const auto which : {kPlace1, kPlace2}) {
+    const bool is_x = std::abs(model.along(3, which == kPlace1 ? 0 : 1).x()) > 0.5;
+    EXPECT_EQ(sentences(3, which),
+              Sentences{std::string("the place of D along ") + (is_x ? "X" : "Z") +
+                        " beside the others: clamp the target at more, and more different, tilts"});
+  }
+  // A sensitivity that is exact is not one of the unknowns.
+  EXPECT_TRUE(named(model, {unit(model, 0, algo::kScale)}).sentences.empty());
+}
+
+TEST(MountingView, NamesProbesOfAPlaneTogether) {
+  const MountingModel model = model_of_two_planes();
+  const Unseen both =
+      named(model, {together(model, {3, 4}, kPlace1), together(model, {3, 4}, kPlace2)});
+  // Two places that are known to 20 um each have a mean that is known to 20 um / sqrt(2).
+  ASSERT_EQ(both.sentences.size(), 2u);
+  for (const auto& sentence : both.sentences)
+    EXPECT_NE(sentence.find("where D, E are together along "), std::string::npos) << sentence;
+  EXPECT_NE(both.sentences[0].find("known to 14.1 um"), std::string::npos) << both.sentences[0];
+  EXPECT_NEAR(both.u_together_m[0], 20e-6 / std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(both.u_together_m[1], 0);
+  EXPECT_NEAR(both.u_together_m[2], 20e-6 / std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(both.apart.cols(), 0);
+
+  const auto zeros =
+      Eigen::VectorXd(unit(model, 0, kZero) + unit(model, 1, kZero) + unit(model, 2, kZero));
+  const Unseen zero = named(model, {zeros, unit(model, 4, kZero)});
+  EXPECT_EQ(zero.sentences,
+            (std::vector<std::string>{"the zeros of A, B, C together: their mean stays that of the "
+                                      "rig",
+                                      "the zero of E beside the others"}));
+  EXPECT_EQ(zero.apart.cols(), 1);
+}
+
+// What the rig does not declare of one probe is not known of all together.
+TEST(MountingView, TogetherIsNotKnownWhereOneIsNot) {
+  Rig rig = test::rig_x();
+  for (Probe& probe : rig.probes)
+    if (probe.id != "B") probe.uncertainty.position.u = {20e-6, 20e-6, 20e-6};
+  const MountingModel model = MountingModel::create(rig, {}).value();
+  Eigen::VectorXd scaled =
+      together(model, {0, 1, 2}, kPlace1).cwiseQuotient(model.scale().cwiseMax(1e-12));
+  const Unseen unseen = named(model, {scaled});
+  ASSERT_EQ(unseen.sentences.size(), 1u);
+  EXPECT_NE(unseen.sentences[0].find("where A, B, C are together along "), std::string::npos);
+  EXPECT_NE(unseen.sentences[0].find("the rig does not say how well it is known"),
+            std::string::npos);
+  const std::size_t axis = std::abs(model.along(0, 0).x()) > 0.5 ? 0 : 1;
+  EXPECT_TRUE(std::isnan(unseen.u_together_m[axis]));
+  EXPECT_EQ(unseen.u_together_m[2], 0);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -48,6 +48,8 @@ TEST(TableLimits, AreRaisedByTheirOptionsAndNotBeyondReason) {
   ASSERT_TRUE(raised);
   EXPECT_EQ(refusal(false, {0, 1.9e-3, 2.9e-3}, *raised), "");
   expect_said(refusal(false, {0, 1.9e-3, 3.1e-3}, *raised), {"3100 um"});
+  const double most_um = 1e5, steepest = 500;
+  EXPECT_TRUE(TableLimits::asked(&most_um, &steepest));
   for (const double wrong : {0.0, -1.0, 1e6, std::numeric_limits<double>::infinity(), kNaN}) {
     EXPECT_FALSE(TableLimits::asked(&wrong, nullptr)) << wrong;
     EXPECT_FALSE(TableLimits::asked(nullptr, &wrong)) << wrong;

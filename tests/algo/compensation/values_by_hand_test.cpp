@@ -1,0 +1,239 @@
+// Repeatability of a table's values, and curvatures between its targets, of a few values worked by
+// hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "algo/compensation/between_targets.h"
+#include "algo/compensation/table_uncertainty.h"
+
+namespace mdof::algo {
+namespace {
+
+// Two runs of three targets both ways. Forward the first run is 3 higher, and 1, 0, -1 besides;
+// reverse 5, and 2, -1, -1; the second as much lower. Reverse is 7 lower. Error k is k + 1 times
+// that.
+std::vector<MeasuredPoint> visits_of_table() {
+  const double shift[] = {3, 5}, off[2][3] = {{1, 0, -1}, {2, -1, -1}};
+  std::vector<MeasuredPoint> points;
+  for (const int run : {1, 2})
+    for (const int way : {0, 1})
+      for (int t = 0; t < 3; ++t) {
+        MeasuredPoint p;
+        p.target = t + 1;
+        p.run = run;
+        p.point.direction = way == 0 ? 1 : -1;
+        p.point.position_m = p.target_m = 0.01 * t;
+        p.errors.valid = true;
+        const double value = 40 * t - 7 * way + (run == 1 ? 1 : -1) * (shift[way] + off[way][t]);
+        Errors5 named{};
+        for (std::size_t k = 0; k < 5; ++k) named[k] = static_cast<double>(k + 1) * value;
+        p.errors.local = local_from_named(Axis::x, named);
+        points.push_back(p);
+      }
+  return points;
+}
+
+SeriesOfErrors u_by_hand(const std::vector<MeasuredPoint>& points, Approach approach,
+                         const std::vector<Reference>& of_each) {
+  const MovingAxis x;
+  std::array<std::vector<Reference>, kErrorCount> references;
+  references.fill(of_each);
+  return table_uncertainty(x, points, target_means(x, points, Approach::both), approach,
+                           references);
+}
+
+// Of one way 6 visits have 3 targets and 1 pass beside the first: 2 degrees of freedom. The
+// variance of a visit is 4/2 forward and 12/2 reverse, half of it that of a mean. The level of a
+// way varies by 2 * 9 and 2 * 25, less a third of that, and its mean by half.
+constexpr double kOfForward = 1, kOfReverse = 3;
+constexpr double kLevelForward = (18 - 2 / 3.) / 2, kLevelReverse = (50 - 6 / 3.) / 2;
+// Half of forward less reverse is 1 lower in the first run: -1.5, -0.5, -1; the mean square of both
+// runs is 2, less (3.5/3 - 1)/2 of the visits, and half of it is that of the mean.
+constexpr double kApart = (2 - (3.5 / 3 - 1) / 2) / 2;
+
+void expect_u(const SeriesOfErrors& u, const std::vector<double>& variances) {
+  for (std::size_t k = 0; k < 5; ++k) {
+    ASSERT_EQ(u[k].size(), variances.size());
+    for (std::size_t i = 0; i < variances.size(); ++i)
+      EXPECT_NEAR(u[k][i], static_cast<double>(k + 1) * std::sqrt(variances[i]), 1e-9)
+          << k << ' ' << i;
+  }
+}
+
+TEST(TableUncertaintyByHand, OfValuesAsTheyWereMeasured) {
+  const std::vector<Reference> none(3, as_measured(3));
+  const double forward = kOfForward + kLevelForward, reverse = kOfReverse + kLevelReverse;
+  expect_u(u_by_hand(visits_of_table(), Approach::forward, none), {forward, forward, forward});
+  expect_u(u_by_hand(visits_of_table(), Approach::reverse, none), {reverse, reverse, reverse});
+}
+
+// The mean of both ways at the start has a half of each.
+TEST(TableUncertaintyByHand, AgainstTheStart) {
+  const std::vector<Reference> from_start(3, start(3));
+  const double of_start = (kOfForward + kOfReverse) / 4;
+  const auto later = [&](double own) { return own + of_start + kApart; };
+  expect_u(u_by_hand(visits_of_table(), Approach::forward, from_start),
+           {of_start + kApart, later(kOfForward), later(kOfForward)});
+  expect_u(u_by_hand(visits_of_table(), Approach::reverse, from_start),
+           {of_start + kApart, later(kOfReverse), later(kOfReverse)});
+}
+
+// Each visit twice: twice the squares over 12 - 3 - 1 degrees of freedom are half the variance, of
+// which a mean of four has a quarter; the ways differ as before.
+TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
+  auto points = visits_of_table();
+  const auto once = points;
+  points.insert(points.end(), once.begin(), once.end());
+  const std::vector<Reference> from_start(3, start(3));
+  const double forward = kOfForward / 4, of_start = (kOfForward + kOfReverse) / 16;
+  expect_u(u_by_hand(points, Approach::forward, from_start),
+           {of_start + kApart, forward + of_start + kApart, forward + of_start + kApart});
+}
+
+// The line has 5/6, 1/3 and -1/6 of the means at the first target, a third of each in the middle.
+TEST(TableUncertaintyByHand, AgainstTheLine) {
+  const std::vector<double> x = {0, 1, 2};
+  const std::vector<Reference> line = {line_at(x, 0), line_at(x, 1), line_at(x, 2)};
+  const double share[3][3] = {
+      {5 / 6., 1 / 3., -1 / 6.}, {1 / 3., 1 / 3., 1 / 3.}, {-1 / 6., 1 / 3., 5 / 6.}};
+  std::vector<double> variances;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double variance = kApart;
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_NEAR(line[i][j], share[i][j], 1e-12);
+      const double own = (i == j ? 1 : 0) - share[i][j] / 2, other = share[i][j] / 2;
+      variance += own * own * kOfForward + other * other * kOfReverse;
+    }
+    variances.push_back(variance);
+  }
+  expect_u(u_by_hand(visits_of_table(), Approach::forward, line), variances);
+}
+
+// Where one way was measured alone, the mean is its own, and nothing tells both ways apart.
+TEST(TableUncertaintyByHand, OfOneWayAlone) {
+  auto points = visits_of_table();
+  std::erase_if(points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
+  const auto against_start =
+      u_by_hand(points, Approach::forward, std::vector<Reference>(3, start(3)));
+  expect_u(against_start, {0, 2 * kOfForward, 2 * kOfForward});
+  const auto back = u_by_hand(points, Approach::reverse, std::vector<Reference>(3, start(3)));
+  for (const auto& of_error : back)
+    for (const double u : of_error) EXPECT_TRUE(std::isnan(u));
+}
+
+// A single run shows no scatter and no level.
+TEST(TableUncertaintyByHand, OfASingleRunIsItsNoise) {
+  auto points = visits_of_table();
+  points.resize(6);
+  for (MeasuredPoint& p : points)
+    for (std::size_t k = 0; k < 5; ++k)
+      p.errors.covariance[6 * k] = static_cast<double>((k + 1) * (k + 1)) * 0.25;
+  expect_u(u_by_hand(points, Approach::reverse, std::vector<Reference>(3, as_measured(3))),
+           {0.25, 0.25, 0.25});
+  expect_u(u_by_hand(points, Approach::forward, std::vector<Reference>(3, start(3))),
+           {0.25 * (0.25 + 0.25), 0.25 * 1.5, 0.25 * 1.5});
+}
+
+constexpr double kHoleOfTable = std::numeric_limits<double>::quiet_NaN();
+using Series = std::vector<double>;
+
+// Second derivative of the parabola through three values, by divided differences, and what their u
+// makes of it.
+double square_of_curvature(const Series& x, const Series& y, const Series& u, std::size_t a,
+                           std::size_t b, std::size_t c) {
+  const auto bend = [&](double ya, double yb, double yc) {
+    return 2 * ((yc - yb) / (x[c] - x[b]) - (yb - ya) / (x[b] - x[a])) / (x[c] - x[a]);
+  };
+  const double noise =
+      std::pow(bend(u[a], 0, 0), 2) + std::pow(bend(0, u[b], 0), 2) + std::pow(bend(0, 0, u[c]), 2);
+  return std::pow(bend(y[a], y[b], y[c]), 2) - noise;
+}
+double mean_of_all(const Series& x, const Series& y, const Series& u, std::size_t step) {
+  double sum = 0, n = 0;
+  for (std::size_t i = step; i + step < x.size(); ++i, n += 1)
+    sum += square_of_curvature(x, y, u, i - step, i, i + step);
+  return std::max(0.0, sum / n);
+}
+// Between values i and i + 1, by algo/README.md: those at i - 1 to i + 2 are the nearest.
+double expected_curvature(const Series& x, const Series& y, const Series& u, std::size_t i,
+                          double R) {
+  double near = 0, n = 0;
+  for (std::size_t at = 1; at + 1 < x.size(); ++at)
+    if (at + 1 >= i && at <= i + 2) {
+      near += square_of_curvature(x, y, u, at - 1, at, at + 1);
+      n += 1;
+    }
+  return R * std::sqrt(std::max(0.0, 6 * mean_of_all(x, y, u, 1) + near) / (6 + n));
+}
+
+TEST(CurvaturesByHand, OfThreeValues) {
+  const Series found = curvatures({0, 1, 3}, {0, 1, 0}, {0.3, 0.3, 0.6});
+  ASSERT_EQ(found.size(), 2u);
+  // -1, and of u (2/3 of 0.3)² + 0.3² + (1/3 of 0.6)².
+  for (const double c : found) EXPECT_NEAR(c, 4 * std::sqrt(1 - 0.17), 1e-12);
+  // Noise that could make it all: none.
+  for (const double c : curvatures({0, 1, 3}, {0, 1, 0}, {0, 1.1, 0})) EXPECT_EQ(c, 0);
+  for (const double c : curvatures({0, 1}, {0, 1}, {0, 0})) EXPECT_TRUE(std::isnan(c));
+  EXPECT_TRUE(curvatures({}, {}, {}).empty());
+  EXPECT_TRUE(curvatures({1}, {1}, {0}).empty());
+}
+
+TEST(CurvaturesByHand, OfFewValuesAreTakenFourTimesOrTwice) {
+  const Series x = {0, 1, 3, 4, 6, 7}, y = {0, 2, 1, 5, -1, 3}, u = {0.1, 0.2, 0.1, 0.3, 0.2, 0.1};
+  for (const std::size_t n : {4u, 5u, 6u}) {
+    const Series xs(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)),
+        ys(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n)),
+        us(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(n));
+    const Series found = curvatures(xs, ys, us);
+    ASSERT_EQ(found.size(), n - 1);
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      EXPECT_NEAR(found[i], expected_curvature(xs, ys, us, i, n == 4 ? 4 : 2), 1e-12) << n << i;
+  }
+}
+
+// R by the ratio q of the curvature over one step to that over two.
+TEST(CurvaturesByHand, RoughnessOfManyValues) {
+  const Series u(9, 0.01);
+  const Series smooth = {0, 1, 4, 9, 16, 25, 36, 49, 64},  // q = 1
+      wavy = {0, 1, 1.2, 0.5, -1, -2, -1.5, 0.3, 2},       // between
+      rough = {0, 1, -1, 1.5, -1, 1, -2, 1, -1};           // q above 2.2
+  Series x;
+  for (int i = 0; i < 9; ++i) x.push_back(i + 0.1 * (i % 2));
+  double least = 9, most = 0;
+  for (const Series& y : {smooth, wavy, rough}) {
+    const double q =
+        std::clamp(std::sqrt(mean_of_all(x, y, u, 1) / mean_of_all(x, y, u, 2)), 1.0, 4.0);
+    const double R = std::max(2 * std::sqrt(q) / (1 + std::sqrt(q)), q * q / 4);
+    const Series found = curvatures(x, y, u);
+    for (std::size_t i = 0; i < 8; ++i)
+      EXPECT_NEAR(found[i], expected_curvature(x, y, u, i, R), 1e-10) << i << " q " << q;
+    least = std::min(least, R), most = std::max(most, R);
+  }
+  EXPECT_LT(least, 1.1);
+  EXPECT_GT(most, 1.5);
+  // Over two steps nothing is bent: as rough as can be.
+  const Series zigzag = {0, 1, 0, 1, 0, 1, 0, 1, 0};
+  Series even;
+  for (int i = 0; i < 9; ++i) even.push_back(i);
+  for (const double c : curvatures(even, zigzag, Series(9, 0.0))) EXPECT_NEAR(c, 4 * 2, 1e-12);
+  for (const double c : curvatures(even, Series(9, 3.0), Series(9, 0.1))) EXPECT_EQ(c, 0);
+}
+
+// Series that are missing are not there: between their neighbours it is as of one step.
+TEST(CurvaturesByHand, AHoleIsNoValue) {
+  const Series x = {0, 1, 3, 4, 6, 7, 9}, u = {0.1, kHoleOfTable, 0.1, 0.3, 0.2, 0.1, 0.2};
+  const Series y = {kHoleOfTable, 2, 1, kHoleOfTable, -1, 3, kHoleOfTable};
+  const Series found = curvatures(x, y, u);
+  ASSERT_EQ(found.size(), 6u);
+  const Series xs = {1, 3, 6, 7}, ys = {2, 1, -1, 3}, us = {0, 0.1, 0.2, 0.1};
+  const std::size_t between[] = {0, 0, 1, 1, 2, 3};  // behind the last as behind it
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(found[i], expected_curvature(xs, ys, us, between[i], 4), 1e-12) << i;
+}
+
+}  // namespace
+}  // namespace mdof::algo

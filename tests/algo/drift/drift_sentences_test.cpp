@@ -53,6 +53,7 @@ TEST(DriftSentences, RoundAsTheUncertaintySays) {
   };
   EXPECT_EQ(said(0.25049e-6, 0.0317e-6), "EYX +0.250 ± 0.032 µm");
   EXPECT_EQ(said(-1.23456e-6, 0.0996e-6), "EYX -1.23 ± 0.10 µm");
+  EXPECT_EQ(said(1.23449e-6, 0.099e-6), "EYX +1.234 ± 0.099 µm");
   EXPECT_EQ(said(1.23456e-6, 0.00071234e-6), "EYX +1.23456 ± 0.00071 µm");
   EXPECT_EQ(said(321.4e-6, 12.3e-6), "EYX +321 ± 12 µm");
   EXPECT_EQ(said(4321.4e-6, 123.4e-6), "EYX +4320 ± 120 µm");

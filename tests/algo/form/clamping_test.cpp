@@ -65,5 +65,26 @@ TEST(PlateStress, ClosedForms) {
   EXPECT_FALSE(plate_stress(dish, plate, 0.9e-3));
 }
 
+// A square of five pixels by three on nine pixels: about those of the middle row it has nine of its
+// fifteen, about the others six, which is less than half. Bent by a, b and twisted by c.
+TEST(PlateStress, OfNinePixels) {
+  const Plate plate{2e-3, 200e9, 0.3};
+  const double a = 0.02, b = -0.05, face = 200e9 * 2e-3 / 2;
+  for (const double c : {0.0, 0.2}) {
+    SurfaceMap form{"nine", -1e-3, -2e-3, 1e-3, 2e-3, 3, 3, {}, {}};
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double x = form.x_m(i), y = form.y_m(j);
+        form.z_m.push_back(a * x * x / 2 + b * y * y / 2 + c * x * y + 1e-3 * x - 2e-3 * y);
+      }
+    const auto found = plate_stress(form, plate, 4e-3);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->pixels, 3u);
+    const double x = face / 0.91 * (a + 0.3 * b), y = face / 0.91 * (b + 0.3 * a),
+                 t = face / 1.3 * c;
+    EXPECT_NEAR(found->max_Pa, std::sqrt(x * x - x * y + y * y + 3 * t * t), 1e-3 * face * 0.05);
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

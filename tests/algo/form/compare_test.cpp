@@ -55,6 +55,8 @@ TEST(FormCompare, PlaneAndNone) {
   remove_plane(flat);
   EXPECT_NEAR(plane->rms_m, figures_of(flat).rms_m, 1e-15);
   EXPECT_EQ(plane->pose.shift_x_m, 0);
+  EXPECT_EQ(plane->undetermined, 0u);
+  EXPECT_EQ(none->undetermined, 0u);
   EXPECT_EQ(plane->pixels, a.z_m.size());
 }
 
@@ -87,6 +89,11 @@ TEST(FormCompare, HolesAndNoOverlap) {
   const auto far = compare(a, map_of(bumps, 200e-3), Register::rigid);
   ASSERT_FALSE(far);
   EXPECT_NE(far.error().message.find("counterpart"), std::string::npos);
+  EXPECT_NE(far.error().message.find("only 0 of 9801"), std::string::npos);
+  EXPECT_NE(
+      far.error().message.find("(x -30 to 30 mm, y -20 to 20 mm; x 200 to 260 mm, y -20 to 20 mm)"),
+      std::string::npos)
+      << far.error().message;
 }
 
 TEST(Surface, IsExactAtPixelsAndContinuous) {
@@ -111,6 +118,41 @@ TEST(Surface, IsExactAtPixelsAndContinuous) {
   EXPECT_TRUE(surface.at(-31.5e-3, 0, 3, p));
   EXPECT_NEAR(p.z_m, bumps(-31.5e-3, 0), 0.15e-6);
   EXPECT_FALSE(surface.at(-31.6e-3, 0, 3, p));
+}
+
+// Far from where it begins: 9 degrees either way, and 8 mm.
+TEST(FormCompare, SearchesForLargeTurnsAndShifts) {
+  const SurfaceMap a = map_of(bumps);
+  for (const double turn_deg : {9.5, -9.0}) {
+    const auto found =
+        compare(a, moved(8e-3, -6e-3, turn_deg, -45e-3, 0.5e-3, 181), Register::rigid);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_NEAR(found->pose.turn_rad / kDeg, turn_deg, 1e-3);
+    EXPECT_NEAR(found->pose.shift_x_m, 8e-3, 1e-6);
+    EXPECT_NEAR(found->pose.shift_y_m, -6e-3, 1e-6);
+    EXPECT_LT(found->rms_m, 0.5e-9);
+  }
+}
+
+// Waves tell no shift along them: it is 0 at the middle of what A has measured, about which B lies
+// turned.
+TEST(FormCompare, WhatIsNotToldIsNoneInTheMiddle) {
+  const auto waves = [](double x, double) { return 1e-6 * std::sin(x / 5e-3) + 4e-5 * x; };
+  SurfaceMap a = map_of(waves);
+  for (std::size_t j = 0; j < a.ny; ++j)
+    for (std::size_t i = 0; i < a.nx; ++i)
+      if (a.x_m(i) < -6.1e-3 || a.x_m(i) > 24.1e-3 || a.y_m(j) > 4.1e-3)
+        a.z_m[j * a.nx + i] = SurfaceMap::kMissing;
+  const double x_mid_m = 9e-3, y_mid_m = -8e-3, c = std::cos(2 * kDeg), s = std::sin(2 * kDeg);
+  const auto found = compare(a, map_of([&](double x, double y) {
+                               return waves(x_mid_m + c * (x - x_mid_m) + s * (y - y_mid_m), 0);
+                             }),
+                             Register::rigid);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->undetermined, 1u);
+  EXPECT_NEAR(found->pose.turn_rad / kDeg, 2, 1e-3);
+  EXPECT_NEAR(found->pose.shift_x_m, x_mid_m - (c * x_mid_m - s * y_mid_m), 2e-5);
+  EXPECT_NEAR(found->pose.shift_y_m, y_mid_m - (s * x_mid_m + c * y_mid_m), 2e-5);
 }
 
 }  // namespace

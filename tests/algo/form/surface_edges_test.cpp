@@ -1,0 +1,213 @@
+// A map as a surface: polynomials that its cubics meet exactly, how it goes on beyond its pixels,
+// and what is left where pixels for the slopes are missing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "algo/form/surface.h"
+#include "tests/algo/form/known_maps.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kColumn_m = 2e-3, kRow_m = 0.5e-3;
+
+// Over columns and rows from 0 on; millimetres in, metres out of the map.
+SurfaceMap map_in_pixels(std::size_t nx, std::size_t ny,
+                         const std::function<double(double, double)>& z) {
+  SurfaceMap map{"pixels", 1e-3, -2e-3, kColumn_m, kRow_m, nx, ny, {}, {}};
+  for (std::size_t j = 0; j < ny; ++j)
+    for (std::size_t i = 0; i < nx; ++i)
+      map.z_m.push_back(z(static_cast<double>(i), static_cast<double>(j)));
+  return map;
+}
+// By column and row.
+bool surface_at(const Surface& surface, double i, double j, std::size_t rings, SurfacePoint& p) {
+  return surface.at(1e-3 + i * kColumn_m, -2e-3 + j * kRow_m, rings, p);
+}
+double height_at(const Surface& surface, double i, double j, std::size_t rings) {
+  SurfacePoint p;
+  EXPECT_TRUE(surface_at(surface, i, j, rings, p)) << i << ' ' << j;
+  return p.z_m;
+}
+
+// Differences over five pixels are exact to the fourth degree, Hermite's cubic to the third.
+TEST(SurfacePolynomials, CubicsAreMetWithTheirSlopes) {
+  const auto f = [](double x) { return 1 + x * (0.7 + x * (-0.3 + 0.02 * x)); };
+  const auto df = [](double x) { return 0.7 + x * (-0.6 + 0.06 * x); };
+  const auto g = [](double y) { return -2 + y * (1.1 + y * (0.2 - 0.05 * y)); };
+  const auto dg = [](double y) { return 1.1 + y * (0.4 - 0.15 * y); };
+  const Surface surface(map_in_pixels(12, 11, [&](double i, double j) { return f(i) * g(j); }), 0,
+                        Extension::parabola);
+  for (const double i : {2.0, 3.1, 4.5, 7.9, 8.0})
+    for (const double j : {2.0, 3.3, 5.5, 6.75, 7.0}) {
+      SurfacePoint p;
+      ASSERT_TRUE(surface_at(surface, i, j, 0, p));
+      EXPECT_NEAR(p.z_m, f(i) * g(j), 1e-12);
+      EXPECT_NEAR(p.slope_x * kColumn_m, df(i) * g(j), 1e-11);
+      EXPECT_NEAR(p.slope_y * kRow_m, f(i) * dg(j), 1e-11);
+    }
+}
+
+TEST(SurfacePolynomials, AParabolaGoesOnAsItIs) {
+  const auto z = [](double x, double y) { return (1 + x - 0.2 * x * x) * (2 - y + 0.1 * y * y); };
+  const Surface surface(map_in_pixels(6, 7, z), 4, Extension::parabola);
+  for (const double i : {-4.0, -3.5, 0.0, 2.5, 8.9, 9.0})
+    for (const double j : {0.0, 2.25, 6.0})
+      EXPECT_NEAR(height_at(surface, i, j, 4), z(i, j), 1e-10);
+  for (const double j : {-4.0, -0.5, 6.5, 10.0})
+    EXPECT_NEAR(height_at(surface, 3.5, j, 4), z(3.5, j), 1e-10);
+  // A corner is reached by two ways, each pixel of them a ring.
+  EXPECT_NEAR(height_at(surface, -2, -2, 4), z(-2, -2), 1e-10);
+  SurfacePoint p;
+  EXPECT_FALSE(surface_at(surface, -2, -3, 4, p));
+  EXPECT_FALSE(surface_at(surface, -2, -2, 3, p));
+  EXPECT_FALSE(surface_at(surface, -4.01, 3, 4, p));
+  EXPECT_FALSE(surface_at(surface, 9.01, 3, 4, p));
+  EXPECT_FALSE(surface_at(surface, 3, -4.01, 4, p));
+  EXPECT_FALSE(surface_at(surface, 3, 10.01, 4, p));
+  EXPECT_FALSE(surface_at(surface, -1, 3, 0, p));
+  EXPECT_FALSE(surface_at(surface, 1e6, 3, 4, p));
+  EXPECT_FALSE(surface_at(surface, -1e6, 3, 4, p));
+  EXPECT_FALSE(surface_at(surface, 3, 1e6, 4, p));
+  EXPECT_FALSE(surface_at(surface, 3, -1e6, 4, p));
+  EXPECT_FALSE(surface_at(surface, NAN, 3, 4, p));
+}
+
+// The line of least squares through values 1, 2 ... n pixels away, at 0.
+double line_at_zero(const std::vector<double>& nearest_first) {
+  const auto n = static_cast<double>(nearest_first.size());
+  if (nearest_first.size() == 1) return nearest_first[0];
+  double mean_x = (n + 1) / 2, mean = 0, xx = 0, xy = 0;
+  for (const double z : nearest_first) mean += z / n;
+  for (std::size_t k = 0; k < nearest_first.size(); ++k) {
+    const double x = static_cast<double>(k + 1) - mean_x;
+    xx += x * x;
+    xy += x * nearest_first[k];
+  }
+  return mean - xy / xx * mean_x;
+}
+
+// A single row: beyond its ends there are the pixels of the row alone.
+TEST(SurfaceExtension, IsTheLineThroughUpToFourPixels) {
+  const std::vector<double> z = {3, 7, 4, 9, 5};
+  for (std::size_t n = 1; n <= 5; ++n) {
+    const Surface surface(map_in_pixels(n, 1, [&](double i, double) { return z[size_t(i)]; }), 2,
+                          Extension::line);
+    std::vector<double> left(z.begin(),
+                             z.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(n, 4)));
+    std::vector<double> right(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(n));
+    right = {right.rbegin(), right.rend()};
+    if (right.size() > 4) right.resize(4);
+    const double first_left = line_at_zero(left), first_right = line_at_zero(right);
+    EXPECT_NEAR(height_at(surface, -1, 0, 2), first_left, 1e-12) << n;
+    EXPECT_NEAR(height_at(surface, static_cast<double>(n), 0, 2), first_right, 1e-12) << n;
+    // The next one takes it and the three nearest of before.
+    left.insert(left.begin(), first_left);
+    if (left.size() > 4) left.resize(4);
+    EXPECT_NEAR(height_at(surface, -2, 0, 2), line_at_zero(left), 1e-12) << n;
+    // Across the row each pixel has one beside it.
+    EXPECT_NEAR(height_at(surface, 0, 1, 2), z[0], 1e-12);
+    EXPECT_NEAR(height_at(surface, 0, -1, 2), z[0], 1e-12);
+  }
+}
+
+TEST(SurfaceExtension, IsTheParabolaThroughThreePixels) {
+  const std::vector<double> z = {3, 7, 4, 9, 5};
+  const double expected[] = {3, 2 * 3 - 7, 3 * 3 - 3 * 7 + 4, 3 * 3 - 3 * 7 + 4, 3 * 3 - 3 * 7 + 4};
+  for (std::size_t n = 1; n <= 5; ++n) {
+    const Surface surface(map_in_pixels(1, n, [&](double, double j) { return z[size_t(j)]; }), 1,
+                          Extension::parabola);
+    EXPECT_NEAR(height_at(surface, 0, -1, 1), expected[n - 1], 1e-12) << n;
+  }
+}
+
+// A hole takes the mean of the sides that have the most pixels.
+TEST(SurfaceExtension, AHoleTakesTheSidesWithTheMostPixels) {
+  SurfaceMap map = map_in_pixels(3, 3, [](double i, double j) { return i * i + 10 * j * j * j; });
+  map.z_m[4] = SurfaceMap::kMissing;
+  // Beside it 0 + 10, 4 + 10, 1 + 0 and 1 + 80, each alone.
+  EXPECT_NEAR(height_at(Surface(map, 1, Extension::line), 1, 1, 1), (10 + 14 + 1 + 81) / 4.0,
+              1e-12);
+  SurfaceMap row = map_in_pixels(5, 1, [](double i, double) { return i * i * i; });
+  row.z_m[1] = SurfaceMap::kMissing;
+  // To its right 8, 27, 64; to its left one pixel.
+  EXPECT_NEAR(height_at(Surface(row, 1, Extension::line), 1, 0, 1), line_at_zero({8, 27, 64}),
+              1e-12);
+  row = map_in_pixels(5, 1, [](double i, double) { return i * i * i; });
+  row.z_m[2] = SurfaceMap::kMissing;
+  EXPECT_NEAR(height_at(Surface(row, 1, Extension::line), 2, 0, 1),
+              (line_at_zero({1, 0}) + line_at_zero({27, 64})) / 2, 1e-12);
+  SurfacePoint p;
+  EXPECT_FALSE(surface_at(Surface(row, 1, Extension::line), 2, 0, 0, p));
+  EXPECT_FALSE(surface_at(Surface(row, 1, Extension::line), 1.5, 0, 0, p));
+  EXPECT_TRUE(surface_at(Surface(row, 1, Extension::line), 1, 0, 0, p));
+}
+
+// At most 254 pixels are extended: of the outermost there are none beyond for the slopes.
+constexpr double kOutermost = 254;
+TEST(SurfaceAtItsEnd, TakesSlopesOverThreePixelsAndThenStraightLines) {
+  const auto f = [](double x) { return 1e-3 * x * x - 0.05 * x + 2; };
+  const auto df = [](double x) { return 2e-3 * x - 0.05; };
+  const auto g = [](double y) { return 1 - 0.01 * y + 2e-3 * y * y; };
+  const auto dg = [](double y) { return -0.01 + 4e-3 * y; };
+  const std::size_t n = 9;
+  const Surface surface(map_in_pixels(n, n, [&](double i, double j) { return f(i) * g(j); }), 300,
+                        Extension::parabola);
+  SurfacePoint p;
+  const double last = static_cast<double>(n) - 1;
+  const auto expect_parabola = [&](double i, double j) {
+    ASSERT_TRUE(surface_at(surface, i, j, 254, p)) << i << ' ' << j;
+    EXPECT_NEAR(p.z_m, f(i) * g(j), 1e-6) << i << ' ' << j;
+    EXPECT_NEAR(p.slope_x * kColumn_m, df(i) * g(j), 1e-6) << i << ' ' << j;
+    EXPECT_NEAR(p.slope_y * kRow_m, f(i) * dg(j), 1e-6) << i << ' ' << j;
+  };
+  // Five, and three, pixels are there for each slope: a parabola is met.
+  for (const double in : {251.5, 252.0, 252.3, 252.9, 253.0}) {
+    expect_parabola(-in, 4);
+    expect_parabola(-in, 4.4);
+    expect_parabola(4, -in);
+    expect_parabola(4.7, -in);
+  }
+  for (const double in : {251.5, 252.0, 252.2, 252.8}) {
+    expect_parabola(last + in, 4.4);
+    expect_parabola(4.7, last + in);
+  }
+  // Straight between the last two.
+  const auto expect_straight = [&](double i, double t, double j) {
+    ASSERT_TRUE(surface_at(surface, i + t, j, 254, p)) << i << ' ' << j;
+    EXPECT_NEAR(p.z_m, ((1 - t) * f(i) + t * f(i + 1)) * g(j), 1e-6);
+    EXPECT_NEAR(p.slope_x * kColumn_m, (f(i + 1) - f(i)) * g(j), 1e-6);
+    EXPECT_NEAR(p.slope_y * kRow_m, ((1 - t) * f(i) + t * f(i + 1)) * (g(j + 1) - g(j)), 1e-6);
+    ASSERT_TRUE(surface_at(surface, j, i + t, 254, p)) << j << ' ' << i;
+    EXPECT_NEAR(p.z_m, f(j) * ((1 - t) * g(i) + t * g(i + 1)), 1e-6);
+    EXPECT_NEAR(p.slope_y * kRow_m, f(j) * (g(i + 1) - g(i)), 1e-6);
+    EXPECT_NEAR(p.slope_x * kColumn_m, (f(j + 1) - f(j)) * ((1 - t) * g(i) + t * g(i + 1)), 1e-6);
+  };
+  for (const double t : {0.25, 0.75}) {
+    expect_straight(-kOutermost, t, 4);
+    expect_straight(last + kOutermost - 1, t, 4);
+  }
+  // Between four pixels it is straight both ways.
+  ASSERT_TRUE(surface_at(surface, -kOutermost + 0.25, 4.75, 254, p));
+  const double x0 = f(-kOutermost), x1 = f(-kOutermost + 1);
+  EXPECT_NEAR(p.z_m, (0.75 * x0 + 0.25 * x1) * (0.25 * g(4) + 0.75 * g(5)), 1e-6);
+  EXPECT_NEAR(p.slope_x * kColumn_m, (x1 - x0) * (0.25 * g(4) + 0.75 * g(5)), 1e-6);
+  EXPECT_NEAR(p.slope_y * kRow_m, (0.75 * x0 + 0.25 * x1) * (g(5) - g(4)), 1e-6);
+  // On the last pixel there is no next one, which has no part in it.
+  ASSERT_TRUE(surface_at(surface, last + kOutermost, 4, 254, p));
+  EXPECT_NEAR(p.z_m, f(last + kOutermost) * g(4), 1e-6);
+  EXPECT_EQ(p.slope_x, 0);
+  ASSERT_TRUE(surface_at(surface, 4, last + kOutermost, 254, p));
+  EXPECT_NEAR(p.z_m, f(4) * g(last + kOutermost), 1e-6);
+  EXPECT_EQ(p.slope_y, 0);
+  EXPECT_FALSE(surface_at(surface, last + kOutermost + 0.1, 4, 254, p));
+  EXPECT_FALSE(surface_at(surface, -kOutermost - 0.1, 4, 254, p));
+  EXPECT_FALSE(surface_at(surface, -kOutermost - 0.1, 4, 300, p));
+}
+
+}  // namespace
+}  // namespace mdof::algo

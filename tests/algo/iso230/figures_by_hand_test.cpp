@@ -49,6 +49,16 @@ TEST(LineByHand, ThroughTheEnds) {
   EXPECT_EQ(line.at(2), 3);
 }
 
+// Two readings leave nothing of which an uncertainty could be told.
+TEST(LineByHand, ThroughTwoReadings) {
+  const Line line = least_squares_line(Column{1, 3}, Column{5, 1});
+  EXPECT_NEAR(line.slope, -2, 1e-15);
+  EXPECT_NEAR(line.intercept, 7, 1e-15);
+  EXPECT_EQ(line.u_slope, 0);
+  EXPECT_EQ(line.u_intercept, 0);
+  EXPECT_EQ(line.residual_sd, 0);
+}
+
 // x 0, 1, 5 and y 1, 0, 5: means 2 and 2, Sxx = 14, Sxy = 2 + 2 + 9 = 13.
 TEST(LineByHand, OfLeastSquares) {
   const Line line = least_squares_line(Column{0, 1, 5}, Column{1, 0, 5});
@@ -87,6 +97,18 @@ TEST(AnglesByHand, AreReferredToAStartThatIsNotNought) {
     EXPECT_NEAR(f.max_rad, 5e-6, 1e-18);
   }
   EXPECT_EQ(found, 3);
+}
+
+TEST(AnglesByHand, NeedTwoTargets) {
+  const auto figures_of_targets = [](std::size_t n) {
+    const mdof::Run run = run_by_hand(
+        Axis::x, Column(kUneven_m.begin(), kUneven_m.begin() + static_cast<std::ptrdiff_t>(n)), 1,
+        [](int, std::size_t) { return 0.0; }, [](std::size_t i) { return kAngle_rad[i]; });
+    return angles(run.header.moving(), run.points).size();
+  };
+  EXPECT_EQ(figures_of_targets(1), 0u);
+  // EAX, EBX and ECX; mean, forward and reverse.
+  EXPECT_EQ(figures_of_targets(2), 9u);
 }
 
 TEST(TableByHand, AnglesBeginAtNoughtAndStraightnessHasNoSlope) {
@@ -167,6 +189,24 @@ TEST(SquarenessByHand, TheScatterOfTheSlopesIsInIt) {
   EXPECT_NEAR(s.slope_EYX_rad, 30e-6, 1e-16);
   EXPECT_NEAR(s.u_slope_EYX_rad, 1e-6 * std::sqrt(700 / 3.0), 1e-15);
   EXPECT_NEAR(s.u_EC0Y_rad, s.u_slope_EYX_rad, 1e-15);
+}
+
+// Two runs of slopes 10 and 30 urad: s = 20/√2, u = s/√2. The runs keep their numbers.
+TEST(SquarenessByHand, OfTwoRunsOfOneAxis) {
+  const auto none = [](std::size_t) { return 0.0; };
+  const mdof::Run x = run_by_hand(
+      Axis::x, kUneven_m, 1, [](int, std::size_t) { return 0.0; }, none);
+  const mdof::Run y = run_by_hand(
+      Axis::y, kUneven_m, 2,
+      [&](int j, std::size_t i) { return (j == 0 ? 10e-6 : 30e-6) * (kUneven_m[i] - 33e-3 / 5); },
+      none);
+  const Squareness s = squareness(x, y, {}).value();
+  EXPECT_NEAR(s.slope_EXY_rad, 20e-6, 1e-16);
+  EXPECT_NEAR(s.u_slope_EXY_rad, 10e-6, 1e-15);
+  EXPECT_NEAR(s.EC0Y_rad, -20e-6, 1e-16);
+  EXPECT_EQ(s.run_x, x.header.id);
+  EXPECT_EQ(s.run_y, y.header.id);
+  EXPECT_NE(s.run_x, s.run_y);
 }
 
 // The angle of the square in one rig alone, and that of both where they agree.

@@ -1,0 +1,232 @@
+// Parallelism of two motions and the readings of a run for ISO 230-2, of four targets worked by
+// hand.
+#include "algo/iso230/parallelism.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "algo/iso230/run_readings.h"
+#include "algo/sequence/usable_runs.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kReversal = 0.5e-6;  // half of it: forward above the mean, reverse below
+
+struct MotionByHand {
+  std::int64_t id = 1;
+  Axis axis = Axis::x;
+  std::vector<double> x_m;            // of the encoder
+  std::vector<double> first, second;  // straightness errors, micrometres
+  Sides sides = {};
+};
+
+mdof::Run run_of_motion(const MotionByHand& motion) {
+  mdof::Run run;
+  run.header.id = motion.id;
+  run.header.axis = motion.axis;
+  run.header.sides = motion.sides;
+  run.header.state = RunState::complete;
+  for (const int direction : {1, -1})
+    for (std::size_t i = 0; i < motion.x_m.size(); ++i) {
+      MeasuredPoint p;
+      p.target = static_cast<int>(i) + 1;
+      p.run = 1;
+      p.point.direction = direction;
+      p.point.position_m = p.target_m = motion.x_m[i];
+      p.errors.valid = true;
+      p.errors.local = local_from_named(run.header.moving(),
+                                        {motion.first[i] * 1e-6 + direction * kReversal,
+                                         motion.second[i] * 1e-6 + direction * kReversal, 0, 0, 0});
+      run.points.push_back(p);
+    }
+  return run;
+}
+
+// Of 0, 0, 3, 1 at equal steps: ends 1/3, least squares (0.5 * 3 + 1.5 * 1)/5 = 0.6, and the
+// narrowest strip lies along (1, 0) - (3, 1), 0.5 a step.
+const std::vector<double> kStepsOfA = {0, 0.01, 0.02, 0.03}, kStepsOfB = {0.01, 0.02, 0.03, 0.04};
+MotionByHand motion_a() {
+  return {11, Axis::x, kStepsOfA, {0, 0, 3, 1}, {0, 0, -6, -2}};
+}
+// 0, 2, 0, 0: ends 0, least squares -0.2, strip 0. 0, 0, 0, 4: ends 4/3, least squares 1.2, strip
+// 4/3.
+MotionByHand motion_b() {
+  return {12, Axis::x, kStepsOfB, {0, 2, 0, 0}, {0, 0, 0, 4}};
+}
+
+void expect_line(const ParallelismLine& line, double a_urad, double b_urad) {
+  EXPECT_NEAR(line.slope_a_rad * 1e6, a_urad, 1e-6);
+  EXPECT_NEAR(line.slope_b_rad * 1e6, b_urad, 1e-6);
+  EXPECT_NEAR(line.angle_rad * 1e6, b_urad - a_urad, 1e-6);
+}
+
+TEST(ParallelismByHand, IsTheSlopeOfBLessThatOfA) {
+  const auto found = parallelism(run_of_motion(motion_a()), run_of_motion(motion_b()));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->run_a, 11);
+  EXPECT_EQ(found->run_b, 12);
+  EXPECT_EQ(found->axis, Axis::x);
+  EXPECT_FALSE(found->simulated);
+  EXPECT_NEAR(found->from_m, 0.01, 1e-15);
+  EXPECT_NEAR(found->to_m, 0.03, 1e-15);
+  ASSERT_EQ(found->planes.size(), 2u);
+  EXPECT_EQ(found->planes[0].error, "EYX");
+  expect_line(found->planes[0].end_point, 100 / 3.0, 0);
+  expect_line(found->planes[0].least_squares, 60, -20);
+  expect_line(found->planes[0].minimum_zone, 50, 0);
+  EXPECT_EQ(found->planes[1].error, "EZX");
+  expect_line(found->planes[1].end_point, -200 / 3.0, 400 / 3.0);
+  expect_line(found->planes[1].least_squares, -120, 120);
+  expect_line(found->planes[1].minimum_zone, -100, 400 / 3.0);
+}
+
+// Against the encoder the axis goes the other way along M: all slopes change their sign.
+TEST(ParallelismByHand, IsOverTheTravelOfTheMovingBody) {
+  MotionByHand a = motion_a(), b = motion_b();
+  a.axis = b.axis = Axis::y;
+  a.sides.against_encoder = b.sides.against_encoder = true;
+  a.sides.fixture_moves = b.sides.fixture_moves = true;
+  const auto found = parallelism(run_of_motion(a), run_of_motion(b));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->axis, Axis::y);
+  EXPECT_NEAR(found->from_m, -0.03, 1e-15);
+  EXPECT_NEAR(found->to_m, -0.01, 1e-15);
+  EXPECT_EQ(found->planes[0].error, "EXY");
+  EXPECT_EQ(found->planes[1].error, "EZY");
+  expect_line(found->planes[0].least_squares, -60, 20);
+  expect_line(found->planes[1].least_squares, 120, -120);
+}
+
+// The errors are those at the fixture: a yaw of 10 urad at the carriage adds what its arm makes of
+// it.
+TEST(ParallelismByHand, IsStatedAtTheFixture) {
+  mdof::Run a = run_of_motion(motion_a());
+  for (MeasuredPoint& p : a.points) p.errors.local[kEz] = 10e-6;
+  a.header.stated = kAtCarriage;
+  a.header.provenance.model = "simplified";
+  const auto found = parallelism(a, run_of_motion(motion_b()));
+  ASSERT_TRUE(found) << found.error().message;
+  // At the origin of M, -d from that of C, the target is lower by the yaw times the travel.
+  expect_line(found->planes[0].least_squares, 50, -20);
+}
+
+// Steps of 1/128 m have no rounding: exactly half of the longer travel is enough.
+TEST(ParallelismByHand, TakesTravelsThatHaveHalfInCommon) {
+  const auto over = [](std::int64_t id, int first) {
+    MotionByHand motion;
+    motion.id = id;
+    for (int i = first; i < first + 5; ++i) motion.x_m.push_back(i / 128.0);
+    motion.first = motion.second = {0, 1, 0, 1, 0};
+    return run_of_motion(motion);
+  };
+  const auto half = parallelism(over(1, 0), over(2, 2));
+  ASSERT_TRUE(half) << half.error().message;
+  EXPECT_EQ(half->from_m, 2 / 128.0);
+  EXPECT_EQ(half->to_m, 4 / 128.0);
+  EXPECT_TRUE(parallelism(over(1, 2), over(2, 0)));
+  const auto less = parallelism(over(1, 0), over(2, 3));
+  ASSERT_FALSE(less);
+  EXPECT_NE(less.error().message.find("run 1 goes from 0 to 31.25 mm and run 2 from 23.4375"),
+            std::string::npos)
+      << less.error().message;
+  EXPECT_FALSE(parallelism(over(1, 3), over(2, 0)));
+  EXPECT_FALSE(parallelism(over(1, 0), over(2, 60)));
+  // A short travel within a long one: half of the long one is asked for.
+  MotionByHand few{3, Axis::x, {1 / 128.0, 2 / 128.0, 3 / 128.0}, {0, 1, 0}, {0, 1, 0}};
+  EXPECT_TRUE(parallelism(over(1, 0), run_of_motion(few)));
+  few.x_m = {1 / 128.0, 1.5 / 128, 2 / 128.0};
+  EXPECT_FALSE(parallelism(over(1, 0), run_of_motion(few)));
+}
+
+TEST(ParallelismByHand, RefusesWhatIsNoPairOfMotions) {
+  MotionByHand y = motion_b();
+  y.axis = Axis::y;
+  const auto two_axes = parallelism(run_of_motion(motion_a()), run_of_motion(y));
+  ASSERT_FALSE(two_axes);
+  EXPECT_EQ(two_axes.error().remedy, Remedy::compare_two_axes);
+  EXPECT_NE(two_axes.error().message.find("run 11 is of axis X and run 12 of axis Y"),
+            std::string::npos);
+  MotionByHand two = motion_b();
+  two.x_m.resize(2);
+  const auto few = parallelism(run_of_motion(motion_a()), run_of_motion(two));
+  ASSERT_FALSE(few);
+  EXPECT_EQ(few.error().message.find("run 12"), 0u) << few.error().message;
+  mdof::Run partial = run_of_motion(motion_b());
+  partial.header.state = RunState::partial;
+  EXPECT_FALSE(parallelism(run_of_motion(motion_a()), partial));
+  EXPECT_TRUE(parallelism(run_of_motion(motion_a()), partial, true));
+  mdof::Run a = run_of_motion(motion_a()), b = run_of_motion(motion_b());
+  a.header.simulated = b.header.simulated = true;
+  EXPECT_TRUE(parallelism(a, b)->simulated);
+  b.header.simulated = false;
+  EXPECT_FALSE(parallelism(a, b));
+}
+
+// Forward 1, 2, 6 and reverse 3, 4, 8: the line through the means 2, 3, 7 is 1.5, 4, 6.5.
+mdof::Run run_with_readings() {
+  mdof::Run run;
+  run.header.axis = Axis::x;
+  const double forward[] = {1, 2, 6}, reverse[] = {3, 4, 8};
+  for (const int direction : {1, -1})
+    for (std::size_t i = 0; i < 3; ++i) {
+      MeasuredPoint p;
+      p.target = static_cast<int>(i) + 1;
+      p.target_m = 0.01 * static_cast<double>(i);
+      p.run = 4;
+      p.point.direction = direction;
+      p.point.position_m = p.target_m + 0.5e-3;
+      p.errors.valid = true;
+      const double value = (direction > 0 ? forward : reverse)[i];
+      p.errors.local = local_from_named(Axis::x, {value, 10 * value, 20 * value, 0, 0});
+      run.points.push_back(p);
+    }
+  return run;
+}
+
+TEST(RunReadingsByHand, AreLeftOfTheLineThroughTheMeans) {
+  const double off[] = {-0.5, -2, -0.5, 1.5, 0, 1.5};
+  const mdof::Run run = run_with_readings();
+  for (const std::size_t named : {0u, 1u}) {
+    const RunReadings found = readings_of_run(run, named, false);
+    ASSERT_EQ(found.readings.size(), 6u);
+    EXPECT_EQ(found.left_out, 0u);
+    for (std::size_t j = 0; j < 6; ++j) {
+      EXPECT_NEAR(found.readings[j].deviation, off[j] * (named == 1 ? 10 : 1), 1e-12);
+      EXPECT_EQ(found.readings[j].target_m, 0.01 * static_cast<double>(j % 3));
+      EXPECT_EQ(found.readings[j].direction, j < 3 ? 1 : -1);
+      EXPECT_EQ(found.readings[j].run, 4);
+    }
+  }
+}
+
+TEST(RunReadingsByHand, StayAsTheyAreWhereNoLineIsAskedFor) {
+  const double value[] = {1, 2, 6, 3, 4, 8};
+  mdof::Run run = run_with_readings();
+  const RunReadings kept = readings_of_run(run, 0, true), angle = readings_of_run(run, 2, false);
+  for (std::size_t j = 0; j < 6; ++j) {
+    EXPECT_NEAR(kept.readings[j].deviation, value[j], 1e-12);
+    EXPECT_NEAR(angle.readings[j].deviation, 20 * value[j], 1e-12);
+  }
+  // One place has no line.
+  for (MeasuredPoint& p : run.points) p.point.position_m = 0.01;
+  EXPECT_NEAR(readings_of_run(run, 0, false).readings[2].deviation, 6, 1e-12);
+}
+
+TEST(RunReadingsByHand, PointsWithoutErrorsOrApproachAreLeftOut) {
+  mdof::Run run = run_with_readings();
+  run.points[1].errors.valid = false;
+  run.points[3].point.direction = 0;
+  run.points[4].point.direction = 0;
+  const RunReadings found = readings_of_run(run, 0, true);
+  EXPECT_EQ(found.left_out, 3u);
+  ASSERT_EQ(found.readings.size(), 3u);
+  EXPECT_NEAR(found.readings[2].deviation, 8, 1e-12);
+  // What moves is the fixture: its errors are those of the target the other way round.
+  run.header.sides.fixture_moves = true;
+  EXPECT_NEAR(readings_of_run(run, 0, true).readings[2].deviation, -8, 1e-12);
+}
+
+}  // namespace
+}  // namespace mdof::algo

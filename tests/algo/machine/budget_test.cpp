@@ -226,5 +226,94 @@ TEST(MachineBudget, ACauseBeyondTheModelIsRefused) {
   EXPECT_NE(model.error().message.find("screw C"), std::string::npos);
 }
 
+// A source acts on an error of a body or on one of its line, which are two.
+TEST(MachineBudget, AnErrorOfTheLineIsNoneOfTheBody) {
+  auto machine = parse_machine(co_planar_machine(), "co-planar").value();
+  const auto x = static_cast<std::size_t>(machine.find("X") - machine.frames.data());
+  const auto with_source = [&](bool of_line, double u) {
+    Machine m = machine;
+    m.sources.clear();
+    ErrorSource source{"one", "urad", u, SourceShape::normal, {}};
+    source.acts_on = {{x, 5, of_line, 1e-6, 0, 0}};
+    m.sources.push_back(source);
+    return budget_model(m, {0.03, 0, 0, 0, 0, 0}, MachineApproach::mean, BudgetStage::designed);
+  };
+  const auto names = [](const BudgetModel& model) {
+    return std::find(model.not_declared.begin(), model.not_declared.end(), "ECX") !=
+           model.not_declared.end();
+  };
+  ASSERT_TRUE(with_source(false, 1));
+  EXPECT_FALSE(names(*with_source(false, 1)));
+  if (!has_location(machine.frames[x], 5)) return;
+  ASSERT_TRUE(with_source(true, 1));
+  EXPECT_TRUE(names(*with_source(true, 1)));
+  // What is too large is named as what it is.
+  const auto body = with_source(false, 1e6), line = with_source(true, 1e6);
+  ASSERT_FALSE(body);
+  ASSERT_FALSE(line);
+  EXPECT_NE(body.error().message.find("makes ECX larger than 0.1 rad"), std::string::npos)
+      << body.error().message;
+  EXPECT_EQ(line.error().message.find("makes ECX larger"), std::string::npos)
+      << line.error().message;
+}
+
+// The largest value of a shape of u = 1, times u, must stay below 10 mm with the error itself.
+TEST(MachineBudget, ACauseIsRefusedFromItsLargestValueOn) {
+  const auto is_refused = [](SourceShape shape, double u_um, double value_m) {
+    Machine machine;
+    machine.frames.resize(1);
+    machine.frames[0].id = "X";
+    machine.frames[0].kind = FrameKind::linear;
+    machine.frames[0].error[1].forward = {value_m};
+    machine.sources = {{"s", "um", u_um, shape, {{0, 1, false, 1e-6, 0, 0}}}};
+    return !budget_model(machine, {}, MachineApproach::mean, BudgetStage::designed);
+  };
+  for (const auto& [shape, reach] :
+       {std::pair(SourceShape::rectangular, std::sqrt(3.0)),
+        std::pair(SourceShape::triangular, std::sqrt(6.0)),
+        std::pair(SourceShape::u_shaped, std::sqrt(2.0)), std::pair(SourceShape::normal, 8.5)}) {
+    EXPECT_FALSE(is_refused(shape, 0.99 * 10e3 / reach, 0)) << to_string(shape);
+    EXPECT_TRUE(is_refused(shape, 1.01 * 10e3 / reach, 0)) << to_string(shape);
+  }
+}
+
+// Each of three causes moves one coordinate. Those marked are of a second, independent draw.
+TEST(MachineBudgetTrials, MixedTrialsTakeTheMarkedCausesFromTheSecondDraw) {
+  Machine machine;
+  machine.frames.resize(1);
+  machine.frames[0].id = "X";
+  machine.frames[0].kind = FrameKind::linear;
+  for (std::size_t k = 0; k < 3; ++k)
+    machine.sources.push_back(
+        {"s" + std::to_string(k), "um", 0.5, kShapes[k], {{0, k, false, 1e-6, 0, 0}}});
+  const auto trials = budget_trials(model_of(machine, {}), 3);
+  constexpr std::size_t n = 300;
+  const auto mixed = [&](const std::vector<std::uint8_t>& second) {
+    std::vector<double> out(4 * n);
+    double* const at[4] = {&out[0], &out[n], &out[2 * n], &out[3 * n]};
+    trials->run_mixed(second, 5, 2, n, at);
+    return out;
+  };
+  const auto first = mixed({0, 0, 0}), other = mixed({1, 1, 1});
+  std::vector<double> plain(4 * n);
+  double* const at[4] = {&plain[0], &plain[n], &plain[2 * n], &plain[3 * n]};
+  trials->run(5, 2, n, at);
+  EXPECT_EQ(first, plain);
+  for (int marked = 0; marked < 8; ++marked) {
+    std::vector<std::uint8_t> second;
+    for (int k = 0; k < 3; ++k) second.push_back(static_cast<std::uint8_t>((marked >> k) & 1));
+    const auto out = mixed(second);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t j = k * n; j < (k + 1) * n; ++j)
+        ASSERT_EQ(out[j], second[k] ? other[j] : first[j]) << marked << " " << j;
+  }
+  double product = 0, square = 0;
+  for (std::size_t j = 0; j < 3 * n; ++j) {
+    product += first[j] * other[j];
+    square += first[j] * first[j];
+  }
+  EXPECT_LT(std::abs(product), 0.15 * square);  // 900 independent numbers: 1/30 in the mean
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -233,5 +233,24 @@ TEST(Compensating, SaysWhatTwoAxesCannotReach) {
   EXPECT_FALSE(compensating_command(m, {}, MachineApproach::mean));
 }
 
+// Shifts and turns count alike along and about each axis.
+TEST(MachineModel, TheBoundTakesAllThreeAlike) {
+  const auto bound = [](std::size_t shift, std::size_t turn) {
+    auto m = by_hand(true);
+    m.frames[0].error[shift].forward = {3e-6};
+    m.frames[0].error[3 + turn].forward = {2e-4};
+    const Command at = {0.05, 0, 0, 0, 0, 0};
+    return linear_bound(m, at, values_at(m, at, MachineApproach::mean));
+  };
+  const LinearBound first = bound(0, 0);
+  EXPECT_NEAR(first.angle_rad, 4e-8 * (1 + 8e-4), 1e-15);
+  EXPECT_GT(first.place_m, 2 * 2e-4 * 3e-6);
+  for (const std::size_t k : {1u, 2u}) {
+    EXPECT_EQ(bound(k, 0).place_m, first.place_m);
+    EXPECT_EQ(bound(0, k).place_m, first.place_m);
+    EXPECT_EQ(bound(0, k).angle_rad, first.angle_rad);
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

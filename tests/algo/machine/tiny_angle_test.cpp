@@ -1,0 +1,22 @@
+#include "algo/machine/tiny_angle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+// Within 1 ulp, as is promised, to 0.1 rad.
+TEST(TinyAngle, IsThatOfTheLibrary) {
+  for (int k = -1000; k <= 1000; ++k) {
+    const double x = 1e-4 * k, sine = std::sin(x), cosine = std::cos(x);
+    EXPECT_LE(std::abs(tiny_sin(x) - sine), std::nextafter(std::abs(sine), 1) - std::abs(sine));
+    EXPECT_LE(std::abs(tiny_cos(x) - cosine), std::nextafter(cosine, 2) - cosine) << x;
+  }
+  EXPECT_EQ(tiny_cos(0.0), 1);
+  EXPECT_EQ(tiny_sin(0.0), 0);
+}
+
+}  // namespace
+}  // namespace mdof::algo

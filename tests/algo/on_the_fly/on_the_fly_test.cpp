@@ -83,6 +83,7 @@ TEST(OnTheFlyRun, StatesSpeedsBinsAndScatter) {
   }
   EXPECT_TRUE(run.explain_nothing());
   EXPECT_EQ(run.summary().gaps, 0U);
+  EXPECT_EQ(run.summary().scans, MotionLog().frames().size());
   EXPECT_NEAR(run.summary().period_s, 1e-3, 1e-12);
   EXPECT_NEAR(run.summary().encoder_max_m, kTravel_m, 1e-9);
 }
@@ -118,6 +119,16 @@ TEST(OnTheFlyRun, LeavesOutTheBinInWhichItStops) {
   expect_in(test::shown(run.notices()), "bin_of_changing_speed position_mm=7 time_s=0.65");
   expect_in(test::shown(run.statements()), " left_out=1 ");
   EXPECT_EQ(run.sequence().points.size(), 37U);
+}
+
+// In the first or the last bin that is of its way up to speed, or down; between others it is said.
+TEST(OnTheFlyRun, AStopInTheOutermostBinsIsNotSaid) {
+  for (const double at_mm : {1.0, 2.0, 18.0, 19.0}) {
+    const OnTheFly run = measured({.stop_at_m = 1e-3 * at_mm, .stop_s = 0.3});
+    EXPECT_EQ(run.sequence().points.size(), 37U) << at_mm;
+    const bool is_said = test::shown(run.notices()).find("bin_of_changing") != std::string::npos;
+    EXPECT_EQ(is_said, at_mm == 2 || at_mm == 18) << at_mm;
+  }
 }
 
 // A third of the scans at the start of the bin at 12 mm is a gap within it; two thirds are too

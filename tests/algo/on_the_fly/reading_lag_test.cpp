@@ -61,5 +61,88 @@ TEST(ReadingLag, WithoutNoiseByHand) {
   EXPECT_TRUE(lag.significant);
 }
 
+// Three unknowns, constant, line and delay, by their normal equations; what they leave follows
+// itself.
+TEST(ReadingLag, ItsUncertaintyIsWidenedWhereNeighboursAreAlike) {
+  std::mt19937_64 engine(9);
+  const std::vector<PassBins> passes = late_passes(engine, 2e-9, 0.7);
+  const ReadingLag found = reading_lags(passes, 1).at(0);
+  std::vector<double> y, x, f;
+  for (std::size_t i = 0; i <= 40; ++i) {
+    const BinPoint &out = passes[0].bins[i], &back = passes[1].bins[i];
+    y.push_back(out.point.probe_m[0] - back.point.probe_m[0]);
+    x.push_back(out.point.position_m - 0.02);
+    f.push_back(-2 * kSpeed_m_s * out.slope[0]);
+  }
+  // Constant and line are square to each other over these places.
+  const auto without_line = [&](std::vector<double> v) {
+    double mean = 0, xv = 0, xx = 0;
+    for (std::size_t i = 0; i < v.size(); ++i)
+      mean += v[i] / 41, xv += x[i] * v[i], xx += x[i] * x[i];
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] -= mean + xv / xx * x[i];
+    return v;
+  };
+  y = without_line(y);
+  f = without_line(f);
+  double fy = 0, ff = 0, square = 0, product = 0;
+  for (std::size_t i = 0; i < 41; ++i) fy += f[i] * y[i], ff += f[i] * f[i];
+  for (std::size_t i = 0; i < 41; ++i) y[i] -= fy / ff * f[i];
+  for (std::size_t i = 0; i < 41; ++i)
+    square += y[i] * y[i], product += i > 0 ? y[i] * y[i - 1] : 0;
+  const double alike = product / square;
+  EXPECT_GT(alike, 0.2);
+  EXPECT_NEAR(found.delay_s, fy / ff, 1e-9);
+  EXPECT_NEAR(found.u_delay_s, std::sqrt(square / 38 / ff * (1 + alike) / (1 - alike)), 1e-9);
+}
+
+// Eleven targets both ways are too few; what is lost one way is no target; no pass has no speed.
+TEST(ReadingLag, NeedsTwelveTargetsBothWays) {
+  std::mt19937_64 engine(2);
+  std::vector<PassBins> passes = late_passes(engine, 1e-9, 0);
+  for (PassBins& pass : passes) pass.bins.resize(13);
+  passes[0].bins[4].point.probe_m[0] = std::nan("");
+  ReadingLag lag = reading_lags(passes, 1).at(0);
+  EXPECT_NEAR(lag.delay_s, kLate_s, 1e-3 * kLate_s + 5 * lag.u_delay_s);
+  EXPECT_GT(lag.u_delay_s, 0);
+  passes[1].bins[7].point.probe_m[0] = std::nan("");
+  lag = reading_lags(passes, 1).at(0);
+  EXPECT_TRUE(std::isnan(lag.delay_s));
+  EXPECT_TRUE(std::isnan(lag.u_delay_s));
+  EXPECT_FALSE(lag.significant);
+  EXPECT_EQ(lag.effect_m, 0);
+  EXPECT_NEAR(lag.speed_m_s, kSpeed_m_s, 1e-15);
+  const ReadingLag none = reading_lags({}, 2).at(1);
+  EXPECT_TRUE(std::isnan(none.delay_s) && std::isnan(none.speed_m_s));
+  EXPECT_EQ(none.steepest_1, 0);
+}
+
+// Readings that rise evenly tell no delay: it looks like the axis' own difference.
+TEST(ReadingLag, AnEvenSlopeTellsNone) {
+  std::mt19937_64 engine(2);
+  std::vector<PassBins> passes = late_passes(engine, 1e-9, 0);
+  for (PassBins& pass : passes)
+    for (BinPoint& bin : pass.bins) bin.slope = {1e-3};
+  EXPECT_TRUE(std::isnan(reading_lags(passes, 1).at(0).delay_s));
+}
+
+// Each target's mean of its visits, each way with its own speed.
+TEST(ReadingLag, TakesTheMeanOfSeveralPasses) {
+  std::mt19937_64 engine(2);
+  std::vector<PassBins> passes = late_passes(engine, 0, 0);
+  passes.push_back(passes[0]);
+  passes.push_back(passes[0]);
+  for (std::size_t i = 0; i <= 40; ++i) {
+    BinPoint &fast = passes[2].bins[i], &slow = passes[3].bins[i];
+    // Faster by 20 mm/s, and slower by 10: each as much later.
+    fast.speed_m_s = 0.04;
+    fast.point.probe_m[0] -= kLate_s * 0.02 * fast.slope[0];
+    slow.speed_m_s = 0.01;
+    slow.point.probe_m[0] += kLate_s * 0.01 * slow.slope[0];
+  }
+  const ReadingLag lag = reading_lags(passes, 1).at(0);
+  EXPECT_NEAR(lag.delay_s, kLate_s, 1e-12);
+  EXPECT_NEAR(lag.speed_m_s, (0.02 + 0.02 + 0.04 + 0.01) / 4, 1e-15);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -46,6 +46,8 @@ TEST(TargetGridLimits, EachKeyIsNamed) {
             std::string::npos);
   EXPECT_EQ(refusal_of(grid(0.001)), "");
   EXPECT_NE(refusal_of(grid(0.0009)).find("must be 0.001 or more"), std::string::npos);
+  EXPECT_NE(refusal_of(grid(1, 0.0009)).find("must be 0.001 or more"), std::string::npos);
+  EXPECT_EQ(refusal_of(grid(1, 0.001)), "");
 }
 
 TEST(TargetGridLimits, ABinIsAsLongAsTheIntervalUpToAMillimetre) {

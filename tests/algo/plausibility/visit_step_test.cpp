@@ -142,5 +142,21 @@ TEST(VisitStep, TargetsThatWereVisitedOnceAreSaid) {
   EXPECT_TRUE(repeat_notices(synthetic.rig, synthetic.measure().points).empty());
 }
 
+// Six copies and a tenth of all points are enough, less of either is not.
+TEST(VisitStep, CopiesOfASixthStopAndATenthAreSaid) {
+  const auto said = [](std::size_t copies, std::size_t all) {
+    auto points = repeated_log(3, no_change);
+    points.resize(all);
+    // Each of the second run is one of the first again.
+    for (std::size_t i = 0; i < copies; ++i) points[26 + i].point = points[i].point;
+    return repeat_notices(test::rig_x(), points);
+  };
+  ASSERT_EQ(said(6, 60).size(), 1u);
+  EXPECT_EQ(shown(said(6, 60)[0]), "readings_copied copies=6 points=60");
+  EXPECT_TRUE(said(6, 61).empty());
+  EXPECT_TRUE(said(5, 40).empty());
+  EXPECT_EQ(said(6, 40).size(), 1u);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -245,5 +245,37 @@ TEST(Aligner, ASlowProbeThatNobodyKnewOfIsTold) {
   EXPECT_NEAR(test::number(unknown.too_slow.at("A"), "needed_gap_s"), 0.25, 1e-9);
 }
 
+// A probe every 2 ms at positions every ms: between two of its readings the later one is new, at it
+// no more. A probe as fast as the encoder has no such marks.
+TEST(Aligner, MarksWhatASlowerProbeRepeats) {
+  Aligner aligner({}, {"slow", "fast"});
+  FrameBlock out;
+  SampleBlock slow = block("s", {"slow"}, {0, 2, 4, 6}, 2.0);
+  SampleBlock fast = block("f", {"fast"}, {0, 1, 2, 3, 4, 5, 6}, 3.0);
+  SampleBlock encoder = block("e", {"encoder"}, {0, 1, 2, 3, 4, 5}, 1.0);
+  for (SampleBlock* b : {&slow, &fast, &encoder}) ASSERT_TRUE(aligner.push(*b, out));
+  ASSERT_EQ(out.size(), 6u);
+  ASSERT_EQ(out.probe_fresh.size(), 2u);
+  EXPECT_EQ(out.probe_fresh[0], (std::vector<std::uint8_t>{1, 1, 0, 1, 0, 1}));
+  EXPECT_TRUE(out.probe_fresh[1].empty());
+}
+
+// An encoder that has spoken is waited for once it is silent for longer than the lag bound.
+TEST(Aligner, WaitsForAnEncoderThatFellSilent) {
+  Aligner aligner({.lag_bound_s = 0.1}, {"A"});
+  FrameBlock out;
+  SampleBlock before = block("p", {"A"}, {0, 10}, 1.0), encoder = block("e", {"encoder"}, {5}, 1.0);
+  ASSERT_TRUE(aligner.push(before, out));
+  ASSERT_TRUE(aligner.push(encoder, out));
+  ASSERT_EQ(out.size(), 1u);
+  EXPECT_EQ(aligner.waiting_for(), std::nullopt);
+  SampleBlock within = block("p", {"A"}, {20, 105}, 1.0);
+  ASSERT_TRUE(aligner.push(within, out));
+  EXPECT_EQ(aligner.waiting_for(), std::nullopt);
+  SampleBlock beyond = block("p", {"A"}, {106}, 1.0);
+  ASSERT_TRUE(aligner.push(beyond, out));
+  EXPECT_EQ(aligner.waiting_for(), kEncoderChannel);
+}
+
 }  // namespace
 }  // namespace mdof::algo

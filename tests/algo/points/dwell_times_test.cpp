@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "algo/points/frame_rows.h"
 #include "tests/algo/stepping_axis.h"
 #include "tests/algo/stepping_log.h"
 
@@ -227,6 +228,28 @@ TEST(DwellTimes, AStopOfFewerRowsThanThePeriodTakesIsFound) {
     EXPECT_EQ(found.summary.scans, 30u);
     EXPECT_NEAR(found.points[0].position_m, -1e-3, 20e-9);
   }
+}
+
+// An axis at 10 mm/s of which 1.5 s are missing: the last place before, and how far it came
+// meanwhile.
+TEST(DwellTimes, AHoleIsToldByTheLastScanBeforeIt) {
+  FrameBlock frames = empty_frames(1);
+  for (std::int64_t ms = 0; ms < 4000; ++ms) {
+    if (ms > 1000 && ms < 2500) continue;
+    frames.time_ns.push_back(ms * 1'000'000);
+    frames.encoder_m.push_back(1e-5 * static_cast<double>(ms));
+    frames.probe_m[0].push_back(0);
+  }
+  const Found found = found_in(frames);
+  ASSERT_EQ(found.events.size(), 1u);
+  const DwellEvent& hole = found.events[0];
+  EXPECT_EQ(hole.kind, DwellEventKind::hole);
+  EXPECT_EQ(hole.time_ns, 1'000'000'000);
+  EXPECT_NEAR(hole.position_m, 10e-3, 1e-12);
+  EXPECT_NEAR(hole.size_m, 15e-3, 1e-12);
+  EXPECT_NEAR(hole.length_s, 1.5, 1e-12);
+  EXPECT_EQ(found.summary.gaps, 1u);
+  EXPECT_EQ(found.summary.scans, frames.size());
 }
 
 }  // namespace

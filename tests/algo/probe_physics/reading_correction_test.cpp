@@ -153,6 +153,7 @@ TEST(ReadingCorrection, ClosedGapsAndTouchingElectrodesAreNamed) {
   EXPECT_NE(out.why_not.find("probe E"), std::string::npos) << out.why_not;
   EXPECT_NE(out.why_not.find("standoff_um"), std::string::npos);
   EXPECT_EQ(out.closed, 4U);
+  EXPECT_TRUE(std::isnan(out.readings_m[4]));
   // 21.5 mrad bring the edge of 2 mm nearer by 43 µm, and 35 µm are left.
   out = correction.correct(0, {215e-6, 0, 0, 0, 0}, {}, {20, 100, 50});
   EXPECT_NE(out.why_not.find("touch"), std::string::npos) << out.why_not;

@@ -189,5 +189,15 @@ TEST(AdaptiveBlocks, ACoverageThatNeedsTooLongABlockIsRefused) {
   }
 }
 
+TEST(AdaptiveRule, NamesTheFirstOutputThatNeverSettles) {
+  AdaptiveRule rule = AdaptiveRule::create({"a_um", "b_um", "c_um"}, {2, {}}).value();
+  rule.add({{2, 1, 1, 0, 2}, {2, 1, 1, 0, 2}, {2, 1, 1, 0, 2}});
+  EXPECT_FALSE(rule.output_that_never_settles());
+  rule.add({{2, 1, 1, 0, 2}, {1, 1, 1, 0, 2}, {2, 1, 1, 0, 2}});
+  EXPECT_EQ(rule.output_that_never_settles(), 1u);
+  rule.add({{2, 1, 1, 0, 2}, {2, 1, 1, 0, 2}, {0, 1, 1, 0, 2}});
+  EXPECT_EQ(rule.output_that_never_settles(), 1u);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -253,5 +253,23 @@ TEST(Simulations, NameTheOptionThatMakesNoSense) {
   EXPECT_NE(message([](O& o) { o.travel_bins = 201; }).find("1 to 200"), std::string::npos);
 }
 
+// Four bins of 10 mm from 20 mm on: trial i is in bin i modulo 4, anywhere in it.
+TEST(Simulations, TravelBeginsWhereItIsAskedTo) {
+  SimulationOptions o;
+  o.travel_from_mm = 20;
+  o.travel_to_mm = 60;
+  o.travel_bins = 4;
+  double least = 1, most = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const double in_bin = simulation_trial(o, i)->travel_mm - 20 - 10 * static_cast<double>(i % 4);
+    EXPECT_GE(in_bin, 0) << i;
+    EXPECT_LE(in_bin, 10) << i;
+    least = std::min(least, in_bin / 10);
+    most = std::max(most, in_bin / 10);
+  }
+  EXPECT_LT(least, 0.05);
+  EXPECT_GT(most, 0.95);
+}
+
 }  // namespace
 }  // namespace mdof::algo

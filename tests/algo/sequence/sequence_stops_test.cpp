@@ -56,6 +56,12 @@ TEST(TargetsOfStops, LieTenTimesAsFarApartAsTheirStops) {
   EXPECT_EQ(targets_of_stops(stops_at({0, part_m, 10.9 * part_m})).size(), 3u);
 }
 
+// A gap of 20 times, then one of 11: the first is the greater.
+TEST(TargetsOfStops, AreToldByTheFirstGapWhereItIsTheGreater) {
+  EXPECT_EQ(targets_of_stops(stops_at({0, 1e-7, 40.1e-6, 480.1e-6})),
+            (Places{0, 40.1e-6, 480.1e-6}));
+}
+
 // Of two gaps in the steps the larger tells: 4, 60 and 6000 um are 15 and 100 times as far.
 TEST(TargetsOfStops, AreToldByTheGreatestOfTheGaps) {
   EXPECT_EQ(targets_of_stops(stops_at({0, 4e-6, 64e-6, 6e-3})).size(), 3u);

@@ -165,5 +165,22 @@ TEST(SequenceTail, NewTargetsGoOnAtTheEnd) {
   }
 }
 
+// A place between the last two targets, and one before the first: those beyond have other numbers.
+TEST(SequenceTail, ANewTargetMovesThoseBeyondIt) {
+  Walk walk;
+  for (int i = 0; i < 5; ++i) walk.stop(i * 5e-3, i + 1, 1);
+  walk.stop(18e-3, 0, 1);
+  walk.stop(-5e-3, 0, 1);
+  const Sequence sequence = grown(walk.stops, 5, {});
+  EXPECT_EQ(sequence.targets, 7);
+  EXPECT_EQ(sequence.targets_m, (std::vector<double>{-5e-3, 0, 5e-3, 10e-3, 15e-3, 18e-3, 20e-3}));
+  ASSERT_EQ(sequence.points.size(), 7u);
+  const int expected[] = {2, 3, 4, 5, 7, 6, 1};
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_EQ(sequence.points[i].target, expected[i]) << i;
+    EXPECT_EQ(sequence.points[i].target_m, walk.stops[i].position_m) << i;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -102,5 +102,21 @@ TEST(ControlChart, TooFewValuesSayNothing) {
   EXPECT_FALSE(control_chart(values({1, 2, 1, 2, 1}), 3));
 }
 
+// Four and five on one side of the centre, which one value in between meets exactly.
+TEST(ControlChart, AValueOnTheCentreEndsARow) {
+  std::vector<ChartValue> x(4, {5, 1});
+  for (int i = 0; i < 12; ++i) x.push_back({i == 6 ? 5 : 5.5, 1});
+  auto chart = control_chart(x, 4);
+  ASSERT_TRUE(chart);
+  EXPECT_EQ(chart->centre, 5);
+  EXPECT_EQ(chart->sigma, 0);
+  EXPECT_TRUE(chart->one_side.empty());
+  x[10].value = 5.5;
+  chart = control_chart(x, 4);
+  EXPECT_EQ(chart->one_side, (std::vector<std::size_t>{11, 12, 13, 14, 15}));
+  EXPECT_EQ(chart->low[3], 2);
+  EXPECT_EQ(chart->high[3], 8);
+}
+
 }  // namespace
 }  // namespace mdof::algo

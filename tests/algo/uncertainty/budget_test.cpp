@@ -214,5 +214,66 @@ TEST(Budget, AProbeOfBothSetUpsIsOneQuantityOfTheSquareness) {
   EXPECT_NEAR(contribution(two, "Y, probe D: sensitivity"), -5e-9, 1e-12);
 }
 
+// Four targets with a step in the first error: 0, 0, 3, 1 at 0, 10, 20 and 30 mm. Its line is 0.1 +
+// 0.6 a step, which leaves -0.1, -0.7, 1.7 and -0.9.
+TEST(Figures, OfFourTargetsByHand) {
+  MeanErrors means;
+  const double y[] = {0, 0, 3, 1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    TargetMean mean;
+    mean.target = static_cast<int>(i) + 1;
+    mean.position_m = 0.01 * static_cast<double>(i);
+    mean.named = {y[i], 2 * y[i], 3 * y[i], 0, -y[i]};
+    means.targets.push_back(mean);
+  }
+  const double left[] = {-0.1, -0.7, 1.7, -0.9};
+  for (const std::size_t k : {0u, 1u}) {
+    const auto by = static_cast<double>(k + 1);
+    const Figure straightness = straightness_figure(Axis::x, k);
+    const auto deviations = straightness.deviations(means);
+    ASSERT_EQ(deviations.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(deviations[i], by * left[i], 1e-12);
+    EXPECT_NEAR(straightness.of(means), by * 2.6, 1e-12);
+    EXPECT_NEAR(slope_figure(Axis::x, k).of(means), by * 60, 1e-9);
+  }
+  EXPECT_EQ(range_figure(Axis::x, 2).of(means), 9);
+  EXPECT_EQ(range_figure(Axis::x, 4).of(means), 3);
+  EXPECT_EQ(error_figure(Axis::x, 1, 3).of(means), 6);
+  EXPECT_TRUE(std::isnan(error_figure(Axis::x, 1, 5).of(means)));
+  const auto at = errors_at_target(Axis::x, 3);
+  ASSERT_EQ(at.size(), 5u);
+  EXPECT_EQ(at[4].of(means), -3);
+  // Against the encoder the slope has the other sign.
+  means.sides.against_encoder = true;
+  EXPECT_NEAR(slope_figure(Axis::x, 0).of(means), -60, 1e-9);
+  // A line needs three targets, a range two.
+  means.targets.resize(2);
+  EXPECT_TRUE(std::isnan(straightness_figure(Axis::x, 0).of(means)));
+  EXPECT_TRUE(std::isnan(slope_figure(Axis::x, 0).of(means)));
+  EXPECT_EQ(range_figure(Axis::x, 0).of(means), 0);
+  means.targets.resize(1);
+  EXPECT_TRUE(std::isnan(range_figure(Axis::x, 0).of(means)));
+  std::vector<std::string> names;
+  for (const Figure& figure : figures_of_run(Axis::y)) names.push_back(figure.name);
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "EXY_straightness_um", "EXY_slope_urad", "EZY_straightness_um",
+                       "EZY_slope_urad", "EAY_range_urad", "EBY_range_urad", "ECY_range_urad"}));
+}
+
+// Trials in whole blocks and in a part of one are the same numbers.
+TEST(Budget, TrialsDoNotDependOnHowManyThereAre) {
+  const Rig rig = rig_x_with("D", "u_calibration_um = 0.1");
+  const auto budgets =
+      RunBudgets::create(rig, SyntheticRun{.rig = rig, .model = Model::exact}.measure()).value();
+  const std::vector<Figure> figures = {error_figure(Axis::x, 0, 5),
+                                       straightness_figure(Axis::x, 0)};
+  const auto many = budgets.draw(figures, {200, 3}), block = budgets.draw(figures, {128, 3});
+  for (std::size_t f = 0; f < 2; ++f) {
+    ASSERT_EQ(many[f].size(), 200u);
+    ASSERT_EQ(block[f].size(), 128u);
+    for (std::size_t t = 0; t < 128; ++t) EXPECT_EQ(many[f][t], block[f][t]) << t;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

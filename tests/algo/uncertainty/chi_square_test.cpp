@@ -11,6 +11,7 @@
 #include "algo/uncertainty/chi_square.h"
 #include "tests/algo/stepping_log.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -185,6 +186,24 @@ TEST(ChiSquare, WithACovarianceOfTheReadingsAlone) {
     EXPECT_EQ(one.freedom, other.freedom);
     EXPECT_NEAR(one.chi_square / other.chi_square, 1, 1e-3);
   }
+}
+
+// What is named is the largest residual of the points that contradict, and how many they are.
+TEST(ChiSquare, TheNoticeHasTheLargestResidual) {
+  const Rig rig = rig_of(7);
+  const Solver solver = Solver::create(rig, Model::rigid).value();
+  std::vector<MeasuredPoint> points = SyntheticRun{.rig = rig, .runs = 1}.measure().points;
+  const Residuals residuals(solver, std::vector<double>(7, 200e-6));
+  EXPECT_FALSE(residuals.contradiction(points));
+  points[2].errors.residual_m = 3e-6;
+  points[5].errors.residual_m = 2e-6;
+  points[7].errors.residual_m = 9e-6;  // without the flag
+  for (const std::size_t j : {2u, 5u}) points[j].point.flags.emplace_back("residual");
+  const auto found = residuals.contradiction(points);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(test::number(*found, "residual_um"), 3);
+  EXPECT_EQ(test::number(*found, "points"), 2);
+  EXPECT_EQ(test::number(*found, "of"), 18);
 }
 
 }  // namespace

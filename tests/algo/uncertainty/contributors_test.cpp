@@ -179,5 +179,39 @@ TEST(Contributors, ARunWithoutPointsOrWithAnglesThatCannotBeIsRefused) {
   EXPECT_NE(empty.error().message.find("no points"), std::string::npos);
 }
 
+// B looks at a plane that is pitched by p, at the height s. A tilt c along the motion moves its
+// spot by c s: it reads p c s less or more. A tilt across the motion shows nothing.
+TEST(Contributors, ADirectionHasAPartAlongTheSlopeAndOneAcross) {
+  const Rig rig = rig_x_with("B", "u_direction_mrad = 5");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact};
+  synthetic.truth = [](double d) { return Errors5{0, 1e-3 * d, 0, 0.05 * d, 0}; };
+  const auto run = synthetic.measure();
+  const auto parts = of(rig, run)[0].parts();
+  ASSERT_EQ(parts.size(), 2u);
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const double d = run.points[j].target_m, s = run.points[j].point.probe_m[1];
+    const double first = std::abs(parts[0][j][kEx]) * 2 * kL_m,
+                 second = std::abs(parts[1][j][kEx]) * 2 * kL_m;
+    const double expected = 0.05 * d * 5e-3 * s;
+    EXPECT_NEAR(std::max(first, second), std::abs(expected), 0.02 * std::abs(expected) + 1e-14)
+        << j;
+    EXPECT_NEAR(std::min(first, second), 0, 0.02 * std::abs(expected) + 1e-14) << j;
+  }
+}
+
+// All probes 1 mm further along x on a plane that is pitched by p: it is lower there by p times
+// 1 mm, and pitched as before.
+TEST(Contributors, AnInstallationOffsetAlongTheMotionReadsThePitch) {
+  const Rig rig = rig_x_with("", "", "[installation]\nu_offset_mm = [1, 0, 0]\n");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact};
+  synthetic.truth = [](double d) { return Errors5{0, 0, 0, 0.02 * d, 0}; };
+  const auto run = synthetic.measure();
+  const auto parts = of(rig, run)[0].parts();
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const double lower = 1e-3 * 0.02 * run.points[j].target_m;
+    expect_shift(parts[0][j], {0, -lower, 0, 0, 0}, 0.01 * std::abs(lower) + 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -202,5 +202,22 @@ TEST(PositioningBudgets, OfOneSideHaveThatSide) {
     EXPECT_TRUE(std::isnan(none));
 }
 
+// D's scale is known to 0.1 %, and it reads 20 µm more each mm: what that makes of EYX is a slope,
+// of which straightness has nothing.
+TEST(PositioningBudgets, AnEvenSlopeIsNoneOfAStraightness) {
+  const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 1000");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
+  synthetic.truth = [](double d) { return Errors5{0.02 * d, 0, 0, 0, 0}; };
+  const mdof::Run run = synthetic.measure();
+  const double length_m = synthetic.targets_m.back() - synthetic.targets_m.front();
+  const auto kept = positioning_uncertainty(rig, run, 0, true).value(),
+             straight = positioning_uncertainty(rig, run, 0, false).value();
+  const double expected = 1.96 * 1e-3 * 0.02 * length_m;
+  for (const double U : {kept.E, kept.E_forward, kept.E_reverse})
+    EXPECT_NEAR(U, expected, 0.05 * expected);
+  for (const double U : {straight.E, straight.E_forward, straight.E_reverse})
+    EXPECT_LT(U, 0.01 * expected);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -1,0 +1,335 @@
+// What a rig declares of tilts, of curves of its probes and of the air, by the formulas of
+// algo/README.md written out: a tilt by t brings the target nearer by k r² t²/(4 gap), air of
+// another permittivity changes all gaps in proportion. With l = 10 mm, by c of the reading of B:
+// roll c/2l; of D: yaw -c/l; of A, B and C together: height c.
+#include "algo/uncertainty/physics_contributors.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kArm_m = 0.010, kGap_m = 250e-6, kDisc_m2 = 2e-3 * 2e-3;
+constexpr std::size_t kOfB = 1, kOfD = 3;
+const std::string kGapKeys = "sensing_radius_mm = 2\nstandoff_um = 250\ntilt_factor = 5\n";
+const std::string kAirThen =
+    "calibration_temperature_C = 20\ncalibration_pressure_kPa = 101.325\n"
+    "calibration_humidity_percent = 40\n";
+const std::string kAirNow = "temperature_C = 23\npressure_kPa = 99\nhumidity_percent = 65\n";
+
+// `keys` with each probe, `of_b` with B alone.
+Rig rig_of_physics(const std::string& keys, const std::string& of_b, const std::string& end,
+                   const std::string& measures_of_b = "measures = \"+Z\"") {
+  std::string toml = test::rig_x_toml();
+  for (const char id : {'A', 'B', 'C', 'D', 'E'}) {
+    const std::size_t at = toml.find('\n', toml.find(std::string("id = \"") + id + "\"")) + 1;
+    toml.insert(at, keys + (id == 'B' ? of_b : ""));
+  }
+  const std::string measures = "measures = \"+Z\"";
+  const std::size_t b = toml.find(measures, toml.find("id = \"B\""));
+  toml.replace(b, measures.size(), measures_of_b);
+  auto rig = parse_rig(toml + end, "rig.toml");
+  EXPECT_TRUE(rig) << rig.error().message;
+  return rig.value_or(Rig());
+}
+
+// Roll 1, pitch 2 and yaw 3 mrad at 40 mm.
+Errors5 tilting_axis(double d) {
+  return {0, 0, 1e-3 * d / 0.04, 2e-3 * d / 0.04, 3e-3 * d / 0.04};
+}
+// Straight lines of both straightness errors, no angle.
+Errors5 rising_axis(double d) {
+  return {3e-6 + 1e-4 * d, 20e-6 - 2e-4 * d, 0, 0, 0};
+}
+Run run_of_physics(const Rig& rig, Errors5 (*truth)(double)) {
+  return SyntheticRun{.rig = rig, .runs = 1, .truth = truth}.measure();
+}
+
+// The contributor of this name, which has to be there.
+Contributor named_contributor(const Rig& rig, const Run& run, const std::string& name) {
+  auto all = contributors(rig, run).value();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
+  EXPECT_TRUE(found != all.end()) << name;
+  return found == all.end() ? Contributor() : *found;
+}
+bool has_contributor(const Rig& rig, const Run& run, const std::string& name) {
+  const auto all = contributors(rig, run).value();
+  return std::any_of(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
+}
+void expect_shown(const Contributor& c, const char* key, double value, const char* unit) {
+  EXPECT_EQ(c.key, key);
+  EXPECT_NEAR(c.declared.u * c.to_unit, value, 1e-9 * value);
+  EXPECT_EQ(c.unit, unit);
+}
+
+// By how much the reading of B or of D changes.
+double of_reading_b(const Errors5& shift) {
+  return shift[kEx] * 2 * kArm_m;
+}
+double of_reading_d(const Errors5& shift) {
+  return -shift[kEz] * kArm_m;
+}
+double gap_by_hand(const Run& run, std::size_t j, std::size_t probe) {
+  return kGap_m - run.points[j].point.probe_m[probe];
+}
+
+// B sees roll and pitch, D roll and yaw.
+void expect_tilts(const Contributor& of_b, const Contributor& of_d, const Run& run, double u) {
+  const auto b = of_b.parts(), d = of_d.parts();
+  ASSERT_EQ(b.size(), 1u);
+  ASSERT_EQ(d.size(), 1u);
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const double part = run.points[j].point.position_m / 0.04, square = part * part * 1e-6;
+    const double by_b = u * kDisc_m2 * 5 * square / (4 * gap_by_hand(run, j, kOfB));
+    const double by_d = u * kDisc_m2 * 10 * square / (4 * gap_by_hand(run, j, kOfD));
+    EXPECT_NEAR(of_reading_b(b[0][j]), by_b, 0.02 * by_b + 1e-15) << j;
+    EXPECT_NEAR(of_reading_d(d[0][j]), by_d, 0.02 * by_d + 1e-15) << j;
+  }
+}
+
+TEST(PhysicsContributors, OfACorrectedTiltTheFactorIsNotKnown) {
+  const Rig rig =
+      rig_of_physics(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = true\n");
+  const mdof::Run run = run_of_physics(rig, tilting_axis);
+  const Contributor b = named_contributor(rig, run, "probe B: tilt");
+  expect_shown(b, "u_tilt_factor", 0.4, "");
+  expect_tilts(b, named_contributor(rig, run, "probe D: tilt"), run, 0.4);
+  EXPECT_FALSE(has_contributor(rig, run, "probe B: tilt in its clamp"));
+  EXPECT_FALSE(has_contributor(rig, run, "probe B: linearity"));
+}
+
+TEST(PhysicsContributors, ATiltThatIsNotCorrectedCountsWhole) {
+  const Rig rig =
+      rig_of_physics(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = false\n");
+  const mdof::Run run = run_of_physics(rig, tilting_axis);
+  const Contributor b = named_contributor(rig, run, "probe B: tilt, not corrected");
+  const double whole = std::sqrt(5 * 5 + 0.4 * 0.4);
+  expect_shown(b, "tilt_factor", whole, "");
+  expect_tilts(b, named_contributor(rig, run, "probe D: tilt, not corrected"), run, whole);
+}
+
+// B looks 20 mrad askew at its plane. Of each unit of the factor it sees the change since the zero.
+constexpr double kAskew = 0.02;
+const std::string kCorrectedOverPlanes =
+    "[corrections]\ntilt = true\n[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
+    "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\n";
+struct AskewProbe {
+  double gap_m, roll, pitch;
+  // Turns of the plane's normal against the probe, across the probe.
+  double square() const {
+    return ((roll + kAskew) * (roll + kAskew) + pitch * pitch) / (1 + kAskew * kAskew);
+  }
+};
+constexpr double kAskewSquare = kAskew * kAskew / (1 + kAskew * kAskew);
+AskewProbe askew_probe(const Run& run, std::size_t j) {
+  const double part = run.points[j].point.position_m / 0.04;
+  return {gap_by_hand(run, j, kOfB), 1e-3 * part, 2e-3 * part};
+}
+
+TEST(PhysicsContributors, ATiltCountsByWhatItChangesSinceTheZero) {
+  const Rig rig = rig_of_physics(kGapKeys, "u_tilt_factor = 0.4\n", kCorrectedOverPlanes,
+                                 "direction = [0, 0.02, 1]");
+  const mdof::Run run = run_of_physics(rig, tilting_axis);
+  const auto parts = named_contributor(rig, run, "probe B: tilt").parts();
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const AskewProbe b = askew_probe(run, j);
+    const double expected = 0.4 * kDisc_m2 / 4 * (b.square() / b.gap_m - kAskewSquare / kGap_m);
+    EXPECT_NEAR(of_reading_b(parts[0][j]), expected, 0.02 * std::abs(expected) + 1e-15) << j;
+  }
+}
+
+// (t + c)² of a tilt c of 3 mrad in the clamp: 2 t c about each axis, and c² of both.
+TEST(PhysicsContributors, AProbeMayBeTiltedInItsClamp) {
+  const Rig rig = rig_of_physics(kGapKeys, "u_direction_mrad = 3\n", kCorrectedOverPlanes,
+                                 "direction = [0, 0.02, 1]");
+  const mdof::Run run = run_of_physics(rig, tilting_axis);
+  const Contributor found = named_contributor(rig, run, "probe B: tilt in its clamp");
+  expect_shown(found, "u_direction_mrad", 3, "mrad");
+  EXPECT_FALSE(has_contributor(rig, run, "probe D: tilt in its clamp"));
+  const auto parts = found.parts();
+  ASSERT_EQ(parts.size(), 3u);
+  const double c = 3e-3, norm = std::sqrt(1 + kAskew * kAskew);
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const AskewProbe b = askew_probe(run, j);
+    const double about_x = -(b.roll + kAskew) / norm / b.gap_m + kAskew / norm / kGap_m;
+    const double about_y = -b.pitch / b.gap_m;  // across the probe, but for 2e-4 of it
+    const double expected = 5 * kDisc_m2 / 4 * 2 * c * std::hypot(about_x, about_y);
+    const double both = std::hypot(of_reading_b(parts[0][j]), of_reading_b(parts[1][j]));
+    EXPECT_NEAR(both, expected, 0.02 * expected + 1e-15) << j;
+    const double of_square = 5 * kDisc_m2 / 4 * 2 * c * c * (1 / b.gap_m - 1 / kGap_m);
+    EXPECT_NEAR(of_reading_b(parts[2][j]), of_square, 0.02 * std::abs(of_square) + 1e-15) << j;
+  }
+}
+
+// Waves of the range and of a half, a third and a fourth of it with the weights 1, 1/4, 1/9 and
+// 1/16: at each reading the sum of squares is u².
+TEST(PhysicsContributors, WhatACurveLeavesIsWavesOverTheRange) {
+  const Rig rig = rig_of_physics("", "u_linearity_um = 0.05\n", "");
+  const mdof::Run run = run_of_physics(rig, tilting_axis);
+  const Contributor found = named_contributor(rig, run, "probe B: linearity");
+  expect_shown(found, "u_linearity_um", 0.05, "µm");
+  const auto parts = found.parts();
+  ASSERT_EQ(parts.size(), 8u);
+  const double norm = 1 + 1 / 16. + 1 / 81. + 1 / 256.;
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const double turn = 2 * std::numbers::pi * run.points[j].point.probe_m[kOfB] / 200e-6;
+    double square = 0;
+    for (std::size_t w = 1; w <= 4; ++w) {
+      const auto wave = static_cast<double>(w);
+      const double size = 0.05e-6 / (wave * wave * std::sqrt(norm));
+      const double sine = of_reading_b(parts[2 * w - 2][j]),
+                   cosine = of_reading_b(parts[2 * w - 1][j]);
+      EXPECT_NEAR(sine, size * std::sin(wave * turn), 0.02 * size) << j << ' ' << w;
+      EXPECT_NEAR(cosine, size * std::cos(wave * turn), 0.02 * size) << j << ' ' << w;
+      square += sine * sine + cosine * cosine;
+    }
+    EXPECT_NEAR(std::sqrt(square), 0.05e-6, 0.02 * 0.05e-6);
+  }
+}
+
+// The reading is s; the correction that was left out is a polynomial of s, of -s for a probe that
+// reads gaps, or on straight lines between pairs.
+TEST(PhysicsContributors, ACurveThatIsNotCorrectedCountsWhole) {
+  const std::string off = "[corrections]\nlinearity = false\n";
+  const struct {
+    std::string keys;
+    const char* key;
+    double (*correction_um)(double s_um);
+  } cases[] = {{"polynomial_um = [0.2, 0.01, 0.0003]\n", "polynomial_um",
+                [](double s) { return 0.2 + 0.01 * s + 0.0003 * s * s; }},
+               {"polynomial_um = [0.2, 0.01, 0.0003]\nreads = \"gap\"\noffset_um = 100\n",
+                "polynomial_um", [](double s) { return -(0.2 - 0.01 * s + 0.0003 * s * s); }},
+               {"linearity = [[-100, -0.3], [0, 0.1], [100, 0.6]]\n", "linearity",
+                [](double s) { return 0.1 + s * (s < 0 ? 0.004 : 0.005); }}};
+  for (const auto& c : cases) {
+    const Rig rig = rig_of_physics("", c.keys, off);
+    mdof::Run run = run_of_physics(rig, rising_axis);
+    run.points.resize(9);  // one way: the largest reading is the first alone
+    const Contributor found = named_contributor(rig, run, "probe B: linearity, not corrected");
+    EXPECT_FALSE(has_contributor(rig, run, "probe C: linearity, not corrected"));
+    const auto parts = found.parts();
+    double most_um = 0;
+    for (std::size_t j = 0; j < run.points.size(); ++j) {
+      const double s_um = run.points[j].point.probe_m[kOfB] * 1e6;
+      EXPECT_NEAR(of_reading_b(parts[0][j]) * 1e6, c.correction_um(s_um), 1e-5) << c.keys << s_um;
+      most_um = std::max(most_um, std::abs(c.correction_um(s_um)));
+    }
+    expect_shown(found, c.key, most_um, "µm");
+  }
+}
+
+// ε - 1 = 2e-6 (776 p/T + 3.73e6 e/T²), p and the vapour's e in kPa by the formula of Magnus.
+double permittivity_of_air(double t_C, double p_kPa, double humidity) {
+  const double T = t_C + 273.15,
+               e_kPa = humidity / 100 * 0.61094 * std::exp(17.625 * t_C / (t_C + 243.04));
+  return 1 + 2e-6 * (776 * p_kPa / T + 3.73e6 * e_kPa / (T * T));
+}
+struct AirState {
+  double t_C, p_kPa, humidity;
+  double slope(int quantity) const {
+    const double step[] = {quantity == 0 ? 0.1 : 0, quantity == 1 ? 0.1 : 0,
+                           quantity == 2 ? 0.1 : 0};
+    return (permittivity_of_air(t_C + step[0], p_kPa + step[1], humidity + step[2]) -
+            permittivity_of_air(t_C - step[0], p_kPa - step[1], humidity - step[2])) /
+           0.2;
+  }
+};
+constexpr AirState kThen = {20, 101.325, 40}, kNow = {23, 99, 65};
+
+// All gaps are longer by `relative`: of heights and sides alike.
+void expect_gaps_longer(const Contributor& c, const Run& run, double relative) {
+  const auto parts = c.parts();
+  ASSERT_EQ(parts.size(), 1u);
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const Errors5 truth = rising_axis(run.points[j].point.position_m);
+    const double dy = -relative * (kGap_m - truth[kDy]), dz = -relative * (kGap_m - truth[kDz]);
+    EXPECT_NEAR(parts[0][j][kDy], dy, 0.01 * std::abs(dy)) << c.name;
+    EXPECT_NEAR(parts[0][j][kDz], dz, 0.01 * std::abs(dz)) << c.name;
+    for (const auto angle : {kEx, kEy, kEz}) EXPECT_NEAR(parts[0][j][angle], 0, 1e-12) << c.name;
+  }
+}
+
+constexpr const char* kQuantity[] = {"temperature", "pressure", "humidity"};
+constexpr const char* kQuantityKey[] = {"temperature_C", "pressure_kPa", "humidity_percent"};
+constexpr const char* kQuantityUnit[] = {"°C", "kPa", "%"};
+constexpr double kUNow[] = {1, 0.5, 5}, kUThen[] = {0.7, 0.3, 4};
+const std::string kUOfAir =
+    "u_temperature_C = 1\nu_pressure_kPa = 0.5\nu_humidity_percent = 5\n"
+    "u_calibration_temperature_C = 0.7\nu_calibration_pressure_kPa = 0.3\n"
+    "u_calibration_humidity_percent = 4\n";
+
+void expect_quantities_of_air(const Rig& rig, const Run& run, const AirState& slopes_at) {
+  for (int q = 0; q < 3; ++q) {
+    const auto name = std::string(kQuantity[q]), key = std::string(kQuantityKey[q]);
+    const Contributor now = named_contributor(rig, run, "air: " + name);
+    expect_shown(now, ("u_" + key).c_str(), kUNow[q], kQuantityUnit[q]);
+    expect_gaps_longer(now, run, kUNow[q] * slopes_at.slope(q));
+    const Contributor then = named_contributor(rig, run, "air of the calibration: " + name);
+    expect_shown(then, ("u_calibration_" + key).c_str(), kUThen[q], kQuantityUnit[q]);
+    expect_gaps_longer(then, run, -kUThen[q] * kThen.slope(q));
+  }
+}
+
+TEST(PhysicsContributors, OfAirThatIsCorrectedWhatIsNotKnownOfIt) {
+  const Rig rig = rig_of_physics(
+      kGapKeys, "", "[corrections]\ndielectric = true\n[air]\n" + kAirThen + kAirNow + kUOfAir);
+  const mdof::Run run = run_of_physics(rig, rising_axis);
+  EXPECT_FALSE(has_contributor(rig, run, "air: dielectric, not corrected"));
+  expect_quantities_of_air(rig, run, kNow);
+}
+
+TEST(PhysicsContributors, AirThatIsNotCorrectedCountsWhole) {
+  const Rig rig = rig_of_physics(
+      kGapKeys, "", "[corrections]\ndielectric = false\n[air]\n" + kAirThen + kAirNow + kUOfAir);
+  const mdof::Run run = run_of_physics(rig, rising_axis);
+  const Contributor whole = named_contributor(rig, run, "air: dielectric, not corrected");
+  const double relative =
+      permittivity_of_air(23, 99, 65) / permittivity_of_air(20, 101.325, 40) - 1;
+  EXPECT_EQ(whole.key, "[air]");
+  EXPECT_EQ(whole.unit, "ppm");
+  EXPECT_NEAR(whole.declared.u * whole.to_unit, std::abs(relative) * 1e6, 0.3);
+  const auto parts = whole.parts();
+  ASSERT_EQ(parts.size(), 1u);
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const double gap_m = kGap_m - rising_axis(run.points[j].point.position_m)[kDz];
+    EXPECT_NEAR(std::abs(parts[0][j][kDz]), std::abs(relative) * gap_m, 0.3e-6 * gap_m);
+  }
+  expect_quantities_of_air(rig, run, kNow);
+}
+
+// Where the log tells the air, the rig does not know it: slopes are taken at the calibration.
+TEST(PhysicsContributors, OfAirThatTheLogTellsTheSlopesAreThoseOfTheCalibration) {
+  const Rig rig = rig_of_physics(kGapKeys, "",
+                                 "[corrections]\ndielectric = false\n[air]\n" + kAirThen + kUOfAir);
+  const mdof::Run run = run_of_physics(rig, rising_axis);
+  EXPECT_FALSE(has_contributor(rig, run, "air: dielectric, not corrected"));
+  expect_quantities_of_air(rig, run, kThen);
+  // So it is where the log tells one quantity.
+  const Rig partly = rig_of_physics(kGapKeys, "",
+                                    "[corrections]\ndielectric = false\n[air]\n" + kAirThen +
+                                        "temperature_C = 23\nhumidity_percent = 65\n" + kUOfAir);
+  EXPECT_FALSE(has_contributor(partly, run, "air: dielectric, not corrected"));
+}
+
+TEST(PhysicsContributors, PointsWithoutErrorsHaveNone) {
+  const Rig rig = rig_of_physics(
+      kGapKeys, "", "[corrections]\ndielectric = true\n[air]\n" + kAirThen + kAirNow + kUOfAir);
+  mdof::Run run = run_of_physics(rig, rising_axis);
+  run.points[3].errors.valid = false;
+  const auto parts = named_contributor(rig, run, "air: pressure").parts();
+  EXPECT_EQ(parts[0][3], Errors5{});
+  EXPECT_NE(parts[0][2], Errors5{});
+  EXPECT_NE(parts[0][4], Errors5{});
+}
+
+}  // namespace
+}  // namespace mdof::algo

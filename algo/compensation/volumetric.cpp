@@ -28,10 +28,10 @@ Result<std::vector<double>> commands_along(const Machine& machine, std::size_t a
                      "; ask for axes that it has");
   MDOF_TRY(const auto range, range_of(*frame));
   // A step of nothing ends here as well.
-  if (!((range[1] - range[0]) / step_m < static_cast<double>(kMostVolumetricNodes)))
+  if (!((range[1] - range[0]) / step_m < static_cast<double>(kMostVolumetricCommands) - 1))
     return bad_input("axis " + name_of(axis) + ": " + plain_number(to_mm(range[1] - range[0]), 6) +
-                     " mm in steps of " + plain_number(to_mm(step_m), 6) +
-                     " mm are too many nodes; take a larger step");
+                     " mm in steps of " + plain_number(to_mm(step_m), 6) + " mm are more than " +
+                     std::to_string(kMostVolumetricCommands) + " nodes; take a larger step");
   return steps_over(range, step_m);
 }
 

@@ -23,10 +23,12 @@ struct VolumetricRequest {
 
 // The compensating command at each node (algo/machine/compensating.h), less the node. Id, runs,
 // description and hash are the caller's.
-// Errors: an axis that the chain has not or without range; more nodes than kMostVolumetricNodes; an
-// error that was not measured, unless `incomplete`; a node without compensating command; a
-// correction beyond the limits.
+// Errors: an axis that the chain has not or without range; more nodes than kMostVolumetricNodes, or
+// kMostVolumetricCommands along an axis; an error that was not measured, unless `incomplete`; a
+// node without compensating command; a correction beyond the limits.
 inline constexpr std::size_t kMostVolumetricNodes = 100'000;
+// Along an axis: they stand in every reply about the table, which has at most 48 KiB.
+inline constexpr std::size_t kMostVolumetricCommands = 500;
 Result<VolumetricTable> build_volumetric(const Machine& machine, const VolumetricRequest& request);
 
 struct VolumetricValue {

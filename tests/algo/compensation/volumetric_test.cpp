@@ -183,6 +183,9 @@ TEST(Volumetric, LimitsAxesAndSizesAreChecked) {
   VolumetricRequest fine;
   fine.step_m = 0.0008;  // 51^3
   EXPECT_NE(code(m, fine).find("larger step"), std::string::npos);
+  fine.along = {true, true, false};
+  fine.step_m = 0.00008;  // 501 along each
+  EXPECT_NE(code(m, fine).find("more than 500"), std::string::npos);
   fine.step_m = 1e-12;
   EXPECT_NE(code(m, fine).find("larger step"), std::string::npos);
   fine.step_m = 0;

@@ -110,6 +110,20 @@ TEST_F(VolumeMethods, TheGridComesInPagesAndIsWhatAtSays) {
   EXPECT_EQ(other.code(), rpc::kChanged);
 }
 
+TEST_F(VolumeMethods, TheLargestTableStaysWithinAReply) {
+  std::string wide = a_machine();  // with commands of many digits
+  for (const char* from : {"[0, 20]\\nEXX", "[0, 20]\\nEXY"})
+    wide.replace(wide.find(from), 7, from[11] == 'X' ? "[0.1, 19.966666666666665]" : "[0.1, 8]");
+  const Answer table = build(R"("axes": "XY", "step_mm": 0.04)", wide);
+  ASSERT_EQ(table.code(), 0) << table.text();
+  EXPECT_EQ(table.at("/result/nodes"), std::to_string(498 * 199));
+  ASSERT_EQ(activate(1).at("/result/changed"), "true");
+  EXPECT_EQ(call("compensation.status").code(), 0);
+  EXPECT_LT(call("compensation.status").text().size(), 40u * 1024);
+  EXPECT_GT(call("compensation.grid", R"({"axis":"volume"})").size("/result/points"), 50u);
+  EXPECT_LT(table.text().size(), 48u * 1024);
+}
+
 TEST_F(VolumeMethods, AnAxisAndTheVolumeAreNotActiveTogether) {
   add_run();
   ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").at("/result/table"), "1");

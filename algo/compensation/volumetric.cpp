@@ -13,7 +13,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::string_view kAxes = "XYZ";
-// More is no place beside the grid, but the rounding of a number in mm.
+// A command that is this near to the grid is in it: a number in mm is rounded.
 constexpr double kSamePlace_m = 1e-9;
 
 std::string name_of(std::size_t axis) {
@@ -27,7 +27,7 @@ Result<std::vector<double>> commands_along(const Machine& machine, std::size_t a
     return bad_input("the chain " + machine.chain.text + " has no axis " + name_of(axis) +
                      "; ask for axes that it has");
   MDOF_TRY(const auto range, range_of(*frame));
-  // A step of nothing ends here as well.
+  // A step of 0 is refused here as well.
   if (!((range[1] - range[0]) / step_m < static_cast<double>(kMostVolumetricCommands) - 1))
     return bad_input("axis " + name_of(axis) + ": " + plain_number(to_mm(range[1] - range[0]), 6) +
                      " mm in steps of " + plain_number(to_mm(step_m), 6) + " mm are more than " +

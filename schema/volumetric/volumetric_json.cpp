@@ -25,7 +25,8 @@ void write_commands(JsonWriter& json, const VolumetricTable& t) {
   }
   json.end_object().key("rotary").begin_object();
   for (std::size_t k = 0; k < 3; ++k)
-    if (t.machine.find(kRotaryKeys[k][0])) json.field(kRotaryKeys[k], t.rotary_rad[k] * kDegreesByRadian);
+    if (t.machine.find(kRotaryKeys[k][0]))
+      json.field(kRotaryKeys[k], t.rotary_rad[k] * kDegreesByRadian);
   json.end_object();
 }
 

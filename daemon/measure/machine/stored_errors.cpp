@@ -48,7 +48,7 @@ Status take(MachineFrame& frame, std::size_t k, ErrorFunction function) {
   return {};
 }
 
-// What a description and the rigs of a table have to agree in, or a sign is wrong.
+// Where a description differs from the rigs of a table, a sign would be wrong.
 Status check_set_up(const Machine& machine, const MachineFrame& frame,
                     const CompensationTable& table) {
   const std::string of = axis_of(frame);
@@ -69,7 +69,7 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
   return {};
 }
 
-// Of one body, a location error of the XY pair would count the slope again.
+// A stored squareness is of X and Y.
 bool is_of_squareness(const MachineFrame& frame) {
   return frame.id == "X" || frame.id == "Y";
 }
@@ -97,9 +97,9 @@ Status take_table(Machine& machine, MachineFrame& frame, const CompensationTable
       u[i] = std::hypot(u[i], along.u_declared[i]);
     // Its errors are those of the place in the controller's coordinates; the body's are along +.
     const double body = frame.against_command ? -1 : 1;
-    return take(frame, frame.direction,
-                function_of(table.position_m, scaled(along.forward, body),
-                            scaled(along.reverse, body), u));
+    return take(
+        frame, frame.direction,
+        function_of(table.position_m, scaled(along.forward, body), scaled(along.reverse, body), u));
   }
   MDOF_CHECK(check_set_up(machine, frame, table));
   MDOF_CHECK(check_slope(machine, frame, table));

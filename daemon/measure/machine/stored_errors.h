@@ -22,8 +22,9 @@ struct StoredErrors {
 //
 // Measured runs of an axis give their mean, stated at the fixture: there the squareness is stated,
 // too, so that the slope that a table has lost is the one that the squareness has. It holds at
-// holds_at_mm of the axis. Imported runs of the axis give its positioning: what they hold is the place
-// in the controller's coordinates, whose error is the body's with the sign of the axis' travel.
+// holds_at_mm of the axis. Imported runs of the axis give its positioning: what they hold is the
+// place in the controller's coordinates, whose error is the body's with the sign of the axis'
+// travel.
 //
 // Errors: a row that is not there, of another axis, of another chain, travel or moving side than
 // the description says; an error that the description has too; a table whose straightness has its

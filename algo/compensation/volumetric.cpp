@@ -192,9 +192,14 @@ Result<VolumetricTable> build_volumetric(const Machine& machine, const Volumetri
   for (std::size_t node = 0; node < table.nodes(); ++node)
     MDOF_CHECK(add_node(table, machine, request, node));
   MDOF_CHECK(check_measured(table, request));
-  for (std::size_t axis = 0; axis < 3; ++axis) MDOF_CHECK(check_lines(table, axis, request.limits));
+  MDOF_CHECK(check_limits(table, request.limits));
   MDOF_CHECK(find_interpolation(table, machine, request));
   return table;
+}
+
+Status check_limits(const VolumetricTable& table, const TableLimits& limits) {
+  for (std::size_t axis = 0; axis < 3; ++axis) MDOF_CHECK(check_lines(table, axis, limits));
+  return {};
 }
 
 VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m) {

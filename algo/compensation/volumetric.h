@@ -31,6 +31,9 @@ inline constexpr std::size_t kMostVolumetricNodes = 100'000;
 inline constexpr std::size_t kMostVolumetricCommands = 500;
 Result<VolumetricTable> build_volumetric(const Machine& machine, const VolumetricRequest& request);
 
+// Its corrections along each line of nodes. Error (bad_input): the line, and as of a series.
+Status check_limits(const VolumetricTable& table, const TableLimits& limits);
+
 struct VolumetricValue {
   Vec3 correction_m{}, u_m{};
   bool inside = true;  // else the value of the nearest place of the grid

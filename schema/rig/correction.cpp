@@ -7,12 +7,12 @@ int sign_of_error(const ChainAxis& measured) {
   return measured.carries_work ? -1 : 1;
 }
 
+}  // namespace
+
 int sign_of_command(const ChainAxis& axis) {
   const int travel = axis.against_command ? -1 : 1;
   return axis.carries_work ? -travel : travel;
 }
-
-}  // namespace
 
 char corrected_by(const ErrorName& name) {
   return name.name[1];

@@ -19,6 +19,9 @@
 
 namespace mdof {
 
+// s_k of an axis.
+int sign_of_command(const ChainAxis& axis);
+
 struct CorrectionSigns {
   std::array<int, 5> factor{};     // by named error of the axis: c = factor * E; 0: none
   std::array<std::string, 5> gap;  // why there is none

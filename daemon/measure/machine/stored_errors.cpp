@@ -186,21 +186,26 @@ bool has(const std::vector<std::int64_t>& ids, std::int64_t id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-// The newest fit of runs that the axes name; of axes without runs the newest.
-Result<Squareness> find_squareness(store::Store& store, const Machine& machine,
-                                   const std::vector<std::int64_t>& runs) {
+// The newest that `is_it` takes; none: there is none.
+template <class Predicate>
+Result<std::optional<Squareness>> newest_squareness(store::Store& store, Predicate is_it) {
   for (std::int64_t offset = 0;; offset += kPage) {
     MDOF_TRY(const auto list, store.list_squareness(offset, kPage));
-    if (list.empty()) break;
-    for (const Squareness& s : list) {
-      if (machine.squareness.latest ? runs.empty() || (has(runs, s.run_x) && has(runs, s.run_y))
-                                    : s.id == machine.squareness.ids.front())
-        return s;
-    }
+    if (list.empty()) return std::nullopt;
+    const auto found = std::find_if(list.begin(), list.end(), is_it);
+    if (found != list.end()) return *found;
   }
-  if (!machine.squareness.latest)
-    return fail(ErrorCode::not_found, store.file().string() + ": has no squareness " +
-                                          std::to_string(machine.squareness.ids.front()));
+}
+
+// The newest fit of runs that the axes name; of axes without runs the newest.
+Result<Squareness> squareness_of(store::Store& store, const Machine& machine,
+                                 const std::vector<std::int64_t>& runs) {
+  if (!machine.squareness.latest) return find_squareness(store, machine.squareness.ids.front());
+  if (runs.empty()) return find_squareness(store, std::nullopt);
+  MDOF_TRY(const auto found, newest_squareness(store, [&](const Squareness& s) {
+             return has(runs, s.run_x) && has(runs, s.run_y);
+           }));
+  if (found) return *found;
   return fail(ErrorCode::not_found,
               store.file().string() +
                   ": has no squareness of the runs that the machine names; fit "
@@ -216,7 +221,7 @@ Status take_squareness(store::Store& store, Machine& machine, StoredErrors& all)
   LocationError& EC0Y = frame->location[kAboutZ];
   if (EC0Y.value || machine.find("X")->location[kAboutZ].value)
     return bad_input("squareness of the machine: EC0Y_urad or EC0X_urad is given too; give one");
-  MDOF_TRY(const Squareness stored, find_squareness(store, machine, all.runs));
+  MDOF_TRY(const Squareness stored, squareness_of(store, machine, all.runs));
   MDOF_TRY(const FittedSquareness fitted, stored_squareness(store, stored));
   EC0Y = {fitted.squareness.EC0Y_rad, fitted.squareness.u_EC0Y_rad};
   machine.simulated = machine.simulated || fitted.squareness.simulated;
@@ -234,6 +239,15 @@ Status take_squareness(store::Store& store, Machine& machine, StoredErrors& all)
 }
 
 }  // namespace
+
+Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id) {
+  MDOF_TRY(const auto found,
+           newest_squareness(store, [&](const Squareness& s) { return !id || s.id == *id; }));
+  if (found) return *found;
+  return fail(ErrorCode::not_found,
+              store.file().string() + ": has no squareness" +
+                  (id ? " " + std::to_string(*id) : "; fit one of a run of X and a run of Y"));
+}
 
 Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine) {
   StoredErrors all;

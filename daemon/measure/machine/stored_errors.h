@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,8 @@ struct StoredErrors {
 // the description says; an error that the description has too; a table whose straightness has its
 // slope beside a squareness that has it again, or that is stated elsewhere than the squareness.
 Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine);
+
+// The squareness of this number; without one the newest. Error: not_found.
+Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id);
 
 }  // namespace mdof::daemon

@@ -188,7 +188,7 @@ bool Check::passed() const {
 
 Result<Check> check_export(const Format& format, const std::vector<CompensationTable>& tables,
                            const Export& exported, const ExportOptions& options) {
-  MDOF_TRY(const auto applied, format.read(exported.files));
+  MDOF_TRY(const auto applied, format.axes.read(exported.files));
   Check check;
   check.most_residual_m = most_residual(options);
   check.share = options.residual_share;

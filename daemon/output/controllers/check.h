@@ -18,7 +18,7 @@ struct Control {
 };
 
 struct CheckedError {
-  std::string error;
+  std::string error;  // "EXX"; of a volumetric table the command, "X"
   bool angle = false;
   bool one_way = false;  // the controller holds one value for both approaches: their mean is judged
   double before = 0;     // largest error without the correction, m or rad
@@ -41,5 +41,12 @@ struct Check {
 // has.
 Result<Check> check_export(const Format& format, const std::vector<CompensationTable>& tables,
                            const Export& exported, const ExportOptions& options);
+// The same of a volumetric table: at its nodes and in the middle of their cells. `error` is the
+// command that is corrected.
+Result<Check> check_export(const Format& format, const VolumetricTable& table,
+                           const Export& exported, const ExportOptions& options);
+// The same of the squareness: how far the tool leaves the perpendicular of X as Y is commanded.
+Result<Check> check_export(const Format& format, const SquareAxes& axes, const Export& exported,
+                           const ExportOptions& options);
 
 }  // namespace mdof::controllers

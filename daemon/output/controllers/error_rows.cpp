@@ -16,12 +16,6 @@ constexpr double kTenthOfMicrometre = 1e-7;
 constexpr double kMostOfPosition_m = 200;  // in whole 0.1 µm of 32 bits
 constexpr const char* kWeihongFile = "axeserr.dat";
 
-std::string commented(const std::vector<std::string>& lines, const char* sign) {
-  std::string text;
-  for (const std::string& line : lines) text += std::string(sign) + " " + line + "\n";
-  return text;
-}
-
 std::string tenths_text(double m) {
   return fixed(std::round(m / kTenthOfMicrometre), 0);
 }

@@ -1,6 +1,8 @@
 // Compensation tables as files of machine controllers: pure functions from values to texts and
 // back.
 //
+// What goes in is tables of axes, a volumetric table, or the squareness of X and Y.
+//
 // Sense. A table holds errors E = actual - nominal of the body that moves. What is added to the
 // command of an axis so that the error vanishes is factor * E: of positioning -E whichever body
 // moves, of the others by the machine's chain (schema/rig/correction.h). A controller's file may
@@ -9,12 +11,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "schema/base/result.h"
 #include "schema/compensation_table.h"
+#include "schema/rig/chain.h"
+#include "schema/uncertainty/budget.h"
+#include "schema/volumetric/volumetric_table.h"
 
 namespace mdof::controllers {
 
@@ -65,6 +71,34 @@ struct AppliedCorrection {
   std::vector<double> position_m, forward, reverse;  // correction, m or rad
 };
 
+// The angle between X and Y, and how the machine's commands go.
+struct SquareAxes {
+  std::int64_t id = 0;  // of the stored squareness
+  double EC0Y_rad = 0;
+  Budget budget;  // of EC0Y
+  Chain machine;
+};
+
+// Of each pair: to files, and what the controller does with them by its own strict grammar; an
+// error of the latter names file and line. Both are nullptr where the controller holds no such
+// thing.
+struct AxisFiles {
+  Result<Export> (*write)(const std::vector<CompensationTable>& tables,
+                          const ExportOptions& options) = nullptr;
+  Result<std::vector<AppliedCorrection>> (*read)(const std::vector<ControllerFile>& files) =
+      nullptr;
+};
+struct VolumeFiles {
+  Result<Export> (*write)(const VolumetricTable& table, const ExportOptions& options) = nullptr;
+  // Its grid and corrections, linear between the nodes; nothing else of a table is in the files.
+  Result<VolumetricTable> (*read)(const std::vector<ControllerFile>& files) = nullptr;
+};
+struct SquareFiles {
+  Result<Export> (*write)(const SquareAxes& axes, const ExportOptions& options) = nullptr;
+  // k: the controller moves X to x + k y, where x and y are commanded.
+  Result<double> (*read)(const std::vector<ControllerFile>& files) = nullptr;
+};
+
 struct Format {
   const char* name;   // "linuxcnc"
   const char* of;     // the controller
@@ -75,10 +109,9 @@ struct Format {
   bool sign_confirmed;  // else the export has to be asked for
   double quantum_m;     // step of its numbers
   bool takes_home;      // ExportOptions::home_m is taken out of it
-  Result<Export> (*write)(const std::vector<CompensationTable>& tables,
-                          const ExportOptions& options);
-  // The controller's own strict grammar; an error names file and line.
-  Result<std::vector<AppliedCorrection>> (*read)(const std::vector<ControllerFile>& files);
+  AxisFiles axes;       // one of the three
+  VolumeFiles volume;
+  SquareFiles square;
 };
 
 // In the order of the help.

@@ -138,10 +138,8 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
   return {};
 }
 
-namespace {
-
-// For comments of controllers: a mark quotes what a run says, and nothing of it may be a line of
-// its own or a letter that the controller does not know.
+// A mark quotes what a run says, and nothing of it may be a line of its own or a letter that the
+// controller does not know.
 std::string one_plain_line(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kPlain[] = {
       {"µ", "u"}, {"±", "+-"}, {"°", " deg"}};
@@ -157,7 +155,11 @@ std::string one_plain_line(std::string_view text) {
   return line;
 }
 
-}  // namespace
+std::string commented(const std::vector<std::string>& lines, const std::string& sign) {
+  std::string text;
+  for (const std::string& line : lines) text += sign + " " + line + "\n";
+  return text;
+}
 
 std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
                                     const std::string& sense) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "daemon/output/controllers/export.h"
@@ -26,6 +27,10 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables);
 // The lines that every file with comments has: table, hash, sense, marks. Without comment signs.
 std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
                                     const std::string& sense);
+// For a comment: in ASCII and without ends of lines.
+std::string one_plain_line(std::string_view text);
+// Each behind `sign` and a blank, with an end of line.
+std::string commented(const std::vector<std::string>& lines, const std::string& sign);
 
 // Mean of both approaches at a position: linear between the points, the ends held.
 double mean_error_at(const Series& series, double position_m);

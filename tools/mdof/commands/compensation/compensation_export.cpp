@@ -95,8 +95,9 @@ std::string exported_json(const ExportedTables& exported, const std::vector<std:
   json.field("sign_confirmed", exported.format->sign_confirmed);
   json.field("simulated", exported.simulated).field("doubtful", exported.doubtful);
   json.key("tables").begin_array();
-  for (const auto& table : exported.tables) json.value(table.id);
-  json.end_array();
+  for (const std::int64_t table : exported.tables) json.value(table);
+  json.end_array().key("squareness");
+  exported.squareness > 0 ? json.value(exported.squareness) : json.null();
   write_strings(json, "files", names);
   json.key("written").begin_array();
   for (const auto& written : exported.files.written)
@@ -118,6 +119,7 @@ std::string exported_json(const ExportedTables& exported, const std::vector<std:
 std::string exported_text(const ExportedTables& exported, const std::vector<std::string>& names) {
   std::string text;
   for (const auto& name : names) text += name + "\n";
+  if (exported.squareness > 0) text += exported.files.files.front().text;  // the line to paste
   text += std::string("sense: ") + exported.format->sense + "\n";
   for (const auto& written : exported.files.written)
     text += written.error + ": " + std::to_string(written.points) + " of " +
@@ -164,7 +166,9 @@ Command compensation_export_command() {
           .footer =
               "Examples:\n"
               "  mdof compensation export --list\n"
-              "  mdof compensation export 4 5 6 --format linuxcnc --tolerance-um 0.1 --out comp",
+              "  mdof compensation export 4 5 6 --format linuxcnc --tolerance-um 0.1 --out comp\n"
+              "  mdof compensation export 7 --format dynomotion --out geo\n"
+              "  mdof compensation export --squareness latest --format klipper --out skew",
           .declare = declare_export_tables};
 }
 

@@ -1,8 +1,12 @@
 #include "tools/mdof/commands/compensation/exported.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 
+#include "daemon/measure/evaluation.h"
+#include "daemon/measure/machine/stored_errors.h"
+#include "daemon/measure/machine/volumetric.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/run_json.h"
@@ -23,8 +27,6 @@ Status check_request(const ExportRequest& request) {
     return fail(ErrorCode::usage,
                 "for which controller? Give --format; mdof compensation export "
                 "--list has them");
-  if (request.tables.empty())
-    return fail(ErrorCode::usage, "which table? Give its number; mdof compensation list has them");
   if (!std::isfinite(request.tolerance_um) || !std::isfinite(request.home_mm))
     return fail(ErrorCode::usage, "--tolerance-um and --home-mm must be finite numbers");
   if (!(request.residual_um > 0 && request.residual_um <= 1000))
@@ -34,26 +36,38 @@ Status check_request(const ExportRequest& request) {
   return {};
 }
 
-// What nobody may take for a measured table in force is refused, or marked where it is asked for.
-Status judge_table(store::Store& store, const CompensationTable& table,
-                   const ExportRequest& request, ExportedTables& out) {
-  const std::string name = "table " + std::to_string(table.id);
-  if (table.without_stated_point)
-    return bad_input(name + " does not say at which point it holds; build it again from its runs");
-  MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
+// What nobody may take for a measured result is refused, or marked where it is asked for.
+Status judge(const daemon::Judged& judged, const ExportRequest& request, ExportedTables& out) {
   MDOF_CHECK(daemon::check_gate(judged, request.consent, "it is not exported"));
   auto& marks = out.options.marks;
   for (auto& mark : daemon::marks_of(judged)) marks.push_back(std::move(mark));
   out.simulated = out.simulated || judged.simulated;
   out.doubtful = out.doubtful || !judged.doubtful.empty();
-  MDOF_TRY(const std::int64_t generation, generation_of(store, table));
-  // Positioning is never in force: mdofd does not serve it.
-  if (generation > 0 || table.has_positioning()) return {};
+  return {};
+}
+
+Status judge_active(std::int64_t table, std::int64_t generation, const ExportRequest& request,
+                    std::vector<std::string>& marks) {
+  if (generation > 0) return {};
+  const std::string name = "table " + std::to_string(table);
   if (!request.not_in_force)
     return bad_input(name + " is not active; activate it (mdof compensation activate " +
-                     std::to_string(table.id) + "), or ask with --not-in-force");
+                     std::to_string(table) + "), or ask with --not-in-force");
   marks.push_back("NOT ACTIVE: " + name + " was not active when it was exported");
   return {};
+}
+
+Status judge_table(store::Store& store, const CompensationTable& table,
+                   const ExportRequest& request, ExportedTables& out) {
+  if (table.without_stated_point)
+    return bad_input("table " + std::to_string(table.id) +
+                     " does not say at which point it holds; build it again from its runs");
+  MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
+  MDOF_CHECK(judge(judged, request, out));
+  // Positioning is never in force: mdofd does not serve it.
+  if (table.has_positioning()) return {};
+  MDOF_TRY(const std::int64_t generation, generation_of(store, table));
+  return judge_active(table.id, generation, request, out.options.marks);
 }
 
 Status judge_sign(const controllers::Format& format, const ExportRequest& request,
@@ -69,11 +83,23 @@ Status judge_sign(const controllers::Format& format, const ExportRequest& reques
   return {};
 }
 
+Result<std::int64_t> squareness_number(const std::string& word) {
+  std::int64_t number = 0;
+  const char* const end = word.data() + word.size();
+  if (std::from_chars(word.data(), end, number).ptr == end && number > 0) return number;
+  return fail(ErrorCode::usage,
+              "--squareness takes the number of a squareness, or latest; \"" + word + "\" is none");
+}
+
 }  // namespace
 
 void add_export_options(CLI::App& command, ExportRequest& request) {
   command.add_option("TABLE", request.tables, "Numbers of tables, one for each axis")
       ->type_name("");
+  command
+      .add_option("--squareness", request.squareness,
+                  "Number of a squareness, or latest; for controllers that shear their commands")
+      ->type_name("NUMBER");
   command.add_option("--format", request.format, "As of mdof compensation export --list")
       ->type_name("NAME");
   command
@@ -104,10 +130,92 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
   add_database_option(command, request.database);
 }
 
+namespace {
+
+Status export_axes(store::Store& store, const ExportRequest& request,
+                   const algo::TableLimits& limits, ExportedTables& out) {
+  std::vector<CompensationTable> tables;
+  for (const std::int64_t id : request.tables) {
+    MDOF_TRY(const bool volume, store.is_volumetric(id));
+    if (volume)
+      return fail(ErrorCode::usage, "table " + std::to_string(id) + " is of a volume, and " +
+                                        out.format->name + " holds " + out.format->holds);
+    MDOF_TRY(CompensationTable table, store.table(id));
+    MDOF_CHECK(judge_table(store, table, request, out));
+    MDOF_CHECK(algo::check_limits(table, limits));
+    tables.push_back(std::move(table));
+  }
+  MDOF_TRY(out.files, out.format->axes.write(tables, out.options));
+  MDOF_TRY(out.check, controllers::check_export(*out.format, tables, out.files, out.options));
+  return {};
+}
+
+Status export_volume(store::Store& store, const ExportRequest& request,
+                     const algo::TableLimits& limits, ExportedTables& out) {
+  const std::int64_t id = request.tables.front();
+  MDOF_TRY(const bool volume, store.is_volumetric(id));
+  if (!volume || request.tables.size() > 1)
+    return fail(ErrorCode::usage, std::string(out.format->name) +
+                                      " takes one volumetric table (mdof compensation build "
+                                      "--machine), and nothing else");
+  MDOF_TRY(const VolumetricTable table, store.volumetric(id));
+  MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
+  MDOF_CHECK(judge(judged, request, out));
+  MDOF_TRY(const std::int64_t generation, generation_of(store, table));
+  MDOF_CHECK(judge_active(id, generation, request, out.options.marks));
+  MDOF_CHECK(algo::check_limits(table, limits));
+  MDOF_TRY(out.files, out.format->volume.write(table, out.options));
+  MDOF_TRY(out.check, controllers::check_export(*out.format, table, out.files, out.options));
+  return {};
+}
+
+// The machine of the run's rig or configuration.
+Result<Chain> chain_of_run(store::Store& store, std::int64_t id) {
+  MDOF_TRY(const Run run, store.run(id));
+  MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
+  return rig.machine;
+}
+
+Status export_square(store::Store& store, const ExportRequest& request, ExportedTables& out) {
+  std::optional<std::int64_t> id;
+  if (request.squareness != "latest") {
+    MDOF_TRY(id, squareness_number(request.squareness));
+  }
+  MDOF_TRY(const Squareness stored, daemon::find_squareness(store, id));
+  MDOF_TRY(const daemon::FittedSquareness fitted, daemon::stored_squareness(store, stored));
+  const std::string name = "squareness " + std::to_string(stored.id);
+  MDOF_CHECK(
+      judge({name, stored.simulated, daemon::without_information(fitted.notices)}, request, out));
+  MDOF_TRY(const Chain x, chain_of_run(store, stored.run_x));
+  MDOF_TRY(const Chain y, chain_of_run(store, stored.run_y));
+  if (!(x == y))
+    return bad_input(name + ": the rigs of its runs " + std::to_string(stored.run_x) + " and " +
+                     std::to_string(stored.run_y) +
+                     " have different machines; measure both on one");
+  const controllers::SquareAxes axes{stored.id, fitted.squareness.EC0Y_rad, fitted.budgets.front(),
+                                     x};
+  out.squareness = stored.id;
+  MDOF_TRY(out.files, out.format->square.write(axes, out.options));
+  MDOF_TRY(out.check, controllers::check_export(*out.format, axes, out.files, out.options));
+  return {};
+}
+
+}  // namespace
+
 Result<ExportedTables> exported_tables(const ExportRequest& request) {
   MDOF_CHECK(check_request(request));
   ExportedTables out;
   MDOF_TRY(out.format, controllers::format_named(request.format));
+  const bool square = out.format->square.write != nullptr;
+  if (square && (request.squareness.empty() || !request.tables.empty()))
+    return fail(ErrorCode::usage, request.format +
+                                      " holds the squareness alone: give --squareness NUMBER or "
+                                      "latest, and no table");
+  if (!square && !request.squareness.empty())
+    return fail(ErrorCode::usage, request.format + " takes tables, and no --squareness");
+  if (!square && request.tables.empty())
+    return fail(ErrorCode::usage, "which table? Give its number; mdof compensation list has them");
+  out.tables = request.tables;
   out.options.tolerance_m = from_um(request.tolerance_um);
   out.options.residual_m = from_um(request.residual_um);
   out.options.residual_share = request.residual_percent / 100;
@@ -116,21 +224,13 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   if (request.home_given) out.options.home_m = from_mm(request.home_mm);
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
   MDOF_TRY(store::Store store, open_to_read(request.database));
-  for (const std::int64_t id : request.tables) {
-    MDOF_TRY(const bool volume, store.is_volumetric(id));
-    if (volume)
-      return fail(ErrorCode::usage,
-                  "table " + std::to_string(id) +
-                      " is of a volume, which no file of a controller holds yet; controllers read "
-                      "it over the socket (compensation.grid), people by mdof compensation show " +
-                      std::to_string(id) + " --csv");
-    MDOF_TRY(CompensationTable table, store.table(id));
-    MDOF_CHECK(judge_table(store, table, request, out));
-    MDOF_CHECK(algo::check_limits(table, limits));
-    out.tables.push_back(std::move(table));
+  if (square) {
+    MDOF_CHECK(export_square(store, request, out));
+  } else if (out.format->volume.write) {
+    MDOF_CHECK(export_volume(store, request, limits, out));
+  } else {
+    MDOF_CHECK(export_axes(store, request, limits, out));
   }
-  MDOF_TRY(out.files, out.format->write(out.tables, out.options));
-  MDOF_TRY(out.check, controllers::check_export(*out.format, out.tables, out.files, out.options));
   return out;
 }
 

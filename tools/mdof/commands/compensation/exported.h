@@ -20,6 +20,7 @@ namespace mdof::tools {
 struct ExportRequest {
   std::string database, format;
   std::vector<std::int64_t> tables;
+  std::string squareness;  // its number or "latest"; instead of tables
   double tolerance_um = 0, home_mm = 0, residual_um = 1, residual_percent = 20;
   LimitOptions limits;
   bool home_given = false, cut_range = false, not_in_force = false, unverified_sign = false;
@@ -29,8 +30,9 @@ void add_export_options(CLI::App& command, ExportRequest& request);
 
 struct ExportedTables {
   const controllers::Format* format = nullptr;
-  std::vector<CompensationTable> tables;
-  bool simulated = false, doubtful = false;  // any of the tables
+  std::vector<std::int64_t> tables;
+  std::int64_t squareness = 0;               // 0: tables
+  bool simulated = false, doubtful = false;  // any of them
   controllers::ExportOptions options;
   controllers::Export files;
   controllers::Check check;

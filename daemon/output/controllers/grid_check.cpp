@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+
+#include "algo/compensation/volumetric.h"
+#include "daemon/output/controllers/check.h"
+
+namespace mdof::controllers {
+namespace {
+
+constexpr double kRoundingOfGrid_m = 1e-12;
+constexpr std::string_view kCommands = "XYZ";
+
+// Bounds and controls of what was measured with and without the correction, and with mistakes.
+struct Residuals {
+  double before = 0, with = 0, wrong_sign = 0;
+  std::optional<double> exchanged;  // X and Y; none: there is no such mistake
+  double exchange = 0;              // what that mistake changes
+};
+
+CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
+                       const Format& format, const ExportOptions& options) {
+  CheckedError e;
+  e.error = name;
+  e.angle = angle;
+  e.before = r.before;
+  e.residual = r.with;
+  const double step = format.quantum_m + kRoundingOfGrid_m;
+  e.bound = std::min({step, options.residual_m, std::max(options.residual_share * e.before, step)});
+  e.cancels = e.residual <= e.bound;
+  e.controls.push_back(
+      {"wrong sign", r.wrong_sign, r.wrong_sign > e.bound, 2 * r.before <= 2 * e.bound});
+  if (r.exchanged)
+    e.controls.push_back(
+        {"X and Y exchanged", *r.exchanged, *r.exchanged > e.bound, r.exchange <= 2 * e.bound});
+  return e;
+}
+
+// Nodes, and the middles between one and the next along all axes of the grid.
+std::vector<Vec3> places_of(const VolumetricTable& table) {
+  std::vector<Vec3> places;
+  for (std::size_t node = 0; node < table.nodes(); ++node) {
+    const Vec3 at = table.command_at(node);
+    places.push_back(at);
+    Vec3 middle = at;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& all = table.command_m[k];
+      const auto next = std::upper_bound(all.begin(), all.end(), at[k]);
+      if (next != all.end()) middle[k] = (at[k] + *next) / 2;
+    }
+    places.push_back(middle);
+  }
+  return places;
+}
+
+Residuals residuals_of(const VolumetricTable& table, const VolumetricTable& applied,
+                       std::size_t k) {
+  Residuals r;
+  if (k < 2) r.exchanged = 0;
+  for (const Vec3& at : places_of(table)) {
+    const double wanted = algo::volumetric_at(table, at).correction_m[k];
+    const Vec3 added = algo::volumetric_at(applied, at).correction_m;
+    r.before = std::max(r.before, std::abs(wanted));
+    r.with = std::max(r.with, std::abs(added[k] - wanted));
+    r.wrong_sign = std::max(r.wrong_sign, std::abs(-added[k] - wanted));
+    if (!r.exchanged) continue;
+    r.exchanged = std::max(*r.exchanged, std::abs(added[1 - k] - wanted));
+    r.exchange = std::max(r.exchange, std::abs(added[1 - k] - added[k]));
+  }
+  return r;
+}
+
+// What the tool goes along X by a metre of Y's command, where X goes to x + k y; by the bodies of
+// the chain, whose lines enclose 90 deg + EC0Y.
+double leaning(const SquareAxes& axes, double k) {
+  const auto moved = [&](char axis, double command) {
+    const ChainAxis* of = axes.machine.find(axis);
+    const double body = of->against_command ? -command : command;
+    return of->carries_work ? -body : body;  // the tool against the work
+  };
+  const double y = moved('Y', 1), x = moved('X', k);
+  return x - y * std::tan(axes.EC0Y_rad);
+}
+
+}  // namespace
+
+Result<Check> check_export(const Format& format, const VolumetricTable& table,
+                           const Export& exported, const ExportOptions& options) {
+  MDOF_TRY(const VolumetricTable applied, format.volume.read(exported.files));
+  Check check;
+  check.most_residual_m = options.residual_m;
+  check.share = options.residual_share;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (table.machine.find(kCommands[k]))
+      check.errors.push_back(judged_by(std::string(1, kCommands[k]), false,
+                                       residuals_of(table, applied, k), format, options));
+  return check;
+}
+
+Result<Check> check_export(const Format& format, const SquareAxes& axes, const Export& exported,
+                           const ExportOptions& options) {
+  MDOF_TRY(const double k, format.square.read(exported.files));
+  Check check;
+  check.most_residual_m = options.residual_m;
+  check.share = options.residual_share;
+  const Residuals r{std::abs(leaning(axes, 0)), std::abs(leaning(axes, k)),
+                    std::abs(leaning(axes, -k)), std::nullopt, 0};
+  check.errors.push_back(judged_by("EC0Y", true, r, format, options));
+  return check;
+}
+
+}  // namespace mdof::controllers

@@ -70,19 +70,6 @@ std::array<Line, 5> references(Axis axis, const std::vector<TargetMean>& mean,
   return lines;
 }
 
-// The same as shares of the means at the targets.
-std::array<std::vector<Reference>, kErrorCount> what_values_refer_to(const CompensationTable& table,
-                                                                     const TableOptions& options) {
-  const std::size_t n = table.position_m.size();
-  std::array<std::vector<Reference>, kErrorCount> all;
-  for (std::size_t k = 0; k < kErrorCount; ++k)
-    for (const double at_m : table.position_m)
-      all[k].push_back(error_names(table.axis)[k].angle ? start(n)
-                       : options.remove_slope           ? line_at(table.position_m, at_m)
-                                                        : as_measured(n));
-  return all;
-}
-
 void fill_side(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                Approach approach, const std::vector<TargetMean>& grid,
                const std::array<Line, 5>& reference, std::array<std::vector<double>, 5>& values) {
@@ -203,10 +190,21 @@ Result<TableOfMeans> table_of_means(const std::vector<Run>& measured, const Tabl
   return out;
 }
 
+std::array<std::vector<Reference>, kErrorCount> references_of(const CompensationTable& table) {
+  const std::size_t n = table.position_m.size();
+  std::array<std::vector<Reference>, kErrorCount> all;
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    for (const double at_m : table.position_m)
+      all[k].push_back(error_names(table.axis)[k].angle ? start(n)
+                       : table.slope_removed            ? line_at(table.position_m, at_m)
+                                                        : as_measured(n));
+  return all;
+}
+
 Result<CompensationTable> build_table(const std::vector<Run>& measured,
                                       const TableOptions& options) {
   MDOF_TRY(TableOfMeans of, table_of_means(measured, options));
-  const auto what = what_values_refer_to(of.table, options);
+  const auto what = references_of(of.table);
   const MovingAxis moving{of.table.axis, of.table.sides};
   of.table.u_forward = table_uncertainty(moving, of.points, of.grid, Approach::forward, what);
   of.table.u_reverse = table_uncertainty(moving, of.points, of.grid, Approach::reverse, what);

@@ -30,6 +30,10 @@ struct TableOfMeans {
   std::vector<TargetMean> grid;       // of both approaches
 };
 Result<TableOfMeans> table_of_means(const std::vector<Run>& runs, const TableOptions& options);
+// What the values of a table refer to, as shares of the means at its positions: of each named error
+// and position the share of each position.
+std::array<std::vector<std::vector<double>>, kErrorCount> references_of(
+    const CompensationTable& table);
 // What their table makes up for, as uneven_visits(), of all runs together, counted on from one to
 // the next. Errors: other targets.
 Result<Notices> uneven_visits_of(const std::vector<Run>& runs);

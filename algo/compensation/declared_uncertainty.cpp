@@ -79,44 +79,53 @@ Result<std::map<std::string, PartsOfRuns>> all_contributors(const std::vector<Ri
   return all;
 }
 
-using Squares = std::array<std::vector<double>, 5>;
-
-void add_squares(const std::array<std::vector<double>, 5>& shifted,
-                 const std::array<std::vector<double>, 5>& values, Squares& squares) {
-  for (std::size_t k = 0; k < kErrorCount; ++k)
-    for (std::size_t i = 0; i < values[k].size(); ++i)
-      if (const double by = shifted[k][i] - values[k][i]; std::isfinite(by))
-        squares[k][i] += by * by;
-}
-
-Squares zeros(std::size_t n) {
-  Squares squares;
-  squares.fill(std::vector<double>(n, 0.0));
-  return squares;
+void add_products(const std::array<std::vector<double>, 5>& shifted,
+                  const std::array<std::vector<double>, 5>& values,
+                  std::vector<Covariance5>& products) {
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    Errors5 by{};
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      by[k] = shifted[k][i] - values[k][i];
+      if (!std::isfinite(by[k])) by[k] = 0;
+    }
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      for (std::size_t l = 0; l < kErrorCount; ++l)
+        products[i][k * kErrorCount + l] += by[k] * by[l];
+  }
 }
 
 }  // namespace
 
-Status add_declared_uncertainty(CompensationTable& table, const std::vector<Rig>& rigs,
-                                const std::vector<Run>& measured, const TableOptions& options) {
+Result<DeclaredCovariance> declared_covariance(const CompensationTable& table,
+                                               const std::vector<Rig>& rigs,
+                                               const std::vector<Run>& measured,
+                                               const TableOptions& options) {
   std::vector<Run> runs;
   for (const Run& run : measured) runs.push_back(restate(run, options.stated));
   MDOF_TRY(const auto all, all_contributors(rigs, runs));
-  if (all.empty()) return {};
-  const std::size_t n = table.position_m.size();
-  Squares forward = zeros(n), reverse = zeros(n);
+  DeclaredCovariance sum;
+  if (all.empty()) return sum;
+  sum.forward = sum.reverse = std::vector<Covariance5>(table.position_m.size(), Covariance5{});
   for (const auto& [name, parts] : all)
     for (const std::vector<PointShifts>& part : parts) {
       std::vector<Run> shifted = runs;
       for (std::size_t r = 0; r < runs.size(); ++r) shift(shifted[r].points, part[r]);
       MDOF_TRY(const TableOfMeans built, table_of_means(shifted, options));
-      add_squares(built.table.forward, table.forward, forward);
-      add_squares(built.table.reverse, table.reverse, reverse);
+      add_products(built.table.forward, table.forward, sum.forward);
+      add_products(built.table.reverse, table.reverse, sum.reverse);
     }
+  return sum;
+}
+
+Status add_declared_uncertainty(CompensationTable& table, const std::vector<Rig>& rigs,
+                                const std::vector<Run>& runs, const TableOptions& options) {
+  MDOF_TRY(const DeclaredCovariance sum, declared_covariance(table, rigs, runs, options));
+  if (sum.forward.empty()) return {};
   for (std::size_t k = 0; k < kErrorCount; ++k) {
-    table.u_declared[k].resize(n);
-    for (std::size_t i = 0; i < n; ++i)
-      table.u_declared[k][i] = std::sqrt(std::max(forward[k][i], reverse[k][i]));
+    const std::size_t own = k * kErrorCount + k;
+    table.u_declared[k].clear();
+    for (std::size_t i = 0; i < table.position_m.size(); ++i)
+      table.u_declared[k].push_back(std::sqrt(std::max(sum.forward[i][own], sum.reverse[i][own])));
   }
   return {};
 }

@@ -21,4 +21,14 @@ namespace mdof::algo {
 Status add_declared_uncertainty(CompensationTable& table, const std::vector<Rig>& rigs,
                                 const std::vector<Run>& runs, const TableOptions& options);
 
+// The same as the covariance of the five errors at each position, of each approach; empty where
+// nothing is declared.
+struct DeclaredCovariance {
+  std::vector<Covariance5> forward, reverse;  // named errors
+};
+Result<DeclaredCovariance> declared_covariance(const CompensationTable& table,
+                                               const std::vector<Rig>& rigs,
+                                               const std::vector<Run>& runs,
+                                               const TableOptions& options);
+
 }  // namespace mdof::algo

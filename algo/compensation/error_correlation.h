@@ -1,0 +1,25 @@
+// How the errors of a table hang together: one set of probes shows all five, so that a probe's
+// fault moves several at once. What a lever makes of them needs that.
+#pragma once
+
+#include <vector>
+
+#include "algo/compensation/compensation.h"
+#include "schema/base/result.h"
+#include "schema/compensation_table.h"
+#include "schema/rig/rig.h"
+#include "schema/run.h"
+
+namespace mdof::algo {
+
+// Coefficients of correlation of the named errors' combined u, by position; 1 of an error with
+// itself, 0 with one whose u is 0. What rigs declare goes in as it shifts the table; noise as equal
+// noise of all probes makes it, through the solver and what the values refer to. `table` is that of
+// these runs and options with its u_declared. Errors: as of add_declared_uncertainty(); a rig that
+// cannot see all five errors.
+Result<std::vector<Covariance5>> error_correlations(const CompensationTable& table,
+                                                    const std::vector<Rig>& rigs,
+                                                    const std::vector<Run>& runs,
+                                                    const TableOptions& options);
+
+}  // namespace mdof::algo

@@ -1,0 +1,61 @@
+// What a table makes of a point beside the fixture: errors with levers, told from the vectors of a
+// small turn, and u by the machine's own product of frames.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "algo/compensation/error_correlation.h"
+#include "algo/machine/tool_error.h"
+#include "schema/machine/machine.h"
+
+namespace mdof::test {
+
+// Displacement of the point of the body at `point_m` by the errors of a row: shift + turn x arm.
+inline Eigen::Vector3d moved_by(const CompensationTable& table, std::size_t row,
+                                const Eigen::Vector3d& point_m) {
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    const char kind = error_names(table.axis)[k].name[1];
+    (kind < 'D' ? turn(kind - 'A') : shift(kind - 'X')) = table.forward[k][row];
+  }
+  return shift + turn.cross(point_m);
+}
+
+// One axis that carries the tool at `point_m`, with the table's errors about the fixture.
+inline Machine machine_of(const CompensationTable& table, const Eigen::Vector3d& point_m,
+                          const std::vector<Covariance5>& correlations) {
+  Machine machine;
+  machine.tool_m = {point_m.x(), point_m.y(), point_m.z()};
+  MachineFrame& frame = machine.frames.emplace_back();
+  frame.id = std::string(1, letter(table.axis));
+  frame.kind = FrameKind::linear;
+  frame.direction = static_cast<std::size_t>(letter(table.axis) - 'X');
+  frame.point_moves = true;
+  std::array<std::size_t, kErrorCount> of{};
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    of[k] = std::string_view("XYZABC").find(error_names(table.axis)[k].name[1]);
+    ErrorFunction& f = frame.error[of[k]];
+    f.position = table.position_m;
+    f.forward = table.forward[k];
+    for (std::size_t row = 0; row < table.position_m.size(); ++row)
+      f.u.push_back(table.u_of(table.u_forward, k, row));
+  }
+  for (const Covariance5& c : correlations) {
+    auto& at = frame.correlation.at.emplace_back();
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      for (std::size_t l = 0; l < kErrorCount; ++l) at[of[k]][of[l]] = c[k * kErrorCount + l];
+  }
+  if (!correlations.empty()) frame.correlation.position = table.position_m;
+  return machine;
+}
+
+// u of the tool's place where the axis stands at a row.
+inline Eigen::Vector3d u_of_tool(const Machine& machine, const CompensationTable& table,
+                                 std::size_t row) {
+  algo::Command command{};
+  command[machine.frames.front().direction] = table.position_m[row];
+  return algo::tool_error(machine, command, algo::MachineApproach::forward).u.head<3>();
+}
+
+}  // namespace mdof::test

@@ -1,6 +1,7 @@
 #include "algo/machine/frames.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mdof::algo {
 namespace {
@@ -34,6 +35,35 @@ double value_at(const ErrorFunction& f, const Place& place, MachineApproach appr
   if (f.reverse.empty() || approach == MachineApproach::forward) return forward;
   const double reverse = value_at(f.reverse, place);
   return approach == MachineApproach::reverse ? reverse : (forward + reverse) / 2;
+}
+
+using Matrix6 = Eigen::Matrix<double, kBodyErrors, kBodyErrors>;
+
+// Root of a covariance: L Lᵀ. A pivot that rounding leaves of nothing is nothing.
+Matrix6 root_of(const Matrix6& covariance) {
+  constexpr double kNothing = 1e-12;  // of the variance
+  Matrix6 L = Matrix6::Zero();
+  for (Eigen::Index q = 0; q < L.rows(); ++q) {
+    const double pivot = covariance(q, q) - L.row(q).head(q).squaredNorm();
+    if (!(pivot > kNothing * covariance(q, q))) continue;
+    L(q, q) = std::sqrt(pivot);
+    for (Eigen::Index k = q + 1; k < L.rows(); ++k)
+      L(k, q) = (covariance(k, q) - L.row(k).head(q).dot(L.row(q).head(q))) / L(q, q);
+  }
+  return L;
+}
+
+Matrix6 parts_of(const ErrorCorrelation& correlation, double at,
+                 const std::array<double, kBodyErrors>& u) {
+  const Place place = place_of(correlation.position, at);
+  const auto& low = correlation.at[place.cell];
+  const auto& high = correlation.at[std::min(place.cell + 1, correlation.at.size() - 1)];
+  Matrix6 covariance;
+  for (std::size_t k = 0; k < kBodyErrors; ++k)
+    for (std::size_t l = 0; l < kBodyErrors; ++l)
+      covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) =
+          u[k] * u[l] * (low[k][l] + (high[k][l] - low[k][l]) * place.part);
+  return root_of(covariance);
 }
 
 // Of the line of an axis; of angles, by the rotations one after the other.
@@ -80,7 +110,9 @@ FrameValues values_at(const MachineFrame& frame, const Command& command, Machine
     v.beyond[k] = f.known() && place.beyond;
     v.location[k] = frame.location[k].value.value_or(0);
     v.u_location[k] = frame.location[k].u.value_or(0);
+    v.u_parts(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) = v.u_error[k];
   }
+  if (!frame.correlation.at.empty()) v.u_parts = parts_of(frame.correlation, at, v.u_error);
   return v;
 }
 

@@ -21,7 +21,11 @@ struct FrameValues {
   std::array<double, kBodyErrors> location{};    // the same
   std::array<double, kBodyErrors> u_error{};     // 0 where it is not declared
   std::array<double, kBodyErrors> u_location{};  // the same
-  std::array<bool, kBodyErrors> beyond{};        // the end of the table is held
+  // u of the errors of the body as independent parts: what one standard uncertainty of part q does
+  // to error k is (k, q); lower triangle, the diagonal of u_error where none hang together.
+  Eigen::Matrix<double, kBodyErrors, kBodyErrors> u_parts =
+      Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
+  std::array<bool, kBodyErrors> beyond{};  // the end of the table is held
 };
 FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach);
 std::vector<FrameValues> values_at(const Machine& machine, const Command& command,

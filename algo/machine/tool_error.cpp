@@ -192,12 +192,19 @@ Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
 
 Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
                           const std::vector<FrameValues>& values) {
+  // By frame and independent part of its body's errors.
+  std::vector<Eigen::Matrix<double, 6, kBodyErrors>> parts(
+      values.size(), Eigen::Matrix<double, 6, kBodyErrors>::Zero());
   Vector6 sum = Vector6::Zero();
   for (const ErrorDerivative& d : derivatives) {
     const FrameValues& v = values[d.frame];
-    const Vector6 part = d.d * (d.of_line ? v.u_location[d.k] : v.u_error[d.k]);
-    sum += part.cwiseProduct(part);
+    if (d.of_line) {
+      sum += (d.d * v.u_location[d.k]).cwiseAbs2();
+    } else {
+      parts[d.frame] += d.d * v.u_parts.row(static_cast<Eigen::Index>(d.k));
+    }
   }
+  for (const auto& of_frame : parts) sum += of_frame.cwiseAbs2().rowwise().sum();
   return sum.cwiseSqrt();
 }
 

@@ -33,7 +33,8 @@ std::vector<ErrorDerivative> derivatives(const Machine& machine, const Command& 
 // Sum of derivative times error.
 Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
                      const std::vector<FrameValues>& values);
-// Standard uncertainty by those of the errors, each independent of the others. 0: none declared.
+// Standard uncertainty by those of the errors: of one body as they hang together, of different
+// bodies and of lines independent. 0: none declared.
 Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
                           const std::vector<FrameValues>& values);
 

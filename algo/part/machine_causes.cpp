@@ -46,6 +46,18 @@ Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, con
   return effect;
 }
 
+// u of the errors of bodies at place `p`: each takes with it what hangs together with it of those
+// behind it, so that the causes stay independent.
+void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivative>& all,
+               const std::vector<FrameValues>& values, std::size_t p, MachineCauses& causes) {
+  for (const Known& one : known)
+    for (const ErrorDerivative& d : all)
+      if (!one.of_line && !d.of_line && d.frame == one.frame)
+        causes.axes[one.cause].u_m[p] +=
+            d.d.head<3>() * values[one.frame].u_parts(static_cast<Eigen::Index>(d.k),
+                                                      static_cast<Eigen::Index>(one.k));
+}
+
 }  // namespace
 
 MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m) {
@@ -65,9 +77,9 @@ MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Ve
         const FrameValues& v = values[one.frame];
         causes.axes[one.cause].value_m[p] +=
             d.d.head<3>() * (one.of_line ? v.location : v.error)[one.k];
-        causes.axes[one.cause].u_m[p] +=
-            d.d.head<3>() * (one.of_line ? v.u_location : v.u_error)[one.k];
+        if (one.of_line) causes.axes[one.cause].u_m[p] += d.d.head<3>() * v.u_location[one.k];
       }
+    add_parts(known, all, values, p, causes);
     for (std::size_t s = 0; s < machine.sources.size(); ++s)
       causes.budget[s].u_m[p] =
           effect_of(machine, machine.sources[s], command, all) * machine.sources[s].u;

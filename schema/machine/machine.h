@@ -31,6 +31,14 @@ struct ErrorFunction {
   bool known() const { return !forward.empty(); }
 };
 
+// How the errors of a body hang together that one set of probes has shown: coefficients of
+// correlation by the command, linear between the positions. Empty: each is independent of the
+// others.
+struct ErrorCorrelation {
+  std::vector<double> position;  // m or rad, strictly increasing
+  std::vector<std::array<std::array<double, kBodyErrors>, kBodyErrors>> at;
+};
+
 // Of where the line of an axis lies: a squareness, a place of a rotary axis.
 struct LocationError {
   std::optional<double> value;  // m or rad; none: not measured
@@ -64,6 +72,7 @@ struct MachineFrame {
   double ratio = 0;
   std::array<ErrorFunction, kBodyErrors> error;
   std::array<LocationError, kBodyErrors> location;
+  ErrorCorrelation correlation;                // of the errors of the body
   std::optional<std::array<double, 2>> range;  // of the command that is used, m or rad
 
   // Whether the error was measured; `of_line`: that of the location.

@@ -28,23 +28,41 @@ BudgetCause cause_of(const ErrorSource& source, BudgetModel& model, BudgetStage 
   return cause;
 }
 
-// Those with a declared u, each a cause of its own; in µm or µrad.
+constexpr const char* unit_of(std::size_t k) {
+  return k < 3 ? "um" : "urad";
+}
+
+// An error of a body with a declared u is a cause of its own, with what hangs together with it of
+// the errors behind it; in µm or µrad.
+void add_measured_error(BudgetModel& model, std::size_t i, std::size_t q) {
+  const auto& parts = model.values[i].u_parts;
+  const auto column = static_cast<Eigen::Index>(q);
+  const double u = parts(column, column);
+  if (u == 0) return;
+  BudgetCause cause{error_name(model.machine.frames[i], q),
+                    unit_of(q),
+                    u * 1e6,
+                    SourceShape::normal,
+                    {},
+                    Eigen::Vector3d::Zero()};
+  for (std::size_t k = q; k < kBodyErrors; ++k)
+    if (const double by = parts(static_cast<Eigen::Index>(k), column); by != 0)
+      cause.effects.push_back({i, k, false, 1e-6 * (by / u)});
+  model.causes.push_back(std::move(cause));
+}
+
 void add_measured(BudgetModel& model) {
-  for (std::size_t i = 0; i < model.machine.frames.size(); ++i) {
-    const MachineFrame& frame = model.machine.frames[i];
-    const FrameValues& v = model.values[i];
-    for (std::size_t k = 0; k < kBodyErrors; ++k)
-      for (const bool of_line : {false, true}) {
-        const double u = of_line ? v.u_location[k] : v.u_error[k];
-        if (u == 0) continue;
-        model.causes.push_back({name_of(frame, k, of_line),
-                                k < 3 ? "um" : "urad",
+  for (std::size_t i = 0; i < model.machine.frames.size(); ++i)
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      add_measured_error(model, i, k);
+      if (const double u = model.values[i].u_location[k]; u != 0)
+        model.causes.push_back({location_name(model.machine.frames[i], k),
+                                unit_of(k),
                                 u * 1e6,
                                 SourceShape::normal,
-                                {{i, k, of_line, 1e-6}},
+                                {{i, k, true, 1e-6}},
                                 Eigen::Vector3d::Zero()});
-      }
-  }
+    }
 }
 
 double reach(SourceShape shape) {

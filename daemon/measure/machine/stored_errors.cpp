@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "algo/compensation/error_correlation.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
 #include "schema/imported/series.h"
@@ -87,7 +88,36 @@ Status check_slope(const Machine& machine, const MachineFrame& frame,
                    "take one of them out");
 }
 
-Status take_table(Machine& machine, MachineFrame& frame, const CompensationTable& table) {
+std::size_t body_error_of(const CompensationTable& table, std::size_t named) {
+  return std::string_view("XYZABC").find(error_names(table.axis)[named].name[1]);
+}
+
+// How its errors hang together, by the runs that it was built from.
+Status take_correlation(store::Store& store, MachineFrame& frame, const CompensationTable& table) {
+  std::vector<Run> runs;
+  std::vector<Rig> rigs;
+  for (const std::int64_t id : table.runs) {
+    MDOF_TRY(Run run, store.run(id));
+    MDOF_TRY(Rig rig, rig_of(run.header));
+    runs.push_back(std::move(run));
+    rigs.push_back(std::move(rig));
+  }
+  const algo::TableOptions options{table.slope_removed, true, table.stated, table.machine};
+  const auto all = algo::error_correlations(table, rigs, runs, options);
+  if (!all) return {};  // as what the rigs declare: building the table has said why
+  frame.correlation.position = table.position_m;
+  for (const Covariance5& named : *all) {
+    auto& at = frame.correlation.at.emplace_back();
+    for (std::size_t k = 0; k < kBodyErrors; ++k) at[k][k] = 1;
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      for (std::size_t l = 0; l < kErrorCount; ++l)
+        at[body_error_of(table, k)][body_error_of(table, l)] = named[k * kErrorCount + l];
+  }
+  return {};
+}
+
+Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
+                  const CompensationTable& table) {
   machine.simulated = machine.simulated || table.simulated;
   machine.noise_only = machine.noise_only || table.noise_only();
   if (table.has_positioning()) {
@@ -107,11 +137,10 @@ Status take_table(Machine& machine, MachineFrame& frame, const CompensationTable
     std::vector<double> u;
     for (std::size_t row = 0; row < table.position_m.size(); ++row)
       u.push_back(table.u_of(table.u_forward, named, row));
-    const std::string name = error_names(table.axis)[named].name;
-    MDOF_CHECK(take(frame, std::string_view("XYZABC").find(name[1]),
+    MDOF_CHECK(take(frame, body_error_of(table, named),
                     function_of(table.position_m, table.forward[named], table.reverse[named], u)));
   }
-  return {};
+  return take_correlation(store, frame, table);
 }
 
 void add_new(const std::vector<std::int64_t>& from, std::vector<std::int64_t>& to) {
@@ -162,7 +191,7 @@ Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, Sto
     MDOF_TRY(const BuiltTable built, calculate_table(store, *request));
     append(all.notices, built.notices);
     append(all.doubtful, built.doubtful);
-    MDOF_CHECK(take_table(machine, frame, built.table));
+    MDOF_CHECK(take_table(store, machine, frame, built.table));
   }
   add_new(ids, all.runs);
   return {};
@@ -176,7 +205,7 @@ Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, S
                        letter(table.axis) + "; name tables of the axis");
     MDOF_TRY(Notices doubtful, doubtful_notices(store, table));
     append(all.doubtful, std::move(doubtful));
-    MDOF_CHECK(take_table(machine, frame, table));
+    MDOF_CHECK(take_table(store, machine, frame, table));
     add_new(table.runs, all.runs);
   }
   return {};

@@ -4,7 +4,6 @@
 // figures worth quoting, so many pairs of runs in all.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
 #include <optional>
 
@@ -14,13 +13,17 @@
 #include "algo/uncertainty/run_uncertainty.h"
 #include "algo/uncertainty/two_runs.h"
 #include "daemon/measure/pipeline.h"
+#include "tests/algo/compensation/table_lever.h"
 #include "tests/algo/uncertainty/faulty_fixture.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
+#include "tests/coverage_runs.h"
+#include "tests/daemon/measure/coverage_tally.h"
 
 namespace mdof::daemon {
 namespace {
 
 using algo::test_faults::FaultyFixture;
+using test::coverage_runs;
 
 constexpr double kRate_hz = 250, kDwell_s = 0.5, kMove_s = 0.1;
 constexpr double kWhite_m = 60e-9;   // of a reading
@@ -28,7 +31,8 @@ constexpr double kBeside_m = 20e-9;  // pink: rms; random walk: at the end of th
 constexpr double kDrift_um_per_h = 3, kSquare_urad = 1;
 constexpr int kRepeats = 3;
 constexpr int kWatched = 6;  // the target whose errors are looked at
-constexpr double kTwoSided = 1.959964;
+// A tool below the fixture, and a place far along: the levers of a small machine.
+const Eigen::Vector3d kTool_m(6e-3, -4e-3, -30e-3), kFar_m(40e-3, 20e-3, 10e-3);
 
 enum class Noise { white, pink, walk };  // the others beside the white
 enum class Declares { all, nothing };
@@ -199,22 +203,6 @@ class MeasuredAxis {
   double at_mm_ = -1, step_m_ = 0;
 };
 
-struct Tally {
-  int inside = 0, all = 0;
-  double square = 0, U_square = 0;
-  double percent() const { return 100.0 * inside / all; }
-  double over_spread() const { return std::sqrt(U_square / square) / kTwoSided; }
-};
-using Coverage = std::map<std::string, Tally>;
-
-void count(Coverage& coverage, const std::string& what, double value, double truth, double U) {
-  Tally& tally = coverage[what];
-  ++tally.all;
-  tally.inside += std::abs(value - truth) <= U;
-  tally.square += (value - truth) * (value - truth);
-  tally.U_square += U * U;
-}
-
 // The same run without any fault.
 Run true_run(const Rig& rig) {
   std::vector<double> targets_m;
@@ -253,6 +241,16 @@ void count_table(Coverage& coverage, const Rig& rig, const Run& run, const Run& 
     count(coverage, std::string("table ") + error_names(run.header.axis)[k].name,
           table.forward[k][kWatched - 1], true_table.forward[k][kWatched - 1],
           kTwoSided * table.u_of(table.u_forward, k, kWatched - 1));
+  const auto together = algo::error_correlations(table, {rig}, {run}, options).value();
+  for (const Eigen::Vector3d& p : {kTool_m, kFar_m}) {
+    const Eigen::Vector3d u =
+        test::u_of_tool(test::machine_of(table, p, together), table, kWatched - 1);
+    const Eigen::Vector3d value = test::moved_by(table, kWatched - 1, p);
+    const Eigen::Vector3d true_value = test::moved_by(true_table, kWatched - 1, p);
+    for (int k = 0; k < 3; ++k)
+      count(coverage, std::string(p == kTool_m ? "tool " : "far ") + "xyz"[k], value(k),
+            true_value(k), kTwoSided * u(k));
+  }
 }
 
 double count_figures(Coverage& coverage, const Rig& rig, const Run& run, const Run& truth) {
@@ -329,38 +327,24 @@ Coverage coverage_of(const Lengths& of, int pairs) {
   return coverage;
 }
 
-int pairs_wanted(int otherwise) {
-  const char* wanted = std::getenv("MDOF_COVERAGE_RUNS");
-  return wanted ? std::atoi(wanted) : otherwise;
-}
-
-void expect_covered(const Coverage& coverage, int pairs, double least_percent) {
-  const double three_sd = 65 / std::sqrt(pairs);
-  for (const auto& [what, tally] : coverage) {
-    std::printf("%-22s %5.1f %%, U %.2f of 1.96 times the spread\n", what.c_str(), tally.percent(),
-                tally.over_spread());
-    EXPECT_GT(tally.percent(), least_percent - three_sd) << what;
-  }
-}
-
 TEST(StatedUncertainty, HoldsTheTruthWithWhiteNoise) {
-  const int pairs = pairs_wanted(15);
+  const int pairs = coverage_runs(15);
   expect_covered(coverage_of(Noise::white, pairs), pairs, 95);
 }
 
 TEST(StatedUncertainty, HoldsTheTruthWithPinkNoise) {
-  const int pairs = pairs_wanted(15);
+  const int pairs = coverage_runs(15);
   expect_covered(coverage_of(Noise::pink, pairs), pairs, 94);
 }
 
 TEST(StatedUncertainty, HoldsTheTruthWithARandomWalk) {
-  const int pairs = pairs_wanted(15);
+  const int pairs = coverage_runs(15);
   expect_covered(coverage_of(Noise::walk, pairs), pairs, 94);
 }
 
 // Nothing hides what the run itself has to show of its points.
 TEST(StatedUncertainty, HoldsThePointsOfARigThatDeclaresNothing) {
-  const int pairs = pairs_wanted(100);
+  const int pairs = coverage_runs(100);
   for (const Noise kind : {Noise::white, Noise::pink}) {
     SCOPED_TRACE(static_cast<int>(kind));
     Coverage points = coverage_of(kind, pairs, Declares::nothing);
@@ -375,7 +359,7 @@ TEST(StatedUncertainty, HoldsThePointsOfARigThatDeclaresNothing) {
 
 // From a tenth of the travel of 40 mm to ten times it.
 TEST(StatedUncertainty, HoldsTheTruthWhateverTheLengthOfTheFlatness) {
-  const int pairs = pairs_wanted(8);
+  const int pairs = coverage_runs(8);
   for (const double length_mm : {4.0, 13.0, 400.0}) {
     SCOPED_TRACE(length_mm);
     std::printf("flatness length %g mm\n", length_mm);
@@ -384,14 +368,14 @@ TEST(StatedUncertainty, HoldsTheTruthWhateverTheLengthOfTheFlatness) {
 }
 
 TEST(StatedUncertainty, HoldsTheTruthOfATypicalShopThatDeclaresIt) {
-  const int pairs = pairs_wanted(10);
+  const int pairs = coverage_runs(10);
   expect_covered(coverage_of({10, 15, 20, false, false, 30, true}, pairs), pairs, 93);
 }
 
 // The control: what is not declared is not covered.
 TEST(StatedUncertainty, WithoutOneContributorDoesNot) {
   const Coverage coverage =
-      coverage_of(Noise::white, std::max(25, pairs_wanted(25) / 10), Declares::all, false);
+      coverage_of(Noise::white, std::max(25, coverage_runs(25) / 10), Declares::all, false);
   EXPECT_LT(coverage.at("point EYX").percent(), 88);
 }
 

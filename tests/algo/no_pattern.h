@@ -1,0 +1,24 @@
+// Numbers without a pattern, the same in every build: a wrong index or sign shows in what is made
+// of them.
+#pragma once
+
+#include <cstdint>
+
+#include "schema/base/random.h"
+
+namespace mdof::test {
+
+class NoPattern {
+ public:
+  explicit NoPattern(std::uint64_t seed) : seed_(seed) {}
+  double between(double low, double high) {
+    const Philox words = philox({count_++, 0, 0, 0}, seed_);
+    return low + (high - low) * uniform(words[0], words[1]);
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace mdof::test

@@ -32,6 +32,31 @@ TEST(Coverage, FewAndManyDegreesOfFreedomMeet) {
   EXPECT_NEAR(above, 1.971896, 1e-6);
 }
 
+// The root of the regularized incomplete beta function with 30 digits, by mpmath.
+TEST(Coverage, QuantilesOfStudentToTwelveDigits) {
+  struct Quantiles {
+    double freedom, two_sided, one_sided;
+  };
+  const Quantiles table[] = {
+      {1, 12.7062047361747, 6.313751514675043},     {1.5, 6.016663104427932, 3.705180820096752},
+      {2, 4.302652729749464, 2.919985580353726},    {2.5, 3.574654842003683, 2.558218614135937},
+      {4, 2.776445105197794, 2.13184678632665},     {9.3, 2.251082224684441, 1.826403427771457},
+      {57.5, 2.002088151979508, 1.671788721670813}, {199, 1.971956544251754, 1.652546746166563}};
+  for (const Quantiles& q : table) {
+    EXPECT_NEAR(coverage_factor(q.freedom) / q.two_sided, 1, 1e-12) << q.freedom;
+    EXPECT_NEAR(one_sided_factor(q.freedom) / q.one_sided, 1, 1e-12) << q.freedom;
+  }
+  // By the expansion, whose fourth term is below 1 / 200^4.
+  const Quantiles many[] = {{200, 1.971896223633909, 1.652508100910878},
+                            {250, 1.969498393421154, 1.650971489812858},
+                            {1000, 1.962339080826408, 1.646378817285465},
+                            {9e6, 1.959964248125781, 1.644853796259173}};
+  for (const Quantiles& q : many) {
+    EXPECT_NEAR(coverage_factor(q.freedom), q.two_sided, 3e-9) << q.freedom;
+    EXPECT_NEAR(one_sided_factor(q.freedom), q.one_sided, 3e-9) << q.freedom;
+  }
+}
+
 // H.1.6: end gauge calibration; the guide comes to 16 after cutting 16.7.
 TEST(Coverage, EffectiveDegreesOfFreedomOfTheGaugeBlock) {
   const std::vector<UncertaintyPart> parts = {{25, 18}, {9.7, 25.6}, {2.9, 50}, {16.6, 2}};

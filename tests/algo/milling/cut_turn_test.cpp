@@ -1,0 +1,103 @@
+// A turn of a bent tool of three teeth: how fast its equilibrium is found, its window and its
+// power.
+#include "algo/milling/cut_turn.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+constexpr ChipModel kChips[] = {ChipModel::sine, ChipModel::eq8, ChipModel::trochoid};
+constexpr DeflectionModel kBent[] = {DeflectionModel::paper, DeflectionModel::steady};
+
+MillingPlan bent_cut(ChipModel chip, DeflectionModel deflection, bool up) {
+  MillingPlan plan = parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
+  plan.teeth = 3;
+  plan.helix_rad = 0.5;
+  plan.runout_m = 0.3e-6;
+  plan.runout_angle_rad = 0.4;
+  plan.chip = chip;
+  plan.deflection = deflection;
+  plan.is_up = up;
+  plan.elements = 2;
+  plan.steps_per_turn = 360;
+  return plan;
+}
+
+// Newton's method squares the distance from the root in each step, from some µm to 1e-13 m in
+// four; with a derivative that is wrong it would take tens of steps.
+TEST(CutTurn, EquilibriumIsFoundInFourSteps) {
+  for (const ChipModel chip : kChips)
+    for (const DeflectionModel deflection : kBent)
+      for (const bool up : {true, false}) {
+        const auto turn = cut_turn(bent_cut(chip, deflection, up));
+        ASSERT_TRUE(turn) << turn.error().message;
+        EXPECT_LE(turn->iterations, chip == ChipModel::trochoid ? 5 : 4);
+        EXPECT_GT(deflection_m(bent_cut(chip, deflection, up), *turn, 0).cwiseAbs().maxCoeff(),
+                  0.5e-6);
+      }
+}
+
+// With the edge's force Eq. 8 has derivatives of its own where the chip is thick.
+TEST(CutTurn, EquilibriumWithTheForceOfTheEdgeIsFoundAsFast) {
+  for (const bool up : {true, false}) {
+    MillingPlan plan = bent_cut(ChipModel::eq8, DeflectionModel::paper, up);
+    plan.Kte = 2e3;
+    plan.Kre = 3e3;
+    EXPECT_LE(cut_turn(plan)->iterations, 4);
+  }
+}
+
+// The free edge is where the tip, deflected as it is there, leaves or meets the uncut side.
+TEST(CutTurn, WindowEndsAtTheFreeEdgeOfTheBentTool) {
+  for (const DeflectionModel deflection : kBent)
+    for (const bool up : {true, false}) {
+      const MillingPlan plan = bent_cut(ChipModel::sine, deflection, up);
+      const CutTurn turn = *cut_turn(plan);
+      const CuttingEdge edge(plan, 0, turn.height_m[0]);
+      const double at = up ? turn.exit_rad : turn.entry_rad, r = plan.radius_m();
+      EXPECT_EQ(up ? turn.entry_rad : turn.exit_rad, up ? 0 : kHalfTurn_rad);
+      const auto n = static_cast<Eigen::Index>(edge.turned(at) / (kWholeTurn_rad / 360) + 0.5);
+      const double u_y = deflection_m(plan, turn, turn.height_m[0])(n % 360, 1);
+      EXPECT_NEAR(r * std::cos(at) + u_y, (up ? 1 : -1) * (r - plan.radial_depth_m), 0.02e-6) << up;
+      EXPECT_GT(std::abs(u_y), 0.05e-6);
+    }
+}
+
+// Work by the tangential force of the one tooth that is in: the force on the tool along its way.
+TEST(CutTurn, PowerIsTangentialForceTimesSpeed) {
+  for (const ChipModel chip : kChips)
+    for (const bool up : {true, false}) {
+      MillingPlan plan = bent_cut(chip, DeflectionModel::steady, up);
+      plan.Kte = chip == ChipModel::eq8 ? 2e3 : 0;
+      const CutTurn turn = *cut_turn(plan);
+      const double turns = kWholeTurn_rad * plan.spindle_hz;
+      const double feed = plan.feed_per_tooth_m * plan.teeth / kWholeTurn_rad;
+      int compared = 0;
+      for (std::size_t n = 0; n < 360; ++n) {
+        double power = 0;
+        bool one_in_each = true;
+        for (std::size_t m = 0; m < 2; ++m) {
+          const auto i = static_cast<Eigen::Index>(n), k = static_cast<Eigen::Index>(m);
+          int in = 0;
+          for (int tooth = 0; tooth < 3; ++tooth) {
+            double a = CuttingEdge(plan, tooth, turn.height_m[m]).angle(turn.turned_rad[n]);
+            if (up ? a < 0.05 || a > 1.7 : a < 1.45 || a > 3.1) continue;
+            ++in;
+            power += (turn.fx_N(i, k) * std::cos(a) + turn.fy_N(i, k) * std::sin(a)) * turns *
+                     (plan.radius_m() + (chip == ChipModel::trochoid ? feed * std::cos(a) : 0));
+          }
+          one_in_each = one_in_each && in == 1;
+        }
+        if (!one_in_each) continue;
+        ++compared;
+        EXPECT_NEAR(turn.power_W[n], power, 1e-9 * power) << n;
+      }
+      EXPECT_GT(compared, 200);
+    }
+}
+
+}  // namespace
+}  // namespace mdof::algo

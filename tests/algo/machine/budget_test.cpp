@@ -315,5 +315,32 @@ TEST(MachineBudgetTrials, MixedTrialsTakeTheMarkedCausesFromTheSecondDraw) {
   EXPECT_LT(std::abs(product), 0.15 * square);  // 900 independent numbers: 1/30 in the mean
 }
 
+// EXX: 1 and 3 µm one way, 3 and 5 µm the other: means of 2 and 4 µm, u 0.5 µm; EC0Y 5 µrad.
+TEST(MachineBudget, DesignedAgainstMeasuredByHand) {
+  auto machine = parse_machine(co_planar_machine(), "co-planar").value();
+  machine.sources.clear();
+  const auto x = static_cast<std::size_t>(machine.find("X") - machine.frames.data());
+  const auto y = static_cast<std::size_t>(machine.find("Y") - machine.frames.data());
+  machine.frames[x].error[0] = {{0, 0.06}, {1e-6, 3e-6}, {3e-6, 5e-6}, {5e-7, 5e-7}, {}};
+  machine.frames[y].error[1] = {{}, {6e-6}, {}, {}, {}};
+  for (const double u : {3.0, 4.0}) {
+    ErrorSource source{"s", "um", u, SourceShape::normal, {}};
+    source.acts_on = {{x, 0, false, 1e-6, 0, 0}, {y, 2, false, 1e-6, 0, 0}};
+    machine.sources.push_back(source);
+  }
+  const auto rows = designed_against_measured(machine, {});
+  ASSERT_EQ(rows.size(), 2u);  // of EYY nothing was assumed: it is the furthest above its design
+  EXPECT_EQ(rows[0].name, "EYY");
+  EXPECT_FALSE(rows[0].has_design);
+  EXPECT_EQ(rows[0].k, 1u);
+  EXPECT_EQ(rows[0].designed_u, 0);
+  EXPECT_NEAR(rows[0].measured_u, 6e-6, 1e-18);
+  EXPECT_EQ(rows[1].name, "EXX");
+  EXPECT_TRUE(rows[1].has_design);
+  EXPECT_NEAR(rows[1].designed_u, 5e-6, 1e-18);
+  EXPECT_NEAR(rows[1].measured_u, 1e-6 * std::sqrt((4 + 16) / 2.0 + 0.25), 1e-18);
+  EXPECT_NEAR(rows[1].measured_effect_m, rows[1].measured_u, 1e-18);  // it moves the tool as it is
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -243,5 +243,85 @@ TEST(PerpendicularityTest, APartOfATurnIsRefused) {
   EXPECT_NE(p.error().message.find("whole turn"), std::string::npos);
 }
 
+// A bow of EXX along X alone: below its ends at one quarter, above them at three quarters.
+TEST(Diagonals, TheRangeIsFromTheLowestToTheHighest) {
+  Machine m;
+  m.frames.resize(2);
+  m.frames[0].id = "X";
+  m.frames[1].id = "Y";
+  m.frames[1].direction = 1;
+  for (auto& f : m.frames) f.kind = FrameKind::linear;
+  m.frames[0].range = {0, 0.3};
+  m.frames[1].range = {0, 0.4};
+  m.frames[0].error[0] = {{0, 0.075, 0.225, 0.3}, {0, -5e-6, 10e-6, 0}, {}, {}, {}};
+  const auto d = plane_diagonals(m, 0, 1, 4, MachineApproach::mean);
+  ASSERT_TRUE(d) << d.error().message;
+  EXPECT_NEAR((*d)[0].deviation_m[1], -3e-6, 1e-15);  // X is 3/5 of the diagonal
+  EXPECT_NEAR((*d)[0].deviation_m[3], 6e-6, 1e-15);
+  EXPECT_NEAR((*d)[0].range_m, 9e-6, 1e-15);
+}
+
+// Repeated readings and a declared u are told apart; each kind of line has its degrees of freedom.
+TEST(Diagonals, UncertaintyOfRepeatedAndDeclaredLines) {
+  DiagonalLines lines{{{0.4 - 1e-6, 0.4 + 1e-6}}, {{0.3}}, {{0.5 - 2e-6, 0.5, 0.5 + 2e-6}}, {}, 0};
+  const auto by_repeats = squareness_of_diagonals(lines);
+  ASSERT_TRUE(by_repeats) << by_repeats.error().message;
+  // cos = (d² - x² - y²) / 2xy at a right angle: ∂/∂d = d/xy, ∂/∂x = -1/y.
+  const double of_x = 1e-6 / 0.3, of_d = 2e-6 / std::sqrt(3) * 0.5 / 0.12;
+  EXPECT_NEAR(by_repeats->u_repeat_rad, std::hypot(of_x, of_d), 1e-11);
+  EXPECT_NEAR(by_repeats->u_rad, by_repeats->u_repeat_rad, 1e-15);
+  const double fourths = std::pow(of_x, 4) + std::pow(of_d, 4) / 2;
+  EXPECT_NEAR(by_repeats->freedom, std::pow(std::hypot(of_x, of_d), 4) / fourths, 1e-4);
+  EXPECT_NEAR(by_repeats->U_rad, by_repeats->k * by_repeats->u_rad, 1e-18);
+  lines.u_line_m = 1e-6;
+  const auto both = squareness_of_diagonals(lines);
+  const double declared = 1e-6 * std::sqrt(1 / 0.09 + 1 / 0.16 + 0.25 / 0.0144);
+  EXPECT_NEAR(both->u_repeat_rad, by_repeats->u_repeat_rad, 1e-15);
+  EXPECT_NEAR(both->u_rad, std::hypot(declared, by_repeats->u_rad), 1e-11);
+}
+
+// What the harmonics leave of equal steps: u of a coefficient is s √(2/n).
+TEST(PerpendicularityTest, UncertaintyIsOfWhatTheHarmonicsLeave) {
+  std::mt19937 source(8);
+  CircleReadings r = circle(3e-6, 4e-6, 0, source, true);
+  for (std::size_t i = 0; i < 72; ++i) r.height_m[i] += 1e-7 * std::cos(7 * r.angle_rad[i]);
+  const auto p = perpendicularity(r, 5);
+  ASSERT_TRUE(p) << p.error().message;
+  EXPECT_EQ(p->freedom, 72 - 11);
+  EXPECT_NEAR(p->residual_sd_m, 1e-7 * std::sqrt(36.0 / 61), 1e-15);
+  EXPECT_NEAR(p->harmonics[0].u_m, p->residual_sd_m * std::sqrt(2.0 / 72), 1e-15);
+  EXPECT_NEAR(p->u_rad, p->harmonics[0].u_m / 0.1, 1e-15);
+  EXPECT_NEAR(p->size_rad, 5e-6, 1e-13);
+  EXPECT_NEAR(p->k, 1.99962, 1e-4);  // of 61
+  EXPECT_NEAR(p->U_rad, p->k * p->u_rad, 1e-18);
+  EXPECT_EQ(p->harmonics[4].order, 5);
+  r.tilt_b_rad.clear();
+  EXPECT_FALSE(perpendicularity(r, 5)->tilt_known);
+}
+
+TEST(PerpendicularityTest, NeedsTwoReadingsMoreThanUnknownsAndSixtyDegrees) {
+  const auto readings = [](int n, double step_deg) {
+    CircleReadings r;
+    r.radius_m = 0.1;
+    for (int i = 0; i < n; ++i) {
+      r.angle_rad.push_back(step_deg * i * 0.017453292519943295);
+      r.height_m.push_back(i % 2 ? 1e-6 : 0);
+    }
+    return r;
+  };
+  EXPECT_TRUE(perpendicularity(readings(13, 360.0 / 13), 5));
+  EXPECT_FALSE(perpendicularity(readings(12, 30), 5));
+  EXPECT_TRUE(perpendicularity(readings(11, 30.1), 2));   // 59° are left out
+  EXPECT_FALSE(perpendicularity(readings(11, 29.9), 2));  // 61°
+  CircleReadings shifted = readings(11, 29.9);
+  for (double& a : shifted.angle_rad) a -= 10;  // the gap lies within the turn
+  EXPECT_FALSE(perpendicularity(shifted, 2));
+  CircleReadings r = readings(13, 360.0 / 13);
+  for (const double radius_m : {0.0, -0.1, 100.0}) {
+    r.radius_m = radius_m;
+    EXPECT_FALSE(perpendicularity(r, 1)) << radius_m;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

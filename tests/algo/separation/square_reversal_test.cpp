@@ -55,5 +55,18 @@ TEST(SquareReversalByHand, RefusesCornersThatTellNothing) {
             std::string::npos);
 }
 
+TEST(SquareReversalByHand, KeepsBothFigures) {
+  SquareSetUp first = set_up(1, 12, 3, 2, 10), second = set_up(-1, 4, 4, 1, 10);
+  const auto found = square_reversal(first, second).value();
+  EXPECT_NEAR(found.first_rad, 12e-6, 1e-18);
+  EXPECT_NEAR(found.second_rad, 4e-6, 1e-18);
+  EXPECT_NEAR(found.u_declared_rad, 1.5e-6, 1e-12);
+  EXPECT_FALSE(found.noise_only);
+  first.budget.noise_only = true;
+  EXPECT_FALSE(square_reversal(first, second)->noise_only);
+  second.budget.noise_only = true;
+  EXPECT_TRUE(square_reversal(first, second)->noise_only);
+}
+
 }  // namespace
 }  // namespace mdof::algo

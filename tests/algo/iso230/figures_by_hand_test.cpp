@@ -224,5 +224,77 @@ TEST(ArtefactByHand, OneRigMayKnowIt) {
   EXPECT_EQ(artefact_of(without, without, {})->angle_error_rad, 0);
 }
 
+// 0, 3, -2, 2, 1 µm: a mean of 0.8 µm and a slope of 10 µrad.
+TEST(StraightnessByHand, NamesPeakValleyAndTheUncertaintyOfItsSlope) {
+  const Column x = {0, 10e-3, 20e-3, 30e-3, 40e-3}, y = {0, 3e-6, -2e-6, 2e-6, 1e-6};
+  const mdof::Run run = run_by_hand(
+      Axis::x, x, 1, [&](int, std::size_t i) { return y[i]; }, [](std::size_t) { return 0.0; });
+  const auto figures = straightness(run.header.moving(), run.points);
+  ASSERT_EQ(figures.size(), 6u);
+  EXPECT_EQ(figures[0].approach, std::string("forward"));
+  EXPECT_EQ(figures[2].approach, std::string("reverse"));
+  EXPECT_EQ(figures[0].peak_position_m, 10e-3);
+  EXPECT_EQ(figures[0].valley_position_m, 20e-3);
+  EXPECT_NEAR(figures[0].straightness_least_squares_m, 5.1e-6, 1e-18);
+  // Residuals -0.6, 2.3, -2.8, 1.1, 0: 14.7 µm² of 3 degrees of freedom; Σ(x - x̄)² = 1000 mm².
+  EXPECT_NEAR(figures[0].form_rad, 1e-6 * std::sqrt(14.7 / 3 / 1e-3), 1e-12);
+  const Squareness s = squareness(run,
+                                  run_by_hand(
+                                      Axis::y, x, 1, [&](int, std::size_t i) { return 2 * y[i]; },
+                                      [](std::size_t) { return 0.0; }),
+                                  {})
+                           .value();
+  EXPECT_NEAR(s.form_rad, std::sqrt(5.0) * figures[0].form_rad, 1e-12);
+}
+
+// The third run has the lower half of the targets alone: of the mean that all have there its
+// slope is 30 - 20 urad off, of the others -10 and 0 over the whole; they do not sum to 0.
+TEST(SquarenessByHand, SlopesScatterAboutTheirOwnMean) {
+  const Column x = {-30e-3, -20e-3, -10e-3, 0, 10e-3, 20e-3, 30e-3};
+  const Column slopes = {10e-6, 20e-6, 60e-6};
+  mdof::Run run = run_by_hand(
+      Axis::x, x, 3,
+      [&](int j, std::size_t i) { return slopes[static_cast<std::size_t>(j)] * x[i]; },
+      [](std::size_t) { return 0.0; });
+  std::erase_if(run.points, [](const MeasuredPoint& p) { return p.run == 3 && p.target > 4; });
+  const mdof::Run y = run_by_hand(
+      Axis::y, x, 1, [](int, std::size_t) { return 0.0; }, [](std::size_t) { return 0.0; });
+  // The levels of the runs, by least squares over visits that each pair has: run 3 lies off by what
+  // makes its four visits those of the others in the mean.
+  std::array<double, 3> level{};
+  for (int turn = 0; turn < 1000; ++turn) {
+    std::array<double, 7> place{};
+    for (std::size_t i = 0; i < 7; ++i) {
+      const std::size_t n = i < 4 ? 3 : 2;
+      for (std::size_t j = 0; j < n; ++j) place[i] += (slopes[j] * x[i] - level[j]) / double(n);
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t n = j < 2 ? 7 : 4;
+      level[j] = 0;
+      for (std::size_t i = 0; i < n; ++i) level[j] += (slopes[j] * x[i] - place[i]) / double(n);
+    }
+  }
+  std::array<double, 7> mean{};
+  for (std::size_t i = 0; i < 7; ++i) {
+    const std::size_t n = i < 4 ? 3 : 2;
+    for (std::size_t j = 0; j < n; ++j) mean[i] += (slopes[j] * x[i] - level[j]) / double(n);
+  }
+  std::array<double, 3> slope{};
+  for (std::size_t j = 0; j < 3; ++j) {
+    const std::size_t n = j < 2 ? 7 : 4;
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double off = slopes[j] * x[i] - level[j] - mean[i];
+      sx += x[i], sy += off, sxx += x[i] * x[i], sxy += x[i] * off;
+    }
+    slope[j] = (sxy - sx * sy / double(n)) / (sxx - sx * sx / double(n));
+  }
+  const double middle = (slope[0] + slope[1] + slope[2]) / 3;
+  EXPECT_GT(std::abs(middle), 2e-6);
+  double square = 0;
+  for (const double s : slope) square += (s - middle) * (s - middle);
+  EXPECT_NEAR(squareness(run, y, {}).value().u_slope_EYX_rad, std::sqrt(square / 6), 1e-13);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -1,11 +1,13 @@
 // Seven and six probes that agree, and one that does not.
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "algo/model/fixture.h"
+#include "algo/model/rigid.h"
 #include "algo/points/dwell.h"
 #include "algo/sequence/sequence.h"
 #include "algo/uncertainty/chi_square.h"
@@ -204,6 +206,31 @@ TEST(ChiSquare, TheNoticeHasTheLargestResidual) {
   EXPECT_EQ(test::number(*found, "residual_um"), 3);
   EXPECT_EQ(test::number(*found, "points"), 2);
   EXPECT_EQ(test::number(*found, "of"), 18);
+}
+
+// A probe is linear to 1e-4 of its range, a rectangle: 200 µm make 20 nm / √3. The reading of F may
+// be off until χ² of one degree of freedom is at its limit.
+TEST(ChiSquare, IsFlaggedFromNoiseAndLinearityOn) {
+  const auto solver = Solver::create(rig_of(6), Model::rigid).value();
+  const Residuals residuals(solver, std::vector<double>(6, 200e-6));
+  const Eigen::VectorXd still = rigid_readings(solver.fixture(), 0, Errors5{});
+  const double u = std::hypot(3e-9, 20e-9 / std::sqrt(3.0));
+  // What six readings of one u leave of a change of F: its share of the one direction unseen.
+  const Eigen::MatrixXd J = rigid_jacobian(solver.fixture(), 0, Errors5{});
+  const Eigen::VectorXd left = Eigen::VectorXd::Unit(6, 5) - J * (J.transpose() * J).inverse() *
+                                                                 J.transpose() *
+                                                                 Eigen::VectorXd::Unit(6, 5);
+  const double limit_m = u * std::sqrt(chi_square_limit(1)) / left.norm();
+  for (const double part : {0.995, 1.005}) {
+    MeasuredPoint p;
+    p.point.probe_m.assign(still.data(), still.data() + 6);
+    p.point.probe_m[5] += part * limit_m;
+    p.point.probe_u_m.assign(6, 3e-9);
+    p.errors = solver.solve(0, p.point.probe_m, p.point.probe_u_m);
+    ASSERT_TRUE(p.errors.valid) << p.errors.reason;
+    residuals.test(p);
+    EXPECT_EQ(has_flag(p.point, "residual"), part > 1);
+  }
 }
 
 }  // namespace

@@ -77,5 +77,9 @@ TEST(Decision, OfARangeByUAndOfFewDegreesByStudentsT) {
   EXPECT_EQ(decision(few, 1.0).conformity, Conformity::undecided);
 }
 
+TEST(Decision, KeepsTheLimit) {
+  EXPECT_EQ(decision(budget_of(0.5), 1.25).limit, 1.25);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/algo/no_pattern.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -48,6 +50,50 @@ TEST(MeanUncertainty, OfFewReadings) {
 TEST(MeanUncertainty, OfManyReadingsByTheirMeans) {
   const double few = u_of_runs(4, 64), many = u_of_runs(16, 64);
   EXPECT_NEAR(many, few, 1e-12);
+}
+
+// The rule of mean_uncertainty.h by plain loops, of series that follow themselves.
+double by_plain_loops(const std::vector<double>& x, double sd) {
+  const std::size_t n = x.size();
+  const auto covariance = [&](std::size_t lag) {
+    double sum = 0;
+    for (std::size_t i = lag; i < n; ++i) sum += x[i] * x[i - lag];
+    return sum / static_cast<double>(n);
+  };
+  const double variance = covariance(0), noise = variance * std::sqrt(2.0 / double(n));
+  double pairs = 0, least = HUGE_VAL;
+  std::size_t window = 0;
+  for (std::size_t lag = 0; window < n / 4; lag += 2) {
+    const double pair = std::min(least, covariance(lag) + covariance(lag + 1));
+    if (lag > 0 && pair < noise) break;
+    pairs += pair;
+    least = pair;
+    window = lag + 1;
+  }
+  const double sum = 2 * pairs - variance;
+  const double of_mean =
+      sum < variance ? variance / double(n - 1) : sum / (double(n) - double(2 * window + 1));
+  return std::sqrt(std::max(of_mean, sd * sd / double(n)));
+}
+
+TEST(MeanUncertainty, IsThatOfPlainLoops) {
+  for (const double alike : {0.0, 0.5, 0.9, 0.99})
+    for (const std::size_t n : {4u, 5u, 8u, 9u, 16u, 37u, 100u, 255u, 256u}) {
+      std::vector<double> x;
+      double state = 0, mean = 0, square = 0;
+      test::NoPattern numbers(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        state = alike * state + numbers.between(-1, 1);
+        x.push_back(state);
+        mean += state / static_cast<double>(n);
+      }
+      for (double& v : x) {
+        v -= mean;
+        square += v * v;
+      }
+      const double sd = std::sqrt(square / static_cast<double>(n - 1));
+      EXPECT_NEAR(mean_uncertainty(x, sd), by_plain_loops(x, sd), 1e-13) << alike << " " << n;
+    }
 }
 
 }  // namespace

@@ -241,5 +241,15 @@ TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelOfEachPassStays) {
   }
 }
 
+// The trials of a range by plain loops: their standard deviation and their distance from the range.
+TEST(RangeTrials, FiguresOfTheTrialsByHand) {
+  const std::vector<double> measured = {3, -1, 4, 0},
+                            changes = {1, 0, 0, 0, 0, 2, 0, -3, -5, 1, 0, 0};
+  const RangeTrials trials(measured, changes);
+  // Ranges: {4, -1, 4, 0}: 5; {3, 1, 4, -3}: 7; {-2, 0, 4, 0}: 6.
+  EXPECT_NEAR(trials.standard_deviation(), 1, 1e-15);
+  EXPECT_NEAR(trials.root_mean_square(), std::sqrt((0 + 4 + 1) / 3.0), 1e-15);
+}
+
 }  // namespace
 }  // namespace mdof::algo

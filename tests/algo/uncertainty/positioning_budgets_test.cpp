@@ -4,10 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <random>
 
+#include "algo/uncertainty/positioning/repeatability_interval.h"
+#include "tests/algo/no_pattern.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
 
@@ -217,6 +222,58 @@ TEST(PositioningBudgets, AnEvenSlopeIsNoneOfAStraightness) {
     EXPECT_NEAR(U, expected, 0.05 * expected);
   for (const double U : {straight.E, straight.E_forward, straight.E_reverse})
     EXPECT_LT(U, 0.01 * expected);
+}
+
+// R by its definition, and U by trying all parts of R in steps of a thousandth.
+TEST(Repeatability, ItsUncertaintyIsThatOfAllParts) {
+  // Two targets, three visits from either side; errors of 40 trials.
+  const VisitGroups groups{{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}, 2};
+  test::NoPattern numbers(3);
+  std::vector<double> measured, errors;
+  for (int i = 0; i < 12; ++i) measured.push_back(numbers.between(-2, 2) + (i % 2 ? 1.5 : 0));
+  for (int i = 0; i < 12 * 40; ++i) errors.push_back(numbers.between(-1, 1));
+  const auto R_of = [&](const std::vector<double>& v, RepeatabilityOf of) {
+    double most = 0;
+    for (std::size_t target = 0; target < 2; ++target) {
+      std::array<double, 2> mean{}, s{};
+      for (std::size_t side = 0; side < 2; ++side) {
+        for (std::size_t j = 0; j < 3; ++j) mean[side] += v[4 * j + 2 * target + side] / 3;
+        for (std::size_t j = 0; j < 3; ++j)
+          s[side] += std::pow(v[4 * j + 2 * target + side] - mean[side], 2) / 2;
+        s[side] = std::sqrt(s[side]);
+      }
+      const double both = 2 * s[0] + 2 * s[1] + std::abs(mean[0] - mean[1]);
+      most =
+          std::max(most, of == RepeatabilityOf::forward   ? 4 * s[1]
+                         : of == RepeatabilityOf::reverse ? 4 * s[0]
+                                                          : std::max({both, 4 * s[0], 4 * s[1]}));
+    }
+    return most;
+  };
+  for (const double size : {0.05, 0.3, 1.0, 3.0})
+    for (const RepeatabilityOf of : kRepeatabilities) {
+      std::vector<double> scaled = errors;
+      for (double& e : scaled) e *= size;
+      const double R = R_of(measured, of);
+      EXPECT_NEAR(repeatability_of(groups, measured.data(), of), R, 1e-12);
+      const auto distance = [&](double part) {
+        std::vector<double> off;
+        for (std::size_t t = 0; t < 40; ++t) {
+          std::vector<double> v;
+          for (std::size_t j = 0; j < 12; ++j) v.push_back(part * measured[j] + scaled[12 * t + j]);
+          off.push_back(std::abs(R_of(v, of) - part * R));
+        }
+        std::sort(off.begin(), off.end());
+        return off[38];
+      };
+      double expected = distance(0);
+      if (expected < R) {
+        double part = 0;
+        while (distance(part) < (1 - part) * R) part += 1e-3;
+        expected = std::max((1 - part) * R, distance(1));
+      }
+      EXPECT_NEAR(repeatability_U(groups, measured, scaled, of), expected, 0.006 * R) << size;
+    }
 }
 
 }  // namespace

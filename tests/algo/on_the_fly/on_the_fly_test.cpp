@@ -169,5 +169,21 @@ TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
   expect_in(dense.error().message, "and 1000 Hz a bin of 0.02 mm has ");
 }
 
+// Readings in steps of 0.5 µm, which stay for some rows: u is that of a rectangle, 0.5/√12.
+TEST(OnTheFlyRun, LearnsTheResolutionOfTheProbe) {
+  const MotionLog log;
+  FrameBlock frames = log.frames();
+  for (double& reading_m : frames.probe_m[0]) reading_m = 0.5e-6 * std::round(reading_m / 0.5e-6);
+  OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
+  ASSERT_TRUE(run.push(frames));
+  run.flush();
+  const Sequence sequence = run.sequence();
+  ASSERT_EQ(sequence.points.size(), 38U);
+  std::size_t of_rectangle = 0;
+  for (const MeasuredPoint& p : sequence.points)
+    of_rectangle += p.point.probe_u_m[0] > 0.5e-6 / std::sqrt(12.0) ? 1 : 0;
+  EXPECT_GT(of_rectangle, 30U);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -139,5 +139,40 @@ TEST(PassBins, TooFewScansAndHolesAreNamed) {
   EXPECT_EQ(found.left_out[0].fault, BinFault::too_few);
 }
 
+// What stands between the own readings of a slow probe says nothing; a lost row is told.
+TEST(PassBins, FitOwnReadingsAlone) {
+  auto frames = pass_over(
+      1.2, [](double t) { return 10e-3 * t; }, each, [](double x) { return 1e-6 + 2e-3 * x; });
+  frames.probe_fresh.assign(1, std::vector<std::uint8_t>(frames.size(), 1));
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (i % 3 != 0) {
+      frames.probe_fresh[0][i] = 0;
+      frames.probe_m[0][i] += 5e-6;
+    }
+  PassBins found = found_in(frames, 1);
+  ASSERT_EQ(found.bins.size(), 2U);
+  for (const BinPoint& bin : found.bins) {
+    EXPECT_NEAR(bin.point.probe_m[0], 1e-6 + 2e-3 * bin.point.position_m, 1e-14);
+    EXPECT_NEAR(bin.slope[0], 2e-3, 1e-10);
+    EXPECT_TRUE(bin.point.flags.empty());
+  }
+  // Rows at 450 to 550 ms are of the first bin: one over the range, then one missing.
+  frames.probe_quality.assign(1, std::vector<Quality>(frames.size(), Quality::good));
+  frames.probe_quality[0][480] = Quality::over_range;
+  found = found_in(frames, 1);
+  EXPECT_EQ(found.bins[0].point.flags, std::vector<std::string>{"saturated:A"});
+  EXPECT_TRUE(found.bins[1].point.flags.empty());
+  frames.probe_m[0][481] = std::nan("");
+  found = found_in(frames, 1);
+  EXPECT_EQ(found.bins[0].point.flags, (std::vector<std::string>{"saturated:A", "missing:A"}));
+  for (std::size_t i = 460; i < 530; ++i) frames.probe_m[0][i] = std::nan("");
+  found = found_in(frames, 1);
+  EXPECT_EQ(found.bins[0].point.flags.back(), "lost:A");
+  EXPECT_TRUE(std::isnan(found.bins[0].point.probe_m[0]));
+  EXPECT_TRUE(std::isnan(found.bins[0].point.probe_u_m[0]));
+  EXPECT_TRUE(std::isnan(found.bins[0].slope[0]));
+  EXPECT_FALSE(std::isnan(found.bins[1].point.probe_m[0]));
+}
+
 }  // namespace
 }  // namespace mdof::algo

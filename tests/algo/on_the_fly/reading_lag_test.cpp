@@ -144,5 +144,18 @@ TEST(ReadingLag, TakesTheMeanOfSeveralPasses) {
   EXPECT_NEAR(lag.speed_m_s, (0.02 + 0.02 + 0.04 + 0.01) / 4, 1e-15);
 }
 
+// Readings that are alike both ways are not late, for certain.
+TEST(ReadingLag, OfNoDifferenceIsNone) {
+  std::mt19937_64 engine(1);
+  auto passes = late_passes(engine, 0, 0);
+  for (PassBins& pass : passes)
+    for (BinPoint& bin : pass.bins) bin.point.probe_m = {1e-6};
+  const ReadingLag lag = reading_lags(passes, 1).at(0);
+  EXPECT_EQ(lag.delay_s, 0);
+  EXPECT_EQ(lag.u_delay_s, 0);
+  EXPECT_EQ(lag.effect_m, 0);
+  EXPECT_FALSE(lag.significant);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "algo/uncertainty/coverage.h"
@@ -154,6 +155,54 @@ TEST(Sensitivity, TheTableOfAStraightProbeCorrectsNothing) {
   }
   EXPECT_NEAR(found->from_m, -77e-6, 1e-12);
   EXPECT_NEAR(found->to_m, 83e-6, 1e-12);
+}
+
+// Noise of each visit and one error of the encoder at each place, by the levers of the slope.
+TEST(Sensitivity, UncertaintyIsThatOfVisitsAndPlaces) {
+  const Rig rig = test::rig_x_with("", "", "[encoder]\nu_um = 0.3\n");
+  Traverse traverse = along_z([](double z) { return 1.01 * z; }, 5);
+  traverse.stops.push_back(traverse.stops[1]);
+  traverse.stops.push_back(traverse.stops[4]);
+  for (std::size_t i = 0; i < traverse.stops.size(); ++i)
+    traverse.stops[i].u_reading_m[kA] = 1e-7 * static_cast<double>(1 + i);
+  double mean = 0, square = 0;
+  for (const TraverseStop& stop : traverse.stops) mean += stop.travel_m / 7;
+  for (const TraverseStop& stop : traverse.stops) square += std::pow(stop.travel_m - mean, 2);
+  double variance = 0;
+  std::map<double, double> lever;
+  for (const TraverseStop& stop : traverse.stops) {
+    const double by = (stop.travel_m - mean) / square;
+    variance += std::pow(by * stop.u_reading_m[kA], 2);
+    lever[stop.travel_m] += by;
+  }
+  for (const auto& [place, by] : lever) variance += std::pow(by * 1.01 * 0.3e-6, 2);
+  const auto found = fit_sensitivity(rig, kA, traverse);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->u_sensitivity_1, std::sqrt(variance), 1e-12);
+  EXPECT_TRUE(std::isinf(found->freedom));
+  EXPECT_NEAR(found->residual_sd_m, 0, 1e-12);
+  EXPECT_EQ(found->id, "A");
+}
+
+TEST(Sensitivity, WhatTheLineLeavesIsStated) {
+  int k = 0;
+  const auto found = fit_sensitivity(
+      test::rig_x(), kA, along_z([&](double z) { return z + (k++ % 2 ? 20e-9 : -20e-9); }));
+  // About the mean of -20/11 nm, which alternates symmetrically: nine degrees of freedom.
+  const double mean = -20e-9 / 11;
+  EXPECT_NEAR(found->residual_sd_m, std::sqrt((11 * 400e-18 - 11 * mean * mean) / 9), 1e-15);
+}
+
+// A sensitivity from a half to two is one that probes have.
+TEST(Sensitivity, IsFromAHalfToTwo) {
+  const auto is_taken = [](double by) {
+    return fit_sensitivity(test::rig_x(), kA, along_z([&](double z) { return by * z; }))
+        .has_value();
+  };
+  EXPECT_TRUE(is_taken(0.505));
+  EXPECT_FALSE(is_taken(0.495));
+  EXPECT_TRUE(is_taken(1.98));
+  EXPECT_FALSE(is_taken(2.02));
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "algo/milling/milling.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -97,6 +99,43 @@ TEST(CutTurn, PowerIsTangentialForceTimesSpeed) {
       }
       EXPECT_GT(compared, 200);
     }
+}
+
+TEST(Milling, FiguresAreThoseOfItsTurns) {
+  const MillingPlan plan = bent_cut(ChipModel::sine, DeflectionModel::steady, true);
+  MillingPlan rigid = plan;
+  rigid.deflection = DeflectionModel::rigid;
+  const auto found = milling(plan);
+  ASSERT_TRUE(found) << found.error().message;
+  const CutTurn turn = *cut_turn(plan), stiff = *cut_turn(rigid);
+  const Eigen::MatrixXd force = turn.force_N(), of_stiff = stiff.force_N();
+  const auto largest = [](const Eigen::MatrixXd& f, Eigen::Index k) {
+    double most = 0;
+    for (Eigen::Index i = 0; i < f.rows(); ++i) most = std::max(most, std::abs(f(i, k)));
+    return most;
+  };
+  EXPECT_EQ(found->x_max_N, largest(force, 0));
+  EXPECT_EQ(found->y_max_N, largest(force, 1));
+  EXPECT_EQ(found->x_max_rigid_N, largest(of_stiff, 0));
+  EXPECT_EQ(found->y_max_rigid_N, largest(of_stiff, 1));
+  double x = 0, y = 0, power = 0, bent = 0, bent_rigid = 0;
+  const Eigen::MatrixXd u = deflection_m(plan, turn, 0), v = deflection_m(plan, stiff, 0);
+  for (Eigen::Index i = 0; i < 360; ++i) {
+    x += force(i, 0) / 360;
+    y += force(i, 1) / 360;
+    power += turn.power_W[static_cast<std::size_t>(i)] / 360;
+    bent = std::max(bent, std::hypot(u(i, 0), u(i, 1)));
+    bent_rigid = std::max(bent_rigid, std::hypot(v(i, 0), v(i, 1)));
+  }
+  EXPECT_NEAR(found->x_mean_N, x, 1e-12);
+  EXPECT_NEAR(found->y_mean_N, y, 1e-12);
+  EXPECT_NEAR(found->power_W, power, 1e-12);
+  EXPECT_NEAR(found->deflection_m, bent, 1e-18);
+  EXPECT_NEAR(found->deflection_rigid_m, bent_rigid, 1e-18);
+  EXPECT_GT(std::abs(bent - bent_rigid), 1e-9);
+  EXPECT_EQ(found->entry_rad, turn.entry_rad);
+  EXPECT_EQ(found->exit_rad, turn.exit_rad);
+  EXPECT_EQ(found->iterations, turn.iterations);
 }
 
 }  // namespace

@@ -165,5 +165,47 @@ acts_on = [ { error = "EYY", factor = 2 }, { error = "EXX", factor = 9 } ]
   EXPECT_EQ(found.budget[0].u_m[1](0), 0);
 }
 
+// One cause whose u is a share of its value: all sizes go with |1 + share xi|, so that U of each is
+// the 95 % point of |xi|, 1.96, times the share.
+TEST(PartError, UncertaintyOfASingleCauseInClosedForm) {
+  const double share = 0.1;
+  const std::vector<PartCause> causes = {
+      {0, "wave", times(shape(2), 2e-6), times(shape(2), share * 2e-6)}};
+  for (const bool with_normals : {true, false}) {
+    const PartError found =
+        part_error(path_of(with_normals), causes, 1, {.seed = 3, .shares = 4000, .errors = 4000});
+    EXPECT_NEAR(found.U_p95_m / found.p95_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.U_max_m / found.max_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.layers[0].U_rms_m / found.layers[0].rms_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.causes[0].U_rms_m / found.causes[0].rms_m, 1.96 * share, 0.01);
+    EXPECT_EQ(found.layers[0].share, 1);
+    EXPECT_NEAR(found.layers[0].U_share, 0, 1e-12);
+    // Of 200 sizes the 191st in order.
+    std::vector<double> sizes;
+    for (const Eigen::Vector3d& v : causes[0].value_m)
+      sizes.push_back(with_normals ? std::abs(v(2)) : v.norm());
+    std::sort(sizes.begin(), sizes.end());
+    EXPECT_NEAR(found.p95_m, sizes[190], 1e-18);
+  }
+}
+
+// Of two causes of one mean square, the first known to a share r: its part is (1 + r xi)² /
+// ((1 + r xi)² + 1), which changes by r xi / 2 to first order.
+TEST(PartError, UncertaintyOfAShareInClosedForm) {
+  const double share = 0.02;
+  const std::vector<PartCause> causes = {
+      {0, "a", times(shape(1), 1e-6), times(shape(1), share * 1e-6)},
+      {1, "b", times(shape(1), 1e-6), times(shape(1), 0)}};
+  const PartError found =
+      part_error(path_of(true), causes, 2, {.seed = 4, .shares = 4000, .errors = 10});
+  for (const auto* shares : {&found.layers, &found.causes})
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR((*shares)[k].share, 0.5, 1e-12);
+      EXPECT_NEAR((*shares)[k].U_share, 1.96 * share / 2, 0.001);
+    }
+  EXPECT_NEAR(found.layers[0].U_rms_m, 1.96 * share * 1e-6, 0.002e-6);
+  EXPECT_EQ(found.layers[1].U_rms_m, 0);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -102,5 +102,18 @@ TEST(PlanRules, TheEncodersNoiseIsDrawnAnewAtEachPosition) {
   EXPECT_LT(mean(first_output(*quiet, 200)), 1e-3);
 }
 
+// Mountings and planes beyond 0.25 rad, too.
+TEST(PlanRules, MountingsBeyondTheModelAreNotSolved) {
+  for (const char* const name :
+       {"installation.top.yaw_mrad", "installation.side.yaw_mrad", "target.top.pitch_mrad",
+        "target.side.yaw_mrad", "probe.A.tilt_mrad"})
+    for (const auto& [value, solved] : {std::pair("245", true), std::pair("255", false)}) {
+      const auto e = experiment_with(
+          "forward = \"rigid\"\n[truth]\ntravel_mm = [0.01]\n" +
+          quantity(name, std::string("distribution = \"constant\"\nvalue = ") + value));
+      EXPECT_EQ(std::isfinite(first_output(*e, 1)[0]), solved) << name << " " << value;
+    }
+}
+
 }  // namespace
 }  // namespace mdof::algo

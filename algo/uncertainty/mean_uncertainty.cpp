@@ -25,7 +25,7 @@ double correlated_variance(std::span<const double> x) {
   const double noise = variance * std::sqrt(2 / n);  // of an autocovariance that is none
   double sum = -variance, before = 4 * variance;
   std::size_t window = 0;
-  for (std::size_t lag = 0; lag + 1 < x.size() / 2 && window < x.size() / 4; lag += 2) {
+  for (std::size_t lag = 0; window < x.size() / 4; lag += 2) {
     const double first = lag == 0 ? variance : covariance_at(x, lag);
     const double pair = std::min(before, first + covariance_at(x, lag + 1));
     if (lag > 0 && pair < noise) break;

@@ -256,12 +256,8 @@ void PlanAxis::solve(AxisReadings& out, std::size_t reading) const {
   }
   std::vector<double> readings(out.probes);
   for (std::size_t j = 0; j < n; ++j) {
-    bool good = true;
-    for (std::size_t k = 0; k < out.probes; ++k) {
-      readings[k] = probe[k * n + j];
-      good = good && std::isfinite(readings[k]);
-    }
-    const AxisErrors found = good ? solver_.solve(encoder[j], readings, {}) : AxisErrors{};
+    for (std::size_t k = 0; k < out.probes; ++k) readings[k] = probe[k * n + j];
+    const AxisErrors found = solver_.solve(encoder[j], readings, {});
     for (std::size_t e = 0; e < kErrorCount; ++e)
       out.estimate[out.at(reading, e) + j] = found.valid ? found.local[e] : kNotSolved;
   }

@@ -1,5 +1,6 @@
 #include "algo/milling/cut_turn.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -179,7 +180,7 @@ class Turn {
       return {};
     }
     return fail(ErrorCode::check,
-                "no equilibrium of force and deflection at " +
+                "no stable equilibrium of force and deflection at " +
                     std::to_string(turned(phase) * 360 / kWholeTurn_rad) +
                     " degrees of the turn; the tool is too weak for this cut: shorten overhang_mm "
                     "or lower the depths");
@@ -193,11 +194,14 @@ class Turn {
       const Load now = load(phase, U, true);
       const VectorXd residual = U - bent(now.F);
       const double size = residual.cwiseAbs().maxCoeff();
-      if (size < kEquilibrium_m) return true;
+      Eigen::MatrixXd J = -bent(now.dF);
+      J.diagonal().array() += 1;
+      // Where force grows faster than the tool resists, the determinant has changed its sign:
+      // Newton's method finds such an equilibrium too, but no tool stays in it.
+      if (size < kEquilibrium_m) return Eigen::PartialPivLU<Eigen::MatrixXd>(J).determinant() > 0;
       if (step > 0) pseudo_time *= std::clamp(residual_before / size, 0.3, 1.5);
       residual_before = size;
-      Eigen::MatrixXd J = -bent(now.dF);
-      J.diagonal().array() += 1 + 1 / pseudo_time;
+      J.diagonal().array() += 1 / pseudo_time;
       U -= LeastSquares(J).solve(residual);
     }
     return false;

@@ -135,7 +135,7 @@ double CuttingEdge::free_edge(const Deflection& there) const {
 
 double CuttingEdge::wall_edge() const {
   const double reach = plan_.chip == ChipModel::trochoid ? kWallAngles : 0;
-  return plan_.is_up ? -reach : kHalfTurn_rad + reach;
+  return plan_.is_up ? 0 - reach : kHalfTurn_rad + reach;  // 0 - 0 has no sign
 }
 
 }  // namespace mdof::algo

@@ -8,6 +8,7 @@
 #include "schema/rig/calibrated.h"
 #include "schema/rig/physics.h"
 #include "schema/rig/rig_check.h"
+#include "schema/rig/scan.h"
 #include "schema/units.h"
 
 namespace mdof {
@@ -359,6 +360,9 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
     reject_doubles(table, rig.probes);
   apply_records(table, toml_text, rig);
   read_physics(table, rig);
+  if (const auto scan = read_scan(table, rig.axis); scan && rig.probe_index(scan->probe))
+    table.reject("scan",
+                 "its probe \"" + scan->probe + "\" is one of the fixture; name another column");
   MDOF_CHECK(table.finish());
   MDOF_CHECK(check_rig(rig));
   return rig;

@@ -33,7 +33,7 @@ COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid"
                     "parallelism.fit", "run.budget", "run.compare", "run.get", "run.points", "squareness.budget", "squareness.fit"}
 # ... and what states none, or that of other things: of files, of studies, of calibrations, of a machine's description.
 OTHERS = {"clearance", "completion", "help", "machine kinematics", "machine budget", "milling",
-          "form compare", "form clamp", "form cut", "form path", "part", "plot", "report",
+          "form scan", "form compare", "form clamp", "form cut", "form path", "part", "plot", "report",
           "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
           "compensation deactivate", "compensation export", "compensation list", "device list", "device monitor",
           "device probe", "doctor", "drift", "encoder set", "export", "history", "import", "iso230-2", "live",

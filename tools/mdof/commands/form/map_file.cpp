@@ -1,6 +1,7 @@
 #include "tools/mdof/commands/form/map_file.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -9,7 +10,9 @@
 #include "schema/form/map_text.h"
 #include "schema/form/surface_files.h"
 #include "schema/units.h"
+#include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
 #include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
@@ -48,6 +51,17 @@ class MapReader {
   bool is_told_ = false, is_whole_ = false;
 };
 
+// The run of "run:12", and of "12" where no file is called so.
+std::optional<std::int64_t> run_of(const std::string& name) {
+  constexpr std::string_view kRun = "run:";
+  const bool says_run = name.starts_with(kRun);
+  const std::string digits = says_run ? name.substr(kRun.size()) : name;
+  const bool is_number = !digits.empty() && digits.size() <= 18 &&
+                         digits.find_first_not_of("0123456789") == digits.npos;
+  if (!is_number || (!says_run && std::filesystem::exists(name))) return std::nullopt;
+  return std::stoll(digits);
+}
+
 }  // namespace
 
 void add_map_options(CLI::App& command, MapOptions& options) {
@@ -56,9 +70,28 @@ void add_map_options(CLI::App& command, MapOptions& options) {
                   "Of maps without header (XYZ): m, mm, um or nm of all columns, or mm,um for x, y "
                   "and for z [default: mm,um]")
       ->type_name("NAME");
+  add_database_option(command, options.database);
+}
+
+Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
+                                     std::optional<double> pixel_m, const std::string& database) {
+  MDOF_TRY(store::Store store, open_to_read(database));
+  MDOF_TRY(daemon::RadialScan scan, daemon::radial_scan(store, runs, pixel_m));
+  if (scan.simulated) warn(scan.map.name + ": simulated data: no machine was measured");
+  if (scan.beyond_targets > 0)
+    warn(scan.map.name + ": " + std::to_string(scan.beyond_targets) +
+         " heights beyond the targets of their run are left out");
+  if (scan.without_height > 0)
+    warn(scan.map.name + ": " + std::to_string(scan.without_height) +
+         " heights without encoder or angle at their time are left out");
+  return scan;
 }
 
 Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options) {
+  if (const auto run = run_of(file)) {
+    MDOF_TRY(daemon::RadialScan scan, load_scan({*run}, std::nullopt, options.database));
+    return std::move(scan.map);
+  }
   std::optional<XyzUnits> units;
   if (!options.unit.empty()) {
     auto named = xyz_units(options.unit);

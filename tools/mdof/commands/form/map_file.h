@@ -1,7 +1,12 @@
-// Height maps as arguments of a command: files of each known form.
+// Height maps as arguments of a command: files of each known form, and runs that scanned a part.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "daemon/measure/replay/radial_scan.h"
 
 #include "schema/base/json_writer.h"
 #include "schema/base/result.h"
@@ -14,12 +19,17 @@ class App;
 namespace mdof::tools {
 
 struct MapOptions {
-  std::string unit;
+  std::string unit, database;
 };
 void add_map_options(CLI::App& command, MapOptions& options);
 
-// Told by what is in it: .sdf, Zygo .dat, CSV, XYZ. What was assumed of it is said as a warning.
+// A file, told by what is in it: .sdf, Zygo .dat, CSV, XYZ; or "run:12", and "12" where no file is
+// called so. What was assumed of it is said as a warning.
 Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options);
+
+// Of these runs together; what was left out of them is said as a warning.
+Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
+                                     std::optional<double> pixel_m, const std::string& database);
 
 // As CSV, whole or not at all; replaces a file of that name.
 Status save_map(const SurfaceMap& map, const std::string& file);

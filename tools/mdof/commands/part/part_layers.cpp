@@ -100,8 +100,8 @@ Status add_tables(LoadedPart& part, const PartLayer& layer, const std::string& d
 
 // The part springs back by the elastic deformation: what was cut to its place goes to -z.
 Result<algo::PartCause> form_cause(const LoadedPart& part, const PartLayer& layer,
-                                   const std::string& file) {
-  MDOF_TRY(const SurfaceMap map, load_map(file, {}));
+                                   const std::string& file, const std::string& database) {
+  MDOF_TRY(const SurfaceMap map, load_map(file, {{}, database}));
   const algo::Surface surface(map, 1, algo::Extension::line);
   algo::PartCause cause = algo::new_cause("spring-back", part.path.at_m.size());
   std::size_t off = 0;
@@ -229,7 +229,9 @@ Result<LoadedPart> load_part(const std::string& file, const std::string& databas
   for (const PartLayer& layer : part.plan.layers) {
     if (!layer.on) continue;
     if (layer.name == "form") {
-      MDOF_TRY(const auto cause, form_cause(part, layer, beside(layer.from.front())));
+      const std::string& from = layer.from.front();
+      const bool of_run = from.starts_with("run:");
+      MDOF_TRY(const auto cause, form_cause(part, layer, of_run ? from : beside(from), database));
       add_layer(part, layer, "path of a fast tool servo (mdof form path)", {cause});
       if (!layer.u_m) part.no_u.push_back("form");
     }

@@ -1,0 +1,234 @@
+#include "daemon/measure/replay/radial_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "algo/form/scan_map.h"
+#include "algo/model/restate.h"
+#include "daemon/measure/evaluation.h"
+#include "daemon/measure/forward_model.h"
+#include "daemon/measure/replay/replay.h"
+#include "drivers/calibration.h"
+#include "schema/rig/scan.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr std::chrono::milliseconds kScanTimeout{1000};
+constexpr std::int64_t kMostGap_ns =
+    50'000'000;  // of an encoder or angle, across which it is known
+constexpr std::size_t kMostScanPoints = 50'000'000;
+constexpr double kDefaultPixels = 100, kTurn_deg = 360;
+
+// The values of one column in the order of time.
+struct Series {
+  std::vector<std::int64_t> time_ns;
+  std::vector<double> value;
+
+  void take(std::int64_t t, double x) {
+    if (!std::isfinite(x)) return;
+    time_ns.push_back(t);
+    value.push_back(x);
+  }
+  // Linear; NaN outside, and in a gap.
+  double at(std::int64_t t) const {
+    const auto after = std::lower_bound(time_ns.begin(), time_ns.end(), t);
+    if (after == time_ns.end()) return kNaN;
+    const auto i = static_cast<std::size_t>(after - time_ns.begin());
+    if (*after == t) return value[i];
+    if (i == 0 || *after - time_ns[i - 1] > kMostGap_ns) return kNaN;
+    const double part =
+        static_cast<double>(t - time_ns[i - 1]) / static_cast<double>(time_ns[i] - time_ns[i - 1]);
+    return value[i - 1] + part * (value[i] - value[i - 1]);
+  }
+  // An angle goes on over 360 degrees, so that there is a middle between 359 and 1.
+  void unwind() {
+    for (std::size_t i = 1; i < value.size(); ++i)
+      value[i] = value[i - 1] + std::remainder(value[i] - value[i - 1], kTurn_deg);
+  }
+};
+
+struct Columns {
+  Series encoder_m, angle_deg, height_m;
+};
+
+Result<double> length_unit(const Channel& channel, const std::string& log) {
+  if (channel.unit == Unit::um) return from_um(1);
+  if (channel.unit == Unit::mm) return from_mm(1);
+  return bad_input(log + ": the scanning probe " + channel.id + " must be a column " + channel.id +
+                   "_um or " + channel.id + "_mm");
+}
+
+Status take_block(SampleBlock& block, const RigScan& scan, const std::string& log,
+                  Columns& columns) {
+  for (std::size_t c = 0; c < block.channels.size(); ++c) {
+    const Channel& channel = block.channels[c];
+    Series* const to = channel.id == kEncoderChannel ? &columns.encoder_m
+                       : channel.id == scan.angle    ? &columns.angle_deg
+                       : channel.id == scan.probe    ? &columns.height_m
+                                                     : nullptr;
+    if (!to) continue;
+    double unit = 1;
+    if (channel.id == scan.probe) {
+      MDOF_TRY(unit, length_unit(channel, log));
+    }
+    for (std::size_t i = 0; i < block.scans(); ++i)
+      if (usable(block.quality_at(c, i))) to->take(block.time_ns[i], unit * block.value[c][i]);
+  }
+  return {};
+}
+
+Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan& scan) {
+  const Provenance& from = run.provenance;
+  MDOF_TRY(ReplayLog log, ReplayLog::open(from.recording_path));
+  const drivers::Calibrator calibrator(rig);
+  Columns columns;
+  SampleBlock block;
+  for (;;) {
+    MDOF_TRY(const auto state, log.driver().read(block, kScanTimeout));
+    if (block.scans() > 0) {
+      MDOF_CHECK(calibrator.apply(block));
+      MDOF_CHECK(take_block(block, scan, from.recording_path, columns));
+      if (columns.height_m.value.size() > kMostScanPoints)
+        return bad_input(from.recording_path + ": more heights than a scan may have");
+    }
+    if (state == drivers::ReadState::end) break;
+  }
+  if (log.sha256() != from.recording_sha256)
+    return bad_input(from.recording_path + ": has changed since run " + std::to_string(run.id) +
+                     " was made from it; replay it again");
+  for (const auto& [name, series] :
+       {std::pair(scan.probe, &columns.height_m), std::pair(scan.angle, &columns.angle_deg)})
+    if (series->value.empty())
+      return bad_input(from.recording_path + ": has no value in the column " + name +
+                       " that [scan] of its rig names");
+  columns.angle_deg.unwind();
+  return columns;
+}
+
+// What the scanning probe reads of the motion alone, at the targets of its run.
+struct Motion {
+  std::vector<double> position_m, reading_m;
+
+  bool holds(double at_m) const { return at_m >= position_m.front() && at_m <= position_m.back(); }
+  double at(double at_m) const {
+    const auto after = std::lower_bound(position_m.begin(), position_m.end(), at_m);
+    const auto i = static_cast<std::size_t>(after - position_m.begin());
+    if (i == 0) return reading_m.front();
+    const double part = (at_m - position_m[i - 1]) / (position_m[i] - position_m[i - 1]);
+    return reading_m[i - 1] + part * (reading_m[i] - reading_m[i - 1]);
+  }
+};
+
+// The rig with the scanning probe alone, before a plane across it.
+Rig with_scanning_probe(Rig rig, const RigScan& scan) {
+  rig.planes.clear();
+  rig.probes.assign(1, {});
+  rig.probes[0].id = scan.probe;
+  rig.probes[0].position_m = scan.position_m;
+  rig.probes[0].direction = scan.direction;
+  return rig;
+}
+
+Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
+  MDOF_TRY(const auto model, forward_model(with_scanning_probe(rig, scan)));
+  struct Sum {
+    double n = 0, position_m = 0, reading_m = 0;
+  };
+  std::map<int, Sum> targets;
+  double read_m = 0;
+  for (const MeasuredPoint& p : run.points) {
+    if (!p.errors.valid) continue;
+    model(rig.sides.target_travel_m(p.point.position_m), p.errors.local, {&read_m, 1});
+    Sum& sum = targets[p.target];
+    sum.n += 1;
+    sum.position_m += p.point.position_m;
+    sum.reading_m += read_m;
+  }
+  std::vector<std::pair<double, double>> sorted;
+  for (const auto& [target, sum] : targets)
+    sorted.emplace_back(sum.position_m / sum.n, sum.reading_m / sum.n);
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.size() < 2)
+    return bad_input("run " + std::to_string(run.header.id) +
+                     ": has errors at fewer than two targets; a scan needs them along the radius");
+  Motion motion;
+  for (const auto& [position_m, reading_m] : sorted) {
+    motion.position_m.push_back(position_m);
+    motion.reading_m.push_back(reading_m);
+  }
+  return motion;
+}
+
+void add_points(const Columns& columns, const Motion& motion, const Rig& rig, const RigScan& scan,
+                algo::ScanPoints& points, RadialScan& out) {
+  const double centre_m = rig.sides.target_travel_m(scan.centre_m);
+  for (std::size_t i = 0; i < columns.height_m.value.size(); ++i) {
+    const std::int64_t t = columns.height_m.time_ns[i];
+    const double encoder_m = columns.encoder_m.at(t), angle_deg = columns.angle_deg.at(t);
+    if (std::isnan(encoder_m) || std::isnan(angle_deg)) {
+      ++out.without_height;
+      continue;
+    }
+    if (!motion.holds(encoder_m)) {
+      ++out.beyond_targets;
+      continue;
+    }
+    // The target goes to +: the probe is then towards - of its axis.
+    const double rho_m = centre_m - rig.sides.target_travel_m(encoder_m);
+    const double angle = scan.sense * angle_deg * std::numbers::pi / 180;
+    points.x_m.push_back(rho_m * std::cos(angle));
+    points.y_m.push_back(-rho_m * std::sin(angle));
+    points.z_m.push_back(columns.height_m.value[i] - motion.at(encoder_m));
+  }
+}
+
+Status add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points, RadialScan& out) {
+  MDOF_TRY(const Run run, run_stated_at(store, id, Reference::carriage));
+  const std::string name = "run " + std::to_string(id);
+  MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
+  MDOF_TRY(const auto scan, scan_of_rig(run.header.provenance.rig_text, rig.axis, name));
+  if (!scan)
+    return bad_input(name +
+                     ": is no scan: its rig has no [scan] that names the probe over the part");
+  out.simulated = out.simulated || run.header.simulated;
+  MDOF_TRY(const Motion motion, motion_of(run, rig, *scan));
+  const auto [least, most] = std::minmax_element(motion.reading_m.begin(), motion.reading_m.end());
+  out.motion_pv_m = std::max(out.motion_pv_m, *most - *least);
+  MDOF_TRY(const Columns columns, read_columns(run.header, rig, *scan));
+  add_points(columns, motion, rig, *scan, points, out);
+  return {};
+}
+
+double default_pixel_m(const algo::ScanPoints& points) {
+  double square = 0;
+  for (std::size_t i = 0; i < points.x_m.size(); ++i)
+    square = std::max(square, points.x_m[i] * points.x_m[i] + points.y_m[i] * points.y_m[i]);
+  return 2 * std::sqrt(square) / kDefaultPixels;
+}
+
+}  // namespace
+
+Result<RadialScan> radial_scan(store::Store& store, const std::vector<std::int64_t>& runs,
+                               std::optional<double> pixel_m) {
+  RadialScan out;
+  algo::ScanPoints points;
+  std::string name;
+  for (const std::int64_t id : runs) {
+    MDOF_CHECK(add_run(store, id, points, out));
+    name += (name.empty() ? "run " : ", ") + std::to_string(id);
+  }
+  out.points = points.z_m.size();
+  out.pixel_m = pixel_m ? *pixel_m : default_pixel_m(points);
+  auto map = algo::scan_map(points, out.pixel_m);
+  if (!map) return in_context(name, std::move(map.error()));
+  out.map = std::move(*map);
+  out.map.name = name;
+  return out;
+}
+
+}  // namespace mdof::daemon

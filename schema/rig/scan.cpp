@@ -1,0 +1,36 @@
+#include "schema/rig/scan.h"
+
+#include "schema/units.h"
+
+namespace mdof {
+
+std::optional<RigScan> read_scan(TomlTable& rig, Axis axis) {
+  auto table = rig.table("scan");
+  if (!table) return std::nullopt;
+  RigScan scan;
+  scan.probe = table->string("probe");
+  scan.angle = table->string("angle", "angle_deg");
+  const Vec3 mm = table->vector3("position_mm");
+  scan.position_m = {from_mm(mm[0]), from_mm(mm[1]), from_mm(mm[2])};
+  scan.centre_m = from_mm(table->number("centre_mm"));
+  const std::string word = table->string("measures");
+  const auto along = word.size() == 2 ? axis_from(word.substr(1)) : std::nullopt;
+  if (along && (word[0] == '+' || word[0] == '-') && *along != axis)
+    scan.direction[static_cast<std::size_t>(*along)] = word[0] == '-' ? -1.0 : 1.0;
+  else
+    table->reject("measures", "\"" + word + "\" must be a direction across the axis, such as \"+" +
+                                  (axis == Axis::z ? "X" : "Z") + "\"");
+  const std::string sense = table->string("sense", "+");
+  if (sense != "+" && sense != "-")
+    table->reject("sense", "\"" + sense + "\" must be \"+\" or \"-\"");
+  scan.sense = sense == "-" ? -1 : 1;
+  return scan;
+}
+
+Result<std::optional<RigScan>> scan_of_rig(std::string_view rig_text, Axis axis,
+                                           const std::string& source) {
+  MDOF_TRY(auto table, TomlTable::parse(rig_text, source));
+  return read_scan(table, axis);
+}
+
+}  // namespace mdof

@@ -1,0 +1,73 @@
+#include "algo/form/scan_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+double part_m(double x, double y) {
+  return 2e-6 + 3e-5 * x - 1e-5 * y + 4e-3 * x * x + 7e-3 * x * y - 5e-3 * y * y;
+}
+
+// Circles about (0, 0), a point every `step_rad`; of each `first` to `last` mm.
+ScanPoints rings(double first_mm, double last_mm, double step_rad) {
+  ScanPoints points;
+  for (double r = first_mm; r < last_mm + 0.5; r += 1)
+    for (double angle = 0; angle < 6.28; angle += step_rad / r) {
+      points.x_m.push_back(r * 1e-3 * std::cos(angle));
+      points.y_m.push_back(r * 1e-3 * std::sin(angle));
+      points.z_m.push_back(part_m(points.x_m.back(), points.y_m.back()));
+    }
+  return points;
+}
+
+// A parabola comes back, between circles as on them; nothing outside them, nor in their middle.
+TEST(ScanMap, IsTheParabolaThatWasScanned) {
+  const auto map = scan_map(rings(6, 20, 0.5), 1e-3);
+  ASSERT_TRUE(map) << map.error().message;
+  EXPECT_EQ(map->nx, 41u);
+  EXPECT_NEAR(map->x0_m, -20e-3, 1e-15);
+  std::size_t between = 0;
+  for (std::size_t j = 0; j < map->ny; ++j)
+    for (std::size_t i = 0; i < map->nx; ++i) {
+      const double x = map->x_m(i), y = map->y_m(j), r = std::hypot(x, y), z = map->at(i, j);
+      if (r > 8e-3 && r < 18e-3) {
+        ++between;
+        EXPECT_NEAR(z, part_m(x, y), 2e-10) << x << " " << y;
+      }
+      if (r < 2e-3 || r > 21.5e-3) {
+        EXPECT_TRUE(std::isnan(z)) << x << " " << y;
+      }
+    }
+  EXPECT_GT(between, 700u);
+}
+
+// The more points, the less of their noise is left.
+TEST(ScanMap, TakesTheMeanOfNoise) {
+  ScanPoints points = rings(1, 20, 0.02);
+  double sign = 1;
+  for (double& z : points.z_m) z += (sign = -sign) * 1e-6;
+  const auto map = scan_map(points, 1e-3);
+  ASSERT_TRUE(map) << map.error().message;
+  double square = 0;
+  for (std::size_t j = 0; j < map->ny; ++j)
+    for (std::size_t i = 0; i < map->nx; ++i)
+      if (std::hypot(map->x_m(i), map->y_m(j)) < 15e-3)
+        square += std::pow(map->at(i, j) - part_m(map->x_m(i), map->y_m(j)), 2);
+  EXPECT_LT(std::sqrt(square / 700), 0.1e-6);
+}
+
+TEST(ScanMap, RefusesWhatIsNoScan) {
+  EXPECT_FALSE(scan_map({}, 1e-3));
+  const auto one_line = scan_map({{0, 1e-3, 2e-3, 3e-3}, {0, 0, 0, 0}, {0, 0, 0, 0}}, 1e-3);
+  ASSERT_FALSE(one_line);
+  EXPECT_NE(one_line.error().message.find("more densely"), std::string::npos);
+  const auto too_many = scan_map(rings(1, 20, 0.5), 1e-6);
+  ASSERT_FALSE(too_many);
+  EXPECT_NE(too_many.error().message.find("larger"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof::algo

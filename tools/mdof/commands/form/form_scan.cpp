@@ -1,0 +1,91 @@
+// mdof form scan RUN...: a height map of a part on a spindle from a probe of one's own.
+#include <CLI/CLI.hpp>
+
+#include "algo/form/map_figures.h"
+#include "schema/base/json_writer.h"
+#include "schema/units.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/form/map_file.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/run_choice.h"
+
+namespace mdof::tools {
+namespace {
+
+struct FormScanCommand {
+  std::vector<std::string> runs;
+  std::optional<double> pixel_mm;
+  std::string database, out;
+  bool json = false;
+};
+
+std::string scan_json(const daemon::RadialScan& scan, const std::vector<std::int64_t>& runs) {
+  const algo::MapFigures figures = algo::figures_of(scan.map);
+  JsonWriter json;
+  json.begin_object().key("runs").begin_array();
+  for (const std::int64_t run : runs) json.value(run);
+  json.end_array()
+      .field("simulated", scan.simulated)
+      .field("pv_um", to_um(figures.pv_m))
+      .field("rms_um", to_um(figures.rms_m))
+      .field("pixels", static_cast<std::uint64_t>(figures.pixels))
+      .field("pixel_mm", to_mm(scan.pixel_m))
+      .field("heights", static_cast<std::uint64_t>(scan.points))
+      .field("heights_beyond_targets", static_cast<std::uint64_t>(scan.beyond_targets))
+      .field("heights_without_place", static_cast<std::uint64_t>(scan.without_height))
+      .field("motion_taken_out_pv_um", to_um(scan.motion_pv_m))
+      .end_object();
+  return json.take();
+}
+
+std::string scan_text(const daemon::RadialScan& scan) {
+  const algo::MapFigures figures = algo::figures_of(scan.map);
+  return scan.map.name + ": PV " + in_um(figures.pv_m) + " µm, RMS " + in_um(figures.rms_m) +
+         " µm about the mean, " + std::to_string(figures.pixels) + " pixels of " +
+         in_mm(scan.pixel_m) + " mm from " + std::to_string(scan.points) +
+         " heights\nwhat the probe reads of the axis' motion is taken out: " +
+         in_um(scan.motion_pv_m) + " µm PV\n";
+}
+
+Status form_scan(const FormScanCommand& o) {
+  const auto pixel_m = o.pixel_mm ? std::optional(from_mm(*o.pixel_mm)) : std::nullopt;
+  std::vector<std::int64_t> runs;
+  for (const std::string& run : o.runs) {
+    MDOF_TRY(const std::int64_t number, run_number(o.database, run));
+    runs.push_back(number);
+  }
+  MDOF_TRY(const auto scan, load_scan(runs, pixel_m, o.database));
+  if (!o.out.empty()) MDOF_CHECK(save_map(scan.map, o.out));
+  return o.json ? write_line(scan_json(scan, runs)) : write_out(scan_text(scan));
+}
+
+Action declare_form_scan(CLI::App& command) {
+  const auto o = std::make_shared<FormScanCommand>();
+  add_run_arguments(command, o->runs,
+                    "Numbers of the runs, see mdof runs, or latest; together one part");
+  command
+      .add_option("--pixel-mm", o->pixel_mm, "Of the map [default: a hundredth of the diameter]")
+      ->check(positive_number());
+  command.add_option("--out", o->out, "Write the map (CSV)")->type_name("FILE");
+  add_database_option(command, o->database);
+  add_json_flag(command, o->json);
+  return [o] { return form_scan(*o); };
+}
+
+}  // namespace
+
+Command form_scan_command() {
+  return {.name = "form scan",
+          .summary = "Height map of a part on a spindle, from a probe beside the fixture",
+          .footer =
+              "[scan] of the run's rig names the probe, where it stands, and the column of the "
+              "spindle's angle.\n"
+              "The other form commands take such a run by its number, too.\n"
+              "Examples:\n"
+              "  mdof form scan 12 --out before.csv\n"
+              "  mdof form compare 12 13",
+          .declare = declare_form_scan};
+}
+
+}  // namespace mdof::tools

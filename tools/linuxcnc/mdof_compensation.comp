@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+component mdof_compensation "Compensation of X, Y and Z by the volumetric table that mdofd serves";
+
+description """
+Stands after motion and before the drives. Adds to the commands of three linear joints the correction of the
+table at the commanded position, and takes it off the feedback again, so that planner and display do not see
+it. The position always passes: a fault holds the offset, then lets it fade.
+
+The table comes from mdof_compensation_loader. See tools/linuxcnc/README.md of mdof.""";
+
+pin in float pos_in_#[3] "Of X, Y, Z: joint.N.motor-pos-cmd";
+pin out float pos_out_#[3] "To the drive";
+pin in float fb_in_#[3] "From the drive";
+pin out float fb_out_#[3] "joint.N.motor-pos-fb";
+pin in float joint_pos_#[3] "joint.N.pos-cmd: where the table is looked up";
+pin out float offset_#[3] "What is added";
+pin in bit homing_#[3] "joint.N.homing";
+pin in bit all_homed "motion.is-all-homed";
+pin in bit machine_on "motion.motion-enabled: while it is off the offset stands";
+pin in bit enable = 1 "Off: the offset fades to 0";
+pin out bit homing_inhibit "motion.homing-inhibit: while the offset is not 0, homing would keep it for good";
+pin out bit active "A table is applied";
+pin out u32 generation "Of the table in force; 0: none";
+pin out float max_abs_offset "Largest correction of the table in force";
+pin out bit simulated "The table in force is of simulated data";
+pin out bit inside "The commanded position is inside the table; outside, that of its end is applied";
+pin out bit limited "The offset is not yet what the table asks";
+pin out bit connected "mdofd answers the loader";
+pin out float age_s "Since mdofd last confirmed that the table in force is the active one";
+pin out bit fault "Something is wrong: fault-code; the offset stands for hold-s, then fades to 0";
+pin out u32 fault_code "0 none, 1 the loader is silent, 2 age-s is too large, 3 a position is not a number";
+pin out u32 refused "Tables that were refused since the start";
+pin out u32 refused_code "Of the last one: 2 out of order, 3 too large, 4 a number is bad, 5 beyond max-offset";
+
+param rw float fade_velocity = 0.05 "Of the offset after a change of tables, machine units/s";
+param rw float max_velocity = 1 "Of the offset, machine units/s";
+param rw float max_acceleration = 50 "Of the offset, machine units/s^2";
+param rw float max_offset = 0.1 "Largest correction of a table, machine units";
+param rw float loader_timeout_s = 5 "How long the loader may be silent before that is a fault";
+param rw float max_age_s = 3600 "age-s beyond which a table is no longer applied";
+param rw float hold_s = 10 "How long the offset stands after a fault before it fades";
+
+modparam int most_nodes = 100000 "Nodes of the largest table";
+modparam int key = 0x6d646f66 "Of the stream from the loader";
+
+function feedback fp "Before motion-controller";
+function command fp "After motion-controller";
+
+option singleton yes;
+option extra_setup yes;
+option extra_cleanup yes;
+license "GPL"; // version 2 or later
+author "mdof";
+
+include "mdof_compensation.h";
+include <hal.h>;
+include <rtapi_slab.h>;
+;;
+#define MOST_RECORDS 64 /* taken in one servo period */
+#define NEAR_ZERO 1e-7
+
+static hal_stream_t stream;
+static struct mdof_table tables[2];
+static const struct mdof_table* in_force; /* NULL: none */
+static struct mdof_receiver receiver;
+static struct mdof_offset offsets[3];
+static double last_position[3]; /* that were numbers */
+static double silent_s, fault_s;
+
+EXTRA_SETUP() {
+  (void)prefix;
+  (void)extra_arg;
+  for (int i = 0; i < 2; ++i) {
+    tables[i].correction = rtapi_kzalloc(3 * sizeof(double) * most_nodes, RTAPI_GFP_KERNEL);
+    if (!tables[i].correction) return -ENOMEM;
+  }
+  receiver.table = &tables[0];
+  receiver.most_nodes = most_nodes;
+  return hal_stream_create(&stream, comp_id, key, 8192, "ufff");
+}
+
+EXTRA_CLEANUP() {
+  if (stream.fifo) hal_stream_destroy(&stream);
+  for (int i = 0; i < 2; ++i) rtapi_kfree(tables[i].correction);
+}
+
+static void apply(struct __comp_state* __comp_inst, const struct mdof_table* table) {
+  in_force = table;
+  generation = table ? table->generation_number : 0;
+  max_abs_offset = table ? table->largest : 0;
+  simulated = table && table->is_simulated;
+  age_s = 0;
+}
+
+static void receive(struct __comp_state* __comp_inst) {
+  union hal_stream_data record[4];
+  for (int i = 0; i < MOST_RECORDS && hal_stream_readable(&stream); ++i) {
+    if (hal_stream_read(&stream, record, NULL) < 0) return;
+    const double values[3] = {record[1].f, record[2].f, record[3].f};
+    silent_s = 0;
+    switch (record[0].u & 15) {
+      case MDOF_ALIVE:
+        connected = values[0] != 0;
+        if (values[1] != 0) age_s = 0;
+        continue;
+      case MDOF_CLEAR:
+        apply(__comp_inst, NULL);
+        continue;
+    }
+    const enum mdof_received found = mdof_receive(&receiver, record[0].u, values, max_offset);
+    if (found == MDOF_COMPLETE) {
+      apply(__comp_inst, receiver.table);
+      receiver.table = &tables[receiver.table == &tables[0]];
+    } else if (found != MDOF_GOES_ON) {
+      refused += 1;
+      refused_code = found;
+    }
+  }
+}
+
+static void judge(struct __comp_state* __comp_inst, const double position[3], double period) {
+  silent_s += period;
+  age_s = in_force ? age_s + period : 0;
+  if (silent_s > loader_timeout_s) connected = 0;
+  fault_code = 0;
+  if (in_force && silent_s > loader_timeout_s) fault_code = 1;
+  if (in_force && age_s > max_age_s) fault_code = 2;
+  if (!isfinite(position[0] + position[1] + position[2])) fault_code = 3;
+  fault = fault_code != 0;
+  fault_s = fault ? fault_s + period : 0;
+}
+
+FUNCTION(feedback) {
+  for (int k = 0; k < 3; ++k) fb_out(k) = fb_in(k) - offsets[k].value;
+}
+
+FUNCTION(command) {
+  const double seconds = period * 1e-9;
+  const struct mdof_limits limits = {fade_velocity, max_velocity, max_acceleration, max_offset};
+  const double position[3] = {joint_pos(0), joint_pos(1), joint_pos(2)};
+  double before[3] = {0, 0, 0}, now[3] = {0, 0, 0};
+  receive(__comp_inst);
+  judge(__comp_inst, position, seconds);
+  const bool asked = in_force && enable && all_homed && !homing(0) && !homing(1) && !homing(2);
+  const bool stands = asked && (machine_on ? fault && fault_s <= hold_s : true);
+  active = asked && !stands && !fault;
+  inside = 0;
+  if (active) {
+    mdof_table_at(in_force, last_position, before);
+    inside = mdof_table_at(in_force, position, now);
+  }
+  limited = 0;
+  homing_inhibit = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (stands) before[k] = now[k] = offsets[k].value;
+    if (mdof_follow(&offsets[k], before[k], now[k], &limits, seconds)) limited = 1;
+    if (fabs(offsets[k].value) > NEAR_ZERO) homing_inhibit = 1;
+    offset(k) = offsets[k].value;
+    pos_out(k) = pos_in(k) + offsets[k].value;
+    if (fault_code != 3) last_position[k] = position[k];
+  }
+}

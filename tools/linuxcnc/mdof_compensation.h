@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+/* Mathematics of the realtime component mdof_compensation: a table of corrections received record
+   by record, interpolated, and followed by an offset whose velocity and acceleration are limited.
+   No HAL and no memory of its own, so that it is tested outside LinuxCNC. C99 and C++.
+
+   Positions, corrections and offsets are in machine units (mm or inch), times in s. X, Y, Z are 0,
+   1, 2. The correction is what is added to a command. */
+#ifndef MDOF_COMPENSATION_H
+#define MDOF_COMPENSATION_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#define MDOF_MOST_COORDINATES 1024 /* of an axis of the grid */
+
+/* Corrections at the nodes of a grid, X fastest, then Y, then Z. An axis with one coordinate
+   stands: the correction does not depend on its position. */
+struct mdof_table {
+  int n[3];
+  double coordinate[3][MDOF_MOST_COORDINATES]; /* strictly increasing */
+  double* correction;                          /* nodes * 3 */
+  long nodes;
+  long generation_number;
+  bool is_simulated;
+  double largest; /* |correction| */
+};
+
+/* The cell of `x` and how far into it, 0 to 1; outside the grid its end. Returns whether x is
+ * inside. */
+static inline bool mdof_cell(const double* at, int n, double x, int* cell, double* share) {
+  int low = 0, high = n - 1;
+  *cell = 0;
+  *share = 0;
+  if (n < 2) return true;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    if (at[middle] <= x)
+      low = middle;
+    else
+      high = middle;
+  }
+  *cell = low;
+  *share = (x - at[low]) / (at[high] - at[low]);
+  if (*share >= 0 && *share <= 1) return true;
+  *share = *share > 1 ? 1 : 0;
+  return false;
+}
+
+/* The correction at a position, linear along each axis between nodes; outside the grid that of its
+   end. Returns whether the position is inside. */
+static inline bool mdof_table_at(const struct mdof_table* table, const double position[3],
+                                 double correction[3]) {
+  int cell[3];
+  double share[3];
+  bool inside = true;
+  for (int axis = 0; axis < 3; ++axis)
+    inside = mdof_cell(table->coordinate[axis], table->n[axis], position[axis], &cell[axis],
+                       &share[axis]) &&
+             inside;
+  for (int k = 0; k < 3; ++k) correction[k] = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    long node = 0, stride = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int upper = corner >> axis & 1;
+      weight *= upper ? share[axis] : 1 - share[axis];
+      node += stride * (cell[axis] + upper);
+      stride *= table->n[axis];
+    }
+    if (weight == 0) continue; /* also of a node beyond the last one */
+    for (int k = 0; k < 3; ++k) correction[k] += weight * table->correction[3 * node + k];
+  }
+  return inside;
+}
+
+struct mdof_limits {
+  double fade_velocity;    /* of the offset against what the table asks: after a change of tables */
+  double max_velocity;     /* of the offset */
+  double max_acceleration; /* of the offset */
+  double max_offset;       /* largest |offset| */
+};
+
+struct mdof_offset {
+  double value, velocity;
+};
+
+static inline double mdof_clamp(double x, double most) {
+  return x > most ? most : x < -most ? -most : x;
+}
+
+/* The velocity with which a distance is covered in whole periods, losing at most max_acceleration *
+   period in each, so that it ends at rest: m (m + 1) / 2 steps of that size cover it. */
+static inline double mdof_approach(double distance, const struct mdof_limits* limits,
+                                   double period) {
+  const double step = limits->max_acceleration * period; /* of the velocity */
+  const double far = fabs(distance);
+  double velocity = step * (sqrt(1 + 8 * far / (step * period)) - 1) / 2;
+  if (velocity > far / period) velocity = far / period;
+  if (velocity > limits->fade_velocity) velocity = limits->fade_velocity;
+  return distance < 0 ? -velocity : velocity;
+}
+
+/* One period of the offset of one axis. `before` and `now`: what is asked at the last position and
+   at this one, of the same table. The offset goes along with what is asked, and what it is off
+   fades with fade_velocity: where a table has been replaced, `before` is not where the offset
+   stands. Returns whether the offset is not what is asked. */
+static inline bool mdof_follow(struct mdof_offset* offset, double before, double now,
+                               const struct mdof_limits* limits, double period) {
+  const double wanted_before = mdof_clamp(before, limits->max_offset);
+  const double wanted = mdof_clamp(now, limits->max_offset);
+  const double step = limits->max_acceleration * period;
+  double velocity = (wanted - wanted_before) / period +
+                    mdof_approach(wanted_before - offset->value, limits, period);
+  velocity = mdof_clamp(velocity, limits->max_velocity);
+  velocity = offset->velocity + mdof_clamp(velocity - offset->velocity, step);
+  offset->value = mdof_clamp(offset->value + velocity * period, limits->max_offset);
+  offset->velocity = velocity;
+  return wanted != now || fabs(wanted - offset->value) > 1e-7;
+}
+
+/* A table comes from the loader one record at a time, so that a servo period takes a bounded part
+   of it. It is in force only when it is whole; what a loader that ended has left is thrown away. */
+/* A record is a word, session << 4 | kind, and three numbers. A session is one table of one loader.
+ */
+enum mdof_record_kind {
+  MDOF_ALIVE = 1,      /* mdofd is connected (0, 1); the table in force is the active one (0, 1) */
+  MDOF_CLEAR = 2,      /* no table is active */
+  MDOF_BEGIN = 3,      /* generation; simulated (0, 1) */
+  MDOF_SIZE = 4,       /* coordinates of X, Y, Z; these follow, X first */
+  MDOF_COORDINATE = 5, /* in machine units */
+  MDOF_NODE = 6,       /* corrections of X, Y, Z in machine units, X fastest */
+  MDOF_END = 7
+};
+
+enum mdof_received {
+  MDOF_GOES_ON,
+  MDOF_COMPLETE,
+  MDOF_OUT_OF_ORDER,
+  MDOF_TOO_LARGE,   /* coordinates or nodes beyond the memory */
+  MDOF_BAD_NUMBER,  /* not finite, not increasing */
+  MDOF_BEYOND_LIMIT /* a correction beyond max_offset */
+};
+
+struct mdof_receiver {
+  struct mdof_table* table; /* that is filled; not the one in force */
+  long most_nodes;
+  unsigned session; /* 0: none is under way */
+  int coordinates, coordinates_received;
+  long nodes_received;
+};
+
+static inline enum mdof_received mdof_refuse(struct mdof_receiver* r, enum mdof_received why) {
+  r->session = 0;
+  return why;
+}
+
+static inline enum mdof_received mdof_receive_size(struct mdof_receiver* r, const double v[3]) {
+  struct mdof_table* t = r->table;
+  if (t->nodes) return mdof_refuse(r, MDOF_OUT_OF_ORDER);
+  t->nodes = 1;
+  r->coordinates = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(v[axis] >= 1 && v[axis] <= MDOF_MOST_COORDINATES)) return mdof_refuse(r, MDOF_TOO_LARGE);
+    t->n[axis] = lrint(v[axis]);
+    t->nodes *= t->n[axis];
+    r->coordinates += t->n[axis];
+  }
+  return t->nodes <= r->most_nodes ? MDOF_GOES_ON : mdof_refuse(r, MDOF_TOO_LARGE);
+}
+
+static inline enum mdof_received mdof_receive_coordinate(struct mdof_receiver* r, double x) {
+  struct mdof_table* t = r->table;
+  int axis = 0, i = r->coordinates_received++;
+  if (!t->nodes || i >= r->coordinates) return mdof_refuse(r, MDOF_OUT_OF_ORDER);
+  while (i >= t->n[axis]) i -= t->n[axis++];
+  if (!isfinite(x) || (i > 0 && x <= t->coordinate[axis][i - 1]))
+    return mdof_refuse(r, MDOF_BAD_NUMBER);
+  t->coordinate[axis][i] = x;
+  return MDOF_GOES_ON;
+}
+
+static inline enum mdof_received mdof_receive_node(struct mdof_receiver* r, const double v[3],
+                                                   double max_offset) {
+  struct mdof_table* t = r->table;
+  if (!t->nodes || r->coordinates_received != r->coordinates || r->nodes_received >= t->nodes)
+    return mdof_refuse(r, MDOF_OUT_OF_ORDER);
+  for (int k = 0; k < 3; ++k) {
+    const double size = fabs(v[k]);
+    if (!isfinite(v[k])) return mdof_refuse(r, MDOF_BAD_NUMBER);
+    if (size > max_offset) return mdof_refuse(r, MDOF_BEYOND_LIMIT);
+    if (size > t->largest) t->largest = size;
+    t->correction[3 * r->nodes_received + k] = v[k];
+  }
+  ++r->nodes_received;
+  return MDOF_GOES_ON;
+}
+
+/* A record of a table, BEGIN to END. Those of a session that was refused or begun by another loader
+   go on to be ignored: MDOF_GOES_ON. */
+static inline enum mdof_received mdof_receive(struct mdof_receiver* r, unsigned word,
+                                              const double v[3], double max_offset) {
+  const unsigned session = word >> 4;
+  const unsigned kind = word & 15;
+  if (kind == MDOF_BEGIN) {
+    r->session = session;
+    r->coordinates = r->coordinates_received = 0;
+    r->nodes_received = 0;
+    r->table->nodes = 0;
+    r->table->largest = 0;
+    r->table->generation_number = lrint(v[0]);
+    r->table->is_simulated = v[1] != 0;
+    return MDOF_GOES_ON;
+  }
+  if (!session || session != r->session) return MDOF_GOES_ON;
+  if (kind == MDOF_SIZE) return mdof_receive_size(r, v);
+  if (kind == MDOF_COORDINATE) return mdof_receive_coordinate(r, v[0]);
+  if (kind == MDOF_NODE) return mdof_receive_node(r, v, max_offset);
+  if (kind != MDOF_END || !r->table->nodes || r->nodes_received != r->table->nodes)
+    return mdof_refuse(r, MDOF_OUT_OF_ORDER);
+  r->session = 0;
+  return MDOF_COMPLETE;
+}
+
+#endif

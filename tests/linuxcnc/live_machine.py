@@ -1,0 +1,261 @@
+"""A headless LinuxCNC with the realtime component of tools/linuxcnc compiled for it, asked over a socket, and an mdofd
+beside it. LinuxCNC refuses root: it runs as nobody, with its folder of modules replaced for it alone (a mount
+namespace), so that nothing is installed."""
+import csv
+import io
+import json
+import os
+import pathlib
+import shutil
+import socket
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+FROM = ROOT / "tools/linuxcnc"
+MODULES = pathlib.Path("/usr/lib/linuxcnc/modules")
+sys.path[:0] = [str(HERE.parent / "tools"), str(HERE.parent / "daemon")]
+SKIPPED = 77
+PERIOD_S = 1e-3
+COLUMNS = [f"{pin}_{axis}" for pin in ("at", "in", "out") for axis in "xyz"]
+
+HAL = """loadrt [KINS]KINEMATICS
+loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS
+loadrt comp count=3
+loadrt sampler depth=20000 cfg=fffffffff
+addf motion-command-handler servo-thread
+addf motion-controller servo-thread
+net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in
+net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
+net change iocontrol.0.tool-change => iocontrol.0.tool-changed
+"""
+# Drives that are where they are told to be; a period later the feedback shows it. Home switches at -3 mm of the drive.
+DRIVES = "".join(f"net drive-{k} mdof-compensation.pos-out-{k} => mdof-compensation.fb-in-{k} sampler.0.pin.{6 + k}\n"
+                 f"net drive-{k} => comp.{k}.in0\nsetp comp.{k}.in1 -3\nnet switch-{k} comp.{k}.out => joint.{k}.home-sw-in\n"
+                 f"net look-up-{k} sampler.0.pin.{k}\nnet from-motion-{k} sampler.0.pin.{3 + k}\n" for k in range(3))
+
+
+def missing():
+    """Why the tests cannot run here; None if they can."""
+    for program in ("linuxcnc", "halcompile"):
+        if not shutil.which(program):
+            return f"no {program} here (Debian: apt-get install --no-install-recommends linuxcnc-uspace linuxcnc-uspace-dev)"
+    if os.geteuid() != 0:
+        return "needs root, to give LinuxCNC the compiled component in a mount namespace"
+    if subprocess.run(["unshare", "--mount", "true"], capture_output=True).returncode:
+        return "no mount namespaces here"
+    return None
+
+
+def skip_where_missing():
+    if why := missing():
+        print("SKIPPED:", why)
+        sys.exit(SKIPPED)
+
+
+def ini(limits, velocity, acceleration, joint=""):
+    axes = "".join(f"[AXIS_{axis}]\nMIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\n"
+                   f"MAX_ACCELERATION = {acceleration}\n" for axis, (low, high) in zip("XYZ", limits))
+    joints = "".join(f"[JOINT_{k}]\nTYPE = LINEAR\nHOME = 0\nHOME_SEQUENCE = 0\nHOME_OFFSET = -3\nHOME_SEARCH_VEL = -20\n"
+                     f"HOME_LATCH_VEL = -0.2\nFERROR = 0.5\nMIN_FERROR = 0.02\n"
+                     f"MIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\nMAX_ACCELERATION = {acceleration}\n"
+                     + joint for k, (low, high) in enumerate(limits))
+    return f"""[EMC]
+VERSION = 1.1
+MACHINE = live
+[DISPLAY]
+DISPLAY = ./display.py
+[TASK]
+TASK = milltask
+CYCLE_TIME = 0.001
+[RS274NGC]
+PARAMETER_FILE = parameters.var
+[EMCIO]
+EMCIO = io
+CYCLE_TIME = 0.1
+TOOL_TABLE = tools.tbl
+[EMCMOT]
+EMCMOT = motmod
+COMM_TIMEOUT = 4.0
+SERVO_PERIOD = 1000000
+[HAL]
+HALFILE = machine.hal
+HALFILE = mdof_compensation.hal
+HALFILE = drives.hal
+[TRAJ]
+COORDINATES = XYZ
+LINEAR_UNITS = mm
+ANGULAR_UNITS = degree
+MAX_LINEAR_VELOCITY = {velocity * 2}
+DEFAULT_LINEAR_VELOCITY = {velocity}
+NO_FORCE_HOMING = 0
+[KINS]
+JOINTS = 3
+KINEMATICS = trivkins coordinates=XYZ
+{axes}{joints}"""
+
+
+class LinuxCnc:
+    def __init__(self, folder, text, compensation_hal):
+        self.folder = folder
+        folder.mkdir()
+        for name, content in (("machine.ini", text), ("machine.hal", HAL), ("mdof_compensation.hal", compensation_hal),
+                              ("drives.hal", DRIVES + "".join(f"addf comp.{k} servo-thread\n" for k in range(3)) +
+                               "addf sampler.0 servo-thread\n"), ("tools.tbl", "")):
+            (folder / name).write_text(content)
+        shutil.copy(HERE / "display.py", folder)
+        subprocess.run(["halcompile", "--compile", FROM / "mdof_compensation.comp"], cwd=folder, check=True, capture_output=True)
+        shutil.copytree(MODULES, folder / "modules")
+        shutil.copy(folder / "mdof_compensation.so", folder / "modules")
+        subprocess.run(["chown", "-R", "nobody", folder], check=True)
+        listening = socket.socket(socket.AF_UNIX)
+        listening.bind(str(folder / "commands"))
+        shutil.chown(folder / "commands", "nobody")
+        listening.listen()
+        listening.settimeout(60)
+        self.log = open(folder / "log", "w")
+        self.environment = {"HOME": str(folder), "PATH": "/usr/bin:/bin", "LANG": "C", "COMMANDS": str(folder / "commands"),
+                            "RTAPI_FIFO_PATH": str(folder / "fifo")}
+        self.process = subprocess.Popen(self.as_nobody("linuxcnc", "-r", "machine.ini"), cwd=folder, stdout=self.log,
+                                        stderr=subprocess.STDOUT, env=self.environment)
+        try:
+            connection, _ = listening.accept()
+        except TimeoutError:
+            self.process.terminate()
+            raise RuntimeError(f"LinuxCNC did not start:\n{self.words()}") from None
+        connection.settimeout(120)
+        self.lines = connection.makefile("rw")
+        self.samples = open(folder / "samples", "w")
+        self.sampler = subprocess.Popen(self.as_nobody("halsampler", "-t"), cwd=folder, stdout=self.samples, env=self.environment)
+
+    def as_nobody(self, *command):
+        modules = self.folder / "modules"
+        return ["unshare", "--mount", "sh", "-c", 'mount --bind "$0" "$1" && shift && exec setpriv --reuid=nobody '
+                '--regid=nogroup --clear-groups "$@"', str(modules), str(MODULES), *command]
+
+    def words(self):
+        return (self.folder / "log").read_text()[-4000:]
+
+    def ask(self, name, *arguments):
+        try:
+            self.lines.write(json.dumps([name, arguments]) + "\n")
+            self.lines.flush()
+            answer = json.loads(self.lines.readline())
+        except (OSError, ValueError) as why:
+            raise RuntimeError(f"LinuxCNC is gone ({why}):\n{self.words()}") from None
+        if "error" in answer:
+            raise RuntimeError(f"{name}{arguments}: {answer['error']}; {self.said()}\n{self.words()}")
+        return answer["result"]
+
+    def __getattr__(self, name):
+        return lambda *arguments: self.ask(name, *arguments)
+
+    def pin(self, name):
+        return self.ask("get", f"mdof-compensation.{name}")[0]
+
+    def wait_for(self, pin, value, seconds=30):
+        end = time.monotonic() + seconds
+        while (now := self.pin(pin)) != value:
+            if time.monotonic() > end:
+                raise RuntimeError(f"{pin} is {now}, not {value}, after {seconds} s\n{self.words()}")
+            time.sleep(0.02)
+
+    def sample(self):
+        """Begins to keep what each servo period sampled."""
+        time.sleep(0.3)
+        self.from_byte = (self.folder / "samples").stat().st_size
+
+    def sampled(self):
+        """Rows [number, at x y z, in x y z, out x y z] since sample()."""
+        time.sleep(0.3)
+        with open(self.folder / "samples") as samples:
+            samples.seek(self.from_byte)
+            lines = samples.read().splitlines()[1:-1]
+        if any(line.startswith("overrun") for line in lines):
+            raise RuntimeError("samples were lost")
+        return [[float(field) for field in line.split()] for line in lines]
+
+    def end(self):
+        self.sampler.terminate()
+        self.sampler.wait()
+        try:
+            self.lines.write('["quit", []]\n')
+            self.lines.flush()
+            self.process.wait(30)
+        except (OSError, subprocess.TimeoutExpired):
+            self.process.terminate()
+            self.process.wait(30)
+
+
+class Grid:
+    """A table by `mdof compensation show --csv`, linear between nodes; mm."""
+
+    def __init__(self, text):
+        rows = list(csv.DictReader(line for line in io.StringIO(text) if not line.startswith("#")))
+        self.axes = [sorted({float(r[f"{axis}_mm"]) for r in rows}) for axis in "XYZ"]
+        self.at = {tuple(float(r[f"{axis}_mm"]) for axis in "XYZ"): [float(r[f"correction_{k}_um"]) / 1000 for k in "XYZ"] for r in rows}
+
+    def correction(self, place):
+        corners = [((), 1.0)]
+        for grid, x in zip(self.axes, place):
+            if len(grid) == 1:
+                corners = [(at + (grid[0],), w) for at, w in corners]
+                continue
+            i = max(k for k, v in enumerate(grid[:-1]) if v <= x or k == 0)
+            p = min(1.0, max(0.0, (x - grid[i]) / (grid[i + 1] - grid[i])))
+            corners = [(at + (grid[i + a],), w * (p if a else 1 - p)) for at, w in corners for a in (0, 1)]
+        return [sum(w * self.at[at][k] for at, w in corners if w) for k in range(3)]
+
+
+class Mdofd:
+    """An mdofd whose socket LinuxCNC's user may use, and the tables of its database."""
+
+    def __init__(self, folder):
+        from mdofd import Daemon, simulator
+        self.folder = folder
+        self.daemon = Daemon(os.environ["MDOFD"], str(folder), simulator())
+        self.tables = 0
+        self.start()
+
+    def start(self):
+        if self.daemon.process and self.daemon.process.poll() is None:
+            return
+        self.client = self.daemon.start()
+        shutil.chown(self.daemon.socket, "nobody")
+
+    def mdof(self, *words):
+        from mdof_runner import run
+        code, out, err = run(*words, "--db", self.daemon.database, "--socket", self.daemon.socket)
+        if code:
+            raise RuntimeError(f"mdof {words}: {code}: {err}")
+        return out
+
+    def build(self, machine, *words):
+        built = json.loads(self.mdof("compensation", "build", "--machine", machine, *words, "--json"))
+        return built["table"]
+
+    def grid(self, table):
+        from mdof_runner import run
+        code, out, err = run("compensation", "show", table, "--csv", "--db", self.daemon.database)
+        assert code == 0, err
+        return Grid(out)
+
+    def activate(self, table, *words):
+        return json.loads(self.mdof("compensation", "activate", table, *words, "--json"))["generation"]
+
+    def deactivate(self):
+        self.mdof("compensation", "deactivate", "--axis", "volume")
+
+
+def write_machine(folder, errors, simulated=False, length=320, step=10, chain="w-b-X-Y-Z-t"):
+    """MACHINE.toml whose positioning errors are errors(axis, position_mm), um; all others are 0."""
+    folder.mkdir()
+    text = 'name = "mill"\n' + ("simulated = true\n" if simulated else "") + f'machine = {{chain = "{chain}"}}\n'
+    for axis, more in (("X", ""), ("Y", "EC0Y_urad = 0\n"), ("Z", "EA0Z_urad = 0\nEB0Z_urad = 0\n")):
+        rows = [[x, errors(axis, x)] for x in range(0, length + 1, step)]
+        none = "".join(f"{key} = 0\n" for key in [f"E{a}{axis}_um" for a in "XYZ" if a != axis] + [f"E{r}{axis}_urad" for r in "ABC"])
+        text += f'[[axis]]\nid = "{axis}"\nholds_at_mm = [0, 0, 0]\npoint = "moving"\nE{axis}{axis}_um = {rows}\n{none}{more}'
+    (folder / "machine.toml").write_text(text)
+    return folder / "machine.toml"

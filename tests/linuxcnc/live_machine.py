@@ -31,6 +31,19 @@ net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in
 net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
 net change iocontrol.0.tool-change => iocontrol.0.tool-changed
 """
+# What a user nets; the loader's options are added.
+COMPENSATION = """loadrt mdof_compensation
+addf mdof-compensation.feedback servo-thread 1
+addf mdof-compensation.command servo-thread
+setp mdof-compensation.max-offset 0.15
+net homed motion.is-all-homed => mdof-compensation.all-homed
+net on motion.motion-enabled => mdof-compensation.machine-on
+net inhibit mdof-compensation.homing-inhibit => motion.homing-inhibit
+""" + "".join(f"""net from-motion-{k} joint.{k}.motor-pos-cmd => mdof-compensation.pos-in-{k}
+net to-motion-{k} mdof-compensation.fb-out-{k} => joint.{k}.motor-pos-fb
+net look-up-{k} joint.{k}.pos-cmd => mdof-compensation.joint-pos-{k}
+net homing-{k} joint.{k}.homing => mdof-compensation.homing-{k}
+""" for k in range(3)) + f"loadusr -Wn mdof-compensation-loader {FROM}/mdof_compensation_loader --axis-velocity 200 200 200 "
 # Drives that are where they are told to be; a period later the feedback shows it. Home switches at -3 mm of the drive.
 DRIVES = "".join(f"net drive-{k} mdof-compensation.pos-out-{k} => mdof-compensation.fb-in-{k} sampler.0.pin.{6 + k}\n"
                  f"net drive-{k} => comp.{k}.in0\nsetp comp.{k}.in1 -3\nnet switch-{k} comp.{k}.out => joint.{k}.home-sw-in\n"
@@ -98,7 +111,8 @@ KINEMATICS = trivkins coordinates=XYZ
 
 
 class LinuxCnc:
-    def __init__(self, folder, text, compensation_hal):
+    def __init__(self, folder, text, compensation_hal, plant=("", "")):
+        """plant: a mistake in the component, which the test has to see; what is replaced, by what."""
         self.folder = folder
         folder.mkdir()
         for name, content in (("machine.ini", text), ("machine.hal", HAL), ("mdof_compensation.hal", compensation_hal),
@@ -106,7 +120,12 @@ class LinuxCnc:
                                "addf sampler.0 servo-thread\n"), ("tools.tbl", "")):
             (folder / name).write_text(content)
         shutil.copy(HERE / "display.py", folder)
-        subprocess.run(["halcompile", "--compile", FROM / "mdof_compensation.comp"], cwd=folder, check=True, capture_output=True)
+        component = (FROM / "mdof_compensation.comp").read_text()
+        if plant[0] not in component:
+            raise ValueError(f"{plant[0]} is not in the component")
+        (folder / "mdof_compensation.comp").write_text(component.replace(*plant) if plant[0] else component)
+        shutil.copy(FROM / "mdof_compensation.h", folder)
+        subprocess.run(["halcompile", "--compile", "mdof_compensation.comp"], cwd=folder, check=True, capture_output=True)
         shutil.copytree(MODULES, folder / "modules")
         shutil.copy(folder / "mdof_compensation.so", folder / "modules")
         subprocess.run(["chown", "-R", "nobody", folder], check=True)
@@ -244,6 +263,15 @@ class Mdofd:
 
     def activate(self, table, *words):
         return json.loads(self.mdof("compensation", "activate", table, *words, "--json"))["generation"]
+
+    def take(self, database, table):
+        """Another database in place of its own, and a table of it that it serves; the generation."""
+        self.daemon.stop()
+        shutil.copy(database, self.daemon.database)
+        for more in ("-wal", "-shm"):
+            pathlib.Path(self.daemon.database + more).unlink(missing_ok=True)
+        self.start()
+        return self.activate(table)
 
     def deactivate(self):
         self.mdof("compensation", "deactivate", "--axis", "volume")

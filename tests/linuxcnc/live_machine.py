@@ -27,27 +27,14 @@ loadrt comp count=3
 loadrt sampler depth=20000 cfg=fffffffff
 addf motion-command-handler servo-thread
 addf motion-controller servo-thread
-net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in
+""" + "".join(f"net drive-{k} joint.{k}.motor-pos-cmd => joint.{k}.motor-pos-fb\n" for k in range(3)) + """net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in
 net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
 net change iocontrol.0.tool-change => iocontrol.0.tool-changed
 """
-# What a user nets; the loader's options are added.
-COMPENSATION = """loadrt mdof_compensation
-addf mdof-compensation.feedback servo-thread 1
-addf mdof-compensation.command servo-thread
-setp mdof-compensation.max-offset 0.15
-net homed motion.is-all-homed => mdof-compensation.all-homed
-net on motion.motion-enabled => mdof-compensation.machine-on
-net inhibit mdof-compensation.homing-inhibit => motion.homing-inhibit
-""" + "".join(f"""net from-motion-{k} joint.{k}.motor-pos-cmd => mdof-compensation.pos-in-{k}
-net to-motion-{k} mdof-compensation.fb-out-{k} => joint.{k}.motor-pos-fb
-net look-up-{k} joint.{k}.pos-cmd => mdof-compensation.joint-pos-{k}
-net homing-{k} joint.{k}.homing => mdof-compensation.homing-{k}
-""" for k in range(3)) + f"loadusr -Wn mdof-compensation-loader {FROM}/mdof_compensation_loader --axis-velocity 200 200 200 "
 # Drives that are where they are told to be; a period later the feedback shows it. Home switches at -3 mm of the drive.
-DRIVES = "".join(f"net drive-{k} mdof-compensation.pos-out-{k} => mdof-compensation.fb-in-{k} sampler.0.pin.{6 + k}\n"
-                 f"net drive-{k} => comp.{k}.in0\nsetp comp.{k}.in1 -3\nnet switch-{k} comp.{k}.out => joint.{k}.home-sw-in\n"
-                 f"net look-up-{k} sampler.0.pin.{k}\nnet from-motion-{k} sampler.0.pin.{3 + k}\n" for k in range(3))
+DRIVES = "".join(f"net drive-{k} => sampler.0.pin.{6 + k} comp.{k}.in0\nsetp comp.{k}.in1 -3\nnet switch-{k} comp.{k}.out => joint.{k}.home-sw-in\n"
+                 f"net mdof-{axis}-position => sampler.0.pin.{k}\nnet mdof-{axis}-command => sampler.0.pin.{3 + k}\n"
+                 for k, axis in enumerate("xyz"))
 
 
 def missing():
@@ -68,13 +55,13 @@ def skip_where_missing():
         sys.exit(SKIPPED)
 
 
-def ini(limits, velocity, acceleration, joint=""):
+def ini(limits, velocity, acceleration, min_ferror=0.02):
     axes = "".join(f"[AXIS_{axis}]\nMIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\n"
                    f"MAX_ACCELERATION = {acceleration}\n" for axis, (low, high) in zip("XYZ", limits))
     joints = "".join(f"[JOINT_{k}]\nTYPE = LINEAR\nHOME = 0\nHOME_SEQUENCE = 0\nHOME_OFFSET = -3\nHOME_SEARCH_VEL = -20\n"
-                     f"HOME_LATCH_VEL = -0.2\nFERROR = 0.5\nMIN_FERROR = 0.02\n"
+                     f"HOME_LATCH_VEL = -0.2\nFERROR = 0.5\nMIN_FERROR = {min_ferror}\n"
                      f"MIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\nMAX_ACCELERATION = {acceleration}\n"
-                     + joint for k, (low, high) in enumerate(limits))
+                     for k, (low, high) in enumerate(limits))
     return f"""[EMC]
 VERSION = 1.1
 MACHINE = live
@@ -111,14 +98,15 @@ KINEMATICS = trivkins coordinates=XYZ
 
 
 class LinuxCnc:
-    def __init__(self, folder, text, compensation_hal, plant=("", "")):
+    def __init__(self, folder, text, mdofd, plant=("", "")):
         """plant: a mistake in the component, which the test has to see; what is replaced, by what."""
         self.folder = folder
         folder.mkdir()
-        for name, content in (("machine.ini", text), ("machine.hal", HAL), ("mdof_compensation.hal", compensation_hal),
+        for name, content in (("machine.ini", text), ("machine.hal", HAL),
                               ("drives.hal", DRIVES + "".join(f"addf comp.{k} servo-thread\n" for k in range(3)) +
                                "addf sampler.0 servo-thread\n"), ("tools.tbl", "")):
             (folder / name).write_text(content)
+        mdofd.mdof("compensation", "linuxcnc", "--ini", folder / "machine.ini", "--out", folder, "--margin-mm", 0.15)
         shutil.copy(HERE / "display.py", folder)
         component = (FROM / "mdof_compensation.comp").read_text()
         if plant[0] not in component:
@@ -135,7 +123,7 @@ class LinuxCnc:
         listening.listen()
         listening.settimeout(60)
         self.log = open(folder / "log", "w")
-        self.environment = {"HOME": str(folder), "PATH": "/usr/bin:/bin", "LANG": "C", "COMMANDS": str(folder / "commands"),
+        self.environment = {"HOME": str(folder), "PATH": f"/usr/bin:/bin:{FROM}", "LANG": "C", "COMMANDS": str(folder / "commands"),
                             "RTAPI_FIFO_PATH": str(folder / "fifo")}
         self.process = subprocess.Popen(self.as_nobody("linuxcnc", "-r", "machine.ini"), cwd=folder, stdout=self.log,
                                         stderr=subprocess.STDOUT, env=self.environment)
@@ -246,7 +234,8 @@ class Mdofd:
 
     def mdof(self, *words):
         from mdof_runner import run
-        code, out, err = run(*words, "--db", self.daemon.database, "--socket", self.daemon.socket)
+        database = [] if words[1] == "linuxcnc" else ["--db", self.daemon.database]
+        code, out, err = run(*words, *database, "--socket", self.daemon.socket)
         if code:
             raise RuntimeError(f"mdof {words}: {code}: {err}")
         return out

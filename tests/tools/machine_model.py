@@ -10,8 +10,10 @@ PROBES = {
           "D": ((0, .015, .02), "y"), "E": ((.01, .015, .02), "y")},
     "Y": {"A": ((0, .01, 0), "z"), "B": ((-.01, 0, 0), "z"), "C": ((.01, 0, 0), "z"),
           "D": ((-.015, 0, .02), "-x"), "E": ((-.015, .01, .02), "-x")},
+    "Z": {"A": ((0, 0, .01), "y"), "B": ((.01, 0, 0), "y"), "C": ((-.01, 0, 0), "y"),  # that of X, its axes turned round
+          "D": ((.015, .02, 0), "x"), "E": ((.015, .02, .01), "x")},
 }
-DIRECTION = {"z": (0, 0, 1), "y": (0, 1, 0), "-x": (-1, 0, 0)}
+DIRECTION = {"z": (0, 0, 1), "x": (1, 0, 0), "y": (0, 1, 0), "-x": (-1, 0, 0)}
 
 
 def product(a, b):
@@ -64,13 +66,13 @@ def readings(axis, pose_MC):
 def pose(axis, travel, errors):
     """Of C in M: `errors` are two straightness (of C's origin) and A, B, C of the target."""
     first, second, a, b, c = errors
-    shift = {"X": (travel, first, second), "Y": (first, travel, second)}[axis]
+    shift = {"X": (travel, first, second), "Y": (first, travel, second), "Z": (first, second, travel)}[axis]
     return product(moved(*shift), turned(a, b, c))
 
 
 def error_at(axis, travel, pose_MC, point):
     """Of the target's material that is at `point` of M when all is nominal, m."""
-    along = {"X": (1, 0, 0), "Y": (0, 1, 0)}[axis]
+    along = {"X": (1, 0, 0), "Y": (0, 1, 0), "Z": (0, 0, 1)}[axis]
     nominal = tuple(p - travel * u for p, u in zip(point, along))
     return tuple(x - p for x, p in zip(applied(pose_MC, nominal), point))
 
@@ -131,7 +133,7 @@ def write_log(path, axis, way, readings_at, rate_hz=500, dwell_s=0.3, speed_m_s=
 
 def write_rig(path, axis, extra="", range_um=400):
     """The default fixture; `extra` stands before the probes."""
-    named = {"z": "+Z", "y": "+Y", "-x": "-X"}
+    named = {"z": "+Z", "y": "+Y", "x": "+X", "-x": "-X"}
     text = f'name = "model"\naxis = "{axis}"\n{extra}\n'
     for probe, (point, way) in PROBES[axis].items():
         text += (f'[[probe]]\nid = "{probe}"\nposition_mm = [{", ".join(f"{p * 1e3:g}" for p in point)}]\n'

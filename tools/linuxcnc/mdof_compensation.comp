@@ -32,7 +32,7 @@ pin out u32 fault_code "0 none, 1 the loader is silent, 2 age-s is too large, 3 
 pin out u32 refused "Tables that were refused since the start";
 pin out u32 refused_code "Of the last one: 2 out of order, 3 too large, 4 a number is bad, 5 beyond max-offset";
 
-param rw float fade_velocity = 0.05 "Of the offset after a change of tables, machine units/s";
+param rw float fade_velocity = 0.04 "Of the offset after a change of tables, machine units/s";
 param rw float max_velocity = 1 "Of the offset, machine units/s";
 param rw float max_acceleration = 50 "Of the offset, machine units/s^2";
 param rw float max_offset = 0.1 "Largest correction of a table, machine units";

@@ -35,7 +35,7 @@ COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid"
 OTHERS = {"clearance", "completion", "help", "machine kinematics", "machine budget", "milling",
           "form scan", "form compare", "form clamp", "form cut", "form path", "part", "plot", "report",
           "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
-          "compensation deactivate", "compensation export", "compensation list", "device list", "device monitor",
+          "compensation deactivate", "compensation export", "compensation linuxcnc", "compensation list", "device list", "device monitor",
           "device probe", "doctor", "drift", "encoder set", "export", "history", "import", "iso230-2", "live",
           "machine circle", "machine diagonal", "machine error", "machine map", "machine perpendicularity", "record", "runs",
           "selftest", "sensitivity", "separate reversal", "separate shift", "separate square", "setup network",

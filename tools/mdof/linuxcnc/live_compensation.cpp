@@ -1,0 +1,263 @@
+#include "tools/mdof/linuxcnc/live_compensation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "schema/base/number/number.h"
+#include "schema/base/number/number_text.h"
+#include "schema/base/trimmed.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr double kMmPerInch = 25.4, kSecondPerNs = 1e-9;
+// The drive lags: 10 periods, of which the following error may take a tenth of MIN_FERROR.
+constexpr double kLaggingPeriods = 10, kShareOfFollowingError = 0.1;
+constexpr double kShareOfAxis = 0.05;  // of MAX_VELOCITY and MAX_ACCELERATION
+constexpr double kMostVelocity_mm_s = 1, kMostAcceleration_mm_s2 = 50, kFade_mm_s = 0.04;
+
+class Judge {
+ public:
+  Judge(const LinuxCncIni& ini, const HalWiring& wiring, const LiveRequest& request)
+      : ini_(ini), wiring_(wiring), request_(request) {}
+
+  Result<LiveCompensation> live() {
+    read_units();
+    read_joints();
+    read_period();
+    if (refused_.empty()) set_limits();
+    if (refused_.empty()) write_hal();
+    if (refused_.empty()) return live_;
+    std::string all;
+    for (const std::string& what : refused_) all += (all.empty() ? "" : "; ") + what;
+    return bad_input(ini_.file.string() + ": " + all);
+  }
+
+ private:
+  void refuse(const std::string& what) { refused_.push_back(what); }
+
+  std::optional<double> number(const std::string& section, const std::string& key) {
+    const IniEntry* entry = ini_.find(section, key);
+    if (!entry) return {};
+    double x = 0;
+    const char* end = entry->value.data() + entry->value.size();
+    if (parse_double(entry->value.data(), end, x) == end && std::isfinite(x)) return x;
+    refuse("line " + std::to_string(entry->line) + ": [" + section + "]" + key + " = " +
+           entry->value + " is no number");
+    return {};
+  }
+
+  double needed(const std::string& section, const std::string& key, bool positive = true) {
+    const std::size_t refused = refused_.size();
+    const auto x = number(section, key);
+    if (!x && refused == refused_.size())
+      refuse("[" + section + "]" + key + " is missing");
+    else if (x && positive && !(*x > 0))
+      refuse("[" + section + "]" + key + " = " + plain_number(*x) + " must be above 0");
+    return x.value_or(1);
+  }
+
+  void read_units() {
+    const std::string unit = ini_.value("TRAJ", "LINEAR_UNITS");
+    live_.inch = unit == "inch" || unit == "in" || unit == "imperial";
+    if (!live_.inch && unit != "mm" && unit != "metric")
+      refuse("[TRAJ]LINEAR_UNITS = \"" + unit + "\" is neither mm nor inch");
+    unit_ = live_.inch ? 1 / kMmPerInch : 1;
+  }
+
+  // trivkins alone says which joint is which axis, one joint each.
+  void read_joints() {
+    const std::string text = ini_.value("KINS", "KINEMATICS");
+    const auto words = words_of(text);
+    if (words.empty() || words[0] != "trivkins")
+      return refuse("[KINS]KINEMATICS = \"" + text +
+                    "\": only trivkins has joints that are axes; other kinematics cannot be "
+                    "compensated joint by joint");
+    std::string letters = "XYZABCUVW";
+    for (const std::string_view word : words)
+      if (word.starts_with("coordinates=")) letters = word.substr(word.find('=') + 1);
+    for (char& letter : letters)
+      if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+    const double count = needed("KINS", "JOINTS");
+    for (const char axis : std::string_view("XYZ")) {
+      const std::size_t joint = letters.find(axis);
+      if (joint == std::string::npos || static_cast<double>(joint) >= count) continue;
+      if (letters.find(axis, joint + 1) != std::string::npos)
+        refuse(std::string("[KINS]KINEMATICS: axis ") + axis +
+               " has two joints, which the component does not move together");
+      live_.joints.push_back({axis, static_cast<int>(joint)});
+      check_joint(section_of(live_.joints.back()));
+    }
+    if (live_.joints.empty()) refuse("[KINS]KINEMATICS: has none of X, Y, Z");
+  }
+
+  static std::string section_of(const LiveJoint& joint) {
+    return "JOINT_" + std::to_string(joint.joint);
+  }
+
+  void check_joint(const std::string& section) {
+    const std::string type = ini_.value(section, "TYPE");
+    if (type != "LINEAR") refuse("[" + section + "]TYPE = \"" + type + "\" is not LINEAR");
+    if (ini_.find(section, "COMP_FILE"))
+      refuse("[" + section + "]COMP_FILE: both it and the live table would be applied; remove it");
+    if (number(section, "BACKLASH").value_or(0) != 0)
+      refuse("[" + section +
+             "]BACKLASH: the table has the mean of both approaches, which is "
+             "measured with BACKLASH off; remove it and measure again");
+    const double least = needed(section, "MIN_LIMIT", false);
+    if (needed(section, "MAX_LIMIT", false) <= least)
+      refuse("[" + section + "]MAX_LIMIT is not above MIN_LIMIT");
+    for (const char* key : {"MAX_VELOCITY", "MAX_ACCELERATION", "MIN_FERROR", "FERROR"})
+      needed(section, key);
+  }
+
+  void read_period() { period_s_ = needed("EMCMOT", "SERVO_PERIOD") * kSecondPerNs; }
+
+  void at_most(double& limit, double most, std::string& reason, const std::string& why) {
+    if (most >= limit) return;
+    limit = most;
+    reason = why;
+  }
+
+  void set_limits() {
+    std::string unused;
+    live_.max_offset = request_.margin_mm * unit_;
+    live_.offset_reason = "--margin-mm";
+    live_.max_velocity = kMostVelocity_mm_s * unit_;
+    live_.velocity_reason = "the largest that is ever allowed";
+    live_.max_acceleration = kMostAcceleration_mm_s2 * unit_;
+    for (const LiveJoint& joint : live_.joints) {
+      const std::string s = section_of(joint);
+      const auto home = number(s, "HOME_OFFSET");
+      const double beyond = home ? std::max(needed(s, "MIN_LIMIT", false) - *home,
+                                            *home - needed(s, "MAX_LIMIT", false))
+                                 : 0;
+      if (beyond > 0)
+        at_most(live_.max_offset, beyond, live_.offset_reason,
+                "[" + s + "]HOME_OFFSET, a switch that near to the soft limit");
+      at_most(live_.max_velocity,
+              kShareOfFollowingError * needed(s, "MIN_FERROR") / (kLaggingPeriods * period_s_),
+              live_.velocity_reason, "[" + s + "]MIN_FERROR");
+      at_most(live_.max_velocity, kShareOfAxis * needed(s, "MAX_VELOCITY"), live_.velocity_reason,
+              "[" + s + "]MAX_VELOCITY");
+      at_most(live_.max_acceleration, kShareOfAxis * needed(s, "MAX_ACCELERATION"), unused, "");
+    }
+    live_.fade_velocity = std::min(kFade_mm_s * unit_, live_.max_velocity);
+    for (const LiveJoint& joint : live_.joints) check_headroom(section_of(joint));
+  }
+
+  // A step generator that cannot follow is a following error while cutting.
+  void check_headroom(const std::string& section) {
+    for (const auto& [drive, axis, more] :
+         {std::tuple{"STEPGEN_MAXVEL", "MAX_VELOCITY", live_.max_velocity},
+          {"STEPGEN_MAXACCEL", "MAX_ACCELERATION", live_.max_acceleration}}) {
+      const double most = number(section, drive).value_or(0), least = needed(section, axis) + more;
+      if (most != 0 && most < least)
+        refuse("[" + section + "]" + drive + " = " + plain_number(most) + " must be at least " +
+               plain_number(least) + ": " + axis + " and what the offset needs");
+    }
+  }
+
+  // A pin can be in one signal only: where the user has netted it, that one is used.
+  void net(const std::string& name, const std::string& pin, const std::string& to) {
+    const std::string signal = wiring_.signal(pin, name);
+    live_.hal +=
+        "net " + signal + (signal == name ? " " + pin : "") + " => mdof-compensation." + to + "\n";
+  }
+
+  std::optional<int> place_of(const std::string& function, std::string& thread) {
+    for (const HalFunction& f : wiring_.functions)
+      if (f.name == function) thread = f.thread;
+    int place = 0;
+    for (const HalFunction& f : wiring_.functions) {
+      if (f.thread != thread) continue;
+      ++place;
+      if (f.name == function) return place;
+    }
+    return {};
+  }
+
+  void write_hal() {
+    std::string not_read, thread, other;
+    for (const std::string& file : wiring_.not_read) not_read += " " + file;
+    const std::string unseen = not_read.empty() ? "" : " (not read:" + not_read + ")";
+    const auto reads = place_of("motion-command-handler", thread);
+    const auto moves = place_of("motion-controller", other);
+    if (!reads || !moves || thread != other || *moves < *reads)
+      return refuse(
+          "[HAL]HALFILE: no addf of motion-command-handler and then motion-controller "
+          "to one thread" +
+          unseen);
+    if (wiring_.signal_of.contains("motion.homing-inhibit"))
+      refuse(
+          "[HAL]HALFILE: nets motion.homing-inhibit, which the component has to set while its "
+          "offset is not 0");
+    const std::string at = " " + thread + " ";
+    live_.hal =
+        "# Live compensation by mdof. The last HALFILE of [HAL].\nloadrt mdof_compensation\n"
+        "addf mdof-compensation.feedback" +
+        at + std::to_string(*reads) + "\naddf mdof-compensation.command" + at +
+        std::to_string(*moves + 2) + "\n";
+    for (const auto& [name, value] : {std::pair{"max-offset", live_.max_offset},
+                                      {"max-velocity", live_.max_velocity},
+                                      {"max-acceleration", live_.max_acceleration},
+                                      {"fade-velocity", live_.fade_velocity}})
+      live_.hal +=
+          "setp mdof-compensation." + std::string(name) + " " + plain_number(value, 9) + "\n";
+    net("mdof-homed", "motion.is-all-homed", "all-homed");
+    net("mdof-on", "motion.motion-enabled", "machine-on");
+    live_.hal +=
+        "net mdof-homing-inhibit mdof-compensation.homing-inhibit => motion.homing-inhibit\n";
+    for (const LiveJoint& joint : live_.joints) write_joint(joint, unseen);
+    write_loader();
+  }
+
+  void write_joint(const LiveJoint& joint, const std::string& unseen) {
+    const std::string of = "joint." + std::to_string(joint.joint) + ".";
+    const std::string k(1, static_cast<char>('0' + joint.axis - 'X'));
+    const std::string name = std::string("mdof-") + static_cast<char>(joint.axis - 'X' + 'x');
+    const std::string command = wiring_.signal(of + "motor-pos-cmd", "");
+    const std::string feedback = wiring_.signal(of + "motor-pos-fb", "");
+    for (const auto& [pin, signal] :
+         {std::pair{"motor-pos-cmd", command}, {"motor-pos-fb", feedback}})
+      if (signal.empty()) refuse("[HAL]HALFILE: nothing nets " + of + pin + unseen);
+    live_.hal += std::string("# ") + joint.axis + "\nunlinkp " + of + "motor-pos-cmd\nunlinkp " +
+                 of + "motor-pos-fb\nnet " + name + "-command " + of +
+                 "motor-pos-cmd => mdof-compensation.pos-in-" + k + "\nnet " + command +
+                 " mdof-compensation.pos-out-" + k + "\nnet " + feedback +
+                 " => mdof-compensation.fb-in-" + k + "\nnet " + name +
+                 "-feedback mdof-compensation.fb-out-" + k + " => " + of + "motor-pos-fb\n";
+    net(name + "-position", of + "pos-cmd", "joint-pos-" + k);
+    net(name + "-homing", of + "homing", "homing-" + k);
+  }
+
+  void write_loader() {
+    live_.hal += "loadusr -Wn mdof-compensation-loader mdof_compensation_loader --axis-velocity";
+    for (const char axis : std::string_view("XYZ")) {
+      const auto found = std::find_if(live_.joints.begin(), live_.joints.end(),
+                                      [axis](const LiveJoint& j) { return j.axis == axis; });
+      live_.hal += found == live_.joints.end() ? " 0" : " [" + section_of(*found) + "]MAX_VELOCITY";
+    }
+    live_.hal += " --socket " + request_.socket + (live_.inch ? " --inch" : "") +
+                 (request_.simulated ? " --simulated" : "") +
+                 (request_.despite_warnings ? " --despite-warnings" : "") + "\n";
+  }
+
+  const LinuxCncIni& ini_;
+  const HalWiring& wiring_;
+  const LiveRequest& request_;
+  LiveCompensation live_;
+  std::vector<std::string> refused_;
+  double unit_ = 1, period_s_ = 1e-3;
+};
+
+}  // namespace
+
+Result<LiveCompensation> live_compensation(const LinuxCncIni& ini, const HalWiring& wiring,
+                                           const LiveRequest& request) {
+  return Judge(ini, wiring, request).live();
+}
+
+}  // namespace mdof::tools

@@ -9,6 +9,8 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "daemon/measure/budgets.h"
+
 namespace mdof::daemon {
 namespace {
 
@@ -56,7 +58,9 @@ void Replayer::Shared::store(Result<Run> run, const Deed& deed, const Done& done
   if (!run) return done(tl::unexpected(run.error()));
   const auto whole = std::make_shared<Run>(std::move(*run));
   const bool posted =
-      keeper.post([whole, deed, done](store::Store& store) { done(store.add_run(*whole, deed)); });
+      keeper.post([whole, deed, done, uncertainty = uncertainty_of(*whole)](store::Store& store) {
+        done(store.add_run(*whole, deed, uncertainty));
+      });
   if (!posted) done(io_error("the store is behind with its work; try again"));
 }
 

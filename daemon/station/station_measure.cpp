@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "algo/points/flags.h"
+#include "daemon/measure/budgets.h"
 #include "daemon/measure/completeness.h"
 #include "daemon/paths.h"
 #include "daemon/station/live_json.h"
@@ -323,7 +324,9 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
   const std::int64_t id = open->id;
   const Axis axis = config_.rig.axis;
   const RunState became = run.header.state;
-  keeper_.end_run(id, std::move(run), {differs, deed},
+  std::optional<RunUncertainty> uncertainty;
+  if (result) uncertainty = uncertainty_of(run);
+  keeper_.end_run(id, std::move(run), {differs, deed, std::move(uncertainty)},
                   [shared = shared_, id, axis, became,
                    done = std::move(done)](const Result<std::int64_t>& stored) {
                     shared->run = 0;

@@ -22,6 +22,7 @@
 #include "schema/notice/notice.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
+#include "schema/uncertainty/run_uncertainty.h"
 #include "schema/volumetric/volumetric_table.h"
 
 namespace mdof::store {
@@ -48,7 +49,8 @@ struct RunEnd {
   std::vector<AngleFigure> angles;
   std::optional<Plausibility> plausibility = std::nullopt;
   std::optional<Temperature> temperature = std::nullopt;
-  std::optional<Deed> deed = std::nullopt;  // of who asked for it
+  std::optional<Deed> deed = std::nullopt;                   // of who asked for it
+  std::optional<RunUncertainty> uncertainty = std::nullopt;  // of its points, for SQL users
 };
 
 // A table in force.
@@ -95,7 +97,8 @@ class Store {
   // ---- runs ----
   // A whole run in one transaction: all of it is stored or nothing. The header's id is not used;
   // its state must not be open. Gives the run's id.
-  Result<std::int64_t> add_run(const Run& run, const std::optional<Deed>& deed = std::nullopt);
+  Result<std::int64_t> add_run(const Run& run, const std::optional<Deed>& deed = std::nullopt,
+                               const std::optional<RunUncertainty>& uncertainty = std::nullopt);
   // A run that is being measured: begun, filled and ended, each call durable on return. Only this
   // store can fill it; if it ends before the run does, the run is `aborted` and says "interrupted".
   Result<std::int64_t> begin_run(const RunHeader& header,
@@ -104,7 +107,9 @@ class Store {
   Status end_run(std::int64_t run, const RunEnd& end);
   // Ends it and stores what it turned out to be as a run that supersedes it, in one transaction.
   // Of the result's header only state and notices count. Gives the new run's id.
-  Result<std::int64_t> end_and_supersede(std::int64_t run, const RunEnd& end, Run result);
+  Result<std::int64_t> end_and_supersede(
+      std::int64_t run, const RunEnd& end, Run result,
+      const std::optional<RunUncertainty>& uncertainty = std::nullopt);
 
   Result<RunHeader> run_header(std::int64_t run);
   // Newest first; `axis` narrows it to the runs of one axis. `results`: without those that
@@ -224,7 +229,9 @@ class Store {
   Status insert_temperature(std::int64_t run, const std::optional<Temperature>& read);
   Result<std::optional<Temperature>> temperature(std::int64_t run);
   Status insert_end(std::int64_t run, const RunEnd& end, const std::string& sha256);
-  Result<std::int64_t> insert_whole(const Run& run, std::future<std::string>& sha256);
+  Status insert_uncertainty(std::int64_t run, const std::optional<RunUncertainty>& known);
+  Result<std::int64_t> insert_whole(const Run& run, std::future<std::string>& sha256,
+                                    const std::optional<RunUncertainty>& uncertainty);
   Status insert_all_of_end(std::int64_t run, const RunEnd& end);
   Status check_open(std::int64_t run) const;
   // read.cpp

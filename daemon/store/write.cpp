@@ -58,25 +58,28 @@ RunEnd end_of(const Run& run) {
 
 }  // namespace
 
-Result<std::int64_t> Store::add_run(const Run& run, const std::optional<Deed>& deed) {
+Result<std::int64_t> Store::add_run(const Run& run, const std::optional<Deed>& deed,
+                                    const std::optional<RunUncertainty>& uncertainty) {
   assert(run.header.state != RunState::open);
   // Of a long run on another core while its rows are written; a short one is not worth a thread.
   constexpr std::size_t kLong = 500;
   const auto policy = run.points.size() < kLong ? std::launch::deferred : std::launch::async;
   auto sha256 = std::async(policy, [&run] { return store::result_sha256(run); });
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
-  MDOF_TRY(const std::int64_t id, insert_whole(run, sha256));
+  MDOF_TRY(const std::int64_t id, insert_whole(run, sha256, uncertainty));
   MDOF_CHECK(insert_deed("run", id, deed));
   MDOF_CHECK(transaction.commit());
   return id;
 }
 
-Result<std::int64_t> Store::insert_whole(const Run& run, std::future<std::string>& sha256) {
+Result<std::int64_t> Store::insert_whole(const Run& run, std::future<std::string>& sha256,
+                                         const std::optional<RunUncertainty>& uncertainty) {
   MDOF_TRY(const std::int64_t id, insert_run(run.header));
   MDOF_CHECK(insert_points(id, 0, run.points));
   const RunEnd end = end_of(run);
   MDOF_CHECK(insert_figures(id, end));
   MDOF_CHECK(insert_plausibility(id, end));
+  MDOF_CHECK(insert_uncertainty(id, uncertainty));
   MDOF_CHECK(insert_end(id, end, sha256.get()));
   return id;
 }
@@ -105,6 +108,7 @@ Status Store::end_run(std::int64_t run, const RunEnd& end) {
   MDOF_CHECK(check_open(run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_CHECK(insert_all_of_end(run, end));
+  MDOF_CHECK(insert_uncertainty(run, end.uncertainty));
   MDOF_CHECK(transaction.commit());
   open_runs_.erase(run);
   return {};
@@ -118,7 +122,8 @@ Status Store::insert_all_of_end(std::int64_t run, const RunEnd& end) {
   return insert_deed("run", run, end.deed);
 }
 
-Result<std::int64_t> Store::end_and_supersede(std::int64_t run, const RunEnd& end, Run result) {
+Result<std::int64_t> Store::end_and_supersede(std::int64_t run, const RunEnd& end, Run result,
+                                              const std::optional<RunUncertainty>& uncertainty) {
   MDOF_CHECK(check_open(run));
   auto sha256 = std::async(std::launch::deferred, [&] { return store::result_sha256(result); });
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
@@ -129,7 +134,7 @@ Result<std::int64_t> Store::end_and_supersede(std::int64_t run, const RunEnd& en
   header.supersedes = run;
   header.state = asked.state;
   header.notices = std::move(asked.notices);
-  MDOF_TRY(const std::int64_t id, insert_whole(result, sha256));
+  MDOF_TRY(const std::int64_t id, insert_whole(result, sha256, uncertainty));
   MDOF_CHECK(transaction.commit());
   open_runs_.erase(run);
   return id;

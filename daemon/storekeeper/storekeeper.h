@@ -38,6 +38,7 @@ struct NewRun {
 struct RunEnding {
   bool differs = false;  // from the points already stored
   std::optional<Deed> deed = std::nullopt;
+  std::optional<RunUncertainty> uncertainty = std::nullopt;  // of the result's points
 };
 
 // How it is with storing: "ok"; "lost": the database, its -wal or -shm was deleted, replaced or cut

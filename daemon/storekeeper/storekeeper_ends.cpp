@@ -184,14 +184,16 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
   store::RunEnd whole = end_of(ending.result);
   whole.deed = ending.how.deed;
   if (!ending.how.differs) {
+    whole.uncertainty = ending.how.uncertainty;
     MDOF_CHECK(end_or_wait(run, whole));
     return run;
   }
   if (ending.dropped > 0)
     whole.notices.push_back(
         notice(NoticeCode::points_not_stored, "", {{"points", ending.dropped}}));
-  auto superseded = store_->end_and_supersede(
-      run, provisional_of(whole, NoticeCode::superseded_by_renumbering), ending.result);
+  auto superseded =
+      store_->end_and_supersede(run, provisional_of(whole, NoticeCode::superseded_by_renumbering),
+                                ending.result, ending.how.uncertainty);
   if (!superseded && !is_busy(superseded))
     refused_end({run, provisional_of(whole, NoticeCode::renumbering_refused)}, superseded.error());
   return superseded;

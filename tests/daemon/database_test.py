@@ -46,6 +46,22 @@ class Database(unittest.TestCase):
         self.client.call("compensation.activate", despite_warnings=True, table=table)
         return table
 
+    def test_a_run_that_mdofd_stored_has_the_u_of_its_points_for_sql(self):
+        data = os.path.join(os.path.dirname(RIG["X"]), "log_X.csv.gz")
+        with open(RIG["X"]) as rig:
+            run = self.client.call("run.replay", path=os.path.realpath(data), rig=rig.read())["run"]
+        page = self.client.call("run.points", run=run)  # the first page
+        points = page["points"]
+        with contextlib.closing(sqlite3.connect(f"file:{self.daemon.database}?mode=ro", uri=True)) as sql:
+            stored = sql.execute("SELECT error, u_um, u_urad, k FROM v_errors WHERE run = ? ORDER BY row", (run,)).fetchall()
+        self.assertEqual(len(stored), 5 * page["total"])
+        expected = [(key.split("_")[0], u, point["k"][key]) for point in points for key, u in point["u"].items()]
+        for (error, u_um, u_urad, k), (name, u, factor) in zip(stored, expected):
+            self.assertEqual(error, name)
+            self.assertAlmostEqual(u_um if u_urad is None else u_urad, u, delta=1e-12)
+            self.assertAlmostEqual(k, factor, delta=1e-12)
+        self.assertTrue(points)
+
     def test_a_command_acts_on_the_database_that_it_names_by_any_link_or_not_at_all(self):
         table = self.table_in_force()
         other = Daemon(MDOFD, os.path.join(self.folder.name, "other"), simulator("X"))

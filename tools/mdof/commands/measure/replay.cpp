@@ -126,8 +126,8 @@ Result<Run> replay_and_store(const ReplayCommand& command, const daemon::ReplayR
   MDOF_TRY(Run run, replay_here(request));
   MDOF_CHECK(asked_reference(command, run));  // what cannot be shown is not stored
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(run.header.id,
-           store.add_run(run, daemon::deed_now("run.replay", daemon::this_process())));
+  MDOF_TRY(run.header.id, store.add_run(run, daemon::deed_now("run.replay", daemon::this_process()),
+                                        daemon::uncertainty_of(run)));
   return run;
 }
 

@@ -46,12 +46,6 @@ Vec3 read_vector_direction(TomlTable& table, std::string_view key) {
   return unit_vector(v);
 }
 
-bool is_date(const std::string& text) {
-  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
-  return std::all_of(text.begin(), text.end(),
-                     [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
-}
-
 std::string read_date(TomlTable& table, const char* key) {
   std::string date = table.string(key, "");
   if (!date.empty() && !is_date(date)) table.reject(key, "must be a date, YYYY-MM-DD");
@@ -358,6 +352,7 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
                               std::to_string(kMostProbes) + " can be");
   else
     reject_doubles(table, rig.probes);
+  rig.report = read_report_facts(table);
   apply_records(table, toml_text, rig);
   read_physics(table, rig);
   if (const auto scan = read_scan(table, rig.axis); scan && rig.probe_index(scan->probe))

@@ -16,6 +16,7 @@
 #include "schema/notice/notice.h"
 #include "schema/rig/chain.h"
 #include "schema/rig/expansion.h"
+#include "schema/rig/report_facts.h"
 #include "schema/rig/uncertainty.h"
 
 namespace mdof {
@@ -96,6 +97,7 @@ struct Rig {
   // What makes a capacitance probe read another gap than there is, and which of it is corrected.
   // None: the rig says nothing of it.
   std::shared_ptr<const RigPhysics> physics = nullptr;
+  ReportFacts report;                      // [report]
   std::vector<CalibrationRecord> records;  // that it refers to; applied (schema/rig/calibrated.h)
   std::string text;                        // the TOML itself with its records: provenance
   std::string source;                      // file name, for messages

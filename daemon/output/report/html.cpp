@@ -9,14 +9,17 @@ namespace {
 
 using charts::xml_escaped;
 
-constexpr std::string_view kPolicy =
-    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-    "'unsafe-inline'\">\n";
+std::string policy(bool pictures) {
+  return std::string(
+             "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; ") +
+         "style-src 'unsafe-inline'" + (pictures ? "; img-src data:" : "") + "\">\n";
+}
 
 constexpr std::string_view kStyle =
     "@page{size:A4;margin:16mm 14mm}"
     "body{font:10pt/1.4 system-ui,'DejaVu Sans',Arial,sans-serif;color:#1f2328;background:#fff;"
     "max-width:182mm;margin:8mm auto;padding:0 4mm}"
+    "header{margin:0 0 6mm}header img{max-height:20mm}"
     "h1{font-size:15pt;margin:0 0 4mm}"
     "h2{font-size:14pt;margin:9mm 0 3mm;border-bottom:.4mm solid #6e7781}"
     "h3{font-size:11pt;margin:6mm 0 2mm}"
@@ -90,9 +93,9 @@ void Html::figure(std::string_view svg) {
   text_ += "</figure>\n";
 }
 
-std::string Html::take(std::string_view language, std::string_view title) {
+std::string Html::take(std::string_view language, std::string_view title, bool pictures) {
   return "<!DOCTYPE html>\n<html lang=\"" + std::string(language) +
-         "\">\n<head>\n<meta charset=\"utf-8\">\n" + std::string(kPolicy) +
+         "\">\n<head>\n<meta charset=\"utf-8\">\n" + policy(pictures) +
          "<meta name=\"viewport\" content=\"width=device-width\">\n<title>" + xml_escaped(title) +
          "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n" +
          std::move(text_) + "</body>\n</html>\n";

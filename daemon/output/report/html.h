@@ -22,7 +22,8 @@ class Html {
   // An SVG document, with its number as part of the page.
   void figure(std::string_view svg);
 
-  std::string take(std::string_view language, std::string_view title);
+  // `pictures`: data: URLs of images are shown, as a company's head may have one.
+  std::string take(std::string_view language, std::string_view title, bool pictures = false);
 
  private:
   std::string text_;

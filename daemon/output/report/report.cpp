@@ -31,6 +31,15 @@ void write_alarms(Html& html, const Report& report) {
   }
 }
 
+std::string place_text(const ReportFacts& facts, Language language) {
+  const std::string country = facts.country.empty() ? "" : " (" + facts.country + ")";
+  if (facts.place.empty()) return facts.country;
+  const Phrase place = facts.place == "laboratory" ? Phrase::in_laboratory
+                       : facts.place == "customer" ? Phrase::at_customer
+                                                   : Phrase::elsewhere;
+  return phrase(place, language) + country;
+}
+
 void write_title(Html& html, const Report& report) {
   const Language language = report.language;
   const auto stated = [&](const std::string& text) {
@@ -40,10 +49,19 @@ void write_title(Html& html, const Report& report) {
   for (const ReportRun& run : report.runs)
     runs += (runs.empty() ? "" : "; ") + name_of_run(run, language);
   html.element("h1", phrase(Phrase::report_title, language));
-  html.facts({{phrase(Phrase::customer, language), stated(report.title.customer)},
-              {phrase(Phrase::machine, language), stated(report.title.machine)},
-              {phrase(Phrase::serial, language), stated(report.title.serial)},
-              {phrase(Phrase::operator_name, language), stated(report.title.operator_name)},
+  const ReportFacts& facts = report.facts;
+  html.facts({{phrase(Phrase::report_number, language), facts.number},
+              {phrase(Phrase::customer, language), stated(facts.customer)},
+              {phrase(Phrase::customer_address, language), facts.customer_address},
+              {phrase(Phrase::machine, language), stated(facts.machine)},
+              {phrase(Phrase::manufacturer, language), facts.manufacturer},
+              {phrase(Phrase::serial, language), stated(facts.serial_number)},
+              {phrase(Phrase::laboratory_that_measured, language), stated(facts.laboratory)},
+              {phrase(Phrase::laboratory_address, language), facts.laboratory_address},
+              {phrase(Phrase::operator_name, language), stated(facts.operator_name)},
+              {phrase(Phrase::measured_on, language), facts.date},
+              {phrase(Phrase::measured_at, language), place_text(facts, language)},
+              {phrase(Phrase::stated_conditions, language), facts.conditions},
               {phrase(Phrase::runs, language), runs},
               {phrase(Phrase::report_by, language), report.software_version}});
   if (language != Language::english)
@@ -93,6 +111,7 @@ void write_provenance(Html& html, const ReportRun& run, Language language) {
 std::string report_html(const Report& report) {
   const Language language = report.language;
   Html html;
+  if (!report.head.empty()) html.raw("<header>\n" + report.head + "</header>\n");
   write_alarms(html, report);
   write_title(html, report);
   for (const ReportRun& run : report.runs) {
@@ -107,7 +126,8 @@ std::string report_html(const Report& report) {
     write_provenance(html, run, language);
   }
   write_squareness(html, report);
-  return html.take(output::code_of(language), phrase(Phrase::report_title, language));
+  return html.take(output::code_of(language), phrase(Phrase::report_title, language),
+                   !report.head.empty());
 }
 
 }  // namespace mdof::report

@@ -17,11 +17,6 @@ namespace mdof::report {
 
 using output::Language;
 
-// What the user says of the machine; empty: the report says that nobody stated it.
-struct Title {
-  std::string customer, machine, serial, operator_name;
-};
-
 struct Decided {
   std::string figure;
   Decision decision;
@@ -36,7 +31,8 @@ struct ReportRun {
 };
 
 struct Report {
-  Title title;
+  ReportFacts facts;
+  std::string head;  // HTML above everything else: a company's head; empty: none
   std::vector<ReportRun> runs;
   // Of the one run along X and the one along Y, where there are these.
   std::optional<charts::SquarenessResults> squareness;

@@ -1,0 +1,43 @@
+// What only a person knows of a measurement, for reports and certificates: [report] of a rig, or
+// --set KEY=VALUE of a command. Empty: not stated.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/base/result.h"
+
+namespace mdof {
+
+class TomlTable;
+
+struct ReportFacts {
+  std::string number;  // of the report
+  std::string customer, customer_address;
+  std::string laboratory, laboratory_address;  // who measured
+  std::string machine, manufacturer, serial_number, operator_name;
+  std::string conditions;  // free words
+  std::string place;       // where it was measured: laboratory, customer, other
+  std::string date;        // of the measurement, YYYY-MM-DD: a CSV log has none
+  std::string country;     // of the laboratory, two capitals of ISO 3166-1
+};
+
+struct ReportKey {
+  const char* name;  // "serial_number"
+  std::string ReportFacts::*fact;
+};
+const std::vector<ReportKey>& report_keys();
+
+// [report] of a rig; a value that is none of its key is rejected there.
+ReportFacts read_report_facts(TomlTable& root);
+
+bool is_date(std::string_view text);  // YYYY-MM-DD
+
+// One key, as --set gives it. Errors (usage): a key that is not known, a value that is none of it.
+Status set_fact(ReportFacts& facts, std::string_view key, const std::string& value);
+
+// What each of them states. Error (usage): two state something else of one key.
+Result<ReportFacts> joined(const ReportFacts& a, const ReportFacts& b);
+
+}  // namespace mdof

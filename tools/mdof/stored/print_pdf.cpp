@@ -1,0 +1,121 @@
+#include "tools/mdof/stored/print_pdf.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace mdof::tools {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::chrono::seconds kLongestPrint{120};
+
+// The first of this name on PATH.
+std::optional<fs::path> program(const std::string& name) {
+  const char* value = std::getenv("PATH");
+  const std::string path = value ? value : "";
+  for (std::size_t at = 0; at <= path.size();) {
+    const std::size_t end = std::min(path.find(':', at), path.size());
+    const fs::path file = fs::path(path.substr(at, end - at)) / name;
+    if (end > at && ::access(file.c_str(), X_OK) == 0 && fs::is_regular_file(file)) return file;
+    at = end + 1;
+  }
+  return std::nullopt;
+}
+
+// The program's exit status; its words go nowhere: what went wrong shows in the missing file.
+Result<int> run_program(const std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  for (const int descriptor : {0, 1, 2})
+    ::posix_spawn_file_actions_addopen(&actions, descriptor, "/dev/null", O_RDWR, 0);
+  pid_t child = 0;
+  const int failed =
+      ::posix_spawn(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) return io_error(words.front() + ": cannot be started: " + std::strerror(failed));
+  const auto last = std::chrono::steady_clock::now() + kLongestPrint;
+  for (;;) {
+    int status = 0;
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child) return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+    if (ended < 0 && errno != EINTR)
+      return io_error(words.front() + ": its end is not known: " + std::strerror(errno));
+    if (std::chrono::steady_clock::now() > last) {
+      ::kill(child, SIGKILL);
+      ::waitpid(child, &status, 0);
+      return io_error(words.front() + ": prints for longer than " +
+                      std::to_string(kLongestPrint.count()) + " s; it was ended");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+// Percent-encoded, so that no name of a file is taken for something else.
+std::string file_url(const fs::path& file) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/_.-~";
+  std::string url = "file://";
+  for (const char c : fs::absolute(file).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (kPlain.find(c) != std::string_view::npos)
+      url += c;
+    else
+      url += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return url;
+}
+
+Result<std::vector<std::string>> command_for(const fs::path& html, const fs::path& pdf) {
+  if (const auto chromium = program("chromium")) {
+    std::vector<std::string> words = {chromium->string(),
+                                      "--headless",
+                                      "--disable-gpu",
+                                      "--no-pdf-header-footer",
+                                      "--print-to-pdf=" + fs::absolute(pdf).string(),
+                                      file_url(html)};
+    // It refuses its sandbox to root; the page has no script and loads nothing.
+    if (::geteuid() == 0) words.insert(words.begin() + 1, "--no-sandbox");
+    return words;
+  }
+  if (const auto weasyprint = program("weasyprint"))
+    return std::vector<std::string>{weasyprint->string(), file_url(html),
+                                    fs::absolute(pdf).string()};
+  return io_error(
+      "no program that prints PDF is installed; sudo apt install chromium (or weasyprint), or "
+      "open " +
+      html.string() + " in a browser and print it");
+}
+
+}  // namespace
+
+Status print_pdf(const fs::path& html, const fs::path& pdf) {
+  MDOF_TRY(const auto words, command_for(html, pdf));
+  std::error_code ec;
+  fs::remove(pdf, ec);
+  MDOF_TRY(const int status, run_program(words));
+  if (status == 0 && fs::file_size(pdf, ec) > 0 && !ec) return {};
+  return io_error(pdf.string() + ": " + words.front() + " has not written it (exit status " +
+                  std::to_string(status) + "); open " + html.string() +
+                  " in a browser and print it");
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,144 @@
+// What reports and documents of stored runs are made from.
+#include "tools/mdof/stored/report_of_runs.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "algo/uncertainty/conformity/decision.h"
+#include "daemon/measure/evaluation.h"
+#include "daemon/version.h"
+#include "schema/rig/reference.h"
+#include "schema/units.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/stored/stated_results.h"
+
+namespace mdof::tools {
+namespace {
+
+// "KEY=VALUE" at its first "=".
+Result<std::pair<std::string, std::string>> key_and_value(const std::string& text,
+                                                          const std::string& option) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0)
+    return fail(ErrorCode::usage, option + " " + text + ": give KEY=VALUE");
+  return std::pair(text.substr(0, at), text.substr(at + 1));
+}
+
+// Of the rigs; what --set gives comes first, so that it also settles what rigs state differently.
+Result<ReportFacts> facts_of(const std::vector<report::ReportRun>& runs,
+                             const std::vector<std::string>& set) {
+  ReportFacts given, facts;
+  std::vector<std::string> keys;
+  for (const std::string& text : set) {
+    MDOF_TRY(const auto pair, key_and_value(text, "--set"));
+    if (Status known = set_fact(given, pair.first, pair.second); !known)
+      return in_context("--set " + text, known.error());
+    keys.push_back(pair.first);
+  }
+  for (const report::ReportRun& run : runs) {
+    ReportFacts stated = run.rig.report;
+    for (const std::string& key : keys) MDOF_CHECK(set_fact(stated, key, ""));
+    MDOF_TRY(facts, joined(facts, stated));
+  }
+  return joined(given, facts);
+}
+
+// Tolerances by figure, in its unit.
+Result<std::vector<std::pair<std::string, double>>> tolerances_of(
+    const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, double>> found;
+  for (const std::string& text : texts) {
+    MDOF_TRY(auto pair, key_and_value(text, "--tolerance"));
+    double value = 0;
+    if (!CLI::detail::lexical_cast(pair.second, value) || !std::isfinite(value) || value < 0)
+      return fail(ErrorCode::usage, "--tolerance " + text + ": \"" + pair.second +
+                                        "\" is no finite number that is not negative");
+    found.emplace_back(std::move(pair.first), value);
+  }
+  return found;
+}
+
+Result<report::ReportRun> report_run(store::Store& store, std::int64_t number,
+                                     Reference reference) {
+  report::ReportRun run;
+  MDOF_TRY(run.results, stated_results(store, number, reference));
+  MDOF_TRY(run.rig, daemon::rig_of(run.results.run.header));
+  MDOF_TRY(run.result_sha256, store.result_sha256(number));
+  MDOF_TRY(run.superseded_by, store.superseded_by(number));
+  return run;
+}
+
+// Each tolerance has to be that of a figure of some run: one that decides nothing is a mistake.
+Status decide(report::Report& all, const std::vector<std::pair<std::string, double>>& tolerances) {
+  for (const auto& [figure, tolerance] : tolerances) {
+    bool found = false;
+    for (report::ReportRun& run : all.runs)
+      if (const Budget* budget = find_budget(run.results.figures.budgets, figure)) {
+        run.decided.push_back({figure, algo::decision(*budget, from_um(tolerance))});
+        found = true;
+      }
+    if (!found)
+      return fail(ErrorCode::usage, "--tolerance " + figure +
+                                        ": no run of the report has this figure with its "
+                                        "uncertainty; mdof budget RUN lists the figures");
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_report_options(CLI::App& command, ReportRequest& request) {
+  std::string keys;
+  for (const ReportKey& key : report_keys())
+    keys += (keys.empty() ? "" : ", ") + std::string(key.name);
+  command
+      .add_option("--set", request.set,
+                  "What only a person knows, in place of [report] of the rig: " + keys)
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--tolerance", request.tolerances,
+                  "Most that a figure may be, in its unit, such as EYX_straightness_um=0.5: "
+                  "decided by ISO 14253-1:2017")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_axis_of_latest(command, request.axis);
+  add_reference_option(command, request.reference)->capture_default_str();
+  add_database_option(command, request.database);
+}
+
+Result<report::Report> report_of_runs(const ReportRequest& request) {
+  report::Report all;
+  Reference reference{};
+  reference_from(request.reference, reference);  // the options take no others
+  MDOF_TRY(const auto tolerances, tolerances_of(request.tolerances));
+  all.software_version = daemon::kVersion;
+  MDOF_TRY(store::Store store, open_to_read(request.database));
+  MDOF_TRY(const auto numbers, run_numbers(store, request.runs, request.axis));
+  for (const std::int64_t number : numbers) {
+    MDOF_TRY(auto run, report_run(store, number, reference));
+    all.runs.push_back(std::move(run));
+  }
+  MDOF_TRY(all.facts, facts_of(all.runs, request.set));
+  MDOF_CHECK(decide(all, tolerances));
+  std::vector<const charts::StatedResults*> results;
+  for (const report::ReportRun& run : all.runs) results.push_back(&run.results);
+  auto squareness = squareness_of_runs(store, results);
+  if (squareness)
+    all.squareness = std::move(*squareness);
+  else
+    all.why_no_squareness = squareness.error().message;
+  return all;
+}
+
+void warn_of(const report::Report& report) {
+  for (const report::ReportRun& run : report.runs)
+    for (const std::string& mark : run.results.marks) warn(mark);
+}
+
+}  // namespace mdof::tools

@@ -1,7 +1,10 @@
-// mdof export RECORDING: raw samples of a recording as CSV, for other programs.
+// mdof export: raw samples of a recording as CSV, or results of runs as a document, for other
+// programs.
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "daemon/output/documents/dcc.h"
+#include "daemon/output/documents/qif.h"
 #include "drivers/recording/recording_log.h"
 #include "schema/base/output/output_files.h"
 #include "schema/rig/rig.h"
@@ -9,6 +12,8 @@
 #include "tools/mdof/csv/log_csv.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/report_of_runs.h"
+#include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
@@ -19,6 +24,9 @@ constexpr auto kToStandardOutput = static_cast<std::size_t>(-1);
 
 struct ExportCommand {
   std::string recording, csv = kStandardOutput, rig;
+  std::string format = "csv", out;  // of runs
+  std::vector<std::string> sources;
+  ReportRequest request;
 };
 
 // "OUT.csv", or "OUT-counter.csv" where there are several devices.
@@ -116,29 +124,74 @@ Status export_recording(const ExportCommand& command) {
   return Export(command, log).run();
 }
 
+Result<std::string> document_text(const std::string& format, const report::Report& report) {
+  if (format == "dcc") return documents::dcc_xml(report);
+  return documents::qif_xml(report);
+}
+
+Status export_document(ExportCommand& command) {
+  if (command.out.empty()) return fail(ErrorCode::usage, "missing option --out FILE");
+  for (const std::string& word : command.sources)
+    if (const std::string why = run_word_error(word); !why.empty())
+      return fail(ErrorCode::usage, "--format " + command.format + " takes runs: " + why);
+  command.request.runs = command.sources;
+  MDOF_TRY(const report::Report report, report_of_runs(command.request));
+  MDOF_TRY(const std::string text, document_text(command.format, report));
+  MDOF_CHECK(write_file(command.out, text, Existing::replace));
+  warn_of(report);
+  return write_line(command.out);
+}
+
+Status export_samples(ExportCommand& command) {
+  if (command.sources.size() != 1)
+    return fail(ErrorCode::usage, "one recording at a time, FILE.mdofrec; runs take --format");
+  command.recording = command.sources.front();
+  return export_recording(command);
+}
+
 Action declare_export(CLI::App& command) {
   const auto o = std::make_shared<ExportCommand>();
-  command.add_option("RECORDING", o->recording, "FILE.mdofrec")->required()->type_name("");
+  command
+      .add_option("SOURCE", o->sources,
+                  "FILE.mdofrec; of a document the numbers of runs, or latest")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("--format", o->format,
+                  "csv: samples of a recording; of runs dcc: Digital Calibration Certificate "
+                  "3.3.0, qif: QIF 3.0 [csv]")
+      ->check(CLI::IsMember({"csv", "dcc", "qif"}))
+      ->type_name("TEXT:{csv,dcc,qif}");
+  auto* out = command.add_option("--out", o->out, "The document; a file of this name is replaced")
+                  ->type_name("FILE");
+  add_report_options(command, o->request);
   command
       .add_option("--csv", o->csv,
                   "Where to; of several devices each has a file, OUT-device.csv [default: "
                   "standard output]")
       ->type_name("OUT.csv");
   command.add_option("--rig", o->rig, "Write its rig there, for mdof replay")
-      ->type_name("RIG.toml");
-  return [o] { return export_recording(*o); };
+      ->type_name("RIG.toml")
+      ->excludes(out);
+  return [o] { return o->format == "csv" ? export_samples(*o) : export_document(*o); };
 }
 
 }  // namespace
 
 Command export_command() {
-  return {.name = "export",
-          .summary = "Write the raw samples of a recording as CSV",
-          .footer =
-              "Example:\n"
-              "  mdof export run-12.mdofrec --csv log_X.csv --rig rig_X.toml\n"
-              "  mdof replay log_X.csv --rig rig_X.toml --no-store",
-          .declare = declare_export};
+  return {
+      .name = "export",
+      .summary = "Write samples of a recording as CSV, or results of runs as DCC or QIF",
+      .footer =
+          "A document is a test report: it says that it is no calibration certificate of an\n"
+          "accredited laboratory. What nobody stated reads \"not stated\"; of a DCC the country, "
+          "and\n"
+          "the date of a run from a CSV log, have to be stated (--set, or [report] of the rig).\n\n"
+          "Examples:\n"
+          "  mdof export run-12.mdofrec --csv log_X.csv --rig rig_X.toml\n"
+          "  mdof replay log_X.csv --rig rig_X.toml --no-store\n"
+          "  mdof export 1 2 --format dcc --out axes.xml --set country=DE --set date=2026-11-20",
+      .declare = declare_export};
 }
 
 }  // namespace mdof::tools

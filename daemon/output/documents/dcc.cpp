@@ -1,0 +1,219 @@
+#include "daemon/output/documents/dcc.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+
+#include "daemon/output/documents/dcc_parts.h"
+#include "schema/base/sha256.h"
+#include "schema/rig/report_facts.h"
+#include "schema/units.h"
+
+namespace mdof::documents {
+
+using report::Report;
+using report::ReportRun;
+
+namespace {
+
+constexpr const char* kWhatItIs =
+    "Test report. This document is not a calibration certificate of an accredited laboratory: it "
+    "uses the data format of the Digital Calibration Certificate for the results of a test.";
+
+struct Days {
+  std::string first, last;
+};
+
+int number_at(const std::string& text, std::size_t at, std::size_t digits) {
+  int number = 0;
+  if (text.size() >= at + digits)
+    std::from_chars(text.data() + at, text.data() + at + digits, number);
+  return number;
+}
+
+// The day on which a run that began at "2026-11-26T10:47:33…" ended.
+std::string last_day(const RunHeader& header, const std::vector<MeasuredPoint>& points) {
+  using namespace std::chrono;
+  const std::string& t = header.started_utc;
+  const double took_s =
+      points.empty() ? 0 : ns_to_s(points.back().point.end_ns - points.front().point.begin_ns);
+  const double of_day_s =
+      3600 * number_at(t, 11, 2) + 60 * number_at(t, 14, 2) + number_at(t, 17, 2) + took_s;
+  const year_month_day day(
+      sys_days(year(number_at(t, 0, 4)) / number_at(t, 5, 2) / number_at(t, 8, 2)) +
+      days(static_cast<int>(std::clamp(std::floor(of_day_s / 86400), 0.0, 36500.0))));
+  const auto two = [](unsigned x) { return (x < 10 ? "0" : "") + std::to_string(x); };
+  return std::to_string(static_cast<int>(day.year())) + "-" +
+         two(static_cast<unsigned>(day.month())) + "-" + two(static_cast<unsigned>(day.day()));
+}
+
+Result<Days> days_of(const Report& report) {
+  if (!report.facts.date.empty()) return Days{report.facts.date, report.facts.date};
+  Days all;
+  for (const ReportRun& run : report.runs) {
+    const RunHeader& header = run.results.run.header;
+    const std::string first = header.started_utc.substr(0, 10);
+    if (header.provenance.recording_kind == "csv" || !is_date(first))
+      return bad_input("run " + std::to_string(header.id) +
+                           ": its log does not say when it was measured, and a certificate must",
+                       Remedy::state_in_report, "date");
+    const std::string last = last_day(header, run.results.run.points);
+    if (all.first.empty() || first < all.first) all.first = first;
+    if (last > all.last) all.last = last;
+  }
+  return all;
+}
+
+// Of the results alone, so that the same ones have the same number.
+std::string identifier(const Report& report) {
+  std::string all;
+  for (const ReportRun& run : report.runs) all += run.result_sha256 + "\n";
+  return "mdof-" + sha256_hex(all);
+}
+
+std::string release(const std::string& software) {  // "mdof 0.1.0": "v0.1.0"
+  return "v" + software.substr(software.rfind(' ') + 1);
+}
+
+void write_contact(Xml& xml, std::string_view element, const std::string& name,
+                   const std::string& address) {
+  xml.open(element);
+  write_text(xml, "dcc:name", name);
+  xml.open("dcc:location");
+  write_text(xml, "dcc:further", address);
+  xml.close();
+  xml.close();
+}
+
+void write_identification(Xml& xml, const char* issuer, const std::string& value,
+                          const std::string& name) {
+  xml.open("dcc:identification");
+  xml.leaf("dcc:issuer", issuer);
+  xml.leaf("dcc:value", stated(value));
+  write_text(xml, "dcc:name", name);
+  xml.close();
+}
+
+void write_software(Xml& xml, const Report& report) {
+  xml.open("dcc:dccSoftware");
+  xml.open("dcc:software");
+  write_text(xml, "dcc:name", "mdof");
+  xml.leaf("dcc:release", release(report.software_version));
+  xml.leaf("dcc:type", "application");
+  xml.close();
+  xml.close();
+  xml.open("dcc:refTypeDefinitions");
+  xml.open("dcc:refTypeDefinition");
+  write_text(xml, "dcc:name", "mdof");
+  write_text(xml, "dcc:description",
+             "mdof_position, mdof_target, mdof_pass, mdof_direction: of the points of a run; "
+             "mdof_EYX and others: an error by its name of ISO 230-1, actual minus nominal; "
+             "mdof_figure: a figure of a run, of the mean of both approaches");
+  xml.leaf("dcc:namespace", "mdof");
+  xml.leaf("dcc:link", "urn:mdof:refTypes");
+  xml.close();
+  xml.close();
+}
+
+void write_core_data(Xml& xml, const Report& report, const Days& days) {
+  const ReportFacts& facts = report.facts;
+  xml.open("dcc:coreData");
+  xml.leaf("dcc:countryCodeISO3166_1", facts.country);
+  xml.leaf("dcc:usedLangCodeISO639_1", "en");
+  xml.leaf("dcc:mandatoryLangCodeISO639_1", "en");
+  xml.leaf("dcc:uniqueIdentifier", identifier(report));
+  if (!facts.number.empty()) {
+    xml.open("dcc:identifications");
+    write_identification(xml, "calibrationLaboratory", facts.number, "number of the test report");
+    xml.close();
+  }
+  xml.leaf("dcc:beginPerformanceDate", days.first);
+  xml.leaf("dcc:endPerformanceDate", days.last);
+  xml.leaf("dcc:performanceLocation", facts.place.empty() ? "other" : facts.place);
+  xml.close();
+}
+
+void write_items(Xml& xml, const ReportFacts& facts) {
+  xml.open("dcc:items");
+  xml.open("dcc:item");
+  write_text(xml, "dcc:name", facts.machine);
+  if (!facts.manufacturer.empty()) {
+    xml.open("dcc:manufacturer");
+    write_text(xml, "dcc:name", facts.manufacturer);
+    xml.close();
+  }
+  xml.open("dcc:identifications");
+  write_identification(xml, "manufacturer", facts.serial_number, "serial number");
+  xml.close();
+  xml.close();
+  xml.close();
+}
+
+void write_statements(Xml& xml, const Report& report) {
+  xml.open("dcc:statements");
+  write_declaration(xml, "dcc:statement", "test report", kWhatItIs);
+  for (const ReportRun& run : report.runs)
+    for (const std::string& mark : run.results.marks)
+      write_declaration(xml, "dcc:statement", "warning", mark);
+  if (!report.facts.conditions.empty())
+    write_declaration(xml, "dcc:statement", "conditions as stated", report.facts.conditions);
+  xml.close();
+}
+
+void write_administration(Xml& xml, const Report& report, const Days& days) {
+  const ReportFacts& facts = report.facts;
+  xml.open("dcc:administrativeData");
+  write_software(xml, report);
+  write_core_data(xml, report, days);
+  write_items(xml, facts);
+  xml.open("dcc:calibrationLaboratory");
+  write_contact(xml, "dcc:contact", facts.laboratory, facts.laboratory_address);
+  xml.close();
+  xml.open("dcc:respPersons");
+  xml.open("dcc:respPerson");
+  xml.open("dcc:person");
+  write_text(xml, "dcc:name", facts.operator_name);
+  xml.close();
+  xml.leaf("dcc:role", "operator");
+  xml.close();
+  xml.close();
+  write_contact(xml, "dcc:customer", facts.customer, facts.customer_address);
+  write_statements(xml, report);
+  xml.close();
+}
+
+}  // namespace
+
+void write_text(Xml& xml, std::string_view element, std::string_view text,
+                Xml::Attributes attributes) {
+  xml.open(element, attributes);
+  xml.leaf("dcc:content", stated(text), {{"lang", "en"}});
+  xml.close();
+}
+
+void write_declaration(Xml& xml, std::string_view element, const std::string& name,
+                       const std::string& text) {
+  xml.open(element);
+  write_text(xml, "dcc:name", name);
+  write_text(xml, "dcc:declaration", text);
+  xml.close();
+}
+
+Result<std::string> dcc_xml(const Report& report) {
+  if (report.facts.country.empty())
+    return bad_input(
+        "a certificate must name the country of the laboratory (ISO 3166-1, such as DE)",
+        Remedy::state_in_report, "country");
+  MDOF_TRY(const Days days, days_of(report));
+  Xml xml;
+  xml.open("dcc:digitalCalibrationCertificate", {{"schemaVersion", "3.3.0"},
+                                                 {"xmlns:dcc", "https://ptb.de/dcc"},
+                                                 {"xmlns:si", "https://ptb.de/si"}});
+  write_administration(xml, report, days);
+  write_measurements(xml, report);
+  xml.close();
+  return xml.take();
+}
+
+}  // namespace mdof::documents

@@ -1,0 +1,23 @@
+// The parts of a DCC.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "daemon/output/documents/xml.h"
+#include "daemon/output/report/report.h"
+
+namespace mdof::documents {
+
+// <element><dcc:content lang="en">text</dcc:content></element>
+void write_text(Xml& xml, std::string_view element, std::string_view text,
+                Xml::Attributes attributes = {});
+
+// A declaration under a name, "dcc:statement" or "dcc:metaData".
+void write_declaration(Xml& xml, std::string_view element, const std::string& name,
+                       const std::string& text);
+
+// dcc:measurementResults.
+void write_measurements(Xml& xml, const report::Report& report);
+
+}  // namespace mdof::documents

@@ -1,0 +1,369 @@
+#include "daemon/output/documents/qif.h"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/run/points.h"
+#include "daemon/output/charts/svg.h"
+#include "daemon/output/documents/xml.h"
+#include "schema/axis.h"
+#include "schema/base/sha256.h"
+#include "schema/units.h"
+
+namespace mdof::documents {
+
+using report::Report;
+using report::ReportRun;
+
+namespace {
+
+// xs:decimal takes no exponent. NaN, which it does not take either, is not written by any caller.
+std::string decimal(double x) {
+  char buffer[400];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, x + 0.0, std::chars_format::fixed);
+  return {buffer, end.ptr};
+}
+
+bool is_stated(double u) {
+  return std::isfinite(u) && u > 0;
+}
+
+// What is measured of a run: a figure, or an error at a target from one side.
+struct Characteristic {
+  std::string key;  // "EYX_straightness_um", "EYX_um"
+  std::string where;
+  std::optional<double> limit;  // in the unit of the key
+  bool angle() const { return key.ends_with("_urad"); }
+  std::string kind() const {
+    return std::string("UserDefined") + (angle() ? "Angular" : "Linear") + "Characteristic";
+  }
+  std::string name() const {
+    return charts::split_key(key).name + (where.empty() ? "" : " " + where);
+  }
+};
+
+struct Measured {
+  std::size_t characteristic;
+  std::optional<double> value;  // in the unit of the key, as all below
+  double u, U, k;
+  std::vector<std::pair<std::string, double>> attributes;
+  std::string reason, status = "NOT_ANALYZED";
+};
+
+struct MeasuredRun {
+  const ReportRun* run;
+  std::vector<Measured> all;
+};
+
+struct Document {
+  std::vector<Characteristic> characteristics;
+  std::vector<MeasuredRun> runs;
+};
+
+const char* status_of(Conformity conformity) {
+  return conformity == Conformity::conform       ? "PASS"
+         : conformity == Conformity::not_conform ? "FAIL"
+                                                 : "INDETERMINATE";
+}
+
+void add_figures(Document& document, MeasuredRun& measured) {
+  for (const Budget& b : measured.run->results.figures.budgets) {
+    Measured of{document.characteristics.size(),
+                to_key_unit(b.value),
+                to_key_unit(b.u),
+                to_key_unit(b.U),
+                b.coverage_factor,
+                {},
+                "",
+                "NOT_ANALYZED"};
+    Characteristic characteristic{b.figure, "", {}};
+    for (const auto& [figure, decision] : measured.run->decided)
+      if (figure == b.figure) {
+        characteristic.limit = to_key_unit(decision.limit);
+        of.status = status_of(decision.conformity);
+        of.reason = decision.reason;
+      }
+    document.characteristics.push_back(std::move(characteristic));
+    measured.all.push_back(std::move(of));
+  }
+}
+
+void add_points(Document& document, MeasuredRun& measured) {
+  const Run& run = measured.run->results.run;
+  const auto& known = measured.run->results.uncertainty.points;
+  const auto& names = error_names(run.header.axis);
+  std::map<std::string, std::size_t> at;  // characteristic by its name
+  for (std::size_t row = 0; row < run.points.size(); ++row) {
+    const MeasuredPoint& p = run.points[row];
+    const Errors5 errors = named_from_local(run.header.moving(), p.errors.local);
+    const std::string side = p.point.direction > 0 ? "+" : p.point.direction < 0 ? "-" : "?";
+    const std::string where = "at target " + std::to_string(p.target) + " " + side;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      Characteristic characteristic{names[k].key, where, {}};
+      const auto [found, is_new] =
+          at.emplace(characteristic.name(), document.characteristics.size());
+      if (is_new) document.characteristics.push_back(std::move(characteristic));
+      Measured of{found->second,
+                  {},
+                  to_key_unit(known[row].u[k]),
+                  to_key_unit(known[row].U[k]),
+                  known[row].coverage_factor[k],
+                  {},
+                  p.errors.reason,
+                  "NOT_ANALYZED"};
+      if (p.errors.valid) of.value = to_key_unit(errors[k]);
+      of.attributes = {{"row", static_cast<double>(row)},
+                       {"pass", static_cast<double>(p.run)},
+                       {"position_mm", to_mm(p.point.position_m)}};
+      measured.all.push_back(std::move(of));
+    }
+  }
+}
+
+Document document_of(const Report& report) {
+  Document document;
+  for (const ReportRun& run : report.runs) {
+    MeasuredRun measured{&run, {}};
+    add_figures(document, measured);
+    add_points(document, measured);
+    document.runs.push_back(std::move(measured));
+  }
+  if (report.squareness && !document.runs.empty()) {  // of two runs: stated with the last
+    const Budget& b = report.squareness->budget;
+    document.runs.back().all.push_back({document.characteristics.size(),
+                                        to_key_unit(b.value),
+                                        to_key_unit(b.u),
+                                        to_key_unit(b.U),
+                                        b.coverage_factor,
+                                        {},
+                                        "",
+                                        "NOT_ANALYZED"});
+    document.characteristics.push_back(
+        {b.figure,
+         "of runs " + std::to_string(report.squareness->squareness.run_x) + " and " +
+             std::to_string(report.squareness->squareness.run_y),
+         {}});
+  }
+  return document;
+}
+
+// Ids: 1 is the standard; then three a characteristic; then the runs and their measurements.
+constexpr std::size_t kStandard = 1, kFirst = 2;
+enum class Aspect : std::size_t { definition, nominal, item };
+std::string id_of(std::size_t characteristic, Aspect aspect) {
+  return std::to_string(kFirst + 3 * characteristic + static_cast<std::size_t>(aspect));
+}
+
+void write_limit(Xml& xml, const Characteristic& of) {
+  if (!of.limit) return xml.leaf("NonTolerance", "MEASURED");
+  xml.open("Tolerance");
+  xml.leaf("MaxValue", decimal(*of.limit));
+  xml.leaf("MinValue", decimal(-*of.limit));
+  xml.leaf("DefinedAsLimit", "true");
+  xml.close();
+}
+
+void write_characteristics(Xml& xml, const std::vector<Characteristic>& all) {
+  const std::string n = std::to_string(all.size());
+  xml.open("Characteristics");
+  xml.leaf("FormalStandardId", std::to_string(kStandard));
+  xml.open("CharacteristicDefinitions", {{"n", n}});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    xml.open(all[i].kind() + "Definition", {{"id", id_of(i, Aspect::definition)}});
+    xml.leaf("Name", all[i].name());
+    write_limit(xml, all[i]);
+    xml.leaf("WhatToMeasure",
+             charts::split_key(all[i].key).name + " of ISO 230-1, error: actual - nominal");
+    xml.close();
+  }
+  xml.close();
+  xml.open("CharacteristicNominals", {{"n", n}});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    xml.open(all[i].kind() + "Nominal", {{"id", id_of(i, Aspect::nominal)}});
+    xml.leaf("CharacteristicDefinitionId", id_of(i, Aspect::definition));
+    xml.leaf("TargetValue", "0");
+    xml.close();
+  }
+  xml.close();
+  xml.open("CharacteristicItems", {{"n", n}});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    xml.open(all[i].kind() + "Item", {{"id", id_of(i, Aspect::item)}});
+    xml.leaf("Name", all[i].name());
+    xml.leaf("CharacteristicNominalId", id_of(i, Aspect::nominal));
+    xml.close();
+  }
+  xml.close();
+  xml.close();
+}
+
+using Attribute = std::pair<std::string, std::string>;
+
+void write_attribute(Xml& xml, const char* element, const Attribute& of) {
+  xml.leaf(element, "", {{"name", of.first}, {"value", of.second}});
+}
+
+void write_measurement(Xml& xml, const Measured& of, const std::string& kind, std::size_t id) {
+  std::vector<Attribute> attributes;
+  for (const auto& [name, value] : of.attributes)
+    attributes.emplace_back(name, charts::exact_text(value));
+  if (of.value && is_stated(of.U))
+    for (const auto& [name, value] :
+         {std::pair("U", of.U), {"k", of.k}, {"coverage_probability", 0.95}})
+      attributes.emplace_back(name, charts::exact_text(value));
+  xml.open(kind + "Measurement", {{"id", std::to_string(id)}});
+  if (!attributes.empty()) {
+    xml.open("Attributes", {{"n", std::to_string(attributes.size())}});
+    for (const Attribute& attribute : attributes) write_attribute(xml, "AttributeD1", attribute);
+    xml.close();
+  }
+  if (!of.reason.empty()) xml.leaf("Description", of.reason);
+  xml.open("Status");
+  xml.leaf("CharacteristicStatusEnum", of.status);
+  xml.close();
+  xml.leaf("CharacteristicItemId", id_of(of.characteristic, Aspect::item));
+  if (of.value && is_stated(of.u))
+    xml.leaf("Value", decimal(*of.value),
+             {{"combinedUncertainty", decimal(of.u)}, {"meanError", "0"}});
+  else if (of.value)
+    xml.leaf("Value", decimal(*of.value));
+  xml.close();
+}
+
+std::vector<Attribute> facts_of(const ReportRun& run) {
+  const RunHeader& header = run.results.run.header;
+  std::vector<Attribute> facts = {{"run", std::to_string(header.id)},
+                                  {"axis", std::string(1, letter(header.axis))},
+                                  {"state", to_string(header.state)},
+                                  {"simulated", header.simulated ? "true" : "false"},
+                                  {"U covers", covers_text(run.results.uncertainty)},
+                                  {"SHA-256 of the recording", header.provenance.recording_sha256},
+                                  {"SHA-256 of the result", run.result_sha256},
+                                  {"measured with", header.provenance.software_version}};
+  for (const std::string& mark : charts::head_marks(run.results.uncertainty.noise_only,
+                                                    run.results.marks, output::Language::english))
+    facts.emplace_back("warning", mark);
+  for (const Notice& notice : header.notices)
+    facts.emplace_back(to_string(notice.severity), words::text(notice, output::Language::english));
+  if (header.temperature)
+    facts.emplace_back("temperature mean, least, greatest / degree Celsius",
+                       charts::exact_text(header.temperature->mean_C) + ", " +
+                           charts::exact_text(header.temperature->min_C) + ", " +
+                           charts::exact_text(header.temperature->max_C));
+  return facts;
+}
+
+void write_traceability(Xml& xml, const ReportFacts& facts) {
+  xml.open("InspectionTraceability");
+  xml.open("InspectingOrganization");
+  xml.leaf("Name", stated(facts.laboratory));
+  xml.close();
+  xml.open("CustomerOrganization");
+  xml.leaf("Name", stated(facts.customer));
+  xml.leaf("CustomerNumber", "not stated");
+  xml.close();
+  if (!facts.number.empty()) xml.leaf("ReportNumber", stated(facts.number));
+  xml.open("InspectionOperator");
+  xml.leaf("Name", stated(facts.operator_name));
+  xml.close();
+  xml.leaf("ReportType", "test report");
+  xml.close();
+}
+
+void write_results(Xml& xml, const Document& document, const ReportFacts& facts) {
+  std::size_t id = kFirst + 3 * document.characteristics.size();
+  xml.open("Results");
+  xml.open("MeasurementResultsSet", {{"n", std::to_string(document.runs.size())}});
+  for (const MeasuredRun& measured : document.runs) {
+    xml.open("MeasurementResults", {{"id", std::to_string(id++)}});
+    const auto attributes = facts_of(*measured.run);
+    xml.open("Attributes", {{"n", std::to_string(attributes.size())}});
+    for (const Attribute& attribute : attributes) write_attribute(xml, "AttributeStr", attribute);
+    xml.close();
+    write_traceability(xml, facts);
+    if (!measured.all.empty()) {
+      xml.open("MeasuredCharacteristics");
+      xml.open("CharacteristicMeasurements", {{"n", std::to_string(measured.all.size())}});
+      for (const Measured& of : measured.all)
+        write_measurement(xml, of, document.characteristics[of.characteristic].kind(), id++);
+      xml.close();
+      xml.close();
+    }
+    xml.open("InspectionStatus");
+    xml.leaf("InspectionStatusEnum", "NOT_CALCULATED");
+    xml.close();
+    xml.close();
+  }
+  xml.close();
+  xml.close();
+}
+
+void write_unit(Xml& xml, const char* element, const char* si, const char* name) {
+  xml.open(element);
+  xml.leaf("SIUnitName", si);
+  xml.leaf("UnitName", name);
+  xml.open("UnitConversion");
+  xml.leaf("Factor", "0.000001");
+  xml.close();
+  xml.close();
+}
+
+void write_head(Xml& xml, const Report& report) {
+  std::string all;
+  for (const ReportRun& run : report.runs) all += run.result_sha256 + "\n";
+  const std::string hash = sha256_hex("mdof QIF\n" + all);
+  xml.leaf("QPId", hash.substr(0, 8) + "-" + hash.substr(8, 4) + "-" + hash.substr(12, 4) + "-" +
+                       hash.substr(16, 4) + "-" + hash.substr(20, 12));
+  xml.open("Header");
+  xml.open("Application");
+  xml.leaf("Name", report.software_version);
+  xml.close();
+  xml.leaf("Description",
+           "Test report of " + stated(report.facts.machine) + ", serial number " +
+               stated(report.facts.serial_number) +
+               ". Not a calibration certificate of an accredited laboratory. Errors of machine "
+               "axes, actual - nominal, in um and urad.");
+  xml.close();
+  xml.open("StandardsDefinitions", {{"n", "1"}});
+  xml.open("Standard", {{"id", std::to_string(kStandard)}});
+  xml.open("Organization");
+  xml.leaf("StandardsOrganizationEnum", "ISO");
+  xml.close();
+  xml.leaf("Designator", "ISO 230-1");
+  xml.leaf("Year", "2012");
+  xml.close();
+  xml.close();
+  xml.open("FileUnits");
+  xml.open("PrimaryUnits");
+  write_unit(xml, "AngularUnit", "radian", "urad");
+  write_unit(xml, "LinearUnit", "meter", "um");
+  xml.close();
+  xml.close();
+}
+
+std::size_t largest_id(const Document& document) {
+  std::size_t ids = kFirst + 3 * document.characteristics.size();
+  for (const MeasuredRun& run : document.runs) ids += 1 + run.all.size();
+  return ids - 1;
+}
+
+}  // namespace
+
+std::string qif_xml(const Report& report) {
+  const Document document = document_of(report);
+  Xml xml;
+  xml.open("QIFDocument", {{"xmlns", "http://qifstandards.org/xsd/qif3"},
+                           {"versionQIF", "3.0.0"},
+                           {"idMax", std::to_string(largest_id(document))}});
+  write_head(xml, report);
+  if (!document.characteristics.empty()) write_characteristics(xml, document.characteristics);
+  write_results(xml, document, report.facts);
+  xml.close();
+  return xml.take();
+}
+
+}  // namespace mdof::documents

@@ -1,0 +1,19 @@
+// Results of stored runs as a QIF 3.0 document (ANSI/DMSC QIF 3.0, ISO 23952:2020). Pure: the same
+// results give the same bytes.
+//
+// Each figure of a run, and each error at each target and approach, is a user-defined
+// characteristic in µm or µrad; a point is a measurement of five of them. combinedUncertainty is
+// the standard uncertainty u, with a mean error of 0, since what is known of one is corrected;
+// the attributes U, k and coverage_probability are the expanded uncertainty. A point without
+// errors has no value, and the reason as its description.
+#pragma once
+
+#include <string>
+
+#include "daemon/output/report/report.h"
+
+namespace mdof::documents {
+
+std::string qif_xml(const report::Report& report);
+
+}  // namespace mdof::documents

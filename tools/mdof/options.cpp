@@ -6,8 +6,10 @@
 #include <limits>
 
 #include "daemon/measure/gate/gate.h"
+#include "daemon/output/charts/plot_files.h"
 #include "daemon/paths.h"
 #include "schema/base/number/number_text.h"
+#include "tools/mdof/output.h"
 
 namespace mdof::tools {
 namespace {
@@ -88,6 +90,18 @@ void add_model_option(CLI::App& command, std::string& model) {
       ->check(CLI::IsMember({"simplified", "exact", "rigid"}))
       ->type_name("MODEL")
       ->capture_default_str();
+}
+
+void add_plot_option(CLI::App& command, std::string& folder) {
+  command.add_option("--plot", folder, "Draw it as SVG into this folder, made where it is missing")
+      ->type_name("DIR");
+}
+
+Status write_plots(const std::vector<charts::NamedChart>& charts, const std::string& folder) {
+  if (folder.empty() || charts.empty()) return {};
+  MDOF_TRY(const auto files, charts::write_charts(charts, folder));
+  for (const std::string& file : files) say("plot: " + file);
+  return {};
 }
 
 void add_language_option(CLI::App& command, std::string& language) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "algo/compensation/table_limits.h"
 #include "schema/base/result.h"
@@ -15,6 +16,10 @@ class Validator;
 
 namespace mdof::daemon {
 struct Consent;
+}
+
+namespace mdof::charts {
+struct NamedChart;
 }
 
 namespace mdof::tools {
@@ -34,7 +39,10 @@ void add_database_option(CLI::App& command, std::string& database);
 void add_socket_option(CLI::App& command, std::string& socket);      // sets the default
 void add_only_axis_option(CLI::App& command, std::string& axis);     // X, Y or Z
 void add_model_option(CLI::App& command, std::string& model);        // one of the three names
+void add_plot_option(CLI::App& command, std::string& folder);        // --plot DIR; empty: none
 void add_language_option(CLI::App& command, std::string& language);  // "en" or "de"
+// Writes what --plot asks for, and names the files on the standard error.
+Status write_plots(const std::vector<charts::NamedChart>& charts, const std::string& folder);
 // One of the names of schema/rig/reference.h.
 CLI::Option* add_reference_option(CLI::App& command, std::string& reference);
 

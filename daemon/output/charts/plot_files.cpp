@@ -2,6 +2,8 @@
 
 #include <system_error>
 
+#include "schema/base/output/output_files.h"
+
 namespace mdof::charts {
 
 namespace fs = std::filesystem;
@@ -12,6 +14,20 @@ Status make_plot_folder(const fs::path& folder) {
   if (!ec && fs::is_directory(folder, ec)) return {};
   return io_error(folder.string() + ": the folder for the plots cannot be made: " +
                   (ec ? ec.message() : "a file has this name") + "; name one that can be written");
+}
+
+Result<std::vector<std::string>> write_charts(const std::vector<NamedChart>& charts,
+                                              const fs::path& folder) {
+  MDOF_CHECK(make_plot_folder(folder));
+  OutputFiles files(Existing::replace);
+  std::vector<std::string> paths;
+  for (const NamedChart& chart : charts) {
+    paths.push_back((folder / chart.file).string());
+    MDOF_TRY(const std::size_t file, files.add(paths.back()));
+    MDOF_CHECK(files.write(file, chart.svg));
+  }
+  MDOF_CHECK(files.publish());
+  return paths;
 }
 
 std::string file_name(std::string_view key) {

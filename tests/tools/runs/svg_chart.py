@@ -59,7 +59,7 @@ class Panel:
         for g in self.group:
             if g.tag != SVG + "g" or g.get("data-row") is None:
                 continue
-            shapes = [e for e in g if e.tag != SVG + "line"]
+            shapes = [e for e in g if e.tag not in (SVG + "line", SVG + "title")]
             data = {k[5:]: v for k, v in g.attrib.items()}
             if not shapes:
                 yield data, None, None

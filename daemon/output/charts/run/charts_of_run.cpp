@@ -26,6 +26,13 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
     add("straightness", straightness_svg(results, language));
   else
     all.left_out.push_back(run + ": no chart of straightness, which takes at least three targets");
+  if (has_repeatability(results)) {
+    add("repeatability", repeatability_svg(results, language));
+    add("drift", drift_svg(results, language));
+  } else {
+    all.left_out.push_back(run +
+                           ": no charts of repeatability and drift: no target was visited again");
+  }
   const std::string title =
       phrase(Phrase::run_axis, language, {number, std::string(1, letter(results.run.header.axis))});
   for (const Budget& budget : results.figures.budgets)

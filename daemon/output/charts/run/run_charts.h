@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/output/charts/plot_files.h"
 #include "daemon/output/phrases.h"
 #include "schema/compensation_table.h"
 #include "schema/iso230/reference_lines.h"
@@ -34,6 +35,12 @@ std::string five_errors_svg(const StatedResults& results, Language language);
 bool has_straightness(const StatedResults& results);
 std::string straightness_svg(const StatedResults& results, Language language);
 
+// What the visits of a target from the same side differ by, over the position and over the time of
+// the run. Both need a target that was visited again.
+bool has_repeatability(const StatedResults& results);
+std::string repeatability_svg(const StatedResults& results, Language language);
+std::string drift_svg(const StatedResults& results, Language language);
+
 // Of one figure; `title_of` says of which runs. Where u is 0 or not known there is nothing to show.
 bool has_budget(const Budget& budget);
 std::string budget_svg(const Budget& budget, const std::string& title_of,
@@ -54,10 +61,6 @@ struct SquarenessResults {
 std::string squareness_svg(const SquarenessResults& results, Language language);
 
 // All that there is to draw of a run.
-struct NamedChart {
-  std::string file;  // "run-3-straightness.svg"
-  std::string svg;
-};
 struct RunCharts {
   std::vector<NamedChart> charts;
   std::vector<std::string> left_out;  // which chart and why, a sentence each

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "algo/machine/plane_map.h"
+#include "daemon/output/charts/machine/plane_map_chart.h"
+#include "daemon/output/charts/plot_files.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/machine/machine_file.h"
@@ -17,7 +19,7 @@ namespace mdof::tools {
 namespace {
 
 struct MachineMapCommand {
-  std::string file, database, plane = "XY", at = "", approach = "mean";
+  std::string file, database, plane = "XY", at = "", approach = "mean", plots;
   double step_mm = 10;
   bool without_angles = false, bidirectional = false, csv = false, json = false;
 };
@@ -129,6 +131,26 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
          "The points: --csv or --json\n";
 }
 
+Status draw_maps(const Machine& machine, const MachineMapCommand& o,
+                 const std::vector<FoundMap>& maps) {
+  if (o.plots.empty()) return {};
+  std::vector<charts::NamedChart> drawn;
+  for (const FoundMap& found : maps) {
+    const std::size_t points = found.map.points.size();
+    if (points > charts::kMostArrows)
+      return fail(ErrorCode::usage, "--plot: " + std::to_string(points) +
+                                        " points are too many for a picture, which has at most " +
+                                        std::to_string(charts::kMostArrows) +
+                                        "; give a larger --step-mm");
+    drawn.push_back(
+        {"map-" + o.plane + "-" + found.approach + ".svg",
+         charts::plane_map_svg(
+             found.map, {machine.name, found.approach, machine.simulated, machine.noise_only},
+             words::Language::english)});
+  }
+  return write_plots(drawn, o.plots);
+}
+
 Status machine_map(const MachineMapCommand& o) {
   if (!(o.step_mm > 0 && std::isfinite(o.step_mm)))
     return fail(ErrorCode::usage, "--step-mm must be a finite number above 0");
@@ -150,6 +172,7 @@ Status machine_map(const MachineMapCommand& o) {
     if (!o.bidirectional) break;
   }
   warn_beyond(maps.front().map.beyond);
+  MDOF_CHECK(draw_maps(machine, o, maps));
   if (o.csv || o.json) {
     if (o.csv && !maps.front().map.not_measured.empty())
       warn("not measured, and not in these figures: " + joined(maps.front().map.not_measured));
@@ -173,6 +196,7 @@ Action declare_machine_map(CLI::App& command) {
   command.add_flag("--without-angles", o->without_angles,
                    "Positions, straightness and squareness alone");
   add_database_option(command, o->database);
+  add_plot_option(command, o->plots);
   add_csv_and_json_flags(command, o->csv, o->json);
   return [o] { return machine_map(*o); };
 }

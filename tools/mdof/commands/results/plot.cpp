@@ -1,18 +1,17 @@
 // mdof plot RUN...: charts of stored runs as SVG files.
 #include <CLI/CLI.hpp>
-#include <filesystem>
 
 #include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/run/run_charts.h"
 #include "schema/base/json_writer.h"
-#include "schema/base/output/output_files.h"
 #include "schema/rig/reference.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/raw_stop.h"
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/stored/stated_results.h"
 
@@ -23,6 +22,7 @@ struct PlotCommand {
   std::string database, axis, out, reference = "fixture", language = "en";
   std::vector<std::string> runs;
   std::vector<std::int64_t> tables;
+  std::vector<std::size_t> points;
   bool json = false;
 };
 
@@ -76,6 +76,12 @@ Result<Plotted> draw_all(const PlotCommand& command) {
   for (const std::int64_t number : numbers) {
     MDOF_TRY(auto results, stated_results(store, number, reference));
     plotted.take(charts::charts_of_run(results, language));
+    for (const std::size_t row : command.points) {
+      MDOF_TRY(const auto raw, raw_stop(results.run, row));
+      plotted.charts.push_back(
+          {"run-" + std::to_string(number) + "-point-" + std::to_string(row) + ".svg",
+           charts::raw_stop_svg(results, row, raw, language)});
+    }
     runs.push_back(std::move(results));
   }
   draw_squareness(store, runs, language, plotted);
@@ -84,31 +90,16 @@ Result<Plotted> draw_all(const PlotCommand& command) {
   return plotted;
 }
 
-Status write_charts(const std::vector<charts::NamedChart>& charts,
-                    const std::filesystem::path& folder) {
-  MDOF_CHECK(charts::make_plot_folder(folder));
-  OutputFiles files(Existing::replace);
-  for (const auto& chart : charts) {
-    MDOF_TRY(const std::size_t file, files.add(folder / chart.file));
-    MDOF_CHECK(files.write(file, chart.svg));
-  }
-  return files.publish();
-}
-
 Status plot(const PlotCommand& command) {
   MDOF_TRY(const Plotted plotted, draw_all(command));
   if (plotted.charts.empty() && plotted.left_out.empty())
     return fail(ErrorCode::usage, "name a run or --table NUMBER");
   if (plotted.charts.empty())
     return fail(ErrorCode::bad_input, plotted.left_out.front() + "; no file is written");
-  MDOF_CHECK(write_charts(plotted.charts, command.out));
+  MDOF_TRY(const auto files, charts::write_charts(plotted.charts, command.out));
   for (const std::string& text : plotted.left_out) warn(text);
-  std::vector<std::string> files;
   std::string lines;
-  for (const auto& chart : plotted.charts) {
-    files.push_back((std::filesystem::path(command.out) / chart.file).string());
-    lines += files.back() + "\n";
-  }
+  for (const std::string& file : files) lines += file + "\n";
   if (!command.json) return write_out(lines);
   JsonWriter json;
   json.begin_object();
@@ -125,6 +116,12 @@ Action declare_plot(CLI::App& command) {
   command
       .add_option("--table", o->tables,
                   "Number of a compensation table, see mdof compensation list")
+      ->type_name("NUMBER")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--point", o->points,
+                  "Also the raw readings of this point, which is counted from 0 as measured")
       ->type_name("NUMBER")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -146,8 +143,9 @@ Command plot_command() {
       .name = "plot",
       .summary = "Draw charts of stored runs as SVG files",
       .footer =
-          "Writes run-N-five-errors.svg, run-N-straightness.svg and a run-N-budget-FIGURE.svg\n"
-          "for each figure; of one run along X and one along Y also squareness-X-Y.svg, of a\n"
+          "Writes run-N-five-errors.svg, -straightness.svg, -repeatability.svg, -drift.svg and a\n"
+          "-budget-FIGURE.svg for each figure; with --point the raw readings of a stop,\n"
+          "run-N-point-K.svg; of one run along X and one along Y also squareness-X-Y.svg, of a\n"
           "table table-N.svg. All files are written or none. What is drawn carries its numbers\n"
           "as data- attributes, in the units of mdof show --json. The same results give the\n"
           "same bytes.\n\n"

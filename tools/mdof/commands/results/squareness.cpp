@@ -5,6 +5,8 @@
 #include "algo/iso230/squareness_lines.h"
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/gate/gate.h"
+#include "daemon/output/charts/run/run_charts.h"
 #include "daemon/words/words.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
@@ -29,6 +31,7 @@ struct SquarenessCommand {
   std::string database, socket, word_x, word_y;
   std::int64_t run_x = 0, run_y = 0;
   std::optional<double> artefact_urad, u_artefact_urad;
+  std::string plots;
   bool partial = false, json = false, all_warnings = false;
 };
 
@@ -114,6 +117,21 @@ Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessC
   return io_error("mdofd stored a squareness that its database does not have: " + reply);
 }
 
+Status draw_both_axes(const SquarenessCommand& command, const Squareness& s,
+                       const Budget& budget) {
+  if (command.plots.empty()) return {};
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  charts::SquarenessResults drawn{s, budget, {}, {}, {}};
+  MDOF_TRY(drawn.run_x, daemon::run_stated_at(store, s.run_x, Reference::fixture));
+  MDOF_TRY(drawn.run_y, daemon::run_stated_at(store, s.run_y, Reference::fixture));
+  for (const Run* run : {&drawn.run_x, &drawn.run_y})
+    for (std::string& mark : daemon::marks_of(*run)) drawn.marks.push_back(std::move(mark));
+  const std::string name =
+      "squareness-" + std::to_string(s.run_x) + "-" + std::to_string(s.run_y) + ".svg";
+  return write_plots({{name, charts::squareness_svg(drawn, words::Language::english)}},
+                     command.plots);
+}
+
 Status squareness(SquarenessCommand command) {
   MDOF_TRY(command.run_x, run_number(command.database, command.word_x, Axis::x));
   MDOF_TRY(command.run_y, run_number(command.database, command.word_y, Axis::y));
@@ -123,6 +141,7 @@ Status squareness(SquarenessCommand command) {
   show_notices(notices, command.all_warnings);
   if (const std::string text = not_declared_text({budgets.front()}); !text.empty()) warn(text);
   MDOF_TRY(const SquarenessLines lines, lines_of_squareness(command.database, s));
+  MDOF_CHECK(draw_both_axes(command, s, budgets.front()));
   return command.json ? write_line(with_lines(
                             with_notices(squareness_json(s, budgets), notices, words::text), lines))
                       : write_out(squareness_text(s, budgets, lines));
@@ -139,6 +158,7 @@ Action declare_squareness(CLI::App& command) {
   command.add_flag("--partial", o->partial, "Take partial runs as well");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);
+  add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
   add_all_warnings_flag(command, o->all_warnings);
   return [o] { return squareness(*o); };

@@ -4,6 +4,8 @@
 #include <tuple>
 
 #include "daemon/measure/several_runs/trends.h"
+#include "daemon/output/charts/plot_files.h"
+#include "daemon/output/charts/run/control_chart.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "schema/notice/notice_json.h"
@@ -24,7 +26,7 @@ namespace {
 constexpr std::size_t kFirmBaseline = 8;  // values; of fewer, limits are provisional
 
 struct TrendCommand {
-  std::string database, axis, figure;
+  std::string database, axis, figure, plots;
   std::size_t baseline = 0;
   bool mixed = false, csv = false, json = false;
 };
@@ -202,6 +204,12 @@ Status trend(const TrendCommand& command) {
   if (command.csv)
     for (const daemon::Trend& of : found)
       for (const std::string& why : of.left_out) warn(of.figure + ": left out: " + why);
+  std::vector<charts::NamedChart> drawn;
+  for (const daemon::Trend& of : found)
+    if (!of.values.empty())
+      drawn.push_back({"trend-" + charts::file_name(of.figure) + ".svg",
+                       charts::control_chart_svg(of, words::Language::english)});
+  MDOF_CHECK(write_plots(drawn, command.plots));
   MDOF_CHECK(command.csv    ? write_out(csv_of(found))
              : command.json ? write_line(json_of(found))
                             : write_out(text_of(found)));
@@ -220,6 +228,7 @@ Action declare_trend(CLI::App& command) {
       ->check(CLI::Range(algo::kFewestOfBaseline, std::size_t{100'000}));
   command.add_flag("--mixed", o->mixed, "Take runs of other rigs and models as well");
   add_database_option(command, o->database);
+  add_plot_option(command, o->plots);
   add_csv_and_json_flags(command, o->csv, o->json);
   return [o] { return trend(*o); };
 }

@@ -8,8 +8,10 @@
 #include <random>
 
 #include "algo/compensation/compensation.h"
+#include "algo/sequence/uneven_visits.h"
 #include "algo/uncertainty/budget.h"
 #include "algo/uncertainty/statistics/range_interval.h"
+#include "algo/uncertainty/statistics/run_shifts.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
 #include "tests/coverage_runs.h"
@@ -249,6 +251,85 @@ TEST(RangeTrials, FiguresOfTheTrialsByHand) {
   // Ranges: {4, -1, 4, 0}: 5; {3, 1, 4, -3}: 7; {-2, 0, 4, 0}: 6.
   EXPECT_NEAR(trials.standard_deviation(), 1, 1e-15);
   EXPECT_NEAR(trials.root_mean_square(), std::sqrt((0 + 4 + 1) / 3.0), 1e-15);
+}
+
+// Three runs that lack visits, each its own; values of the first local error by number.
+std::vector<MeasuredPoint> uneven_points() {
+  std::vector<MeasuredPoint> points;
+  for (int run = 1; run <= 3; ++run)
+    for (const int direction : {1, -1})
+      for (int target = 1; target <= 5; ++target) {
+        if (run == 2 && target > 3) continue;
+        if (run == 3 && (target < 3 || (target == 4 && direction < 0))) continue;
+        MeasuredPoint p;
+        p.run = run;
+        p.target = target;
+        p.point.direction = direction;
+        p.errors.valid = true;
+        points.push_back(p);
+      }
+  return points;
+}
+
+std::map<TargetAndWay, double> means_without_drift(const std::vector<MeasuredPoint>& points) {
+  std::map<TargetAndWay, double> sum, n;
+  for (const MeasuredPoint& p : without_drift_of_runs(points).points) {
+    const TargetAndWay at{p.target, p.point.direction > 0 ? 1 : 0};
+    sum[at] += p.errors.local[0];
+    n[at] += 1;
+  }
+  for (auto& [at, s] : sum) s /= n[at];
+  return sum;
+}
+
+// The means are linear in the readings: each reading moved by 1 in turn gives their covariances.
+TEST(RunShifts, PartsAreTheCovarianceOfTheMeansBesideThatOfTheirVisits) {
+  const std::vector<MeasuredPoint> points = uneven_points();
+  std::map<std::pair<TargetAndWay, TargetAndWay>, double> covariance;
+  std::map<TargetAndWay, double> visits;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    std::vector<MeasuredPoint> moved = points;
+    moved[j].errors.local[0] = 1;
+    const auto means = means_without_drift(moved);
+    for (const auto& [a, x] : means)
+      for (const auto& [b, y] : means) covariance[{a, b}] += x * y;
+    visits[{points[j].target, points[j].point.direction > 0 ? 1 : 0}] += 1;
+  }
+  const auto parts = parts_by_run_shifts(points);
+  EXPECT_EQ(parts.size(), 2u);  // three runs against each other
+  for (const auto& [at, expected] : covariance) {
+    double found = at.first == at.second ? 1 / visits[at.first] : 0;
+    for (const auto& part : parts) found += part.at(at.first) * part.at(at.second);
+    EXPECT_NEAR(found, expected, 1e-12);
+  }
+  std::vector<MeasuredPoint> whole = points;
+  std::erase_if(whole, [](const MeasuredPoint& p) { return p.run != 1; });
+  EXPECT_TRUE(parts_by_run_shifts(whole).empty());
+}
+
+// Each pass has a level of its own; the means by whole runs are off the truth by what is left, but
+// for one constant of each way.
+TEST(RunShifts, WhatPassesLeaveIsWhatTheMeansAreOff) {
+  std::vector<MeasuredPoint> points = uneven_points();
+  const double level[3][2] = {{1, -2}, {4, 0.5}, {-3, 2}};
+  const auto truth = [](int target, int direction) {
+    return 0.1 * target * target + 0.2 * direction * target;
+  };
+  for (MeasuredPoint& p : points)
+    p.errors.local[0] =
+        truth(p.target, p.point.direction) + level[p.run - 1][p.point.direction > 0 ? 1 : 0];
+  const auto means = means_without_drift(points);
+  const auto left = left_by_passes(points);
+  ASSERT_EQ(left.size(), means.size());
+  std::map<int, double> constant;
+  double most = 0;
+  for (const auto& [at, mean] : means) {
+    const double off = mean - truth(at.first, at.second > 0 ? 1 : -1) - left.at(at)[0];
+    most = std::max(most, std::abs(left.at(at)[0]));
+    const auto [first, is_new] = constant.try_emplace(at.second, off);
+    EXPECT_NEAR(off, first->second, 1e-12) << at.first << " " << at.second;
+  }
+  EXPECT_GT(most, 0.3);
 }
 
 }  // namespace

@@ -150,5 +150,46 @@ TEST(CircularTest, WhatIsNoCircleIsRefused) {
   EXPECT_FALSE(predicted_circle(flat_machine("", ""), request));
 }
 
+// Harmonics over equal angles: the radius and the centre take those of order 0 and 1; what is left
+// of each way is its own.
+TEST(CircularTest, FiguresOfHarmonicsByHand) {
+  CircularPath path;
+  for (int i = 0; i < 72; ++i) {
+    const double a = 2 * std::numbers::pi * i / 72;
+    path.angle_rad.push_back(a);
+    path.ccw_m.push_back(5 + 3 * std::cos(a) + 1 * std::cos(2 * a));
+    path.cw_m.push_back(1 - 1 * std::cos(a) + 4 * std::sin(a) + 2 * std::cos(2 * a));
+  }
+  const auto f = circular_figures(path);
+  ASSERT_TRUE(f) << f.error().message;
+  EXPECT_NEAR(f->G_ccw_m, 2, 1e-12);
+  EXPECT_NEAR(f->G_cw_m, 4, 1e-12);
+  EXPECT_NEAR(f->D_m, 3, 1e-12);
+  EXPECT_NEAR(f->centre_m[0], 1, 1e-12);
+  EXPECT_NEAR(f->centre_m[1], 2, 1e-12);
+  double hysteresis = 0, low = 1e9, high = -1e9, low_ccw = 1e9, high_cw = -1e9;
+  for (std::size_t i = 0; i < 72; ++i) {
+    const double a = path.angle_rad[i], centre = std::cos(a) + 2 * std::sin(a);
+    hysteresis = std::max(hysteresis, std::abs(path.ccw_m[i] - path.cw_m[i]));
+    low = std::min({low, path.ccw_m[i] - centre, path.cw_m[i] - centre});
+    high = std::max({high, path.ccw_m[i] - centre, path.cw_m[i] - centre});
+    low_ccw = std::min(low_ccw, path.ccw_m[i] - centre);
+    high_cw = std::max(high_cw, path.cw_m[i] - centre);
+  }
+  EXPECT_NEAR(f->H_m, hysteresis, 1e-12);
+  EXPECT_NEAR(f->Gb_m, high - low, 1e-12);
+  EXPECT_NEAR(f->F_ccw_m[1], low_ccw, 1e-12);
+  EXPECT_NEAR(f->F_cw_m[0], high_cw, 1e-12);
+  path.ccw_m.clear();
+  const auto one_way = circular_figures(path);
+  EXPECT_NEAR(one_way->G_cw_m, 4, 1e-12);
+  EXPECT_NEAR(one_way->centre_m[0], -1, 1e-12);
+  EXPECT_TRUE(std::isnan(one_way->G_ccw_m));
+  EXPECT_TRUE(std::isnan(one_way->Gb_m));
+  EXPECT_TRUE(std::isnan(one_way->H_m));
+  EXPECT_TRUE(std::isnan(one_way->D_m));
+  EXPECT_TRUE(std::isnan(one_way->F_ccw_m[0]));
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -138,5 +138,17 @@ TEST(Milling, FiguresAreThoseOfItsTurns) {
   EXPECT_EQ(found->iterations, turn.iterations);
 }
 
+TEST(Milling, ADeflectionOfHalfTheRadiusIsRefused) {
+  MillingPlan plan = bent_cut(ChipModel::sine, DeflectionModel::rigid, true);
+  const double bent_m = milling(plan)->deflection_m, E = plan.youngs_modulus_Pa;
+  for (const double part : {0.99, 1.01}) {
+    plan.youngs_modulus_Pa = E * bent_m / (part * plan.radius_m() / 2);
+    const auto found = milling(plan);
+    EXPECT_EQ(found.has_value(), part < 1);
+    if (found) continue;
+    EXPECT_NE(found.error().message.find("half of the tool's radius"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

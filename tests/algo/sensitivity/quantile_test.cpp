@@ -118,5 +118,24 @@ TEST(OutputHistogram, CountsAreMovedBeforeTheyOverflow) {
   EXPECT_EQ(counts.core(kCoreBins - 2), 0u);
 }
 
+// Four trials in one bin are spread evenly from the least to the greatest.
+TEST(OrderedTrials, LieEvenlyInTheirBin) {
+  const double w = kScale.width;
+  const std::vector<double> x = {0.5 * w, 0.1 * w, 0.9 * w, 0.6 * w, 3.5 * w, 7.5 * w};
+  const OrderedTrials trials(histogram_of(x), kScale, 0.1 * w, 7.5 * w);
+  ASSERT_EQ(trials.size(), 6u);
+  EXPECT_EQ(trials.value(1), 0.1 * w);
+  EXPECT_NEAR(trials.value(2), (0.1 + 0.9 * 1.5 / 4) * w, 1e-12 * w);  // from 0.1 to 1 widths
+  EXPECT_NEAR(trials.value(4), (0.1 + 0.9 * 3.5 / 4) * w, 1e-12 * w);
+  EXPECT_NEAR(trials.value(5), 3.5 * w, 1e-12 * w);  // one in the middle of its bin
+  EXPECT_EQ(trials.value(6), 7.5 * w);
+  EXPECT_EQ(trials.find(4), trials.find(2));
+  EXPECT_EQ(trials.find(5), trials.find(4) + 1);
+  EXPECT_EQ(trials.resolution(1), 0);
+  EXPECT_NEAR(trials.resolution(3) / w, 0.9, 1e-6);
+  EXPECT_NEAR(trials.resolution(5) / w, 1, 1e-6);
+  EXPECT_EQ(trials.resolution(6), 0);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -94,5 +94,21 @@ TEST(CycleRule, APassTurnsAtHalfOfTheTargets) {
   EXPECT_EQ(runs(4, {1, 2, 3, -2, -1, 2, 3, 4}), (Runs{1, 1, 1, 1, 1, 2, 2, 2}));
 }
 
+// At each target there and back, over and over: as often at each, or one far more than others.
+TEST(CycleRule, AQuasiPilgrimVisitsAllAlike) {
+  const auto cycle = [](const std::vector<int>& times) {
+    std::vector<int> row;
+    for (int pass = 0; pass < 2; ++pass)
+      for (int t = 1; t <= 5; ++t)
+        for (int k = 0; k < times[static_cast<std::size_t>(t) - 1]; ++k)
+          row.insert(row.end(), {t, -t});
+    return recognise_cycle(visits_of(row), 5).cycle;
+  };
+  EXPECT_EQ(cycle({3, 3, 3, 3, 3}), Cycle::quasi_pilgrim);
+  EXPECT_EQ(cycle({9, 1, 1, 1, 1}), Cycle::none);
+  EXPECT_EQ(cycle({4, 4, 4, 4, 2}), Cycle::quasi_pilgrim);  // 8 of 72 lack: 4 of 36 visits
+  EXPECT_EQ(cycle({4, 4, 4, 3, 2}), Cycle::none);           // 12 of 68
+}
+
 }  // namespace
 }  // namespace mdof::algo

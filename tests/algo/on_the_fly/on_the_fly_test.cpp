@@ -185,5 +185,20 @@ TEST(OnTheFlyRun, LearnsTheResolutionOfTheProbe) {
   EXPECT_GT(of_rectangle, 30U);
 }
 
+// Out and back over 20 mm in 2 and 4 s, from -50 mm on: 40 mm in 6 s.
+TEST(OnTheFlyRun, ExplainsFromTheMeanSpeedWhereverTheAxisBegins) {
+  OnTheFlyOptions fine;
+  fine.bin_mm = 0.02;
+  FrameBlock frames = MotionLog().frames();
+  for (double& x : frames.encoder_m) x -= 50e-3;
+  OnTheFly run(TargetGrid(fine, {}), {"A"}, {200e-6});
+  ASSERT_TRUE(run.push(frames));
+  run.flush();
+  const Status why = run.explain_nothing();
+  ASSERT_FALSE(why);
+  expect_in(why.error().message, "at 6.6");
+  expect_in(why.error().message, "mm/s and 1000 Hz a bin of 0.02 mm has 3");
+}
+
 }  // namespace
 }  // namespace mdof::algo

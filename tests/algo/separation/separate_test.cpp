@@ -395,19 +395,5 @@ TEST(Separate, WhatIsDeclaredContradictsNothing) {
   EXPECT_GT(accused(0.001), 40);  // ten times as far off as declared
 }
 
-// 0.4 mm off a step of 10 mm is 0.4 mm, not more.
-TEST(Separation, AShiftOffTheStepsIsTakenWithinTheMatch) {
-  const World world{{}, 0, steps(7, 10 * kMm)};
-  auto request = request_of(world, {{}, {false, false, 20.4 * kMm}});
-  request.match_m = 0.41 * kMm;
-  EXPECT_TRUE(separate(request));
-  request.match_m = 0.39 * kMm;
-  const auto refused = separate(request);
-  ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("20.4 mm is 0.4 mm off whole steps of 10 mm"),
-            std::string::npos)
-      << refused.error().message;
-}
-
 }  // namespace
 }  // namespace mdof::algo

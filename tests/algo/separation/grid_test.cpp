@@ -1,0 +1,57 @@
+// Positions of set-ups on one grid, by hand.
+#include "algo/separation/grid.h"
+
+#include <gtest/gtest.h>
+
+namespace mdof::algo {
+namespace {
+
+using SetUps = std::vector<SetUp>;  // a test has a member of this name
+
+SetUp at_positions(std::vector<double> position_m, double shift_m = 0) {
+  SetUp set_up;
+  set_up.error_m.assign(position_m.size(), 0);
+  set_up.position_m = std::move(position_m);
+  set_up.shift_m = shift_m;
+  return set_up;
+}
+
+// 0.4 mm off a step of 10 mm is 0.4 mm.
+TEST(SeparationGrid, AShiftOffTheStepsIsTakenWithinTheMatch) {
+  const std::vector<double> x = {0, 10e-3, 20e-3, 30e-3};
+  const SetUps set_ups = {at_positions(x), at_positions(x, 20.4e-3)};
+  const auto grid = grid_of({}, set_ups, 0.41e-3);
+  ASSERT_TRUE(grid) << grid.error().message;
+  EXPECT_NEAR(grid->step_m, 10e-3, 1e-15);
+  EXPECT_EQ(grid->at_position, (std::vector<std::size_t>{0, 1, 2, 3, 0, 1, 2, 3}));
+  // The target moves to + past the probe, which reads ever lower places; shifted by two steps to +
+  // it shows places that are lower by two.
+  EXPECT_EQ(grid->at_place, (std::vector<std::size_t>{5, 4, 3, 2, 3, 2, 1, 0}));
+  ASSERT_EQ(grid->place_m.size(), 6u);
+  EXPECT_NEAR(grid->place_m[5] - grid->place_m[0], 50e-3, 1e-15);
+  const auto refused = grid_of({}, set_ups, 0.39e-3);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("set-up 2: its shift of 20.4 mm is 0.4 mm off whole steps "
+                                         "of 10 mm"),
+            std::string::npos)
+      << refused.error().message;
+}
+
+// Positions within the match of the lowest are one, at their mean.
+TEST(SeparationGrid, PositionsWithinTheMatchAreOne) {
+  const auto grid = grid_of(
+      {}, {at_positions({0, 10e-3, 25e-3}), at_positions({0.2e-3, 10.3e-3, 25e-3})}, 0.31e-3);
+  ASSERT_TRUE(grid) << grid.error().message;
+  ASSERT_EQ(grid->position_m.size(), 3u);
+  EXPECT_NEAR(grid->position_m[0], 0.1e-3, 1e-15);
+  EXPECT_NEAR(grid->position_m[1], 10.15e-3, 1e-15);
+  EXPECT_EQ(grid->at_position, (std::vector<std::size_t>{0, 1, 2, 0, 1, 2}));
+  EXPECT_EQ(grid->at_place, (std::vector<std::size_t>{2, 1, 0, 2, 1, 0}));  // nothing is shifted
+  const auto apart = grid_of(
+      {}, {at_positions({0, 10e-3, 25e-3}), at_positions({0.2e-3, 10.3e-3, 25e-3})}, 0.29e-3);
+  EXPECT_EQ(apart->position_m.size(), 4u);
+  EXPECT_FALSE(grid_of({}, {at_positions({0, 0.1e-3, 5e-3})}, 0.31e-3));  // two are no line
+}
+
+}  // namespace
+}  // namespace mdof::algo

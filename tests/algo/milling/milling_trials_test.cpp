@@ -240,6 +240,66 @@ TEST(CutTurn, PowerOfTheTrochoidIsThatOfTheVolumeSwept) {
   }
 }
 
+// The force on a tooth along its way, with that of its edge, times its speed, element by element:
+// the radial force does no work.
+TEST(CutTurn, PowerIsForceTimesSpeedOfEachElement) {
+  for (const bool up : {true, false}) {
+    MillingPlan plan = rigid_cut();
+    plan.deflection = DeflectionModel::steady;
+    plan.teeth = 1;
+    plan.is_up = up;
+    plan.elements = 3;
+    plan.helix_rad = 1;
+    plan.Kte = 20e3;
+    plan.Kre = 27e3;
+    plan.steps_per_turn = 720;
+    const CutTurn turn = *cut_turn(plan);
+    const double speed = kWholeTurn_rad * plan.spindle_hz * plan.radius_m();
+    double most = 0;
+    for (std::size_t n = 0; n < 720; ++n) {
+      double power = 0;
+      for (const Eigen::Index m : {0, 1, 2}) {
+        const auto row = static_cast<Eigen::Index>(n);
+        const double z = turn.height_m[static_cast<std::size_t>(m)];
+        const double a = CuttingEdge(plan, 0, z).angle(turn.turned_rad[n]);
+        power += (turn.fx_N(row, m) * std::cos(a) + turn.fy_N(row, m) * std::sin(a)) * speed;
+      }
+      EXPECT_NEAR(turn.power_W[n], power, 1e-9) << up << " " << n;
+      most = std::max(most, power);
+    }
+    EXPECT_GT(most, 1);
+  }
+}
+
+TEST(Milling, HasTheMeansAndTheWindowOfItsTurn) {
+  MillingPlan plan = rigid_cut();
+  EXPECT_EQ(milling(plan)->iterations, 1);
+  plan.deflection = DeflectionModel::steady;
+  plan.is_up = false;
+  const CutTurn turn = *cut_turn(plan);
+  const MillingResult found = *milling(plan);
+  EXPECT_EQ(turn.force_N().cols(), 2);
+  EXPECT_NEAR(found.x_mean_N, turn.fx_N.sum() / static_cast<double>(turn.fx_N.rows()), 1e-12);
+  EXPECT_NEAR(found.y_mean_N, turn.fy_N.sum() / static_cast<double>(turn.fy_N.rows()), 1e-12);
+  EXPECT_GT(std::abs(found.y_mean_N), 0.1);
+  EXPECT_EQ(found.entry_rad, turn.entry_rad);
+  EXPECT_EQ(found.exit_rad, turn.exit_rad);
+  EXPECT_GT(found.entry_rad, 1);
+  EXPECT_NEAR(found.exit_rad, kHalfTurn_rad, 0.02);
+  EXPECT_GT(found.iterations, 1);
+  EXPECT_LT(found.iterations, 15);
+}
+
+// A deflection is in proportion to 1 / E; half the tool's radius is the most.
+TEST(Milling, ADeflectionBeyondHalfTheRadiusIsRefused) {
+  MillingPlan plan = rigid_cut();
+  plan.youngs_modulus_Pa *= milling(plan)->deflection_m / (plan.radius_m() / 2);
+  plan.youngs_modulus_Pa *= 1.01;
+  EXPECT_TRUE(milling(plan));
+  plan.youngs_modulus_Pa *= 0.98;
+  EXPECT_FALSE(milling(plan));
+}
+
 TEST(WallByHand, OfThreeHeights) {
   const WallLine line{0, {1, 2, 6}};
   EXPECT_NEAR(line.mean_m(), 3, 1e-15);

@@ -24,7 +24,7 @@ namespace {
 // RMS in um by the paper's maps; papers without a number: what these imply (README.md).
 constexpr double kBefore = 0.467, kClamping = 0.934, kCutting = 0.296, kRelease = 0.074,
                  kRandom = 0.048, kNoise = 0.003, kBeforeWithClamping = -0.414,
-                 kCuttingWithClamping = -0.131;
+                 kCuttingWithClamping = -0.131, kFig17 = 0.064;
 
 class Mirror {
  public:
@@ -163,6 +163,8 @@ void through_the_paper(unsigned seed, Figures& figures) {
   note(figures, "5 cutting error", one[0]);
   note(figures, "6 second machining", second);
   note(figures, "8 cutting error, second", one[1]);
+  note(figures, "8 the same, at the RMS of Fig. 17",
+       Mirror::times(one[1], kFig17 / Mirror::rms_um(one[1])));
   for (std::size_t k = 1; k < 4; ++k) {
     figures["gain 1, pass " + std::to_string(k + 1) + " RMS"].push_back(Mirror::rms_um(one[k]));
     figures["mean, pass " + std::to_string(k + 1) + " RMS"].push_back(Mirror::rms_um(mean[k]));
@@ -224,9 +226,13 @@ TEST(Mirrors, ThroughThePaper) {
   const double share = within("8 cutting error, second PV");
   std::printf("second cutting error PV <= 0.4 um in %.1f %% of %u mirrors; drawn alone %.1f %%\n",
               share, mirrors, within("8 the same, passes drawn alone PV"));
+  const double at_fig_17 = within("8 the same, at the RMS of Fig. 17 PV");
+  std::printf("at the RMS that the paper has left, 0.064 um, in %.1f %%\n", at_fig_17);
   if (!is_campaign) return;
-  // 90 % is wanted; the tail of waves as long as the part does not allow it (tests/CAMPAIGNS.md).
+  // What is left is the difference of two random shares, whatever the method: 0.068 um RMS by Table
+  // 2, where waves of no length have 90 % within 0.4 um, and 0.064 by Fig. 17 (tests/CAMPAIGNS.md).
   EXPECT_GE(share, 80);
+  EXPECT_GE(at_fig_17, 90);
   EXPECT_LE(average(figures["mean, pass 4 RMS"]), 0.056);
   EXPECT_GE(average(figures["share of the release in the final square"]), 0.5);
 }

@@ -75,7 +75,9 @@ void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
   json.end_array();
   json.field("wear_offset_sense", "added to the radius of the tool; the same sign for G41 and G42")
       .field("wear_offset_line", line_to_type(offset))
-      .field("wear_offset_line_of", "Fanuc, mm; P: number of the offset");
+      .field("wear_offset_line_of",
+             "Fanuc, mm; P: number of the offset; G90 sets the wear of the radius, G91 adds to it; "
+             "twice R where the control has diameters");
 }
 
 void write_members(JsonWriter& json, const Milled& milled, const MillingCommand& o) {
@@ -139,7 +141,8 @@ std::string offset_text(const Milled& milled) {
   std::string text =
       "radius wear offset (" + std::string(to_string(milled.plan.deflection)) + "): " +
       (std::isnan(offset.u_m) ? in_um(offset.offset_m) : um_with_u(offset.offset_m, offset.u_m)) +
-      " µm, G41 and G42 alike\n  to type (Fanuc, mm): " + line_to_type(offset) + "\n";
+      " µm, G41 and G42 alike\n  to type (Fanuc, mm): " + line_to_type(offset) +
+      "\n  G90 sets the wear of the radius, G91 adds to it; diameters take twice R\n";
   if (offset.parts.empty())
     text += "  u is unknown: the plan declares no uncertainty, such as u_Kt_N_per_mm2\n";
   for (const auto& part : offset.parts)

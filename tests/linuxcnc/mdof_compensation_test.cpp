@@ -72,10 +72,12 @@ TEST(InterpolationTest, OutsideItIsThatOfTheEnd) {
 
 TEST(InterpolationTest, AnAxisWithOneCoordinateStands) {
   const Table t({kGrid[0], kGrid[1], {2}}, trilinear);
-  const double at[3] = {1, 1, 77};
-  double found[3];
-  EXPECT_TRUE(mdof_table_at(&t.table, at, found));
-  EXPECT_NEAR(found[1], trilinear(1, 1, 1, 2), 1e-13);
+  for (const double z : {2.0, 77.0}) {
+    const double at[3] = {1, 1, z};
+    double found[3];
+    EXPECT_EQ(mdof_table_at(&t.table, at, found), z == 2);  // of 77 the table says nothing
+    EXPECT_NEAR(found[1], trilinear(1, 1, 1, 2), 1e-13);
+  }
 }
 
 // Runs periods until the offset is `end`; the largest changes of its velocity and itself.
@@ -174,6 +176,39 @@ TEST(FollowTest, WhateverIsAskedTheLimitsHold) {
   }
 }
 
+TEST(FollowTest, LimitsThatAreNoneKeepTheOffsetWhereItIs) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (double mdof_limits::*limit : {&mdof_limits::fade_velocity, &mdof_limits::max_velocity,
+                                     &mdof_limits::max_acceleration, &mdof_limits::max_offset})
+    for (const double x : {0.0, -1.0, nan, infinite}) {
+      mdof_limits limits = kLimits;
+      limits.*limit = x;
+      mdof_offset offset{0.05, 0.01};
+      for (int i = 0; i < 1000; ++i) {
+        const double last = offset.value;
+        mdof_follow(&offset, 0.05 - 1e-5 * i, 0.05 - 1e-5 * (i + 1), &limits, kPeriod);
+        ASSERT_TRUE(std::isfinite(offset.value));
+        ASSERT_LE(std::abs(offset.value), 0.051);
+        if (x != infinite) {
+          ASSERT_LE(std::abs(offset.value - last), kLimits.max_velocity * kPeriod * (1 + 1e-9));
+        }
+      }
+    }
+}
+
+TEST(FollowTest, AnOffsetBeyondANewLimitFadesToIt) {
+  mdof_limits limits = kLimits;
+  limits.max_offset = 0.01;
+  mdof_offset offset{0.1, 0};
+  for (int i = 0; i < 3000; ++i) {
+    const double last = offset.value;
+    EXPECT_TRUE(mdof_follow(&offset, 0.1, 0.1, &limits, kPeriod));
+    ASSERT_LE(std::abs(offset.value - last), limits.fade_velocity * kPeriod * (1 + 1e-9));
+  }
+  EXPECT_NEAR(offset.value, 0.01, 1e-12);
+}
+
 class ReceiverTest : public ::testing::Test {
  protected:
   ReceiverTest() : correction_(3 * 8) {
@@ -208,7 +243,7 @@ TEST_F(ReceiverTest, AWholeTable) {
   EXPECT_TRUE(table_.is_simulated);
   EXPECT_EQ(table_.nodes, 6);
   EXPECT_DOUBLE_EQ(table_.largest, .075);
-  const double at[3] = {10, 2.5, 0};
+  const double at[3] = {10, 2.5, 3};
   double found[3];
   EXPECT_TRUE(mdof_table_at(&table_, at, found));
   EXPECT_DOUBLE_EQ(found[0], .04);  // between nodes 3 and 5

@@ -12,6 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#define MDOF_SAME_PLACE 1e-6       /* machine units */
 #define MDOF_MOST_COORDINATES 1024 /* of an axis of the grid */
 
 /* Corrections at the nodes of a grid, X fastest, then Y, then Z. An axis with one coordinate
@@ -32,7 +33,7 @@ static inline bool mdof_cell(const double* at, int n, double x, int* cell, doubl
   int low = 0, high = n - 1;
   *cell = 0;
   *share = 0;
-  if (n < 2) return true;
+  if (n < 2) return fabs(x - at[0]) <= MDOF_SAME_PLACE;
   while (high - low > 1) {
     const int middle = (low + high) / 2;
     if (at[middle] <= x)
@@ -44,7 +45,7 @@ static inline bool mdof_cell(const double* at, int n, double x, int* cell, doubl
   *share = (x - at[low]) / (at[high] - at[low]);
   if (*share >= 0 && *share <= 1) return true;
   *share = *share > 1 ? 1 : 0;
-  return false;
+  return x >= at[0] - MDOF_SAME_PLACE && x <= at[n - 1] + MDOF_SAME_PLACE;
 }
 
 /* The correction at a position, linear along each axis between nodes; outside the grid that of its
@@ -85,7 +86,9 @@ struct mdof_offset {
   double value, velocity;
 };
 
+/* Also of a limit that is none (0 or less, not a number): 0. */
 static inline double mdof_clamp(double x, double most) {
+  if (!(most > 0)) return 0;
   return x > most ? most : x < -most ? -most : x;
 }
 
@@ -97,7 +100,7 @@ static inline double mdof_approach(double distance, const struct mdof_limits* li
   const double far = fabs(distance);
   double velocity = step * (sqrt(1 + 8 * far / (step * period)) - 1) / 2;
   if (velocity > far / period) velocity = far / period;
-  if (velocity > limits->fade_velocity) velocity = limits->fade_velocity;
+  velocity = mdof_clamp(velocity, limits->fade_velocity);
   return distance < 0 ? -velocity : velocity;
 }
 
@@ -110,11 +113,14 @@ static inline bool mdof_follow(struct mdof_offset* offset, double before, double
   const double wanted_before = mdof_clamp(before, limits->max_offset);
   const double wanted = mdof_clamp(now, limits->max_offset);
   const double step = limits->max_acceleration * period;
+  const double most =
+      fmax(limits->max_offset, fabs(offset->value)); /* no jump where it was changed */
   double velocity = (wanted - wanted_before) / period +
                     mdof_approach(wanted_before - offset->value, limits, period);
   velocity = mdof_clamp(velocity, limits->max_velocity);
   velocity = offset->velocity + mdof_clamp(velocity - offset->velocity, step);
-  offset->value = mdof_clamp(offset->value + velocity * period, limits->max_offset);
+  if (!(step > 0) || !isfinite(velocity)) velocity = 0; /* limits that are none: it stands */
+  offset->value = mdof_clamp(offset->value + velocity * period, most);
   offset->velocity = velocity;
   return wanted != now || fabs(wanted - offset->value) > 1e-7;
 }

@@ -32,7 +32,7 @@ net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
 net change iocontrol.0.tool-change => iocontrol.0.tool-changed
 """
 # Drives that are where they are told to be; a period later the feedback shows it. Home switches at -3 mm of the drive.
-DRIVES = "".join(f"net drive-{k} => sampler.0.pin.{6 + k} comp.{k}.in0\nsetp comp.{k}.in1 -3\nnet switch-{k} comp.{k}.out => joint.{k}.home-sw-in\n"
+DRIVES = "".join(f"net drive-{k} => sampler.0.pin.{6 + k} comp.{k}.in0\nsetp comp.{k}.in1 [JOINT_{k}]HOME_OFFSET\nnet switch-{k} comp.{k}.out => joint.{k}.home-sw-in\n"
                  f"net mdof-{axis}-position => sampler.0.pin.{k}\nnet mdof-{axis}-command => sampler.0.pin.{3 + k}\n"
                  for k, axis in enumerate("xyz"))
 
@@ -55,11 +55,16 @@ def skip_where_missing():
         sys.exit(SKIPPED)
 
 
-def ini(limits, velocity, acceleration, min_ferror=0.02):
+def ini(limits, velocity, acceleration, min_ferror=0.02, inch=False):
+    """All in mm."""
+    if inch:
+        limits, (velocity, acceleration, min_ferror) = [(low / 25.4, high / 25.4) for low, high in limits], [
+            x / 25.4 for x in (velocity, acceleration, min_ferror)]
+    mm = 1 / 25.4 if inch else 1
     axes = "".join(f"[AXIS_{axis}]\nMIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\n"
                    f"MAX_ACCELERATION = {acceleration}\n" for axis, (low, high) in zip("XYZ", limits))
-    joints = "".join(f"[JOINT_{k}]\nTYPE = LINEAR\nHOME = 0\nHOME_SEQUENCE = 0\nHOME_OFFSET = -3\nHOME_SEARCH_VEL = -20\n"
-                     f"HOME_LATCH_VEL = -0.2\nFERROR = 0.5\nMIN_FERROR = {min_ferror}\n"
+    joints = "".join(f"[JOINT_{k}]\nTYPE = LINEAR\nHOME = 0\nHOME_SEQUENCE = 0\nHOME_OFFSET = {-3 * mm}\n"
+                     f"HOME_SEARCH_VEL = {-20 * mm}\nHOME_LATCH_VEL = {-0.2 * mm}\nFERROR = {0.5 * mm}\nMIN_FERROR = {min_ferror}\n"
                      f"MIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\nMAX_ACCELERATION = {acceleration}\n"
                      for k, (low, high) in enumerate(limits))
     return f"""[EMC]
@@ -86,7 +91,7 @@ HALFILE = mdof_compensation.hal
 HALFILE = drives.hal
 [TRAJ]
 COORDINATES = XYZ
-LINEAR_UNITS = mm
+LINEAR_UNITS = {"inch" if inch else "mm"}
 ANGULAR_UNITS = degree
 MAX_LINEAR_VELOCITY = {velocity * 2}
 DEFAULT_LINEAR_VELOCITY = {velocity}

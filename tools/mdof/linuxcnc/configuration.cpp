@@ -21,9 +21,10 @@ std::vector<std::string> joined_lines(const std::string& text) {
     at = end + 1;
     const bool goes_on = line.ends_with('\\');
     joined += goes_on ? std::string(line.substr(0, line.size() - 1)) + " " : std::string(line);
-    lines.push_back(goes_on ? "" : std::move(joined));  // the numbers of lines stay
-    if (!goes_on) joined.clear();
+    lines.emplace_back();  // empty where it goes on: the numbers of lines stay
+    if (!goes_on) std::swap(lines.back(), joined);
   }
+  if (!joined.empty()) lines.back() = std::move(joined);  // the file ends with a line that goes on
   return lines;
 }
 

@@ -65,13 +65,6 @@ Result<Days> days_of(const Report& report) {
   return all;
 }
 
-// Of the results alone, so that the same ones have the same number.
-std::string identifier(const Report& report) {
-  std::string all;
-  for (const ReportRun& run : report.runs) all += run.result_sha256 + "\n";
-  return "mdof-" + sha256_hex(all);
-}
-
 std::string release(const std::string& software) {  // "mdof 0.1.0": "v0.1.0"
   return "v" + software.substr(software.rfind(' ') + 1);
 }
@@ -116,13 +109,14 @@ void write_software(Xml& xml, const Report& report) {
   xml.close();
 }
 
-void write_core_data(Xml& xml, const Report& report, const Days& days) {
+void write_core_data(Xml& xml, const Report& report, const Days& days,
+                     const std::string& identifier) {
   const ReportFacts& facts = report.facts;
   xml.open("dcc:coreData");
   xml.leaf("dcc:countryCodeISO3166_1", facts.country);
   xml.leaf("dcc:usedLangCodeISO639_1", "en");
   xml.leaf("dcc:mandatoryLangCodeISO639_1", "en");
-  xml.leaf("dcc:uniqueIdentifier", identifier(report));
+  xml.leaf("dcc:uniqueIdentifier", identifier);
   if (!facts.number.empty()) {
     xml.open("dcc:identifications");
     write_identification(xml, "calibrationLaboratory", facts.number, "number of the test report");
@@ -161,11 +155,12 @@ void write_statements(Xml& xml, const Report& report) {
   xml.close();
 }
 
-void write_administration(Xml& xml, const Report& report, const Days& days) {
+void write_administration(Xml& xml, const Report& report, const Days& days,
+                          const std::string& identifier) {
   const ReportFacts& facts = report.facts;
   xml.open("dcc:administrativeData");
   write_software(xml, report);
-  write_core_data(xml, report, days);
+  write_core_data(xml, report, days, identifier);
   write_items(xml, facts);
   xml.open("dcc:calibrationLaboratory");
   write_contact(xml, "dcc:contact", facts.laboratory, facts.laboratory_address);
@@ -181,6 +176,17 @@ void write_administration(Xml& xml, const Report& report, const Days& days) {
   write_contact(xml, "dcc:customer", facts.customer, facts.customer_address);
   write_statements(xml, report);
   xml.close();
+}
+
+std::string document(const Report& report, const Days& days, const std::string& identifier) {
+  Xml xml;
+  xml.open("dcc:digitalCalibrationCertificate", {{"schemaVersion", "3.3.0"},
+                                                 {"xmlns:dcc", "https://ptb.de/dcc"},
+                                                 {"xmlns:si", "https://ptb.de/si"}});
+  write_administration(xml, report, days, identifier);
+  write_measurements(xml, report);
+  xml.close();
+  return xml.take();
 }
 
 }  // namespace
@@ -206,14 +212,9 @@ Result<std::string> dcc_xml(const Report& report) {
         "a certificate must name the country of the laboratory (ISO 3166-1, such as DE)",
         Remedy::state_in_report, "country");
   MDOF_TRY(const Days days, days_of(report));
-  Xml xml;
-  xml.open("dcc:digitalCalibrationCertificate", {{"schemaVersion", "3.3.0"},
-                                                 {"xmlns:dcc", "https://ptb.de/dcc"},
-                                                 {"xmlns:si", "https://ptb.de/si"}});
-  write_administration(xml, report, days);
-  write_measurements(xml, report);
-  xml.close();
-  return xml.take();
+  // Of all that it says, so that no two documents that differ have the same one.
+  const std::string all = document(report, days, "mdof");
+  return document(report, days, "mdof-" + sha256_hex(all));
 }
 
 }  // namespace mdof::documents

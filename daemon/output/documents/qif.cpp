@@ -312,12 +312,8 @@ void write_unit(Xml& xml, const char* element, const char* si, const char* name)
   xml.close();
 }
 
-void write_head(Xml& xml, const Report& report) {
-  std::string all;
-  for (const ReportRun& run : report.runs) all += run.result_sha256 + "\n";
-  const std::string hash = sha256_hex("mdof QIF\n" + all);
-  xml.leaf("QPId", hash.substr(0, 8) + "-" + hash.substr(8, 4) + "-" + hash.substr(12, 4) + "-" +
-                       hash.substr(16, 4) + "-" + hash.substr(20, 12));
+void write_head(Xml& xml, const Report& report, const std::string& id) {
+  xml.leaf("QPId", id);
   xml.open("Header");
   xml.open("Application");
   xml.leaf("Name", report.software_version);
@@ -351,19 +347,27 @@ std::size_t largest_id(const Document& document) {
   return ids - 1;
 }
 
-}  // namespace
-
-std::string qif_xml(const Report& report) {
-  const Document document = document_of(report);
+std::string with_id(const Report& report, const Document& document, const std::string& id) {
   Xml xml;
   xml.open("QIFDocument", {{"xmlns", "http://qifstandards.org/xsd/qif3"},
                            {"versionQIF", "3.0.0"},
                            {"idMax", std::to_string(largest_id(document))}});
-  write_head(xml, report);
+  write_head(xml, report, id);
   if (!document.characteristics.empty()) write_characteristics(xml, document.characteristics);
   write_results(xml, document, report.facts);
   xml.close();
   return xml.take();
+}
+
+}  // namespace
+
+std::string qif_xml(const Report& report) {
+  const Document document = document_of(report);
+  // A UUID of all that it says, so that no two documents that differ have the same one.
+  const std::string hash = sha256_hex(with_id(report, document, ""));
+  return with_id(report, document,
+                 hash.substr(0, 8) + "-" + hash.substr(8, 4) + "-" + hash.substr(12, 4) + "-" +
+                     hash.substr(16, 4) + "-" + hash.substr(20, 12));
 }
 
 }  // namespace mdof::documents

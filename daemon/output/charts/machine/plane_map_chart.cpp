@@ -97,7 +97,8 @@ std::vector<std::string> notes_of_map(const algo::PlaneMap& map, double factor, 
     }
   std::vector<std::string> notes = {
       phrase(Phrase::arrows, language,
-             {number_text(factor, 6), number_text(largest, 4), number_text(u, 2)})};
+             {number_text(factor, 6), number_text(largest, 4),
+              u > 0 ? number_text(u, 2) + " µm" : phrase(Phrase::unknown, language)})};
   const auto list = [&](Phrase text, const std::vector<std::string>& names) {
     std::string all;
     for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;

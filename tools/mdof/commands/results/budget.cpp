@@ -6,6 +6,7 @@
 #include "algo/uncertainty/conformity/decision.h"
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/gate/gate.h"
+#include "daemon/output/charts/run/run_charts.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/csv/csv_text.h"
@@ -25,7 +26,7 @@ namespace {
 constexpr std::uint64_t kMostTrials = 1'000'000;
 
 struct BudgetCommand {
-  std::string database, run, run_y, axis, figure, reference = "fixture";
+  std::string database, run, run_y, axis, figure, plots, reference = "fixture";
   std::optional<double> at_mm, tolerance, artefact_urad, u_artefact_urad;
   algo::TrialsRequest trials;
   bool partial = false, csv = false, json = false, all_warnings = false;
@@ -71,17 +72,38 @@ Result<daemon::FoundBudgets> of_two_runs(store::Store& store, const BudgetComman
   return daemon::squareness_budgets(store, request, command.trials);
 }
 
-Result<std::string> marks(store::Store& store, const BudgetCommand& command) {
+struct Marked {
+  std::string runs;  // "1", "1, 2"
+  std::vector<std::string> marks;
+};
+
+Result<Marked> marked(store::Store& store, const BudgetCommand& command) {
   std::vector<std::pair<std::string, std::optional<Axis>>> asked{
       {command.run, axis_from(command.axis)}};
   if (!command.run_y.empty()) asked = {{command.run, Axis::x}, {command.run_y, Axis::y}};
-  std::string lines;
+  Marked all;
   for (const auto& [word, axis] : asked) {
     MDOF_TRY(const auto id, run_number(store, word, axis));
     MDOF_TRY(const Run run, store.run(id));
-    lines += csv_marks(daemon::marks_of(run));
+    all.runs += (all.runs.empty() ? "" : ", ") + std::to_string(id);
+    for (std::string& mark : daemon::marks_of(run)) all.marks.push_back(std::move(mark));
   }
-  return lines;
+  return all;
+}
+
+Status draw_budgets(store::Store& store, const BudgetCommand& command,
+                    const std::vector<Budget>& budgets) {
+  if (command.plots.empty()) return {};
+  MDOF_TRY(const Marked of, marked(store, command));
+  std::vector<charts::NamedChart> drawn;
+  for (const Budget& b : budgets)
+    if (charts::has_budget(b))
+      drawn.push_back(
+          {"budget-" + charts::file_name(b.figure) + ".svg",
+           charts::budget_svg(b, "run " + of.runs, of.marks, words::Language::english)});
+    else
+      warn("no budget of " + b.figure + " is drawn: its u is not known");
+  return write_plots(drawn, command.plots);
 }
 
 std::string text_of(const daemon::FoundBudgets& found, const std::optional<Decision>& decided) {
@@ -105,9 +127,10 @@ Status budget(const BudgetCommand& command) {
       command.tolerance
           ? std::optional(algo::decision(found.budgets.front(), from_um(*command.tolerance)))
           : std::nullopt;
-  MDOF_TRY(const std::string lines, command.csv ? marks(store, command) : Result<std::string>());
-  MDOF_CHECK(command.csv    ? write_out(noise_only_comment(are_noise_only(found.budgets)) + lines +
-                                        budgets_csv(found.budgets))
+  MDOF_CHECK(draw_budgets(store, command, found.budgets));
+  MDOF_TRY(const Marked of, command.csv ? marked(store, command) : Result<Marked>());
+  MDOF_CHECK(command.csv    ? write_out(noise_only_comment(are_noise_only(found.budgets)) +
+                                        csv_marks(of.marks) + budgets_csv(found.budgets))
              : command.json ? write_line(daemon::budgets_json(found, decided))
                             : write_out(text_of(found, decided)));
   if (!decided || decided->conformity == Conformity::conform) return {};
@@ -146,6 +169,7 @@ Action declare_budget(CLI::App& command) {
   command.add_flag("--partial", o->partial, "Take partial runs as well");
   add_database_option(command, o->database);
   add_all_warnings_flag(command, o->all_warnings);
+  add_plot_option(command, o->plots);
   add_csv_and_json_flags(command, o->csv, o->json);
   return [o] { return budget(*o); };
 }

@@ -117,8 +117,7 @@ Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessC
   return io_error("mdofd stored a squareness that its database does not have: " + reply);
 }
 
-Status draw_both_axes(const SquarenessCommand& command, const Squareness& s,
-                       const Budget& budget) {
+Status draw_both_axes(const SquarenessCommand& command, const Squareness& s, const Budget& budget) {
   if (command.plots.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(command.database));
   charts::SquarenessResults drawn{s, budget, {}, {}, {}};

@@ -28,11 +28,9 @@ def mdof(*words):
 class History(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)  # the last one: after mdofd has ended
         self.log = os.path.join(self.folder.name, "log.csv")
         write_log(self.log)
-
-    def tearDown(self):
-        self.folder.cleanup()
 
     def serve(self, config=""):
         daemon = Daemon(MDOFD, os.path.join(self.folder.name, "d"), config + simulator("X"))

@@ -10,7 +10,6 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kNoise_m = 50e-6;  // of the encoder, and spikes that the dwells vote out
-constexpr std::int64_t kGlitch_ns = 50'000'000;
 constexpr double kBack = 0.1;  // so much nearer to where the axis was than to where it cannot be
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace mdof::algo {
 // A frame without a position (NaN) has no place. Neither has one whose position the axis cannot
 // have reached from the last place at its greatest speed, as after a count that overflowed (2^32
 // counts); those that go on from there have none either, until the position jumps back to where the
-// axis can be, or is back within 50 ms, as after a disturbance.
+// axis can be, or is ten times nearer to the last place than to the stray one, as after a
+// disturbance.
 // Streaming; the same however the frames are cut.
 class PlaceWatch {
  public:

@@ -258,5 +258,29 @@ TEST(WearOffset, UncertaintyIsThatOfItsInputs) {
   EXPECT_GT(offset.u_m, 0.01e-6);
 }
 
+// A run-out that its u could make negative stays at 0 there; the largest part stands first.
+TEST(WearOffset, PartsStayWhereTheyCanAndAreInOrder) {
+  DeclaredMillingPlan declared{preset(), {}};
+  declared.plan.steps_per_turn = 720;
+  declared.plan.runout_m = 0.05e-6;
+  const double u = 0.1e-6;
+  for (const MillingInput& input : milling_inputs()) {
+    if (std::string(input.key) == "feed_per_tooth_um") declared.u.emplace_back(&input, 1e-9);
+    if (std::string(input.key) == "radial_um") declared.u.emplace_back(&input, u);
+  }
+  ASSERT_EQ(declared.u.size(), 2u);
+  const auto offset = *wear_offset(declared);
+  MillingPlan more = declared.plan, none = declared.plan;
+  more.runout_m += u;
+  none.runout_m = 0;
+  const double change = milling(more)->wall.offset_mean_m - milling(none)->wall.offset_mean_m;
+  ASSERT_EQ(offset.parts.size(), 2u);
+  EXPECT_STREQ(offset.parts[0].input->key, "radial_um");
+  EXPECT_NEAR(offset.parts[0].contribution_m, change / more.runout_m * u, 1e-12);
+  EXPECT_GT(std::abs(offset.parts[0].contribution_m), std::abs(offset.parts[1].contribution_m));
+  EXPECT_NEAR(offset.u_m,
+              std::hypot(offset.parts[0].contribution_m, offset.parts[1].contribution_m), 1e-15);
+}
+
 }  // namespace
 }  // namespace mdof::algo

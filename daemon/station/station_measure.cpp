@@ -16,7 +16,7 @@
 #include "daemon/words/error_text.h"
 #include "schema/base/json_writer.h"
 #include "schema/rig/calibrated.h"
-#include "schema/rig/rig_check.h"
+#include "schema/rig/check/rig_check.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 

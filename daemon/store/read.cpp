@@ -7,7 +7,7 @@
 #include "daemon/store/store.h"
 #include "schema/encoder_datum.h"
 #include "schema/notice/notice_json.h"
-#include "schema/rig/rig_notes.h"
+#include "schema/rig/check/rig_notes.h"
 
 namespace mdof::store {
 

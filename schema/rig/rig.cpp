@@ -6,8 +6,8 @@
 #include "schema/base/files.h"
 #include "schema/base/toml_reader.h"
 #include "schema/rig/calibrated.h"
+#include "schema/rig/check/rig_check.h"
 #include "schema/rig/physics.h"
-#include "schema/rig/rig_check.h"
 #include "schema/rig/scan.h"
 #include "schema/units.h"
 

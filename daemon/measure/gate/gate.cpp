@@ -7,7 +7,7 @@
 #include "algo/sequence/usable_runs.h"
 #include "daemon/words/words.h"
 #include "schema/imported/series.h"
-#include "schema/rig/rig_notes.h"
+#include "schema/rig/check/rig_notes.h"
 
 namespace mdof::daemon {
 namespace {

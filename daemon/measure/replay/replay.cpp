@@ -9,7 +9,7 @@
 #include "daemon/paths.h"
 #include "daemon/version.h"
 #include "schema/rig/calibrated.h"
-#include "schema/rig/rig_check.h"
+#include "schema/rig/check/rig_check.h"
 
 namespace mdof::daemon {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "schema/rig/rig_notes.h"
+#include "schema/rig/check/rig_notes.h"
 #include "tests/algo/rigs.h"
 #include "tests/shown.h"
 

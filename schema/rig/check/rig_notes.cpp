@@ -1,4 +1,4 @@
-#include "schema/rig/rig_notes.h"
+#include "schema/rig/check/rig_notes.h"
 
 #include "schema/rig/calibrated.h"
 #include "schema/rig/physics.h"

@@ -1,6 +1,6 @@
 // What a wrong unit makes of a rig, key by key: each is found with its line, and right rigs,
 // however small, are left alone.
-#include "schema/rig/rig_check.h"
+#include "schema/rig/check/rig_check.h"
 #include "tests/shown.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "schema/rig/rig_check.h"
+#include "schema/rig/check/rig_check.h"
 
 #include <algorithm>
 #include <array>

@@ -32,7 +32,7 @@ double line(double x, double x0, double x1, double y0, double y1) {
 // Z last, Y before it, X first, in the cell that begins at node (i, j, 0).
 double by_lines(const VolumetricTable& t, const std::vector<Vec3>& values, const Vec3& at,
                 std::size_t i, std::size_t j, std::size_t k) {
-  const auto& [x, y, z] = t.command_m;
+  const auto &x = t.command_m[0], &y = t.command_m[1], &z = t.command_m[2];
   const auto along_x = [&](std::size_t row, std::size_t layer) {
     return line(at[0], x[i], x[i + 1], values[t.node(i, row, layer)][k],
                 values[t.node(i + 1, row, layer)][k]);
@@ -45,7 +45,7 @@ double by_lines(const VolumetricTable& t, const std::vector<Vec3>& values, const
 
 TEST(VolumetricValues, AreThreeLinearInterpolations) {
   const VolumetricTable t = uneven_table();
-  const auto& [x, y, z] = t.command_m;
+  const auto &x = t.command_m[0], &y = t.command_m[1], &z = t.command_m[2];
   test::NoPattern random(6);
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
     for (std::size_t j = 0; j + 1 < y.size(); ++j) {

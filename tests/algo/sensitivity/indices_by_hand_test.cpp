@@ -129,7 +129,8 @@ TEST(SobolByHand, OneBlockHasNoStandardError) {
   SobolSums sums(e, 20);
   sums.add_block(e, 1);
   EXPECT_EQ(sums.blocks(), 1u);
-  for (const CauseIndex& index : sums.result()[0].causes) {
+  const auto found = sums.result();
+  for (const CauseIndex& index : found[0].causes) {
     EXPECT_GT(index.total, 0);
     EXPECT_TRUE(std::isnan(index.first_se));
     EXPECT_TRUE(std::isnan(index.total_se));

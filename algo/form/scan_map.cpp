@@ -118,7 +118,8 @@ Result<SurfaceMap> scan_map(const ScanPoints& points, double pixel_m) {
   double nx = 0, ny = 0;
   set_range(points.x_m, pixel_m, map.x0_m, nx);
   set_range(points.y_m, pixel_m, map.y0_m, ny);
-  constexpr double kMostScanPixels = kMostPixels / (kCellsOfPixel * kCellsOfPixel);
+  constexpr auto kMostScanPixels =
+      static_cast<double>(kMostPixels / (kCellsOfPixel * kCellsOfPixel));
   if (!(nx * ny <= kMostScanPixels))
     return bad_input("pixels of " + std::to_string(pixel_m * 1e3) + " mm are more than " +
                      std::to_string(static_cast<std::size_t>(kMostScanPixels)) +

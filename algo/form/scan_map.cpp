@@ -118,12 +118,10 @@ Result<SurfaceMap> scan_map(const ScanPoints& points, double pixel_m) {
   double nx = 0, ny = 0;
   set_range(points.x_m, pixel_m, map.x0_m, nx);
   set_range(points.y_m, pixel_m, map.y0_m, ny);
-  constexpr auto kMostScanPixels =
-      static_cast<double>(kMostPixels / (kCellsOfPixel * kCellsOfPixel));
-  if (!(nx * ny <= kMostScanPixels))
+  constexpr std::size_t kMostScanPixels = kMostPixels / (kCellsOfPixel * kCellsOfPixel);
+  if (!(nx * ny <= static_cast<double>(kMostScanPixels)))
     return bad_input("pixels of " + std::to_string(pixel_m * 1e3) + " mm are more than " +
-                     std::to_string(static_cast<std::size_t>(kMostScanPixels)) +
-                     " over this scan; take larger ones");
+                     std::to_string(kMostScanPixels) + " over this scan; take larger ones");
   map.nx = static_cast<std::size_t>(nx);
   map.ny = static_cast<std::size_t>(ny);
   map.z_m.assign(map.nx * map.ny, SurfaceMap::kMissing);

@@ -44,11 +44,11 @@ std::string formats_text(std::size_t width) {
   std::string text;
   for (const controllers::Format& f : controllers::formats()) {
     text += std::string(f.name) + ": " + f.of + "\n";
-    for (const auto& [label, what] : {std::pair{"  holds   ", f.holds},
-                                      {"  limits  ", f.limits},
-                                      {"  sense   ", f.sense},
-                                      {"  known   ", f.source}})
-      text += wrapped(std::string(label) + what, width, 10) + "\n";
+    for (const auto& [label, what] : {std::pair{"holds   ", f.holds},
+                                      {"limits  ", f.limits},
+                                      {"sense   ", f.sense},
+                                      {"known   ", f.source}})
+      text += "  " + wrapped(std::string(label) + what, width - 2, 10) + "\n";
     if (!f.sign_confirmed) text += "  SIGN NOT CONFIRMED: needs --unverified-sign\n";
   }
   return text;

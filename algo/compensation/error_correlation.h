@@ -1,5 +1,5 @@
-// How the errors of a table hang together: one set of probes shows all five, so that a probe's
-// fault moves several at once. What a lever makes of them needs that.
+// Correlation of the errors of a table: one set of probes shows all five, so that a fault of a
+// probe moves several at once. u of a place with a lever needs it.
 #pragma once
 
 #include <vector>
@@ -12,11 +12,11 @@
 
 namespace mdof::algo {
 
-// Coefficients of correlation of the named errors' combined u, by position; 1 of an error with
-// itself, 0 with one whose u is 0. What rigs declare goes in as it shifts the table; noise as equal
-// noise of all probes makes it, through the solver and what the values refer to. `table` is that of
-// these runs and options with its u_declared. Errors: as of add_declared_uncertainty(); a rig that
-// cannot see all five errors.
+// Coefficients of correlation of the named errors' combined u, by position, of the forward
+// approach; 1 of an error with itself, 0 with one whose u is 0. What rigs declare goes in as it
+// shifts the table; noise as equal noise of all probes makes it, through the solver and what the
+// values refer to. `table` is that of these runs and options with its u_declared. Errors: as of
+// add_declared_uncertainty(); a rig that cannot see all five errors.
 Result<std::vector<Covariance5>> error_correlations(const CompensationTable& table,
                                                     const std::vector<Rig>& rigs,
                                                     const std::vector<Run>& runs,

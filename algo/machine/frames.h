@@ -22,7 +22,7 @@ struct FrameValues {
   std::array<double, kBodyErrors> u_error{};     // 0 where it is not declared
   std::array<double, kBodyErrors> u_location{};  // the same
   // u of the errors of the body as independent parts: what one standard uncertainty of part q does
-  // to error k is (k, q); lower triangle, the diagonal of u_error where none hang together.
+  // to error k is (k, q); lower triangle, the diagonal of u_error where none are correlated.
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> u_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
   std::array<bool, kBodyErrors> beyond{};  // the end of the table is held

@@ -46,8 +46,8 @@ Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, con
   return effect;
 }
 
-// u of the errors of bodies at place `p`: each takes with it what hangs together with it of those
-// behind it, so that the causes stay independent.
+// u of the errors of bodies at place `p`: each takes with it the correlated part of those behind
+// it, so that the causes stay independent.
 void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivative>& all,
                const std::vector<FrameValues>& values, std::size_t p, MachineCauses& causes) {
   for (const Known& one : known)

@@ -31,9 +31,8 @@ struct ErrorFunction {
   bool known() const { return !forward.empty(); }
 };
 
-// How the errors of a body hang together that one set of probes has shown: coefficients of
-// correlation by the command, linear between the positions. Empty: each is independent of the
-// others.
+// Coefficients of correlation of the errors of a body that one set of probes has shown, by the
+// command, linear between the positions. Empty: each error is independent of the others.
 struct ErrorCorrelation {
   std::vector<double> position;  // m or rad, strictly increasing
   std::vector<std::array<std::array<double, kBodyErrors>, kBodyErrors>> at;

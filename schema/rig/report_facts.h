@@ -29,12 +29,12 @@ struct ReportKey {
 };
 const std::vector<ReportKey>& report_keys();
 
-// [report] of a rig; a value that is none of its key is rejected there.
+// [report] of a rig; an invalid value is rejected there.
 ReportFacts read_report_facts(TomlTable& root);
 
 bool is_date(std::string_view text);  // YYYY-MM-DD
 
-// One key, as --set gives it. Errors (usage): a key that is not known, a value that is none of it.
+// One key, as --set gives it. Errors (usage): an unknown key, an invalid value.
 Status set_fact(ReportFacts& facts, std::string_view key, const std::string& value);
 
 // What each of them states. Error (usage): two state something else of one key.

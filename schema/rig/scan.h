@@ -6,8 +6,8 @@
 //   position_mm = [0, 5, 30]   # in M, where its line meets the part
 //   measures = "+Z"            # heights count along it, out of the part; across the axis
 //   centre_mm = 12.5           # of the encoder, where it looks at the spindle's axis
-//   angle = "angle_deg"        # column of how far the part has turned about `measures`,
-//   right-handed sense = "+"                # "-": left-handed
+//   angle = "angle_deg"        # column: how far the part has turned about `measures`
+//   sense = "+"                # right-handed; "-": left-handed
 #pragma once
 
 #include <optional>

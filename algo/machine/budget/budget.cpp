@@ -32,8 +32,8 @@ constexpr const char* unit_of(std::size_t k) {
   return k < 3 ? "um" : "urad";
 }
 
-// An error of a body with a declared u is a cause of its own, with what hangs together with it of
-// the errors behind it; in µm or µrad.
+// An error of a body with a declared u is a cause of its own, with the correlated part of the
+// errors behind it; in µm or µrad.
 void add_measured_error(BudgetModel& model, std::size_t i, std::size_t q) {
   const auto& parts = model.values[i].u_parts;
   const auto column = static_cast<Eigen::Index>(q);

@@ -92,7 +92,7 @@ std::size_t body_error_of(const CompensationTable& table, std::size_t named) {
   return std::string_view("XYZABC").find(error_names(table.axis)[named].name[1]);
 }
 
-// How its errors hang together, by the runs that it was built from.
+// The correlation of its errors, by the runs that it was built from.
 Status take_correlation(store::Store& store, MachineFrame& frame, const CompensationTable& table) {
   std::vector<Run> runs;
   std::vector<Rig> rigs;
@@ -215,13 +215,13 @@ bool has(const std::vector<std::int64_t>& ids, std::int64_t id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-// The newest that `is_it` takes; none: there is none.
+// The newest squareness that the predicate accepts; nullopt where there is none.
 template <class Predicate>
-Result<std::optional<Squareness>> newest_squareness(store::Store& store, Predicate is_it) {
+Result<std::optional<Squareness>> newest_squareness(store::Store& store, Predicate accepts) {
   for (std::int64_t offset = 0;; offset += kPage) {
     MDOF_TRY(const auto list, store.list_squareness(offset, kPage));
     if (list.empty()) return std::nullopt;
-    const auto found = std::find_if(list.begin(), list.end(), is_it);
+    const auto found = std::find_if(list.begin(), list.end(), accepts);
     if (found != list.end()) return *found;
   }
 }

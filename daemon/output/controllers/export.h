@@ -107,7 +107,7 @@ struct Format {
   const char* sense;    // what its values mean
   const char* source;   // where that sense is known from
   bool sign_confirmed;  // else the export has to be asked for
-  double quantum_m;     // step of its numbers
+  double quantum_m;     // step of its numbers; of a squareness rad
   bool takes_home;      // ExportOptions::home_m is taken out of it
   AxisFiles axes;       // one of the three
   VolumeFiles volume;

@@ -27,8 +27,7 @@ CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
   const double step = format.quantum_m + kRoundingOfGrid_m;
   e.bound = std::min({step, options.residual_m, std::max(options.residual_share * e.before, step)});
   e.cancels = e.residual <= e.bound;
-  e.controls.push_back(
-      {"wrong sign", r.wrong_sign, r.wrong_sign > e.bound, 2 * r.before <= 2 * e.bound});
+  e.controls.push_back({"wrong sign", r.wrong_sign, r.wrong_sign > e.bound, r.before <= e.bound});
   if (r.exchanged)
     e.controls.push_back(
         {"X and Y exchanged", *r.exchanged, *r.exchanged > e.bound, r.exchange <= 2 * e.bound});

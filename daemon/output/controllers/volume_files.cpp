@@ -82,7 +82,7 @@ std::vector<std::string_view> words_in(std::string_view line, char separator) {
   return words;
 }
 
-// All words as numbers; none where one is none.
+// All words as numbers; nullopt where a word is no number.
 std::optional<std::vector<double>> numbers_in(std::string_view line, char separator) {
   std::vector<double> numbers;
   for (const std::string_view word : words_in(line, separator)) {

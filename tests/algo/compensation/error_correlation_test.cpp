@@ -1,4 +1,4 @@
-// How the errors of one set of probes hang together. By hand, of the default fixture (B and C at
+// Correlation of the errors of one set of probes. By hand, of the default fixture (B and C at
 // y = 10 and -10 mm, A at x = 10, D at z = 20, E at x = 10 beside it), with equal noise s of all
 // probes: EAX = (B - C) / 20 mm, EYX = D + 20 mm EAX, ECX = (E - D) / 10 mm, EZX = (B + C) / 2,
 // EBX = (EZX - A) / 10 mm.

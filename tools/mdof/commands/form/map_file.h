@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "daemon/measure/replay/radial_scan.h"
-
 #include "schema/base/json_writer.h"
 #include "schema/base/result.h"
 #include "schema/form/height_map.h"

@@ -1,4 +1,4 @@
-// A driver as the configuration has it: what a family of devices is told, and what it gives back.
+// A driver as the configuration has it: what a family of devices gets, and what it gives back.
 #pragma once
 
 #include <functional>

@@ -1,12 +1,12 @@
 // The reference mark (index, Z) of an encoder that counts: when the axis goes over it, the counter
-// loads what it was told to, and from there the same count is the same place each time.
+// loads the value it was given, and from there the same count is the same place each time.
 #pragma once
 
 #include <cstdint>
 
 namespace mdof::drivers {
 
-// Tells from the counts alone whether the counter has loaded at the mark. It is told to load a
+// Finds from the counts alone whether the counter has loaded at the mark. It has to load a
 // number a quarter of its range away from where it stands: no motion between two readings leads
 // there, and a count that jumps to elsewhere was not at the mark. Pure; thread-bound.
 //

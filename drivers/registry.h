@@ -30,7 +30,7 @@ struct DriverRow {
   Result<DriverSpec> (*configure)(TomlTable&, const DriverContext&);
   std::optional<LinuxNode> node = std::nullopt;           // none: on a network, a file, a script
   std::optional<SimulatedKind> simulated = std::nullopt;  // none: it needs the kernel, or no device
-  // Why `index_mm` of an encoder is refused; null: the driver tells for sure that its mark was
+  // Why `index_mm` of an encoder is refused; null: the driver knows for certain that its mark was
   // passed (index_mark.h).
   const char* no_index = "this device counts nothing and sees no reference mark";
 };

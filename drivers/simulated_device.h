@@ -31,7 +31,7 @@ class SimulatedDevice {
   virtual ~SimulatedDevice() = default;
   virtual std::vector<Port> ports() const { return {}; }
 
-  // A client has come to ports()[port], or has gone. `client` is unique.
+  // A client has connected to ports()[port], or has gone. `client` is unique.
   virtual void opened(std::size_t /*port*/, int /*client*/, std::int64_t /*now_ns*/) {}
   virtual void closed(std::size_t /*port*/, int /*client*/) {}
   // What this client is sent now, after `received` (maybe nothing) came from it. Called whenever

@@ -50,7 +50,7 @@ struct CompensationTable {
   // way a correction goes: not to be served.
   bool without_stated_point = false;
   // Keys that the rigs of its runs leave open: u is too small by what they would add. Not stored:
-  // the runs' rigs tell.
+  // the runs' rigs give.
   std::vector<std::string> not_declared;
   std::string created_utc;
   std::string sha256;  // table_sha256(), or a value of before it; the ledger of the store checks it

@@ -15,7 +15,7 @@
 
 namespace mdof {
 
-// Everything needed to come to the same bits again.
+// Everything needed to get the same bits again.
 struct Provenance {
   std::string recording_kind;    // "csv", "recording", "live"
   std::string recording_path;    // absolute
@@ -23,7 +23,7 @@ struct Provenance {
   std::string rig_text;          // rig and calibration as TOML
   std::string model;
   std::string software_version;
-  std::string options_json;   // detection options in force, one JSON object
+  std::string options_json;   // detection options used, one JSON object
   std::string configuration;  // mdofd.toml for a live run, else empty
 };
 

@@ -25,9 +25,9 @@ struct Squareness {
   // Combined standard uncertainties, as their budgets have them; what algo::squareness() makes is
   // of noise, repeatability and the artefact alone.
   double u_EC0Y_rad = 0;
-  // How crooked the axes are: √(s_X² + s_Y²), s the standard deviation of a fitted slope that
-  // follows from the residuals of its line. It says how well one angle describes such axes, not how
-  // well it is known.
+  // How far the axes are from straight lines: √(s_X² + s_Y²), s the standard deviation of a fitted
+  // slope that follows from the residuals of its line. It says how well one angle describes such
+  // axes, not how well it is known.
   double form_rad = 0;
   // Over the travel of the moving body along + of M.
   double slope_EYX_rad = 0, u_slope_EYX_rad = 0;

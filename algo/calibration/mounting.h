@@ -1,11 +1,11 @@
 // Where the probes of a fixture sit, from a target that was clamped at several small tilts.
 //
 // At each clamping the machine's axes move the target by known millimetres: how the readings change
-// tells its tilt. Each probe's readings over the tilts of all clampings then tell its place and
+// gives its tilt. Each probe's readings over the tilts of all clampings then give its place and
 // zero. One weighted least-squares solution of the rigid model's readings (algo/model/rigid.h) by
 // Gauss-Newton has as unknowns of each probe: place (two components on its plane), zero, direction
 // (two), scale; and of each clamping the target's three angles and, for each traverse, its offset,
-// so that an axis that is elsewhere, or a slow drift between traverses, does no harm.
+// so that an axis that is elsewhere, or a slow drift between traverses, has no effect.
 //
 // The unknowns of the clampings are eliminated; the singular values of what is left, in units of
 // what the rig declares not to know, say which combinations the logs show: those they know at

@@ -1,4 +1,4 @@
-// What repeated visits of the same places tell of a drift: y = of the place + drift(time) + noise.
+// What repeated visits of the same places show of a drift: y = of the place + drift(time) + noise.
 //
 // A place is a target with its approach: its error is the same at each visit, and so is its
 // reversal. A drift is a polynomial in time (Legendre). What of it is the same at every visit of a
@@ -36,7 +36,7 @@ class DriftDesign {
 
   explicit DriftDesign(std::vector<TimedVisit> visits);
 
-  int orders() const { return orders_; }       // 0: no drift can be told from the form of the axis
+  int orders() const { return orders_; }  // 0: no drift can be separated from the form of the axis
   double freedom() const { return freedom_; }  // of what the highest order leaves of all visits
   const std::vector<TimedVisit>& visits() const { return visits_; }
   double begin_s() const { return begin_s_; }            // of the first visit

@@ -1,4 +1,4 @@
-// What people are told of the drift of a run.
+// The words for the drift of a run.
 #pragma once
 
 #include <string>

@@ -1,11 +1,11 @@
 // The drift of a run: of its five errors and of its probes, from repeated visits of its targets.
 //
-// A run that visits each target once from each side does not tell a drift from the form and slope
-// of the axis and its reversal; a second run does. Between runs alone, a steady drift and steps
-// from run to run look the same: machines have both. Within the runs they differ, where the axis
-// goes both ways: a drift shifts the two visits of a target by as much as lies between them, and a
-// step does not. Only what is likelier to be a drift than steps from pass to pass, by e⁵ (both with
-// one reversal for all targets), is one; runs of one direction do not show it.
+// A run that visits each target once from each side does not separate a drift from the form and
+// slope of the axis and its reversal; a second run does. Between runs alone, a steady drift and
+// steps from run to run look the same: machines have both. Within the runs they differ, where the
+// axis goes both ways: a drift shifts the two visits of a target by as much as lies between them,
+// and a step does not. Only what is likelier to be a drift than steps from pass to pass, by e⁵
+// (both with one reversal for all targets), is one; runs of one direction do not show it.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct Closure {
 };
 
 struct RunDrift {
-  std::string not_seen;                 // why no drift can be told; empty: it can
+  std::string not_seen;                 // why no drift can be stated; empty: it can
   double length_s = 0;                  // from the first point to the last
   std::array<SeriesDrift, 5> errors{};  // local, of the target; m, rad
   std::vector<SeriesDrift> probes;      // in the order of the rig; m. Empty: not_seen
@@ -40,7 +40,7 @@ struct RunDrift {
 class DriftOfRun {
  public:
   // Points stated at the fixture, where an error does not have the travel in it. Those without
-  // errors, or with an unknown approach, tell nothing.
+  // errors, or with an unknown approach, show nothing.
   explicit DriftOfRun(const std::vector<MeasuredPoint>& points);
 
   const RunDrift& found() const { return found_; }

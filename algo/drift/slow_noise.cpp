@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLongest = 8;  // τ, by the length of the log: as good as a random walk
 
-// Rows without what the rows before tell of them, of variance 1: of independent noise.
+// Rows without what the rows before predict of them, of variance 1: of independent noise.
 Eigen::MatrixXd whitened(const std::vector<double>& time_s, const SlowNoise& noise,
                          const Eigen::MatrixXd& rows, double& log_variances) {
   Eigen::MatrixXd white(rows.rows(), rows.cols());

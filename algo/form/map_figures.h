@@ -16,7 +16,7 @@ struct MapFigures {
 MapFigures figures_of(const SurfaceMap& map);
 
 // z = piston + tilt_x (x - x_mean) + tilt_y (y - y_mean) by least squares over the measured pixels;
-// a tilt that they do not tell (a single row or column) is 0.
+// a tilt that they do not determine (a single row or column) is 0.
 struct Plane {
   double x_mean_m = 0, y_mean_m = 0, piston_m = 0, tilt_x = 0, tilt_y = 0;
   double at(double x_m, double y_m) const {

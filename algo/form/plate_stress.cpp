@@ -49,7 +49,7 @@ class Square {
 
   bool is_large_enough() const { return ni_ >= 1 && nj_ >= 1; }
 
-  // False: less than half of the square has heights, or they do not tell a parabola.
+  // False: less than half of the square has heights, or they do not determine a parabola.
   bool at(std::size_t i, std::size_t j, Curvature& curvature) const {
     const auto ii = static_cast<std::ptrdiff_t>(i), jj = static_cast<std::ptrdiff_t>(j);
     if (ii >= ni_ && jj >= nj_ && ii + ni_ < static_cast<std::ptrdiff_t>(map_.nx) &&

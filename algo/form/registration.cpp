@@ -137,7 +137,7 @@ Step step_of(const Sums& sums, bool with_plane_only) {
   if (with_plane_only) return step;
   const Eigen::MatrixXd left = M - C.transpose() * plane.solve(C);
   const Eigen::VectorXd right = m - C.transpose() * fitted;
-  // Each unknown in its own scale, so that directions can be told apart by their eigenvalues.
+  // Each unknown in its own scale, so that directions can be compared by their eigenvalues.
   Eigen::VectorXd scale(3);
   const double least = kUndetermined * kUndetermined * M.trace();  // below it, rounding
   for (int u = 0; u < 3; ++u) scale(u) = M(u, u) > least ? 1 / std::sqrt(M(u, u)) : 0;

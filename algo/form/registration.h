@@ -22,8 +22,8 @@ struct MapPose {
 struct Comparison {
   SurfaceMap difference;  // B - A, over the pixels of A
   MapPose pose;
-  // Directions among shift x, shift y and turn that the shape does not tell (a sphere can turn, and
-  // be tilted instead of shifted): they were taken as 0.
+  // Directions among shift x, shift y and turn that the shape does not determine (a sphere can
+  // turn, and be tilted instead of shifted): they were taken as 0.
   std::size_t undetermined = 0;
   double pv_m = 0, rms_m = 0;  // rms about the mean
   std::size_t pixels = 0;

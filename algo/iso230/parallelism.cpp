@@ -42,7 +42,8 @@ std::string in_mm_text(double from_m, double to_m) {
   return plain_number(to_mm(from_m), 6) + " to " + plain_number(to_mm(to_m), 6) + " mm";
 }
 
-// The lines of crooked axes depend on where they are drawn: two that hardly meet are not compared.
+// The lines of axes that are not straight depend on where they are drawn: two that hardly meet are
+// not compared.
 Status common_travel(const ReferenceLines& a, const ReferenceLines& b, Parallelism& found) {
   found.from_m = std::max(a.first_m, b.first_m);
   found.to_m = std::min(a.last_m, b.last_m);

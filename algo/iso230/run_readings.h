@@ -16,7 +16,7 @@ struct RunReadings {
 };
 
 // Of the error at `named` in the order of error_names(). Of a straightness error the least-squares
-// line through the mean of both approaches is taken away, unless `keep_slope`: it tells how the
+// line through the mean of both approaches is taken away, unless `keep_slope`: it shows how the
 // target was clamped, and belongs to squareness. An angle stays as it is.
 RunReadings readings_of_run(const Run& run, std::size_t named, bool keep_slope);
 

@@ -15,7 +15,7 @@ struct ArtefactGiven {
   std::optional<double> angle_error_rad, u_rad;
 };
 
-// The square as both rigs know it, with the corner that their planes tell. Errors: a given value is
+// The square as both rigs know it, with the corner that their planes give. Errors: a given value is
 // beyond 10 mrad, or none; the rigs differ;
 // an angle error is given and a face lies at 0, or on both sides of it, so that the corner is not
 // known.

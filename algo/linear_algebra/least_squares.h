@@ -27,8 +27,8 @@ class LeastSquares {
   std::unique_ptr<Eigen::ColPivHouseholderQR<Eigen::MatrixXd>> qr_;
 };
 
-// A x = b where A may not tell all of x: of all least-squares solutions that of least norm, by a
-// complete orthogonal decomposition (ibid., 5.5.2).
+// A x = b where A may not determine all of x: of all least-squares solutions that of least norm, by
+// a complete orthogonal decomposition (ibid., 5.5.2).
 class LeastNorm {
  public:
   explicit LeastNorm(const Eigen::MatrixXd& A);
@@ -41,7 +41,7 @@ class LeastNorm {
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   Eigen::MatrixXd inverse() const;     // pseudo-inverse: x = inverse() b
-  Eigen::MatrixXd null_space() const;  // orthonormal columns: what A does not tell of x
+  Eigen::MatrixXd null_space() const;  // orthonormal columns: what A does not determine of x
 
  private:
   std::unique_ptr<Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>> cod_;

@@ -35,7 +35,7 @@ struct SquarenessOfDiagonals {
 // The angle between the axes by the law of cosines: Eq. 2 of Hwang, Song and Park of one diagonal
 // from (0, 0) to (Px, Py), the mean of both where the other, from (Px, 0) to (0, Py), is there too:
 //   cos θ12 = (Pd² - Px² - Py²) / (2 Px Py),   cos θ12 = (Pd² - Pe²) / (4 Px Py)
-// Uncertainty: of each line by repetition (no less than nothing: one reading tells none) and the
+// Uncertainty: of each line by repetition (no less than nothing: one reading shows none) and the
 // declared u_line of its length; degrees of freedom by Welch-Satterthwaite. An error of the scale
 // that all lines have in common turns nothing. Errors: a line without a reading, lengths that no
 // triangle has, no uncertainty at all.

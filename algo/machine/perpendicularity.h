@@ -1,4 +1,4 @@
-// How a rotary table's axis leans against the plane in which two linear axes move, from a circle
+// The tilt of a rotary table's axis against the plane in which two linear axes move, from a circle
 // that all three move together (Hwang, Song and Park, Fig. 8 and 9).
 #pragma once
 
@@ -25,7 +25,7 @@ struct Harmonic {
 };
 struct Perpendicularity {
   double EA0C_rad = 0,
-         EB0C_rad = 0;  // the axis leans against the normal of the plane by these turns
+         EB0C_rad = 0;  // the axis is tilted against the normal of the plane by these turns
   double u_rad = 0, U_rad = 0, k = 0, freedom = 0;  // of each of the two
   double size_rad = 0;                              // of both together
   double mean_m = 0, residual_sd_m = 0;

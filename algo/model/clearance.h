@@ -1,4 +1,4 @@
-// How far each machine axis may move the target before it comes to the end of a probe's range, and
+// How far each machine axis may move the target before it reaches the end of a probe's range, and
 // to the probe itself: from the rig's geometry alone.
 #pragma once
 

@@ -29,7 +29,7 @@ struct Fixture {
 
 // Turns the rig into the axis' local frame (schema/axis.h) and finds each probe's plane. Errors: a
 // rig that contradicts itself: a position off its plane, a plane that no probe's direction or two
-// planes' tell, one plane at two places.
+// planes' give, one plane at two places.
 Result<Fixture> make_fixture(const Rig& rig);
 
 // Height of a target plane above its nominal, at a point of the plane in C; m.

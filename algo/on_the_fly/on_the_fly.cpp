@@ -94,7 +94,7 @@ void OnTheFly::learn_resolution(const AxisPass& pass) {
   for (std::size_t k = 0; k < probes_.ids.size(); ++k) probes_.step_m[k] = resolution_.step_m(k);
 }
 
-// Whether a probe lives is told bin by bin, as it would be stop by stop.
+// Whether a probe lives is judged bin by bin, as it would be stop by stop.
 void OnTheFly::watch(const AxisPass& pass, const PassBins& bins) {
   auto bin = bins.bins.begin();
   for (std::size_t i = pass.first; i < pass.last; i += kWatchedRows) {

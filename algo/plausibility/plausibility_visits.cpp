@@ -83,7 +83,7 @@ class Holes {
       out.push_back(
           notice(NoticeCode::target_never_visited, "", {{"targets", numbered("target", never)}}));
   }
-  // The end targets of a pendulum cycle are come to from one side.
+  // The end targets of a pendulum cycle are reached from one side.
   bool awaited(const Cell& cell) const {
     if (!visits_.directions.contains(cell.direction) || !visits_.targets.contains(cell.target))
       return false;

@@ -34,7 +34,7 @@ void Resolution::keep(double step) {
   }
 }
 
-// Whether the column of marks exists tells nothing of these rows: it comes with any row of a block,
+// Whether the column of marks exists says nothing of these rows: it comes with any row of a block,
 // and a replay has other blocks than the live run.
 void ProbeResolution::add(const FrameBlock& frames, std::size_t first, std::size_t last) {
   for (std::size_t k = 0; k < found_.size(); ++k) {

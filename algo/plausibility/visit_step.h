@@ -1,4 +1,4 @@
-// What the visits of a run tell of its probes: a reading that moved between two visits and stayed
+// What the visits of a run show of its probes: a reading that moved between two visits and stayed
 // there, readings that come twice, and places that were visited once.
 #pragma once
 
@@ -22,7 +22,7 @@ struct VisitStep {
 // Of each probe the likeliest single step, where it is six times what the readings scatter without
 // it and explains them e¹⁰ times better than any smooth change, a polynomial of order 6 over time:
 // a drift, or noise that lasts, is none. A place is a target with its approach; those that are
-// visited once tell nothing. Smaller ones than what a dwell shows (probe_watch.h) are found; those
+// visited once show nothing. Smaller ones than what a dwell shows (probe_watch.h) are found; those
 // that it found are left out.
 std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoint>& points);
 

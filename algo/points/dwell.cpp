@@ -336,7 +336,8 @@ void DwellDetector::break_after(std::int64_t time_ns) {
   breaks_.push_back(time_ns);
 }
 
-// Nobody saw the axis for a while: told, and after a longer while the approach is not known either.
+// The axis was not seen for a while: it is reported, and after a longer while the approach is not
+// known either.
 void DwellDetector::pass_hole() {
   const std::int64_t length_ns = buffer_.time_ns[row_] - last_ns_;
   const double before_m = encoder_before_[1];

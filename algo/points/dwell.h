@@ -57,7 +57,7 @@ class DwellDetector {
   // End of the data: the dwell under way is complete as well.
   void flush(std::vector<Point>& out);
 
-  // What only the log as far as it is known tells of the points found in it: those of a probe that
+  // What only the log as far as it is known shows of the points found in it: those of a probe that
   // froze or stepped are marked, and a reading that never changed in a stop before the step of its
   // probe's readings was known gets the uncertainty of the rounding.
   void mark(std::vector<Point>& points) const;
@@ -72,7 +72,7 @@ class DwellDetector {
     std::uint64_t gaps = 0;      // intervals over three periods
     std::uint64_t unplaced = 0;  // frames without a place (place_watch.h), not in `scans`
     double longest_still_s = 0;  // to explain why nothing was found
-    double tolerance_m = 0;      // in force at the end
+    double tolerance_m = 0;      // valid at the end
     // Stops that gave no point: too short, or creeping. The first kMaxPassedOver of them.
     struct PassedOver {
       double position_m = 0, length_s = 0;

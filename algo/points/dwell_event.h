@@ -1,4 +1,4 @@
-// What happened to a log on the level of its stops that the points alone do not tell.
+// What happened to a log on the level of its stops that the points alone do not show.
 #pragma once
 
 #include <cstdint>

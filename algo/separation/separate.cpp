@@ -104,7 +104,7 @@ VectorXd root_weights(const VectorXd& u) {
 
 struct Solution {
   MatrixXd from_readings;  // unknowns = this times the readings
-  MatrixXd null;           // orthonormal: what no reading tells
+  MatrixXd null;           // orthonormal: what no reading determines
   Index rank = 0;
 };
 

@@ -39,7 +39,7 @@ struct SetUp {
   std::vector<double> u_m;  // standard uncertainties; empty: not known
   std::vector<DeclaredShift> declared;
   HalfTurn turn;
-  // In C along the motion: where the zero of the target's own length came to lie, which in the
+  // In C along the motion: where the zero of the target's own length lies, which in the
   // first set-up is that of C.
   double shift_m = 0;
 };

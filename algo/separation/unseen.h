@@ -1,4 +1,4 @@
-// Names for the shapes of a series that no reading tells.
+// Names for the shapes of a series that no reading determines.
 #pragma once
 
 #include <Eigen/Core>

@@ -33,8 +33,8 @@ struct Sequence {
 };
 
 // Targets are those given, or where the axis stopped (sequence_stops.h). Stops of no target are
-// left out and told: near no given target; where none are given, those that the other stops show
-// to be a parked axis, a pause or a turning point. Two stops in a row at one target with one
+// left out and reported: near no given target; where none are given, those that the other stops
+// show to be a parked axis, a pause or a turning point. Two stops in a row at one target with one
 // approach, between which the axis did not leave it, are one interrupted stop: the longer is kept.
 // A point whose approach is not known (the log begins there, or nobody saw the axis before it) is
 // taken to go on with the stop before it at the same target, else to belong to the motion that

@@ -1,4 +1,4 @@
-// Which stops are at no target? What the others have, tells: the typical number of visits, whether
+// Which stops are at no target? What the others have decides: the typical number of visits, whether
 // from both sides, the typical interval. See leave_out_odd_stops() in sequence_stops.h.
 #include <algorithm>
 #include <cmath>
@@ -15,14 +15,14 @@ constexpr double kEnough = 0.6;     // of the typical number of visits, of what 
 constexpr double kAsMany = 0.75;    // of the typical number of visits
 constexpr double kTooNear = 0.6;    // of the typical interval, to what is surely a target
 constexpr double kTooFar = 1.6;     // of the typical interval, beyond the last target
-constexpr std::size_t kFewest = 4;  // places, so that one of a single pass can be told to be odd
+constexpr std::size_t kFewest = 4;  // places, so that one of a single pass can be judged odd
 constexpr int kSurelyNone = 3;      // typical visits, of which a target would not miss all but one
 
 // A place where the axis stopped.
 struct Place {
   double position_m = 0;
   int forward = 0, reverse = 0;
-  bool parked = false;  // only the first stop of the log, which nobody saw the axis come to
+  bool parked = false;  // only the first stop of the log, which nobody saw the axis reach
   bool first = false, last = false;
   bool kept = false;
   int visits() const { return forward + reverse; }
@@ -139,7 +139,7 @@ void judge(std::vector<Place>& places, const Typical& typical) {
     places[i].kept = may_be_a_target(places[i], neighbours(places, i), typical);
 }
 
-// All places have one visit: only a start off the grid can be told.
+// All places have one visit: only a start off the grid can be found.
 void judge_start(std::vector<Place>& places) {
   const std::size_t n = places.size();
   if (n < kFewest) return;

@@ -43,7 +43,7 @@ void merge_interrupted(std::vector<MeasuredPoint>& points);
 // `part` goes on with `stop`, as above: then it is taken into it.
 bool merge_into(MeasuredPoint& stop, MeasuredPoint& part);
 
-// Takes out of `points` what stands at no target, as the other stops tell: a parked axis, a pause,
+// Takes out of `points` what stands at no target, as the other stops show: a parked axis, a pause,
 // the place where it turns round. Targets without points go out of `targets_m`, and the others are
 // numbered anew.
 std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,

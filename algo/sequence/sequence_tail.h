@@ -12,7 +12,7 @@
 namespace mdof::algo {
 
 // Puts stop after stop in its place as recognise_sequence() would, with the targets and the cycle
-// that were recognised. What only the whole tells (another cycle, odd stops, a target between those
+// that were recognised. What only the whole shows (another cycle, odd stops, a target between those
 // that are known) waits until the whole is recognised again.
 class SequenceTail {
  public:

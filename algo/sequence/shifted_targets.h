@@ -15,7 +15,7 @@ struct ShiftedTargets {
 
 // A moment before and after which other targets are visited, at least three each, and those after
 // it are those before it displaced by one distance, less than half of their range, within 50 µm. A
-// jump while the axis turns or creeps is told by nothing else: a step of one sample looks like
+// jump while the axis turns or creeps is shown by nothing else: a step of one sample looks like
 // motion.
 std::optional<ShiftedTargets> find_shifted_targets(const Sequence& sequence);
 

@@ -138,7 +138,7 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
   MDOF_TRY(const Rig rig_x, rig_of(x.header));
   MDOF_TRY(const Rig rig_y, rig_of(y.header));
   MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
-  // Whatever keeps the two from having a squareness is told here.
+  // Whatever keeps the two from having a squareness is stated here.
   MDOF_TRY(const Squareness fitted, algo::squareness(x, y, artefact, request.partial));
   MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact, trials));
   FoundBudgets found{kAtFixture, {}, {}, algo::inherited_notices({&x, &y}), fitted.simulated};

@@ -34,7 +34,7 @@ struct RpcAccess {
   std::size_t connections = 64, connections_of_user = 32;
   std::chrono::seconds idle{600};      // without a subscription; 0: for ever
   std::optional<gid_t> cnc_group;      // one connection is kept for its members
-  std::optional<gid_t> approve_group;  // whose members alone may put a table in force
+  std::optional<gid_t> approve_group;  // whose members alone may activate a table
   std::string approvers;               // its name
 };
 

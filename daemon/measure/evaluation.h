@@ -59,7 +59,7 @@ struct ActivationRequest {
   Consent consent;
   Deed deed;  // who asks
 };
-// Puts the table in force. Refuses one that is not what its hash says, and what check_gate()
+// Activates the table. Refuses one that is not what its hash says, and what check_gate()
 // refuses: a controller sees numbers only.
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request);
 // The two parts of that: what may refuse it, from a store that may be read-only, with the marks of

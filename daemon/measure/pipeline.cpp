@@ -298,7 +298,7 @@ void Pipeline::judge(Run& run) const {
   append(run.header.notices, std::move(missing));
 }
 
-// What the run looks like as a whole, and what of it is to be doubted.
+// What the run looks like as a whole, and what of it is doubtful.
 void Pipeline::add_plausibility(Run& run) const {
   const auto& dwell = options_.dwell;
   const algo::RunToJudge whole{rig_,

@@ -12,7 +12,7 @@
 
 namespace mdof::daemon {
 
-// Who wants it read, by uid and groups as the kernel tells them of the client.
+// Who wants it read, by uid and groups as the kernel gives them.
 struct FileUser {
   uid_t uid = 0;
   gid_t gid = 0;

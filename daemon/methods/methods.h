@@ -42,7 +42,7 @@ struct Methods {
   std::string database;
   std::string started_utc;
   std::chrono::steady_clock::time_point started;
-  std::int64_t generation = 0;   // of what is in force: rises with each change of it
+  std::int64_t generation = 0;   // of the active tables: rises with each change of it
   Replayer* replayer = nullptr;  // none: run.replay is refused
   std::function<void(std::int64_t generation)> announce = {};  // of a change of what is active
 };

@@ -83,7 +83,7 @@ void QueryThread::done(Cost cost, std::string damage) {
   const Key key = *std::exchange(served_, std::nullopt);
   Client& client = clients_.at(key);
   order_.charge(client.share, cost);
-  client.calls.pop_front();  // what is left of it after it was handed over
+  client.calls.pop_front();  // what is left of it after it was passed on
   if (!client.calls.empty()) order_.add(key, client.share);
   hand_over();
 }

@@ -157,7 +157,7 @@ Result<ActiveTables> load_active(store::Store& store) {
       continue;
     }
     if (active) {
-      // A run that cannot be read any more is a doubt, too.
+      // A run that cannot be read any more is doubtful, too.
       const auto doubtful = doubtful_notices(store, active->table);
       active->doubtful = !doubtful || !doubtful->empty();
       algo::add_curvatures(active->table);  // compensation.at is asked often

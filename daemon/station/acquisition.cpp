@@ -89,7 +89,7 @@ void Acquisition::fail(const std::string& error) {
     status_.state = "failed: reopening";
     status_.error = error;
   }
-  if (lost_since_) return;  // told once
+  if (lost_since_) return;  // reported once
   lost_since_ = steady_clock::now();
   // Who it is has been said.
   const std::string who = "device \"" + spec_.name + "\"";
@@ -137,7 +137,7 @@ void Acquisition::acquire(std::uint64_t pass) {
       return sink_.ended(pass, "", spec_.source_info(**driver));
     }
     if (!acquiring_) break;
-    if (!spec_.live) {  // a replay that cannot be read will not heal
+    if (!spec_.live) {  // a replay that cannot be read will not recover
       const std::string why = status().error;
       set_state("ended");
       return sink_.ended(pass, why, {});
@@ -147,7 +147,7 @@ void Acquisition::acquire(std::uint64_t pass) {
   set_state("closed");
 }
 
-// True: the source has come to its end. False: an error (kept in the status) or no longer wanted.
+// True: the source has ended. False: an error (kept in the status) or no longer wanted.
 bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
   turn_ = steady_clock::now() + kOpening;
   const Status opened = driver.open();
@@ -176,7 +176,7 @@ void Acquisition::forget_suspicion(const std::string& encoder) {
   });
 }
 
-// Told before the block that is counted from the mark.
+// Reported before the block that is counted from the mark.
 void Acquisition::watch_mark(const drivers::Driver& driver) {
   const int marks = driver.marks_passed();
   if (std::exchange(marks_passed_, marks) == marks) return;
@@ -212,7 +212,7 @@ void Acquisition::refresh_info(const drivers::Driver& driver) {
   watch_datum(info);
 }
 
-// A datum that is lost stays lost: told once.
+// A datum that is lost stays lost: reported once.
 void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   std::map<std::string, std::string> lost = info.further_datum_lost;
   lost[kEncoderChannel] = info.datum_lost;
@@ -225,7 +225,7 @@ void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   }
 }
 
-// While it is in doubt when samples were taken, no place belongs to them: they are suspect, in the
+// While the time of the samples is uncertain, no place belongs to them: they are suspect, in the
 // recording, too.
 void Acquisition::watch_clock(const drivers::Driver& driver, SampleBlock& block) {
   if (!spec_.live) return;

@@ -1,6 +1,6 @@
 // One device at work: its thread "acq-<device>" makes the driver, opens it, reads it, and opens it
-// again after an error, with growing pauses. What was lost on the way is told with the next block;
-// that a device is lost, back, suspect or slow is told at once.
+// again after an error, with growing pauses. What was lost on the way is reported with the next
+// block; that a device is lost, back, suspect or slow is reported at once.
 #pragma once
 
 #include <atomic>
@@ -66,8 +66,9 @@ class Acquisition final : public DeviceReader {
   std::atomic<bool> acquiring_{false}, woken_{false};
   std::atomic<std::chrono::steady_clock::time_point> turn_;
   mutable std::mutex status_mutex_;
-  DeviceStatus status_;            // guarded by status_mutex_
-  std::set<std::string> trusted_;  // encoders, not told to the driver yet; guarded by status_mutex_
+  DeviceStatus status_;  // guarded by status_mutex_
+  std::set<std::string>
+      trusted_;  // encoders, the driver does not know it yet; guarded by status_mutex_
 
   // Acquiring thread only.
   std::chrono::milliseconds backoff_{0};
@@ -76,7 +77,7 @@ class Acquisition final : public DeviceReader {
   std::int64_t opened_ns_ = 0;           // of the first scan since, and how many there were
   std::uint64_t scans_since_opened_ = 0;
   std::chrono::steady_clock::time_point next_refresh_;
-  std::uint64_t dropped_scans_ = 0;  // to be told with the next block
+  std::uint64_t dropped_scans_ = 0;  // to be reported with the next block
   std::optional<std::chrono::steady_clock::time_point> lost_since_;
   std::set<std::string> datum_lost_;  // of these encoders
   int marks_passed_ = 0;

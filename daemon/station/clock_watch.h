@@ -1,5 +1,5 @@
-// Whether somebody set the time of day: what was measured has monotonic times and is unharmed, but
-// the times that people read jump, and that is told.
+// Whether somebody set the time of day: what was measured has monotonic times and is not affected,
+// but the times that people read jump, and that is reported.
 #pragma once
 
 #include <cstdint>

@@ -47,7 +47,7 @@ class EncoderZero {
   EncoderDatum datum() const;
   EncoderState state() const;
   // Has it counted from one place since then? False where nobody knows: before this program or
-  // before its device was without power. An encoder that does not count has no such doubt.
+  // before its device was without power. An encoder that does not count is certain.
   bool counts_on_since(const std::string& utc) const;
   // The device that gives the encoder; "": not known before it gave some.
   std::string device() const;
@@ -68,7 +68,7 @@ class EncoderZero {
   bool since_start_ = false;
   bool found_ = false;  // by find(), and its device has had power since
 
-  // Of the values with their offset, since the axis came to rest.
+  // Of the values with their offset, since the axis stopped.
   double rest_m_ = 0, sum_m_ = 0;
   std::uint64_t count_ = 0;
   std::int64_t since_ns_ = 0, last_ns_ = 0;

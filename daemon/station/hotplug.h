@@ -1,4 +1,4 @@
-// Tells when a device was plugged in, so that whoever waits to open one need not wait longer.
+// Reports when a device was plugged in, so that whoever waits to open one need not wait longer.
 #pragma once
 
 #include <memory>

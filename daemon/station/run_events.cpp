@@ -7,7 +7,7 @@
 namespace mdof::daemon {
 namespace {
 
-// The points to be told, behind the run's first one: its drift counts from there.
+// The points to be announced, behind the run's first one: its drift counts from there.
 Run first_and_new(std::int64_t run, const Rig& rig, Model model,
                   const std::vector<MeasuredPoint>& points, std::size_t first_row) {
   Run part;

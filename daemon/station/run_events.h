@@ -1,4 +1,4 @@
-// What clients are told of a run's new points.
+// What is announced to clients of a run's new points.
 #pragma once
 
 #include <cstdint>

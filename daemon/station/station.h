@@ -36,8 +36,8 @@ struct StationEvents {
   std::function<void(Axis axis, std::int64_t run, const Trouble&)> trouble;
 };
 
-// Told the id of a run, once it is on the disk, or why there is none; on the store's or a station's
-// thread.
+// Called with the id of a run, once it is on the disk, or why there is none; on the store's or a
+// station's thread.
 using RunDone = std::function<void(Result<std::int64_t>)>;
 
 // Calls from the main thread only, but for status().

@@ -1,5 +1,5 @@
 // Station: somebody says where the axis stands. Found by the measuring thread, stored, and only
-// then in force; meanwhile no run can begin. Or the axis goes over the encoder's reference mark.
+// then valid; meanwhile no run can begin. Or the axis goes over the encoder's reference mark.
 #include "daemon/history.h"
 #include "daemon/paths.h"
 #include "daemon/station/open_run.h"

@@ -48,7 +48,7 @@ bool same_points(const std::vector<MeasuredPoint>& stored,
   return a.hex() == b.hex();
 }
 
-// The motion that follows will tell the approach of this point; it is not yet to be stored.
+// The motion that follows will show the approach of this point; it is not yet to be stored.
 bool approach_assumed(const MeasuredPoint& p) {
   return algo::has_flag(p.point, algo::kApproachAssumed);
 }
@@ -278,7 +278,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   const std::int64_t run = open_->id;
   auto messages = points_messages(run, config_.rig, open_->model, open_->stored, first);
   std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
-  // Told to clients only once it is on the disk.
+  // Announced to clients only once it is on the disk.
   keeper_.append_points(run, std::move(fresh),
                         [shared = shared_, messages = std::move(messages),
                          progress = std::move(progress)](const Status& kept) {
@@ -340,7 +340,7 @@ const Pipeline* Station::pipeline() const {
   return open_ ? &open_->pipeline : view_ ? &*view_ : nullptr;
 }
 
-// Whoever looks or not: the first who does is to be told how old it is.
+// Whoever looks or not: the first who does is to see how old it is.
 void Station::note_newest() {
   const Pipeline* from = pipeline();
   if (!from || from->newest().size() == 0 || from->newest().time_ns[0] == newest_ns_) return;

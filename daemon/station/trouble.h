@@ -1,5 +1,5 @@
-// What goes wrong with a device, by its cause: told at once where somebody looks, and kept with the
-// run.
+// What goes wrong with a device, by its cause: shown at once where somebody looks, and kept with
+// the run.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@ struct Trouble {
     back,      // and is well again
     suspect,   // its values are not to be trusted: an encoder has lost its datum
     slow,      // it gives fewer scans than it should
-    clock,     // when its samples were taken is in doubt
+    clock,     // the time of its samples is uncertain
     unsolved,  // a stop has no errors, for want of readings
   } kind = Kind::lost;
   std::string device;  // "": no single one
@@ -43,8 +43,8 @@ using ChannelsByDevice = std::map<std::string, std::vector<std::string>>;
 std::optional<Trouble> unsolved(const MeasuredPoint& point, const Rig& rig,
                                 const ChannelsByDevice& channels, const std::string& utc);
 
-// The troubles of a run, to be told at its end: a line for each device and kind, however many there
-// were.
+// The troubles of a run, to be reported at its end: a line for each device and kind, however many
+// there were.
 class TroubleLog {
  public:
   void add(const Trouble& trouble);

@@ -222,7 +222,7 @@ Result<std::string> RecordingWriter::finish(const std::string& finished_utc) {
     insert.bind(std::string_view(seal.finished_utc)).bind(std::string_view(seal.sha256));
     MDOF_CHECK(insert.run());
   }
-  // One plain file from now on. A reader at work prevents that, and does no harm by it.
+  // One plain file from now on. A reader at work prevents that, and nothing is lost by it.
   (void)connection_.execute("PRAGMA journal_mode = DELETE");
   return hash_;
 }

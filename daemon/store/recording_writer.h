@@ -50,7 +50,7 @@ class RecordingWriter {
   struct Stream {
     SampleBlock block;
     std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
-    std::uint64_t lost = 0;  // to be told by the next chunk
+    std::uint64_t lost = 0;  // to be stated in the next chunk
   };
 
   RecordingWriter(sqlite::Connection connection, std::string hash);

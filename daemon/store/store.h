@@ -53,7 +53,7 @@ struct RunEnd {
   std::optional<RunUncertainty> uncertainty = std::nullopt;  // of its points, for SQL users
 };
 
-// A table in force.
+// An active table.
 struct ActiveTable {
   CompensationTable table;
   std::int64_t generation = 0;
@@ -70,7 +70,7 @@ struct ActiveVolumetric {
   bool doubtful = false;  // as of ActiveTable
 };
 
-// What a controller is to be told of a table.
+// What a controller has to know of a table.
 struct Marks {
   bool simulated = false, doubtful = false;
 };
@@ -87,7 +87,7 @@ struct Activation {
 std::string activation_json(const std::string& members, const Activation& activation);
 
 // Thread-bound. A message names the file; not_found names the run or table that is not there.
-// What somebody asked for takes a deed: who did it, stored in the same transaction.
+// What somebody asked for takes a `Deed`: who did it, stored in the same transaction.
 // Doubles come back with the bits that they went in with; a NaN comes back as a NaN.
 class Store {
  public:
@@ -143,14 +143,14 @@ class Store {
   Result<CompensationTable> table(std::int64_t id);
   Result<std::vector<CompensationTable>> list_tables(std::int64_t offset, std::int64_t count,
                                                      std::optional<Axis> axis = std::nullopt);
-  // Puts a table in force on its axis; gives the new generation. Generations rise strictly over all
-  // axes, so that one number tells a client whether anything has changed.
+  // Activates a table on its axis; gives the new generation. Generations rise strictly over all
+  // axes, so that one number shows a client whether anything has changed.
   Result<Activation> activate(std::int64_t table, const std::string& actor, const std::string& utc,
                               const std::optional<Deed>& deed = std::nullopt);
-  // No table is in force on the axis from then on.
+  // No table is active on the axis from then on.
   Result<Activation> deactivate(Axis axis, const std::string& actor, const std::string& utc,
                                 const std::optional<Deed>& deed = std::nullopt);
-  Result<ActiveTable> active(Axis axis);  // not_found where none is in force
+  Result<ActiveTable> active(Axis axis);  // not_found where none is active
   Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
 
   // ---- volumetric tables ----
@@ -199,7 +199,8 @@ class Store {
   // The head of the chain of hashes, and whether a head of before is still in it.
   Result<ChainHead> chain_head() { return store::chain_head(connection_); }
   Result<bool> has_hash(const std::string& sha256) { return store::has_hash(connection_, sha256); }
-  // Error (bad_input): the chain no longer has the head that mdofd told last (file/told_head.h).
+  // Error (bad_input): the chain no longer has the head that mdofd announced last
+  // (file/told_head.h).
   Status check_told_head();
   Status check_head(const ChainHead& told);
 

@@ -181,7 +181,7 @@ void Storekeeper::watch_files() {
   }
 }
 
-// What another program did to the chain since its head was told.
+// What another program did to the chain since its head was announced.
 std::string Storekeeper::chain_fault() {
   if (!store_) return {};
   const Status whole = store_->check_head(told_);
@@ -189,7 +189,7 @@ std::string Storekeeper::chain_fault() {
   return words::text(whole.error()) + ", and restart mdofd; until then nothing is stored";
 }
 
-// One that no longer has what was told before is not told anew: see watch_database().
+// One that no longer has what was announced before is not announced anew: see watch_database().
 void Storekeeper::begin_chain() {
   if (!store_) return;
   const std::lock_guard guard(fault_mutex_);
@@ -202,7 +202,7 @@ void Storekeeper::tell_head() {
   changes_told_ = store_->changes();
   const auto head = store_->chain_head();
   if (!head || *head == told_ || !store_->check_head(told_)) return;
-  // With less durability a power cut may take what was told, which is no fault then.
+  // With less durability a power cut may take what was announced, which is no fault then.
   const auto generation = store_->generation();
   if (options_.durability == store::Durability::full && generation) {
     const Status written = store::write_told_head(options_.database, {*head, *generation});

@@ -34,7 +34,7 @@ struct NewRun {
   std::optional<Deed> deed = std::nullopt;      // who asked for it
 };
 
-// How a run ends, beside what it came to.
+// How a run ends, beside its result.
 struct RunEnding {
   bool differs = false;  // from the points already stored
   std::optional<Deed> deed = std::nullopt;
@@ -91,7 +91,7 @@ class Storekeeper {
   bool begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done);
   // `wait`: for a source that can wait; otherwise a full queue drops the blocks, counted as one.
   bool record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait);
-  // Where a foreign program holds the database, points and ends wait for it to let go: the
+  // Where a foreign program holds the database, points and ends wait until it is released: the
   // recording has them meanwhile, and `done` comes when they are stored. Points beyond
   // `most_waiting`, and all later ones of their run, are dropped (`done`: an error) and counted:
   // they are stored when the run ends, as in a run that supersedes it.
@@ -109,7 +109,7 @@ class Storekeeper {
   std::string fault() const;
   // Why a run whose measuring has ended stands as open; empty: it does not.
   std::string why_open(std::int64_t run) const;
-  // The head of the chain of hashes, as told last.
+  // The head of the chain of hashes, as announced last.
   store::ChainHead chain_head() const;
   // Thread-safe: a reader found damage in the database. Says so until mdofd ends.
   void note_damage(const std::string& what);
@@ -190,9 +190,9 @@ class Storekeeper {
   store::ChainHead told_;
   bool opened_ = false;
   std::map<std::int64_t, std::string> open_because_;
-  std::int64_t changes_told_ = -1;  // of the database, when its head was told
+  std::int64_t changes_told_ = -1;  // of the database, when its head was announced
   std::vector<Unended> unended_;
-  std::deque<Points> waiting_points_;  // for a foreign program to let go of the database
+  std::deque<Points> waiting_points_;  // for a foreign program to release the database
   std::size_t waiting_count_ = 0;      // points in them
   std::deque<Ending> waiting_ends_;    // for the same
   std::chrono::steady_clock::time_point next_try_{};  // to store what waits

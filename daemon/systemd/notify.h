@@ -1,5 +1,5 @@
-// What the daemon and systemd tell each other (sd_notify(3), sd_listen_fds(3)). All of it is
-// harmless where systemd did not start the process: nothing is sent, no socket is found.
+// The messages between the daemon and systemd (sd_notify(3), sd_listen_fds(3)). All of it is
+// without effect where systemd did not start the process: nothing is sent, no socket is found.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@ std::optional<std::chrono::microseconds> watchdog_interval();
 // To be called by the work itself once all of it has shown that it goes on; never by a timer alone.
 void feed_watchdog();
 
-// The listening sockets that mdofd.socket hands over, in its order; they are the caller's to close.
+// The listening sockets that mdofd.socket passes, in its order; they are the caller's to close.
 // None: the caller makes its own. Later calls and child processes find none. Error: one of them is
 // not a listening stream socket.
 Result<std::vector<int>> take_listen_sockets();

@@ -1,4 +1,4 @@
-// The catalogue: what a reader is told of a notice, in plain English (CONTRIBUTING.md) or German.
+// The catalogue: what a reader sees of a notice, in plain English (CONTRIBUTING.md) or German.
 // The only place below the tools that may name a command or an option of mdof.
 #pragma once
 

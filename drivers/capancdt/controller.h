@@ -16,7 +16,7 @@ inline constexpr std::chrono::milliseconds kConnect{3000};  // to either port, a
 // As the controller is after set-up.
 struct Setup {
   std::string description;  // "DT6220, serial 1001, V1.2a"
-  std::string serial;       // empty: not told
+  std::string serial;       // empty: not known
   int data_port = 0;
   double sample_time_us = 0;  // the actual one
   int averaged = 1;           // samples in a frame that is sent

@@ -33,7 +33,7 @@ std::optional<std::vector<int>> parse_channel_list(std::string_view text);
 // All of it a whole number; of $STI the last: ",960".
 std::optional<int> parse_integer(std::string_view text);
 
-// Range of a channel as $CHI tells it, µm; none if it tells none, or in a unit that is no length.
+// Range of a channel as $CHI states it, µm; none if it states none, or in a unit that is no length.
 // µ may be Latin-1 or UTF-8, or written u.
 std::optional<double> range_um_of(std::string_view channel_info);
 

@@ -110,7 +110,7 @@ class SimulatedCapancdt final : public SimulatedDevice {
   bool broken_ = false;
 };
 
-// As a plan of mdof-simulate has it. µm as they are, and ranges that the controller tells.
+// As a plan of mdof-simulate has it. µm as they are, and ranges that the controller states.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_capancdt(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::capancdt

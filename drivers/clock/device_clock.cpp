@@ -16,8 +16,8 @@ constexpr std::size_t kStretchesToBegin = 4;  // 1 s: what was late when it was 
 constexpr std::size_t kShareToRefit = 32;     // as small a share of new ones hardly moves the line
 constexpr double kMostDrift = 1e-3;           // 1000 ppm: no clock is that wrong
 constexpr double kSlew = 2e-3;                // of the time, on top of the drift
-constexpr double kFirstSlew = 0.2;            // as long as quicker packets still tell the offset
-constexpr double kStep_ns = 0.1e9;            // no jitter: later than this a packet is in doubt
+constexpr double kFirstSlew = 0.2;            // as long as quicker packets still show the offset
+constexpr double kStep_ns = 0.1e9;            // no jitter: later than this a packet is uncertain
 constexpr std::int64_t kLongestLateness_ns = 60'000'000'000;  // from here on a step
 
 double median(std::vector<double>& values) {
@@ -62,7 +62,7 @@ void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
   take(ticks, received_ns, offset, nominal);
 }
 
-// Late packets tell nothing of the line.
+// Late packets show nothing of the line.
 bool DeviceClock::is_late(double offset_ns, double nominal_ns, std::int64_t received_ns) {
   late_ns_ = offset_ns - (intercept_ns_ + slope_ * nominal_ns);
   if (late_ns_ <= kStep_ns) {

@@ -9,8 +9,8 @@
 //
 // Packets that come late for a while, and a device whose time stood still, look the same as long as
 // it lasts. The line is kept, so that times are right if it is the link that is slow, and the clock
-// is in doubt until packets are in time again; what has been late for a minute is taken for a step.
-// After a step, which moves the times, it is in doubt until the line is known anew.
+// is uncertain until packets are in time again; what has been late for a minute is taken for a
+// step. After a step, which moves the times, it is uncertain until the line is known anew.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,8 @@
 namespace mdof::drivers {
 
 // `format`: "csv" (position_mm, deviation_um or _urad, and direction, run where there are such),
-// "iso230-2" (target_mm, direction, run, deviation_um), "rtl" (rtl.h); empty: told by the file. An
-// angle is read from CSV alone. Errors name file, line, column and remedy.
+// "iso230-2" (target_mm, direction, run, deviation_um), "rtl" (rtl.h); empty: by what the file
+// contains. An angle is read from CSV alone. Errors name file, line, column and remedy.
 Result<ImportedSeries> read_imported_file(const std::string& path, const std::string& format,
                                           bool angle);
 

@@ -176,7 +176,7 @@ class Rtl {
     return {};
   }
 
-  // Forward and reverse are told by the run's number alone: the order of its targets must say so
+  // Forward and reverse are known by the run's number alone: the order of its targets must say so
   // too.
   Status check_way(std::size_t run, std::size_t target) {
     const bool same = run == last_run_;

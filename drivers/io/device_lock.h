@@ -26,7 +26,7 @@ class DeviceLock {
   DeviceLock& operator=(DeviceLock&& other) noexcept;
 
   // Ends the connections of programs that asked who holds the device. To be called about every
-  // second: once too many wait, further programs are not told.
+  // second: once too many wait, further programs get no message.
   void answer_inquiries() const;
 
  private:

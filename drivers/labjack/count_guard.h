@@ -12,7 +12,7 @@
 namespace mdof::drivers::labjack {
 
 // Watches that a count stays below what can be counted. Over 10 ms, so that the few counts of one
-// scan tell a speed. Thread-bound.
+// scan give a speed. Thread-bound.
 class CountGuard {
  public:
   // 0: nothing is watched.

@@ -260,7 +260,7 @@ Result<Received> LibraryBoard::receive(std::span<char> into, milliseconds timeou
   pollfd ready{fd, POLLIN, 0};
   const auto longest = milliseconds(std::numeric_limits<int>::max());
   const int woken = ::poll(&ready, 1, static_cast<int>(std::min(timeout, longest).count()));
-  // Nothing has come: a board that keeps samples until its memory is half full is told to give
+  // Nothing has come: a board that keeps samples until its memory is half full is asked to give
   // them; not every one can.
   if (woken == 0) (void)comedi_poll(device_.get(), subdevice_);
   const ssize_t bytes = ::read(fd, into.data(), into.size());

@@ -34,7 +34,7 @@ Status Quad8Mark::enable(bool on) const {
   return write_sysfs(path_ + "/preset_enable", on ? "1" : "0");
 }
 
-// Off while it is read and told: else it could load what it was told before.
+// Off while it is read and set: else it could load the value of before.
 Status Quad8Mark::arm() {
   MDOF_CHECK(enable(false));
   MDOF_TRY(const std::int64_t count, read_());

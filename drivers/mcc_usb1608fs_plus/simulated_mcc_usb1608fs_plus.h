@@ -19,7 +19,7 @@ class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
   struct Faults {
     std::int64_t overrun_at = -1;  // here the FIFO overruns: `overrun` scans are not there
     std::uint64_t overrun = 1000;
-    bool stalls = false;            // at an overrun, though it was told not to
+    bool stalls = false;            // at an overrun, though it was asked not to
     std::int64_t drop_at = -1;      // one scan is missing and nothing says so: no device does this
     std::size_t short_packets = 0;  // each transfer ends after so many bytes
     std::int64_t silent_at = -1;    // no more scans come, though it says that it runs

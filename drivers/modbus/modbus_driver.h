@@ -23,7 +23,7 @@ struct ModbusSettings {
 };
 
 // Thread-bound. The time of a scan is the middle between the first request and the last reply.
-// Without a reply read() waits one response time-out more than it was told, two and a half on an
+// Without a reply read() waits one response time-out more than it was given, two and a half on an
 // RTU line that is being proved. A poll that fails is counted as lost; TCP that breaks, or no scan
 // for two seconds (or twenty polls or response time-outs, whichever is longest), is an error.
 class ModbusDriver final : public Driver {

@@ -1,7 +1,7 @@
 // By which requests an RTU line is proved after an error. Pure.
 //
 // An RTU reply says neither which request nor which register it answers; only its function and its
-// length tell. One slave on one wire answers in order, so the reply to a sentinel, a read of a
+// length show. One slave on one wire answers in order, so the reply to a sentinel, a read of a
 // length that no value is asked by, shows that every earlier request has been answered or never
 // will be. A sentinel whose own reply is still owed must not be taken for a later one: after the
 // next error another length is used, as in the alternating bit protocol (Bartlett, Scantlebury and
@@ -16,7 +16,7 @@
 
 namespace mdof::drivers::modbus {
 
-// As much as an RTU reply to a read tells.
+// As much as an RTU reply to a read states.
 struct Shape {
   int function = 0, count = 0;
   auto operator<=>(const Shape&) const = default;

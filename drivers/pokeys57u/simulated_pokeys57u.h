@@ -39,7 +39,7 @@ class SimulatedPokeys57u final : public usb::SimulatedUsb {
     std::string usb_serial = {};      // empty: "2." and the number
     std::int64_t uptime_ms = 60'000;  // when it is first asked
     std::int64_t count_offset = 0;    // of all counts
-    bool old_board = false;           // tells its number as boards before the PoKeys58 did
+    bool old_board = false;           // states its number as boards before the PoKeys58 did
     Faults faults = {};
   };
   SimulatedPokeys57u(Senses senses, Options options);

@@ -271,7 +271,7 @@ Status Qsb::take_malformed() {
 Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   const std::int64_t stamp = stamp_(*reply.stamp);
   const std::int64_t step = last_stamp_ ? stamp - *last_stamp_ : 0;
-  if (last_stamp_ && step == 0) {  // the same tick again tells nothing new
+  if (last_stamp_ && step == 0) {  // the same tick again says nothing new
     malformed_in_a_row_ = 0;
     return {};
   }

@@ -29,7 +29,7 @@ struct QsbOptions {
   std::string serial;           // of the device; empty: any
   ChannelInput channel;         // input "count"
   bool index_inverted = false;  // of the signal of its reference mark
-  // At the mark for so long, and it is told that it gets no further.
+  // At the mark for so long, and it is stated that it gets no further.
   std::chrono::milliseconds long_at_mark{5000};
   std::chrono::milliseconds silence{2000};  // is an error
 };

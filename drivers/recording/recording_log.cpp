@@ -91,7 +91,7 @@ Status RecordingLog::read_header() {
   MDOF_TRY(header_.request, value("request"));
   MDOF_TRY(const std::string simulated, value("simulated"));
   MDOF_TRY(const std::string sha256, value("sha256"));
-  header_.simulated = info_.simulated = simulated != "0";  // in doubt it is not a measurement
+  header_.simulated = info_.simulated = simulated != "0";  // anything else is not a measurement
   if (sha256 == sha256_of(header_)) return {};
   return bad_input(
       file_.string() +
@@ -126,7 +126,7 @@ Status RecordingLog::read_extent() {
   return {};
 }
 
-// From the first chunk of each device. One that is damaged is left to read(), which tells more.
+// From the first chunk of each device. One that is damaged is left to read(), which states more.
 Status RecordingLog::find_channels() {
   info_.channels.clear();
   MDOF_TRY(Statement rows, connection_->prepare("SELECT min(seq) FROM chunk GROUP BY device "

@@ -51,7 +51,7 @@ class RecordingLog : public Driver {
   Status read_seal();
   Status read_extent();
   Status find_channels();
-  // Reads and checks one chunk; an error tells only what is wrong with it.
+  // Reads and checks one chunk; an error states only what is wrong with it.
   Status load(std::int64_t seq, RecordingChunk& chunk, SampleBlock& block);
   Result<std::string> hash_before(std::int64_t seq);
   Status check_end();

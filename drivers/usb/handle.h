@@ -21,7 +21,7 @@ struct Wanted {
   std::uint16_t vendor = 0, product = 0;
   std::string serial;  // "": the only one there is
   int interface = 0;   // to be claimed
-  // Serial number of a device that does not tell it in its descriptor; may be empty.
+  // Serial number of a device that does not state it in its descriptor; may be empty.
   std::function<Result<std::string>(Handle&)> ask_serial;
 };
 

@@ -49,7 +49,7 @@ std::string ids(const Wanted& wanted) {
 
 }  // namespace
 
-// A context and the devices in it that may be meant, all but one let go in the end.
+// A context and the devices in it that may be meant, all but one closed in the end.
 class Search {
  public:
   explicit Search(const Wanted& wanted) : wanted_(wanted) {}
@@ -85,7 +85,7 @@ class Search {
     }
   }
 
-  // Claimed, but for one whose descriptor tells another serial number than the one wanted.
+  // Claimed, but for one whose descriptor states another serial number than the one wanted.
   Result<Handle> open(libusb_device* device, std::uint8_t serial_index, const Place& place) {
     Handle handle(std::make_shared<Connection>(), text_of(place));
     Connection& connection = *handle.connection_;

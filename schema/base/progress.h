@@ -1,4 +1,4 @@
-// How far a long piece of work is, as whoever does it tells whoever waits for it.
+// How far a long piece of work is, from whoever does it to whoever waits for it.
 #pragma once
 
 #include <functional>

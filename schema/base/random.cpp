@@ -9,7 +9,7 @@
 namespace mdof {
 namespace {
 
-// Two numbers side by side, which every x86-64 reckons with at once; other processors one by one.
+// Two numbers side by side, which every x86-64 calculates at once; other processors one by one.
 typedef double Pair __attribute__((vector_size(16)));
 
 // c[0] + c[1] x + c[2] x² ...

@@ -1,4 +1,4 @@
-// How deep a TOML document nests, told from its text before anything is built from it: the parser
+// How deep a TOML document nests, found from its text before anything is built from it: the parser
 // bounds values within values, but not the tables that a dotted key makes, and both it and the
 // destructor of its tree go down a level of the stack for each.
 #pragma once

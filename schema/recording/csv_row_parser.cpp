@@ -205,7 +205,7 @@ Status CsvRowParser::parse_one_line() {
     MDOF_CHECK(count_blank_line(end + 1 - begin_));
   } else {
     MDOF_CHECK(report_blank_lines());
-    if (block_ends_) return {};  // comes again after the block was handed over
+    if (block_ends_) return {};  // comes again after the block was passed on
     if (line.state == CsvLine::State::bad) {
       MDOF_CHECK(report_bad(line_, line.reason));
     } else {

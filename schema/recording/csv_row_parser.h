@@ -48,7 +48,7 @@ class CsvRowParser {
   const std::vector<std::string>& bad_lines() const { return bad_lines_; }  // file:line: reason
   std::uint64_t rows() const { return rows_before_ + row_; }
   // A line for each column with missing values: how many, and where the first is. Of the blocks
-  // handed over.
+  // passed on.
   Notices missing_values() const;
 
  private:
@@ -82,7 +82,7 @@ class CsvRowParser {
   std::size_t row_ = 0;
   bool block_ends_ = false;        // before a line that is skipped
   std::uint64_t lost_ = 0;         // lines skipped since the last good row
-  std::uint64_t rows_before_ = 0;  // in the blocks handed over
+  std::uint64_t rows_before_ = 0;  // in the blocks passed on
   std::int64_t last_time_ns_;
   std::vector<std::string> bad_lines_;
   struct Missing {

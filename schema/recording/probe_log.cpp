@@ -80,7 +80,7 @@ bool is_named(std::string_view name, std::string_view of) {
   return name == of || (name.starts_with(of) && name.substr(of.size()).starts_with('_'));
 }
 
-// Time and place are to be in units that leave no doubt; what a user may have meant is said.
+// Time and place are to be in units that are certain; what a user may have meant is said.
 Status check_unit(const CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (is_named(name, kTimeName) && name != kTimeColumn && has_time(header.kind))

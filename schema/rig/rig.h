@@ -44,7 +44,7 @@ struct Probe {
   std::string id;
   Vec3 position_m{};  // point of M where the probe's line meets the nominal target surface at d = 0
   Vec3 direction{};   // unit vector in M, machine axes: the probe reads displacement along it
-  std::string plane;  // id of the target plane it looks at; empty: the one that its direction tells
+  std::string plane;  // id of the target plane it looks at; empty: the one that its direction gives
   double range_m = 0;  // full range; saturated at ±range/2 (a gap probe: at 0 and range)
   Calibration calibration;
   // By how much its readings come later than the encoder's: its amplifier's filter.
@@ -62,7 +62,7 @@ struct HeightMap {
 };
 
 // A target plane in C: normal · p = offset. A probe looks at the plane that it names, else at the
-// one whose normal is nearest to its direction, where that leaves no doubt.
+// one whose normal is nearest to its direction, where that is unambiguous.
 struct TargetPlane {
   std::string id;
   Vec3 normal{};

@@ -18,7 +18,7 @@ inline const char* to_string(Surface surface) {
   return surface == Surface::side ? "side" : "top";
 }
 
-// Shapes that no reading of these set-ups can tell: they are taken out of the result by least
+// Shapes that no reading of these set-ups can determine: they are taken out of the result by least
 // squares, and nothing is put in their place.
 struct UnseenShape {
   std::string name;            // "offset", "parabola", "period 10 mm", "4 symmetric about -30 mm"

@@ -10,8 +10,8 @@ namespace mdof {
 inline constexpr double kSeparationCoverage = 2;  // k of U, about 95 %
 
 // {"method", "surface", "axis", "error", "set_ups": [...], "machine": {...}, "target": {...}, ...}
-// In both series "seen_um" is what the readings tell, and "EYX_um" or "height_um" the same where no
-// more than offset and slope is unseen, else null.
+// In both series "seen_um" is what the readings determine, and "EYX_um" or "height_um" the same
+// where no more than offset and slope is unseen, else null.
 std::string separation_json(const SeparationRecord& record);
 
 // What is in no u of a separation, for people.

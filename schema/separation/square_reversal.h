@@ -1,4 +1,4 @@
-// The squareness of two axes and the angle error of a square, told apart by two set-ups.
+// The squareness of two axes and the angle error of a square, separated by two set-ups.
 #pragma once
 
 namespace mdof {

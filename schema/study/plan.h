@@ -132,7 +132,7 @@ struct StudyPlan {
 // Reads a plan, the rigs and the samples that it names (paths relative to the plan). Errors name
 // file, line and key, and for an unknown word the nearest known one. What only the mathematics
 // knows (a rig that cannot see an error, a correlation matrix that is none) make_plan_experiment()
-// tells.
+// states.
 Result<StudyPlan> load_study_plan(const std::filesystem::path& file);
 Result<StudyPlan> parse_study_plan(std::string_view toml_text, const std::string& source_name);
 

@@ -24,7 +24,7 @@ void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
 void write_stated_members(JsonWriter& json, const Budget& budget);
 
 // "uncertainty": {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by"}} of
-// an open object: what budgets come to, without their contributors. Where they are left out:
+// an open object: the results of budgets, without their contributors. Where they are left out:
 // "uncertainty_reason" behind it.
 void write_stated(JsonWriter& json, const StatedFigures& figures);
 

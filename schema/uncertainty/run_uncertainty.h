@@ -27,7 +27,7 @@ enum class VisitsCovered {
 struct RunUncertainty {
   std::vector<ErrorsUncertainty> points;  // one a point of the run
   // Nothing but noise is seen in any u: the rig declares nothing, or nothing that shows, or `why`
-  // what it declares could not be reckoned.
+  // what it declares could not be calculated.
   bool noise_only = true;
   bool declares = false;
   VisitsCovered visits = VisitsCovered::single;

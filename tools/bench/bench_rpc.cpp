@@ -46,7 +46,7 @@ T must(Result<T> result) {
   return std::move(*result);
 }
 
-// A table of 61 points, 1 mm apart, in force on the X axis.
+// A table of 61 points, 1 mm apart, active on the X axis.
 daemon::ActiveTables table_in_force() {
   store::ActiveTable active;
   active.generation = 7;

@@ -126,11 +126,11 @@ static inline bool mdof_follow(struct mdof_offset* offset, double before, double
 }
 
 /* A table comes from the loader one record at a time, so that a servo period takes a bounded part
-   of it. It is in force only when it is whole; what a loader that ended has left is thrown away. */
+   of it. It is used only when it is whole; what a loader that ended has left is thrown away. */
 /* A record is a word, session << 4 | kind, and three numbers. A session is one table of one loader.
  */
 enum mdof_record_kind {
-  MDOF_ALIVE = 1,      /* mdofd is connected (0, 1); the table in force is the active one (0, 1) */
+  MDOF_ALIVE = 1,      /* mdofd is connected (0, 1); the table in use is the active one (0, 1) */
   MDOF_CLEAR = 2,      /* no table is active */
   MDOF_BEGIN = 3,      /* generation; simulated (0, 1) */
   MDOF_SIZE = 4,       /* coordinates of X, Y, Z; these follow, X first */
@@ -149,7 +149,7 @@ enum mdof_received {
 };
 
 struct mdof_receiver {
-  struct mdof_table* table; /* that is filled; not the one in force */
+  struct mdof_table* table; /* that is filled; not the one in use */
   long most_nodes;
   unsigned session; /* 0: none is under way */
   int coordinates, coordinates_received;

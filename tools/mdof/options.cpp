@@ -14,7 +14,7 @@
 namespace mdof::tools {
 namespace {
 
-// `right`: of a finite number; `must`: what others are told.
+// `right`: of a finite number; `must`: the message for others.
 CLI::Validator number_that(const std::function<bool(double)>& right, const std::string& must,
                            const std::string& in_help) {
   return {[=](const std::string& word) {

@@ -10,7 +10,7 @@
 namespace mdof::tools {
 
 // Writes all of it, unbuffered. A reader who has gone (mdof ... | head) ends the program quietly
-// with success: nobody is left to tell.
+// with success: nobody is left to read it.
 Status write_out(std::string_view text);
 Status write_line(std::string_view text);  // and a line end
 // As it is: a screen with control characters of its own, or rows of numbers, which need no look.

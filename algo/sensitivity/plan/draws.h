@@ -95,7 +95,7 @@ std::vector<std::pair<std::string, double>> drawn_inputs(const PlanDraws& draws,
                                                          std::uint64_t trial,
                                                          const std::string& prefix);
 
-// Whether any two names have one hash; the message tells the remedy.
+// Whether any two names have one hash; the message has the remedy.
 Status check_hashes(const std::vector<const PlanDraws*>& all);
 
 }  // namespace mdof::algo

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostMarks = 5;
 
 // A run's notes are of its encoder's datum and of its rig; that the rig was calibrated and its
-// readings corrected is no doubt.
+// readings corrected is not doubtful.
 std::vector<std::string> doubtful_notes(const Run& run) {
   std::vector<std::string> notes = run.header.notes;
   for (const std::string& good : rig_notes(run.header.provenance.rig_text)) std::erase(notes, good);

@@ -15,7 +15,7 @@ struct ImportRequest {
   std::string file;
   Axis axis = Axis::x;
   std::string error;           // "EXX"; empty: the positioning of the axis
-  std::string format;          // as of read_imported_file(); empty: told by the file
+  std::string format;          // as of read_imported_file(); empty: by what the file contains
   std::optional<double> u_si;  // standard uncertainty of a deviation, common to all; m or rad
   std::string note;
   algo::TableLimits limits = {};

@@ -17,7 +17,7 @@ struct Colour {
   const char* dark;
 };
 // Blue and orange stay apart for every kind of colour blindness, and no two marks differ by colour
-// alone: dashes, widths and places tell them apart as well. Against the paper text has a contrast
+// alone: dashes, widths and places distinguish them as well. Against the paper text has a contrast
 // of at least 4.5 and a line that carries data one of at least 3 (WCAG 2.1, 1.4.3 and 1.4.11).
 std::span<const Colour> colours();
 
@@ -25,7 +25,7 @@ std::span<const Colour> colours();
 // librsvg, Inkscape and LibreOffice do not know. They show the light ones.
 std::string style_sheet();
 // In light colours alone, with the marks of runs: shapes and dashes that a black-and-white print
-// tells apart.
+// distinguishes.
 std::string printed_style_sheet();
 
 }  // namespace mdof::charts

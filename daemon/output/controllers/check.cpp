@@ -22,7 +22,8 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
 }
 
 // The simulated machine: how an error of the axis `along`, and a correction of `command`, move the
-// tool against the work. Told from the chain's bodies, not from the factor that the export used.
+// tool against the work. Calculated from the chain's bodies, not from the factor that the export
+// used.
 struct Machine {
   double error = 1, command = 1;
   bool own = false;  // the corrected axis is the measured one: the correction also moves where E is

@@ -27,7 +27,7 @@ namespace mdof::controllers {
 // One error of one axis against the position of that axis.
 struct Series {
   std::string error;   // "EXX"
-  char along = 'X';    // the axis whose position it is told by
+  char along = 'X';    // the axis by whose position it is stated
   char command = 'X';  // the axis whose command takes the correction
   bool angle = false;
   int factor = 0;                                    // correction = factor * E; 0: not known
@@ -42,7 +42,7 @@ struct ExportOptions {
   // What may be left with the correction: no more than this beside the tolerance, of angles in rad,
   // and no more than this share of what there was; a step of the controller's numbers is always.
   double residual_m = 1e-6, residual_share = 0.2;
-  std::vector<std::string> marks;  // what a reader of the files has to be told
+  std::vector<std::string> marks;  // what a reader of the files has to know
 };
 
 struct ControllerFile {

@@ -10,7 +10,7 @@ namespace mdof::report {
 // The file in which the command looks for the rig of a run; empty: the recording has it.
 std::string rig_file(const RunHeader& run);
 
-// For a shell, with the options that were in force where they differ from the defaults.
+// For a shell, with the options that were used where they differ from the defaults.
 std::string replay_command(const RunHeader& run);
 
 }  // namespace mdof::report

@@ -20,7 +20,7 @@ bool is_unix(int socket) {
   return ::getsockopt(socket, SOL_SOCKET, SO_DOMAIN, &domain, &bytes) == 0 && domain == AF_UNIX;
 }
 
-// Empty as well where the kernel cannot tell.
+// Empty as well where the kernel does not know.
 std::vector<gid_t> further_groups(int socket) {
   socklen_t bytes = 0;
   (void)::getsockopt(socket, SOL_SOCKET, SO_PEERGROUPS, nullptr,

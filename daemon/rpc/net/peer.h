@@ -6,7 +6,7 @@
 
 namespace mdof::rpc {
 
-// Of a Unix socket its credentials; of a TCP client whose socket it is, where the kernel tells
+// Of a Unix socket its credentials; of a TCP client whose socket it is, where the kernel says so
 // that.
 Peer peer_of(int socket);
 

@@ -12,7 +12,7 @@
 namespace mdof::rpc {
 
 struct Peer {
-  std::optional<Credentials> credentials = {};  // nothing where the kernel does not tell: TCP
+  std::optional<Credentials> credentials = {};  // nothing where the kernel does not know: TCP
   std::vector<gid_t> further_groups = {};       // beside that of the credentials
   // Of a TCP client of this machine: whose socket it is. Counts for places and gives no right, as
   // that of a Unix socket does.

@@ -28,7 +28,7 @@ class Service {
   Service& operator=(const Service&) = delete;
 
   // A session for a client that has connected, or why there is no place for it. It has its place
-  // until nobody holds it any more: the transport lets go when the client has gone.
+  // until nobody holds it any more: the transport releases it when the client has gone.
   Result<std::shared_ptr<Session>> admit(Peer peer, Transport& transport);
   std::size_t session_count() const;
 
@@ -38,7 +38,7 @@ class Service {
   // have asked for different ones. Nothing: nobody has subscribed.
   std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
   // `json` is one JSON value. Cheap: the value is shared by those who wait for it, and sent in a
-  // later turn of the loop. Errors: no such topic, too large for a reply (subscribers are then told
+  // later turn of the loop. Errors: no such topic, too large for a reply (subscribers then learn
   // in "missed"). `of`: what it is a value of (topic.h).
   Status publish(std::string_view topic, std::string json, std::string_view of = "");
 

@@ -70,7 +70,7 @@ void Session::refuse(std::string_view why) {
   end_with(kInvalidRequest, "Invalid Request", why);
 }
 
-// The place is another's from then on; a client that comes back to it is told why.
+// The place is another's from then on; a client that comes back to it learns why.
 void Session::end_idle() {
   end_with(kBusy,
            "nothing was asked for " + std::to_string(parts_.options.idle_timeout.count() / 1000) +

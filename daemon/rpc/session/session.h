@@ -37,7 +37,7 @@ struct SessionParts {
   const ServerOptions& options;
 };
 
-// Thread-bound: the loop. The transport lets go of it before it ends itself.
+// Thread-bound: the loop. The transport releases it before it ends itself.
 class Session final : public Caller,
                       public ReplySink,
                       public Subscriber,

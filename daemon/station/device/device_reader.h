@@ -17,7 +17,7 @@ namespace mdof::daemon {
 struct DeviceStatus {
   std::string state = "closed";  // "open", "closed", "failed: reopening", "ended"
   std::string error;             // of the failure that holds; "": it is well
-  std::string last_error;        // of the last one that is mended, and when that was
+  std::string last_error;        // of the last one that is over, and when that was
   std::string mended_utc;
   std::vector<Trouble> standing;  // what holds now
   drivers::DeviceInfo info;
@@ -34,7 +34,7 @@ struct DeviceSink {
   // True: taken over. False: there was no room within `wait`, the block is untouched.
   std::function<bool(SampleBlock& block, std::uint64_t pass, std::chrono::milliseconds wait)>
       samples;
-  // The source has come to its end, or, with a reason, to one it will not recover from.
+  // The source has ended, or, with a reason, will not recover.
   std::function<void(std::uint64_t pass, const std::string& reason, const drivers::SourceInfo&)>
       ended;
   std::function<void(const Trouble&)> trouble;  // may be none

@@ -8,7 +8,8 @@ namespace {
 
 using Part = drivers::ChannelPart;
 
-// Of a whole device: its acquiring thread trusts and tells all encoders by the device's own names.
+// Of a whole device: its acquiring thread trusts and reports all encoders by the device's own
+// names.
 drivers::DriverSpec whole(drivers::DriverSpec spec) {
   spec.part.clear();
   return spec;

@@ -30,7 +30,7 @@ class SharedDevice {
     drivers::DriverSpec spec;
     DeviceSink sink;
     bool ceased = false;
-    std::uint64_t dropped_scans = 0;      // to be told with the next block
+    std::uint64_t dropped_scans = 0;      // to be reported with the next block
     std::uint64_t dropped = 0, lost = 0;  // blocks and scans, as of DeviceStatus
   };
   DeviceSink fan_out();

@@ -1,6 +1,6 @@
-// "FILE.head": the head of the chain of hashes that mdofd told last (journal, server.info), beside
-// the database and not in it. A chain that was cut, calculated anew, or lost with a -wal file is
-// then noticed at the next start, and no older table is served as the one in force.
+// "FILE.head": the head of the chain of hashes that mdofd announced last (journal, server.info),
+// beside the database and not in it. A chain that was cut, calculated anew, or lost with a -wal
+// file is then noticed at the next start, and no older table is served as the active one.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@ namespace mdof::store {
 
 std::filesystem::path told_head_file(const std::filesystem::path& database);
 struct ToldHead {
-  ChainHead head;               // link 0: none was told, or the file cannot be read
-  std::int64_t generation = 0;  // of what was in force
+  ChainHead head;               // link 0: none was announced, or the file cannot be read
+  std::int64_t generation = 0;  // of the active tables
 };
 ToldHead read_told_head(const std::filesystem::path& database);
 // Replaces the file in one step. Not flushed: after a power cut an older head is as good.

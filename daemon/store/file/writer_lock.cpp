@@ -104,7 +104,8 @@ WriterLock::~WriterLock() {
 }
 
 Result<WriterLock> WriterLock::acquire(const fs::path& database, int timeout_ms) {
-  // O_APPEND: nothing is written by it, and sqlite::is_open_for_writing() tells it from SQLite's.
+  // O_APPEND: nothing is written by it, and sqlite::is_open_for_writing() distinguishes it from
+  // SQLite's.
   WriterLock lock(descriptor_of(database, O_CREAT | O_RDWR | O_APPEND));
   if (lock.fd_ < 0) return not_opened(database);
   constexpr int kStepMs = 10;

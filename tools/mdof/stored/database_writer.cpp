@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether this descriptor of a process has the writer's lock, as the kernel tells it.
+// Whether this descriptor of a process has the writer's lock, as the kernel states it.
 bool locks(const fs::path& fdinfo) {
   std::ifstream lines(fdinfo);
   for (std::string line; std::getline(lines, line);)

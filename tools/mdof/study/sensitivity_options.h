@@ -1,4 +1,4 @@
-// What mdof sensitivity is told on its command line.
+// The options of mdof sensitivity.
 #pragma once
 
 #include <cstdint>

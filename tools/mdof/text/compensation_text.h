@@ -10,7 +10,7 @@
 
 namespace mdof::tools {
 
-// `generation`: 0 where the table is not in force; `doubtful`: by its runs.
+// `generation`: 0 where the table is not active; `doubtful`: by its runs.
 std::string table_document(const CompensationTable& table, std::int64_t generation, bool doubtful);
 std::string table_text(const CompensationTable& table, std::int64_t generation);
 

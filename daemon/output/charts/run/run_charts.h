@@ -24,7 +24,7 @@ struct StatedResults {
   Run run;
   RunUncertainty uncertainty;            // of its points
   StatedFigures figures;                 // budgets, or why there are none
-  std::vector<StraightnessLines> lines;  // about which straightness is told
+  std::vector<StraightnessLines> lines;  // about which straightness is stated
   std::vector<std::string> marks;        // "SIMULATED: …", "DOUBTFUL: …"; empty: neither
 };
 

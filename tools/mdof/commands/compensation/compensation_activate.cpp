@@ -1,4 +1,4 @@
-// mdof compensation activate: puts a table in force on its axis.
+// mdof compensation activate: activates a table on its axis.
 #include <CLI/CLI.hpp>
 
 #include "daemon/history.h"

@@ -1,4 +1,4 @@
-// mdof compensation deactivate: takes the table of an axis out of force.
+// mdof compensation deactivate: deactivates the table of an axis.
 #include <CLI/CLI.hpp>
 
 #include "daemon/history.h"

@@ -1,4 +1,4 @@
-// mdof compensation show: a table, by default the one in force.
+// mdof compensation show: a table, by default the active one.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 

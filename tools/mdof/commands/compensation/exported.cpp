@@ -64,7 +64,7 @@ Status judge_table(store::Store& store, const CompensationTable& table,
                      " does not say at which point it holds; build it again from its runs");
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   MDOF_CHECK(judge(judged, request, out));
-  // Positioning is never in force: mdofd does not serve it.
+  // Positioning is never active: mdofd does not serve it.
   if (table.has_positioning()) return {};
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   return judge_active(table.id, generation, request, out.options.marks);

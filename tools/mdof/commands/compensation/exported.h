@@ -38,7 +38,7 @@ struct ExportedTables {
   controllers::Check check;
 };
 // Errors: a format, an option or a table that is not there; a table that is simulated, doubtful,
-// not in force or whose sign is not confirmed, unless that is asked for; what the format cannot
+// not active or whose sign is not confirmed, unless that is asked for; what the format cannot
 // hold.
 Result<ExportedTables> exported_tables(const ExportRequest& request);
 

@@ -1,11 +1,11 @@
-// What of the compensation tables is in force, and what a change of that says.
+// Which compensation tables are active, and what a change of that says.
 #pragma once
 
 #include "daemon/store/store.h"
 
 namespace mdof::tools {
 
-// The generation of a table that is in force, else 0.
+// The generation of a table that is active, else 0.
 Result<std::int64_t> generation_of(store::Store& store, const CompensationTable& table);
 Result<std::int64_t> generation_of(store::Store& store, const VolumetricTable& table);
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{2} << 30;  // of a file that is read whole
 
-// The first piece tells what the file is. Text is read piece by piece, so that a map of many pixels
+// The first piece shows what the file is. Text is read piece by piece, so that a map of many pixels
 // is not in memory as text too.
 class MapReader {
  public:

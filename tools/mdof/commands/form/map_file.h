@@ -22,8 +22,8 @@ struct MapOptions {
 };
 void add_map_options(CLI::App& command, MapOptions& options);
 
-// A file, told by what is in it: .sdf, Zygo .dat, CSV, XYZ; or "run:12", and "12" where no file is
-// called so. What was assumed of it is said as a warning.
+// A file, recognised by what is in it: .sdf, Zygo .dat, CSV, XYZ; or "run:12", and "12" where no
+// file is called so. What was assumed of it is said as a warning.
 Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options);
 
 // Of these runs together; what was left out of them is said as a warning.

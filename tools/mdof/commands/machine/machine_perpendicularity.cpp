@@ -1,4 +1,4 @@
-// mdof machine perpendicularity FILE.csv: how a rotary table leans against the XY plane, from a
+// mdof machine perpendicularity FILE.csv: the tilt of a rotary table against the XY plane, from a
 // circle that X, Y and the table move together.
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-// mdof encoder set: tells mdofd where an axis stands whose encoder counts from anywhere.
+// mdof encoder set: gives mdofd the place of an axis whose encoder counts from anywhere.
 #include <CLI/CLI.hpp>
 
 #include "schema/base/json_writer.h"

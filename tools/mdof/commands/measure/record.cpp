@@ -1,5 +1,5 @@
 // mdof record: a run of an axis from its start to its end, watched: point k of n, what is awaited.
-// The daemon measures; this command asks and shows. It may end or be killed without harm to the run
+// The daemon measures; this command asks and shows. It may end or be killed without loss to the run
 // unless it was asked to stop it.
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -80,7 +80,7 @@ void show_notes(const auto& reply) {
 }
 
 // "point 3 of 26, next 15.000 mm"; a run without targets or repeats knows less. Of those asked for
-// only solved ones count, each once; further ones are told of.
+// only solved ones count, each once; further ones are reported.
 std::string progress_line(const auto& event) {
   const std::int64_t all = integer(event, "points").value_or(0);
   const std::int64_t points = integer(event, "done").value_or(all);

@@ -1,4 +1,4 @@
-// mdof device list: the devices of mdofd, as it tells of them.
+// mdof device list: the devices of mdofd, as it reports them.
 #include <CLI/CLI.hpp>
 
 #include "daemon/rpc/line/client.h"

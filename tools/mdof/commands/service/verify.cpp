@@ -43,7 +43,7 @@ Status verify_database(const std::string& option, const std::string& head, Sourc
     check.findings.push_back("the chain of hashes has no link of the hash " + head +
                              " (--head): what was stored until then was cut off or changed");
   const auto sources = daemon::verify_sources(store);
-  // A database that is damaged has said so above, and may not tell its files.
+  // A database that is damaged has said so above, and may not name its files.
   if (!sources) return findings.empty() ? Status(tl::unexpected(sources.error())) : Status();
   add(sources->findings, check.findings);
   add(sources->notes, check.notes);

@@ -102,7 +102,7 @@ std::string unsolved_output(const StudyResult& result) {
   return "";
 }
 
-// None of the trials gave this output: why, as far as the first of them tells.
+// None of the trials gave this output: why, as far as the first of them shows.
 Status not_solved(const Study& study, const std::string& key, std::uint64_t trials) {
   const Status first = study.slow() ? check_run_trial(*study.plan, 0) : Status();
   return fail(ErrorCode::check, key + ": none of the " + std::to_string(trials) +

@@ -31,7 +31,7 @@ class Processes {
   std::string receive(int from);
 
   // Whether all can go on. Where one cannot, its error is that of rank 0; what the others get only
-  // tells them to end.
+  // asks them to end.
   Status agree(const Status& mine);
   // At the end, and after an error that all have agreed on.
   void leave();

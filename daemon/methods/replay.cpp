@@ -1,4 +1,5 @@
 // run.replay.
+#include "daemon/measure/replay/replay_options.h"
 #include "daemon/methods/client_file.h"
 #include "daemon/methods/methods.h"
 #include "daemon/methods/replayer.h"
@@ -11,12 +12,6 @@ using rpc::Params;
 using rpc::ParamType;
 using rpc::Reply;
 
-constexpr rpc::Bounds kPositive = {.least = 0, .most = 1e9};
-
-std::optional<double> optional_number(const Params& params, const char* name) {
-  return params.has(name) ? std::optional(params.number(name)) : std::nullopt;
-}
-
 Result<ReplayRequest> read_replay_request(const Params& params) {
   ReplayRequest request;
   request.log = params.string("path");
@@ -24,17 +19,13 @@ Result<ReplayRequest> read_replay_request(const Params& params) {
   if (params.has("rig")) request.rig_source = params.string("rig_source", "rig");
   request.model = params.string("model");
   request.note = params.string("note");
-  request.tolerance_um = optional_number(params, "tolerance_um");
-  request.settle_s = optional_number(params, "settle_s");
-  request.min_length_s = optional_number(params, "min_length_s");
-  request.max_gap_s = optional_number(params, "max_gap_s");
-  request.lag_bound_s = optional_number(params, "lag_bound_s");
-  request.remove_drift = params.boolean("remove_drift", false);
-  request.on_the_fly = params.boolean("on_the_fly", false);
-  request.interval_mm = optional_number(params, "interval_mm");
-  request.bin_mm = optional_number(params, "bin_mm");
-  request.from_mm = optional_number(params, "from_mm");
-  request.to_mm = optional_number(params, "to_mm");
+  for (const ReplayOption& option : replay_options()) {
+    if (!params.has(option.name)) continue;
+    if (const auto* number = std::get_if<ReplayOption::Number>(&option.member))
+      request.*(*number) = params.number(option.name);
+    else
+      request.*std::get<ReplayOption::Switch>(option.member) = params.boolean(option.name, false);
+  }
   MDOF_TRY(request.targets_mm, params.numbers("targets_mm"));
   return request;
 }
@@ -56,81 +47,46 @@ void replay_log(Methods& m, const Params& params, Reply reply) {
                     });
 }
 
+rpc::Param param_of(const ReplayOption& option) {
+  if (std::holds_alternative<ReplayOption::Switch>(option.member))
+    return {option.name, ParamType::boolean, option.meaning, false, "false"};
+  rpc::Param param{option.name, ParamType::number, option.meaning};
+  if (option.range != ReplayOption::Range::any) param.bounds = {.least = 0, .most = 1e9};
+  return param;
+}
+
+std::vector<rpc::Param> replay_params() {
+  std::vector<rpc::Param> params{
+      {"path",
+       ParamType::string,
+       "absolute; a file that caller and daemon may read",
+       true,
+       {},
+       {.bytes = 4096}},
+      {"rig",
+       ParamType::string,
+       "as TOML; of a recording its own by default",
+       false,
+       "\"\"",
+       {.bytes = 60'000}},
+      {"rig_source", ParamType::string, "its file name, for messages", false},
+      {"model", ParamType::string, "simplified, exact or rigid", false, "\"\""},
+      {"targets_mm", ParamType::array, "nominal positions", false, "[]", {.items = 10'000}},
+      {"note", ParamType::string, "for people", false, "\"\""}};
+  for (const ReplayOption& option : replay_options()) params.push_back(param_of(option));
+  return params;
+}
+
 }  // namespace
 
 void add_replay_methods(rpc::MethodTable& table, Methods& m) {
-  table.add(
-      {.name = "run.replay",
-       .summary = "Replays a log or a recording and stores its run, one at a time.",
-       .params =
-           {{"path",
-             ParamType::string,
-             "absolute; a file that caller and daemon may read",
-             true,
-             {},
-             {.bytes = 4096}},
-            {"rig",
-             ParamType::string,
-             "as TOML; of a recording its own by default",
-             false,
-             "\"\"",
-             {.bytes = 60'000}},
-            {"rig_source", ParamType::string, "its file name, for messages", false},
-            {"model", ParamType::string, "simplified, exact or rigid", false, "\"\""},
-            {"targets_mm", ParamType::array, "nominal positions", false, "[]", {.items = 10'000}},
-            {"tolerance_um",
-             ParamType::number,
-             "encoder at rest; 0: by itself",
-             false,
-             {},
-             kPositive},
-            {"settle_s",
-             ParamType::number,
-             "left out at the start of a stop",
-             false,
-             {},
-             kPositive},
-            {"min_length_s",
-             ParamType::number,
-             "averaged of a stop at least",
-             false,
-             {},
-             kPositive},
-            {"max_gap_s",
-             ParamType::number,
-             "no interpolation into a longer gap",
-             false,
-             {},
-             kPositive},
-            {"lag_bound_s",
-             ParamType::number,
-             "a probe silent for longer is given up",
-             false,
-             {},
-             kPositive},
-            {"remove_drift", ParamType::boolean, "takes a significant drift from the errors", false,
-             "false"},
-            {"on_the_fly", ParamType::boolean, "the axis moves all the time: bins about targets",
-             false, "false"},
-            {"interval_mm",
-             ParamType::number,
-             "on the fly, from target to target; 1",
-             false,
-             {},
-             kPositive},
-            {"bin_mm",
-             ParamType::number,
-             "on the fly, what counts about a target; 0: as interval_mm, at most 1",
-             false,
-             {},
-             kPositive},
-            {"from_mm", ParamType::number, "on the fly, the first target", false},
-            {"to_mm", ParamType::number, "on the fly, none beyond", false},
-            {"note", ParamType::string, "for people", false, "\"\""}},
-       .result = "run: its id, once it is stored; a long log takes long",
-       .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
-       .writes = true,
-       .handler = [&m](const Params& p, Reply r) { replay_log(m, p, std::move(r)); }});
+  table.add({.name = "run.replay",
+             .summary = "Replays a log or a recording and stores its run, one at a time.",
+             .params = replay_params(),
+             .result = "run: its id, once it is stored; a long log takes long",
+             .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) { replay_log(m, p, std::move(r)); }});
 }
 
 }  // namespace mdof::daemon

@@ -1,10 +1,10 @@
 #include "daemon/measure/replay/replay_request.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "daemon/measure/config.h"
 #include "daemon/measure/delays.h"
+#include "daemon/measure/replay/replay_options.h"
 #include "daemon/paths.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -13,36 +13,11 @@ namespace mdof::daemon {
 namespace {
 
 // What comes over the RPC was not checked by the command line.
-Status check_options(const ReplayRequest& request) {
-  const auto wrong = [](const char* key, const char* range) {
-    return fail(ErrorCode::usage, std::string(key) + " must be " + range);
-  };
-  const auto below = [](const std::optional<double>& x, double least) {
-    return x && !(*x >= least && std::isfinite(*x));
-  };
-  if (below(request.tolerance_um, 0)) return wrong("tolerance_um", "0 or more");
-  if (below(request.settle_s, 0)) return wrong("settle_s", "0 or more");
-  constexpr double kShortest_s = 1e-9;
-  if (below(request.min_length_s, kShortest_s)) return wrong("min_length_s", "more than 0");
-  if (below(request.max_gap_s, kShortest_s)) return wrong("max_gap_s", "more than 0");
-  if (below(request.lag_bound_s, kShortest_s)) return wrong("lag_bound_s", "more than 0");
+Status check_request(const ReplayRequest& request) {
+  MDOF_CHECK(check_replay_options(request));
   Model model{};
   if (!request.model.empty() && !model_from(request.model, model))
-    return wrong("model", "simplified, exact or rigid");
-  return {};
-}
-
-// What is of dwells alone, or of runs in motion alone.
-Status check_on_the_fly(const ReplayRequest& request) {
-  const bool of_motion = request.interval_mm || request.bin_mm || request.from_mm || request.to_mm;
-  if (of_motion && !request.on_the_fly)
-    return fail(
-        ErrorCode::usage,
-        "interval_mm, bin_mm, from_mm and to_mm are of a run on the fly; ask for that, too");
-  if (request.on_the_fly && (request.tolerance_um || request.settle_s || request.min_length_s))
-    return fail(ErrorCode::usage,
-                "tolerance_um, settle_s and min_length_s are of dwells, and a run on the fly has "
-                "none; leave them out");
+    return fail(ErrorCode::usage, "model must be simplified, exact or rigid");
   const bool of_grid = request.interval_mm || request.from_mm || request.to_mm;
   if (!request.targets_mm.empty() && of_grid)
     return fail(ErrorCode::usage,
@@ -58,8 +33,6 @@ Status ask_on_the_fly(const ReplayRequest& request, PipelineOptions& options) {
   const bool by_interval = request.interval_mm || request.from_mm || request.to_mm;
   if (by_interval) options.sequence.targets_m.clear();
   if (!options.sequence.targets_m.empty()) to.interval_mm = 0;
-  if (request.interval_mm && !(*request.interval_mm > 0))
-    return fail(ErrorCode::usage, "interval_mm must be greater than zero");
   to.interval_mm = request.interval_mm.value_or(to.interval_mm);
   to.bin_mm = request.bin_mm.value_or(to.bin_mm);
   to.from_mm = request.from_mm;
@@ -68,8 +41,7 @@ Status ask_on_the_fly(const ReplayRequest& request, PipelineOptions& options) {
 }
 
 Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog& log) {
-  MDOF_CHECK(check_options(request));
-  MDOF_CHECK(check_on_the_fly(request));
+  MDOF_CHECK(check_request(request));
   MDOF_TRY(const auto asked, log.asked_for());
   PipelineOptions options = asked.options;
   if (!request.model.empty()) model_from(request.model, options.model);

@@ -223,7 +223,7 @@ Result<LoadedPart> load_part(const std::string& file, const std::string& databas
   MDOF_TRY(part.plan, parse_part_plan(text, file));
   const auto folder = std::filesystem::path(file).parent_path();
   const auto beside = [&folder](const std::string& name) { return (folder / name).string(); };
-  MDOF_TRY(part.machine, load_machine(beside(part.plan.machine), ""));
+  MDOF_TRY(part.machine, load_machine(beside(part.plan.machine), database));
   MDOF_TRY(part.path, load_path(beside(part.plan.path)));
   MDOF_CHECK(add_machine_layers(part, database));
   for (const PartLayer& layer : part.plan.layers) {

@@ -48,10 +48,7 @@ Result<TableRequest> read_table_request(const Params& params) {
   if (params.has("reference")) {
     MDOF_TRY(request.reference, reference_param(params));
   }
-  const double um = params.number("limit_um", 0), slope = params.number("limit_um_per_mm", 0);
-  MDOF_TRY(request.limits,
-           algo::TableLimits::asked(params.has("limit_um") ? &um : nullptr,
-                                    params.has("limit_um_per_mm") ? &slope : nullptr));
+  MDOF_TRY(request.limits, limits_param(params));
   return request;
 }
 
@@ -218,27 +215,24 @@ Result<std::string> at(const Methods& m, const Params& params) {
 
 void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param axis{"axis", ParamType::string, "X, Y, Z or volume", true};
-  table.add(
-      {.name = "compensation.build",
-       .summary = "Builds and stores a one-axis table from runs; it is not yet active.",
-       .params = {{"runs", ParamType::array, "ids of runs of one axis and the same targets", true},
-                  {"keep_slope", ParamType::boolean,
-                   "leave the slope in the straightness (by default squareness holds it)", false,
-                   "false"},
-                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"},
-                  {"reference", ParamType::string,
-                   "where straightness is stated: fixture, carriage or tool [the rig's tool point, "
-                   "else the fixture]",
-                   false},
-                  {"limit_um", ParamType::number,
-                   "largest value of the table (angles: urad) [1000 um, 10000 urad]", false},
-                  {"limit_um_per_mm", ParamType::number,
-                   "largest slope of the table (angles: urad/mm) [50 um/mm, 500 urad/mm]", false}},
-       .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
-                 "simulated, doubtful, notices, notes",
-       .example = R"({"runs": [1]})",
-       .writes = true,
-       .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
+  std::vector<rpc::Param> build_params{
+      {"runs", ParamType::array, "ids of runs of one axis and the same targets", true},
+      {"keep_slope", ParamType::boolean,
+       "leave the slope in the straightness (by default squareness holds it)", false, "false"},
+      {"partial", ParamType::boolean, "take partial runs as well", false, "false"},
+      {"reference", ParamType::string,
+       "where straightness is stated: fixture, carriage or tool [the rig's tool point, "
+       "else the fixture]",
+       false}};
+  for (rpc::Param& limit : limit_params()) build_params.push_back(std::move(limit));
+  table.add({.name = "compensation.build",
+             .summary = "Builds and stores a one-axis table from runs; it is not yet active.",
+             .params = std::move(build_params),
+             .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
+                       "simulated, doubtful, notices, notes",
+             .example = R"({"runs": [1]})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
   table.add(
       {.name = "compensation.activate",
        .summary = "Activates a stored table on its axis, or on the volume, at once and for "

@@ -1,4 +1,5 @@
-// run.replay.
+// run.replay, run.import: files of clients become runs.
+#include "daemon/measure/imported/import.h"
 #include "daemon/measure/replay/replay_options.h"
 #include "daemon/methods/client_file.h"
 #include "daemon/methods/methods.h"
@@ -30,15 +31,50 @@ Result<ReplayRequest> read_replay_request(const Params& params) {
   return request;
 }
 
-void replay_log(Methods& m, const Params& params, Reply reply) {
+Result<ImportRequest> read_import_request(const Params& params) {
+  ImportRequest request;
+  request.file = params.string("path");
+  MDOF_TRY(request.axis, axis_param(params));
+  request.error = params.string("error");
+  request.format = params.string("format");
+  if (params.has("u_um")) request.u_um = params.number("u_um");
+  if (params.has("u_urad")) request.u_urad = params.number("u_urad");
+  request.note = params.string("note");
+  MDOF_TRY(request.limits, limits_param(params));
+  request.despite_warnings = params.boolean("despite_warnings", false);
+  return request;
+}
+
+Result<Run> replayed(ReplayRequest request, const FileUser& user,
+                     const ProgressCallback& progress) {
+  MDOF_TRY(const ClientFile opened, open_for(user, request.log));
+  request.opened = {opened.file.get(), opened.wal.get()};
+  return replay(request, progress);
+}
+
+Result<Run> imported(ImportRequest request, const FileUser& user, const ProgressCallback&) {
+  MDOF_TRY(const ClientFile opened, open_for(user, request.file));
+  request.opened = opened.file.get();
+  return imported_run(request);
+}
+
+template <class Request>
+using MakeRun = Result<Run> (*)(Request, const FileUser&, const ProgressCallback&);
+
+// The file is opened with the rights of the client, on the replayer's thread.
+template <class Request>
+void store_run(Methods& m, const Params& params, Result<Request> request, MakeRun<Request> make,
+               const char* method, Reply reply) {
   const auto who = params.caller().credentials();
-  if (!who) return reply(fail(ErrorCode::usage, "run.replay: only over the Unix socket"));
-  auto request = read_replay_request(params);
+  if (!who)
+    return reply(fail(ErrorCode::usage, std::string(method) + ": only over the Unix socket"));
   if (!request) return reply(tl::unexpected(request.error()));
-  if (!m.replayer) return reply(io_error("this daemon replays no logs"));
+  if (!m.replayer) return reply(io_error("this daemon reads no files"));
   auto shared = std::make_shared<Reply>(std::move(reply));
   const FileUser user{who->uid, who->gid, params.caller().further_groups()};
-  m.replayer->start(std::move(*request), user, deed_of(params, "run.replay"),
+  m.replayer->start([request = std::move(*request), user, make](
+                        const ProgressCallback& progress) { return make(request, user, progress); },
+                    deed_of(params, method),
                     [shared](const Result<std::int64_t>& id) {
                       if (!id) return (*shared)(tl::unexpected(id.error()));
                       JsonWriter json;
@@ -55,14 +91,14 @@ rpc::Param param_of(const ReplayOption& option) {
   return param;
 }
 
+rpc::Param path_param() {
+  return {"path", ParamType::string, "absolute; a file that caller and daemon may read", true,
+          {},     {.bytes = 4096}};
+}
+
 std::vector<rpc::Param> replay_params() {
   std::vector<rpc::Param> params{
-      {"path",
-       ParamType::string,
-       "absolute; a file that caller and daemon may read",
-       true,
-       {},
-       {.bytes = 4096}},
+      path_param(),
       {"rig",
        ParamType::string,
        "as TOML; of a recording its own by default",
@@ -77,16 +113,48 @@ std::vector<rpc::Param> replay_params() {
   return params;
 }
 
+std::vector<rpc::Param> import_params() {
+  const rpc::Bounds not_negative{.least = 0, .most = 1e9};
+  std::vector<rpc::Param> params{
+      path_param(),
+      {"axis", ParamType::string, "X, Y or Z", true},
+      {"error", ParamType::string, "what was measured, such as EYX [positioning, EXX of X]", false,
+       "\"\""},
+      {"format", ParamType::string, "csv, iso230-2 or rtl [as in the file]", false, "\"\""},
+      {"u_um",
+       ParamType::number,
+       "standard uncertainty of each deviation",
+       false,
+       {},
+       not_negative},
+      {"u_urad", ParamType::number, "the same of an angle", false, {}, not_negative},
+      {"note", ParamType::string, "for people", false, "\"\""},
+      {"despite_warnings", ParamType::boolean, "also a file that is doubtful", false, "false"}};
+  for (rpc::Param& limit : limit_params()) params.push_back(std::move(limit));
+  return params;
+}
+
 }  // namespace
 
-void add_replay_methods(rpc::MethodTable& table, Methods& m) {
+void add_files_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "run.replay",
              .summary = "Replays a log or a recording and stores its run, one at a time.",
              .params = replay_params(),
              .result = "run: its id, once it is stored; a long log takes long",
              .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
              .writes = true,
-             .handler = [&m](const Params& p, Reply r) { replay_log(m, p, std::move(r)); }});
+             .handler = [&m](const Params& p, Reply r) {
+               store_run(m, p, read_replay_request(p), replayed, "run.replay", std::move(r));
+             }});
+  table.add({.name = "run.import",
+             .summary = "Stores what another instrument measured, a file, as a run.",
+             .params = import_params(),
+             .result = "run: its id, once it is stored",
+             .example = R"({"path": "/var/lib/mdof/laser_X.rtl", "axis": "X", "u_um": 0.3})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) {
+               store_run(m, p, read_import_request(p), imported, "run.import", std::move(r));
+             }});
 }
 
 }  // namespace mdof::daemon

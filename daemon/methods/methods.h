@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "algo/compensation/table_limits.h"
 #include "algo/machine/frames.h"
 #include "daemon/history.h"
 #include "daemon/methods/query_thread.h"
@@ -60,6 +61,9 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 // Shared by the nouns.
 Deed deed_of(const rpc::Params& params, std::string name);  // by the caller, now
 Result<Axis> axis_param(const rpc::Params& params);
+// What a deviation or a correction may be at the most.
+std::vector<rpc::Param> limit_params();
+Result<algo::TableLimits> limits_param(const rpc::Params& params);
 Result<Reference> reference_param(const rpc::Params& params);  // not given: the fixture
 // MACHINE.toml as text, and the commands of its axes: machine.at and what is built of a machine.
 // Error: tables in files, which would be files of the daemon.

@@ -19,19 +19,12 @@ constexpr std::chrono::seconds kPatience{2};
 
 std::atomic<bool> left_behind{false};
 
-Result<Run> replay_file(ReplayRequest request, const FileUser& user,
-                        const ProgressCallback& progress) {
-  MDOF_TRY(const ClientFile opened, open_for(user, request.log));
-  request.opened = {opened.file.get(), opened.wal.get()};
-  return replay(request, progress);
-}
-
 }  // namespace
 
 struct Replayer::Shared {
   explicit Shared(Storekeeper& to) : keeper(to) {}
 
-  void work(const ReplayRequest& request, const FileUser& user, const Deed& deed, const Done& done);
+  void work(const Make& make, const Deed& deed, const Done& done);
   void store(Result<Run> run, const Deed& deed, const Done& done);
 
   std::atomic<bool> busy{false}, stopping{false};
@@ -41,12 +34,11 @@ struct Replayer::Shared {
   Storekeeper& keeper;  // only under the mutex and before `stopping`: it goes after that
 };
 
-void Replayer::Shared::work(const ReplayRequest& request, const FileUser& user, const Deed& deed,
-                            const Done& done) {
+void Replayer::Shared::work(const Make& make, const Deed& deed, const Done& done) {
   ::pthread_setname_np(::pthread_self(), "replay");
   // Linux: of this thread alone.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
-  auto run = replay_file(request, user, [this](const Progress&) { return !stopping; });
+  auto run = make([this](const Progress&) { return !stopping; });
   const std::lock_guard lock(mutex);
   busy = false;  // before the answer: who has it may ask for the next
   if (!stopping) store(std::move(run), deed, done);
@@ -84,17 +76,18 @@ bool Replayer::was_left_behind() {
   return left_behind;
 }
 
-void Replayer::start(ReplayRequest request, const FileUser& user, const Deed& deed, Done done) {
+void Replayer::start(Make make, const Deed& deed, Done done) {
   if (shared_->busy.exchange(true))
-    return done(
-        fail(ErrorCode::conflict, "another log is being replayed; try again when it is done"));
+    return done(fail(ErrorCode::conflict,
+                     "another log is being replayed or imported; try again when it is done"));
   if (thread_.joinable()) thread_.join();  // it has done its work, or is about to have
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->working = true;
   }
-  thread_ = std::thread([shared = shared_, request = std::move(request), user, deed,
-                         done = std::move(done)] { shared->work(request, user, deed, done); });
+  thread_ = std::thread([shared = shared_, make = std::move(make), deed, done = std::move(done)] {
+    shared->work(make, deed, done);
+  });
 }
 
 }  // namespace mdof::daemon

@@ -105,6 +105,19 @@ Deed deed_of(const Params& params, std::string name) {
   return deed_now(std::move(name), actor_of(who->uid, who->gid, who->pid));
 }
 
+std::vector<rpc::Param> limit_params() {
+  return {
+      {"limit_um", ParamType::number, "largest value (angles: urad) [1000 um, 10000 urad]", false},
+      {"limit_um_per_mm", ParamType::number,
+       "largest slope (angles: urad/mm) [50 um/mm, 500 urad/mm]", false}};
+}
+
+Result<algo::TableLimits> limits_param(const Params& params) {
+  const double um = params.number("limit_um", 0), slope = params.number("limit_um_per_mm", 0);
+  return algo::TableLimits::asked(params.has("limit_um") ? &um : nullptr,
+                                  params.has("limit_um_per_mm") ? &slope : nullptr);
+}
+
 Result<Axis> axis_param(const Params& params) {
   if (const auto axis = axis_from(params.string("axis"))) return *axis;
   return fail(ErrorCode::usage,

@@ -48,9 +48,7 @@ Result<algo::VolumetricRequest> read_grid(const Params& params, const Machine& m
                   : approach == "reverse" ? algo::MachineApproach::reverse
                                           : algo::MachineApproach::mean;
   grid.incomplete = params.boolean("incomplete", false);
-  const double um = params.number("limit_um", 0), slope = params.number("limit_um_per_mm", 0);
-  MDOF_TRY(grid.limits, algo::TableLimits::asked(params.has("limit_um") ? &um : nullptr,
-                                                 params.has("limit_um_per_mm") ? &slope : nullptr));
+  MDOF_TRY(grid.limits, limits_param(params));
   return grid;
 }
 
@@ -183,9 +181,7 @@ void add_volume_methods(rpc::MethodTable& table, Methods& m) {
   params.push_back({"approach", ParamType::string, "mean, forward or reverse", false, "\"mean\""});
   params.push_back({"incomplete", ParamType::boolean,
                     "also where an error that would count was not measured", false, "false"});
-  params.push_back({"limit_um", ParamType::number, "largest correction [1000 um]", false});
-  params.push_back(
-      {"limit_um_per_mm", ParamType::number, "largest slope of the correction [50 um/mm]", false});
+  for (rpc::Param& limit : limit_params()) params.push_back(std::move(limit));
   table.add({.name = "compensation.build_volume",
              .summary = "Builds and stores a table of corrections over a plane or a volume of a "
                         "machine with its measured errors; it is not yet active.",

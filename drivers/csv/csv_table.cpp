@@ -86,11 +86,13 @@ std::string CsvTable::where(std::size_t row) const {
 }
 
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& names,
-                                const std::vector<std::string>& optional, std::size_t most_rows) {
+                                const std::vector<std::string>& optional, std::size_t most_rows,
+                                int descriptor) {
   CsvRowsOptions options;
   options.kind = CsvKind::table;
   options.limits.bad_lines = 0;
   options.sha256 = false;
+  options.descriptor = descriptor;
   MDOF_TRY(const auto rows, CsvRows::open(path, options));
   const CsvHeader& header = rows->header();
   CsvTable table;

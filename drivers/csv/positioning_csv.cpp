@@ -49,8 +49,10 @@ Error with_remedy(Error error) {
 
 }  // namespace
 
-Result<PositioningCsv> read_positioning_csv(const std::string& path, std::size_t most) {
-  auto table = read_csv_table(path, {"target_mm", "direction", "run", "deviation_um"}, {}, most);
+Result<PositioningCsv> read_positioning_csv(const std::string& path, std::size_t most,
+                                            int descriptor) {
+  auto table =
+      read_csv_table(path, {"target_mm", "direction", "run", "deviation_um"}, {}, most, descriptor);
   if (!table) return tl::unexpected(with_remedy(std::move(table.error())));
   PositioningCsv csv{table->source, table->simulated, {}};
   Seen seen;

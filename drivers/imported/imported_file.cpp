@@ -21,8 +21,8 @@ std::string format_of(const std::string& text) {
   return text.find("target_mm") != text.npos ? "iso230-2" : "csv";
 }
 
-Result<ImportedSeries> series_of_positioning(const std::string& path) {
-  MDOF_TRY(const PositioningCsv csv, read_positioning_csv(path, kMostImportedReadings));
+Result<ImportedSeries> series_of_positioning(const std::string& path, int descriptor) {
+  MDOF_TRY(const PositioningCsv csv, read_positioning_csv(path, kMostImportedReadings, descriptor));
   ImportedSeries series;
   series.simulated = csv.simulated;
   for (const PositioningReading& r : csv.readings)
@@ -30,10 +30,11 @@ Result<ImportedSeries> series_of_positioning(const std::string& path) {
   return series;
 }
 
-Result<ImportedSeries> series_of_csv(const std::string& path, bool angle) {
+Result<ImportedSeries> series_of_csv(const std::string& path, bool angle, int descriptor) {
   const std::string deviation = angle ? "deviation_urad" : "deviation_um";
-  MDOF_TRY(const CsvTable table, read_csv_table(path, {"position_mm", deviation},
-                                                {"direction", "run"}, kMostImportedReadings));
+  MDOF_TRY(const CsvTable table,
+           read_csv_table(path, {"position_mm", deviation}, {"direction", "run"},
+                          kMostImportedReadings, descriptor));
   const auto &direction = table.columns[2], &run = table.columns[3];
   ImportedSeries series;
   series.simulated = table.simulated;
@@ -57,22 +58,25 @@ Result<ImportedSeries> series_of_csv(const std::string& path, bool angle) {
 }
 
 Result<ImportedSeries> read(const std::string& path, const std::string& text,
-                            const std::string& format, const std::string& source, bool angle) {
+                            const std::string& format, const std::string& source, bool angle,
+                            int descriptor) {
   if (angle && format != "csv")
     return fail(ErrorCode::usage,
                 "an angle is imported from CSV with columns position_mm and deviation_urad");
   if (format == "rtl") return parse_rtl(text, source);
-  return format == "iso230-2" ? series_of_positioning(path) : series_of_csv(path, angle);
+  return format == "iso230-2" ? series_of_positioning(path, descriptor)
+                              : series_of_csv(path, angle, descriptor);
 }
 
 }  // namespace
 
 Result<ImportedSeries> read_imported_file(const std::string& path, const std::string& asked,
-                                          bool angle) {
-  MDOF_TRY(const std::string text, read_text_file(path));
+                                          bool angle, int descriptor) {
+  MDOF_TRY(const std::string text,
+           read_text_file(descriptor < 0 ? path : "/proc/self/fd/" + std::to_string(descriptor)));
   const std::string format = asked.empty() ? format_of(text) : asked;
   const std::string source = std::filesystem::path(path).filename().string();
-  MDOF_TRY(ImportedSeries series, read(path, text, format, source, angle));
+  MDOF_TRY(ImportedSeries series, read(path, text, format, source, angle, descriptor));
   if (series.readings.empty()) return bad_input(source + ": has no readings");
   series.format = format;
   series.source = source;

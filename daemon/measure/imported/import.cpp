@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "algo/compensation/imported_table.h"
+#include "daemon/measure/gate/gate.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
 #include "drivers/imported/imported_file.h"
@@ -24,7 +25,8 @@ std::string options_json(const ImportRequest& request, const ImportedError& erro
   json.field("error", error.name).field("format", series.format);
   json.field("readings", static_cast<std::uint64_t>(series.readings.size()));
   json.key(error.angle ? "u_urad" : "u_um");
-  request.u_si ? json.value(to_key_unit(*request.u_si)) : json.null();
+  const std::optional<double>& u = error.angle ? request.u_urad : request.u_um;
+  u ? json.value(*u) : json.null();
   json.key("about").begin_array();
   for (const std::string& line : series.about) json.value(line);
   json.end_array().end_object().end_object();
@@ -32,7 +34,7 @@ std::string options_json(const ImportRequest& request, const ImportedError& erro
 }
 
 MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targets,
-                       const ImportRequest& request, const ImportedError& error) {
+                       const std::optional<double>& u_si, const ImportedError& error) {
   MeasuredPoint p;
   const std::size_t target = algo::target_at(targets, r.position_m);
   p.target = static_cast<int>(target) + 1;
@@ -42,7 +44,7 @@ MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targ
   p.point.direction = r.direction;
   p.point.samples = 1;
   p.point.probe_m = {r.deviation};
-  if (request.u_si) p.point.probe_u_m = {*request.u_si};
+  if (u_si) p.point.probe_u_m = {*u_si};
   p.errors.reason = "imported: " + error.name + " alone";
   return p;
 }
@@ -82,15 +84,28 @@ Status check_readings(const ImportedSeries& series, const ImportRequest& request
   return {};
 }
 
+// Of a deviation, m or rad.
+Result<std::optional<double>> standard_uncertainty(const ImportRequest& request,
+                                                   const ImportedError& error) {
+  if (error.angle ? request.u_um : request.u_urad)
+    return fail(ErrorCode::usage,
+                error.name + (error.angle ? " is an angle: give u_urad, not u_um"
+                                          : " is a length: give u_um, not u_urad"));
+  const std::optional<double>& u = error.angle ? request.u_urad : request.u_um;
+  if (!u) return std::nullopt;
+  if (!(*u >= 0 && std::isfinite(*u)))
+    return fail(ErrorCode::usage, "the standard uncertainty must be a finite number, not negative");
+  return error.angle ? from_urad(*u) : from_um(*u);
+}
+
 }  // namespace
 
 Result<Run> imported_run(const ImportRequest& request) {
   const std::string name = request.error.empty() ? positioning_name(request.axis) : request.error;
   MDOF_TRY(const ImportedError error, imported_error(request.axis, name));
-  if (request.u_si && !(*request.u_si >= 0 && std::isfinite(*request.u_si)))
-    return fail(ErrorCode::usage, "the standard uncertainty must be a finite number, not negative");
+  MDOF_TRY(const std::optional<double> u_si, standard_uncertainty(request, error));
   MDOF_TRY(const ImportedSeries series,
-           drivers::read_imported_file(request.file, request.format, error.angle));
+           drivers::read_imported_file(request.file, request.format, error.angle, request.opened));
   Run run;
   RunHeader& header = run.header;
   header.axis = request.axis;
@@ -112,7 +127,10 @@ Result<Run> imported_run(const ImportRequest& request) {
   MDOF_CHECK(check_readings(series, request, error, targets));
   header.notices = doubts(series, error, targets);
   for (const ImportedReading& r : series.readings)
-    run.points.push_back(point_of(r, targets, request, error));
+    run.points.push_back(point_of(r, targets, u_si, error));
+  MDOF_CHECK(check_gate({request.file, false, without_information(header.notices)},
+                        {.simulated = true, .despite_warnings = request.despite_warnings},
+                        "it is not stored"));
   return run;
 }
 

@@ -13,16 +13,19 @@ namespace mdof::daemon {
 
 struct ImportRequest {
   std::string file;
+  int opened = -1;  // its descriptor where it is open already
   Axis axis = Axis::x;
-  std::string error;           // "EXX"; empty: the positioning of the axis
-  std::string format;          // as of read_imported_file(); empty: by what the file contains
-  std::optional<double> u_si;  // standard uncertainty of a deviation, common to all; m or rad
+  std::string error;   // "EXX"; empty: the positioning of the axis
+  std::string format;  // as of read_imported_file(); empty: by what the file contains
+  std::optional<double> u_um, u_urad;  // standard uncertainty of a deviation, common to all
   std::string note;
   algo::TableLimits limits = {};
+  bool despite_warnings = false;  // also a doubtful file
 };
 
 // Complete, not stored. Errors: those of imported_error() and read_imported_file(); an uncertainty
-// that is none; deviations beyond the limits, or means of targets whose slope is.
+// that is none, or in the unit of another error; deviations beyond the limits, or means of targets
+// whose slope is; a doubtful file (gate.h).
 Result<Run> imported_run(const ImportRequest& request);
 
 }  // namespace mdof::daemon

@@ -41,7 +41,7 @@ OTHERS = {"clearance", "completion", "help", "machine kinematics", "machine budg
           "selftest", "sensitivity", "separate reversal", "separate shift", "separate square", "setup network",
           "solve", "status", "stop", "straightness", "studies", "study", "verify"}
 OTHER_METHODS = {"compensation.activate", "compensation.build_volume", "compensation.deactivate", "device.list", "encoder.set", "history.list",
-                 "live.subscribe", "live.unsubscribe", "machine.at", "rpc.discover", "run.list", "run.replay", "run.resume",
+                 "live.subscribe", "live.unsubscribe", "machine.at", "rpc.discover", "run.import", "run.list", "run.replay", "run.resume",
                  "run.start", "run.stop", "server.info"}
 
 

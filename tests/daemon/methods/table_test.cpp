@@ -32,6 +32,7 @@ TEST_F(MethodTableTest, WhoMayCallWhat) {
                                          "run.resume",
                                          "run.stop",
                                          "run.replay",
+                                         "run.import",
                                          "squareness.fit",
                                          "encoder.set",
                                          "compensation.build",
@@ -65,7 +66,7 @@ TEST_F(MethodTableTest, WhoMayOnlyReadChangesNothing) {
     EXPECT_NE(answer.message().find(name), std::string::npos) << answer.text();
     ++refused;
   }
-  EXPECT_EQ(refused, 10);
+  EXPECT_EQ(refused, 11);
   EXPECT_EQ(bench_->stations[0]->run(), 0);
   EXPECT_EQ(call("run.list").number("/result/total"), 1);
 }

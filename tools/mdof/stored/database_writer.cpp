@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::chrono::hours kPatience{24};  // mdofd says nothing before a file is done
+
 // Whether this descriptor of a process has the writer's lock, as the kernel states it.
 bool locks(const fs::path& fdinfo) {
   std::ifstream lines(fdinfo);
@@ -72,6 +74,22 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
   if (fs::equivalent(theirs, file, ec) && !ec) return std::optional(std::move(*client));
   return held(file, "the mdofd at " + socket + " holds " + theirs +
                         "; give the socket of the one that holds it with --socket");
+}
+
+std::string canonical_path(const std::string& file) {
+  std::error_code ec, none;
+  const fs::path path = fs::canonical(file, none);
+  return none ? fs::absolute(file, ec) : path;
+}
+
+Result<Run> stored_by(rpc::Client& mdofd, const std::string& database, std::string_view method,
+                      std::string_view params) {
+  const auto reply = mdofd.call(method, params, kPatience);
+  if (!reply) return in_context("mdofd", reply.error());
+  simdjson::dom::parser parser;
+  const auto id = integer(parser.parse(simdjson::padded_string(*reply)), "run");
+  MDOF_TRY(store::Store store, open_to_read(database));
+  return store.run(id.value_or(0));
 }
 
 }  // namespace mdof::tools

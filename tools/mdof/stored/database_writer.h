@@ -6,6 +6,7 @@
 
 #include "daemon/rpc/line/client.h"
 #include "schema/base/result.h"
+#include "schema/run.h"
 
 namespace mdof::tools {
 
@@ -15,5 +16,13 @@ namespace mdof::tools {
 // `database` and `socket` are what the options gave.
 Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database,
                                                      const std::string& socket);
+
+// A file as mdofd opens it: absolute, without links.
+std::string canonical_path(const std::string& file);
+
+// mdofd makes a run of a file and stores it, however long that takes; what it stored is read from
+// the database.
+Result<Run> stored_by(rpc::Client& mdofd, const std::string& database, std::string_view method,
+                      std::string_view params);
 
 }  // namespace mdof::tools

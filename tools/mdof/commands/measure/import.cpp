@@ -1,19 +1,16 @@
 // mdof import FILE: what another instrument measured, as a stored run.
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <optional>
 
 #include "daemon/history.h"
-#include "daemon/measure/gate/gate.h"
 #include "daemon/measure/imported/import.h"
 #include "daemon/words/words.h"
 #include "schema/imported/series.h"
 #include "schema/notice/notice_json.h"
-#include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
+#include "tools/mdof/stored/database_writer.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/imported_text.h"
 #include "tools/mdof/text/notice_lines.h"
@@ -22,11 +19,9 @@ namespace mdof::tools {
 namespace {
 
 struct ImportCommand {
-  std::string database, axis;
+  std::string database, socket, axis;
   daemon::ImportRequest request;
-  std::optional<double> u_um, u_urad;
   LimitOptions limits;
-  daemon::Consent consent;
   bool json = false;
 };
 
@@ -47,30 +42,35 @@ std::string stored_json(const Run& run) {
   return json.take();
 }
 
-// Of an angle in urad, else in um.
-Status take_u(ImportCommand& command) {
-  daemon::ImportRequest& request = command.request;
-  const std::string name = request.error.empty() ? positioning_name(request.axis) : request.error;
-  MDOF_TRY(const ImportedError error, imported_error(request.axis, name));
-  if (error.angle ? command.u_um.has_value() : command.u_urad.has_value())
-    return fail(ErrorCode::usage,
-                name + (error.angle ? " is an angle: give --u-urad" : " is a length: give --u-um"));
-  if (command.u_um) request.u_si = from_um(*command.u_um);
-  if (command.u_urad) request.u_si = from_urad(*command.u_urad);
-  return {};
+std::string params_of(const ImportCommand& command) {
+  const daemon::ImportRequest& request = command.request;
+  JsonWriter json;
+  json.begin_object().field("path", canonical_path(request.file)).field("axis", command.axis);
+  if (!request.error.empty()) json.field("error", request.error);
+  if (!request.format.empty()) json.field("format", request.format);
+  if (request.u_um) json.field("u_um", *request.u_um);
+  if (request.u_urad) json.field("u_urad", *request.u_urad);
+  if (!request.note.empty()) json.field("note", request.note);
+  if (command.limits.um) json.field("limit_um", *command.limits.um);
+  if (command.limits.um_per_mm) json.field("limit_um_per_mm", *command.limits.um_per_mm);
+  if (request.despite_warnings) json.field("despite_warnings", true);
+  return json.end_object().take();
+}
+
+Result<Run> import_and_store(const ImportCommand& command) {
+  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
+  if (mdofd) return stored_by(*mdofd, command.database, "run.import", params_of(command));
+  MDOF_TRY(Run run, daemon::imported_run(command.request));
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(run.header.id,
+           store.add_run(run, daemon::deed_now("run.import", daemon::this_process())));
+  return run;
 }
 
 Status import(ImportCommand command) {
   command.request.axis = *axis_from(command.axis);  // the option takes no other
-  MDOF_CHECK(take_u(command));
   MDOF_TRY(command.request.limits, command.limits.limits());
-  MDOF_TRY(Run run, daemon::imported_run(command.request));
-  MDOF_CHECK(daemon::check_gate(
-      {command.request.file, false, daemon::without_information(run.header.notices)},
-      command.consent, "it is not stored"));
-  MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(run.header.id,
-           store.add_run(run, daemon::deed_now("run.import", daemon::this_process())));
+  MDOF_TRY(Run run, import_and_store(command));
   show_notices(run.header.notices, true);
   say("stored; a table of it is made with: mdof compensation build " +
       std::to_string(run.header.id));
@@ -94,19 +94,21 @@ Action declare_import(CLI::App& command) {
   command.add_option("--format", o->request.format, "[default: as in the file]")
       ->check(CLI::IsMember({"csv", "iso230-2", "rtl"}));
   command
-      .add_option("--u-um", o->u_um,
+      .add_option("--u-um", o->request.u_um,
                   "Standard uncertainty of each deviation (the laser, its alignment, temperature)")
       ->check(not_negative_number());
-  command.add_option("--u-urad", o->u_urad, "The same of an angle")->check(not_negative_number());
+  command.add_option("--u-urad", o->request.u_urad, "The same of an angle")
+      ->check(not_negative_number());
   command.add_option("--note", o->request.note, "Kept with the run; at most 1024 bytes")
       ->type_name("TEXT")
       ->check([](const std::string& note) {
         return std::string(note.size() <= 1024 ? "" : "a note has at most 1024 bytes");
       });
   add_limit_options(command, o->limits);
-  command.add_flag("--despite-warnings", o->consent.despite_warnings,
+  command.add_flag("--despite-warnings", o->request.despite_warnings,
                    "Also a file that is doubtful");
   add_database_option(command, o->database);
+  add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return import(*o); };
 }

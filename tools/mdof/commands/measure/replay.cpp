@@ -1,6 +1,5 @@
 // mdof replay LOG: a recorded log becomes a stored run.
 #include <CLI/CLI.hpp>
-#include <filesystem>
 
 #include "algo/model/restate.h"
 #include "daemon/history.h"
@@ -16,7 +15,6 @@
 #include "tools/mdof/progress_bar.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/database_writer.h"
-#include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
@@ -25,8 +23,6 @@ namespace mdof::tools {
 namespace {
 
 using daemon::ReplayOption;
-
-constexpr std::chrono::hours kReplayPatience{24};  // mdofd says nothing before a log is done
 
 struct ReplayCommand {
   std::string reference = "fixture";
@@ -43,9 +39,9 @@ Result<Run> replay_here(const daemon::ReplayRequest& request) {
   });
 }
 
-std::string params_of(const daemon::ReplayRequest& request, const std::string& path) {
+std::string params_of(const daemon::ReplayRequest& request) {
   JsonWriter json;
-  json.begin_object().field("path", path).field("note", request.note);
+  json.begin_object().field("path", canonical_path(request.log)).field("note", request.note);
   if (!request.rig_source.empty())
     json.field("rig", request.rig_text).field("rig_source", request.rig_source);
   if (!request.model.empty()) json.field("model", request.model);
@@ -69,15 +65,7 @@ Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command) {
     return fail(ErrorCode::conflict,
                 "mdofd holds the database and cannot read the standard input of this program; "
                 "write the log to a file, or name another database with --db");
-  std::error_code ec, none;
-  std::string path = std::filesystem::canonical(request.log, none);  // mdofd follows no link
-  if (none) path = std::filesystem::absolute(request.log, ec);
-  const auto reply = mdofd.call("run.replay", params_of(request, path), kReplayPatience);
-  if (!reply) return in_context("mdofd", reply.error());
-  simdjson::dom::parser parser;
-  const auto id = integer(parser.parse(simdjson::padded_string(*reply)), "run");
-  MDOF_TRY(store::Store store, open_to_read(command.database));
-  return store.run(id.value_or(0));
+  return stored_by(mdofd, command.database, "run.replay", params_of(request));
 }
 
 Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {

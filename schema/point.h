@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "schema/axis.h"
+#include "schema/flag/point_flag.h"
 
 namespace mdof {
 
@@ -19,7 +20,7 @@ struct Point {
   std::vector<double> probe_m;            // mean displacement; NaN: lost
   std::vector<double> probe_u_m;          // standard uncertainty of the mean (type A)
   std::uint64_t samples = 0;              // scans in the dwell
-  std::vector<std::string> flags;         // "spike:A", "saturated:B", "lost:C", "gap", "short", ...
+  std::vector<PointFlag> flags;           // each at most once
 
   // For judging a run as a whole; neither stored nor part of the result.
   std::vector<double> probe_sd_m;  // of single readings

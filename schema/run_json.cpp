@@ -128,7 +128,7 @@ void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint
   const bool judged = p.errors.valid && redundant(p);
   json.field("residual_um", judged ? to_um(p.errors.residual_m) : std::nan(""))
       .field("samples", p.point.samples);
-  write_strings(json, "flags", p.point.flags);
+  write_strings(json, "flags", texts_of(p.point.flags));
   if (!p.errors.valid) json.field("reason", p.errors.reason);
   json.end_object();
 }

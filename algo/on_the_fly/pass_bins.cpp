@@ -129,7 +129,7 @@ class Binning {
     point.samples = rows.last - rows.first;
     for (std::size_t i = rows.first + 1; i < rows.last; ++i)
       if (frames_.time_ns[i] - frames_.time_ns[i - 1] > kGapPeriods * period_ns_)
-        add_flag(point, "gap");
+        add_flag(point, Flag::gap);
     return point;
   }
 
@@ -155,10 +155,10 @@ class Binning {
     const BinFit found = fit_bin(place_, reading_, coarse_m, scratch_);
     const bool lost = usable_rows < kFewestOfBin || 2 * usable_rows < n;
     const bool few = found.used < kFewestOfBin || !std::isfinite(found.value);
-    if (over_range > 0) add_flag(bin.point, "saturated:" + id);
-    if (lost || few) add_flag(bin.point, (lost ? "lost:" : "slow:") + id);
-    if (!lost && usable_rows + over_range < n) add_flag(bin.point, "missing:" + id);
-    if (found.rejected > 0) add_flag(bin.point, "spike:" + id);
+    if (over_range > 0) add_flag(bin.point, Flag::saturated, id);
+    if (lost || few) add_flag(bin.point, lost ? Flag::lost : Flag::slow, id);
+    if (!lost && usable_rows + over_range < n) add_flag(bin.point, Flag::missing, id);
+    if (found.rejected > 0) add_flag(bin.point, Flag::spike, id);
     const bool good = !lost && !few;
     bin.point.probe_m.push_back(good ? found.value : kNaN);
     bin.point.probe_u_m.push_back(good ? with_resolution(found.u, found.sd, step_m) : kNaN);

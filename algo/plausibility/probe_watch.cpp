@@ -153,12 +153,12 @@ void ProbeWatch::mark(std::vector<Point>& points, const std::vector<std::string>
     for (Point& p : points) {
       if (p.end_ns < f.begin_ns || p.begin_ns > f.end_ns) continue;
       p.probe_m[f.probe] = p.probe_u_m[f.probe] = kNaN;
-      add_flag(p, "frozen:" + ids[f.probe]);
+      add_flag(p, Flag::frozen, ids[f.probe]);
     }
   }
   for (const SteppedProbe& s : steps())
     for (Point& p : points)
-      if (p.end_ns >= s.time_ns) add_flag(p, "step:" + ids[s.probe]);
+      if (p.end_ns >= s.time_ns) add_flag(p, Flag::step, ids[s.probe]);
 }
 
 Notices probe_notices(const ProbeWatch& watch, const std::vector<std::string>& ids,

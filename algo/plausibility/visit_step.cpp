@@ -102,7 +102,7 @@ double left_by_smooth(const AtPlaces& at, const ProbeVisits& visits, const Eigen
 // Found by the dwells already.
 bool stepped_before(const ProbeVisits& visits, const std::string& id) {
   return std::any_of(visits.begin(), visits.end(),
-                     [&](const MeasuredPoint* p) { return has_flag(p->point, "step:" + id); });
+                     [&](const MeasuredPoint* p) { return has_flag(p->point, Flag::step, id); });
 }
 
 // Whether all probes read the same, to the last bit, at both. Readings without noise, or with less

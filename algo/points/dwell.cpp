@@ -269,7 +269,8 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   const bool long_enough = still_s >= options_.shortest_s() && end_row >= first_row + kMinScans;
   if (long_enough) {
     Point point = average(first_row, end_row);
-    if (slots_[slots_.size() - 2].unplaced > unplaced_before_) add_flag(point, "missing:encoder");
+    if (slots_[slots_.size() - 2].unplaced > unplaced_before_)
+      add_flag(point, Flag::missing, "encoder");
     gave_point_ = keep_or_tell(std::move(point), first_row, end_row, out);
   } else if (still_s >= options_.min_length_s) {
     note({DwellEventKind::short_stop, still_since_ns_, left_m_, 0, still_s});
@@ -299,14 +300,13 @@ bool DwellDetector::keep_or_tell(Point point, std::size_t first_row, std::size_t
   const auto end = buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(end_row);
   const auto [low, high] = std::minmax_element(begin, end);
   const double crept_m = *high - *low;
-  const bool spiky =
-      std::find(point.flags.begin(), point.flags.end(), "spike:encoder") != point.flags.end();
+  const bool spiky = has_flag(point, Flag::spike, "encoder");
   if (crept_m > kCreepFactor * summary_.tolerance_m && !spiky) {
     const bool kept = crept_m <= kMostCreep_m;
     note({kept ? DwellEventKind::crept : DwellEventKind::creep, point.begin_ns, point.position_m,
           std::copysign(crept_m, *(end - 1) - *begin), ns_to_s(point.end_ns - point.begin_ns)});
     if (!kept) return false;
-    add_flag(point, "creep");
+    add_flag(point, Flag::creep);
   }
   if (way_seen_) point.way_min_m = way_in_.min_m, point.way_max_m = way_in_.max_m;
   out.push_back(std::move(point));

@@ -26,17 +26,17 @@ Point DwellDetector::average(std::size_t from, std::size_t to) {
   const RobustMean position = robust_mean(encoder, summary_.tolerance_m, scratch_);
   point.position_m = position.mean;
   point.direction = direction_;
-  if (position.rejected > 0) add_flag(point, "spike:encoder");
+  if (position.rejected > 0) add_flag(point, Flag::spike, "encoder");
   for (std::size_t k = 0; k < probe_ids_.size(); ++k) average_probe(k, from, to, point);
   for (std::size_t i = from + 1; i < to; ++i) {
     if (buffer_.time_ns[i] - buffer_.time_ns[i - 1] > kGapPeriods * period_ns_) {
-      add_flag(point, "gap");
+      add_flag(point, Flag::gap);
     }
   }
-  if (truncated_) add_flag(point, "truncated");
+  if (truncated_) add_flag(point, Flag::truncated);
   const double jumped_m =
       point.end_ns < last_jump_.time_ns ? jumped_m_ - last_jump_.size_m : jumped_m_;
-  if (std::abs(jumped_m) > summary_.tolerance_m) add_flag(point, "jump");
+  if (std::abs(jumped_m) > summary_.tolerance_m) add_flag(point, Flag::jump);
   return point;
 }
 
@@ -67,21 +67,21 @@ void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size
   std::size_t over_range = 0, usable_rows = to - from;
   const std::span<const double> readings = own_readings(probe, from, to, usable_rows, over_range);
   const std::string& id = probe_ids_[probe];
-  if (over_range > 0) add_flag(point, "saturated:" + id);
+  if (over_range > 0) add_flag(point, Flag::saturated, id);
   const bool lost = usable_rows < kMinScans || 2 * usable_rows < to - from;
-  if (!lost && readings.size() < kMinScans) add_flag(point, "slow:" + id);
-  if (lost) add_flag(point, "lost:" + id);
+  if (!lost && readings.size() < kMinScans) add_flag(point, Flag::slow, id);
+  if (lost) add_flag(point, Flag::lost, id);
   if (lost || readings.size() < kMinScans) {
     point.probe_m.push_back(kNaN);
     point.probe_u_m.push_back(kNaN);
     point.probe_sd_m.push_back(kNaN);
     return;
   }
-  if (usable_rows + over_range < to - from) add_flag(point, "missing:" + id);
+  if (usable_rows + over_range < to - from) add_flag(point, Flag::missing, id);
   const double step = resolution_.step_m(probe);
   const double coarse = std::max(1e-3 * probe_range_m_[probe], kCoarseSteps * step);
   const RobustMean mean = robust_mean(readings, coarse, scratch_);
-  if (mean.rejected > 0) add_flag(point, "spike:" + id);
+  if (mean.rejected > 0) add_flag(point, Flag::spike, id);
   watch_.take_stop(probe, mean, step);
   point.probe_m.push_back(mean.mean);
   point.probe_u_m.push_back(with_resolution(mean.u, mean.sd, step));

@@ -8,12 +8,13 @@
 
 namespace mdof::algo {
 
-inline bool has_flag(const Point& point, const std::string& flag) {
-  return std::find(point.flags.begin(), point.flags.end(), flag) != point.flags.end();
+inline bool has_flag(const Point& point, Flag flag, const std::string& channel = {}) {
+  return std::find(point.flags.begin(), point.flags.end(), PointFlag{flag, channel}) !=
+         point.flags.end();
 }
 
-inline void add_flag(Point& point, const std::string& flag) {
-  if (!has_flag(point, flag)) point.flags.push_back(flag);
+inline void add_flag(Point& point, Flag flag, const std::string& channel = {}) {
+  if (!has_flag(point, flag, channel)) point.flags.push_back({flag, channel});
 }
 
 }  // namespace mdof::algo

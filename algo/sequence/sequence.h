@@ -12,9 +12,6 @@
 
 namespace mdof::algo {
 
-// Flag of a point whose approach the log does not show.
-inline constexpr const char* kApproachAssumed = "approach_assumed";
-
 struct SequenceOptions {
   // Nominal positions, ascending; empty: recognised from where the axis stopped.
   std::vector<double> targets_m;

@@ -47,7 +47,7 @@ std::vector<Place> places_of(const std::vector<MeasuredPoint>& points,
   }
   if (points.empty()) return places;
   Place& start = places[static_cast<std::size_t>(points.front().target) - 1];
-  start.parked = start.visits() == 1 && has_flag(points.front().point, kApproachAssumed);
+  start.parked = start.visits() == 1 && has_flag(points.front().point, Flag::approach_assumed);
   return places;
 }
 

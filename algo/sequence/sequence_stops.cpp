@@ -75,7 +75,7 @@ bool correct_overshot(Point& p) {
   const bool overshot = overshot_m > kLeastOvershoot_m && overshot_m <= kMostOvershoot_m;
   if (p.direction == 0 || !overshot || !(came_m > 2 * overshot_m)) return false;
   p.direction = -p.direction;
-  add_flag(p, kOvershot);
+  add_flag(p, Flag::overshot);
   return true;
 }
 
@@ -92,7 +92,7 @@ void assume_approaches(std::vector<MeasuredPoint>& points) {
     const bool stayed = i > 0 && points[i - 1].target == points[i].target;
     const bool back = i + 1 < points.size() && points[i + 1].target < points[i].target;
     p.direction = stayed ? points[i - 1].point.direction : back ? -1 : 1;
-    add_flag(p, kApproachAssumed);
+    add_flag(p, Flag::approach_assumed);
   }
 }
 
@@ -106,7 +106,7 @@ bool merge_into(MeasuredPoint& stop, MeasuredPoint& part) {
     part.point.way_max_m = stop.point.way_max_m;
     stop = std::move(part);
   }
-  add_flag(stop.point, kInterrupted);
+  add_flag(stop.point, Flag::interrupted);
   return true;
 }
 
@@ -121,7 +121,8 @@ std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& poin
   if (points.size() < 2) return {};
   const MeasuredPoint &parked = points[0], &next = points[1];
   const bool again = next.target == parked.target && next.point.direction == parked.point.direction;
-  if (!has_flag(parked.point, kApproachAssumed) || !again || !went_away(next.point)) return {};
+  if (!has_flag(parked.point, Flag::approach_assumed) || !again || !went_away(next.point))
+    return {};
   std::vector<StopLeftOut> left_out = {{parked.point.position_m, parked.point.begin_ns,
                                         to_string(NoticeCode::stop_parked_at_start)}};
   points.erase(points.begin());

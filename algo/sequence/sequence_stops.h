@@ -11,10 +11,6 @@
 
 namespace mdof::algo {
 
-// Flags of a point; kApproachAssumed is another.
-inline constexpr const char* kOvershot = "overshot";
-inline constexpr const char* kInterrupted = "interrupted";
-
 // A stop that was overshot by this at the most has the approach of the way that led to it: the last
 // motion was a correction. Beyond, the axis was sent past the target to come from the other side.
 inline constexpr double kMostOvershoot_m = 0.25e-3;

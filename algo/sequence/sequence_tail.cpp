@@ -22,7 +22,7 @@ SequenceTail::SequenceTail(const Sequence& sequence, SequenceOptions options)
   const std::size_t n = sequence.points.size();
   if (n == 0) return;
   const bool stayed = n > 1 && sequence.points[n - 2].target == sequence.points[n - 1].target;
-  awaits_ = has_flag(sequence.points.back().point, kApproachAssumed) && !stayed;
+  awaits_ = has_flag(sequence.points.back().point, Flag::approach_assumed) && !stayed;
 }
 
 int SequenceTail::number(const MeasuredPoint& p) {
@@ -81,7 +81,7 @@ std::size_t SequenceTail::append(Point stop, Sequence& sequence) {
     const bool stayed = !points.empty() && points.back().target == p.target;
     p.point.direction = stayed ? points.back().point.direction : 1;
     awaits_ = !stayed;
-    add_flag(p.point, kApproachAssumed);
+    add_flag(p.point, Flag::approach_assumed);
   }
   if (!points.empty()) {
     const int run = points.back().run;

@@ -16,7 +16,6 @@
 namespace mdof::algo {
 namespace {
 
-constexpr const char* kFlag = "residual";
 // χ² at 1 - 1e-6 for 1, 2 ... degrees of freedom.
 constexpr std::array<double, 11> kLimits = {23.928, 27.631, 30.665, 33.377, 35.888, 38.258,
                                             40.522, 42.701, 44.811, 46.863, 48.866};
@@ -25,7 +24,7 @@ constexpr double kLever_m = 0.02;     // that makes an angle a length
 constexpr double kLeastPart = 1e-11;  // of the largest variance: less is rounding
 
 bool flagged(const MeasuredPoint& p) {
-  return has_flag(p.point, kFlag);
+  return has_flag(p.point, Flag::residual);
 }
 
 double square_distance(const Errors5& a, const Errors5& b) {
@@ -112,7 +111,7 @@ std::vector<double> Residuals::allowed(const std::vector<double>& u_m) const {
 void Residuals::test(MeasuredPoint& p) const {
   const Point& point = p.point;
   if (point.probe_m.size() <= 5) return;
-  if (!explained(p, point.probe_m, p.errors) && !flagged(p)) p.point.flags.emplace_back(kFlag);
+  if (!explained(p, point.probe_m, p.errors)) add_flag(p.point, Flag::residual);
 }
 
 // By noise and linearity alone, which costs little; where that does not do, by what is declared

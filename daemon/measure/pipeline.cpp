@@ -260,8 +260,8 @@ Status Pipeline::judge_dead_probes(Notices& notices) const {
       if (needed) return bad_input(words::text(slow->second));
       continue;  // reported with the others
     }
-    const bool frozen = algo::has_flag(found_.front(), "frozen:" + id);
-    const bool saturated = algo::has_flag(found_.front(), "saturated:" + id);
+    const bool frozen = algo::has_flag(found_.front(), Flag::frozen, id);
+    const bool saturated = algo::has_flag(found_.front(), Flag::saturated, id);
     Notice why = frozen      ? notice(NoticeCode::probe_constant, id)
                  : saturated ? notice(NoticeCode::probe_saturated, id,
                                       {{"range_um", to_um(rig_.probes[k].range_m)}})

@@ -26,8 +26,8 @@ Status check_log(ReplayLog& log, Axis axis, const Rig& rig) {
 
 void leave_out(Point& stop, const Rig& rig) {
   for (std::size_t k = 0; k < rig.probes.size(); ++k)
-    for (const char* fault : {"saturated:", "frozen:", "step:"})
-      if (algo::has_flag(stop, fault + rig.probes[k].id)) stop.probe_m[k] = kNaN;
+    for (const Flag fault : {Flag::saturated, Flag::frozen, Flag::step})
+      if (algo::has_flag(stop, fault, rig.probes[k].id)) stop.probe_m[k] = kNaN;
 }
 
 }  // namespace

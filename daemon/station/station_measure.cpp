@@ -50,7 +50,7 @@ bool same_points(const std::vector<MeasuredPoint>& stored,
 
 // The motion that follows will show the approach of this point; it is not yet to be stored.
 bool approach_assumed(const MeasuredPoint& p) {
-  return algo::has_flag(p.point, algo::kApproachAssumed);
+  return algo::has_flag(p.point, Flag::approach_assumed);
 }
 
 // How many of the points asked for there are: solved, each target as often as asked, both ways.

@@ -53,7 +53,7 @@ std::optional<Trouble> unsolved(const MeasuredPoint& point, const Rig& rig,
   for (std::size_t k = 0; k < rig.probes.size() && k < point.point.probe_m.size(); ++k) {
     if (!std::isnan(point.point.probe_m[k])) continue;
     const std::string& id = rig.probes[k].id;
-    (algo::has_flag(point.point, "saturated:" + id) ? saturated : silent).push_back(id);
+    (algo::has_flag(point.point, Flag::saturated, id) ? saturated : silent).push_back(id);
     all.push_back(id);
   }
   std::string text = "the stop at " + number_mm(point.point.position_m) + " is not solved: ";

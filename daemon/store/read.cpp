@@ -213,7 +213,11 @@ Result<MeasuredPoint> Store::point_of(Statement& row) {
   p.end_ns = row.integer(5);
   p.position_m = row.real(6);
   p.samples = natural(row.integer(7));
-  MDOF_TRY(p.flags, texts(row.text(8)));
+  MDOF_TRY(const auto flags, texts(row.text(8)));
+  for (const std::string& text : flags) {
+    MDOF_TRY(PointFlag flag, point_flag_from(text));
+    p.flags.push_back(std::move(flag));
+  }
   p.probe_m = doubles_from(row.bytes(9));
   p.probe_u_m = doubles_from(row.bytes(10));
   point.errors = errors_of(row, 11);

@@ -27,7 +27,7 @@ void put(std::string& row, const Point& point) {
   put(row, point.position_m);
   put(row, point.samples);
   put(row, static_cast<std::uint64_t>(point.flags.size()));
-  for (const std::string& flag : point.flags) put(row, std::string_view(flag));
+  for (const PointFlag& flag : point.flags) put(row, std::string_view(to_string(flag)));
   put_counted(row, point.probe_m);
   put_counted(row, point.probe_u_m);
 }

@@ -12,18 +12,16 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::string_view kFrozen = "frozen:", kGapClosed = "gap_closed:";
-constexpr const char* kNoAir = "no_air";
-
 bool tilts_everywhere(const RigPhysics& physics) {
   return std::all_of(physics.probes.begin(), physics.probes.end(),
                      [](const ProbePhysics& p) { return p.tilts(); });
 }
 
-std::string flag_of(const Point& point, std::string_view prefix) {
-  for (const std::string& flag : point.flags)
-    if (flag.starts_with(prefix)) return flag;
-  return "";
+// The channel of the first such flag.
+std::optional<std::string> channel_of(const Point& point, Flag flag) {
+  for (const PointFlag& of : point.flags)
+    if (of.flag == flag) return of.channel;
+  return std::nullopt;
 }
 
 // Which of `before` became points of the run.
@@ -83,15 +81,15 @@ void PointCorrections::apply(const algo::Solver& solver, std::vector<Point>& poi
 void PointCorrections::correct(const algo::ReadingCorrection& correction, Point& point) const {
   const auto air = air_at(point);
   if (asked_.dielectric && !air) {
-    algo::add_flag(point, kNoAir);
+    algo::add_flag(point, Flag::no_air);
     point.probe_m.assign(point.probe_m.size(), kNaN);
     return;
   }
   const auto corrected = correction.correct(rig_.sides.target_travel_m(point.position_m),
                                             point.probe_m, point.probe_u_m, air.value_or(Air{}));
   if (!corrected.why_not.empty())
-    algo::add_flag(point, std::string(kGapClosed) +
-                              (corrected.closed ? rig_.probes[*corrected.closed].id : "?"));
+    algo::add_flag(point, Flag::gap_closed,
+                   corrected.closed ? rig_.probes[*corrected.closed].id : "?");
   point.probe_m = corrected.readings_m;
 }
 
@@ -170,9 +168,8 @@ void PointCorrections::tell_failures(Run& run) const {
   std::size_t closed = 0, without_air = 0;
   std::string first;
   for (const MeasuredPoint& p : run.points) {
-    const std::string flag = flag_of(p.point, kGapClosed);
-    without_air += algo::has_flag(p.point, kNoAir) ? 1 : 0;
-    if (flag.empty()) continue;
+    without_air += algo::has_flag(p.point, Flag::no_air) ? 1 : 0;
+    if (!channel_of(p.point, Flag::gap_closed)) continue;
     if (closed++ == 0) first = cause_of(p.point);
   }
   if (closed > 0)
@@ -184,12 +181,11 @@ void PointCorrections::tell_failures(Run& run) const {
 
 // The solver only knows that a reading is not there.
 std::string cause_of(const Point& point) {
-  if (const std::string flag = flag_of(point, kFrozen); !flag.empty())
-    return "probe " + flag.substr(kFrozen.size()) + " no longer changes: ";
-  if (const std::string flag = flag_of(point, kGapClosed); !flag.empty())
-    return "the gap of probe " + flag.substr(kGapClosed.size()) +
-           " is closed by its standoff_um and sensing_radius_mm: ";
-  if (algo::has_flag(point, kNoAir)) return "the ambient conditions are unknown: ";
+  if (const auto frozen = channel_of(point, Flag::frozen))
+    return "probe " + *frozen + " no longer changes: ";
+  if (const auto closed = channel_of(point, Flag::gap_closed))
+    return "the gap of probe " + *closed + " is closed by its standoff_um and sensing_radius_mm: ";
+  if (algo::has_flag(point, Flag::no_air)) return "the ambient conditions are unknown: ";
   return "";
 }
 

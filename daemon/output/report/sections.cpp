@@ -69,8 +69,7 @@ std::vector<std::string> point_row(const ReportRun& run, std::size_t row) {
                                          uncertainty_text(U)
                                    : "–");
   }
-  std::string flags;
-  for (const std::string& flag : p.point.flags) flags += (flags.empty() ? "" : " ") + flag;
+  std::string flags = to_string(p.point.flags);
   if (!p.errors.valid) flags += (flags.empty() ? "" : "; ") + p.errors.reason;
   cells.push_back(flags);
   return cells;

@@ -31,7 +31,7 @@ TEST(EncoderNoise, EveryStopIsFoundAtEveryRate) {
         const double target_mm = 5.0 * (in_run < 13 ? in_run : 25 - in_run);
         EXPECT_NEAR(points[i].position_m, 1e-3 * target_mm, 1e-9 + 1e-6 * noise_um);
         EXPECT_EQ(points[i].direction, in_run < 13 ? 1 : -1);
-        EXPECT_TRUE(points[i].flags.empty()) << points[i].flags.front();
+        EXPECT_TRUE(points[i].flags.empty()) << to_string(points[i].flags);
       }
     }
   }

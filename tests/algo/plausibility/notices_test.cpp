@@ -39,7 +39,7 @@ TEST(Notices, ACountJumpIsToldByItsSizeAndFlagsWhatFollows) {
         EXPECT_NEAR(jumps[0].size_m, 100e-6, 10e-6);
         EXPECT_NEAR(static_cast<double>(jumps[0].time_ns - frames.time_ns[row]), 0, 2e9 / rate);
         for (const Point& p : found.points)
-          EXPECT_EQ(has_flag(p, "jump"), p.begin_ns > at_ns) << p.position_m;
+          EXPECT_EQ(has_flag(p, Flag::jump), p.begin_ns > at_ns) << p.position_m;
         ASSERT_FALSE(found.notices.empty());
         EXPECT_EQ(found.notices[0].code, NoticeCode::encoder_jump);
         EXPECT_GT(test::number(found.notices[0], "jump_um"), 0);
@@ -56,7 +56,7 @@ TEST(Notices, AGlitchThatComesBackIsNoJump) {
   for (std::size_t i = row; i < row + 30; ++i) frames.encoder_m[i] += 200e-6;
   const auto found = detect(log, frames);
   EXPECT_TRUE(of_kind(found, DwellEventKind::jump).empty());
-  EXPECT_FALSE(has_flag(found.points.back(), "jump"));
+  EXPECT_FALSE(has_flag(found.points.back(), Flag::jump));
 }
 
 TEST(Notices, AHoleInTheTimeLineIsTold) {
@@ -102,7 +102,7 @@ TEST(Notices, ACreepingStopIsKeptWithAFlagOrLeftOutWithAWord) {
   const double to_s = 1e-9 * static_cast<double>(clean.points[2].end_ns) + 0.02;
   const auto little = detect(log, creeping(log, 18, from_s, to_s));
   ASSERT_EQ(little.points.size(), 26u);
-  EXPECT_TRUE(has_flag(little.points[2], "creep"));
+  EXPECT_TRUE(has_flag(little.points[2], Flag::creep));
   EXPECT_NEAR(little.points[2].position_m, 10e-3, 18e-6);
   ASSERT_EQ(little.notices.size(), 1u);
   EXPECT_EQ(little.notices[0].code, NoticeCode::stop_crept);

@@ -23,7 +23,7 @@ TEST(ProbeWatch, NoFalseAlarmOnCleanLogsOfSixtySeeds) {
     const auto found = detect(log, log.frames());
     ASSERT_EQ(found.points.size(), 78u) << seed;
     for (const Point& p : found.points)
-      ASSERT_TRUE(p.flags.empty()) << "seed " << seed << ": " << p.flags.front();
+      ASSERT_TRUE(p.flags.empty()) << "seed " << seed << ": " << to_string(p.flags);
     ASSERT_EQ(test::shown(found.notices), "") << "seed " << seed;
   }
 }
@@ -45,7 +45,7 @@ TEST(ProbeWatch, AFrozenProbeIsNotUsedFromWhereItFroze) {
           const bool before = p.end_ns < frames.time_ns[row] - 1'500'000'000;
           if (after) {
             EXPECT_TRUE(std::isnan(p.probe_m[2])) << step_um << " " << from_s;
-            EXPECT_TRUE(has_flag(p, "frozen:C"));
+            EXPECT_TRUE(has_flag(p, Flag::frozen, "C"));
           }
           if (before) {
             EXPECT_TRUE(p.flags.empty()) << step_um << " " << from_s;
@@ -64,7 +64,7 @@ TEST(ProbeWatch, AProbeThatIsDeadFromTheStart) {
   FrameBlock frames = log.frames();
   std::fill(frames.probe_m[3].begin(), frames.probe_m[3].end(), 1.25e-6);
   const auto found = detect(log, frames);
-  for (const Point& p : found.points) EXPECT_TRUE(has_flag(p, "frozen:D"));
+  for (const Point& p : found.points) EXPECT_TRUE(has_flag(p, Flag::frozen, "D"));
   // Without noise in the others it may be what the rig reads.
   log.probe_noise_um = 0;
   log.probe_step_um = 0;
@@ -82,7 +82,7 @@ TEST(ProbeWatch, AProbeThatComesBackIsLostOnlyMeanwhile) {
   const auto found = detect(log, frames);
   for (const Point& p : found.points) {
     const bool meanwhile = p.end_ns >= frames.time_ns[from] && p.begin_ns <= frames.time_ns[to];
-    EXPECT_EQ(has_flag(p, "frozen:A"), meanwhile);
+    EXPECT_EQ(has_flag(p, Flag::frozen, "A"), meanwhile);
   }
 }
 
@@ -100,7 +100,7 @@ TEST(ProbeWatch, AStepOfOneProbeIsToldAndFlagged) {
         ASSERT_EQ(found.notices.size(), 1u) << rate << " " << size_um << " " << at_s;
         EXPECT_EQ(test::shown(found.notices[0]).find("probe_stepped E step_um="), 0u);
         for (const Point& p : found.points)
-          EXPECT_EQ(has_flag(p, "step:E"), p.end_ns >= frames.time_ns[row]);
+          EXPECT_EQ(has_flag(p, Flag::step, "E"), p.end_ns >= frames.time_ns[row]);
       }
     }
   }

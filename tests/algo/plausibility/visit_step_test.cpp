@@ -106,7 +106,7 @@ TEST(VisitStep, WhatChangesSlowlyIsNone) {
 
 TEST(VisitStep, WhatTheDwellsFoundIsNotSaidAgain) {
   auto points = repeated_log(7, [](int n) { return n >= 40 ? 200e-9 : 0; });
-  points[40].point.flags = {"step:E"};
+  points[40].point.flags = {{Flag::step, "E"}};
   EXPECT_TRUE(visit_steps(test::rig_x(), points).empty());
   EXPECT_TRUE(visit_steps(test::rig_x(), {}).empty());
   // One run visits each place once.

@@ -183,7 +183,7 @@ TEST(DwellTimes, AGapIsMoreThanThreePeriods) {
                          frames.time_ns.begin() + row + static_cast<int>(lost));
     const Found found = found_in(frames);
     ASSERT_EQ(found.points.size(), 1u);
-    EXPECT_EQ(has_flag(found.points[0], "gap"), lost == 3) << lost;
+    EXPECT_EQ(has_flag(found.points[0], Flag::gap), lost == 3) << lost;
     EXPECT_EQ(found.summary.gaps, lost == 3 ? 1u : 0u) << lost;
   }
 }

@@ -46,7 +46,7 @@ TEST(MissingEncoder, MoreThanHalfOfAStopIsNoEndlessLoop) {
     EXPECT_NEAR(found.points[4].position_m, 20e-3, 5e-9);
     EXPECT_NEAR(found.points[4].probe_m[0], 1e-6 * log.readings_um(20)[0], 10e-9);
     for (std::size_t i = 0; i < found.points.size(); ++i)
-      EXPECT_EQ(has_flag(found.points[i], "missing:encoder"), i == 4) << i;
+      EXPECT_EQ(has_flag(found.points[i], Flag::missing, "encoder"), i == 4) << i;
     EXPECT_EQ(found.summary.unplaced, lost);
     ASSERT_EQ(found.notices.size(), 1u);
     EXPECT_EQ(found.notices[0].code, NoticeCode::position_missing);
@@ -102,7 +102,7 @@ TEST(UnreachablePlace, ACountThatOverflowsForAMomentCostsItsScansOnly) {
     EXPECT_LT(found.summary.encoder_max_m, 0.1);
     for (std::size_t i = 0; i < 26; ++i) {
       EXPECT_NEAR(found.points[i].position_m, clean.points[i].position_m, 2e-9) << i;
-      EXPECT_EQ(has_flag(found.points[i], "missing:encoder"), i == 6) << i;
+      EXPECT_EQ(has_flag(found.points[i], Flag::missing, "encoder"), i == 6) << i;
     }
     ASSERT_EQ(found.notices.size(), 1u) << test::shown(found.notices);
     EXPECT_EQ(found.notices[0].code, NoticeCode::position_unreachable);
@@ -131,7 +131,7 @@ TEST(UnreachablePlace, WhatGoesOnFromAJumpIsLeftOut) {
     for (const std::size_t block : kBlocks) {
       const auto found = detect(log, frames, block, c.options);
       ASSERT_EQ(found.points.size(), 7u) << c.jump_mm;
-      EXPECT_TRUE(has_flag(found.points[6], "missing:encoder"));
+      EXPECT_TRUE(has_flag(found.points[6], Flag::missing, "encoder"));
       for (std::size_t i = 0; i < 7; ++i)
         EXPECT_NEAR(found.points[i].position_m, clean.points[i].position_m, 5e-9);
       ASSERT_EQ(found.notices.size(), 1u);
@@ -189,7 +189,7 @@ TEST(MissingEncoder, AProbeOfUnmarkedNaNIsLost) {
   const auto found = detect(log, frames, 1000);
   ASSERT_EQ(found.points.size(), 26u);
   for (const Point& p : found.points) {
-    EXPECT_TRUE(has_flag(p, "lost:B"));
+    EXPECT_TRUE(has_flag(p, Flag::lost, "B"));
     EXPECT_TRUE(std::isfinite(p.probe_m[0]));
   }
 }

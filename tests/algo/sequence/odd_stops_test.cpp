@@ -38,7 +38,7 @@ Told odd_stops_of(const std::vector<Visited>& places, bool parked_first = false)
       points.push_back(p);
     }
   }
-  if (parked_first) add_flag(points.front().point, kApproachAssumed);
+  if (parked_first) add_flag(points.front().point, Flag::approach_assumed);
   Told told;
   for (const StopLeftOut& stop : leave_out_odd_stops(points, targets_m))
     told.reasons.push_back(stop.reason);

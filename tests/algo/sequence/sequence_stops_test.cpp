@@ -100,7 +100,7 @@ bool is_overshot(int direction, double beyond_m, double from_m) {
   p.way_max_m = direction < 0 ? beyond_m : from_m;
   const bool overshot = correct_overshot(p);
   EXPECT_EQ(p.direction, overshot ? -direction : direction);
-  EXPECT_EQ(has_flag(p, kOvershot), overshot);
+  EXPECT_EQ(has_flag(p, Flag::overshot), overshot);
   return overshot;
 }
 
@@ -146,8 +146,8 @@ TEST(AssumedApproach, IsThatOfTheMotionThatFollows) {
   EXPECT_EQ(assumed({at(2, 1), at(3, 0), at(1, -1)}), (std::vector{1, -1, -1}));
   std::vector<MeasuredPoint> points = {at(3, 0), at(4, 1)};
   assume_approaches(points);
-  EXPECT_TRUE(has_flag(points[0].point, kApproachAssumed));
-  EXPECT_FALSE(has_flag(points[1].point, kApproachAssumed));
+  EXPECT_TRUE(has_flag(points[0].point, Flag::approach_assumed));
+  EXPECT_FALSE(has_flag(points[1].point, Flag::approach_assumed));
 }
 
 // The longer part is kept, of two as long the first; the way is that to the first.
@@ -160,7 +160,7 @@ TEST(Interrupted, TheLongerPartIsKept) {
     EXPECT_EQ(points[0].point.position_m, samples > 100 ? 5.001e-3 : 5e-3) << samples;
     EXPECT_EQ(points[0].point.way_min_m, 0);
     EXPECT_EQ(points[0].point.way_max_m, 5e-3);
-    EXPECT_TRUE(has_flag(points[0].point, kInterrupted));
+    EXPECT_TRUE(has_flag(points[0].point, Flag::interrupted));
   }
 }
 
@@ -181,7 +181,7 @@ TEST(ParkedStart, IsLeftOutWhereTheAxisCameAgain) {
   const auto left_out = [](bool assumed, const MeasuredPoint& next) {
     std::vector<MeasuredPoint> points = {stop_of(1, 2e-6, 1, kNaN, kNaN), next};
     points[0].point.begin_ns = 7;
-    if (assumed) points[0].point.flags.emplace_back(kApproachAssumed);
+    if (assumed) points[0].point.flags.push_back({Flag::approach_assumed});
     const auto found = leave_out_parked_start(points);
     EXPECT_EQ(points.size(), 2 - found.size());
     if (!found.empty()) {

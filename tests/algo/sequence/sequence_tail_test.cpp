@@ -128,7 +128,7 @@ TEST(SequenceTail, AStopWhereTheAxisStayedWaitsForNone) {
     const Sequence sequence = appended(walk.stops, whole);
     ASSERT_EQ(sequence.points.size(), 7u);
     EXPECT_EQ(sequence.points[5].point.direction, 1) << whole;
-    EXPECT_TRUE(has_flag(sequence.points[5].point, kApproachAssumed)) << whole;
+    EXPECT_TRUE(has_flag(sequence.points[5].point, Flag::approach_assumed)) << whole;
     EXPECT_EQ(sequence.points[6].point.direction, -1) << whole;
   }
 }
@@ -143,7 +143,7 @@ TEST(SequenceTail, AStopAwayFromTheLastWaitsForTheNext) {
   walk.stops.back().way_min_m = walk.stops.back().way_max_m = kNaN;
   const Sequence last = appended(walk.stops, 6);
   EXPECT_EQ(last.points.back().point.direction, 1);  // until more is known
-  EXPECT_TRUE(has_flag(last.points.back().point, kApproachAssumed));
+  EXPECT_TRUE(has_flag(last.points.back().point, Flag::approach_assumed));
   walk.stop(10e-3, 3, 1);
   for (const std::size_t whole : {6u, 7u}) {
     const Sequence sequence = appended(walk.stops, whole);

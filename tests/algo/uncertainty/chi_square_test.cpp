@@ -110,7 +110,7 @@ TEST(ChiSquare, NamesTheProbeThatContradictsTheOthers) {
       EXPECT_EQ(result.contradiction->code, NoticeCode::probes_contradict);
       EXPECT_EQ(result.contradiction->subject, log.ids()[bad]);
       for (const auto& p : result.points)
-        EXPECT_EQ(has_flag(p.point, "residual"), p.run > 1) << bad;
+        EXPECT_EQ(has_flag(p.point, Flag::residual), p.run > 1) << bad;
     }
   }
 }
@@ -159,8 +159,9 @@ struct DeclaredFaults {
 };
 
 std::size_t accused(const std::vector<MeasuredPoint>& points) {
-  return static_cast<std::size_t>(std::count_if(
-      points.begin(), points.end(), [](const auto& p) { return has_flag(p.point, "residual"); }));
+  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [](const auto& p) {
+    return has_flag(p.point, Flag::residual);
+  }));
 }
 
 // The residual's covariance has what the rig declares: good runs are not accused, bad ones are.
@@ -200,7 +201,7 @@ TEST(ChiSquare, TheNoticeHasTheLargestResidual) {
   points[2].errors.residual_m = 3e-6;
   points[5].errors.residual_m = 2e-6;
   points[7].errors.residual_m = 9e-6;  // without the flag
-  for (const std::size_t j : {2u, 5u}) points[j].point.flags.emplace_back("residual");
+  for (const std::size_t j : {2u, 5u}) points[j].point.flags.push_back({Flag::residual});
   const auto found = residuals.contradiction(points);
   ASSERT_TRUE(found);
   EXPECT_EQ(test::number(*found, "residual_um"), 3);
@@ -229,7 +230,7 @@ TEST(ChiSquare, IsFlaggedFromNoiseAndLinearityOn) {
     p.errors = solver.solve(0, p.point.probe_m, p.point.probe_u_m);
     ASSERT_TRUE(p.errors.valid) << p.errors.reason;
     residuals.test(p);
-    EXPECT_EQ(has_flag(p.point, "residual"), part > 1);
+    EXPECT_EQ(has_flag(p.point, Flag::residual), part > 1);
   }
 }
 

@@ -108,7 +108,7 @@ TEST(Uncertainty, AProbeWithHardlyAnySampleOfItsOwnIsNotUsed) {
   const auto points = measure(90, 0, 4);  // four of its samples in a stop
   ASSERT_FALSE(points.empty());
   EXPECT_TRUE(std::isnan(points[1].probe_m[0]));
-  EXPECT_TRUE(has_flag(points[1], "slow:A"));
+  EXPECT_TRUE(has_flag(points[1], Flag::slow, "A"));
 }
 
 // A coarse probe: u covers the rounding whether the reading flickers or stands.
@@ -128,7 +128,7 @@ TEST(Uncertainty, RoundingIsInIt) {
     double stated = 0, square = 0;
     for (const Point& p : points) {
       const auto truth_um = log.readings_um(1e3 * p.position_m);
-      EXPECT_TRUE(p.flags.empty()) << p.flags.front();
+      EXPECT_TRUE(p.flags.empty()) << to_string(p.flags);
       for (std::size_t k = 0; k < 5; ++k) {
         EXPECT_GT(p.probe_u_m[k], 0);
         stated += p.probe_u_m[k] * p.probe_u_m[k];

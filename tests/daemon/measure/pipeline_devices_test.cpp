@@ -70,7 +70,8 @@ TEST(PipelineOfTwoDevices, TheSilenceOfOneIsToldAndDoesNotHoldUpTheOtherForEver)
     EXPECT_EQ(p.errors.valid, before || p.point.begin_ns < TestAxis::time_ns(kSilent));
     if (before) expect_true_errors(p, 1e3 * p.target_m);
     if (p.point.begin_ns < TestAxis::time_ns(kSilent)) continue;
-    EXPECT_TRUE(algo::has_flag(p.point, "lost:D") && algo::has_flag(p.point, "lost:E"));
+    EXPECT_TRUE(algo::has_flag(p.point, Flag::lost, "D") &&
+                algo::has_flag(p.point, Flag::lost, "E"));
     EXPECT_NE(p.errors.reason.find("probes A B C cannot"), std::string::npos) << p.errors.reason;
     EXPECT_TRUE(std::isnan(p.point.probe_m[3]) && !std::isnan(p.point.probe_m[0]));
   }

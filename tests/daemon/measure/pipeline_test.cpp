@@ -68,7 +68,7 @@ TEST(Pipeline, EveryStopHasTheErrorsOfItsPlace) {
     EXPECT_EQ(p.point.direction, i < 5 ? 1 : -1);
     EXPECT_NEAR(p.point.position_m, 1e-3 * kStops_mm[target], 1e-12);
     expect_true_errors(p, kStops_mm[target]);
-    EXPECT_TRUE(p.point.flags.empty()) << p.point.flags.front();
+    EXPECT_TRUE(p.point.flags.empty()) << to_string(p.point.flags);
   }
   EXPECT_EQ(run->header.axis, Axis::x);
   EXPECT_EQ(run->header.state, RunState::complete);
@@ -145,7 +145,7 @@ TEST(Pipeline, AProbeThatIsMissingAtOneStopCostsThatPointAlone) {
   EXPECT_SAYS(lost.errors.reason, "probes A B D E cannot separate");
   EXPECT_TRUE(std::isnan(lost.point.probe_m[2]));
   EXPECT_FALSE(std::isnan(lost.point.probe_m[1]));
-  EXPECT_TRUE(algo::has_flag(lost.point, "lost:C")) << lost.point.flags.size();
+  EXPECT_TRUE(algo::has_flag(lost.point, Flag::lost, "C")) << lost.point.flags.size();
 }
 
 TEST(Pipeline, AFewMissingReadingsOfAStopCostNoPoint) {
@@ -227,7 +227,7 @@ TEST(Pipeline, AStopThatNeverEndsIsAPointOnceTheRunDoes) {
   ASSERT_TRUE(run) << run.error().message;
   ASSERT_EQ(run->points.size(), 2u);
   expect_true_errors(run->points[1], 5);
-  EXPECT_TRUE(algo::has_flag(run->points[1].point, "truncated"));
+  EXPECT_TRUE(algo::has_flag(run->points[1].point, Flag::truncated));
   EXPECT_LE(run->points[1].point.samples, 5'000u);
   EXPECT_EQ(run->header.scans, axis.scans());
 }
@@ -268,7 +268,7 @@ TEST(Pipeline, LostScansAreCountedAndHideTheWay) {
   EXPECT_EQ(run->header.scans_lost, kWay + 50);
   ASSERT_EQ(run->points.size(), 10u);
   for (std::size_t i = 0; i < 10; ++i)
-    EXPECT_EQ(algo::has_flag(run->points[i].point, algo::kApproachAssumed), i == 7) << i;
+    EXPECT_EQ(algo::has_flag(run->points[i].point, Flag::approach_assumed), i == 7) << i;
 }
 
 TEST(Pipeline, TheLiveViewShowsTheNewestInstantAndKeepsNoPoints) {

@@ -119,7 +119,7 @@ TEST(PipelineTold, AFewScansLostWithinAStopNeitherEndItNorHideAWay) {
   EXPECT_EQ(run->header.scans_lost, 20u);
   ASSERT_EQ(run->points.size(), 10u);
   for (const auto& p : run->points)
-    EXPECT_FALSE(algo::has_flag(p.point, algo::kApproachAssumed)) << p.target;
+    EXPECT_FALSE(algo::has_flag(p.point, Flag::approach_assumed)) << p.target;
 }
 
 // An axis that turns at its end targets has one visit of them.

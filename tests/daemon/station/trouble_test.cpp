@@ -41,7 +41,7 @@ TEST(TroubleLog, ManyAreSummarised) {
             "of 10 end=\n");
 }
 
-MeasuredPoint stop(std::vector<double> probe_m, std::vector<std::string> flags, bool valid) {
+MeasuredPoint stop(std::vector<double> probe_m, std::vector<PointFlag> flags, bool valid) {
   MeasuredPoint point;
   point.point.position_m = 0.0125;
   point.point.probe_m = std::move(probe_m);
@@ -56,14 +56,16 @@ TEST(Unsolved, NamesTheProbesAndTheirDeviceAndNotTheConsequence) {
   const ChannelsByDevice two = {{"capa", {"A", "B"}}, {"t7", {"encoder", "C", "D", "E"}}};
   const double nan = std::nan("");
   EXPECT_FALSE(unsolved(stop({0, 0, 0, 0, 0}, {}, true), rig, two, "now"));
-  const auto of_one =
-      unsolved(stop({nan, nan, 0, 0, 0}, {"lost:A", "lost:B"}, false), rig, two, "now");
+  const auto of_one = unsolved(
+      stop({nan, nan, 0, 0, 0}, {{Flag::lost, "A"}, {Flag::lost, "B"}}, false), rig, two, "now");
   ASSERT_TRUE(of_one);
   EXPECT_EQ(trouble_line(*of_one),
             "device \"capa\": unsolved: the stop at 12.500 mm is not solved: no usable readings of "
             "probe A, B");
-  const auto of_both = unsolved(
-      stop({nan, 0, nan, 0, 0}, {"lost:A", "saturated:C", "lost:C"}, false), rig, two, "now");
+  const auto of_both =
+      unsolved(stop({nan, 0, nan, 0, 0},
+                    {{Flag::lost, "A"}, {Flag::saturated, "C"}, {Flag::lost, "C"}}, false),
+               rig, two, "now");
   EXPECT_EQ(trouble_line(*of_both),
             "unsolved: the stop at 12.500 mm is not solved: no usable readings of probe A; probe C "
             "at the end of its range");

@@ -68,7 +68,7 @@ inline MeasuredPoint make_point(int target, int repetition) {
     point.point.probe_m.push_back(any());
     point.point.probe_u_m.push_back(1e-9);
   }
-  if (target % 7 == 0) point.point.flags = {"spike:A", "saturated:\"B\""};
+  if (target % 7 == 0) point.point.flags = {{Flag::spike, "A"}, {Flag::saturated, "\"B\""}};
   point.errors.valid = true;
   point.errors.reason.clear();
   for (double& x : point.errors.local) x = any();

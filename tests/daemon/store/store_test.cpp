@@ -134,7 +134,7 @@ TEST_F(StoreTest, TheResultHashSeesOneBitAnywhere) {
     r.points[5].errors.local[3] = std::nextafter(r.points[5].errors.local[3], 1);
   }));
   EXPECT_TRUE(changed([](mdof::Run& r) { r.points[5].errors.covariance[24] *= -1; }));
-  EXPECT_TRUE(changed([](mdof::Run& r) { r.points[5].point.flags.push_back("gap"); }));
+  EXPECT_TRUE(changed([](mdof::Run& r) { r.points[5].point.flags.push_back({Flag::gap}); }));
   EXPECT_TRUE(changed([](mdof::Run& r) { r.points[5].point.probe_m.pop_back(); }));
   EXPECT_TRUE(changed([](mdof::Run& r) { r.points.pop_back(); }));
   EXPECT_TRUE(changed([](mdof::Run& r) { std::swap(r.points[0], r.points[1]); }));

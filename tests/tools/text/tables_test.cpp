@@ -144,7 +144,8 @@ Run one_point(bool valid, const std::string& reason) {
   p.target = 1;
   p.run = 1;
   p.point.position_m = -0.12345678;
-  p.point.flags = {"saturated:A", "spike:B", "frozen:C", "lost:D", "short", "gap"};
+  p.point.flags = {{Flag::saturated, "A"}, {Flag::spike, "B"}, {Flag::frozen, "C"},
+                   {Flag::lost, "D"},      {Flag::slow, "E"},  {Flag::gap}};
   p.errors.valid = valid;
   p.errors.reason = reason;
   p.errors.local = {-123.4567e-6, 1e-9, -4999.123e-6, -0.0, 1e290};

@@ -25,7 +25,7 @@ void add_point(CsvText& csv, const MovingAxis& moving, const MeasuredPoint& p,
   for (const double error : named) csv.cell(valid ? to_key_unit(error) : kNaN);
   for (const Errors5& five : {uncertainty.u, uncertainty.u_random, uncertainty.U})
     for (const double u : five) csv.cell(known_u(u));
-  csv.cell(static_cast<long long>(p.point.samples)).cell(joined(p.point.flags, " "));
+  csv.cell(static_cast<long long>(p.point.samples)).cell(to_string(p.point.flags));
   csv.cell(valid ? "" : p.errors.reason);
   csv.cells({covers_text(of_run), joined(of_run.not_declared, " ")}).end_row();
 }

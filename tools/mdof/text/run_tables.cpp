@@ -51,7 +51,7 @@ std::string lost_of(const RunHeader& h) {
 }
 
 std::string flags_of(const MeasuredPoint& p) {
-  std::string flags = joined(p.point.flags, " ");
+  std::string flags = to_string(p.point.flags);
   if (p.errors.valid) return flags;
   return flags + (flags.empty() ? "" : " ") + "unsolved: " + p.errors.reason;
 }

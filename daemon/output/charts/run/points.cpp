@@ -23,8 +23,7 @@ std::vector<Mark> marks_of_error(const StatedResults& results, std::size_t named
     mark.direction = p.point.direction;
     mark.target = p.target;
     mark.row = row;
-    for (const std::string& flag : p.point.flags)
-      mark.flags += (mark.flags.empty() ? "" : " ") + flag;
+    mark.flags = to_string(p.point.flags);
     if (!p.errors.valid) mark.reason = p.errors.reason;
     marks.push_back(std::move(mark));
   }

@@ -1,0 +1,29 @@
+// What a reader should know of a point, as data: a flag, and the channel that it is about.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/base/result.h"
+
+namespace mdof {
+
+enum class Flag {
+#define FLAG(flag) flag,
+#include "schema/flag/point_flags.inc"
+#undef FLAG
+};
+const char* to_string(Flag flag);  // "spike"
+
+struct PointFlag {
+  Flag flag{};
+  std::string channel = {};  // id of a probe, or "encoder"; empty: the whole point
+  bool operator==(const PointFlag&) const = default;
+};
+std::string to_string(const PointFlag& flag);                // "spike:A", as stored and shown
+std::string to_string(const std::vector<PointFlag>& flags);  // space between them
+std::vector<std::string> texts_of(const std::vector<PointFlag>& flags);
+Result<PointFlag> point_flag_from(std::string_view text);  // error (bad_input): no such flag
+
+}  // namespace mdof

@@ -229,34 +229,50 @@ std::string run_json(const Run& run, const RunUncertainty& uncertainty,
   return json.take();
 }
 
+namespace {
+
+std::string run_key(Axis axis) {
+  return std::string("run_") + static_cast<char>(letter(axis) - 'A' + 'a');
+}
+
+std::string corner_text(const Squareness& s) {
+  const std::string a(1, letter(s.axes.a)), b(1, letter(s.axes.b));
+  return s.artefact.corner > 0 ? "+" + a + " +" + b + " or -" + a + " -" + b
+                               : "-" + a + " +" + b + " or +" + a + " -" + b;
+}
+
+}  // namespace
+
 std::string squareness_json(const Squareness& s, const std::vector<Budget>& budgets) {
   const Budget& budget = budgets.front();
+  const std::string name = std::string(squareness_name(s.axes)) + "_urad";
+  const std::string slope_a = std::string("slope_") + s.straightness_a() + "_urad";
+  const std::string slope_b = std::string("slope_") + s.straightness_b() + "_urad";
   JsonWriter json;
   json.begin_object()
       .field("squareness", s.id)
-      .field("run_x", s.run_x)
-      .field("run_y", s.run_y)
-      .field("EC0Y_urad", to_urad(s.EC0Y_rad))
-      .field("u_EC0Y_urad", to_urad(budget.u))
-      .field("u_random_EC0Y_urad", to_urad(budget.u_random))
-      .field("U_EC0Y_urad", to_urad(budget.U))
+      .field(run_key(s.axes.a), s.run_a)
+      .field(run_key(s.axes.b), s.run_b)
+      .field(name, to_urad(s.error_rad))
+      .field("u_" + name, to_urad(budget.u))
+      .field("u_random_" + name, to_urad(budget.u_random))
+      .field("U_" + name, to_urad(budget.U))
       .field("k", budget.coverage_factor)
       .field("nu_eff", budget.freedom);
   write_covers(json, {budget});
   json.field("form_urad", to_urad(s.form_rad))
       .field("reference", to_string(Reference::fixture))
-      .field("slope_EYX_urad", to_urad(s.slope_EYX_rad))
-      .field("u_slope_EYX_urad", to_urad(s.u_slope_EYX_rad))
-      .field("slope_EXY_urad", to_urad(s.slope_EXY_rad))
-      .field("u_slope_EXY_urad", to_urad(s.u_slope_EXY_rad))
+      .field(slope_a, to_urad(s.slope_a_rad))
+      .field("u_" + slope_a, to_urad(s.u_slope_a_rad))
+      .field(slope_b, to_urad(s.slope_b_rad))
+      .field("u_" + slope_b, to_urad(s.u_slope_b_rad))
       .field("artefact_angle_error_urad", to_urad(s.artefact.angle_error_rad))
       .field("u_artefact_angle_urad", to_urad(s.artefact.u_rad));
   json.key("artefact_corner");
-  s.artefact.corner == 0 ? json.null()
-                         : json.value(s.artefact.corner > 0 ? "+X +Y or -X -Y" : "-X +Y or +X -Y");
+  s.artefact.corner == 0 ? json.null() : json.value(corner_text(s));
   write_stated(json, {budgets, ""});
   json.field("slopes_over", "travel of the moving body along + of the axis")
-      .field("sense", "the angle from +X to +Y is 90 deg + EC0Y")
+      .field("sense", squareness_sense(s.axes, " deg"))
       .field("simulated", s.simulated)
       .field("created_utc", s.created_utc)
       .end_object();

@@ -1,41 +1,75 @@
 // Squareness of two axes from one run along each against the same target square (Fig. 6).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
+#include "schema/axis.h"
+
 namespace mdof {
 
-// What is known of the square: at the corner of the face that the X run looks at and the one that
-// the Y run looks at, the material encloses 90° + angle_error_rad.
+// Two axes in the order X, Y, Z.
+struct AxisPair {
+  Axis a = Axis::x, b = Axis::y;
+  bool operator==(const AxisPair&) const = default;
+};
+
+// ISO 230-1: how far b is turned from square to a, by the right hand: "EC0Y", "EB0Z", "EA0Z".
+const char* squareness_name(AxisPair axes);
+// +1: the angle from +a to +b is 90° + the error (EC0Y, EA0Z), -1: 90° - the error (EB0Z).
+int squareness_sign(AxisPair axes);
+// "the angle from +X to +Y is 90 deg + EC0Y"; `degrees` is " deg" or "°".
+std::string squareness_sense(AxisPair axes, const std::string& degrees);
+// Place in error_names(of) of the straightness of the axis `of` along the axis `along`: EYX of X
+// along Y.
+std::size_t straightness_along(Axis of, Axis along);
+
+// What is known of the square: at the corner of the faces that the two runs look at, the material
+// encloses 90° + angle_error_rad.
 struct SquareArtefact {
   double angle_error_rad = 0;
   double u_rad = 0;  // standard uncertainty
-  // +1: the corner is the one at +X +Y or at -X -Y, -1: at -X +Y or at +X -Y; 0: not known
+  // +1: the corner is the one at +a +b or at -a -b, -1: at -a +b or at +a -b; 0: not known
   int corner = 0;
   bool operator==(const SquareArtefact&) const = default;
 };
 
-// EC0Y: the angle from +X to +Y is 90° + EC0Y. All of it stated at the fixture.
+// By the slopes of the straightness of each axis along the other, stated at the fixture:
 //   EC0Y = -slope(EXY over y) - slope(EYX over x) + corner * artefact angle error
+//   EA0Z = -slope(EYZ over z) - slope(EZY over y) + corner * artefact angle error
+//   EB0Z =  slope(EXZ over z) + slope(EZX over x) - corner * artefact angle error
+double squareness_of(AxisPair axes, double slope_a_rad, double slope_b_rad,
+                     const SquareArtefact& artefact);
+
 struct Squareness {
   std::int64_t id = 0;  // 0 until stored
-  std::int64_t run_x = 0, run_y = 0;
-  double EC0Y_rad = 0;
+  AxisPair axes;
+  std::int64_t run_a = 0, run_b = 0;
+  double error_rad = 0;  // EC0Y, EB0Z or EA0Z
   // Combined standard uncertainties, as their budgets have them; what algo::squareness() makes is
   // of noise, repeatability and the artefact alone.
-  double u_EC0Y_rad = 0;
-  // How far the axes are from straight lines: √(s_X² + s_Y²), s the standard deviation of a fitted
-  // slope that follows from the residuals of its line. It says how well one angle describes such
-  // axes, not how well it is known.
+  double u_error_rad = 0;
+  // How far the axes are from straight lines: √(s_a² + s_b²), s the standard deviation of a fitted slope that
+  // follows from the residuals of its line. It says how well one angle describes such axes, not how
+  // well it is known.
   double form_rad = 0;
-  // Over the travel of the moving body along + of M.
-  double slope_EYX_rad = 0, u_slope_EYX_rad = 0;
-  double slope_EXY_rad = 0, u_slope_EXY_rad = 0;
+  // Of the straightness of each axis along the other, over the travel of the moving body along + of
+  // M.
+  double slope_a_rad = 0, u_slope_a_rad = 0;
+  double slope_b_rad = 0, u_slope_b_rad = 0;
   SquareArtefact artefact;
   bool simulated = false;
   std::string created_utc;
   bool operator==(const Squareness&) const = default;
+
+  // Names of the two straightness errors: "EYX" and "EXY".
+  const char* straightness_a() const {
+    return error_names(axes.a)[straightness_along(axes.a, axes.b)].name;
+  }
+  const char* straightness_b() const {
+    return error_names(axes.b)[straightness_along(axes.b, axes.a)].name;
+  }
 };
 
 }  // namespace mdof

@@ -17,18 +17,28 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAcross = 0.7;  // cosine from which a plane faces across the motion, sideways
+constexpr double kAcross = 0.7;  // cosine from which a plane faces along an axis
 
-// On which side of M's origin the side faces lie, along + of the machine's other horizontal axis:
-// +1 or -1; 0: at it, on both sides, or there is none.
-Result<int> side_of_face(const Rig& rig) {
+int sign_of(double x) {
+  return x > 0 ? 1 : x < 0 ? -1 : 0;
+}
+
+// Which way the faces across `along` face, +1 or -1; 0: not known, or there is none. The material
+// is around the origin of M, but for the top target plane, whose normal is the local z: M's origin
+// lies on it.
+Result<int> side_of_face(const Rig& rig, Axis along) {
   MDOF_TRY(const Fixture fixture, make_fixture(rig));
-  const double to_machine = rig.axis == Axis::y ? -1 : 1;  // local y is -X for the Y axis
+  const auto row = local_axes(rig.axis)[static_cast<std::size_t>(along)];  // `along`, local
   int side = 0;
   for (const FixtureProbe& probe : fixture.probes) {
-    if (std::abs(probe.n_C.y()) < kAcross) continue;
-    const double at = to_machine * probe.plane_offset_m / probe.n_C.y();
-    const int of_this = at > 0 ? 1 : at < 0 ? -1 : 0;
+    const double normal = row[0] * probe.n_C.x() + row[1] * probe.n_C.y() + row[2] * probe.n_C.z();
+    if (std::abs(normal) < kAcross) continue;
+    int of_this = sign_of(probe.plane_offset_m / normal);
+    if (row[2] != 0) {
+      const int faces = sign_of(normal);
+      if (of_this == -faces) return 0;
+      of_this = faces;
+    }
     if (of_this == 0 || (side != 0 && side != of_this)) return 0;
     side = of_this;
   }
@@ -46,18 +56,19 @@ tl::unexpected<Error> contradiction(const Rig& x, const Rig& y, const char* key,
                    remedy);
 }
 
-// Slope of the horizontal straightness, EYX for X and EXY for Y: the first named error of both.
-struct HorizontalSlope {
+// Slope of the straightness of one axis along the other, at its place `named` of error_names().
+struct StraightnessSlope {
   Line line;
   double u_slope_rad = 0;
 };
 
-double propagated(const std::vector<double>& x, const std::vector<TargetMean>& series) {
+double propagated(const std::vector<double>& x, const std::vector<TargetMean>& series,
+                  std::size_t named) {
   double mean = 0, sxx = 0, sum = 0;
   for (const double v : x) mean += v / static_cast<double>(x.size());
   for (const double v : x) sxx += (v - mean) * (v - mean);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double term = (x[i] - mean) * series[i].u[0] / sxx;
+    const double term = (x[i] - mean) * series[i].u[named] / sxx;
     sum += term * term;
   }
   return std::sqrt(sum);
@@ -67,9 +78,10 @@ double propagated(const std::vector<double>& x, const std::vector<TargetMean>& s
 // m.
 using OffMean = std::map<int, std::map<int, std::vector<double>>>;
 
-OffMean off_the_mean(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
+OffMean off_the_mean(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                     std::size_t named) {
   const auto value = [&](const MeasuredPoint& p) {
-    return named_from_local(moving, p.errors.local)[0];
+    return named_from_local(moving, p.errors.local)[named];
   };
   struct Mean {
     double sum = 0, n = 0;
@@ -97,12 +109,13 @@ double mean_of(const std::vector<double>& values) {
 // s/√n of the slopes of the runs that have at least three targets and half of all; 0 for fewer
 // than two such runs. A slope is fitted to what differs from the mean of the runs: the axis' form
 // and backlash do not scatter, and a run that lacks a target must not make it seem so.
-double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
+double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                       std::size_t named) {
   std::map<int, double> travel_m;  // by target
   for (const MeasuredPoint& p : points)
     travel_m.emplace(p.target, moving.sides.own_travel_m(p.point.position_m));
   std::vector<double> slopes;
-  for (const auto& [run, targets] : off_the_mean(moving, points)) {
+  for (const auto& [run, targets] : off_the_mean(moving, points, named)) {
     std::vector<double> x, y;
     for (const auto& [target, off] : targets) {
       x.push_back(travel_m[target]);
@@ -119,14 +132,16 @@ double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint
   return std::sqrt(square / (n - 1) / n);
 }
 
-Status check_axis(const Run& run, Axis axis) {
-  if (run.header.axis == axis) return {};
-  return bad_input("run " + std::to_string(run.header.id) + " is of axis " +
-                   letter(run.header.axis) + ", squareness needs the run of " + letter(axis) +
-                   " in this place: squareness RUN_X RUN_Y");
+Result<AxisPair> pair_of(const Run& a, const Run& b) {
+  if (a.header.axis < b.header.axis) return AxisPair{a.header.axis, b.header.axis};
+  const auto of = [](const Run& run) {
+    return "run " + std::to_string(run.header.id) + " is of axis " + letter(run.header.axis);
+  };
+  return bad_input(of(a) + " and " + of(b) +
+                   ": squareness needs runs of two axes, in the order X, Y, Z");
 }
 
-Result<HorizontalSlope> horizontal_slope(const Run& measured) {
+Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t named) {
   const Run run = restate(measured, kAtFixture);
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
   const auto x = own_travels(run.header.sides, series);
@@ -135,11 +150,11 @@ Result<HorizontalSlope> horizontal_slope(const Run& measured) {
                      std::to_string(series.size()) +
                      " solved targets; a line with its uncertainty needs at least three");
   }
-  HorizontalSlope slope;
-  slope.line = least_squares_line(x, column(series, 0));
-  slope.u_slope_rad =
-      std::max(propagated(x, series),
-               scatter_of_runs(run.header.moving(), without_drift_of_runs(run.points).points));
+  StraightnessSlope slope;
+  slope.line = least_squares_line(x, column(series, named));
+  slope.u_slope_rad = std::max(
+      propagated(x, series, named),
+      scatter_of_runs(run.header.moving(), without_drift_of_runs(run.points).points, named));
   return slope;
 }
 
@@ -156,54 +171,52 @@ Status check_given(const ArtefactGiven& given) {
 
 }  // namespace
 
-Result<SquareArtefact> artefact_of(const Rig& rig_x, const Rig& rig_y, const ArtefactGiven& given) {
+Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const ArtefactGiven& given) {
   constexpr const char* kAngle = "artefact_angle_error_urad";
   MDOF_CHECK(check_given(given));
   SquareArtefact artefact;
-  const auto x = rig_x.artefact_angle_error_rad, y = rig_y.artefact_angle_error_rad;
-  if (!given.angle_error_rad && x && y && *x != *y)
-    return contradiction(rig_x, rig_y, kAngle, *x, *y, Remedy::choose_artefact_angle);
-  artefact.angle_error_rad = given.angle_error_rad.value_or(x.value_or(y.value_or(0)));
-  const double u_x = rig_x.u_artefact_angle_rad, u_y = rig_y.u_artefact_angle_rad;
-  if (!given.u_rad && u_x > 0 && u_y > 0 && u_x != u_y)
-    return contradiction(rig_x, rig_y, "u_artefact_angle_urad", u_x, u_y,
+  const auto a = rig_a.artefact_angle_error_rad, b = rig_b.artefact_angle_error_rad;
+  if (!given.angle_error_rad && a && b && *a != *b)
+    return contradiction(rig_a, rig_b, kAngle, *a, *b, Remedy::choose_artefact_angle);
+  artefact.angle_error_rad = given.angle_error_rad.value_or(a.value_or(b.value_or(0)));
+  const double u_a = rig_a.u_artefact_angle_rad, u_b = rig_b.u_artefact_angle_rad;
+  if (!given.u_rad && u_a > 0 && u_b > 0 && u_a != u_b)
+    return contradiction(rig_a, rig_b, "u_artefact_angle_urad", u_a, u_b,
                          Remedy::choose_artefact_u);
-  artefact.u_rad = given.u_rad.value_or(std::max(u_x, u_y));
-  MDOF_TRY(const int face_x, side_of_face(rig_x));
-  MDOF_TRY(const int face_y, side_of_face(rig_y));
-  artefact.corner = face_x * face_y;
+  artefact.u_rad = given.u_rad.value_or(std::max(u_a, u_b));
+  MDOF_TRY(const int face_a, side_of_face(rig_a, rig_b.axis));
+  MDOF_TRY(const int face_b, side_of_face(rig_b, rig_a.axis));
+  artefact.corner = face_a * face_b;
   if (artefact.angle_error_rad == 0 || artefact.corner != 0) return artefact;
-  const Rig& unclear = face_x == 0 ? rig_x : rig_y;
-  return bad_input(unclear.source +
-                   ": its side probes do not show on which side of the fixture the face of the "
-                   "square lies, so that the sign of " +
-                   kAngle +
-                   " is not known; give the face's place in position_mm of the side probes, or as "
+  const Rig &unclear = face_a == 0 ? rig_a : rig_b, &other = face_a == 0 ? rig_b : rig_a;
+  return bad_input(unclear.source + ": its probes do not show on which side of the fixture the " +
+                   "face of the square across " + letter(other.axis) +
+                   " lies, so that the sign of " + kAngle +
+                   " is not known; give the face's place in position_mm of these probes, or as "
                    "offset_mm of its [[plane]]");
 }
 
-Result<Squareness> squareness(const Run& run_x, const Run& run_y, const SquareArtefact& artefact,
+Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareArtefact& artefact,
                               bool take_partial) {
-  MDOF_CHECK(check_axis(run_x, Axis::x));
-  MDOF_CHECK(check_axis(run_y, Axis::y));
-  MDOF_CHECK(check_usable({&run_x, &run_y}, take_partial, "squareness"));
-  MDOF_TRY(const HorizontalSlope along_x, horizontal_slope(run_x));
-  MDOF_TRY(const HorizontalSlope along_y, horizontal_slope(run_y));
   Squareness s;
-  s.run_x = run_x.header.id;
-  s.run_y = run_y.header.id;
-  s.slope_EYX_rad = along_x.line.slope;
-  s.u_slope_EYX_rad = along_x.u_slope_rad;
-  s.slope_EXY_rad = along_y.line.slope;
-  s.u_slope_EXY_rad = along_y.u_slope_rad;
+  MDOF_TRY(s.axes, pair_of(run_a, run_b));
+  MDOF_CHECK(check_usable({&run_a, &run_b}, take_partial, "squareness"));
+  MDOF_TRY(const StraightnessSlope a,
+           straightness_slope(run_a, straightness_along(s.axes.a, s.axes.b)));
+  MDOF_TRY(const StraightnessSlope b,
+           straightness_slope(run_b, straightness_along(s.axes.b, s.axes.a)));
+  s.run_a = run_a.header.id;
+  s.run_b = run_b.header.id;
+  s.slope_a_rad = a.line.slope;
+  s.u_slope_a_rad = a.u_slope_rad;
+  s.slope_b_rad = b.line.slope;
+  s.u_slope_b_rad = b.u_slope_rad;
   s.artefact = artefact;
-  s.EC0Y_rad =
-      -along_y.line.slope - along_x.line.slope + artefact.corner * artefact.angle_error_rad;
-  s.u_EC0Y_rad = std::sqrt(s.u_slope_EYX_rad * s.u_slope_EYX_rad +
-                           s.u_slope_EXY_rad * s.u_slope_EXY_rad + artefact.u_rad * artefact.u_rad);
-  s.form_rad = std::sqrt(along_x.line.u_slope * along_x.line.u_slope +
-                         along_y.line.u_slope * along_y.line.u_slope);
-  s.simulated = run_x.header.simulated || run_y.header.simulated;
+  s.error_rad = squareness_of(s.axes, s.slope_a_rad, s.slope_b_rad, artefact);
+  s.u_error_rad = std::sqrt(s.u_slope_a_rad * s.u_slope_a_rad + s.u_slope_b_rad * s.u_slope_b_rad +
+                            artefact.u_rad * artefact.u_rad);
+  s.form_rad = std::sqrt(a.line.u_slope * a.line.u_slope + b.line.u_slope * b.line.u_slope);
+  s.simulated = run_a.header.simulated || run_b.header.simulated;
   return s;
 }
 

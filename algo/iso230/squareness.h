@@ -15,18 +15,20 @@ struct ArtefactGiven {
   std::optional<double> angle_error_rad, u_rad;
 };
 
-// The square as both rigs know it, with the corner that their planes give. Errors: a given value is
-// beyond 10 mrad, or none; the rigs differ;
-// an angle error is given and a face lies at 0, or on both sides of it, so that the corner is not
-// known.
-Result<SquareArtefact> artefact_of(const Rig& rig_x, const Rig& rig_y, const ArtefactGiven& given);
+// The square as both rigs know it, with the corner that their planes show. A face along the
+// motion's top plane faces along its normal; any other face lies on the side of M's origin that its
+// place gives. Errors: a given value is beyond 10 mrad, or none; the rigs differ; an angle error is
+// given and the side of a face is not known (it lies at 0, on both sides, or its normal says
+// otherwise).
+Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const ArtefactGiven& given);
 
-// Least-squares lines through the mean of both approaches of EYX over x and of EXY over y, at the
-// fixture: slope and face are then compared, and neither run needs to be zeroed against the other.
-// u of a slope: the larger of what follows from the targets' u (GUM 5.1.2) and of the scatter of
-// the repeats' slopes, s/√n. Refuses runs of the wrong axes, series of fewer than three targets,
+// Least-squares lines through the mean of both approaches of the straightness of each axis along
+// the other (EYX over x and EXY over y; with Z EZX and EXZ, EZY and EYZ), at the fixture: slope and
+// face are then compared, and neither run needs to be zeroed against the other. u of a slope: the
+// larger of what follows from the targets' u (GUM 5.1.2) and of the scatter of the repeats' slopes,
+// s/√n. Refuses runs of one axis or not in the order X, Y, Z, series of fewer than three targets,
 // and as check_usable().
-Result<Squareness> squareness(const Run& run_x, const Run& run_y, const SquareArtefact& artefact,
+Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareArtefact& artefact,
                               bool take_partial = false);
 
 }  // namespace mdof::algo

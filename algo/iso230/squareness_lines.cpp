@@ -7,29 +7,30 @@
 namespace mdof::algo {
 namespace {
 
-// Of the horizontal straightness, EYX for X and EXY for Y: the first named error of both.
-Result<ReferenceLines> horizontal_lines(const Run& measured) {
+Result<ReferenceLines> lines_along(const Run& measured, Axis other) {
   const Run run = restate(measured, kAtFixture);
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
-  auto lines = reference_lines(own_travels(run.header.sides, series), column(series, 0));
+  auto lines = reference_lines(own_travels(run.header.sides, series),
+                               column(series, straightness_along(run.header.axis, other)));
   if (!lines) return in_context("run " + std::to_string(run.header.id), std::move(lines.error()));
   return lines;
 }
 
-SquarenessLine squareness_by(const ReferenceLine& x, const ReferenceLine& y,
-                             const SquareArtefact& by) {
-  return {x.slope_rad, y.slope_rad, -y.slope_rad - x.slope_rad + by.corner * by.angle_error_rad};
+SquarenessLine squareness_by(const ReferenceLine& a, const ReferenceLine& b,
+                             const Squareness& fitted) {
+  return {a.slope_rad, b.slope_rad,
+          squareness_of(fitted.axes, a.slope_rad, b.slope_rad, fitted.artefact)};
 }
 
 }  // namespace
 
-Result<SquarenessLines> squareness_lines(const Run& run_x, const Run& run_y,
+Result<SquarenessLines> squareness_lines(const Run& run_a, const Run& run_b,
                                          const Squareness& fitted) {
-  MDOF_TRY(const ReferenceLines x, horizontal_lines(run_x));
-  MDOF_TRY(const ReferenceLines y, horizontal_lines(run_y));
-  return SquarenessLines{squareness_by(x.end_point, y.end_point, fitted.artefact),
-                         {fitted.slope_EYX_rad, fitted.slope_EXY_rad, fitted.EC0Y_rad},
-                         squareness_by(x.minimum_zone, y.minimum_zone, fitted.artefact)};
+  MDOF_TRY(const ReferenceLines a, lines_along(run_a, fitted.axes.b));
+  MDOF_TRY(const ReferenceLines b, lines_along(run_b, fitted.axes.a));
+  return SquarenessLines{squareness_by(a.end_point, b.end_point, fitted),
+                         {fitted.slope_a_rad, fitted.slope_b_rad, fitted.error_rad},
+                         squareness_by(a.minimum_zone, b.minimum_zone, fitted)};
 }
 
 }  // namespace mdof::algo

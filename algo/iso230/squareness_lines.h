@@ -10,7 +10,7 @@ namespace mdof::algo {
 
 // Lines through the means of both approaches, at the fixture, of the two runs that `fitted` is of;
 // least_squares is what `fitted` says. Errors: a run without three targets.
-Result<SquarenessLines> squareness_lines(const Run& run_x, const Run& run_y,
+Result<SquarenessLines> squareness_lines(const Run& run_a, const Run& run_b,
                                          const Squareness& fitted);
 
 }  // namespace mdof::algo

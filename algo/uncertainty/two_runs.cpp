@@ -98,25 +98,31 @@ class TwoSlopes {
   std::vector<DeclaredUncertainty> drawn_;  // of each line, by 1
 };
 
-BudgetLine artefact_line(const SquareArtefact& artefact) {
+BudgetLine artefact_line(const SquareArtefact& artefact, int sign) {
   BudgetLine line;
   line.name = "angle of the square";
   line.key = "u_artefact_angle_urad";
   line.distribution = to_string(UncertaintyShape::normal);
   line.value = artefact.u_rad * 1e6;
   line.unit = "µrad";
-  line.contribution = artefact.u_rad * (artefact.corner < 0 ? -1 : 1);
+  line.contribution = artefact.u_rad * (artefact.corner < 0 ? -sign : sign);
   return line;
 }
 
-Budget squareness_budget(const RunBudgets& along_x, const RunBudgets& along_y,
+Figure slope_along(Axis of, Axis along) {
+  return slope_figure(of, straightness_along(of, along));
+}
+
+Budget squareness_budget(AxisPair axes, const RunBudgets& along_a, const RunBudgets& along_b,
                          const SquareArtefact& artefact, const TrialsRequest& request) {
-  TwoSlopes both({"X", along_x, slope_figure(Axis::x, 0), -1},
-                 {"Y", along_y, slope_figure(Axis::y, 0), -1});
-  both.budget().figure = "EC0Y_urad";
-  both.budget().value += artefact.corner * artefact.angle_error_rad;
+  const int sign = squareness_sign(axes);
+  const double factor = -sign;
+  TwoSlopes both({std::string(1, letter(axes.a)), along_a, slope_along(axes.a, axes.b), factor},
+                 {std::string(1, letter(axes.b)), along_b, slope_along(axes.b, axes.a), factor});
+  both.budget().figure = std::string(squareness_name(axes)) + "_urad";
+  both.budget().value += sign * artefact.corner * artefact.angle_error_rad;
   if (artefact.u_rad > 0)
-    both.add(artefact_line(artefact), {1});
+    both.add(artefact_line(artefact, sign), {1});
   else
     both.budget().not_declared.emplace_back("u_artefact_angle_urad");
   std::vector<double> values;
@@ -143,19 +149,20 @@ Result<TwoRuns> two_runs(const Rig& rig_a, const Run& run_a, const Rig& rig_b, c
 
 }  // namespace
 
-Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
-                                 const Run& run_y, const SquareArtefact& artefact,
+Result<Budget> squareness_budget(const Rig& rig_a, const Run& run_a, const Rig& rig_b,
+                                 const Run& run_b, const SquareArtefact& artefact,
                                  const TrialsRequest& request) {
-  MDOF_TRY(const TwoRuns runs, two_runs(rig_x, run_x, rig_y, run_y));
-  return squareness_budget(runs.a, runs.b, artefact, request);
+  MDOF_TRY(const TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b));
+  return squareness_budget({rig_a.axis, rig_b.axis}, runs.a, runs.b, artefact, request);
 }
 
-Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_x, const Run& run_x,
-                                                           const Rig& rig_y, const Run& run_y,
+Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_a, const Run& run_a,
+                                                           const Rig& rig_b, const Run& run_b,
                                                            const SquareArtefact& artefact) {
-  MDOF_TRY(const TwoRuns runs, two_runs(rig_x, run_x, rig_y, run_y));
-  return std::array{squareness_budget(runs.a, runs.b, artefact, {}),
-                    runs.a.of(slope_figure(Axis::x, 0)), runs.b.of(slope_figure(Axis::y, 0))};
+  MDOF_TRY(const TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b));
+  const AxisPair axes{rig_a.axis, rig_b.axis};
+  return std::array{squareness_budget(axes, runs.a, runs.b, artefact, {}),
+                    runs.a.of(slope_along(axes.a, axes.b)), runs.b.of(slope_along(axes.b, axes.a))};
 }
 
 Result<std::array<Budget, 2>> parallelism_budgets(const Rig& rig_a, const Run& run_a,

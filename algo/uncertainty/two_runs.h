@@ -11,17 +11,17 @@
 
 namespace mdof::algo {
 
-// EC0Y = -slope(EXY) - slope(EYX) + α (Fig. 6), of budgets of the two runs at the fixture. What
-// goes with a probe and the surface of a plane that both rigs have (Contributor::common_as) are
-// common to both runs and add with their signs; all else that the rigs declare is taken as
-// independent between them.
-Result<Budget> squareness_budget(const Rig& rig_x, const Run& run_x, const Rig& rig_y,
-                                 const Run& run_y, const SquareArtefact& artefact,
+// EC0Y = -slope(EXY) - slope(EYX) + α (Fig. 6), with a run along Z EB0Z or EA0Z as
+// schema/squareness.h has them, of budgets of the two runs at the fixture. What goes with a probe
+// and the surface of a plane that both rigs have (Contributor::common_as) are common to both runs
+// and add with their signs; all else that the rigs declare is taken as independent between them.
+Result<Budget> squareness_budget(const Rig& rig_a, const Run& run_a, const Rig& rig_b,
+                                 const Run& run_b, const SquareArtefact& artefact,
                                  const TrialsRequest& request = {});
 
-// The same, then those of the slopes of EYX and EXY, of one set of budgets of the runs.
-Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_x, const Run& run_x,
-                                                           const Rig& rig_y, const Run& run_y,
+// The same, then those of both slopes, of one set of budgets of the runs.
+Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_a, const Run& run_a,
+                                                           const Rig& rig_b, const Run& run_b,
                                                            const SquareArtefact& artefact);
 
 // slope of B - slope of A of each of the two straightness errors, at the fixture:

@@ -133,15 +133,16 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
 
 Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessRequest& request,
                                         const algo::TrialsRequest& trials) {
-  MDOF_TRY(const Run x, store.run(request.run_x));
-  MDOF_TRY(const Run y, store.run(request.run_y));
-  MDOF_TRY(const Rig rig_x, rig_of(x.header));
-  MDOF_TRY(const Rig rig_y, rig_of(y.header));
-  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
+  MDOF_TRY(const Run a, store.run(request.run_a));
+  MDOF_TRY(const Run b, store.run(request.run_b));
+  MDOF_CHECK(check_axes(request, a, b));
+  MDOF_TRY(const Rig rig_a, rig_of(a.header));
+  MDOF_TRY(const Rig rig_b, rig_of(b.header));
+  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_a, rig_b, request.given));
   // Whatever keeps the two from having a squareness is stated here.
-  MDOF_TRY(const Squareness fitted, algo::squareness(x, y, artefact, request.partial));
-  MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact, trials));
-  FoundBudgets found{kAtFixture, {}, {}, algo::inherited_notices({&x, &y}), fitted.simulated};
+  MDOF_TRY(const Squareness fitted, algo::squareness(a, b, artefact, request.partial));
+  MDOF_TRY(Budget budget, algo::squareness_budget(rig_a, a, rig_b, b, artefact, trials));
+  FoundBudgets found{kAtFixture, {}, {}, algo::inherited_notices({&a, &b}), fitted.simulated};
   found.budgets.push_back(std::move(budget));
   return found;
 }
@@ -162,16 +163,16 @@ void append_new(std::vector<T>& to, std::vector<T> more) {
 
 // Its square taken to be true.
 Result<FoundSetUp> square_set_up(store::Store& store, const SquarenessRequest& request) {
-  MDOF_TRY(const Run x, store.run(request.run_x));
-  MDOF_TRY(const Run y, store.run(request.run_y));
-  MDOF_TRY(const Rig rig_x, rig_of(x.header));
-  MDOF_TRY(const Rig rig_y, rig_of(y.header));
-  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, {0.0, 0.0}));
-  MDOF_TRY(const Squareness fitted, algo::squareness(x, y, artefact, request.partial));
-  MDOF_TRY(Budget budget, algo::squareness_budget(rig_x, x, rig_y, y, artefact));
+  MDOF_TRY(const Run a, store.run(request.run_a));
+  MDOF_TRY(const Run b, store.run(request.run_b));
+  MDOF_TRY(const Rig rig_a, rig_of(a.header));
+  MDOF_TRY(const Rig rig_b, rig_of(b.header));
+  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_a, rig_b, {0.0, 0.0}));
+  MDOF_TRY(const Squareness fitted, algo::squareness(a, b, artefact, request.partial));
+  MDOF_TRY(Budget budget, algo::squareness_budget(rig_a, a, rig_b, b, artefact));
   std::erase(budget.not_declared, "u_artefact_angle_urad");  // the reversal takes the angle out
   return FoundSetUp{
-      {artefact.corner, std::move(budget)}, algo::inherited_notices({&x, &y}), fitted.simulated};
+      {artefact.corner, std::move(budget)}, algo::inherited_notices({&a, &b}), fitted.simulated};
 }
 
 }  // namespace

@@ -209,7 +209,7 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
 
 Status store_squareness(store::Store& store, Squareness& squareness,
                         const std::optional<Deed>& deed) {
-  MDOF_TRY(const auto before, store.squareness_of(squareness.run_x, squareness.run_y));
+  MDOF_TRY(const auto before, store.squareness_of(squareness.run_a, squareness.run_b));
   for (const Squareness& stored : before) {
     squareness.id = stored.id;
     squareness.created_utc = stored.created_utc;
@@ -223,13 +223,13 @@ Status store_squareness(store::Store& store, Squareness& squareness,
 namespace {
 
 // Sets the combined standard uncertainties of `s`.
-Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& x, const Run& y) {
-  MDOF_TRY(const Rig rig_x, rig_of(x.header));
-  MDOF_TRY(const Rig rig_y, rig_of(y.header));
-  MDOF_TRY(auto budgets, algo::squareness_and_slope_budgets(rig_x, x, rig_y, y, s.artefact));
-  s.u_EC0Y_rad = budgets[0].u;
-  s.u_slope_EYX_rad = budgets[1].u;
-  s.u_slope_EXY_rad = budgets[2].u;
+Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& a, const Run& b) {
+  MDOF_TRY(const Rig rig_a, rig_of(a.header));
+  MDOF_TRY(const Rig rig_b, rig_of(b.header));
+  MDOF_TRY(auto budgets, algo::squareness_and_slope_budgets(rig_a, a, rig_b, b, s.artefact));
+  s.u_error_rad = budgets[0].u;
+  s.u_slope_a_rad = budgets[1].u;
+  s.u_slope_b_rad = budgets[2].u;
   return std::vector(std::make_move_iterator(budgets.begin()),
                      std::make_move_iterator(budgets.end()));
 }
@@ -242,24 +242,36 @@ Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessReq
   return fitted;
 }
 
+Status check_axes(const SquarenessRequest& request, const Run& a, const Run& b) {
+  if (!request.axes) return {};
+  const std::pair<const Run*, Axis> asked[] = {{&a, request.axes->a}, {&b, request.axes->b}};
+  for (const auto& [run, axis] : asked)
+    if (run->header.axis != axis)
+      return bad_input("run " + std::to_string(run->header.id) + " is of axis " +
+                       letter(run->header.axis) + ", not of axis " + letter(axis) +
+                       "; give a run of it");
+  return {};
+}
+
 Result<FittedSquareness> calculate_squareness(store::Store& store,
                                               const SquarenessRequest& request) {
-  MDOF_TRY(const Run x, store.run(request.run_x));
-  MDOF_TRY(const Run y, store.run(request.run_y));
-  MDOF_TRY(const Rig rig_x, rig_of(x.header));
-  MDOF_TRY(const Rig rig_y, rig_of(y.header));
-  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_x, rig_y, request.given));
-  MDOF_TRY(Squareness s, algo::squareness(x, y, artefact, request.partial));
-  MDOF_TRY(auto budgets, state_uncertainty(s, x, y));
-  return FittedSquareness{std::move(s), std::move(budgets), algo::inherited_notices({&x, &y})};
+  MDOF_TRY(const Run a, store.run(request.run_a));
+  MDOF_TRY(const Run b, store.run(request.run_b));
+  MDOF_CHECK(check_axes(request, a, b));
+  MDOF_TRY(const Rig rig_a, rig_of(a.header));
+  MDOF_TRY(const Rig rig_b, rig_of(b.header));
+  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_a, rig_b, request.given));
+  MDOF_TRY(Squareness s, algo::squareness(a, b, artefact, request.partial));
+  MDOF_TRY(auto budgets, state_uncertainty(s, a, b));
+  return FittedSquareness{std::move(s), std::move(budgets), algo::inherited_notices({&a, &b})};
 }
 
 Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness) {
-  MDOF_TRY(const Run x, store.run(squareness.run_x));
-  MDOF_TRY(const Run y, store.run(squareness.run_y));
-  MDOF_TRY(auto budgets, state_uncertainty(squareness, x, y));
+  MDOF_TRY(const Run a, store.run(squareness.run_a));
+  MDOF_TRY(const Run b, store.run(squareness.run_b));
+  MDOF_TRY(auto budgets, state_uncertainty(squareness, a, b));
   return FittedSquareness{std::move(squareness), std::move(budgets),
-                          algo::inherited_notices({&x, &y})};
+                          algo::inherited_notices({&a, &b})};
 }
 
 }  // namespace mdof::daemon

@@ -1,6 +1,7 @@
 // Results of stored runs: what the command line and the daemon make of them, in one way.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -68,15 +69,20 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
 Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request,
                                            const store::Marks& marks);
 
+inline constexpr std::array<AxisPair, 3> kAxisPairs = {
+    {{Axis::x, Axis::y}, {Axis::x, Axis::z}, {Axis::y, Axis::z}}};
 struct SquarenessRequest {
-  std::int64_t run_x = 0, run_y = 0;
+  std::int64_t run_a = 0, run_b = 0;  // in the order X, Y, Z of their axes
   algo::ArtefactGiven given;
   bool partial = false;
-  std::optional<Deed> deed = std::nullopt;  // who asks
+  std::optional<Deed> deed = std::nullopt;      // who asks
+  std::optional<AxisPair> axes = std::nullopt;  // that the runs have to be of
 };
+// Error: a run is of another axis than the request says.
+Status check_axes(const SquarenessRequest& request, const Run& a, const Run& b);
 struct FittedSquareness {
   Squareness squareness;
-  std::vector<Budget> budgets;  // of EC0Y, then of EYX_slope_urad and EXY_slope_urad
+  std::vector<Budget> budgets;  // of EC0Y, then of EYX_slope_urad and EXY_slope_urad; with Z alike
   Notices notices;
 };
 // Fitted, and stored unless the same fit is stored already. Errors: those of algo::artefact_of(),

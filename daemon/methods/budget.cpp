@@ -37,13 +37,10 @@ Result<QueryThread::Work> run_budget(Methods&, const Params& params) {
 }
 
 Result<QueryThread::Work> squareness_budget(Methods&, const Params& params) {
-  SquarenessRequest request;
-  request.run_x = params.integer("run_x");
-  request.run_y = params.integer("run_y");
-  request.partial = params.boolean("partial", false);
+  MDOF_TRY(const SquarenessRequest request, squareness_param(params));
   return [request](store::Store& store) -> Result<std::string> {
-    MDOF_CHECK(check_size(store, request.run_x));
-    MDOF_CHECK(check_size(store, request.run_y));
+    MDOF_CHECK(check_size(store, request.run_a));
+    MDOF_CHECK(check_size(store, request.run_b));
     MDOF_TRY(const FoundBudgets found, squareness_budgets(store, request, {}));
     return budgets_json(found);
   };
@@ -104,16 +101,14 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                        "beside",
              .example = R"({"before": 1, "after": 2})",
              .handler = on_query(m, compare)});
-  table.add(
-      {.name = "squareness.budget",
-       .summary = "The uncertainty budget of EC0Y of a run along X and one along Y; the "
-                  "artefact is that of the rigs.",
-       .params = {{"run_x", ParamType::integer, "id of the run along X", true},
-                  {"run_y", ParamType::integer, "id of the run along Y", true},
-                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
-       .result = result,
-       .example = R"({"run_x": 1, "run_y": 2})",
-       .handler = on_query(m, squareness_budget)});
+  table.add({.name = "squareness.budget",
+             .summary =
+                 "The uncertainty budget of the squareness of two axes (EC0Y, EB0Z or EA0Z) from a "
+                 "run along each; the artefact is that of the rigs.",
+             .params = squareness_params(),
+             .result = result,
+             .example = R"({"run_x": 1, "run_y": 2})",
+             .handler = on_query(m, squareness_budget)});
   table.add(
       {.name = "parallelism.fit",
        .summary = "Parallelism of two motions along one axis (ISO 230-1), the angle between the "

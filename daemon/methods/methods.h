@@ -12,6 +12,7 @@
 #include "algo/compensation/table_limits.h"
 #include "algo/machine/frames.h"
 #include "daemon/history.h"
+#include "daemon/measure/evaluation.h"
 #include "daemon/methods/query_thread.h"
 #include "daemon/methods/replayer.h"
 #include "daemon/rpc/method_table.h"
@@ -71,6 +72,9 @@ std::vector<rpc::Param> machine_params();
 Result<Machine> machine_param(const rpc::Params& params);
 std::vector<rpc::Param> command_params(const char* what);
 Result<algo::Command> command_of(const rpc::Params& params, const Machine& machine);
+// The runs along two axes: run_x, run_y, run_z, two of them.
+std::vector<rpc::Param> squareness_params(std::vector<rpc::Param> more = {});
+Result<SquarenessRequest> squareness_param(const rpc::Params& params);
 Result<Station*> station_of(Methods& m, Axis axis);
 // A handler of two parts: `read`(m, params) takes the parameters on the loop and gives the work
 // that makes the answer on the thread "query".

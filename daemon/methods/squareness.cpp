@@ -13,8 +13,9 @@ using rpc::ParamType;
 using rpc::Reply;
 
 void squareness(Methods& m, const Params& params, Reply reply) {
-  SquarenessRequest request{
-      params.integer("run_x"), params.integer("run_y"), {}, params.boolean("partial", false)};
+  auto asked = squareness_param(params);
+  if (!asked) return reply(tl::unexpected(asked.error()));
+  SquarenessRequest request = std::move(*asked);
   if (params.has("artefact_angle_error_urad"))
     request.given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
   if (params.has("u_artefact_urad"))
@@ -31,29 +32,55 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   });
 }
 
+constexpr std::array kRunKeys = {"run_x", "run_y", "run_z"};
+
 }  // namespace
 
+std::vector<rpc::Param> squareness_params(std::vector<rpc::Param> more) {
+  std::vector<rpc::Param> all = {
+      {"run_x", ParamType::integer, "id of the run along X; of run_x, run_y, run_z two", false},
+      {"run_y", ParamType::integer, "id of the run along Y", false}};
+  all.insert(all.end(), more.begin(), more.end());
+  all.push_back({"partial", ParamType::boolean, "take partial runs as well", false, "false"});
+  all.push_back({"run_z", ParamType::integer, "id of the run along Z", false});
+  return all;
+}
+
+Result<SquarenessRequest> squareness_param(const Params& params) {
+  std::vector<std::size_t> given;
+  for (std::size_t axis = 0; axis < kRunKeys.size(); ++axis)
+    if (params.has(kRunKeys[axis])) given.push_back(axis);
+  if (given.size() != 2)
+    return fail(ErrorCode::usage, "squareness is of two axes: give two of run_x, run_y and run_z");
+  SquarenessRequest request;
+  request.axes = {static_cast<Axis>(given[0]), static_cast<Axis>(given[1])};
+  request.run_a = params.integer(kRunKeys[given[0]]);
+  request.run_b = params.integer(kRunKeys[given[1]]);
+  request.partial = params.boolean("partial", false);
+  return request;
+}
+
 void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
+  std::vector<rpc::Param> fit =
+      squareness_params({{"artefact_angle_error_urad", ParamType::number,
+                          "of the square: the material encloses 90 deg + this at the corner of its "
+                          "two faces; from the rigs if not given",
+                          false},
+                         {"u_artefact_urad",
+                          ParamType::number,
+                          "its standard uncertainty; from the rigs if not given",
+                          false,
+                          {},
+                          {.least = 0}}});
   table.add(
       {.name = "squareness.fit",
-       .summary = "Squareness EC0Y of a run along X and one along Y, stored with its "
-                  "standard uncertainty. The same fit is stored once.",
-       .params = {{"run_x", ParamType::integer, "id of the run along X", true},
-                  {"run_y", ParamType::integer, "id of the run along Y", true},
-                  {"artefact_angle_error_urad", ParamType::number,
-                   "of the square: the material encloses 90 deg + this at the corner of its two "
-                   "faces; from the rigs if not given",
-                   false},
-                  {"u_artefact_urad",
-                   ParamType::number,
-                   "its standard uncertainty; from the rigs if not given",
-                   false,
-                   {},
-                   {.least = 0}},
-                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
-       .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), form_urad "
-                 "(residual straightness of both axes) and both slopes, at "
-                 "the fixture; notices",
+       .summary = "Squareness of two axes from a run along each, stored with its standard "
+                  "uncertainty: EC0Y of X and Y, EB0Z of X and Z, EA0Z of Y and Z. The same fit is "
+                  "stored once.",
+       .params = std::move(fit),
+       .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), or those of EB0Z "
+                 "or EA0Z; form_urad (residual straightness of both axes) and both slopes, at "
+                 "the fixture; sense; notices",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});

@@ -135,7 +135,7 @@ class Store {
                                       const std::optional<Deed>& deed = std::nullopt);
   Result<std::vector<Squareness>> list_squareness(std::int64_t offset, std::int64_t count);
   // Of these two runs, newest first.
-  Result<std::vector<Squareness>> squareness_of(std::int64_t run_x, std::int64_t run_y);
+  Result<std::vector<Squareness>> squareness_of(std::int64_t run_a, std::int64_t run_b);
 
   // ---- compensation tables ----
   Result<std::int64_t> add_table(const CompensationTable& table,

@@ -106,31 +106,37 @@ Status read_statement(const Statement& row, CompensationTable& t) {
   return {};
 }
 
+// The axes are those of the runs; the columns have the names that X and Y give them.
+constexpr const char* kSquareness =
+    "SELECT s.*, a.axis, b.axis FROM squareness AS s JOIN run AS a ON a.id = s.run_x "
+    "JOIN run AS b ON b.id = s.run_y ";
+
 Squareness squareness_from(const Statement& row) {
   Squareness s;
   s.id = row.integer(0);
-  s.run_x = row.integer(1);
-  s.run_y = row.integer(2);
-  s.EC0Y_rad = row.real(3);
-  s.u_EC0Y_rad = row.real(4);
-  s.slope_EYX_rad = row.real(5);
-  s.u_slope_EYX_rad = row.real(6);
-  s.slope_EXY_rad = row.real(7);
-  s.u_slope_EXY_rad = row.real(8);
+  s.run_a = row.integer(1);
+  s.run_b = row.integer(2);
+  s.error_rad = row.real(3);
+  s.u_error_rad = row.real(4);
+  s.slope_a_rad = row.real(5);
+  s.u_slope_a_rad = row.real(6);
+  s.slope_b_rad = row.real(7);
+  s.u_slope_b_rad = row.real(8);
   s.artefact.angle_error_rad = row.real(9);
   s.simulated = row.integer(10) != 0;
   s.created_utc = row.text(11);
   s.form_rad = row.real(12);
   s.artefact.u_rad = row.real(13);
   s.artefact.corner = static_cast<int>(row.integer(14));
-  if (row.text(15) == "carriage") s.form_rad = std::exchange(s.u_EC0Y_rad, kNotKnown);  // schema 2
+  s.axes = {axis_from(row.text(16)).value_or(Axis::x), axis_from(row.text(17)).value_or(Axis::y)};
+  if (row.text(15) == "carriage") s.form_rad = std::exchange(s.u_error_rad, kNotKnown);  // schema 2
   return s;
 }
 
 }  // namespace
 
 Result<std::int64_t> Store::add_squareness(const Squareness& s, const std::optional<Deed>& deed) {
-  for (const std::int64_t run : {s.run_x, s.run_y})
+  for (const std::int64_t run : {s.run_a, s.run_b})
     MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert,
@@ -139,9 +145,9 @@ Result<std::int64_t> Store::add_squareness(const Squareness& s, const std::optio
                                "artefact_angle_error_rad, simulated, created_utc, form_rad, "
                                "u_artefact_rad, artefact_corner, reference) "
                                "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,'fixture')"));
-  insert.bind(s.run_x).bind(s.run_y).bind(s.EC0Y_rad).bind(s.u_EC0Y_rad);
-  insert.bind(s.slope_EYX_rad).bind(s.u_slope_EYX_rad);
-  insert.bind(s.slope_EXY_rad).bind(s.u_slope_EXY_rad).bind(s.artefact.angle_error_rad);
+  insert.bind(s.run_a).bind(s.run_b).bind(s.error_rad).bind(s.u_error_rad);
+  insert.bind(s.slope_a_rad).bind(s.u_slope_a_rad);
+  insert.bind(s.slope_b_rad).bind(s.u_slope_b_rad).bind(s.artefact.angle_error_rad);
   insert.bind(std::int64_t{s.simulated}).bind(std::string_view(s.created_utc));
   insert.bind(s.form_rad).bind(s.artefact.u_rad).bind(std::int64_t{s.artefact.corner});
   MDOF_CHECK(insert.run());
@@ -153,17 +159,17 @@ Result<std::int64_t> Store::add_squareness(const Squareness& s, const std::optio
 }
 
 Result<std::vector<Squareness>> Store::list_squareness(std::int64_t offset, std::int64_t count) {
-  MDOF_TRY(Statement rows, connection_.prepare("SELECT * FROM squareness ORDER BY id DESC "
-                                               "LIMIT ?2 OFFSET ?1"));
+  MDOF_TRY(Statement rows,
+           connection_.prepare(std::string(kSquareness) + "ORDER BY s.id DESC LIMIT ?2 OFFSET ?1"));
   rows.bind(offset).bind(count);
   return checked_squareness(rows);
 }
 
-Result<std::vector<Squareness>> Store::squareness_of(std::int64_t run_x, std::int64_t run_y) {
+Result<std::vector<Squareness>> Store::squareness_of(std::int64_t run_a, std::int64_t run_b) {
   MDOF_TRY(Statement rows,
-           connection_.prepare("SELECT * FROM squareness WHERE run_x = ? AND run_y = ? "
-                               "ORDER BY id DESC"));
-  rows.bind(run_x).bind(run_y);
+           connection_.prepare(std::string(kSquareness) +
+                               "WHERE s.run_x = ? AND s.run_y = ? ORDER BY s.id DESC"));
+  rows.bind(run_a).bind(run_b);
   return checked_squareness(rows);
 }
 

@@ -25,12 +25,16 @@ void write_line(JsonWriter& json, const char* name, const ReferenceLine& line) {
       .end_object();
 }
 
-void write_squareness_line(JsonWriter& json, const char* name, const SquarenessLine& line) {
+void write_squareness_line(JsonWriter& json, const char* name, const Squareness& of,
+                           const SquarenessLine& line) {
   json.key(name)
       .begin_object()
-      .field("EC0Y_urad", unsigned_zero(to_urad(line.EC0Y_rad)))
-      .field("slope_EYX_urad", unsigned_zero(to_urad(line.slope_EYX_rad)))
-      .field("slope_EXY_urad", unsigned_zero(to_urad(line.slope_EXY_rad)))
+      .field(std::string(squareness_name(of.axes)) + "_urad",
+             unsigned_zero(to_urad(line.error_rad)))
+      .field(std::string("slope_") + of.straightness_a() + "_urad",
+             unsigned_zero(to_urad(line.slope_a_rad)))
+      .field(std::string("slope_") + of.straightness_b() + "_urad",
+             unsigned_zero(to_urad(line.slope_b_rad)))
       .end_object();
 }
 
@@ -72,11 +76,11 @@ void write_straightness_lines(JsonWriter& json, const std::vector<StraightnessLi
                [&](const StraightnessLines& of) { write_reference_lines(json, of.lines); });
 }
 
-void write_squareness_lines(JsonWriter& json, const SquarenessLines& lines) {
+void write_squareness_lines(JsonWriter& json, const Squareness& of, const SquarenessLines& lines) {
   json.begin_object();
-  write_squareness_line(json, "end_point", lines.end_point);
-  write_squareness_line(json, "least_squares", lines.least_squares);
-  write_squareness_line(json, "minimum_zone", lines.minimum_zone);
+  write_squareness_line(json, "end_point", of, lines.end_point);
+  write_squareness_line(json, "least_squares", of, lines.least_squares);
+  write_squareness_line(json, "minimum_zone", of, lines.minimum_zone);
   json.end_object();
 }
 

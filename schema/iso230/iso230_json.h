@@ -7,6 +7,7 @@
 #include "schema/iso230/parallelism.h"
 #include "schema/iso230/positioning.h"
 #include "schema/iso230/reference_lines.h"
+#include "schema/squareness.h"
 
 namespace mdof {
 
@@ -17,8 +18,9 @@ void write_reference_lines(JsonWriter& json, const ReferenceLines& lines);
 // {"EYX_um": {"forward": {"end_point": {...}, ...}, "reverse": {...}, "mean": {...}}, ...}
 void write_straightness_lines(JsonWriter& json, const std::vector<StraightnessLines>& lines);
 
-// {"end_point": {"EC0Y_urad", "slope_EYX_urad", "slope_EXY_urad"}, "least_squares", "minimum_zone"}
-void write_squareness_lines(JsonWriter& json, const SquarenessLines& lines);
+// {"end_point": {"EC0Y_urad", "slope_EYX_urad", "slope_EXY_urad"}, "least_squares",
+// "minimum_zone"}, by the names of the axes that it is of.
+void write_squareness_lines(JsonWriter& json, const Squareness& of, const SquarenessLines& lines);
 
 // Member of an open object: "parallelism": {"EYX": {"end_point": {"angle_urad", "slope_a_urad",
 // "slope_b_urad"}, "least_squares", "minimum_zone"}, ...}

@@ -30,8 +30,8 @@ struct StraightnessLines {
 
 // Squareness by one line through each of the two straightness errors.
 struct SquarenessLine {
-  double slope_EYX_rad = 0, slope_EXY_rad = 0;
-  double EC0Y_rad = 0;
+  double slope_a_rad = 0, slope_b_rad = 0;
+  double error_rad = 0;  // as Squareness has it
 };
 struct SquarenessLines {
   SquarenessLine end_point, least_squares, minimum_zone;

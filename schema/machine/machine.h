@@ -110,7 +110,7 @@ struct Machine {
   bool simulated = false;
   bool noise_only = false;  // a table of its errors has a u of noise and repeatability alone
   std::vector<ErrorSource> sources;
-  StoredRows squareness;  // of X and Y: one, or the latest
+  StoredRows squareness;  // of each two axes at most one, or the latest
 
   const MachineFrame* find(std::string_view id) const;
   bool names_stored_rows() const;  // so that it needs the database

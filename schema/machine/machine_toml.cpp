@@ -253,7 +253,9 @@ Result<Machine> parse_machine(std::string_view text, const std::string& source_n
   read_fixed_frames(root, machine);
   read_sources(root, machine);
   machine.squareness = read_stored_rows(root, "squareness");
-  if (machine.squareness.ids.size() > 1) root.reject("squareness", "must be one number, or latest");
+  if (machine.squareness.ids.size() > 3)
+    root.reject("squareness",
+                "must be at most three numbers, of XY, XZ and YZ one each, or \"latest\"");
   if (auto tool = root.table("tool")) machine.tool_m = read_point(*tool, "point_mm");
   MDOF_CHECK(root.finish());
   return machine;

@@ -13,7 +13,6 @@ namespace mdof::daemon {
 namespace {
 
 constexpr std::int64_t kPage = 50;
-constexpr std::size_t kAboutZ = 5;  // of the six errors: EC
 
 // One error of a table, without the positions at which it has no value.
 ErrorFunction function_of(const std::vector<double>& position, const std::vector<double>& forward,
@@ -70,22 +69,26 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
   return {};
 }
 
-// A stored squareness is of X and Y.
-bool is_of_squareness(const MachineFrame& frame) {
-  return frame.id == "X" || frame.id == "Y";
-}
+// How the straightness of an axis that probes measured is stated.
+struct StatedStraightness {
+  std::string axis;
+  Reference reference = Reference::fixture;
+  bool slope_removed = true;
+};
+using StatedAxes = std::vector<StatedStraightness>;
 
-Status check_slope(const Machine& machine, const MachineFrame& frame,
-                   const CompensationTable& table) {
-  if (!machine.squareness.any() || !is_of_squareness(frame)) return {};
-  if (table.stated.reference != Reference::fixture)
-    return bad_input(axis_of(frame) + "its table is stated at the " +
-                     to_string(table.stated.reference) +
-                     ", the squareness at the fixture; build the table at the fixture");
-  if (table.slope_removed) return {};
-  return bad_input(axis_of(frame) +
-                   "its table has the slope of the straightness, and the squareness has it again; "
-                   "take one of them out");
+Status check_slope(const MachineFrame& frame, const StatedAxes& stated) {
+  for (const StatedStraightness& s : stated) {
+    if (s.axis != frame.id) continue;
+    if (s.reference != Reference::fixture)
+      return bad_input(axis_of(frame) + "its table is stated at the " + to_string(s.reference) +
+                       ", the squareness at the fixture; build the table at the fixture");
+    if (!s.slope_removed)
+      return bad_input(axis_of(frame) +
+                       "its table has the slope of the straightness, and the squareness has it "
+                       "again; take one of them out");
+  }
+  return {};
 }
 
 std::size_t body_error_of(const CompensationTable& table, std::size_t named) {
@@ -117,7 +120,7 @@ Status take_correlation(store::Store& store, MachineFrame& frame, const Compensa
 }
 
 Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
-                  const CompensationTable& table) {
+                  const CompensationTable& table, StatedAxes& stated) {
   machine.simulated = machine.simulated || table.simulated;
   machine.noise_only = machine.noise_only || table.noise_only();
   if (table.has_positioning()) {
@@ -132,7 +135,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
         function_of(table.position_m, scaled(along.forward, body), scaled(along.reverse, body), u));
   }
   MDOF_CHECK(check_set_up(machine, frame, table));
-  MDOF_CHECK(check_slope(machine, frame, table));
+  stated.push_back({frame.id, table.stated.reference, table.slope_removed});
   for (std::size_t named = 0; named < 5; ++named) {
     std::vector<double> u;
     for (std::size_t row = 0; row < table.position_m.size(); ++row)
@@ -171,7 +174,8 @@ Result<std::vector<std::int64_t>> latest_runs(store::Store& store, const Machine
                                         frame.id + ", whose latest the machine names");
 }
 
-Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all) {
+Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all,
+                 StatedAxes& stated) {
   std::vector<std::int64_t> ids = frame.runs.ids;
   if (frame.runs.latest) {
     MDOF_TRY(ids, latest_runs(store, frame));
@@ -191,13 +195,14 @@ Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, Sto
     MDOF_TRY(const BuiltTable built, calculate_table(store, *request));
     append(all.notices, built.notices);
     append(all.doubtful, built.doubtful);
-    MDOF_CHECK(take_table(store, machine, frame, built.table));
+    MDOF_CHECK(take_table(store, machine, frame, built.table, stated));
   }
   add_new(ids, all.runs);
   return {};
 }
 
-Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all) {
+Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all,
+                   StatedAxes& stated) {
   for (const std::int64_t id : frame.tables.ids) {
     MDOF_TRY(const CompensationTable table, store.table(id));
     if (letter(table.axis) != frame.id[0] || frame.kind != FrameKind::linear)
@@ -205,7 +210,7 @@ Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, S
                        letter(table.axis) + "; name tables of the axis");
     MDOF_TRY(Notices doubtful, doubtful_notices(store, table));
     append(all.doubtful, std::move(doubtful));
-    MDOF_CHECK(take_table(store, machine, frame, table));
+    MDOF_CHECK(take_table(store, machine, frame, table, stated));
     add_new(table.runs, all.runs);
   }
   return {};
@@ -226,65 +231,106 @@ Result<std::optional<Squareness>> newest_squareness(store::Store& store, Predica
   }
 }
 
-// The newest fit of runs that the axes name; of axes without runs the newest.
-Result<Squareness> squareness_of(store::Store& store, const Machine& machine,
-                                 const std::vector<std::int64_t>& runs) {
-  if (!machine.squareness.latest) return find_squareness(store, machine.squareness.ids.front());
-  if (runs.empty()) return find_squareness(store, std::nullopt);
-  MDOF_TRY(const auto found, newest_squareness(store, [&](const Squareness& s) {
-             return has(runs, s.run_x) && has(runs, s.run_y);
-           }));
-  if (found) return *found;
-  return fail(ErrorCode::not_found,
-              store.file().string() +
-                  ": has no squareness of the runs that the machine names; fit "
-                  "one of a run of X and a run of Y among them");
+std::string no_axes(AxisPair axes) {
+  return std::string("; fit one of a run of ") + letter(axes.a) + " and a run of " + letter(axes.b);
 }
 
-Status take_squareness(store::Store& store, Machine& machine, StoredErrors& all) {
-  const auto frame = std::find_if(machine.frames.begin(), machine.frames.end(),
-                                  [](const MachineFrame& f) { return f.id == "Y"; });
-  if (!machine.find("X") || frame == machine.frames.end())
-    return bad_input("squareness of the machine: the chain " + machine.chain.text +
-                     " has not both X and Y");
-  LocationError& EC0Y = frame->location[kAboutZ];
-  if (EC0Y.value || machine.find("X")->location[kAboutZ].value)
-    return bad_input("squareness of the machine: EC0Y_urad or EC0X_urad is given too; give one");
-  MDOF_TRY(const Squareness stored, squareness_of(store, machine, all.runs));
+// The newest of each two axes, of runs that the axes name; of a machine without runs of any.
+Result<std::vector<Squareness>> latest_squareness(store::Store& store, const Machine& machine,
+                                                  const std::vector<std::int64_t>& runs) {
+  std::vector<Squareness> all;
+  for (const AxisPair axes : kAxisPairs) {
+    if (!machine.find(std::string(1, letter(axes.a))) ||
+        !machine.find(std::string(1, letter(axes.b))))
+      continue;
+    MDOF_TRY(const auto found, newest_squareness(store, [&](const Squareness& s) {
+               return s.axes == axes &&
+                      (runs.empty() || (has(runs, s.run_a) && has(runs, s.run_b)));
+             }));
+    if (found) all.push_back(*found);
+  }
+  if (!all.empty()) return all;
+  return fail(ErrorCode::not_found,
+              store.file().string() + ": has no squareness" +
+                  (runs.empty() ? no_axes({})
+                                : " of the runs that the machine names; fit one of runs of two "
+                                  "axes among them"));
+}
+
+Result<std::vector<Squareness>> squareness_of(store::Store& store, const Machine& machine,
+                                              const std::vector<std::int64_t>& runs) {
+  if (machine.squareness.latest) return latest_squareness(store, machine, runs);
+  std::vector<Squareness> all;
+  for (const std::int64_t id : machine.squareness.ids) {
+    MDOF_TRY(const Squareness found, find_squareness(store, id));
+    all.push_back(found);
+  }
+  return all;
+}
+
+Result<MachineFrame*> frame_of(Machine& machine, AxisPair axes, Axis axis) {
+  for (MachineFrame& frame : machine.frames)
+    if (frame.id == std::string(1, letter(axis))) return &frame;
+  return bad_input("squareness of the machine: the chain " + machine.chain.text + " has not both " +
+                   letter(axes.a) + " and " + letter(axes.b));
+}
+
+Status take_squareness(store::Store& store, Machine& machine, const Squareness& stored,
+                       const StatedAxes& stated, StoredErrors& all) {
+  MDOF_TRY(MachineFrame* const a, frame_of(machine, stored.axes, stored.axes.a));
+  MDOF_TRY(MachineFrame* const b, frame_of(machine, stored.axes, stored.axes.b));
+  const std::size_t about = 6 - a->direction - b->direction;  // of the six: A, B, C of the third
+  if (a->location[about].value || b->location[about].value)
+    return bad_input("squareness of the machine: " + with_unit(location_name(*b, about), about) +
+                     " or " + with_unit(location_name(*a, about), about) +
+                     " is given too; give one");
+  MDOF_CHECK(check_slope(*a, stated));
+  MDOF_CHECK(check_slope(*b, stated));
   MDOF_TRY(const FittedSquareness fitted, stored_squareness(store, stored));
-  EC0Y = {fitted.squareness.EC0Y_rad, fitted.squareness.u_EC0Y_rad};
+  b->location[about] = {fitted.squareness.error_rad, fitted.squareness.u_error_rad};
   machine.simulated = machine.simulated || fitted.squareness.simulated;
   append(all.notices, fitted.notices);
   append(all.doubtful, without_information(fitted.notices));
-  if (!all.runs.empty() && !(has(all.runs, stored.run_x) && has(all.runs, stored.run_y))) {
-    Notice other =
-        notice(NoticeCode::squareness_of_other_runs, "",
-               {{"squareness", stored.id}, {"run_x", stored.run_x}, {"run_y", stored.run_y}});
-    append(all.notices, {other});
-    append(all.doubtful, {other});
+  return {};
+}
+
+Status take_squareness(store::Store& store, Machine& machine, const StatedAxes& stated,
+                       StoredErrors& all) {
+  const std::vector<std::int64_t> named = all.runs;
+  MDOF_TRY(const auto fits, squareness_of(store, machine, named));
+  for (const Squareness& s : fits) {
+    MDOF_CHECK(take_squareness(store, machine, s, stated, all));
+    if (!named.empty() && !(has(named, s.run_a) && has(named, s.run_b))) {
+      Notice other = notice(NoticeCode::squareness_of_other_runs, "",
+                            {{"squareness", s.id}, {"run_x", s.run_a}, {"run_y", s.run_b}});
+      append(all.notices, {other});
+      append(all.doubtful, {other});
+    }
+    add_new({s.run_a, s.run_b}, all.runs);
   }
-  add_new({stored.run_x, stored.run_y}, all.runs);
   return {};
 }
 
 }  // namespace
 
-Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id) {
-  MDOF_TRY(const auto found,
-           newest_squareness(store, [&](const Squareness& s) { return !id || s.id == *id; }));
+Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id,
+                                   AxisPair latest_of) {
+  MDOF_TRY(const auto found, newest_squareness(store, [&](const Squareness& s) {
+             return id ? s.id == *id : s.axes == latest_of;
+           }));
   if (found) return *found;
-  return fail(ErrorCode::not_found,
-              store.file().string() + ": has no squareness" +
-                  (id ? " " + std::to_string(*id) : "; fit one of a run of X and a run of Y"));
+  return fail(ErrorCode::not_found, store.file().string() + ": has no squareness" +
+                                        (id ? " " + std::to_string(*id) : no_axes(latest_of)));
 }
 
 Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine) {
   StoredErrors all;
+  StatedAxes stated;
   for (MachineFrame& frame : machine.frames) {
-    MDOF_CHECK(take_runs(store, machine, frame, all));
-    MDOF_CHECK(take_tables(store, machine, frame, all));
+    MDOF_CHECK(take_runs(store, machine, frame, all, stated));
+    MDOF_CHECK(take_tables(store, machine, frame, all, stated));
   }
-  if (machine.squareness.any()) MDOF_CHECK(take_squareness(store, machine, all));
+  if (machine.squareness.any()) MDOF_CHECK(take_squareness(store, machine, stated, all));
   for (MachineFrame& frame : machine.frames) frame.runs = frame.tables = {};
   machine.squareness = {};
   return all;

@@ -32,7 +32,8 @@ struct StoredErrors {
 // slope beside a squareness that has it again, or that is stated elsewhere than the squareness.
 Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine);
 
-// The squareness of this number; without one the newest. Error: not_found.
-Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id);
+// The squareness of this number; without one the newest of two axes. Error: not_found.
+Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id,
+                                   AxisPair latest_of = {});
 
 }  // namespace mdof::daemon

@@ -19,8 +19,11 @@ namespace mdof::daemon {
 namespace {
 
 constexpr std::int64_t kRunsPage = 500;
-constexpr const char* kSquareness = "EC0Y_urad";
 constexpr std::array kAxes = {Axis::x, Axis::y, Axis::z};
+
+std::string figure_of(AxisPair axes) {
+  return std::string(squareness_name(axes)) + "_urad";
+}
 
 // What two runs must have alike to be in one chart.
 std::string kind_of(const RunHeader& run) {
@@ -167,15 +170,16 @@ Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
 }
 
 // Of two runs that may both be in a chart, the newest fit of each two.
-Status add_squareness(store::Store& store, const TrendRequest& request, std::vector<Trend>& out) {
-  MDOF_TRY(const Chosen x, choose(store, Axis::x, request.mixed));
-  MDOF_TRY(const Chosen y, choose(store, Axis::y, request.mixed));
+Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& request,
+                      std::vector<Trend>& out) {
+  MDOF_TRY(const Chosen a, choose(store, axes.a, request.mixed));
+  MDOF_TRY(const Chosen b, choose(store, axes.b, request.mixed));
   std::map<std::int64_t, const RunHeader*> allowed;
-  for (const auto* chosen : {&x, &y})
+  for (const auto* chosen : {&a, &b})
     for (const RunHeader& run : chosen->runs) allowed[run.id] = &run;
-  Trend trend{kSquareness, {}, {}, {}, {}, {}, false, {}};
+  Trend trend{figure_of(axes), {}, {}, {}, {}, {}, false, {}};
   std::vector<Squareness> fits;
-  for (const auto* chosen : {&x, &y}) {
+  for (const auto* chosen : {&a, &b}) {
     trend.left_out.insert(trend.left_out.end(), chosen->left_out.begin(), chosen->left_out.end());
     append(trend.notices, chosen->notices);
   }
@@ -185,8 +189,8 @@ Status add_squareness(store::Store& store, const TrendRequest& request, std::vec
   for (std::int64_t offset = 0;; offset += kRunsPage) {
     MDOF_TRY(const auto page, store.list_squareness(offset, kRunsPage));  // newest first
     for (const Squareness& s : page) {
-      if (!allowed.contains(s.run_x) || !allowed.contains(s.run_y)) continue;
-      if (!seen.emplace(s.run_x, s.run_y).second) continue;
+      if (!allowed.contains(s.run_a) || !allowed.contains(s.run_b)) continue;
+      if (!seen.emplace(s.run_a, s.run_b).second) continue;
       if (!artefact) artefact = s.artefact;
       if (!request.mixed && (s.artefact.angle_error_rad != artefact->angle_error_rad ||
                              s.artefact.corner != artefact->corner)) {
@@ -202,21 +206,26 @@ Status add_squareness(store::Store& store, const TrendRequest& request, std::vec
                              " fits with another artefact angle than the newest (" +
                              words::remedy(Remedy::mix_runs) + ")");
   const auto started = [&](const Squareness& s) {
-    return std::max(allowed[s.run_x]->started_utc, allowed[s.run_y]->started_utc);
+    return std::max(allowed[s.run_a]->started_utc, allowed[s.run_b]->started_utc);
   };
-  std::sort(fits.begin(), fits.end(), [&](const Squareness& a, const Squareness& b) {
-    return std::tuple(started(a), a.run_x, a.run_y) < std::tuple(started(b), b.run_x, b.run_y);
+  std::sort(fits.begin(), fits.end(), [&](const Squareness& s, const Squareness& t) {
+    return std::tuple(started(s), s.run_a, s.run_b) < std::tuple(started(t), t.run_a, t.run_b);
   });
   for (const Squareness& s : fits) {
     MDOF_TRY(const FittedSquareness fitted, stored_squareness(store, s));
-    add_value(trend, {s.run_x, s.run_y}, started(s), fitted.budgets.front(), true);
+    add_value(trend, {s.run_a, s.run_b}, started(s), fitted.budgets.front(), true);
   }
   if (!trend.values.empty() || !request.figure.empty()) out.push_back(std::move(trend));
   return {};
 }
 
 Status check_figure(const TrendRequest& request) {
-  std::string names = request.axis ? "" : kSquareness;
+  std::string names;
+  for (const AxisPair axes : kAxisPairs) {
+    if (request.axis) break;
+    if (figure_of(axes) == request.figure) return {};
+    names += (names.empty() ? "" : ", ") + figure_of(axes);
+  }
   for (const Axis axis : kAxes) {
     if (request.axis && *request.axis != axis) continue;
     for (const algo::Figure& figure : algo::figures_of_run(axis)) {
@@ -224,7 +233,7 @@ Status check_figure(const TrendRequest& request) {
       names += (names.empty() ? "" : ", ") + figure.name;
     }
   }
-  if (request.figure.empty() || (!request.axis && request.figure == kSquareness)) return {};
+  if (request.figure.empty()) return {};
   return fail(ErrorCode::usage, "\"" + request.figure + "\" is no figure here; there are " + names);
 }
 
@@ -233,8 +242,9 @@ Status check_figure(const TrendRequest& request) {
 Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& request) {
   MDOF_CHECK(check_figure(request));
   std::vector<Trend> out;
-  if (!request.axis && (request.figure.empty() || request.figure == kSquareness))
-    MDOF_CHECK(add_squareness(store, request, out));
+  for (const AxisPair axes : kAxisPairs)
+    if (!request.axis && (request.figure.empty() || request.figure == figure_of(axes)))
+      MDOF_CHECK(add_squareness(store, axes, request, out));
   for (const Axis axis : kAxes)
     if (!request.axis || *request.axis == axis) MDOF_CHECK(add_axis(store, axis, request, out));
   for (Trend& trend : out) {

@@ -264,8 +264,8 @@ void write_run(Xml& xml, const ReportRun& run) {
 void write_squareness(Xml& xml, const charts::SquarenessResults& of) {
   xml.open("dcc:measurementResult");
   write_text(xml, "dcc:name",
-             "squareness of X (run " + std::to_string(of.squareness.run_x) + ") and Y (run " +
-                 std::to_string(of.squareness.run_y) + ")");
+             "squareness of X (run " + std::to_string(of.squareness.run_a) + ") and Y (run " +
+                 std::to_string(of.squareness.run_b) + ")");
   xml.open("dcc:results");
   open_result(xml, "squareness",
               "the angle from +X to +Y is 90 degrees + EC0Y. U covers: " + covers_text(of.budget));

@@ -145,8 +145,8 @@ Document document_of(const Report& report) {
                                         "NOT_ANALYZED"});
     document.characteristics.push_back(
         {b.figure,
-         "of runs " + std::to_string(report.squareness->squareness.run_x) + " and " +
-             std::to_string(report.squareness->squareness.run_y),
+         "of runs " + std::to_string(report.squareness->squareness.run_a) + " and " +
+             std::to_string(report.squareness->squareness.run_b),
          {}});
   }
   return document;

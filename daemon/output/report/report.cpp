@@ -81,7 +81,7 @@ void write_squareness(Html& html, const Report& report) {
   const bool known = b.u > 0;
   const double U = to_urad(b.U);
   html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::unit), "u", "U (95 %)", "k"},
-             {{"EC0Y", value_text(to_urad(report.squareness->squareness.EC0Y_rad), U), "µrad",
+             {{"EC0Y", value_text(to_urad(report.squareness->squareness.error_rad), U), "µrad",
                known ? uncertainty_text(to_urad(b.u)) : of(Phrase::unknown),
                known ? uncertainty_text(U) : of(Phrase::unknown),
                known ? charts::fixed_text(b.coverage_factor, 2) : of(Phrase::unknown)}},

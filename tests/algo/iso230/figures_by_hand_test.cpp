@@ -186,9 +186,9 @@ TEST(SquarenessByHand, TheScatterOfTheSlopesIsInIt) {
   const mdof::Run y = run_by_hand(
       Axis::y, kUneven_m, 1, [](int, std::size_t) { return 0.0; }, none);
   const Squareness s = squareness(x, y, {}).value();
-  EXPECT_NEAR(s.slope_EYX_rad, 30e-6, 1e-16);
-  EXPECT_NEAR(s.u_slope_EYX_rad, 1e-6 * std::sqrt(700 / 3.0), 1e-15);
-  EXPECT_NEAR(s.u_EC0Y_rad, s.u_slope_EYX_rad, 1e-15);
+  EXPECT_NEAR(s.slope_a_rad, 30e-6, 1e-16);
+  EXPECT_NEAR(s.u_slope_a_rad, 1e-6 * std::sqrt(700 / 3.0), 1e-15);
+  EXPECT_NEAR(s.u_error_rad, s.u_slope_a_rad, 1e-15);
 }
 
 // Two runs of slopes 10 and 30 urad: s = 20/√2, u = s/√2. The runs keep their numbers.
@@ -201,12 +201,12 @@ TEST(SquarenessByHand, OfTwoRunsOfOneAxis) {
       [&](int j, std::size_t i) { return (j == 0 ? 10e-6 : 30e-6) * (kUneven_m[i] - 33e-3 / 5); },
       none);
   const Squareness s = squareness(x, y, {}).value();
-  EXPECT_NEAR(s.slope_EXY_rad, 20e-6, 1e-16);
-  EXPECT_NEAR(s.u_slope_EXY_rad, 10e-6, 1e-15);
-  EXPECT_NEAR(s.EC0Y_rad, -20e-6, 1e-16);
-  EXPECT_EQ(s.run_x, x.header.id);
-  EXPECT_EQ(s.run_y, y.header.id);
-  EXPECT_NE(s.run_x, s.run_y);
+  EXPECT_NEAR(s.slope_b_rad, 20e-6, 1e-16);
+  EXPECT_NEAR(s.u_slope_b_rad, 10e-6, 1e-15);
+  EXPECT_NEAR(s.error_rad, -20e-6, 1e-16);
+  EXPECT_EQ(s.run_a, x.header.id);
+  EXPECT_EQ(s.run_b, y.header.id);
+  EXPECT_NE(s.run_a, s.run_b);
 }
 
 // The angle of the square in one rig alone, and that of both where they agree.
@@ -293,7 +293,7 @@ TEST(SquarenessByHand, SlopesScatterAboutTheirOwnMean) {
   EXPECT_GT(std::abs(middle), 2e-6);
   double square = 0;
   for (const double s : slope) square += (s - middle) * (s - middle);
-  EXPECT_NEAR(squareness(run, y, {}).value().u_slope_EYX_rad, std::sqrt(square / 6), 1e-13);
+  EXPECT_NEAR(squareness(run, y, {}).value().u_slope_a_rad, std::sqrt(square / 6), 1e-13);
 }
 
 }  // namespace

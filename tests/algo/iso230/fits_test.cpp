@@ -89,10 +89,10 @@ TEST(Squareness, IsMinusBothSlopesAndTheArtefactByItsCorner) {
                   y = run_of(Axis::y, kAxis2_m, kAxis2_um);
   for (const int corner : {-1, 1}) {
     const Squareness s = squareness(x, y, {2e-6, 0.5e-6, corner}).value();
-    EXPECT_NEAR(s.EC0Y_rad * 1e6, 17.418182 - 7.654545 + 2 * corner, 1e-5);
-    EXPECT_NEAR(s.slope_EXY_rad * 1e6, -17.418182, 1e-6);
+    EXPECT_NEAR(s.error_rad * 1e6, 17.418182 - 7.654545 + 2 * corner, 1e-5);
+    EXPECT_NEAR(s.slope_b_rad * 1e6, -17.418182, 1e-6);
     // These points have no noise, and the axes do not repeat: the artefact alone is not known.
-    EXPECT_DOUBLE_EQ(s.u_EC0Y_rad, 0.5e-6);
+    EXPECT_DOUBLE_EQ(s.u_error_rad, 0.5e-6);
     const double crooked_x = 1e-6 * least_squares_line(kAxis1_m, kAxis1_um).u_slope;
     const double crooked_y = 1e-6 * least_squares_line(kAxis2_m, kAxis2_um).u_slope;
     EXPECT_NEAR(s.form_rad, std::hypot(crooked_x, crooked_y), 1e-15);
@@ -132,9 +132,9 @@ TEST(Squareness, ScattersAsItsUncertaintySays) {
       const auto x = noisy_run(Axis::x, 3e-6, 10e-9, repeats, random);
       const auto y = noisy_run(Axis::y, -8e-6, 10e-9, repeats, random);
       const Squareness s = squareness(x, y, {}).value();
-      sum += s.EC0Y_rad;
-      square += s.EC0Y_rad * s.EC0Y_rad;
-      stated2 += s.u_EC0Y_rad * s.u_EC0Y_rad;
+      sum += s.error_rad;
+      square += s.error_rad * s.error_rad;
+      stated2 += s.u_error_rad * s.u_error_rad;
     }
     const double mean = sum / kTrials, sd = std::sqrt(square / kTrials - mean * mean);
     EXPECT_NEAR(mean, 5e-6, 4 * sd / std::sqrt(kTrials));
@@ -236,13 +236,13 @@ TEST(Squareness, ByEachLineTakesBothSlopesFromTheArtefact) {
                   y = run_of(Axis::y, kAxis2_m, kAxis2_um);
   const Squareness s = squareness(x, y, {2e-6, 0.5e-6, -1}).value();
   const SquarenessLines lines = squareness_lines(x, y, s).value();
-  EXPECT_EQ(lines.least_squares.EC0Y_rad, s.EC0Y_rad);
-  EXPECT_NEAR(lines.end_point.EC0Y_rad * 1e6, 18.444444 - 8.333333 - 2, 1e-5);
-  EXPECT_NEAR(lines.minimum_zone.EC0Y_rad * 1e6, 16.666667 - 7.833333 - 2, 1e-5);
+  EXPECT_EQ(lines.least_squares.error_rad, s.error_rad);
+  EXPECT_NEAR(lines.end_point.error_rad * 1e6, 18.444444 - 8.333333 - 2, 1e-5);
+  EXPECT_NEAR(lines.minimum_zone.error_rad * 1e6, 16.666667 - 7.833333 - 2, 1e-5);
   // The manual states θ2 - θ1, in its own sense: -5.2" and -5.5".
   const double arcsec = 180 * 3600 / (4 * std::atan(1.0));
   const auto manual = [&](const SquarenessLine& line) {
-    return (line.slope_EXY_rad - line.slope_EYX_rad) * arcsec;
+    return (line.slope_b_rad - line.slope_a_rad) * arcsec;
   };
   EXPECT_NEAR(manual(lines.least_squares), -5.17162, 1e-5);
   EXPECT_NEAR(manual(lines.end_point), -5.52331, 1e-5);
@@ -258,8 +258,8 @@ TEST(Squareness, ByEachLineIsStatedAtTheFixture) {
             1e-6);
   const SquarenessLines here = squareness_lines(x, y, {}).value(),
                         there = squareness_lines(at_carriage, y, {}).value();
-  EXPECT_NEAR(there.end_point.EC0Y_rad, here.end_point.EC0Y_rad, 1e-11);
-  EXPECT_NEAR(there.minimum_zone.EC0Y_rad, here.minimum_zone.EC0Y_rad, 1e-11);
+  EXPECT_NEAR(there.end_point.error_rad, here.end_point.error_rad, 1e-11);
+  EXPECT_NEAR(there.minimum_zone.error_rad, here.minimum_zone.error_rad, 1e-11);
 }
 
 TEST(Angles, AreReferredToTheStart) {

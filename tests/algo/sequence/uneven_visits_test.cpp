@@ -116,11 +116,11 @@ TEST(UnevenVisits, ARunThatLacksSomeDoesNotTiltByItsDrift) {
   };
   for (std::size_t i = 0; i < lacking.size(); ++i) {
     const Squareness s = squareness(cut_run(3, lacking[i]), y, {}).value();
-    EXPECT_NEAR(s.slope_EYX_rad, kSlope, 1e-14) << i;
-    EXPECT_NEAR(s.EC0Y_rad, whole.EC0Y_rad, 1e-14) << i;
+    EXPECT_NEAR(s.slope_a_rad, kSlope, 1e-14) << i;
+    EXPECT_NEAR(s.error_rad, whole.error_rad, 1e-14) << i;
     // The drift shifts whole runs: what they are uncertain by stays in it, and the form does not
     // come in.
-    EXPECT_NEAR(s.u_slope_EYX_rad / whole.u_slope_EYX_rad, 1, 0.5) << i;
+    EXPECT_NEAR(s.u_slope_a_rad / whole.u_slope_a_rad, 1, 0.5) << i;
   }
 }
 
@@ -239,9 +239,9 @@ TEST(UnevenVisits, ARunOfThreeTargetsDoesNotScatterTheSlope) {
     mdof::Run x = cut_run(
         4, [](const Visit& v) { return v.run < 4 || v.target < 4; }, Axis::x, 0);
     for (MeasuredPoint& p : x.points) p.errors.local[0] += 10e-9 * unit(engine);
-    with += squareness(x, y, {}).value().u_slope_EYX_rad;
+    with += squareness(x, y, {}).value().u_slope_a_rad;
     std::erase_if(x.points, [](const MeasuredPoint& p) { return p.run == 4; });
-    without += squareness(x, y, {}).value().u_slope_EYX_rad;
+    without += squareness(x, y, {}).value().u_slope_a_rad;
   }
   EXPECT_NEAR(with / without, 1, 0.1);
 }
@@ -277,8 +277,8 @@ TEST(UnevenVisits, TheUncertaintyHoldsWhereTheReversalScatters) {
       p.errors.local[0] += 0.5 * p.point.direction * at->second + 1e-9 * unit(engine);
     }
     const Squareness s = squareness(x, y, {}).value();
-    square += (s.slope_EYX_rad - kSlope) * (s.slope_EYX_rad - kSlope);
-    stated += s.u_slope_EYX_rad * s.u_slope_EYX_rad;
+    square += (s.slope_a_rad - kSlope) * (s.slope_a_rad - kSlope);
+    stated += s.u_slope_a_rad * s.u_slope_a_rad;
   }
   EXPECT_NEAR(std::sqrt(stated / square), 1, 0.3);
 }

@@ -132,7 +132,7 @@ class Bench:
         volume = client.call("compensation.build_volume", machine=MACHINE, axes="XY", step_mm=5, incomplete=True)["table"]
         self.methods = client.call("rpc.discover")["methods"]
         # What there is, so that the methods have something to do.
-        self.world = {"run": runs + [99], "runs": [[r] for r in runs] + [runs], "run_x": runs, "run_y": runs, "run_a": runs,
+        self.world = {"run": runs + [99], "runs": [[r] for r in runs] + [runs], "run_x": runs, "run_y": runs, "run_z": [99], "run_a": runs,
                       "before": runs, "after": runs,
                       "run_b": runs, "table": [table, 2, volume, 99], "axis": ["X", "Y", "Z", "volume"], "path": logs + [series], "position_mm": [0, 1.5, 3],
                       "rig": list(texts.values()), "figure": ["EYX_um", "EAX_urad", "EYX_straightness_um", "ECX_range_urad"], "at_mm": [0, 1, 2, 3],

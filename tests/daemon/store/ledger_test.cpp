@@ -31,9 +31,9 @@ class LedgerTest : public StoreTest {
     }
     ASSERT_TRUE(store->deactivate(Axis::y, kActor, "2026-11-21T05:00:05"));
     mdof::Squareness squareness;
-    squareness.run_x = 1;
-    squareness.run_y = 3;
-    squareness.EC0Y_rad = 12e-6;
+    squareness.run_a = 1;
+    squareness.run_b = 3;
+    squareness.error_rad = 12e-6;
     ASSERT_TRUE(store->add_squareness(squareness));
   }
 

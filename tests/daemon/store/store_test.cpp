@@ -279,7 +279,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
     RunUncertainty known;
     known.points.resize(whole.points.size());
     ASSERT_TRUE(store->add_run(whole, std::nullopt, known));
-    ASSERT_TRUE(store->add_squareness({0, 1, 1, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}));
+    ASSERT_TRUE(store->add_squareness({0, {}, 1, 1, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}));
     ASSERT_TRUE(store->activate(store->add_table(make_table({1})).value(), "me", "now",
                                 Deed{"compensation.activate", {}, "now"}));
     ASSERT_TRUE(store->deactivate(Axis::x, "me", "now"));

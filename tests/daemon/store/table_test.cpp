@@ -9,21 +9,27 @@ TEST_F(StoreTest, KeepsSquareness) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(1)));
   ASSERT_TRUE(store->add_run(make_run(1, Axis::y)));
-  const Squareness s{0,    1,    2, 1e-5, 2e-7, 9e-6, 3e-6, 4e-8, -5e-6, 6e-8, {7e-7, 8e-8, -1},
-                     true, "utc"};
+  ASSERT_TRUE(store->add_run(make_run(1, Axis::z)));
+  Squareness s{0,    {},   1, 2, 1e-5, 2e-7, 9e-6, 3e-6, 4e-8, -5e-6, 6e-8, {7e-7, 8e-8, -1},
+               true, "utc"};
   EXPECT_EQ(store->add_squareness(s).value(), 1);
   const auto list = store->list_squareness(0, 10).value();
   ASSERT_EQ(list.size(), 1u);
-  EXPECT_EQ(list[0].run_y, 2);
-  EXPECT_EQ(list[0].EC0Y_rad, 1e-5);
-  EXPECT_EQ(list[0].u_slope_EXY_rad, 6e-8);
+  EXPECT_EQ(list[0].run_b, 2);
+  EXPECT_EQ(list[0].error_rad, 1e-5);
+  EXPECT_EQ(list[0].u_slope_b_rad, 6e-8);
   EXPECT_EQ(list[0].artefact.angle_error_rad, 7e-7);
   EXPECT_EQ(list[0].artefact.u_rad, 8e-8);
   EXPECT_EQ(list[0].artefact.corner, -1);
   EXPECT_EQ(list[0].form_rad, 9e-6);
   EXPECT_TRUE(list[0].simulated);
-  EXPECT_EQ(store->add_squareness({0, 1, 9, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}).error().code,
-            ErrorCode::not_found);
+  EXPECT_EQ(list[0].axes, AxisPair{});
+  s.run_b = 3;  // the axes are those of the runs
+  ASSERT_TRUE(store->add_squareness(s));
+  EXPECT_EQ(store->squareness_of(1, 3).value().front().axes, (AxisPair{Axis::x, Axis::z}));
+  EXPECT_EQ(
+      store->add_squareness({0, {}, 1, 9, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}).error().code,
+      ErrorCode::not_found);
 }
 
 TEST_F(StoreTest, GivesACompensationTableBackToTheLastBit) {

@@ -75,4 +75,26 @@ Result<std::int64_t> run_number(const std::string& database, const std::string& 
   return run_number(store, run, axis);
 }
 
+Result<std::array<std::int64_t, 2>> run_pair(const std::string& database,
+                                             const std::array<std::string, 2>& runs,
+                                             const std::string& axes) {
+  std::array<std::int64_t, 2> pair{};
+  for (std::size_t i = 0; i < pair.size(); ++i) {
+    std::optional<Axis> axis;
+    if (!axes.empty())
+      axis = axis_from(axes.substr(i, 1));
+    else if (runs[i] == kLatest)
+      axis = i == 0 ? Axis::x : Axis::y;
+    MDOF_TRY(pair[i], run_number(database, runs[i], axis));
+  }
+  return pair;
+}
+
+void add_axes_option(CLI::App& command, std::string& axes) {
+  command
+      .add_option("--axes", axes,
+                  "Axes that the runs have to be of [default: any; latest: X, then Y]")
+      ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
+}
+
 }  // namespace mdof::tools

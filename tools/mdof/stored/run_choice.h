@@ -1,6 +1,7 @@
 // Which run a command means: its number, or "latest".
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -34,5 +35,12 @@ Result<std::int64_t> run_number(store::Store& store, const std::string& run,
 // The same; of what --db gave the database is opened only where it must be looked into.
 Result<std::int64_t> run_number(const std::string& database, const std::string& run,
                                 std::optional<Axis> axis = std::nullopt);
+
+// Of two axes, "XZ"; empty: those of the runs, of a latest one X in the first and Y in the second
+// place. Error bad_input: a run is of another axis.
+Result<std::array<std::int64_t, 2>> run_pair(const std::string& database,
+                                             const std::array<std::string, 2>& runs,
+                                             const std::string& axes = "");
+void add_axes_option(CLI::App& command, std::string& axes);
 
 }  // namespace mdof::tools

@@ -48,14 +48,14 @@ Result<std::optional<charts::SquarenessResults>> squareness_of_runs(
   const charts::StatedResults *x = only(Axis::x), *y = only(Axis::y);
   if (!x || !y) return std::optional<charts::SquarenessResults>();
   daemon::SquarenessRequest request;
-  request.run_x = x->run.header.id;
-  request.run_y = y->run.header.id;
+  request.run_a = x->run.header.id;
+  request.run_b = y->run.header.id;
   MDOF_TRY(auto fitted, daemon::calculate_squareness(store, request));
   charts::SquarenessResults results;
   results.squareness = fitted.squareness;
   results.budget = std::move(fitted.budgets.front());
-  MDOF_TRY(results.run_x, daemon::run_stated_at(store, x->run.header.id, Reference::fixture));
-  MDOF_TRY(results.run_y, daemon::run_stated_at(store, y->run.header.id, Reference::fixture));
+  MDOF_TRY(results.run_a, daemon::run_stated_at(store, x->run.header.id, Reference::fixture));
+  MDOF_TRY(results.run_b, daemon::run_stated_at(store, y->run.header.id, Reference::fixture));
   for (const auto* run : {x, y})
     results.marks.insert(results.marks.end(), run->marks.begin(), run->marks.end());
   return std::optional(std::move(results));

@@ -51,11 +51,11 @@ bool has_table(const CompensationTable& table);
 std::string table_svg(const CompensationTable& table, const std::vector<std::string>& marks,
                       Language language);
 
-// X and Y as they were measured against one square, their errors enlarged.
+// Two axes as they were measured against one square, their errors enlarged.
 struct SquarenessResults {
   Squareness squareness;
   Budget budget;     // of EC0Y
-  Run run_x, run_y;  // stated at the fixture
+  Run run_a, run_b;  // stated at the fixture
   std::vector<std::string> marks;
 };
 std::string squareness_svg(const SquarenessResults& results, Language language);

@@ -1,4 +1,4 @@
-// The squareness of X and Y as a picture: both axes as the square shows them, errors enlarged.
+// The squareness of two axes as a picture: both axes as the square shows them, errors enlarged.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -123,16 +123,19 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
   const Squareness& s = results.squareness;
   const Budget& b = results.budget;
   // The square's own angle turns what was read against its second face.
-  const AxisPath x = path_of(results.run_x, 0, s.slope_EYX_rad, 0);
-  const AxisPath y =
-      path_of(results.run_y, 0, s.slope_EXY_rad, -s.artefact.corner * s.artefact.angle_error_rad);
+  const std::string name = squareness_name(s.axes);
+  const std::string a(1, letter(s.axes.a)), b_axis(1, letter(s.axes.b));
+  const AxisPath x =
+      path_of(results.run_a, straightness_along(s.axes.a, s.axes.b), s.slope_a_rad, 0);
+  const AxisPath y = path_of(results.run_b, straightness_along(s.axes.b, s.axes.a), s.slope_b_rad,
+                             -s.artefact.corner * s.artefact.angle_error_rad);
   const std::vector<std::string> marks = head_marks(b.noise_only, results.marks, language);
   const std::string title = phrase(Phrase::squareness_of_runs, language,
-                                   {std::to_string(s.run_x), std::to_string(s.run_y)});
+                                   {std::to_string(s.run_a), std::to_string(s.run_b), a, b_axis});
   const double U = to_urad(b.U);
   const int decimals = U > 0 ? std::clamp(1 - decimal_exponent(U), 0, 9) : 3;
   const std::string angle =
-      "EC0Y = " + fixed_text(to_urad(s.EC0Y_rad), decimals) + " µrad, " +
+      name + " = " + fixed_text(to_urad(s.error_rad), decimals) + " µrad, " +
       (U > 0 ? phrase(Phrase::U_and_k, language,
                       {number_text(U, 2) + " µrad", fixed_text(b.coverage_factor, 2)})
              : std::string(phrase(Phrase::U_is_unknown, language)));
@@ -140,7 +143,8 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
   const Picture picture = picture_of(x, y, top);
   const std::vector<std::string> notes = {
       phrase(Phrase::enlarged, language, {number_text(picture.factor, 6)}),
-      phrase(Phrase::squareness_sense, language),
+      phrase(Phrase::squareness_sense, language,
+             {name, a, b_axis, squareness_sign(s.axes) > 0 ? "+" : "−"}),
       phrase(Phrase::u_covers, language, {covers_text(b)})};
   Svg svg(kWidthPx, top + kPicturePx + 44 + notes_height(notes) + 12, title, angle, Theme::light);
   draw_run_head(svg, title, angle, marks, language);
@@ -148,24 +152,24 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
     return phrase(Phrase::error_of_run, language, {error, std::to_string(run)});
   };
   const std::array<LegendItem, 4> lines = {
-      {{LegendSign::line, "blue thin", run_of("EYX", s.run_x)},
-       {LegendSign::line, "orange dash thin", run_of("EXY", s.run_y)},
+      {{LegendSign::line, "blue thin", run_of(s.straightness_a(), s.run_a)},
+       {LegendSign::line, "orange dash thin", run_of(s.straightness_b(), s.run_b)},
        {LegendSign::line, "ink", phrase(Phrase::least_squares, language)},
        {LegendSign::line, "rule dash", phrase(Phrase::square_axes, language)}}};
   draw_marks_legend(svg, top - kPictureLegendPx, {}, lines, language);
-  svg.data("panel", "EC0Y_urad").data("value", to_urad(s.EC0Y_rad)).data("U", U);
+  svg.data("panel", name + "_urad").data("value", to_urad(s.error_rad)).data("U", U);
   svg.data("enlargement", picture.factor);
   svg.begin_group();
-  draw_axes(svg, picture.panel, "X_mm");
-  draw_y_title(svg, picture.panel, "Y_mm");
+  draw_axes(svg, picture.panel, a + "_mm");
+  draw_y_title(svg, picture.panel, b_axis + "_mm");
   draw_path(
-      svg, x, [&](double a, double c) { return picture.on_x(a, c); }, 1, "X");
+      svg, x, [&](double along, double c) { return picture.on_x(along, c); }, 1, a.c_str());
   draw_path(
-      svg, y, [&](double a, double c) { return picture.on_y(a, c); }, -1, "Y");
+      svg, y, [&](double along, double c) { return picture.on_y(along, c); }, -1, b_axis.c_str());
   const double right = picture.panel.corner.x + kPicturePx + 24;
-  svg.text("text title", {right, top + 60}, Anchor::start, "EC0Y");
+  svg.text("text title", {right, top + 60}, Anchor::start, name);
   svg.text("text", {right, top + 86}, Anchor::start,
-           fixed_text(to_urad(s.EC0Y_rad), decimals) + " µrad");
+           fixed_text(to_urad(s.error_rad), decimals) + " µrad");
   svg.text("text", {right, top + 108}, Anchor::start,
            U > 0 ? "U = " + number_text(U, 2) + " µrad" : phrase(Phrase::U_is_unknown, language));
   svg.end_group();

@@ -182,17 +182,20 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
     MDOF_TRY(id, squareness_number(request.squareness));
   }
   MDOF_TRY(const Squareness stored, daemon::find_squareness(store, id));
-  MDOF_TRY(const daemon::FittedSquareness fitted, daemon::stored_squareness(store, stored));
   const std::string name = "squareness " + std::to_string(stored.id);
+  if (stored.axes != AxisPair{})
+    return bad_input(name + " is " + squareness_name(stored.axes) +
+                     "; these controllers take the squareness of X and Y");
+  MDOF_TRY(const daemon::FittedSquareness fitted, daemon::stored_squareness(store, stored));
   MDOF_CHECK(
       judge({name, stored.simulated, daemon::without_information(fitted.notices)}, request, out));
-  MDOF_TRY(const Chain x, chain_of_run(store, stored.run_x));
-  MDOF_TRY(const Chain y, chain_of_run(store, stored.run_y));
+  MDOF_TRY(const Chain x, chain_of_run(store, stored.run_a));
+  MDOF_TRY(const Chain y, chain_of_run(store, stored.run_b));
   if (!(x == y))
-    return bad_input(name + ": the rigs of its runs " + std::to_string(stored.run_x) + " and " +
-                     std::to_string(stored.run_y) +
+    return bad_input(name + ": the rigs of its runs " + std::to_string(stored.run_a) + " and " +
+                     std::to_string(stored.run_b) +
                      " have different machines; measure both on one");
-  const controllers::SquareAxes axes{stored.id, fitted.squareness.EC0Y_rad, fitted.budgets.front(),
+  const controllers::SquareAxes axes{stored.id, fitted.squareness.error_rad, fitted.budgets.front(),
                                      x};
   out.squareness = stored.id;
   MDOF_TRY(out.files, out.format->square.write(axes, out.options));

@@ -26,7 +26,7 @@ namespace {
 constexpr std::uint64_t kMostTrials = 1'000'000;
 
 struct BudgetCommand {
-  std::string database, run, run_y, axis, figure, plots, reference = "fixture";
+  std::string database, run, run_b, axis, figure, plots, reference = "fixture";
   std::optional<double> at_mm, tolerance, artefact_urad, u_artefact_urad;
   algo::TrialsRequest trials;
   bool partial = false, csv = false, json = false, all_warnings = false;
@@ -38,13 +38,15 @@ Status check_numbers(const BudgetCommand& command) {
     return fail(ErrorCode::usage, "--at must be a position in mm");
   if (command.tolerance && !(*command.tolerance >= 0 && std::isfinite(*command.tolerance)))
     return fail(ErrorCode::usage, "--tolerance must be a finite number and not negative");
-  if (command.tolerance && command.run_y.empty() && command.figure.empty())
+  if (command.tolerance && command.run_b.empty() && command.figure.empty())
     return fail(ErrorCode::usage, "--tolerance is for one figure: say which with --figure");
-  if (!command.run_y.empty() && (!command.figure.empty() || command.at_mm))
-    return fail(ErrorCode::usage,
-                "of two runs the budget is that of EC0Y; leave out --figure and --at, or one run");
-  if (!command.run_y.empty() && command.reference != "fixture")
-    return fail(ErrorCode::usage, "EC0Y is stated at the fixture; leave out --reference");
+  if (!command.run_b.empty() && (!command.figure.empty() || command.at_mm))
+    return fail(
+        ErrorCode::usage,
+        "of two runs the budget is that of their squareness; leave out --figure and --at, or one "
+        "run");
+  if (!command.run_b.empty() && command.reference != "fixture")
+    return fail(ErrorCode::usage, "squareness is stated at the fixture; leave out --reference");
   if (!command.figure.empty() && command.at_mm)
     return fail(ErrorCode::usage,
                 "--at has the five errors at a target, and --figure one figure of the whole run; "
@@ -64,8 +66,9 @@ Result<daemon::FoundBudgets> of_one_run(store::Store& store, const BudgetCommand
 
 Result<daemon::FoundBudgets> of_two_runs(store::Store& store, const BudgetCommand& command) {
   daemon::SquarenessRequest request;
-  MDOF_TRY(request.run_x, run_number(store, command.run, Axis::x));
-  MDOF_TRY(request.run_y, run_number(store, command.run_y, Axis::y));
+  MDOF_TRY(const auto runs, run_pair(command.database, {command.run, command.run_b}));
+  request.run_a = runs[0];
+  request.run_b = runs[1];
   if (command.artefact_urad) request.given.angle_error_rad = from_urad(*command.artefact_urad);
   if (command.u_artefact_urad) request.given.u_rad = from_urad(*command.u_artefact_urad);
   request.partial = command.partial;
@@ -78,12 +81,16 @@ struct Marked {
 };
 
 Result<Marked> marked(store::Store& store, const BudgetCommand& command) {
-  std::vector<std::pair<std::string, std::optional<Axis>>> asked{
-      {command.run, axis_from(command.axis)}};
-  if (!command.run_y.empty()) asked = {{command.run, Axis::x}, {command.run_y, Axis::y}};
+  std::vector<std::int64_t> ids;
+  if (command.run_b.empty()) {
+    MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
+    ids = {id};
+  } else {
+    MDOF_TRY(const auto pair, run_pair(command.database, {command.run, command.run_b}));
+    ids = {pair[0], pair[1]};
+  }
   Marked all;
-  for (const auto& [word, axis] : asked) {
-    MDOF_TRY(const auto id, run_number(store, word, axis));
+  for (const std::int64_t id : ids) {
     MDOF_TRY(const Run run, store.run(id));
     all.runs += (all.runs.empty() ? "" : ", ") + std::to_string(id);
     for (std::string& mark : daemon::marks_of(run)) all.marks.push_back(std::move(mark));
@@ -120,7 +127,7 @@ Status budget(const BudgetCommand& command) {
   MDOF_CHECK(check_numbers(command));
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto found,
-           command.run_y.empty() ? of_one_run(store, command) : of_two_runs(store, command));
+           command.run_b.empty() ? of_one_run(store, command) : of_two_runs(store, command));
   show_notices(found.notices, command.all_warnings);
   if (const std::string text = not_declared_text(found.budgets); !text.empty()) warn(text);
   const auto decided =
@@ -141,8 +148,8 @@ Status budget(const BudgetCommand& command) {
 
 Action declare_budget(CLI::App& command) {
   const auto o = std::make_shared<BudgetCommand>();
-  add_run_argument(command, "RUN", o->run, "A run, or latest; of two the one along X");
-  command.add_option("RUN_Y", o->run_y, "The run along Y: the budget of EC0Y")
+  add_run_argument(command, "RUN", o->run, "A run, or latest; of two the one along the first axis");
+  command.add_option("RUN_B", o->run_b, "A run along another axis: the budget of the squareness")
       ->type_name("")
       ->check(run_word_error);
   add_axis_of_latest(command, o->axis);

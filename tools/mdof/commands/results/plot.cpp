@@ -47,7 +47,7 @@ void draw_squareness(store::Store& store, const std::vector<charts::StatedResult
   if (!found || !*found) return;
   const Squareness& s = (*found)->squareness;
   const std::string name =
-      "squareness-" + std::to_string(s.run_x) + "-" + std::to_string(s.run_y) + ".svg";
+      "squareness-" + std::to_string(s.run_a) + "-" + std::to_string(s.run_b) + ".svg";
   plotted.charts.push_back({name, charts::squareness_svg(**found, language)});
 }
 

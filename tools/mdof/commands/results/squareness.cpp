@@ -1,5 +1,6 @@
-// mdof squareness RUN_X RUN_Y: the angle between two axes, with its standard uncertainty.
+// mdof squareness RUN_A RUN_B: the angle between two axes, with its standard uncertainty.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <optional>
 
 #include "algo/iso230/squareness_lines.h"
@@ -28,8 +29,9 @@ namespace mdof::tools {
 namespace {
 
 struct SquarenessCommand {
-  std::string database, socket, word_x, word_y;
-  std::int64_t run_x = 0, run_y = 0;
+  std::string database, socket, axes;
+  std::array<std::string, 2> words;
+  std::int64_t run_a = 0, run_b = 0;
   std::optional<double> artefact_urad, u_artefact_urad;
   std::string plots;
   bool partial = false, json = false, all_warnings = false;
@@ -37,8 +39,8 @@ struct SquarenessCommand {
 
 Result<daemon::FittedSquareness> fit(const SquarenessCommand& command) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  daemon::SquarenessRequest request{command.run_x,
-                                    command.run_y,
+  daemon::SquarenessRequest request{command.run_a,
+                                    command.run_b,
                                     {},
                                     command.partial,
                                     daemon::deed_now("squareness.fit", daemon::this_process())};
@@ -53,29 +55,31 @@ std::vector<std::string> line_row(const std::string& label, const SquarenessLine
           in_urad(lines.minimum_zone.*value)};
 }
 
+std::string of_run(std::int64_t run) {
+  return ", run " + std::to_string(run);
+}
+
 std::string squareness_text(const Squareness& s, const std::vector<Budget>& budgets,
                             const SquarenessLines& lines) {
   const Budget& budget = budgets.front();
   TextTable table({"slope/µrad", "least squares", "end points", "minimum zone"});
-  table.add(line_row("EYX, run " + std::to_string(s.run_x), lines, &SquarenessLine::slope_EYX_rad,
-                     urad_with_u(s.slope_EYX_rad, s.u_slope_EYX_rad)));
-  table.add(line_row("EXY, run " + std::to_string(s.run_y), lines, &SquarenessLine::slope_EXY_rad,
-                     urad_with_u(s.slope_EXY_rad, s.u_slope_EXY_rad)));
+  table.add(line_row(s.straightness_a() + of_run(s.run_a), lines, &SquarenessLine::slope_a_rad,
+                     urad_with_u(s.slope_a_rad, s.u_slope_a_rad)));
+  table.add(line_row(s.straightness_b() + of_run(s.run_b), lines, &SquarenessLine::slope_b_rad,
+                     urad_with_u(s.slope_b_rad, s.u_slope_b_rad)));
+  const std::string name = squareness_name(s.axes);
   const std::string artefact =
-      urad_to_place(s.artefact.corner * s.artefact.angle_error_rad, s.artefact.u_rad);
+      urad_to_place(squareness_of(s.axes, 0, 0, s.artefact), s.artefact.u_rad);
   table.add({"artefact", with_u(artefact, urad_to_place(s.artefact.u_rad, s.artefact.u_rad)),
              artefact, artefact});
   table.add(
-      line_row("EC0Y", lines, &SquarenessLine::EC0Y_rad, urad_to_place(s.EC0Y_rad, budget.U)));
+      line_row(name, lines, &SquarenessLine::error_rad, urad_to_place(s.error_rad, budget.U)));
   return noise_only_notice(budget.noise_only) + simulated_notice(s.simulated) + table.text() +
-         "\nEC0Y = " +
-         with_u(urad_to_place(s.EC0Y_rad, budget.U), urad_to_place(budget.u, budget.u)) +
+         "\n" + name + " = " +
+         with_u(urad_to_place(s.error_rad, budget.U), urad_to_place(budget.u, budget.u)) +
          " µrad, expanded U = " + urad_to_place(budget.U, budget.U) +
-         " (k = " + fixed(budget.coverage_factor, 2) +
-         ", 95 %)\n"
-         "the angle from +X to +Y is 90° + EC0Y\n"
-         "form " +
-         in_urad(s.form_rad) + " µrad: residual straightness of both axes\n" +
+         " (k = " + fixed(budget.coverage_factor, 2) + ", 95 %)\n" + squareness_sense(s.axes, "°") +
+         "\nform " + in_urad(s.form_rad) + " µrad: residual straightness of both axes\n" +
          wrapped("± one standard uncertainty: " + covers_text(budget) +
                      "; mdof budget has the contributors. Slopes at the fixture.",
                  terminal_columns()) +
@@ -85,23 +89,32 @@ std::string squareness_text(const Squareness& s, const std::vector<Budget>& budg
 // Made on reading: stored is the fit by least squares.
 Result<SquarenessLines> lines_of_squareness(const std::string& database, const Squareness& s) {
   MDOF_TRY(store::Store store, open_to_read(database));
-  MDOF_TRY(const Run x, store.run(s.run_x));
-  MDOF_TRY(const Run y, store.run(s.run_y));
-  return algo::squareness_lines(x, y, s);
+  MDOF_TRY(const Run a, store.run(s.run_a));
+  MDOF_TRY(const Run b, store.run(s.run_b));
+  return algo::squareness_lines(a, b, s);
 }
 
-std::string with_lines(std::string json, const SquarenessLines& lines) {
+std::string with_lines(std::string json, const Squareness& s, const SquarenessLines& lines) {
   JsonWriter writer;
-  write_squareness_lines(writer, lines);
+  write_squareness_lines(writer, s, lines);
   json.pop_back();
   return json + ",\"lines\":" + writer.take() + "}";
+}
+
+Result<RunHeader> stored_header(const std::string& database, std::int64_t run) {
+  MDOF_TRY(store::Store store, open_to_read(database));
+  return store.run_header(run);
 }
 
 // mdofd has the database: it fits and stores. What it stored is read like that of this program, so
 // that both say the same.
 Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessCommand& command) {
   JsonWriter params;
-  params.begin_object().field("run_x", command.run_x).field("run_y", command.run_y);
+  params.begin_object();
+  for (const std::int64_t run : {command.run_a, command.run_b}) {
+    MDOF_TRY(const RunHeader header, stored_header(command.database, run));
+    params.field(std::string("run_") + static_cast<char>(letter(header.axis) - 'A' + 'a'), run);
+  }
   if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
   if (command.u_artefact_urad) params.field("u_artefact_urad", *command.u_artefact_urad);
   if (command.partial) params.field("partial", true);
@@ -111,7 +124,7 @@ Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessC
   const auto json = parser.parse(simdjson::padded_string(reply));
   const auto id = integer(json, "squareness");
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const auto stored, store.squareness_of(command.run_x, command.run_y));
+  MDOF_TRY(const auto stored, store.squareness_of(command.run_a, command.run_b));
   for (const auto& s : stored)
     if (s.id == id) return daemon::stored_squareness(store, s);
   return io_error("mdofd stored a squareness that its database does not have: " + reply);
@@ -121,19 +134,20 @@ Status draw_both_axes(const SquarenessCommand& command, const Squareness& s, con
   if (command.plots.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(command.database));
   charts::SquarenessResults drawn{s, budget, {}, {}, {}};
-  MDOF_TRY(drawn.run_x, daemon::run_stated_at(store, s.run_x, Reference::fixture));
-  MDOF_TRY(drawn.run_y, daemon::run_stated_at(store, s.run_y, Reference::fixture));
-  for (const Run* run : {&drawn.run_x, &drawn.run_y})
+  MDOF_TRY(drawn.run_a, daemon::run_stated_at(store, s.run_a, Reference::fixture));
+  MDOF_TRY(drawn.run_b, daemon::run_stated_at(store, s.run_b, Reference::fixture));
+  for (const Run* run : {&drawn.run_a, &drawn.run_b})
     for (std::string& mark : daemon::marks_of(*run)) drawn.marks.push_back(std::move(mark));
   const std::string name =
-      "squareness-" + std::to_string(s.run_x) + "-" + std::to_string(s.run_y) + ".svg";
+      "squareness-" + std::to_string(s.run_a) + "-" + std::to_string(s.run_b) + ".svg";
   return write_plots({{name, charts::squareness_svg(drawn, words::Language::english)}},
                      command.plots);
 }
 
 Status squareness(SquarenessCommand command) {
-  MDOF_TRY(command.run_x, run_number(command.database, command.word_x, Axis::x));
-  MDOF_TRY(command.run_y, run_number(command.database, command.word_y, Axis::y));
+  MDOF_TRY(const auto runs, run_pair(command.database, command.words, command.axes));
+  command.run_a = runs[0];
+  command.run_b = runs[1];
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   MDOF_TRY(const auto fitted, mdofd ? fit_there(*mdofd, command) : fit(command));
   const auto& [s, budgets, notices] = fitted;
@@ -141,15 +155,17 @@ Status squareness(SquarenessCommand command) {
   if (const std::string text = not_declared_text({budgets.front()}); !text.empty()) warn(text);
   MDOF_TRY(const SquarenessLines lines, lines_of_squareness(command.database, s));
   MDOF_CHECK(draw_both_axes(command, s, budgets.front()));
-  return command.json ? write_line(with_lines(
-                            with_notices(squareness_json(s, budgets), notices, words::text), lines))
-                      : write_out(squareness_text(s, budgets, lines));
+  return command.json
+             ? write_line(with_lines(
+                   with_notices(squareness_json(s, budgets), notices, words::text), s, lines))
+             : write_out(squareness_text(s, budgets, lines));
 }
 
 Action declare_squareness(CLI::App& command) {
   const auto o = std::make_shared<SquarenessCommand>();
-  add_run_argument(command, "RUN_X", o->word_x, "Run along X, or latest");
-  add_run_argument(command, "RUN_Y", o->word_y, "Run along Y, same square; or latest");
+  add_run_argument(command, "RUN_A", o->words[0], "Run along the first axis, or latest");
+  add_run_argument(command, "RUN_B", o->words[1], "Run along the second, same square; or latest");
+  add_axes_option(command, o->axes);
   command.add_option("--artefact-urad", o->artefact_urad,
                      "Angle error of the square [default: of the rigs]");
   command.add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
@@ -168,7 +184,10 @@ Action declare_squareness(CLI::App& command) {
 Command squareness_command() {
   return {.name = "squareness",
           .summary = "Angle between two axes from a run along each",
-          .footer = "Example:\n  mdof squareness 1 2 --artefact-urad -1.3 --u-artefact-urad 0.4",
+          .footer =
+              "Axes in the order X, Y, Z: EC0Y of X and Y, EB0Z of X and Z, EA0Z of Y and Z.\n"
+              "Examples:\n  mdof squareness 1 2 --artefact-urad -1.3 --u-artefact-urad 0.4\n"
+              "  mdof squareness latest latest --axes XZ",
           .declare = declare_squareness};
 }
 

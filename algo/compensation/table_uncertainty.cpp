@@ -50,44 +50,46 @@ OfApproach of_approach(const MovingAxis& moving, const std::vector<MeasuredPoint
   return out;
 }
 
-// What the shifts of runs that lack visits, and of their passes, do to the means of both approaches
-// together, by independent parts.
+// What is not known of the shifts of runs that lack visits, and what levels of their passes do to
+// the means of both approaches together, by independent parts.
 class SharedShifts {
  public:
+  // `u_visit`: named.
   SharedShifts(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
-               const std::vector<TargetMean>& grid)
-      : grid_(grid) {
+               const std::vector<TargetMean>& grid, const Errors5& u_visit)
+      : grid_(grid), u_visit_(u_visit) {
     std::vector<MeasuredPoint> counted;
     std::copy_if(points.begin(), points.end(), std::back_inserter(counted), counts_in_means);
     by_noise_ = parts_by_run_shifts(counted);
-    for (const auto& [where, left] : left_by_passes(counted))
-      left_[where] = named_from_local(moving, left);
+    levels_ = pass_levels(moving, counted, u_visit);
+    run_level_ = named_from_local(moving, without_drift_of_runs(points).u_level);
   }
+  bool has_levels() const { return !levels_.parts.empty(); }
+  double run_level(std::size_t k) const { return std::abs(run_level_[k]); }
   // [part][target of the grid] of named error k, 0 where the approach has no mean.
-  std::vector<std::vector<double>> of(Approach approach, std::size_t k, double u_visit) const {
+  std::vector<std::vector<double>> of(Approach approach, std::size_t k) const {
     std::vector<std::vector<double>> parts;
-    for (const auto& part : by_noise_)
-      parts.push_back(on_grid(approach, part, [&](double by_one) { return by_one * u_visit; }));
-    if (!left_.empty())
-      parts.push_back(on_grid(approach, left_, [&](const Errors5& left) { return left[k]; }));
+    for (const auto& part : by_noise_) parts.push_back(on_grid(approach, part, u_visit_[k]));
+    for (const auto& part : levels_.parts)
+      parts.push_back(on_grid(approach, part, levels_.u_half[k]));
     return parts;
   }
 
  private:
-  template <class T, class Change>
-  std::vector<double> on_grid(Approach approach, const std::map<TargetAndWay, T>& part,
-                              Change change) const {
-    std::vector<double> all;
+  std::vector<double> on_grid(Approach approach, const std::map<TargetAndWay, double>& part,
+                              double u) const {
+    std::vector<double> changes;
     for (const TargetMean& mean : grid_) {
       const auto at = part.find({mean.target, approach == Approach::forward ? 1 : 0});
-      all.push_back(at == part.end() ? 0.0 : change(at->second));
+      changes.push_back(at == part.end() ? 0.0 : u * at->second);
     }
-    return all;
+    return changes;
   }
 
   const std::vector<TargetMean>& grid_;
+  Errors5 u_visit_, run_level_{};  // run_level_: u of the means, which runs' levels make
   std::vector<std::map<TargetAndWay, double>> by_noise_;
-  std::map<TargetAndWay, Errors5> left_;  // named
+  PassLevels levels_;
 };
 
 // Of half of what the two approaches differ by, over all targets that have both, from run to run:
@@ -179,31 +181,35 @@ SeriesOfErrors table_uncertainty(
   const OfApproach own = of_approach(moving, points, grid, approach);
   const OfApproach other = of_approach(moving, points, grid, back);
   const Errors5 apart = half_difference(moving, points);
-  const SharedShifts shared(moving, points, grid);
+  const SharedShifts shared(moving, points, grid, own.u_visit);
   SeriesOfErrors u;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     u[k].assign(grid.size(), kNaN);
-    const auto own_shifts = shared.of(approach, k, own.u_visit[k]);
-    const auto other_shifts = shared.of(back, k, own.u_visit[k]);
+    const auto own_shifts = shared.of(approach, k), other_shifts = shared.of(back, k);
     for (std::size_t i = 0; i < grid.size(); ++i) {
       if (!own.has[i]) continue;
       const Reference& reference = references[k][i];
+      std::vector<double> by_own, by_other;  // of the means of each approach, in this value
       double variance = 0, referred = 0;
-      std::vector<double> shifts;
-      for (const auto& part : own_shifts) shifts.push_back(part[i]);
       for (std::size_t j = 0; j < grid.size(); ++j) {
         const double of_own = !own.has[j] ? 0 : other.has[j] ? 0.5 : 1;
-        const double by_own = (i == j ? 1.0 : 0.0) - reference[j] * of_own;
-        const double by_other = reference[j] * (1 - of_own);
-        variance +=
-            by_own * by_own * own.variance[j][k] + by_other * by_other * other.variance[j][k];
+        by_own.push_back((i == j ? 1.0 : 0.0) - reference[j] * of_own);
+        by_other.push_back(-reference[j] * (1 - of_own));
+        variance += by_own[j] * by_own[j] * own.variance[j][k] +
+                    by_other[j] * by_other[j] * other.variance[j][k];
         referred += reference[j];
-        for (std::size_t p = 0; p < shifts.size(); ++p)
-          shifts[p] -=
-              reference[j] * (of_own * own_shifts[p][j] + (1 - of_own) * other_shifts[p][j]);
       }
-      variance += referred > 0.5 ? apart[k] : own.shift[k];
-      for (const double shift : shifts) variance += shift * shift;
+      for (std::size_t p = 0; p < own_shifts.size(); ++p) {
+        double change = 0;
+        for (std::size_t j = 0; j < grid.size(); ++j)
+          change += by_own[j] * own_shifts[p][j] + by_other[j] * other_shifts[p][j];
+        variance += change * change;
+      }
+      const bool is_referred = referred > 0.5;
+      if (shared.has_levels())
+        variance += is_referred ? 0 : shared.run_level(k) * shared.run_level(k);
+      else
+        variance += is_referred ? apart[k] : own.shift[k];
       u[k][i] = std::sqrt(variance);
     }
   }

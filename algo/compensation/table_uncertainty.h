@@ -19,7 +19,8 @@ Reference line_at(const std::vector<double>& x, double at);  // the least-square
 // error and target. What is independent from visit to visit (repeatability.h) counts in the value
 // and in its reference; a shift that all targets of a pass share cancels where there is a
 // reference, but for half of what the passes of the two approaches differ by at random from run to
-// run. `grid`: target_means() of both approaches of these points.
+// run; where runs lack visits, this half moves each mean by its own share (run_shifts.h). `grid`:
+// target_means() of both approaches of these points.
 using SeriesOfErrors = std::array<std::vector<double>, kErrorCount>;
 SeriesOfErrors table_uncertainty(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                                  const std::vector<TargetMean>& grid, Approach approach,

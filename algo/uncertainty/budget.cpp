@@ -95,7 +95,7 @@ Result<RunBudgets> RunBudgets::create(const Rig& rig, const Run& run) {
 }
 
 std::size_t RunBudgets::cost() const {
-  std::size_t parts = 1 + repeatability_.together.size();
+  std::size_t parts = 1 + repeatability_.together.size() + repeatability_.of_passes.size();
   for (const Shifted& shifted : shifted_) parts += shifted.parts.size();
   return parts * means_.targets.size();
 }
@@ -160,17 +160,24 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
       freedom = repeatability_.freedom;
     together.insert(together.end(), repeatability_.u_shift.begin(), repeatability_.u_shift.end());
   }
-  for (const std::vector<Errors5>& part : repeatability_.together) {
-    MeanShifts shifts;
-    for (const Errors5& at_target : part)
-      shifts.insert(shifts.end(), at_target.begin(), at_target.end());
-    const double by_part = half_difference(figure, shifts);
-    square += by_part * by_part;
-  }
+  const auto square_by = [&](const std::vector<std::vector<Errors5>>& parts) {
+    double sum = 0;
+    for (const std::vector<Errors5>& part : parts) {
+      MeanShifts shifts;
+      for (const Errors5& at_target : part)
+        shifts.insert(shifts.end(), at_target.begin(), at_target.end());
+      sum += std::pow(half_difference(figure, shifts), 2);
+    }
+    return sum;
+  };
+  square += square_by(repeatability_.together);
+  const double by_passes = square_by(repeatability_.of_passes);
   const double shift = std::abs(half_difference(figure, together));
-  const std::array<UncertaintyPart, 2> both = {
-      {{std::sqrt(square), freedom}, {shift, repeatability_.shift_freedom}}};
-  return {std::sqrt(square + shift * shift), effective_freedom(both)};
+  const std::array<UncertaintyPart, 3> all = {
+      {{std::sqrt(square), freedom},
+       {std::sqrt(by_passes), repeatability_.passes_freedom},
+       {shift, repeatability_.shift_freedom}}};
+  return {std::sqrt(square + by_passes + shift * shift), effective_freedom(all)};
 }
 
 RunBudgets::Random RunBudgets::random_of_runs(const Figure& figure) const {

@@ -139,31 +139,33 @@ class Decomposition {
   double freedom_ = 0;
 };
 
-// What changes several means together where runs lack visits: what is not known of the shifts of
-// the runs, and, as a whole, what those of the passes leave. [part][target]
-std::vector<std::vector<Errors5>> parts_of_shifts(const MovingAxis& moving,
-                                                  const std::vector<MeasuredPoint>& counted,
-                                                  const Errors5& u_visit) {
-  const TargetChanges changes(moving, counted);
-  const auto by_visits = [&](const auto& change_of) {
+// Changes of the means of each target and way by a unit, as those of the means of both approaches
+// by one u of each error. [part][target]
+std::vector<std::vector<Errors5>> of_both_approaches(
+    const TargetChanges& changes, const std::vector<MeasuredPoint>& counted,
+    const std::vector<std::map<TargetAndWay, double>>& by_unit, const Errors5& u) {
+  std::vector<std::vector<Errors5>> parts;
+  for (const auto& part : by_unit) {
     std::vector<Errors5> all;
-    for (const MeasuredPoint& p : counted)
-      all.push_back(change_of({p.target, p.point.direction > 0 ? 1 : 0}));
-    return changes.of(all);
-  };
-  const auto left = left_by_passes(counted);
-  std::vector<std::vector<Errors5>> parts = {
-      by_visits([&](const TargetAndWay& where) { return left.at(where); })};
-  for (const auto& part : parts_by_run_shifts(counted)) {
-    parts.push_back(by_visits([&](const TargetAndWay& where) {
-      Errors5 change;
-      change.fill(part.at(where));
-      return change;
-    }));
+    for (const MeasuredPoint& p : counted) {
+      Errors5& change = all.emplace_back();
+      change.fill(part.at({p.target, p.point.direction > 0 ? 1 : 0}));
+    }
+    parts.push_back(changes.of(all));
     for (Errors5& of_target : parts.back())
-      for (std::size_t k = 0; k < kErrorCount; ++k) of_target[k] *= u_visit[k];
+      for (std::size_t k = 0; k < kErrorCount; ++k) of_target[k] *= u[k];
   }
   return parts;
+}
+
+void add_shared(Repeatability& found, const MovingAxis& moving,
+                const std::vector<MeasuredPoint>& counted) {
+  const TargetChanges changes(moving, counted);
+  const PassLevels levels = pass_levels(moving, counted, found.u_visit);
+  found.together =
+      of_both_approaches(changes, counted, parts_by_run_shifts(counted), found.u_visit);
+  found.of_passes = of_both_approaches(changes, counted, levels.parts, levels.u_half);
+  found.passes_freedom = levels.freedom;
 }
 
 }  // namespace
@@ -193,7 +195,7 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
   const Errors5 level = named_from_local(moving, without.u_level);
   for (std::size_t k = 0; k < kErrorCount; ++k)
     found.u_shift[k] = uneven ? std::abs(level[k]) : std::sqrt(shift[k]);
-  if (uneven) found.together = parts_of_shifts(moving, counted, found.u_visit);
+  if (uneven) add_shared(found, moving, counted);
   if (visits.runs() > 1) found.shift_freedom = visits.runs() - 1;
   return found;
 }

@@ -16,9 +16,10 @@ struct Repeatability {
   // Of those errors whose u is by the scatter; a dwell's noise is that of many readings.
   double freedom = std::numeric_limits<double>::infinity();
   std::array<bool, kErrorCount> by_scatter{};
-  // What the shifts of runs that lack visits, and of their passes, do to several means together, by
-  // independent parts. [part][target]
-  std::vector<std::vector<Errors5>> together;
+  // What is not known of the shifts of runs that lack visits, and what levels of their passes do to
+  // several means together, by independent parts. [part][target]
+  std::vector<std::vector<Errors5>> together, of_passes;
+  double passes_freedom = std::numeric_limits<double>::infinity();
   Errors5 u_visit{};  // of a visit, pooled
   Errors5 u_shift{};  // of all means together
   double shift_freedom = std::numeric_limits<double>::infinity();

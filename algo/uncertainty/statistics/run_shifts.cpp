@@ -1,7 +1,9 @@
 #include "algo/uncertainty/statistics/run_shifts.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "algo/linear_algebra/least_squares.h"
 #include "algo/sequence/run_drifts.h"
@@ -62,37 +64,85 @@ std::vector<std::map<TargetAndWay, double>> parts_by_run_shifts(
   return parts;
 }
 
-std::map<TargetAndWay, Errors5> left_by_passes(const std::vector<MeasuredPoint>& counted) {
-  std::map<TargetAndWay, Errors5> left;
-  if (!any_run_lacks_visits(counted)) return left;
+namespace {
+
+// Half of what the passes of each run that has both differ by.
+struct HalfDifferences {
+  std::vector<int> runs;
+  std::vector<Errors5> half;       // but for one constant of all
+  std::vector<double> by_a_visit;  // variance of it, by a variance of 1 of a visit
+};
+
+HalfDifferences half_differences(const MovingAxis& moving,
+                                 const std::vector<MeasuredPoint>& counted) {
   std::vector<MeasuredPoint> passes = counted;
   std::vector<Errors5> errors;
-  std::map<TargetAndWay, double> visits;
+  struct Pass {
+    std::size_t number = 0;
+    double visits = 0;
+  };
+  std::map<int, std::array<Pass, 2>> of_run;
   for (MeasuredPoint& p : passes) {
     p.run = 2 * p.run + target_and_way(p).second;
-    errors.push_back(p.errors.local);
-    visits[target_and_way(p)] += 1;
+    errors.push_back(named_from_local(moving, p.errors.local));
   }
-  const RunDrifts runs(counted), of_passes(passes);
-  const std::vector<Errors5> of_run = runs.of(errors), of_pass = of_passes.of(errors);
-  // What all passes of one way have in common passes for the reversal: it is not of the shifts.
-  std::array<Errors5, 2> sum{};
-  std::array<double, 2> n{};
+  const RunDrifts fitted(passes);
+  const std::vector<Errors5> level = fitted.of(errors);
   for (std::size_t i = 0; i < counted.size(); ++i) {
-    const auto way = static_cast<std::size_t>(target_and_way(counted[i]).second);
-    n[way] += 1;
-    for (std::size_t k = 0; k < kErrorCount; ++k) {
-      errors[i][k] = of_pass[of_passes.run_of_points()[i]][k] - of_run[runs.run_of_points()[i]][k];
-      sum[way][k] += errors[i][k];
-    }
+    Pass& pass =
+        of_run[counted[i].run][static_cast<std::size_t>(target_and_way(counted[i]).second)];
+    pass.number = fitted.run_of_points()[i];
+    pass.visits += 1;
   }
-  for (std::size_t i = 0; i < counted.size(); ++i) {
-    const TargetAndWay at = target_and_way(counted[i]);
-    const auto way = static_cast<std::size_t>(at.second);
+  HalfDifferences found;
+  for (const auto& [run, pass] : of_run) {
+    if (pass[0].visits == 0 || pass[1].visits == 0) continue;
+    found.runs.push_back(run);
+    Errors5& half = found.half.emplace_back();
     for (std::size_t k = 0; k < kErrorCount; ++k)
-      left[at][k] += (errors[i][k] - sum[way][k] / n[way]) / visits.at(at);
+      half[k] = (level[pass[1].number][k] - level[pass[0].number][k]) / 2;
+    found.by_a_visit.push_back((1 / pass[0].visits + 1 / pass[1].visits) / 4);
   }
-  return left;
+  return found;
+}
+
+// What the means change by if the forward pass of a run is 1 higher and its reverse pass 1 lower.
+std::map<TargetAndWay, double> changed_by_half(const RunDrifts& drifts,
+                                               const std::vector<MeasuredPoint>& counted, int run) {
+  std::vector<Errors5> changes(counted.size());
+  for (std::size_t i = 0; i < counted.size(); ++i)
+    if (counted[i].run == run) changes[i][0] = target_and_way(counted[i]).second == 1 ? 1 : -1;
+  const std::vector<Errors5> taken = drifts.of(changes);
+  std::map<TargetAndWay, double> sum, visits;
+  for (std::size_t i = 0; i < counted.size(); ++i) {
+    sum[target_and_way(counted[i])] += changes[i][0] - taken[drifts.run_of_points()[i]][0];
+    visits[target_and_way(counted[i])] += 1;
+  }
+  for (auto& [at, change] : sum) change /= visits.at(at);
+  return sum;
+}
+
+}  // namespace
+
+PassLevels pass_levels(const MovingAxis& moving, const std::vector<MeasuredPoint>& counted,
+                       const Errors5& u_visit) {
+  PassLevels found;
+  if (!any_run_lacks_visits(counted)) return found;
+  const HalfDifferences halves = half_differences(moving, counted);
+  const auto n = static_cast<double>(halves.runs.size());
+  if (halves.runs.size() < 2 || halves.runs.size() > kMostShiftedRuns) return found;
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    double mean = 0, variance = 0;
+    for (const Errors5& half : halves.half) mean += half[k] / n;
+    for (std::size_t r = 0; r < halves.half.size(); ++r)
+      variance += (halves.half[r][k] - mean) * (halves.half[r][k] - mean) / (n - 1) -
+                  halves.by_a_visit[r] * u_visit[k] * u_visit[k] / n;
+    found.u_half[k] = std::sqrt(std::max(0.0, variance));
+  }
+  found.freedom = n - 1;
+  const RunDrifts drifts(counted);
+  for (const int run : halves.runs) found.parts.push_back(changed_by_half(drifts, counted, run));
+  return found;
 }
 
 }  // namespace mdof::algo

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "algo/iso230/target_means.h"
 #include "schema/point.h"
 
 namespace mdof::algo {
@@ -22,8 +24,18 @@ inline constexpr std::size_t kMostShiftedRuns = 256;
 std::vector<std::map<TargetAndWay, double>> parts_by_run_shifts(
     const std::vector<MeasuredPoint>& counted);
 
-// What the shifts of the passes leave in these means, as means are made without that of the whole
-// run only; local. Nothing where no run lacks visits.
-std::map<TargetAndWay, Errors5> left_by_passes(const std::vector<MeasuredPoint>& counted);
+// What levels of the passes do to the means, which are made without that of the whole run only. A
+// level of both passes of a run is that of the run; half of what they differ by, from run to run,
+// stays in the means where a run lacks a part of a pass.
+struct PassLevels {
+  // By 1 of this half difference of one run each. Nothing where no run lacks visits, of more than
+  // kMostShiftedRuns runs, and where fewer than two runs have both passes.
+  std::vector<std::map<TargetAndWay, double>> parts;
+  Errors5 u_half{};  // standard deviation of the half difference, without that of its noise; named
+  double freedom = std::numeric_limits<double>::infinity();
+};
+// `u_visit`: of one visit, independent of the others; named.
+PassLevels pass_levels(const MovingAxis& moving, const std::vector<MeasuredPoint>& counted,
+                       const Errors5& u_visit);
 
 }  // namespace mdof::algo

@@ -21,8 +21,10 @@ class TargetNoise {
 
  private:
   const Repeatability& random_;
-  std::vector<std::vector<double>> drawn_;     // of each target, and of the shift; by trial
-  std::vector<std::vector<double>> together_;  // of each part that changes several targets
+  std::vector<std::vector<double>> drawn_;  // of each target, and of the shift; by trial
+  // Of each part that changes several targets.
+  std::vector<const std::vector<Errors5>*> parts_;
+  std::vector<std::vector<double>> together_;
   std::vector<double> for_freedom_;
 };
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "algo/drift/removed_drift.h"
 #include "algo/uncertainty/budget_draws.h"
 #include "algo/uncertainty/coverage.h"
 #include "algo/uncertainty/statistics/range_interval.h"
@@ -192,12 +193,25 @@ RunBudgets::Random RunBudgets::random_of_runs(const Figure& figure) const {
   return {std::sqrt(sum_of_squares(values) / (n - 1) / n), n - 1};
 }
 
+// The slow noise of a removed drift scatters from run to run, too: the variance of that.
+double RunBudgets::by_removed_drift(const Figure& figure) const {
+  double square = 0;
+  for (const Shifted& shifted : shifted_) {
+    if (shifted.contributor.name != kRemovedDrift) continue;
+    for (const MeanShifts& part : shifted.parts)
+      square += std::pow(half_difference(figure, part), 2);
+  }
+  return square;
+}
+
 RunBudgets::Random RunBudgets::random_of(const Figure& figure) const {
   const Random targets = random_of_targets(figure), runs = random_of_runs(figure);
-  const double excess = runs.u * runs.u - targets.u * targets.u;
-  if (!(runs.u * runs.u > kRunsScatterMore * targets.u * targets.u)) return targets;
+  const double seen = targets.u * targets.u + by_removed_drift(figure);
+  const double excess = runs.u * runs.u - seen;
+  if (!(runs.u * runs.u > kRunsScatterMore * seen)) return targets;
   const std::array<UncertaintyPart, 2> both = {{targets.part(), {std::sqrt(excess), runs.freedom}}};
-  return {runs.u, effective_freedom(both), targets.u > 0 ? runs.u / targets.u : 1};
+  const double u = std::sqrt(targets.u * targets.u + excess);
+  return {u, effective_freedom(both), targets.u > 0 ? u / targets.u : 1};
 }
 
 Budget RunBudgets::first_order(const Figure& figure) const {

@@ -93,6 +93,7 @@ class RunBudgets {
   double half_difference(const Figure& figure, const MeanShifts& shifts) const;
   Random random_of_targets(const Figure& figure) const;
   Random random_of_runs(const Figure& figure) const;
+  double by_removed_drift(const Figure& figure) const;
   Random random_of(const Figure& figure) const;
 
   MeanErrors means_;

@@ -243,6 +243,30 @@ TEST(RemovedDrift, BesideARandomWalk) {
   expect_covered(found, runs, 75);
 }
 
+// The walk is in the part of the removed drift. It makes the slopes of the runs differ, too, and
+// there it must not count again: noise alone makes 3 nm/sqrt(6) over 13 places 5 mm apart.
+TEST(RemovedDrift, ASlopeHasTheSlowNoiseOnce) {
+  World world;
+  world.slow = random_walk(20e-9);
+  world.drift = [](double part) { return 200e-9 * part; };
+  const double by_white = kWhite / std::sqrt(6.0) / (5e-3 * std::sqrt(182.0));
+  double square = 0, logs = 0;
+  for (std::uint64_t seed = 1000; seed < 1030; ++seed) {
+    bool removed = false;
+    const mdof::Run run = without_drift(world.measured(seed), removed);
+    const Budget slope =
+        RunBudgets::create(test::rig_x(), run).value().first_order(slope_figure(Axis::x, 0));
+    if (slope.u_random == slope.u) continue;  // no drift of this error was removed
+    square += slope.u_random * slope.u_random;
+    logs += 1;
+  }
+  const double by_noise = std::sqrt(square / logs) / by_white;
+  std::printf("u of a slope by noise, beside a walk: %.2f of that by white noise\n", by_noise);
+  EXPECT_GT(logs, 20);
+  EXPECT_GT(by_noise, 1);
+  EXPECT_LT(by_noise, 1.5);
+}
+
 TEST(RemovedDrift, ARandomWalkAloneIsSeldomTakenForADrift) {
   const int logs = coverage_runs(100);
   World world;

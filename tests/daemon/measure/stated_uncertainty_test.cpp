@@ -314,7 +314,8 @@ Coverage coverage_of(Noise kind, int pairs, Declares declares = Declares::all,
   Coverage coverage;
   for (int i = 0; i < pairs; ++i)
     measure_pair(coverage, kRigs[static_cast<std::size_t>(i) % std::size(kRigs)], kind,
-                 5000 + static_cast<std::uint64_t>(i), tell_calibration, declares);
+                 test::coverage_seed(5000) + static_cast<std::uint64_t>(i), tell_calibration,
+                 declares);
   return coverage;
 }
 
@@ -322,8 +323,8 @@ Coverage coverage_of(Noise kind, int pairs, Declares declares = Declares::all,
 Coverage coverage_of(const Lengths& of, int pairs) {
   Coverage coverage;
   for (int i = 0; i < pairs; ++i)
-    measure_pair(coverage, of, Noise::white, 9000 + static_cast<std::uint64_t>(i), true,
-                 Declares::all);
+    measure_pair(coverage, of, Noise::white,
+                 test::coverage_seed(9000) + static_cast<std::uint64_t>(i), true, Declares::all);
   return coverage;
 }
 

@@ -53,9 +53,23 @@ Matrix6 root_of(const Matrix6& covariance) {
   return L;
 }
 
-Matrix6 parts_of(const ErrorCorrelation& correlation, double at,
-                 const std::array<double, kBodyErrors>& u) {
-  const Place place = place_of(correlation.position, at);
+std::vector<std::array<double, kBodyErrors>> shared_at(const ErrorCorrelation& correlation,
+                                                       const Place& place) {
+  std::vector<std::array<double, kBodyErrors>> all;
+  for (const SharedPart& part : correlation.shared) {
+    const auto& low = part.at[place.cell];
+    const auto& high = part.at[std::min(place.cell + 1, part.at.size() - 1)];
+    auto& here = all.emplace_back();
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      here[k] = low[k] + (high[k] - low[k]) * place.part;
+  }
+  return all;
+}
+
+// Without the shared parts.
+Matrix6 parts_of(const ErrorCorrelation& correlation, const Place& place,
+                 const std::array<double, kBodyErrors>& u,
+                 const std::vector<std::array<double, kBodyErrors>>& shared) {
   const auto& low = correlation.at[place.cell];
   const auto& high = correlation.at[std::min(place.cell + 1, correlation.at.size() - 1)];
   Matrix6 covariance;
@@ -63,6 +77,10 @@ Matrix6 parts_of(const ErrorCorrelation& correlation, double at,
     for (std::size_t l = 0; l < kBodyErrors; ++l)
       covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) =
           u[k] * u[l] * (low[k][l] + (high[k][l] - low[k][l]) * place.part);
+  for (const auto& part : shared) {
+    const Eigen::Map<const Eigen::Matrix<double, kBodyErrors, 1>> by(part.data());
+    covariance -= by * by.transpose();
+  }
   return root_of(covariance);
 }
 
@@ -112,7 +130,10 @@ FrameValues values_at(const MachineFrame& frame, const Command& command, Machine
     v.u_location[k] = frame.location[k].u.value_or(0);
     v.u_parts(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) = v.u_error[k];
   }
-  if (!frame.correlation.at.empty()) v.u_parts = parts_of(frame.correlation, at, v.u_error);
+  if (frame.correlation.at.empty()) return v;
+  const Place place = place_of(frame.correlation.position, at);
+  v.shared = shared_at(frame.correlation, place);
+  v.u_parts = parts_of(frame.correlation, place, v.u_error, v.shared);
   return v;
 }
 

@@ -22,9 +22,11 @@ struct FrameValues {
   std::array<double, kBodyErrors> u_error{};     // 0 where it is not declared
   std::array<double, kBodyErrors> u_location{};  // the same
   // u of the errors of the body as independent parts: what one standard uncertainty of part q does
-  // to error k is (k, q); lower triangle, the diagonal of u_error where none are correlated.
+  // to error k is (k, q); lower triangle, the diagonal of u_error where none are correlated. Beside
+  // them `shared`: parts that other frames have too, by number.
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> u_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
+  std::vector<std::array<double, kBodyErrors>> shared;
   std::array<bool, kBodyErrors> beyond{};  // the end of the table is held
 };
 FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach);

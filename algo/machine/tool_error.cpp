@@ -195,16 +195,20 @@ Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
   // By frame and independent part of its body's errors.
   std::vector<Eigen::Matrix<double, 6, kBodyErrors>> parts(
       values.size(), Eigen::Matrix<double, 6, kBodyErrors>::Zero());
+  std::vector<Vector6> shared;
   Vector6 sum = Vector6::Zero();
   for (const ErrorDerivative& d : derivatives) {
     const FrameValues& v = values[d.frame];
     if (d.of_line) {
       sum += (d.d * v.u_location[d.k]).cwiseAbs2();
     } else {
+      if (shared.size() < v.shared.size()) shared.resize(v.shared.size(), Vector6::Zero());
+      for (std::size_t p = 0; p < v.shared.size(); ++p) shared[p] += d.d * v.shared[p][d.k];
       parts[d.frame] += d.d * v.u_parts.row(static_cast<Eigen::Index>(d.k));
     }
   }
   for (const auto& of_frame : parts) sum += of_frame.cwiseAbs2().rowwise().sum();
+  for (const Vector6& part : shared) sum += part.cwiseAbs2();
   return sum.cwiseSqrt();
 }
 

@@ -34,7 +34,7 @@ std::vector<ErrorDerivative> derivatives(const Machine& machine, const Command& 
 Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
                      const std::vector<FrameValues>& values);
 // Standard uncertainty by those of the errors: of one body with their correlation, of different
-// bodies and of lines independent. 0: none declared.
+// bodies with that by their shared parts, of lines independent. 0: none declared.
 Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
                           const std::vector<FrameValues>& values);
 

@@ -58,11 +58,27 @@ void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivativ
                                                       static_cast<Eigen::Index>(one.k));
 }
 
+// What several bodies share at place `p`, one cause each, from `first` on.
+void add_shared(const Machine& machine, const std::vector<ErrorDerivative>& all,
+                const std::vector<FrameValues>& values, std::size_t p, std::size_t points,
+                std::size_t first, MachineCauses& causes) {
+  for (const ErrorDerivative& d : all) {
+    const auto& shared = values[d.frame].shared;
+    for (std::size_t s = 0; s < shared.size() && !d.of_line; ++s) {
+      if (causes.axes.size() <= first + s)
+        causes.axes.push_back(
+            new_cause(machine.frames[d.frame].correlation.shared[s].name, points));
+      causes.axes[first + s].u_m[p] += d.d.head<3>() * shared[s][d.k];
+    }
+  }
+}
+
 }  // namespace
 
 MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m) {
   MachineCauses causes;
   const std::vector<Known> known = known_errors(machine, at_m.size(), causes);
+  const std::size_t measured = causes.axes.size();
   for (const ErrorSource& source : machine.sources)
     causes.budget.push_back(new_cause(source.name, at_m.size()));
   for (std::size_t p = 0; p < at_m.size(); ++p) {
@@ -80,6 +96,7 @@ MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Ve
         if (one.of_line) causes.axes[one.cause].u_m[p] += d.d.head<3>() * v.u_location[one.k];
       }
     add_parts(known, all, values, p, causes);
+    add_shared(machine, all, values, p, at_m.size(), measured, causes);
     for (std::size_t s = 0; s < machine.sources.size(); ++s)
       causes.budget[s].u_m[p] =
           effect_of(machine, machine.sources[s], command, all) * machine.sources[s].u;

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 
 struct MachineCauses {
-  std::vector<PartCause> axes;    // of each error that is known: "EYX", "EC0Y"
+  std::vector<PartCause> axes;    // of each error that is known: "EYX", "EC0Y"; of what axes share
   std::vector<PartCause> budget;  // of each source, on what is not measured
   std::vector<std::string> not_measured, no_u, beyond;  // as of ToolError
 };

@@ -31,11 +31,20 @@ struct ErrorFunction {
   bool known() const { return !forward.empty(); }
 };
 
+// What one standard uncertainty of a quantity, which the errors of other bodies have too, does to
+// the six errors of a body. [position of ErrorCorrelation]
+struct SharedPart {
+  std::string name;  // "probe A: sensitivity"
+  std::vector<std::array<double, kBodyErrors>> at;
+};
+
 // Coefficients of correlation of the errors of a body that one set of probes has shown, by the
 // command, linear between the positions. Empty: each error is independent of the others.
 struct ErrorCorrelation {
   std::vector<double> position;  // m or rad, strictly increasing
   std::vector<std::array<std::array<double, kBodyErrors>, kBodyErrors>> at;
+  // Part of it: number p is the same quantity in all frames that have any.
+  std::vector<SharedPart> shared;
 };
 
 // Of where the line of an axis lies: a squareness, a place of a rotary axis.

@@ -45,8 +45,8 @@ std::string volumetric_sha256(const VolumetricTable& t) {
 std::string covers_text(const VolumetricTable& table) {
   std::string text = table.noise_only
                          ? "noise and repeatability of the measured errors only, in part at least"
-                         : "the u of the errors; those of different axes, and those of files, "
-                           "taken as independent";
+                         : "the u of the errors; those of different axes, but for the scales of "
+                           "common probes, and those of files, taken as independent";
   if (!table.u_not_declared.empty()) text += "; some errors have none";
   return text + "; between nodes interpolation";
 }

@@ -51,6 +51,22 @@ void add_measured_error(BudgetModel& model, std::size_t i, std::size_t q) {
   model.causes.push_back(std::move(cause));
 }
 
+// A cause for each quantity that the errors of several bodies have; u is 1 of its own.
+void add_shared(BudgetModel& model) {
+  for (std::size_t p = 0;; ++p) {
+    BudgetCause cause{"", "u", 1, SourceShape::normal, {}, Eigen::Vector3d::Zero()};
+    for (std::size_t i = 0; i < model.values.size(); ++i) {
+      const FrameValues& v = model.values[i];
+      if (p >= v.shared.size()) continue;
+      cause.name = model.machine.frames[i].correlation.shared[p].name + ", shared by the axes";
+      for (std::size_t k = 0; k < kBodyErrors; ++k)
+        if (v.shared[p][k] != 0) cause.effects.push_back({i, k, false, v.shared[p][k]});
+    }
+    if (cause.name.empty()) return;
+    if (!cause.effects.empty()) model.causes.push_back(std::move(cause));
+  }
+}
+
 void add_measured(BudgetModel& model) {
   for (std::size_t i = 0; i < model.machine.frames.size(); ++i)
     for (std::size_t k = 0; k < kBodyErrors; ++k) {
@@ -153,6 +169,7 @@ Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
   if (stage == BudgetStage::designed)
     for (MachineFrame& frame : model.machine.frames) {
       frame.error = {};
+      frame.correlation = {};
       frame.location = {};
     }
   model.values = values_at(model.machine, at, approach);
@@ -161,6 +178,7 @@ Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
     if (!cause.effects.empty()) model.causes.push_back(std::move(cause));
   }
   add_measured(model);
+  add_shared(model);
   MDOF_CHECK(check_sizes(model));
   add_sensitivities(model);
   return model;

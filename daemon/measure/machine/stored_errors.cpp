@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "algo/compensation/error_correlation.h"
+#include "algo/compensation/shared_quantities.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
 #include "schema/imported/series.h"
@@ -95,18 +96,24 @@ std::size_t body_error_of(const CompensationTable& table, std::size_t named) {
   return std::string_view("XYZABC").find(error_names(table.axis)[named].name[1]);
 }
 
+// The tables of five errors of a machine.
+struct TakenTables {
+  std::vector<MachineFrame*> frames;
+  std::vector<algo::BuiltFrom> built_from;
+  StatedAxes stated;
+};
+
 // The correlation of its errors, by the runs that it was built from.
-Status take_correlation(store::Store& store, MachineFrame& frame, const CompensationTable& table) {
-  std::vector<Run> runs;
-  std::vector<Rig> rigs;
+Status take_correlation(store::Store& store, MachineFrame& frame, const CompensationTable& table,
+                        TakenTables& taken) {
+  algo::BuiltFrom of{table, {}, {}, {table.slope_removed, true, table.stated, table.machine}};
   for (const std::int64_t id : table.runs) {
     MDOF_TRY(Run run, store.run(id));
     MDOF_TRY(Rig rig, rig_of(run.header));
-    runs.push_back(std::move(run));
-    rigs.push_back(std::move(rig));
+    of.runs.push_back(std::move(run));
+    of.rigs.push_back(std::move(rig));
   }
-  const algo::TableOptions options{table.slope_removed, true, table.stated, table.machine};
-  const auto all = algo::error_correlations(table, rigs, runs, options);
+  const auto all = algo::error_correlations(table, of.rigs, of.runs, of.options);
   if (!all) return {};  // as what the rigs declare: building the table has said why
   frame.correlation.position = table.position_m;
   for (const Covariance5& named : *all) {
@@ -116,11 +123,29 @@ Status take_correlation(store::Store& store, MachineFrame& frame, const Compensa
       for (std::size_t l = 0; l < kErrorCount; ++l)
         at[body_error_of(table, k)][body_error_of(table, l)] = named[k * kErrorCount + l];
   }
+  taken.frames.push_back(&frame);
+  taken.built_from.push_back(std::move(of));
   return {};
 }
 
+// What the probes of several axes share.
+void take_shared(const TakenTables& taken) {
+  const auto parts = algo::shared_quantities(taken.built_from);
+  if (!parts) return;  // as what the rigs declare: building the table has said why
+  for (const algo::SharedQuantity& part : *parts)
+    for (std::size_t t = 0; t < taken.frames.size(); ++t) {
+      SharedPart& shared = taken.frames[t]->correlation.shared.emplace_back();
+      shared.name = part.name;
+      for (const Errors5& named : part.by_table[t]) {
+        auto& at = shared.at.emplace_back();
+        for (std::size_t k = 0; k < kErrorCount; ++k)
+          at[body_error_of(taken.built_from[t].table, k)] = named[k];
+      }
+    }
+}
+
 Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
-                  const CompensationTable& table, StatedAxes& stated) {
+                  const CompensationTable& table, TakenTables& taken) {
   machine.simulated = machine.simulated || table.simulated;
   machine.noise_only = machine.noise_only || table.noise_only();
   if (table.has_positioning()) {
@@ -135,7 +160,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
         function_of(table.position_m, scaled(along.forward, body), scaled(along.reverse, body), u));
   }
   MDOF_CHECK(check_set_up(machine, frame, table));
-  stated.push_back({frame.id, table.stated.reference, table.slope_removed});
+  taken.stated.push_back({frame.id, table.stated.reference, table.slope_removed});
   for (std::size_t named = 0; named < 5; ++named) {
     std::vector<double> u;
     for (std::size_t row = 0; row < table.position_m.size(); ++row)
@@ -143,7 +168,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
     MDOF_CHECK(take(frame, body_error_of(table, named),
                     function_of(table.position_m, table.forward[named], table.reverse[named], u)));
   }
-  return take_correlation(store, frame, table);
+  return take_correlation(store, frame, table, taken);
 }
 
 void add_new(const std::vector<std::int64_t>& from, std::vector<std::int64_t>& to) {
@@ -175,7 +200,7 @@ Result<std::vector<std::int64_t>> latest_runs(store::Store& store, const Machine
 }
 
 Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all,
-                 StatedAxes& stated) {
+                 TakenTables& taken) {
   std::vector<std::int64_t> ids = frame.runs.ids;
   if (frame.runs.latest) {
     MDOF_TRY(ids, latest_runs(store, frame));
@@ -195,14 +220,14 @@ Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, Sto
     MDOF_TRY(const BuiltTable built, calculate_table(store, *request));
     append(all.notices, built.notices);
     append(all.doubtful, built.doubtful);
-    MDOF_CHECK(take_table(store, machine, frame, built.table, stated));
+    MDOF_CHECK(take_table(store, machine, frame, built.table, taken));
   }
   add_new(ids, all.runs);
   return {};
 }
 
 Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all,
-                   StatedAxes& stated) {
+                   TakenTables& taken) {
   for (const std::int64_t id : frame.tables.ids) {
     MDOF_TRY(const CompensationTable table, store.table(id));
     if (letter(table.axis) != frame.id[0] || frame.kind != FrameKind::linear)
@@ -210,7 +235,7 @@ Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, S
                        letter(table.axis) + "; name tables of the axis");
     MDOF_TRY(Notices doubtful, doubtful_notices(store, table));
     append(all.doubtful, std::move(doubtful));
-    MDOF_CHECK(take_table(store, machine, frame, table, stated));
+    MDOF_CHECK(take_table(store, machine, frame, table, taken));
     add_new(table.runs, all.runs);
   }
   return {};
@@ -325,12 +350,13 @@ Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64
 
 Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine) {
   StoredErrors all;
-  StatedAxes stated;
+  TakenTables taken;
   for (MachineFrame& frame : machine.frames) {
-    MDOF_CHECK(take_runs(store, machine, frame, all, stated));
-    MDOF_CHECK(take_tables(store, machine, frame, all, stated));
+    MDOF_CHECK(take_runs(store, machine, frame, all, taken));
+    MDOF_CHECK(take_tables(store, machine, frame, all, taken));
   }
-  if (machine.squareness.any()) MDOF_CHECK(take_squareness(store, machine, stated, all));
+  take_shared(taken);
+  if (machine.squareness.any()) MDOF_CHECK(take_squareness(store, machine, taken.stated, all));
   for (MachineFrame& frame : machine.frames) frame.runs = frame.tables = {};
   machine.squareness = {};
   return all;

@@ -108,5 +108,39 @@ TEST(MountingView, TogetherIsNotKnownWhereOneIsNot) {
   EXPECT_EQ(unseen.u_together_m[2], 0);
 }
 
+// Probes in general directions along X, and the same fixture turned for Y, where local x is +Y and
+// local y is -X: a place is named by the axis of the machine that its way is nearest to.
+TEST(MountingView, NamesAPlaceByTheNearestAxisOfTheMachine) {
+  const Rig along_x = test::rig_oblique();
+  Rig along_y = along_x;
+  along_y.axis = Axis::y;
+  const auto turned = [](const Vec3& v) { return Vec3{-v[1], v[0], v[2]}; };
+  for (Probe& probe : along_y.probes) {
+    probe.position_m = turned(probe.position_m);
+    probe.direction = turned(probe.direction);
+  }
+  for (TargetPlane& plane : along_y.planes) plane.normal = turned(plane.normal);
+  int named_places = 0;
+  for (Rig rig : {along_x, along_y}) {
+    for (Probe& probe : rig.probes) probe.uncertainty.position.u = {20e-6, 20e-6, 20e-6};
+    const MountingModel model = MountingModel::create(rig, {}).value();
+    for (std::size_t k = 0; k < rig.probes.size(); ++k)
+      for (const auto which : {kPlace1, kPlace2}) {
+        const Eigen::Vector3d local = model.along(k, which == kPlace1 ? 0 : 1);
+        const Eigen::Vector3d machine =
+            rig.axis == Axis::x ? local : Eigen::Vector3d(-local.y(), local.x(), local.z());
+        Eigen::Index nearest = 0;
+        machine.cwiseAbs().maxCoeff(&nearest);
+        const Unseen unseen = named(model, {unit(model, k, which)});
+        const std::string expected = "the place of " + rig.probes[k].id + " along " +
+                                     std::string(1, "XYZ"[nearest]) + " beside the others";
+        ASSERT_EQ(unseen.sentences.size(), 1u) << expected;
+        EXPECT_EQ(unseen.sentences[0].substr(0, expected.size()), expected);
+        ++named_places;
+      }
+  }
+  EXPECT_EQ(named_places, 2 * 2 * 7);
+}
+
 }  // namespace
 }  // namespace mdof::algo

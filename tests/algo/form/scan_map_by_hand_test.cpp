@@ -1,0 +1,188 @@
+// The map of a scan against the same fit written plainly: every cell is looked at for every pixel,
+// and columns are made independent by Gram and Schmidt's method with pivoting.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "algo/form/scan_map.h"
+#include "tests/algo/no_pattern.h"
+
+namespace mdof::algo {
+namespace {
+
+struct MeanOfCell {
+  double n = 0, x = 0, y = 0, z = 0;
+};
+
+// Points that share a quarter of a pixel.
+std::vector<MeanOfCell> means_of_cells(const ScanPoints& points, double pixel_m) {
+  std::map<std::pair<long, long>, MeanOfCell> cells;
+  for (std::size_t i = 0; i < points.z_m.size(); ++i) {
+    MeanOfCell& cell = cells[{std::lround(points.x_m[i] / (pixel_m / 4)),
+                              std::lround(points.y_m[i] / (pixel_m / 4))}];
+    cell.n += 1;
+    cell.x += points.x_m[i];
+    cell.y += points.y_m[i];
+    cell.z += points.z_m[i];
+  }
+  std::vector<MeanOfCell> means;
+  for (const auto& [where, sum] : cells)
+    means.push_back({sum.n, sum.x / sum.n, sum.y / sum.n, sum.z / sum.n});
+  return means;
+}
+
+using ColumnOfFit = std::vector<double>;
+
+double product_of_columns(const ColumnOfFit& a, const ColumnOfFit& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// Columns in the order of what they add; `pivot`: the length of what each adds. `first`: the
+// coefficient of columns[0] in the least-squares fit of b.
+struct Orthogonal {
+  std::vector<double> pivot;
+  double first = 0;
+};
+
+Orthogonal orthogonalised(std::vector<ColumnOfFit> columns, ColumnOfFit b) {
+  Orthogonal out;
+  const std::vector<ColumnOfFit> given = columns;
+  std::vector<std::size_t> left;
+  for (std::size_t k = 0; k < columns.size(); ++k) left.push_back(k);
+  while (!left.empty()) {
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < left.size(); ++k)
+      if (product_of_columns(columns[left[k]], columns[left[k]]) >
+          product_of_columns(columns[left[best]], columns[left[best]]))
+        best = k;
+    const ColumnOfFit q = columns[left[best]];
+    const double square = product_of_columns(q, q);
+    out.pivot.push_back(std::sqrt(square));
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+    for (const std::size_t k : left) {
+      const double part = product_of_columns(q, columns[k]) / square;
+      for (std::size_t i = 0; i < q.size(); ++i) columns[k][i] -= part * q[i];
+    }
+  }
+  // What of columns[0] is across all others, against b (Frisch, Waugh).
+  ColumnOfFit across = given[0];
+  std::vector<ColumnOfFit> others(given.begin() + 1, given.end());
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    for (std::size_t j = 0; j < k; ++j) {
+      const double part =
+          product_of_columns(others[j], others[k]) / product_of_columns(others[j], others[j]);
+      for (std::size_t i = 0; i < b.size(); ++i) others[k][i] -= part * others[j][i];
+    }
+    const double part =
+        product_of_columns(others[k], across) / product_of_columns(others[k], others[k]);
+    for (std::size_t i = 0; i < b.size(); ++i) across[i] -= part * others[k][i];
+  }
+  out.first = product_of_columns(across, b) / product_of_columns(across, given[0]);
+  return out;
+}
+
+struct Expected {
+  double z_m = SurfaceMap::kMissing;
+  bool is_close = false;  // a decision by less than rounding
+};
+
+Expected expected_at(const std::vector<MeanOfCell>& cells, double x_m, double y_m, double pixel_m) {
+  Expected expected;
+  for (const double reach : {1.5, 2.25, 3.375, 5.0625}) {
+    std::vector<ColumnOfFit> columns(6);
+    ColumnOfFit b;
+    double off_x = 0, off_y = 0;
+    for (const MeanOfCell& cell : cells) {
+      const double x = (cell.x - x_m) / (reach * pixel_m), y = (cell.y - y_m) / (reach * pixel_m);
+      expected.is_close = expected.is_close || std::abs(x * x + y * y - 1) < 1e-9;
+      if (x * x + y * y > 1) continue;
+      const double w = std::sqrt(cell.n);
+      const std::array<double, 6> row = {1, x, y, x * x, x * y, y * y};
+      for (std::size_t k = 0; k < 6; ++k) columns[k].push_back(w * row[k]);
+      b.push_back(w * cell.z);
+      off_x += x;
+      off_y += y;
+    }
+    const double off = std::hypot(off_x, off_y), most = 0.3 * static_cast<double>(b.size());
+    expected.is_close = expected.is_close || (!b.empty() && std::abs(off - most) < 1e-9);
+    if (off > most || b.size() < 9) continue;
+    const Orthogonal fit = orthogonalised(columns, b);
+    const double share = fit.pivot.back() / fit.pivot.front();
+    expected.is_close = expected.is_close || std::abs(share - 0.02) < 1e-9;
+    if (share <= 0.02) continue;
+    expected.z_m = fit.first;
+    break;
+  }
+  return expected;
+}
+
+// Dense at one side, thin at the other; a few points share a place but for a little.
+ScanPoints scattered(unsigned seed, std::size_t n) {
+  test::NoPattern random(seed);
+  ScanPoints points;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = random.between(0, 1);
+    points.x_m.push_back(-3.3e-3 + 16e-3 * u * u);
+    points.y_m.push_back(random.between(2.2e-3, 13.7e-3));
+    points.z_m.push_back(random.between(-1e-6, 1e-6));
+    if (i % 5 != 0) continue;
+    points.x_m.push_back(points.x_m.back() + 0.01e-3);
+    points.y_m.push_back(points.y_m.back() - 0.01e-3);
+    points.z_m.push_back(random.between(-1e-6, 1e-6));
+  }
+  return points;
+}
+
+TEST(ScanMapByHand, IsTheFitThatIsWrittenPlainly) {
+  constexpr double kPixel_m = 1e-3;
+  std::size_t heights = 0, missing = 0;
+  for (const auto& [seed, n] : {std::pair(1u, 60u), std::pair(2u, 140u), std::pair(3u, 500u)}) {
+    const ScanPoints points = scattered(seed, n);
+    const auto map = scan_map(points, kPixel_m);
+    ASSERT_TRUE(map) << map.error().message;
+    const auto cells = means_of_cells(points, kPixel_m);
+    for (std::size_t j = 0; j < map->ny; ++j)
+      for (std::size_t i = 0; i < map->nx; ++i) {
+        const Expected expected = expected_at(cells, map->x_m(i), map->y_m(j), kPixel_m);
+        if (expected.is_close) continue;
+        const double z = map->at(i, j);
+        ASSERT_EQ(std::isnan(z), std::isnan(expected.z_m)) << seed << ' ' << i << ' ' << j;
+        (std::isnan(z) ? missing : heights) += 1;
+        if (!std::isnan(z)) {
+          ASSERT_NEAR(z, expected.z_m, 1e-15) << seed << ' ' << i << ' ' << j;
+        }
+      }
+  }
+  EXPECT_GT(heights, 200u);
+  EXPECT_GT(missing, 50u);
+}
+
+// Pixels at whole multiples of their size, from the one before the first point to the one behind
+// the last.
+TEST(ScanMapByHand, GoesOnePixelBeyondThePoints) {
+  ScanPoints points;
+  for (int j = 0; j <= 24; ++j)
+    for (int i = 0; i <= 30; ++i) {
+      points.x_m.push_back(-2.6e-3 + 0.25e-3 * i);
+      points.y_m.push_back(1.1e-3 + 0.25e-3 * j);
+      points.z_m.push_back(3e-6);
+    }
+  const auto map = scan_map(points, 1e-3);
+  ASSERT_TRUE(map) << map.error().message;
+  EXPECT_NEAR(map->x0_m, -3e-3, 1e-15);
+  EXPECT_NEAR(map->y0_m, 1e-3, 1e-15);
+  EXPECT_EQ(map->nx, 9u);  // -3 ... 5 mm: the last point is at 4.9 mm
+  EXPECT_EQ(map->ny, 8u);  // 1 ... 8 mm: the last point is at 7.1 mm
+  EXPECT_EQ(map->dx_m, 1e-3);
+  EXPECT_EQ(map->dy_m, 1e-3);
+  EXPECT_NEAR(map->at(4, 3), 3e-6, 1e-15);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,380 @@
+// Limits, wrapped angles and names of the machine's figures, where a number more or less decides.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "algo/machine/circle.h"
+#include "algo/machine/diagonal.h"
+#include "algo/machine/perpendicularity.h"
+#include "algo/machine/plane_map.h"
+#include "algo/machine/tilt_drive.h"
+#include "tests/algo/no_pattern.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kRightAngle = std::numbers::pi / 2;
+
+// n angles from `from` on, `step` apart.
+CircularPath path_from(double from_rad, double step_rad, std::size_t n) {
+  CircularPath path;
+  for (std::size_t i = 0; i < n; ++i) {
+    path.angle_rad.push_back(from_rad + step_rad * static_cast<double>(i));
+    path.ccw_m.push_back(1e-6 * std::cos(path.angle_rad.back()));
+  }
+  return path;
+}
+
+TEST(CircularEdges, EightAnglesAndNoGapOfMoreThanAQuarterAreNeeded) {
+  const double of_seven = 2 * std::numbers::pi / 7;
+  EXPECT_FALSE(circular_figures(path_from(0, of_seven, 7)));
+  EXPECT_TRUE(circular_figures(path_from(0, of_seven, 8)));  // the eighth is the first again
+  // Ten angles leave a gap of a quarter, or of 2 mrad more; it may lie anywhere, in any turn.
+  for (const double from : {0.0, 1.0, 4.0, -3.0, 60.0, -60.0}) {
+    EXPECT_TRUE(circular_figures(path_from(from, 3 * kRightAngle / 9, 10))) << from;
+    EXPECT_FALSE(circular_figures(path_from(from, (3 * kRightAngle - 2e-3) / 9, 10))) << from;
+  }
+  // Half of them a turn further on: the same circle.
+  CircularPath turned = path_from(0, 2 * std::numbers::pi / 12, 12);
+  for (std::size_t i = 0; i < 12; i += 2) turned.angle_rad[i] += 2 * std::numbers::pi;
+  EXPECT_TRUE(circular_figures(turned));
+  // The widest gap lies between two others.
+  CircularPath gap = path_from(0, 0.1, 63);
+  for (std::size_t i = 45; i-- > 25;) {
+    gap.angle_rad.erase(gap.angle_rad.begin() + static_cast<std::ptrdiff_t>(i));
+    gap.ccw_m.pop_back();
+  }
+  EXPECT_FALSE(circular_figures(gap));
+}
+
+TEST(CircularEdges, EveryNumberIsFiniteAndEveryDeviationHasItsAngle) {
+  const auto whole = [] {
+    CircularPath path = path_from(0, 0.7, 9);
+    path.cw_m = path.ccw_m;
+    return path;
+  };
+  ASSERT_TRUE(circular_figures(whole()));
+  for (const auto of : {&CircularPath::angle_rad, &CircularPath::ccw_m, &CircularPath::cw_m}) {
+    for (const double bad : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+      CircularPath path = whole();
+      (path.*of)[8] = bad;
+      EXPECT_FALSE(circular_figures(path));
+    }
+    CircularPath path = whole();
+    (path.*of).pop_back();
+    EXPECT_FALSE(circular_figures(path));
+  }
+  CircularPath clockwise = whole();
+  clockwise.ccw_m.clear();
+  EXPECT_TRUE(circular_figures(clockwise));
+}
+
+TEST(CircularEdges, TheCentreIsTakenOutOfBothPaths) {
+  CircularPath path = path_from(0.3, 0.7, 9);
+  path.cw_m = path.ccw_m;
+  CircularFigures figures;
+  figures.centre_m = {3e-6, -5e-6};
+  const CircularPath out = centred(path, figures);
+  for (std::size_t i = 0; i < 9; ++i) {
+    const double a = path.angle_rad[i];
+    const double expected = path.ccw_m[i] - 3e-6 * std::cos(a) + 5e-6 * std::sin(a);
+    EXPECT_NEAR(out.ccw_m[i], expected, 1e-18);
+    EXPECT_NEAR(out.cw_m[i], expected, 1e-18);
+    EXPECT_EQ(out.angle_rad[i], a);
+  }
+}
+
+MachineFrame frame_of(const char* id, std::size_t direction, FrameKind kind = FrameKind::linear) {
+  MachineFrame frame;
+  frame.id = id;
+  frame.direction = direction;
+  frame.kind = kind;
+  return frame;
+}
+
+Machine plane_machine() {
+  Machine m;
+  m.frames = {frame_of("X", 0), frame_of("Y", 1)};
+  m.frames[0].range = {0, 0.3};
+  m.frames[1].range = {0, 0.4};
+  return m;
+}
+
+// Backlash of Y counts by the way that Y comes, which turns at 90 and 270 degrees; an axis that
+// stands has the mean of both.
+TEST(CircularEdges, EachAxisHasTheErrorsOfItsWay) {
+  Machine m = plane_machine();
+  m.frames[1].error[1] = {{}, {0}, {4e-6}, {}, {}};  // EYY, 4 µm as Y falls; in the mean 2 µm
+  CircleRequest request;
+  request.centre = {0.1, 0.1};
+  request.radius_m = 0.02;
+  request.angles = 12;
+  const auto circle = predicted_circle(m, request);
+  ASSERT_TRUE(circle) << circle.error().message;
+  for (std::size_t i = 0; i < 12; ++i) {
+    const double sine = std::sin(circle->path.angle_rad[i]);
+    // Counter-clockwise Y falls behind 90 degrees up to 270 degrees.
+    const double ccw = i > 3 && i <= 9 ? 2e-6 : -2e-6;
+    const double cw = i >= 3 && i < 9 ? -2e-6 : 2e-6;
+    EXPECT_NEAR(circle->path.ccw_m[i], ccw * sine, 2e-10) << i;
+    EXPECT_NEAR(circle->path.cw_m[i], cw * sine, 2e-10) << i;
+  }
+  // A turning axis about X is not the axis X.
+  m.frames.insert(m.frames.begin(), frame_of("A", 0, FrameKind::rotary));
+  m.frames[0].error[0] = {{}, {0}, {6e-6}, {}, {}};
+  m.frames[2].error[1] = {};
+  const auto with_table = predicted_circle(m, request);
+  ASSERT_TRUE(with_table);
+  for (const double off : with_table->path.ccw_m) EXPECT_NEAR(off, 0, 1e-12);
+}
+
+TEST(CircularEdges, NamesWhatIsMissingInThePlaneAndWhatEndsBefore) {
+  Machine m = plane_machine();
+  m.frames[0].error[0] = {{0, 0.11}, {0, 1e-6}, {}, {}, {}};  // EXX, up to 110 mm
+  CircleRequest request;
+  request.centre = {0.1, 0.1};
+  request.radius_m = 0.02;
+  request.angles = 8;
+  const auto circle = predicted_circle(m, request);
+  ASSERT_TRUE(circle);
+  EXPECT_EQ(circle->beyond, std::vector<std::string>{"EXX"});
+  const auto has = [&](const char* name) {
+    return std::count(circle->not_measured.begin(), circle->not_measured.end(), name);
+  };
+  for (const char* name : {"EYX", "EXY", "EYY"}) EXPECT_EQ(has(name), 1) << name;
+  for (const char* name : {"EXX", "EZX", "EZY"}) EXPECT_EQ(has(name), 0) << name;
+}
+
+TEST(CircularEdges, ARadiusIsAtMostTenMetres) {
+  CircleRequest request;
+  EXPECT_EQ(request.first, 0u);
+  EXPECT_EQ(request.second, 1u);
+  EXPECT_EQ(request.angles, 360u);
+  EXPECT_FALSE(predicted_circle(plane_machine(), request));  // no radius
+  request.radius_m = 10;
+  request.angles = 8;
+  EXPECT_TRUE(predicted_circle(plane_machine(), request));
+  request.radius_m = std::nextafter(10, 11);
+  EXPECT_FALSE(predicted_circle(plane_machine(), request));
+  request.radius_m = 0.01;
+  request.angles = 100'001;
+  EXPECT_FALSE(predicted_circle(plane_machine(), request));
+}
+
+// Lines along axes that enclose 90 degrees + error.
+DiagonalLines lines_at(double error, bool two) {
+  const double x = 0.4, y = 0.3, s = std::sin(error);
+  DiagonalLines lines{{{x}}, {{y}}, {{std::sqrt(x * x + y * y - 2 * x * y * s)}}, {}, 1e-7};
+  if (two) lines.other.length_m = {std::sqrt(x * x + y * y + 2 * x * y * s)};
+  return lines;
+}
+
+TEST(DiagonalEdges, AxesEncloseBetweenAlmostSixDegreesLessAndMore) {
+  for (const bool two : {false, true})
+    for (const double sign : {-1.0, 1.0}) {
+      EXPECT_TRUE(squareness_of_diagonals(lines_at(sign * std::asin(0.0999), two)));
+      EXPECT_FALSE(squareness_of_diagonals(lines_at(sign * std::asin(0.1001), two)));
+    }
+}
+
+// Far from a right angle the slopes differ from those at one: by differences, both ways.
+TEST(DiagonalEdges, SensitivitiesFarFromARightAngle) {
+  for (const bool two : {false, true}) {
+    DiagonalLines lines = lines_at(0.08, two);
+    const auto found = squareness_of_diagonals(lines);
+    ASSERT_TRUE(found);
+    double squares = 0;
+    for (auto* line : {&lines.first, &lines.second, &lines.diagonal, &lines.other}) {
+      if (line->length_m.empty()) continue;
+      const double before = line->length_m[0], h = 1e-5;
+      line->length_m[0] = before + h;
+      const double above = squareness_of_diagonals(lines)->angle_error_rad;
+      line->length_m[0] = before - h;
+      const double below = squareness_of_diagonals(lines)->angle_error_rad;
+      line->length_m[0] = before;
+      squares += std::pow((above - below) / (2 * h) * 1e-7, 2);
+    }
+    EXPECT_NEAR(found->u_rad / std::sqrt(squares), 1, 1e-6) << two;
+    EXPECT_TRUE(std::isinf(found->freedom));
+    EXPECT_EQ(found->u_repeat_rad, 0);
+  }
+}
+
+TEST(DiagonalEdges, EveryLengthIsAboveZeroAndThreeLinesAreNeeded) {
+  const DiagonalLines whole = lines_at(0, true);
+  for (const auto line : {&DiagonalLines::first, &DiagonalLines::second, &DiagonalLines::diagonal,
+                          &DiagonalLines::other}) {
+    for (const double bad : {0.0, -0.5, HUGE_VAL}) {
+      DiagonalLines lines = whole;
+      (lines.*line).length_m.push_back(bad);
+      const auto found = squareness_of_diagonals(lines);
+      ASSERT_FALSE(found);
+      EXPECT_NE(found.error().message.find("above 0"), std::string::npos);
+    }
+    DiagonalLines lines = whole;
+    (lines.*line).length_m.clear();
+    EXPECT_EQ(squareness_of_diagonals(lines).has_value(), line == &DiagonalLines::other);
+  }
+}
+
+// Angles without a pattern: coefficients and u by the inverse of the normal equations.
+TEST(PerpendicularityEdges, UnevenAnglesHaveTheirOwnU) {
+  test::NoPattern random(9);
+  CircleReadings r;
+  r.radius_m = 0.07;
+  const int highest = 2;
+  Eigen::MatrixXd A(25, 5);
+  Eigen::VectorXd h(25);
+  for (int i = 0; i < 25; ++i) {
+    const double a = 0.25 * i + random.between(0, 0.2);
+    A.row(i) << 1, std::cos(a), std::sin(a), std::cos(2 * a), std::sin(2 * a);
+    h[i] = random.between(-1e-6, 1e-6);
+    r.angle_rad.push_back(a);
+    r.height_m.push_back(h[i]);
+  }
+  const Eigen::MatrixXd inverse = (A.transpose() * A).fullPivLu().inverse();
+  const Eigen::VectorXd x = inverse * A.transpose() * h;
+  const double s = (h - A * x).norm() / std::sqrt(20.0);
+  const auto p = perpendicularity(r, highest);
+  ASSERT_TRUE(p) << p.error().message;
+  EXPECT_NEAR(p->mean_m, x[0], 1e-16);
+  EXPECT_NEAR(p->residual_sd_m, s, 1e-16);
+  ASSERT_EQ(p->harmonics.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto c = static_cast<Eigen::Index>(2 * k + 1);
+    EXPECT_NEAR(p->harmonics[k].cosine_m, x[c], 1e-16);
+    EXPECT_NEAR(p->harmonics[k].sine_m, x[c + 1], 1e-16);
+    EXPECT_NEAR(p->harmonics[k].u_m, s * std::sqrt(std::max(inverse(c, c), inverse(c + 1, c + 1))),
+                1e-16);
+  }
+  EXPECT_NEAR(p->EA0C_rad, x[2] / 0.07, 1e-15);
+  EXPECT_NEAR(p->EB0C_rad, -x[1] / 0.07, 1e-15);
+  // Either tilt alone does not make both known, and is taken out for what it is.
+  r.tilt_a_rad.assign(25, 0.0);
+  EXPECT_FALSE(perpendicularity(r, highest)->tilt_known);
+  r.tilt_b_rad.assign(25, 0.0);
+  EXPECT_TRUE(perpendicularity(r, highest)->tilt_known);
+  r.tilt_a_rad.clear();
+  EXPECT_FALSE(perpendicularity(r, highest)->tilt_known);
+  EXPECT_FALSE(perpendicularity(r, highest)->axes_known);
+}
+
+// Twice seven places are fourteen readings, and tell no more than seven do.
+TEST(PerpendicularityEdges, SevenPlacesDoNotTellFiveHarmonics) {
+  CircleReadings r;
+  r.radius_m = 99.5;
+  for (int i = 0; i < 14; ++i) {
+    r.angle_rad.push_back(2 * std::numbers::pi * (i % 7) / 7);
+    r.height_m.push_back(i % 3 == 0 ? 1e-6 : 0);
+  }
+  const auto five = perpendicularity(r, 5);
+  ASSERT_FALSE(five);
+  EXPECT_NE(five.error().message.find("ask for fewer"), std::string::npos);
+  EXPECT_TRUE(perpendicularity(r, 3));
+}
+
+TEST(PlaneMapEdges, ARangeIsGivenOrWhatTablesHaveInCommon) {
+  MachineFrame x = frame_of("X", 0);
+  EXPECT_FALSE(range_of(x));
+  x.error[1] = {{0, 0.1}, {0, 1e-6}, {}, {}, {}};
+  EXPECT_EQ(*range_of(x), (std::array<double, 2>{0, 0.1}));
+  x.error[4] = {{0.02, 0.05, 0.2}, {0, 0, 1e-6}, {}, {}, {}};
+  EXPECT_EQ(*range_of(x), (std::array<double, 2>{0.02, 0.1}));
+  x.error[5] = {{-0.1, 0.08}, {0, 1e-6}, {}, {}, {}};
+  EXPECT_EQ(*range_of(x), (std::array<double, 2>{0.02, 0.08}));
+  x.error[0] = {{0.08, 0.3}, {0, 1e-6}, {}, {}, {}};  // no more than a place is common
+  EXPECT_FALSE(range_of(x));
+  x.range = {-1, 2};
+  EXPECT_EQ(*range_of(x), (std::array<double, 2>{-1, 2}));
+}
+
+TEST(PlaneMapEdges, StepsAreEqualAndAtLeastOne) {
+  EXPECT_EQ(steps_over({1, 1.001}, 0.01), (std::vector<double>{1, 1.001}));
+  EXPECT_EQ(steps_over({0, 1}, 0.4).size(), 4u);  // 2.5 rounds away from 0
+  EXPECT_EQ(steps_over({0, 1}, 0.41).size(), 3u);
+  const auto at = steps_over({2, 8}, 2);
+  EXPECT_EQ(at, (std::vector<double>{2, 4, 6, 8}));
+}
+
+TEST(PlaneMapEdges, OthersApproachAndAnglesAreAsAskedFor) {
+  Machine m = plane_machine();
+  m.frames.push_back(frame_of("Z", 2));
+  m.frames[2].error[0] = {{0, 0.1}, {0, 10e-6}, {}, {}, {}};  // EXZ
+  m.frames[0].error[1] = {{}, {2e-6}, {4e-6}, {}, {}};        // EYX, by the way
+  m.frames[0].error[5] = {{}, {1e-5}, {}, {}, {}};            // ECX
+  m.tool_m = {0, 0.1, 0};
+  PlaneMapRequest request;
+  EXPECT_EQ(request.first, 0u);
+  EXPECT_EQ(request.second, 1u);
+  EXPECT_EQ(request.step_m, 0.01);
+  EXPECT_FALSE(request.without_angles);
+  request.step_m = 0.1;
+  request.others[2] = 0.05;
+  const auto mean = plane_map(m, request);
+  ASSERT_TRUE(mean) << mean.error().message;
+  EXPECT_EQ(mean->first, 0u);
+  EXPECT_EQ(mean->second, 1u);
+  const PlanePoint& point = mean->points[0];
+  EXPECT_NEAR(point.error[1], 3e-6, 1e-10);
+  EXPECT_NEAR(point.error[0], 5e-6 - 1e-5 * 0.1, 1e-10);
+  EXPECT_TRUE(mean->beyond.empty());
+  request.approach = MachineApproach::reverse;
+  EXPECT_NEAR(plane_map(m, request)->points[0].error[1], 4e-6, 1e-10);
+  request.without_angles = true;
+  EXPECT_NEAR(plane_map(m, request)->points[0].error[0], 5e-6, 1e-12);
+  request.others[2] = 0.15;
+  EXPECT_EQ(plane_map(m, request)->beyond, std::vector<std::string>{"EXZ"});
+  // What has no u, and what is not measured, in the three components of the place.
+  const auto has = [](const std::vector<std::string>& names, const char* name) {
+    return std::count(names.begin(), names.end(), name) == 1;
+  };
+  EXPECT_TRUE(has(mean->no_u, "EYX") && has(mean->no_u, "EXZ"));
+  EXPECT_TRUE(has(mean->not_measured, "EZX") && has(mean->not_measured, "EXX"));
+  EXPECT_FALSE(has(mean->not_measured, "EYX"));
+}
+
+TEST(PlaneMapEdges, TheExtremeIsTheLargestBySize) {
+  PlaneMap map;
+  for (const double e : {1.0, -5.0, 4.0, 5.0, -2.0}) {
+    PlanePoint point;
+    point.error.setConstant(e);
+    point.error[2] = -e;
+    map.points.push_back(point);
+  }
+  const MapExtreme first = extreme_of(map, 0);
+  EXPECT_EQ(first.point, 1u);  // the first of those of the same size
+  EXPECT_EQ(first.value, -5);
+  EXPECT_EQ(first.range, 10);
+  EXPECT_EQ(extreme_of(map, 2).value, 5);
+  map.points.resize(1);
+  EXPECT_EQ(extreme_of(map, 0).value, 1);
+  EXPECT_EQ(extreme_of(map, 0).range, 0);
+}
+
+// The arms reach up to a quarter of a turn, and no further.
+TEST(TiltDriveEdges, TheArmsReachAQuarterOfATurn) {
+  const CoPlanarDrive drive{0.45, 17e-3};
+  PlatformMotion platform{};
+  platform[kPlatformB].position = kRightAngle - 1e-6;
+  EXPECT_TRUE(screws_for(drive, platform));
+  platform[kPlatformB].position = -kRightAngle - 1e-9;
+  EXPECT_FALSE(screws_for(drive, platform));
+  ScrewMotion screws{};
+  const double whole_m = 2 * drive.arm_m / platform_ratio(drive);
+  screws[kScrewC].position = -whole_m * (1 - 1e-9);
+  EXPECT_TRUE(platform_for(drive, screws));
+  screws[kScrewC].position = -whole_m * (1 + 1e-9);
+  EXPECT_FALSE(platform_for(drive, screws));
+  // From 30 degrees a step of half the arm reaches 90.
+  const double step_m = 0.5 * drive.arm_m / platform_ratio(drive);
+  const auto reached = rotation_step(drive, std::numbers::pi / 6, step_m * (1 - 1e-9));
+  ASSERT_TRUE(reached);
+  EXPECT_NEAR(*reached, std::numbers::pi / 3, 1e-4);
+  EXPECT_FALSE(rotation_step(drive, std::numbers::pi / 6, step_m * (1 + 1e-9)));
+}
+
+}  // namespace
+}  // namespace mdof::algo

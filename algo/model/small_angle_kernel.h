@@ -54,12 +54,14 @@ inline void simplified(const SmallAngleFixture& f, const V& travel, const V (&m)
 
 // Exact solution: εx = q + p εz, εy = p - q εz, and one scalar equation for εz,
 //   F(εz) = r (1 + εy²) + εx εy + (εx + εy εz) rise - εz = 0,
-// by Newton's method with the slope at the start kept: from εz = r + p q, off by third order, two
-// steps reach rounding for angles up to 50 mrad.
+// by Newton's method with the slope at the start kept. The start has all terms of first and second
+// order, and the series of 2 p rise, which is the largest of the others: off by third order, so
+// that two steps come within 1e-11 rad for angles up to 50 mrad.
 template <class V>
 inline void exact(const SmallAngleFixture& f, const V& travel, const V (&m)[5], V (&out)[5]) {
   const FirstOrder<V> o = first_order(f, m);
-  V ez = o.r + o.p * o.q + o.q * f.side_rise;
+  const V turned = 2.0 * o.p * f.side_rise;
+  V ez = (o.r + o.p * o.q + o.q * f.side_rise) * (1.0 + turned * (1.0 + turned));
   V ex = o.q + o.p * ez;
   V ey = o.p - o.q * ez;
   const V slope =

@@ -112,5 +112,25 @@ TEST(SmallAngleFixture, EachProbeHasItsOwnSign) {
   }
 }
 
+// Two steps with the slope at the start come within 1e-11 rad up to 50 mrad, where D and E are at
+// different heights as well.
+TEST(SmallAngleFixture, IsSolvedToRoundingUpToFiftyMilliradians) {
+  for (const double height_m : {20e-3, 32e-3, 6e-3}) {
+    Rig rig = test::rig_x();
+    rig.probes[4].position_m[2] = height_m;
+    const SmallAngleFixture fixture = make_small_angle_fixture(make_fixture(rig).value()).value();
+    for (const double x : {-0.05, 0.02, 0.05})
+      for (const double y : {-0.05, 0.03, 0.05})
+        for (const double z : {-0.05, -0.01, 0.05}) {
+          const Errors5 e{3e-5, -2e-5, x, y, z};
+          const auto found =
+              solve_small_angle(Model::exact, fixture, 0.03, exact_outputs(fixture, 0.03, e));
+          for (std::size_t k = 0; k < 5; ++k)
+            EXPECT_NEAR(found[k], e[k], k < 2 ? 1e-13 : 1e-11)
+                << height_m << " " << x << " " << y << " " << z << " " << k;
+        }
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -91,5 +91,29 @@ TEST(RunSeries, RefusesAProbeThatLooksElsewhere) {
   EXPECT_NE(none.error().message.find("has no probe \"Q\" but A, B, C, D, E"), std::string::npos);
 }
 
+// Both are of the probe that is read, and of no other one; a run begins with its drift at 0.
+TEST(RunSeries, AProbeHasItsOwnSensitivityAndItsOwnDrift) {
+  const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 20000",
+                                   "[drift]\nu_um_per_h = 3.6\n");  // 1 nm/s
+  const auto run = of_slopes(rig);
+  for (const auto& [id, scales] :
+       {std::pair("D", true), std::pair("E", false), std::pair("A", false)}) {
+    const auto own = probe_series(run, rig, id, id[0] == 'A' ? Axis::z : Axis::y)->set_up;
+    ASSERT_EQ(own.declared.size(), scales ? 2u : 1u) << id;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (scales) {
+        EXPECT_NEAR(own.declared[0].shift_m[i], 0.02 * own.error_m[i], 1e-18);
+      }
+      // Six visits, ten seconds apart: forward at 10 (i + 1), back at 10 (6 - i), 60 s a run.
+      double mean_s = 0;
+      for (int r = 0; r < 3; ++r)
+        mean_s += (60.0 * r + 10 * static_cast<double>(i) + 60.0 * r +
+                   10 * (5 - static_cast<double>(i))) /
+                  6;
+      EXPECT_NEAR(std::abs(own.declared.back().shift_m[i]), 1e-9 * mean_s, 1e-18) << id;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "algo/uncertainty/statistics/plane_footprints.h"
 #include "algo/uncertainty/two_runs.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/drawn_surface.h"
@@ -88,6 +89,51 @@ TEST(CommonSurface, OfTheTopIsOneInXAndY) {
   }
   // One twist of the surface is in both slopes with one sign: √2 if it were nothing but a twist.
   EXPECT_GT(stated_u(400, "top") / stated_u(400, "another"), 1.25);
+}
+
+// Three visits of two targets by a fixture that stands: the target travels, so that a probe looks
+// at a place of it that is the travel behind its own.
+TEST(PlaneFootprintsByHand, LieBehindTheProbesByTheMeanTravel) {
+  const Rig rig = test::rig_x_with("", "",
+                                   "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\nu_flatness_um = "
+                                   "0.05\nflatness_length_mm = 12\n"
+                                   "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\n");
+  const Fixture fixture = make_fixture(rig).value();
+  mdof::Run run;
+  run.points.resize(4);
+  std::vector<PointSensitivity> points(4);
+  const int target[] = {7, 3, 7, 3};
+  const double travel_m[] = {10e-3, 30e-3, 10.2e-3, 99};
+  for (std::size_t j = 0; j < 4; ++j) {
+    run.points[j].target = target[j];
+    points[j].valid = j < 3;
+    points[j].travel_m = travel_m[j];
+    points[j].by_probe.assign(5, Errors5{});
+    for (std::size_t k = 0; k < 5; ++k)
+      points[j].by_probe[k] = {static_cast<double>(k + 1), 0, static_cast<double>(j), 0, 0};
+  }
+  const PlaneFootprints top = plane_footprints(rig, fixture, run, points, 0);
+  EXPECT_EQ(top.u_m, 0.05e-6);
+  EXPECT_EQ(top.length_m, 12e-3);
+  EXPECT_EQ(top.points, 4u);
+  ASSERT_EQ(top.footprints.size(), 6u);  // of A, B and C at targets 3 and 7
+  ASSERT_EQ(top.readings.size(), 9u);    // of A, B and C at the three valid points
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d& place = fixture.probes[k].p_MP;
+    const Footprint &third = top.footprints[2 * k], &seventh = top.footprints[2 * k + 1];
+    EXPECT_LT((third.place - (place - Eigen::Vector3d(30e-3, 0, 0))).norm(), 1e-15);
+    EXPECT_LT((seventh.place - (place - Eigen::Vector3d(10.1e-3, 0, 0))).norm(), 1e-15);
+    EXPECT_EQ((third.zero - place).norm(), 0);
+    EXPECT_EQ((seventh.zero - place).norm(), 0);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto& [point, footprint, by_height] = top.readings[3 * k + j];
+      EXPECT_EQ(point, j);
+      EXPECT_EQ(footprint, 2 * k + (target[j] == 7 ? 1 : 0));
+      EXPECT_NEAR(by_height[0], static_cast<double>(k + 1), 1e-12);  // it looks along the normal
+      EXPECT_NEAR(by_height[2], static_cast<double>(j), 1e-12);
+    }
+  }
+  EXPECT_EQ(plane_footprints(rig, fixture, run, points, 1).footprints.size(), 4u);
 }
 
 }  // namespace

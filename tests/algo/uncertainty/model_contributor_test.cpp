@@ -59,5 +59,18 @@ TEST(ModelContributor, IsALineOfTheBudgetAndOfThatModelAlone) {
   EXPECT_EQ(lines_of(Model::simplified), lines_of(Model::exact) + 1);
 }
 
+// What is left out is a part of one standard uncertainty, without a key and not random.
+TEST(ModelContributor, IsOneStandardUncertainty) {
+  const Rig rig = rig_x_with("", "");
+  const auto run = tilting(rig, Model::simplified);
+  const auto found = model_contributor(rig, run, Model::simplified);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->declared.u, 1);
+  EXPECT_EQ(found->to_unit, 1);
+  EXPECT_EQ(found->key, "");
+  ASSERT_EQ(found->parts().size(), 1u);
+  EXPECT_EQ(found->parts()[0].size(), run.points.size());
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -177,5 +177,80 @@ TEST(ReadingCovariance, OfACalibrationHasItsCorrelations) {
   EXPECT_NEAR(all.ratio(), 1, 0.15);
 }
 
+// Each kind of quantity of a calibration by itself: twice the difference of the readings of the
+// fixture that is displaced one way and the other, each zeroed where the run begins.
+TEST(ReadingCovariance, OfEachQuantityOfACalibrationIsThatOfTheDisplacedFixture) {
+  const Errors5 carriage = {20e-6, -10e-6, 1e-3, 6e-3, -4e-3};
+  constexpr double d = 12e-3, kBy = 1e-3;
+  struct Named {
+    const char* name;
+    std::size_t probe;
+    Eigen::Index place, direction;  // -1: not of it
+    double u;
+  };
+  for (const Named& of : {Named{"A.y", 0, 1, -1, 2e-5},
+                          {"G.z", 6, 2, -1, 3e-5},
+                          {"C.nx", 2, -1, 0, kBy},
+                          {"G.nz", 6, -1, 2, kBy},
+                          {"E.zero", 4, -1, -1, 4e-8}}) {
+    Rig rig = rig_of_seven(0);
+    CalibrationRecord& record = rig.records.emplace_back();
+    record.covariance.of = {of.name};
+    record.covariance.m2 = {{of.u * of.u}};
+    const Solver solver = Solver::create(rig, Model::rigid).value();
+    const auto zeroed = [&](double sign) {
+      Fixture displaced = solver.fixture();
+      FixtureProbe& probe = displaced.probes[of.probe];
+      if (of.place >= 0) probe.p_MP(of.place) += sign * of.u;
+      if (of.direction >= 0) {
+        probe.u_M(of.direction) += sign * of.u;
+        probe.u_M.normalize();
+      }
+      return Eigen::VectorXd(rigid_readings(displaced, d, carriage) -
+                             rigid_readings(displaced, 0, Errors5{}));
+    };
+    Eigen::VectorXd by = (zeroed(1) - zeroed(-1)) / 2;
+    if (of.place < 0 && of.direction < 0) by = of.u * Eigen::VectorXd::Unit(7, 4);
+    const Eigen::MatrixXd found =
+        declared_covariance(rig, solver, d, carriage, std::vector<double>(7, 1e-6), 0);
+    EXPECT_GT(by.norm(), 5e-11) << of.name;
+    EXPECT_LT((found - by * by.transpose()).norm(), 1e-3 * by.squaredNorm()) << of.name;
+  }
+}
+
+// A fault that noise alone does not explain, nor waves alone, but both together do.
+TEST(ReadingCovariance, NoiseAndWhatIsDeclaredAddUp) {
+  const Rig waves = rig_of_seven(4);
+  Rig exact = waves;
+  for (TargetPlane& plane : exact.planes) plane.u_flatness.u = 0;
+  const Solver solver = Solver::create(waves, Model::rigid).value();
+  constexpr double d = 20e-3;
+  const auto is_flagged = [&](const Rig& rig, double noise_m, double fault_m) {
+    MeasuredPoint p;
+    p.point.position_m = d;
+    p.point.probe_m.assign(7, 0.0);
+    p.point.probe_m[5] = fault_m;
+    p.point.probe_u_m.assign(7, noise_m);
+    p.errors = solver.solve(d, p.point.probe_m, p.point.probe_u_m);
+    Residuals(solver, std::vector<double>(7, 200e-6), rig, 0).test(p);
+    return !p.point.flags.empty();
+  };
+  // The smallest fault that is flagged, by noise alone and by waves alone, which have √2 u.
+  const auto least_flagged_m = [&](const Rig& rig, double noise_m) {
+    double low = 1e-8, high = 1e-4;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = std::sqrt(low * high);
+      (is_flagged(rig, noise_m, middle) ? high : low) = middle;
+    }
+    return high;
+  };
+  const double noise_m = std::sqrt(2.0) * kFlatness_m;
+  const double by_noise_m = least_flagged_m(exact, noise_m),
+               by_waves_m = least_flagged_m(waves, kWhite_m),
+               by_both_m = least_flagged_m(waves, noise_m);
+  EXPECT_NEAR(by_waves_m / by_noise_m, 1, 0.2);
+  EXPECT_NEAR(by_both_m / std::hypot(by_noise_m, by_waves_m), 1, 0.05);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -8,7 +8,9 @@
 #include <cmath>
 
 #include "algo/sensitivity/random.h"
+#include "algo/uncertainty/budget_draws.h"
 #include "algo/uncertainty/point_sensitivity.h"
+#include "algo/uncertainty/statistics/target_noise.h"
 #include "schema/base/random.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
@@ -148,6 +150,40 @@ TEST(Stated, TheSensitivityToTheTravelIsTheSolversOwn) {
       for (std::size_t e = 0; e < kErrorCount; ++e)
         EXPECT_NEAR(found[j].by_travel[e], (above[e] - below[e]) / (2 * kStep_m), 1e-8) << j;
     }
+  }
+}
+
+// Three targets; a shift of all, and two parts that move several of them.
+TEST(TargetNoiseByHand, IsOfEachTargetOfAllAndOfItsParts) {
+  Repeatability random;
+  for (const double u : {1.0, 2.0, 5.0}) random.u.push_back({u, 0, 3 * u, 0, -u});
+  random.u_shift = {0.5, 0, 0, 0, 7};
+  random.together = {{{1, 0, 0, 0, 0}, {0, 2, 0, 0, 0}, {0, 0, 3, 0, 0}},
+                     {{4, 0, 0, 0, 1}, {0, 0, 0, 5, 0}, {0, 0, 0, 0, 0}}};
+  constexpr std::size_t kTrials = 6;
+  BlockOfDraws draws({5, 2}, 0, kTrials);
+  const TargetNoise noise(draws, random);
+  BlockOfDraws again({5, 2}, 0, kTrials);
+  const OneU normal(std::numeric_limits<double>::infinity());
+  std::vector<std::vector<double>> drawn;  // targets, shift, freedom, parts
+  for (int q = 0; q < 7; ++q) drawn.push_back(again.next(normal));
+  for (std::size_t t = 0; t < kTrials; ++t) {
+    MeanErrors means;
+    means.targets.resize(3);
+    means.targets[1].named[0] = 100;
+    noise.add_to(means, t, 0.5);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 5; ++k) {
+        double expected = (i == 1 && k == 0 ? 100 : 0) +
+                          0.5 * (drawn[i][t] * random.u[i][k] + drawn[3][t] * random.u_shift[k]);
+        for (std::size_t p = 0; p < 2; ++p)
+          expected += 0.5 * drawn[5 + p][t] * random.together[p][i][k];
+        EXPECT_NEAR(means.targets[i].named[k], expected, 1e-13) << t << i << k;
+      }
+    // Wilson and Hilferty: χ²/ν is the cube of 1 - 2/9ν + z √(2/9ν).
+    const double v = 2 / (9 * 4.0), root = 1 - v + drawn[4][t] * std::sqrt(v);
+    EXPECT_NEAR(noise.student(t, 4), 1 / std::sqrt(root * root * root), 1e-12);
+    EXPECT_EQ(noise.student(t, std::numeric_limits<double>::infinity()), 1);
   }
 }
 

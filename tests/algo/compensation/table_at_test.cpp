@@ -88,5 +88,25 @@ TEST(TableAt, OneTargetIsHeldEverywhere) {
     EXPECT_EQ(table_at(table, at_m, TableSide::forward).error[0], 2e-6);
 }
 
+// Between two targets the larger u of both counts, at a target its own: of what is declared and of
+// what is random alike. The error is 0 everywhere, so that interpolation adds nothing.
+TEST(TableAt, BetweenTargetsTheLargerUCounts) {
+  CompensationTable table = table_by_hand();
+  for (auto& column : table.u_declared) column = {5e-9, 2e-9, 7e-9};
+  ASSERT_TRUE(table.has_declared());
+  table.u_forward[1] = {8e-9, 1e-9, 3e-9};
+  struct Case {
+    double at_m, declared, random;
+  };
+  for (const Case& c :
+       {Case{-50e-3, 5e-9, 8e-9}, Case{0, 5e-9, 8e-9}, Case{1e-3, 5e-9, 8e-9},
+        Case{9e-3, 5e-9, 8e-9}, Case{10e-3, 2e-9, 1e-9}, Case{11e-3, 7e-9, 3e-9},
+        Case{39e-3, 7e-9, 3e-9}, Case{40e-3, 7e-9, 3e-9}, Case{50e-3, 7e-9, 3e-9}}) {
+    const TableValue value = table_at(table, c.at_m, TableSide::forward);
+    EXPECT_EQ(value.u_interpolation[1], 0) << c.at_m;
+    EXPECT_NEAR(value.u[1], std::hypot(c.declared, c.random), 1e-21) << c.at_m;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

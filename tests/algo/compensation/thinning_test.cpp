@@ -84,5 +84,12 @@ TEST(Thinning, RefusesWhatIsNoTable) {
   EXPECT_FALSE(tolerance_for({0, 1}, {{1, 2}}, 1));
 }
 
+TEST(Thinning, OfNoToleranceKeepsAllAndDeviatesByNothing) {
+  const auto all = thinned({0, 1, 2, 5}, {{0, 1, 5, 2}}, 0);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->kept, (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_EQ(all->largest_deviation, 0);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -332,5 +332,17 @@ TEST(RobustMean, SlowNoiseHasTheLargerUncertainty) {
   EXPECT_GT(s.u, 5 * f.u);
 }
 
+// Two points, and the line through the ends, leave no residual to tell an uncertainty.
+TEST(LineFit, OfTwoPointsOrThroughTheEndsHasNoUncertainty) {
+  const std::vector<double> x = {1, 3}, y = {5, 1};
+  for (const Line& line : {least_squares_line(x, y), end_point_line(x, y)}) {
+    EXPECT_NEAR(line.slope, -2, 1e-15);
+    EXPECT_NEAR(line.intercept, 7, 1e-15);
+    EXPECT_EQ(line.residual_sd, 0);
+    EXPECT_EQ(line.u_slope, 0);
+    EXPECT_EQ(line.u_intercept, 0);
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -274,5 +274,15 @@ TEST(Wall, IsTheEnvelopeOfAllTeeth) {
   }
 }
 
+// A tool that is drawn away from the side of the work by more than the depth does not leave it, or
+// meet it, anywhere else than at the wall.
+TEST(CuttingEdge, DrawnOffByMoreThanTheDepthItCutsNothing) {
+  MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::rigid);
+  plan.radial_depth_m = 1e-6;
+  EXPECT_EQ(CuttingEdge(plan, 0, 0).free_edge({0, -5e-6}), 0);
+  plan.is_up = false;
+  EXPECT_EQ(CuttingEdge(plan, 0, 0).free_edge({0, 5e-6}), kHalfTurn_rad);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -71,5 +71,57 @@ TEST(BinFit, NeedsEightReadings) {
   EXPECT_EQ(few.fit().value, 0);
 }
 
+// Readings without a pattern: value and sd of the least-squares parabola by Gram and Schmidt's
+// method, in which the sd is of all readings less three unknowns.
+TEST(BinFit, IsTheLeastSquaresParabolaWithTheScatterAboutIt) {
+  std::mt19937_64 random(11);
+  for (const int n : {8, 9, 23}) {
+    BinReadings bin(n, [&](double x) {
+      return 1e-8 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5) + 2e-8 * x * x;
+    });
+    const auto found = fit_bin(bin.place, bin.reading, 1e-6, bin.scratch);  // nothing is a spike
+    const auto count = static_cast<std::size_t>(n);
+    ASSERT_EQ(found.used, count);
+    // Columns 1, x, x² made independent of each other from the last one on.
+    std::vector<std::vector<double>> q(3, std::vector<double>(count));
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        q[k][i] = std::pow(bin.place[i], 2 - static_cast<double>(k));
+    std::vector<double> left = bin.reading;
+    double value = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t j = 0; j < k; ++j) {
+        double part = 0, square = 0;
+        for (std::size_t i = 0; i < count; ++i)
+          part += q[j][i] * q[k][i], square += q[j][i] * q[j][i];
+        for (std::size_t i = 0; i < count; ++i) q[k][i] -= part / square * q[j][i];
+      }
+      double part = 0, square = 0;
+      for (std::size_t i = 0; i < count; ++i)
+        part += q[k][i] * left[i], square += q[k][i] * q[k][i];
+      value = part / square;  // of the constant, which comes last
+      for (std::size_t i = 0; i < count; ++i) left[i] -= value * q[k][i];
+    }
+    double square = 0;
+    for (const double x : left) square += x * x;
+    EXPECT_NEAR(found.value, value, 1e-18) << n;
+    EXPECT_NEAR(found.sd, std::sqrt(square / (n - 3)), 1e-18) << n;
+  }
+}
+
+// Fewer than eight readings give nothing but their number.
+TEST(BinFit, OfFewerThanEightReadingsIsEmpty) {
+  BinReadings few(7, [](double x) { return 1e-6 + 1e-6 * x; });
+  const auto none = few.fit();
+  EXPECT_EQ(none.used, 7u);
+  EXPECT_EQ(none.rejected, 0u);
+  EXPECT_EQ(none.value, 0);
+  EXPECT_EQ(none.slope, 0);
+  EXPECT_EQ(none.sd, 0);
+  EXPECT_EQ(none.u, 0);
+  BinReadings enough(8, [](double x) { return 1e-6 + 1e-6 * x; });
+  EXPECT_NEAR(enough.fit().value, 1e-6, 1e-18);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "tests/algo/measured_machine.h"
@@ -284,6 +285,55 @@ TEST(Units, OfTheFixture) {
       for (double& x : probe.position_m) x *= factor;
     EXPECT_EQ(said(rig, right()).find(code), 0u) << said(rig, right());
   }
+}
+
+// Three targets are all met 0.3 mm further on from the second run on.
+TEST(Plausibility, TargetsThatShiftAreToldWithTheirTimeAndShift) {
+  Sequence sequence;
+  sequence.targets_m = {0, 0.3e-3, 10e-3, 10.3e-3, 20e-3, 20.3e-3};
+  sequence.targets = 6;
+  sequence.runs = 2;
+  for (int run = 1; run <= 2; ++run)
+    for (int t = 0; t < 3; ++t) {
+      MeasuredPoint p;
+      p.target = 2 * t + run;
+      p.run = run;
+      p.target_m = p.point.position_m = sequence.targets_m[static_cast<std::size_t>(p.target) - 1];
+      p.point.direction = 1;
+      p.point.begin_ns = 1'000'000'000LL * (5 + 10 * (3 * run + t));
+      p.point.end_ns = p.point.begin_ns + 2'000'000'000LL;
+      p.point.probe_m.assign(5, 1e-6 * (t - 1) * run);
+      p.point.probe_sd_m.assign(5, 1e-8 * (t + 1));
+      p.errors.valid = true;
+      sequence.points.push_back(p);
+    }
+  const Rig rig = rig_of_five();
+  const DwellDetector::Summary dwells;
+  const RunToJudge run{rig, sequence, dwells};
+  EXPECT_EQ(run.scans_lost, 0u);
+  EXPECT_FALSE(run.targets_given);
+  EXPECT_EQ(run.least_dwell_s, 0);
+  std::size_t told = 0;
+  for (const Notice& notice : visit_notices(run)) {
+    if (notice.code != NoticeCode::targets_shifted) continue;
+    ++told;
+    EXPECT_NEAR(test::number(notice, "shift_mm"), 0.3, 1e-9);
+    EXPECT_NEAR(test::number(notice, "time_s"), 22, 1e-9);  // the end of the first run's third stop
+  }
+  EXPECT_EQ(told, 1u);
+  // What the probes read of these stops.
+  const Plausibility found = plausibility(run);
+  ASSERT_EQ(found.probes.size(), 5u);
+  EXPECT_EQ(found.probes[2].id, "C");
+  EXPECT_EQ(found.probes[2].points, 6u);
+  EXPECT_NEAR(found.probes[2].min_m, -2e-6, 1e-18);
+  EXPECT_NEAR(found.probes[2].max_m, 2e-6, 1e-18);
+  EXPECT_NEAR(found.probes[2].travel_m, 4e-6, 1e-18);
+  EXPECT_NEAR(found.probes[2].sd_m, 2e-8, 1e-20);
+  for (MeasuredPoint& p : sequence.points) p.point.probe_m[2] = std::nan("");
+  const ProbeFigures none = plausibility(run).probes[2];
+  EXPECT_EQ(none.points, 0u);
+  EXPECT_TRUE(std::isnan(none.min_m) && std::isnan(none.max_m) && std::isnan(none.travel_m));
 }
 
 }  // namespace

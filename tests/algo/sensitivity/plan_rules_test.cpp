@@ -115,5 +115,56 @@ TEST(PlanRules, MountingsBeyondTheModelAreNotSolved) {
     }
 }
 
+// A normal travel is looked at over two standard deviations to each side: a series over it is that
+// of the range of as much.
+TEST(PlanRules, ASeriesOverANormalTravelGoesTwoStandardDeviationsEachWay) {
+  const auto series = [](const std::string& travel, const std::string& quantities) {
+    return experiment_with(
+        "outputs = [\"EYX_straightness_um\"]\n[truth]\n" + travel +
+        "EYX_um = [10]\n[series]\npositions = 25\n" + quantities +
+        quantity("probe.D.sensitivity_percent", "distribution = \"constant\"\nvalue = 1"));
+  };
+  const auto range = series("travel_mm = [10, 50]\n", "");
+  const auto normal_travel =
+      series("", quantity("travel_mm", "distribution = \"normal\"\nmean = 30\nsd = 10"));
+  const auto of_range = first_output(*range, 20), of_normal = first_output(*normal_travel, 20);
+  for (std::size_t j = 0; j < 20; ++j) {
+    EXPECT_GT(of_range[j], 0.01);
+    EXPECT_NEAR(of_normal[j], of_range[j], 1e-12) << j;
+  }
+}
+
+// Noise of A and B at each reading: each has its own scale, at a point and in a series alike.
+TEST(PlanRules, EachNoiseHasItsOwnScale) {
+  const auto noise = [](const char* probe) {
+    return quantity(std::string("probe.") + probe + ".noise_nm",
+                    "distribution = \"normal\"\nsd = 20");
+  };
+  for (const std::string& output : {std::string("EBX_urad"), std::string("EZX_straightness_um")}) {
+    const bool is_series = output != "EBX_urad";
+    const std::string head = "model = \"simplified\"\nforward = \"small-angle\"\noutputs = [\"" +
+                             output + "\"]\n[truth]\ntravel_mm = [20, 40]\n" +
+                             (is_series ? "[series]\npositions = 8\n" : "");
+    const auto both = experiment_with(head + noise("A") + noise("B"));
+    const auto scaled = [&](double of_A, double of_B) {
+      std::vector<double> scale;
+      for (const std::string& name : both->quantities())
+        scale.push_back(name.starts_with("probe.A")   ? of_A
+                        : name.starts_with("probe.B") ? of_B
+                                                      : 1);
+      std::vector<double> out(30);
+      double* const place[] = {out.data()};
+      both->run_scaled(scale, 0, 1, out.size(), place);
+      return out;
+    };
+    const auto one = first_output(*both, 30), twice = scaled(2, 2), only_B = scaled(0, 3);
+    const auto alone = first_output(*experiment_with(head + noise("B")), 30);
+    for (std::size_t j = 0; j < 30; ++j) {
+      EXPECT_NEAR(twice[j], 2 * one[j], 1e-9 + 1e-4 * std::abs(one[j])) << output << j;
+      EXPECT_NEAR(only_B[j], 3 * alone[j], 1e-9 + 1e-4 * std::abs(alone[j])) << output << j;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

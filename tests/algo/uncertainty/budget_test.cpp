@@ -275,5 +275,32 @@ TEST(Budget, TrialsDoNotDependOnHowManyThereAre) {
   }
 }
 
+// Of 40 trials 1 ... 40 in any order: one in forty lies below 2, and none above 40.
+TEST(Budget, SummaryOfTrialsByHand) {
+  std::vector<double> trials;
+  for (int i = 0; i < 40; ++i) trials.push_back(1 + (i * 7) % 40);
+  const BudgetTrials summary = summary_of(trials, 9);
+  EXPECT_EQ(summary.trials, 40u);
+  EXPECT_EQ(summary.seed, 9u);
+  EXPECT_EQ(summary.low, 2);
+  EXPECT_EQ(summary.high, 40);
+  EXPECT_NEAR(summary.u, std::sqrt((40 * 40 - 1) / 12.0 * 40 / 39), 1e-12);
+}
+
+// A range of each trial is highest less lowest of its deviations, and its trials say the same.
+TEST(Budget, ARangeIsDrawnAsHighestLessLowest) {
+  const Rig rig = rig_x_with("D", "u_sensitivity_ppm = 1000");
+  SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
+  synthetic.truth = [](double d) { return Errors5{1e-6 * std::sin(200 * d), 0, 0, 0, 0}; };
+  const auto budgets = RunBudgets::create(rig, synthetic.measure()).value();
+  const Figure straightness = straightness_figure(Axis::x, 0);
+  const auto values = budgets.draw({straightness}, {500, 4}).front();
+  double mean = 0;
+  for (const double v : values) mean += v / 500;
+  EXPECT_NEAR(mean / straightness.of(budgets.means()), 1, 2e-4);
+  EXPECT_NEAR(summary_of(values, 4).u / straightness.of(budgets.means()), 1e-3, 1e-4);
+  EXPECT_NEAR(budgets.trials(straightness, {500, 4}).u / summary_of(values, 4).u, 1, 0.01);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/machine/grid_chain.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -14,6 +16,37 @@ Result<const MachineFrame*> linear_axis(const Machine& machine, std::size_t dire
   if (frame) return frame;
   return bad_input("the chain " + machine.chain.text + " has no axis " +
                    std::string(kAxes.substr(direction, 1)) + "; ask for axes that it has");
+}
+
+void add_points(const Machine& machine, const PlaneMapRequest& request, PlaneMap& map) {
+  const GridPlan plan{request.first, request.second, map.first_m,
+                      map.second_m,  request.others, request.approach};
+  GridErrors errors(machine, plan);
+  GridVariances variances(machine, plan);
+  map.points.reserve(map.first_m.size() * map.second_m.size());
+  for (std::size_t j = 0; j < map.second_m.size(); ++j) {
+    variances.begin_line(j);
+    for (std::size_t i = 0; i < map.first_m.size(); ++i)
+      map.points.push_back(
+          {map.first_m[i], map.second_m[j], errors.at(i, j), variances.u_at(i, j)});
+  }
+}
+
+// A derivative is linear in the commands of two linear axes, so that one that counts anywhere
+// counts at a corner; so is a command beyond a table.
+void add_names(const Machine& machine, const PlaneMapRequest& request, PlaneMap& map) {
+  Command command = request.others;
+  for (const double b : {map.second_m.front(), map.second_m.back()})
+    for (const double a : {map.first_m.front(), map.first_m.back()}) {
+      command[request.first] = a;
+      command[request.second] = b;
+      const ToolError e = tool_error(machine, command, request.approach);
+      for (std::size_t k = 0; k < 3; ++k) {
+        add_new(e.not_measured[k], map.not_measured);
+        add_new(e.no_u[k], map.no_u);
+      }
+      add_new(e.beyond, map.beyond);
+    }
 }
 
 }  // namespace
@@ -63,35 +96,38 @@ Result<PlaneMap> plane_map(const Machine& machine, const PlaneMapRequest& reques
                {},
                {}};
   const Machine chosen = request.without_angles ? without_angles(machine) : machine;
-  Command command = request.others;
-  for (const double b : map.second_m) {
-    for (const double a : map.first_m) {
-      command[request.first] = a;
-      command[request.second] = b;
-      const ToolError e = tool_error(chosen, command, request.approach);
-      map.points.push_back({a, b, e.exact, e.u});
-      for (std::size_t k = 0; k < 3; ++k) {
-        add_new(e.not_measured[k], map.not_measured);
-        add_new(e.no_u[k], map.no_u);
-      }
-      add_new(e.beyond, map.beyond);
-    }
-  }
+  add_points(chosen, request, map);
+  add_names(chosen, request, map);
   return map;
 }
 
-MapExtreme extreme_of(const PlaneMap& map, std::size_t component) {
-  const auto k = static_cast<Eigen::Index>(component);
-  MapExtreme extreme;
-  double low = INFINITY, high = -INFINITY;
-  for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const double e = map.points[i].error[k];
-    low = std::min(low, e);
-    high = std::max(high, e);
-    if (i == 0 || std::abs(e) > std::abs(extreme.value)) extreme = {i, e, 0};
+std::array<MapExtreme, 3> extremes_of(const PlaneMap& map) {
+  struct Ends {
+    std::size_t lowest = 0, highest = 0;
+    double low = INFINITY, high = -INFINITY;
+  };
+  std::array<Ends, 3> ends;
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double e = map.points[i].error[static_cast<Eigen::Index>(k)];
+      Ends& of = ends[k];
+      if (e < of.low) {
+        of.low = e;
+        of.lowest = i;
+      }
+      if (e > of.high) {
+        of.high = e;
+        of.highest = i;
+      }
+    }
+  std::array<MapExtreme, 3> extremes;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Ends& of = ends[k];
+    const double low_size = std::abs(of.low), high_size = std::abs(of.high);
+    const bool is_low = low_size == high_size ? of.lowest < of.highest : low_size > high_size;
+    extremes[k] = {is_low ? of.lowest : of.highest, is_low ? of.low : of.high, of.high - of.low};
   }
-  extreme.range = high - low;
-  return extreme;
+  return extremes;
 }
 
 }  // namespace mdof::algo

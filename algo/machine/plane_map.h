@@ -7,7 +7,7 @@ namespace mdof::algo {
 
 struct PlanePoint {
   double first_m = 0, second_m = 0;  // commands of the two axes
-  Vector6 error, u;
+  Eigen::Vector3d error, u;          // of the tool's place, m; u: NaN where nothing has one
 };
 struct PlaneMap {
   std::size_t first = 0, second = 1;  // directions of the two axes
@@ -30,16 +30,18 @@ struct PlaneMapRequest {
   MachineApproach approach = MachineApproach::mean;
   bool without_angles = false;  // positions, straightness and squareness alone (Eq. 1 of Hwang)
 };
+// As tool_error() at each point, to rounding (1e-16 m; u to 1e-9 of its largest), in a time that
+// hardly depends on the chain (grid_chain.h).
 // Error: an axis that the chain has not; no range; a million points or more.
 Result<PlaneMap> plane_map(const Machine& machine, const PlaneMapRequest& request);
 
-// The error of the largest size of a component, with its sign, and the range of it (largest less
+// The error of the largest size of each component, with its sign, and the range of it (largest less
 // smallest).
 struct MapExtreme {
   std::size_t point = 0;
   double value = 0, range = 0;
 };
-MapExtreme extreme_of(const PlaneMap& map, std::size_t component);
+std::array<MapExtreme, 3> extremes_of(const PlaneMap& map);
 
 // Without the errors that turn a body; squareness stays.
 Machine without_angles(Machine machine);

@@ -165,7 +165,7 @@ TEST(PlaneMap, HasAllPointsOfTheRangeUpToAMillion) {
   EXPECT_NEAR(map->second_m[4], 0.45, 1e-15);
   EXPECT_EQ(map->points[6].first_m, map->first_m[2]);  // the first axis runs fastest
   EXPECT_EQ(map->points[6].second_m, map->second_m[1]);
-  const MapExtreme extreme = extreme_of(*map, 1);
+  const MapExtreme extreme = extremes_of(*map)[1];
   EXPECT_NEAR(extreme.value, 6e-6, 1e-15);
   EXPECT_EQ(extreme.point % 4, 3U);  // of any row
   EXPECT_NEAR(extreme.range, 9e-6, 1e-15);

@@ -1,10 +1,13 @@
 // mdof machine map MACHINE.toml --plane XY --step-mm S: errors of the tool over a plane.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "algo/machine/plane_map.h"
 #include "daemon/output/charts/machine/plane_map_chart.h"
 #include "daemon/output/charts/plot_files.h"
+#include "schema/base/number/number.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/machine/machine_file.h"
@@ -33,7 +36,7 @@ std::string key_in_mm(std::size_t direction) {
   return std::string(1, "XYZ"[direction]) + "_mm";
 }
 
-std::string map_csv(const Machine& machine, const std::vector<FoundMap>& maps) {
+std::string csv_header(const Machine& machine, const std::vector<FoundMap>& maps) {
   CsvText csv;
   const auto& first = maps.front().map;
   if (maps.size() > 1) csv.cell("approach");
@@ -41,21 +44,79 @@ std::string map_csv(const Machine& machine, const std::vector<FoundMap>& maps) {
   for (int k = 0; k < 3; ++k) csv.cell(kComponents[k]);
   for (int k = 0; k < 3; ++k) csv.cell(std::string("u_") + kComponents[k]);
   csv.end_row();
-  for (const FoundMap& found : maps)
-    for (const algo::PlanePoint& p : found.map.points) {
-      if (maps.size() > 1) csv.cell(found.approach);
-      csv.cell(to_mm(p.first_m)).cell(to_mm(p.second_m));
-      for (int k = 0; k < 3; ++k) csv.cell(to_um(p.error[k]));
-      for (int k = 0; k < 3; ++k) csv.cell(to_um(p.u[k]));
-      csv.end_row();
-    }
   return noise_only_comment(machine.noise_only) + csv.take();
+}
+
+// Cells as of CsvText, for a million rows: numbers become text many at a time, and the commands of
+// an axis once.
+class MapRows {
+ public:
+  MapRows(const FoundMap& found, bool with_approach)
+      : map_(found.map),
+        begin_(with_approach ? found.approach + ',' : ""),
+        first_mm_(map_.first_m.size()),
+        values_(kValues * map_.first_m.size()),
+        texts_(values_.size()),
+        line_(map_.first_m.size() * (begin_.size() + (kValues + 2) * (kDouble17Size + 1))) {
+    for (std::size_t i = 0; i < first_mm_.size(); ++i) first_mm_[i] = in_mm_17(map_.first_m[i]);
+  }
+
+  // Of the points at a command of the second axis; until the next call.
+  std::string_view line(std::size_t j) {
+    const std::size_t n = first_mm_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const algo::PlanePoint& p = map_.points[j * n + i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto of = static_cast<Eigen::Index>(k);
+        values_[kValues * i + k] = to_um(p.error[of]) + 0.0;  // -0 is 0
+        values_[kValues * i + 3 + k] = to_um(p.u[of]);
+      }
+    }
+    write_doubles_17(values_.data(), values_.size(), texts_.data());
+    const std::string second_mm = ',' + in_mm_17(map_.second_m[j]);
+    char* out = line_.data();
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const std::string_view text :
+           std::initializer_list<std::string_view>{begin_, first_mm_[i], second_mm})
+        out = std::copy(text.begin(), text.end(), out);
+      for (std::size_t k = kValues * i; k < kValues * (i + 1); ++k) {
+        *out++ = ',';
+        if (!std::isfinite(values_[k])) continue;
+        std::memcpy(out, texts_[k].text, kDouble17Size);  // all of it: a fixed size is faster
+        out += texts_[k].size;
+      }
+      *out++ = '\n';
+    }
+    return {line_.data(), static_cast<std::size_t>(out - line_.data())};
+  }
+
+ private:
+  static constexpr std::size_t kValues = 6;
+  static std::string in_mm_17(double at_m) { return CsvText().cell(to_mm(at_m)).take(); }
+
+  const algo::PlaneMap& map_;
+  std::string begin_;
+  std::vector<std::string> first_mm_;
+  std::vector<double> values_;  // of a line
+  std::vector<DoubleText> texts_;
+  std::vector<char> line_;
+};
+
+Status write_csv(const Machine& machine, const std::vector<FoundMap>& maps) {
+  MDOF_CHECK(write_out(csv_header(machine, maps)));
+  for (const FoundMap& found : maps) {
+    MapRows rows(found, maps.size() > 1);
+    for (std::size_t j = 0; j < found.map.second_m.size(); ++j)
+      MDOF_CHECK(write_commands(rows.line(j)));
+  }
+  return {};
 }
 
 void write_extremes(JsonWriter& json, const algo::PlaneMap& map) {
   json.key("largest").begin_object();
+  const auto extremes = algo::extremes_of(map);
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto extreme = algo::extreme_of(map, k);
+    const algo::MapExtreme& extreme = extremes[k];
     const auto& p = map.points[extreme.point];
     json.key(kComponents[k])
         .begin_object()
@@ -114,14 +175,16 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
       {"approach", "", "largest/µm", "u/µm", "at " + std::string(1, "XYZ"[first.first]) + "/mm",
        std::string(1, "XYZ"[first.second]) + "/mm", "range/µm"},
       2);
-  for (const FoundMap& found : maps)
+  for (const FoundMap& found : maps) {
+    const auto extremes = algo::extremes_of(found.map);
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto extreme = algo::extreme_of(found.map, k);
+      const algo::MapExtreme& extreme = extremes[k];
       const auto& p = found.map.points[extreme.point];
       const double u_m = p.u[static_cast<Eigen::Index>(k)];
       table.add({found.approach, std::string(1, "xyz"[k]), um_to_place(extreme.value, u_m),
                  um_to_place(u_m, u_m), in_mm(p.first_m), in_mm(p.second_m), in_um(extreme.range)});
     }
+  }
   return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
          machine.name + ", " + machine.chain.text + ": " + std::to_string(first.points.size()) +
          " points of the plane " + o.plane + ", error of the tool against the work\n" +
@@ -176,7 +239,7 @@ Status machine_map(const MachineMapCommand& o) {
   if (o.csv || o.json) {
     if (o.csv && !maps.front().map.not_measured.empty())
       warn("not measured, and not in these figures: " + joined(maps.front().map.not_measured));
-    return o.csv ? write_out(map_csv(machine, maps)) : write_line(map_json(machine, o, maps));
+    return o.csv ? write_csv(machine, maps) : write_line(map_json(machine, o, maps));
   }
   return write_out(map_text(machine, o, maps));
 }

@@ -1,0 +1,131 @@
+#include "algo/machine/grid_chain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+// Of the largest variance: what is below it is rounding of a parabola.
+constexpr double kRoundingOfParabola = 2e-15;
+
+bool goes_with(const MachineFrame& frame, std::size_t direction) {
+  const char axis = "XYZ"[direction];
+  if (frame.moves_with != 0) return frame.moves_with == axis;
+  return frame.kind == FrameKind::linear && frame.id[0] == axis;
+}
+
+// -1 at the begin of a range, 1 at its end.
+std::vector<double> parts_of_range(const std::vector<double>& range) {
+  std::vector<double> parts;
+  const double middle = (range.front() + range.back()) / 2, half = range.back() - middle;
+  for (const double x : range) parts.push_back(half > 0 ? (x - middle) / half : 0);
+  return parts;
+}
+
+}  // namespace
+
+Command GridPlan::command(std::size_t i, std::size_t j) const {
+  Command command = others;
+  command[first] = first_m[i];
+  command[second] = second_m[j];
+  return command;
+}
+
+void GridErrors::Chain::add(const Segment& next) {
+  const bool joins = !segments.empty() &&
+                     (next.varies == segments.back().varies || next.varies == Varies::nowhere ||
+                      segments.back().varies == Varies::nowhere);
+  if (!joins) {
+    segments.push_back(next);
+    return;
+  }
+  Segment& last = segments.back();
+  if (last.varies == Varies::nowhere) {
+    last.varies = next.varies;
+    last.poses.resize(next.poses.size(), last.poses[0]);
+  }
+  for (std::size_t i = 0; i < last.poses.size(); ++i)
+    last.poses[i] = next.poses[next.varies == Varies::nowhere ? 0 : i] * last.poses[i];
+}
+
+void GridErrors::add_frame(const MachineFrame& frame, const GridPlan& plan) {
+  Segment actual, nominal;
+  std::size_t count = 1;
+  if (goes_with(frame, plan.first)) {
+    actual.varies = Varies::with_first;
+    count = plan.first_m.size();
+  } else if (goes_with(frame, plan.second)) {
+    actual.varies = Varies::with_second;
+    count = plan.second_m.size();
+  }
+  nominal.varies = actual.varies;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Command command = plan.command(actual.varies == Varies::with_first ? i : 0,
+                                         actual.varies == Varies::with_second ? i : 0);
+    const FrameValues values = values_at(frame, command, plan.approach);
+    const Pose true_pose = actual_pose(frame, values), pose = nominal_pose(frame, values.travel);
+    actual.poses.push_back(frame.carries_work ? true_pose.inverse() : true_pose);
+    nominal.poses.push_back(frame.carries_work ? pose.inverse() : pose);
+  }
+  actual_.add(actual);
+  nominal_.add(nominal);
+}
+
+GridErrors::GridErrors(const Machine& machine, const GridPlan& plan)
+    : actual_{vector_of(machine.tool_m), {}}, nominal_{vector_of(machine.tool_m), {}} {
+  // From the tool to the bed, then from the bed to the work: frames begin at the work.
+  for (const bool of_work : {false, true})
+    for (std::size_t i = machine.frames.size(); i-- > 0;)
+      if (machine.frames[i].carries_work == of_work) add_frame(machine.frames[i], plan);
+}
+
+// Of the frames that go with the first axis, or of all others.
+Eigen::Vector3d GridVariances::variance(const Command& command, bool of_first) const {
+  auto values = values_at(machine_, command, plan_.approach);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (goes_with(machine_.frames[i], plan_.first) == of_first) continue;
+    values[i].u_parts.setZero();
+    values[i].u_location = {};
+  }
+  return error_uncertainty(derivatives(machine_, command), values).head<3>().cwiseAbs2();
+}
+
+GridVariances::Parabola GridVariances::parabola(Command command, std::size_t along,
+                                                const std::vector<double>& range,
+                                                bool of_first) const {
+  const auto at = [&](double x) {
+    command[along] = x;
+    return variance(command, of_first);
+  };
+  const Eigen::Vector3d begin = at(range.front()), end = at(range.back());
+  const Eigen::Vector3d middle = at((range.front() + range.back()) / 2);
+  const double largest = begin.cwiseMax(middle).cwiseMax(end).maxCoeff();
+  return {middle, (end - begin) / 2, (end + begin) / 2 - middle, kRoundingOfParabola * largest};
+}
+
+GridVariances::GridVariances(const Machine& machine, const GridPlan& plan)
+    : machine_(machine),
+      plan_(plan),
+      first_part_(parts_of_range(plan.first_m)),
+      second_part_(parts_of_range(plan.second_m)) {
+  for (std::size_t i = 0; i < plan.first_m.size(); ++i)
+    of_first_.push_back(parabola(plan.command(i, 0), plan.second, plan.second_m, true));
+}
+
+void GridVariances::begin_line(std::size_t j) {
+  of_line_ = parabola(plan_.command(0, j), plan_.first, plan_.first_m, false);
+}
+
+Eigen::Vector3d GridVariances::u_at(std::size_t i, std::size_t j) const {
+  const Parabola& column = of_first_[i];
+  const Eigen::Vector3d sum = of_line_.at(first_part_[i]) + column.at(second_part_[j]);
+  const double rounding = of_line_.rounding + column.rounding;
+  Eigen::Vector3d u;
+  for (Eigen::Index k = 0; k < 3; ++k) u[k] = sum[k] > rounding ? std::sqrt(sum[k]) : kNaN;
+  return u;
+}
+
+}  // namespace mdof::algo

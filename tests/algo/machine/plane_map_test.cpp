@@ -1,0 +1,111 @@
+// The map of a plane against each of its points alone.
+#include "algo/machine/plane_map.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/algo/machine/random_machine.h"
+
+namespace mdof::algo {
+namespace {
+
+// Both bars: 1e-14 m is that of a point alone against long double; u to 1e-9.
+constexpr double kSameError_m = 1e-14, kSameU = 1e-9;
+
+// u of tables and lines, some correlated, some not declared.
+void declare_u(Machine& machine, test::RandomMachines& random) {
+  for (MachineFrame& frame : machine.frames) {
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      for (std::size_t i = 0; i < frame.error[k].forward.size(); ++i)
+        if (random.between(0, 1) < 0.8) frame.error[k].u.push_back(random.between(0, 1e-6));
+      if (frame.error[k].u.size() != frame.error[k].forward.size()) frame.error[k].u.clear();
+      if (frame.location[k].value) frame.location[k].u = random.between(0, 1e-6);
+    }
+    if (frame.kind != FrameKind::linear) continue;
+    frame.correlation.position = {0, 0.3};
+    frame.correlation.at.resize(2);
+    for (auto& matrix : frame.correlation.at) {
+      const double rho = random.between(-0.15, 0.95);
+      for (std::size_t k = 0; k < kBodyErrors; ++k) {
+        matrix[k].fill(rho);
+        matrix[k][k] = 1;
+      }
+    }
+  }
+}
+
+struct WorstOfMap {
+  double error_m = 0, u = 0;
+};
+
+void compare_with_points(const Machine& machine, const PlaneMapRequest& request,
+                         WorstOfMap& worst) {
+  const auto map = plane_map(machine, request);
+  ASSERT_TRUE(map) << map.error().message;
+  Eigen::Vector3d largest_u = Eigen::Vector3d::Zero();
+  std::vector<ToolError> alone;
+  Command command = request.others;
+  for (const PlanePoint& p : map->points) {
+    command[request.first] = p.first_m;
+    command[request.second] = p.second_m;
+    alone.push_back(tool_error(machine, command, request.approach));
+    for (Eigen::Index k = 0; k < 3; ++k)
+      if (alone.back().u[k] > largest_u[k]) largest_u[k] = alone.back().u[k];
+  }
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const PlanePoint& p = map->points[i];
+      worst.error_m = std::max(worst.error_m, std::abs(p.error[k] - alone[i].exact[k]));
+      ASSERT_EQ(std::isnan(p.u[k]), std::isnan(alone[i].u[k]));
+      if (!std::isnan(p.u[k]))
+        worst.u = std::max(worst.u, std::abs(p.u[k] - alone[i].u[k]) / largest_u[k]);
+    }
+}
+
+TEST(PlaneMap, IsItsPointsAlone) {
+  test::RandomMachines random(11);
+  WorstOfMap worst;
+  for (int i = 0; i < 300; ++i) {
+    auto machine = random.machine(i % 2 ? "XYZACmnop" : "XYZ", 50e-6, 1e-3, 0.3);
+    declare_u(machine, random);
+    PlaneMapRequest request;
+    request.first = i % 3 == 2 ? 1 : 0;
+    request.second = i % 3 == 0 ? 1 : 2;
+    request.step_m = 0.07;
+    request.others = random.command(0.3);
+    request.approach = i % 4 ? MachineApproach::mean : MachineApproach::reverse;
+    compare_with_points(machine, request, worst);
+  }
+  RecordProperty("worst_error_m", std::to_string(worst.error_m * 1e15) + "e-15");
+  RecordProperty("worst_u", std::to_string(worst.u * 1e12) + "e-12");
+  EXPECT_LT(worst.error_m, kSameError_m);
+  EXPECT_LT(worst.u, kSameU);
+}
+
+// An arm that is 0 at the first corner alone: u of its turn is unknown all the same.
+TEST(PlaneMap, NamesWhatCountsAtAnyCorner) {
+  Machine m;
+  m.frames.resize(2);
+  m.frames[0].id = "X";
+  m.frames[1].id = "Y";
+  m.frames[1].direction = 1;
+  for (auto& f : m.frames) {
+    f.kind = FrameKind::linear;
+    f.range = {0, 0.1};
+    for (auto& e : f.error) e.forward = {0};
+  }
+  m.frames[0].error[1] = {{0, 0.05}, {0, 1e-6}, {}, {1e-7, 1e-7}, {}};  // EYX, too short
+  m.frames[1].error[5].forward.clear();                                 // ECY
+  PlaneMapRequest request;
+  request.step_m = 0.05;
+  const auto map = plane_map(m, request);
+  ASSERT_TRUE(map) << map.error().message;
+  EXPECT_EQ(map->beyond, std::vector<std::string>{"EYX"});
+  EXPECT_NE(std::find(map->no_u.begin(), map->no_u.end(), "ECX"), map->no_u.end());
+  EXPECT_NE(std::find(map->not_measured.begin(), map->not_measured.end(), "ECY"),
+            map->not_measured.end());
+  EXPECT_TRUE(std::isnan(map->points[0].u[0]));
+  EXPECT_NEAR(map->points[0].u[1], 1e-7, 1e-20);
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -47,21 +47,41 @@ Diagonal along(const Machine& machine, const Corner& c, std::size_t steps,
 }
 
 struct Length {
-  double mean = 0, u_repeat = 0, freedom = 0;
+  double mean = 0, squares = 0, readings = 0;  // squares: of the readings about their mean
+  double freedom() const { return std::max(0.0, readings - 1); }
 };
 
 Length length_of(const MeasuredLine& line) {
   Length l;
   if (line.length_m.empty()) return l;
-  const auto n = static_cast<double>(line.length_m.size());
-  for (const double x : line.length_m) l.mean += (x - line.length_m[0]) / n;
+  l.readings = static_cast<double>(line.length_m.size());
+  for (const double x : line.length_m) l.mean += (x - line.length_m[0]) / l.readings;
   l.mean += line.length_m[0];
-  if (n < 2) return l;
-  double squares = 0;
-  for (const double x : line.length_m) squares += (x - l.mean) * (x - l.mean);
-  l.freedom = n - 1;
-  l.u_repeat = std::sqrt(squares / (l.freedom * n));
+  for (const double x : line.length_m) l.squares += (x - l.mean) * (x - l.mean);
   return l;
+}
+
+// What the repetition of the lines makes of their slopes (∂ angle / ∂ length), with its degrees of
+// freedom. A line that was read once has the noise of the others: then one estimate from all of
+// them holds for every line, so that no part is independent of another.
+std::vector<UncertaintyPart> by_repetition(const std::array<Length, 4>& lines,
+                                           const std::array<double, 4>& slope) {
+  double squares = 0, freedom = 0, by_variance = 0;
+  bool any_once = false;
+  std::vector<UncertaintyPart> parts;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].readings == 0) continue;
+    squares += lines[i].squares;
+    freedom += lines[i].freedom();
+    by_variance += slope[i] * slope[i] / lines[i].readings;
+    any_once = any_once || lines[i].readings == 1;
+    if (lines[i].freedom() > 0)
+      parts.push_back({std::abs(slope[i]) *
+                           std::sqrt(lines[i].squares / (lines[i].freedom() * lines[i].readings)),
+                       lines[i].freedom()});
+  }
+  if (!any_once || freedom == 0) return parts;
+  return {{std::sqrt(by_variance * squares / freedom), freedom}};
 }
 
 bool usable(const MeasuredLine& line) {
@@ -111,20 +131,19 @@ Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines
   const double by_sine = 1 / std::sqrt(1 - cosine * cosine);
   // ∂θ/∂length = -∂cos/∂length / sin θ.
   const double half = s.two_diagonals ? 0.5 : 1;
-  const std::array<double, 4> slope = {
-      (s.two_diagonals ? 0 : 2 * x.mean / product) + cosine / x.mean,
-      (s.two_diagonals ? 0 : 2 * y.mean / product) + cosine / y.mean, -half * 2 * d.mean / product,
-      s.two_diagonals ? half * 2 * e.mean / product : 0};
-  const std::array<Length, 4> of = {x, y, d, e};
-  std::vector<UncertaintyPart> parts;
+  std::array<double, 4> slope = {(s.two_diagonals ? 0 : 2 * x.mean / product) + cosine / x.mean,
+                                 (s.two_diagonals ? 0 : 2 * y.mean / product) + cosine / y.mean,
+                                 -half * 2 * d.mean / product,
+                                 s.two_diagonals ? half * 2 * e.mean / product : 0};
+  for (double& of_line : slope) of_line *= by_sine;
+  std::vector<UncertaintyPart> parts = by_repetition({x, y, d, e}, slope);
   double squares = 0;
-  for (std::size_t i = 0; i < of.size(); ++i) {
-    const double repeat = by_sine * slope[i] * of[i].u_repeat;
-    const double declared = by_sine * slope[i] * lines.u_line_m;
-    if (of[i].freedom > 0) parts.push_back({std::abs(repeat), of[i].freedom});
-    parts.push_back({std::abs(declared), std::numeric_limits<double>::infinity()});
-    s.u_repeat_rad = std::hypot(s.u_repeat_rad, repeat);
-    squares += repeat * repeat + declared * declared;
+  for (const UncertaintyPart& part : parts) squares += part.u * part.u;
+  s.u_repeat_rad = std::sqrt(squares);
+  for (const double of_line : slope) {
+    const double declared = std::abs(of_line) * lines.u_line_m;
+    parts.push_back({declared, std::numeric_limits<double>::infinity()});
+    squares += declared * declared;
   }
   if (!(squares > 0))
     return bad_input("the uncertainty of the lines is unknown", Remedy::give_u_of_lines);

@@ -35,10 +35,10 @@ struct SquarenessOfDiagonals {
 // The angle between the axes by the law of cosines: Eq. 2 of Hwang, Song and Park of one diagonal
 // from (0, 0) to (Px, Py), the mean of both where the other, from (Px, 0) to (0, Py), is there too:
 //   cos θ12 = (Pd² - Px² - Py²) / (2 Px Py),   cos θ12 = (Pd² - Pe²) / (4 Px Py)
-// Uncertainty: of each line by repetition (no less than nothing: one reading shows none) and the
-// declared u_line of its length; degrees of freedom by Welch-Satterthwaite. An error of the scale
-// that all lines have in common turns nothing. Errors: a line without a reading, lengths that no
-// triangle has, no uncertainty at all.
+// Uncertainty: of each line by repetition, where a line was read once by that of all lines
+// together, and the declared u_line of its length; degrees of freedom by Welch-Satterthwaite. An
+// error of the scale that all lines have in common turns nothing. Errors: a line without a reading,
+// lengths that no triangle has, no uncertainty at all.
 struct DiagonalLines {
   MeasuredLine first, second, diagonal, other;  // other may be empty
   double u_line_m = 0;                          // of each line on its own, declared

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "algo/machine/diagonal.h"
@@ -74,6 +75,31 @@ TEST(Diagonals, CoverTheTruth) {
     }
     EXPECT_GE(covered, 0.94 * kSimulations);
     EXPECT_LE(covered, 0.965 * kSimulations);
+  }
+}
+
+// Lines that were read once have the noise of those that were read more often; where all were read
+// once, that of the declared u. Bar as above.
+TEST(Diagonals, CoverTheTruthOfLinesReadOnce) {
+  const std::vector<std::array<std::size_t, 4>> counts = {{1, 1, 6, 0}, {6, 1, 1, 0}, {2, 1, 3, 0},
+                                                          {1, 1, 1, 5}, {1, 1, 2, 2}, {1, 1, 1, 1}};
+  for (const auto& n : counts) {
+    std::mt19937 source(9);
+    int covered = 0;
+    for (int i = 0; i < kSimulations; ++i) {
+      const double error = 50e-6 * noise(source);
+      auto lines = measured_lines(error, source, 6, n[3] > 0, 0.2e-6);
+      lines.first.length_m.resize(n[0]);
+      lines.second.length_m.resize(n[1]);
+      lines.diagonal.length_m.resize(n[2]);
+      lines.other.length_m.resize(n[3]);
+      if (n[2] == 1 && n[3] == 1) lines.u_line_m = 0.2e-6;
+      const auto s = squareness_of_diagonals(lines);
+      ASSERT_TRUE(s) << s.error().message;
+      covered += std::abs(s->angle_error_rad - error) <= s->U_rad ? 1 : 0;
+    }
+    EXPECT_GE(covered, 0.94 * kSimulations) << n[0] << n[1] << n[2] << n[3];
+    EXPECT_LE(covered, 0.965 * kSimulations) << n[0] << n[1] << n[2] << n[3];
   }
 }
 
@@ -263,15 +289,27 @@ TEST(Diagonals, TheRangeIsFromTheLowestToTheHighest) {
 
 // Repeated readings and a declared u are told apart; each kind of line has its degrees of freedom.
 TEST(Diagonals, UncertaintyOfRepeatedAndDeclaredLines) {
-  DiagonalLines lines{{{0.4 - 1e-6, 0.4 + 1e-6}}, {{0.3}}, {{0.5 - 2e-6, 0.5, 0.5 + 2e-6}}, {}, 0};
+  DiagonalLines lines{{{0.4 - 1e-6, 0.4 + 1e-6}},
+                      {{0.3 - 3e-6, 0.3 + 3e-6}},
+                      {{0.5 - 2e-6, 0.5, 0.5 + 2e-6}},
+                      {},
+                      0};
   const auto by_repeats = squareness_of_diagonals(lines);
   ASSERT_TRUE(by_repeats) << by_repeats.error().message;
-  // cos = (d² - x² - y²) / 2xy at a right angle: ∂/∂d = d/xy, ∂/∂x = -1/y.
-  const double of_x = 1e-6 / 0.3, of_d = 2e-6 / std::sqrt(3) * 0.5 / 0.12;
-  EXPECT_NEAR(by_repeats->u_repeat_rad, std::hypot(of_x, of_d), 1e-11);
+  // cos = (d² - x² - y²) / 2xy at a right angle: ∂/∂d = d/xy, ∂/∂x = -1/y, ∂/∂y = -1/x.
+  const double of_x = 1e-6 / 0.3, of_y = 3e-6 / 0.4, of_d = 2e-6 / std::sqrt(3) * 0.5 / 0.12;
+  const double u = std::hypot(of_x, of_y, of_d);
+  EXPECT_NEAR(by_repeats->u_repeat_rad, u, 1e-11);
   EXPECT_NEAR(by_repeats->u_rad, by_repeats->u_repeat_rad, 1e-15);
-  const double fourths = std::pow(of_x, 4) + std::pow(of_d, 4) / 2;
-  EXPECT_NEAR(by_repeats->freedom, std::pow(std::hypot(of_x, of_d), 4) / fourths, 1e-4);
+  const double fourths = std::pow(of_x, 4) + std::pow(of_y, 4) + std::pow(of_d, 4) / 2;
+  EXPECT_NEAR(by_repeats->freedom, std::pow(u, 4) / fourths, 1e-4);
+  // Y read once: s² of all, (2 + 8) 1e-12 / 3, of x twice, of y once, of d three times.
+  DiagonalLines once = lines;
+  once.second.length_m = {0.3};
+  const auto pooled = squareness_of_diagonals(once);
+  const double s = std::sqrt(10e-12 / 3);
+  EXPECT_NEAR(pooled->u_rad, s * std::sqrt(1 / 0.09 / 2 + 1 / 0.16 + 0.25 / 0.0144 / 3), 1e-11);
+  EXPECT_NEAR(pooled->freedom, 3, 1e-9);
   EXPECT_NEAR(by_repeats->U_rad, by_repeats->k * by_repeats->u_rad, 1e-18);
   lines.u_line_m = 1e-6;
   const auto both = squareness_of_diagonals(lines);

@@ -22,6 +22,8 @@ namespace {
 using controllers::CheckedError;
 using controllers::Control;
 
+constexpr double kMostTolerance_um = 100;
+
 Status check_request(const ExportRequest& request) {
   if (request.format.empty())
     return fail(ErrorCode::usage,
@@ -29,6 +31,10 @@ Status check_request(const ExportRequest& request) {
                 "--list has them");
   if (!std::isfinite(request.tolerance_um) || !std::isfinite(request.home_mm))
     return fail(ErrorCode::usage, "--tolerance-um and --home-mm must be finite numbers");
+  if (request.tolerance_um > kMostTolerance_um)
+    return fail(ErrorCode::usage, "--tolerance-um " + plain_number(request.tolerance_um, 3) +
+                                      " leaves out the errors themselves; give at most " +
+                                      plain_number(kMostTolerance_um, 3));
   if (!(request.residual_um > 0 && request.residual_um <= 1000))
     return fail(ErrorCode::usage, "--residual-um must be above 0 and at most 1000");
   if (!(request.residual_percent > 0 && request.residual_percent <= 100))

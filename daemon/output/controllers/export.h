@@ -61,6 +61,7 @@ struct Export {
   std::vector<Written> written;
   std::vector<std::string> left_out;  // what the controller cannot hold
   std::vector<std::string> notes;
+  double left_m = 0;  // of a volumetric table: what the form of the file cannot hold
 };
 
 // What a controller adds to a command, as its own rules read the files: linear between the
@@ -109,7 +110,7 @@ struct Format {
   bool sign_confirmed;  // else the export has to be asked for
   double quantum_m;     // step of its numbers; of a squareness rad
   bool takes_home;      // ExportOptions::home_m is taken out of it
-  AxisFiles axes;       // one of the three
+  AxisFiles axes;       // one of the three, or axes and a volume
   VolumeFiles volume;
   SquareFiles square;
 };

@@ -51,7 +51,8 @@ const std::vector<Format>& formats() {
        .square = {}},
       {.name = "siemens-cec",
        .of = "Siemens SINUMERIK, cross error compensation (sag, CEC)",
-       .holds = "positioning and straightness, both approaches; one file of all axes",
+       .holds = "positioning and straightness, both approaches, or a volumetric table as sums and "
+                "products of tables of one axis; one file",
        .limits = "200 points at equal steps, 8 tables in an 828D; linear between them, end values "
                  "hold",
        .sense = "value = correction in mm, added to the command of the output axis",
@@ -61,7 +62,7 @@ const std::vector<Format>& formats() {
        .quantum_m = 2e-9,
        .takes_home = false,
        .axes = {write_cec, read_cec},
-       .volume = {},
+       .volume = {write_cec_volume, read_cec_volume},
        .square = {}},
       {.name = "beckhoff-ssfk",
        .of = "Beckhoff TwinCAT CNC, lead screw compensation (kw.ssfk)",

@@ -18,13 +18,13 @@ struct Residuals {
 };
 
 CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
-                       const Format& format, const ExportOptions& options) {
+                       const Format& format, const ExportOptions& options, double left_m) {
   CheckedError e;
   e.error = name;
   e.angle = angle;
   e.before = r.before;
   e.residual = r.with;
-  const double step = format.quantum_m + kRoundingOfGrid_m;
+  const double step = format.quantum_m + kRoundingOfGrid_m + left_m;
   e.bound = std::min({step, options.residual_m, std::max(options.residual_share * e.before, step)});
   e.cancels = e.residual <= e.bound;
   e.controls.push_back({"wrong sign", r.wrong_sign, r.wrong_sign > e.bound, r.before <= e.bound});
@@ -91,7 +91,8 @@ Result<Check> check_export(const Format& format, const VolumetricTable& table,
   for (std::size_t k = 0; k < 3; ++k)
     if (table.machine.find(kCommands[k]))
       check.errors.push_back(judged_by(std::string(1, kCommands[k]), false,
-                                       residuals_of(table, applied, k), format, options));
+                                       residuals_of(table, applied, k), format, options,
+                                       exported.left_m));
   return check;
 }
 
@@ -103,7 +104,7 @@ Result<Check> check_export(const Format& format, const SquareAxes& axes, const E
   check.share = options.residual_share;
   const Residuals r{std::abs(leaning(axes, 0)), std::abs(leaning(axes, k)),
                     std::abs(leaning(axes, -k)), std::nullopt, 0};
-  check.errors.push_back(judged_by("EC0Y", true, r, format, options));
+  check.errors.push_back(judged_by("EC0Y", true, r, format, options, 0));
   return check;
 }
 

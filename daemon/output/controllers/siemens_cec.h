@@ -12,4 +12,10 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
                          const ExportOptions& options);
 Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile>& files);
 
+// A volumetric table: tables by one axis that add up, and products of two (MULT_BY_TABLE: angles
+// with their levers), whose factors are two tables. What sums of these cannot hold is left, and
+// said. Error (bad_input): more commands along an axis than a table has points; unequal steps.
+Result<Export> write_cec_volume(const VolumetricTable& table, const ExportOptions& options);
+Result<VolumetricTable> read_cec_volume(const std::vector<ControllerFile>& files);
+
 }  // namespace mdof::controllers

@@ -24,49 +24,6 @@ std::string letter_of(std::size_t axis) {
   return std::string(1, kLinear[axis]);
 }
 
-// What a reader of the file has to know beside its numbers.
-std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& options,
-                                 const std::string& sense) {
-  std::vector<std::string> lines{
-      "mdof volumetric table " + std::to_string(t.id) + " of " + one_plain_line(t.name) +
-          ", made " + t.created_utc,
-      "sha256 of the table " + t.sha256,
-      "machine " + t.machine.text + " (" + travels_of(t.machine) + "), approach " + t.approach,
-      "sense: " + sense};
-  std::string at = "holds at the tool's point";
-  for (const double x : t.tool_m) at += " " + plain_number(to_mm(x), 9);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (t.command_m[k].size() == 1 && t.machine.find(kLinear[k]))
-      at += ", " + letter_of(k) + " " + plain_number(to_mm(t.command_m[k].front()), 9);
-  lines.push_back(at + " mm");
-  Vec3 u{};
-  for (const Vec3& node : t.u_m)
-    for (std::size_t k = 0; k < 3; ++k) u[k] = std::max(u[k], node[k]);
-  lines.push_back("largest u of X, Y, Z: " + plain_number(to_um(u[0])) + ", " +
-                  plain_number(to_um(u[1])) + ", " + plain_number(to_um(u[2])) + " um; " +
-                  one_plain_line(covers_text(t)));
-  for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
-  return lines;
-}
-
-void note_options(const ExportOptions& options, Export& out) {
-  if (options.tolerance_m > 0)
-    out.notes.emplace_back("the tolerance has no effect: no node is left out");
-  if (options.home_m) out.notes.emplace_back("home_mm has no effect: the grid is as it is");
-}
-
-void count_nodes(const VolumetricTable& t, Export& out) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (t.machine.find(kLinear[k])) out.written.push_back({letter_of(k), t.nodes(), t.nodes(), 0});
-}
-
-std::vector<std::size_t> axes_of_grid(const VolumetricTable& t) {
-  std::vector<std::size_t> axes;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (t.command_m[k].size() > 1) axes.push_back(k);
-  return axes;
-}
-
 void resize_to_grid(VolumetricTable& t) {
   t.correction_m.assign(t.nodes(), Vec3{});
   t.u_m.assign(t.nodes(), Vec3{});
@@ -110,6 +67,59 @@ std::string isg_list(const VolumetricTable& t, const std::vector<std::string>& h
 }
 
 }  // namespace
+
+std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& options,
+                                 const std::string& sense) {
+  std::vector<std::string> lines{
+      "mdof volumetric table " + std::to_string(t.id) + " of " + one_plain_line(t.name) +
+          ", made " + t.created_utc,
+      "sha256 of the table " + t.sha256,
+      "machine " + t.machine.text + " (" + travels_of(t.machine) + "), approach " + t.approach,
+      "sense: " + sense};
+  std::string at = "holds at the tool's point";
+  for (const double x : t.tool_m) at += " " + plain_number(to_mm(x), 9);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (t.command_m[k].size() == 1 && t.machine.find(kLinear[k]))
+      at += ", " + letter_of(k) + " " + plain_number(to_mm(t.command_m[k].front()), 9);
+  lines.push_back(at + " mm");
+  Vec3 u{};
+  for (const Vec3& node : t.u_m)
+    for (std::size_t k = 0; k < 3; ++k) u[k] = std::max(u[k], node[k]);
+  lines.push_back("largest u of X, Y, Z: " + plain_number(to_um(u[0])) + ", " +
+                  plain_number(to_um(u[1])) + ", " + plain_number(to_um(u[2])) + " um; " +
+                  one_plain_line(covers_text(t)));
+  for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
+  return lines;
+}
+
+void note_options(const ExportOptions& options, Export& out) {
+  if (options.tolerance_m > 0)
+    out.notes.emplace_back("the tolerance has no effect: no node is left out");
+  if (options.home_m) out.notes.emplace_back("home_mm has no effect: the grid is as it is");
+}
+
+void count_nodes(const VolumetricTable& t, Export& out) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (t.machine.find(kLinear[k])) out.written.push_back({letter_of(k), t.nodes(), t.nodes(), 0});
+}
+
+std::vector<std::size_t> axes_of_grid(const VolumetricTable& t) {
+  std::vector<std::size_t> axes;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (t.command_m[k].size() > 1) axes.push_back(k);
+  return axes;
+}
+
+Result<double> equal_step(const VolumetricTable& t, std::size_t axis,
+                          const std::string& controller) {
+  const auto& c = t.command_m[axis];
+  const double step = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
+  for (std::size_t i = 0; i < c.size(); ++i)
+    if (std::abs(c[i] - c.front() - step * static_cast<double>(i)) > kStepsEqual_m)
+      return bad_input("table " + std::to_string(t.id) + ": the steps along " + letter_of(axis) +
+                       " are not equal, which " + controller + " needs");
+  return step;
+}
 
 Result<Export> write_isg_csv(const VolumetricTable& t, const ExportOptions& options) {
   Export out;
@@ -194,16 +204,6 @@ std::string inches(double m, int decimals = 12) {
   return fixed(m / kInch_m, decimals);
 }
 
-Result<double> equal_step(const VolumetricTable& t, std::size_t axis) {
-  const auto& c = t.command_m[axis];
-  const double step = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
-  for (std::size_t i = 0; i < c.size(); ++i)
-    if (std::abs(c[i] - c.front() - step * static_cast<double>(i)) > kStepsEqual_m)
-      return bad_input("table " + std::to_string(t.id) + ": the steps along " + letter_of(axis) +
-                       " are not equal, which KMotion needs");
-  return step;
-}
-
 }  // namespace
 
 Result<Export> write_dynomotion(const VolumetricTable& t, const ExportOptions& options) {
@@ -211,8 +211,8 @@ Result<Export> write_dynomotion(const VolumetricTable& t, const ExportOptions& o
   if (columns < 2 || rows < 2 || t.command_m[2].size() > 1)
     return bad_input("table " + std::to_string(t.id) +
                      " is not of the plane XY, and KMotion holds nothing else; build one of it");
-  MDOF_TRY(const double step_x, equal_step(t, 0));
-  MDOF_TRY(const double step_y, equal_step(t, 1));
+  MDOF_TRY(const double step_x, equal_step(t, 0, "KMotion"));
+  MDOF_TRY(const double step_y, equal_step(t, 1, "KMotion"));
   Export out;
   note_options(options, out);
   std::string text = std::to_string(rows) + "," + std::to_string(columns) + "\n" +

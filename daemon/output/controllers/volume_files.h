@@ -17,4 +17,18 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files);
 Result<Export> write_dynomotion(const VolumetricTable& table, const ExportOptions& options);
 Result<VolumetricTable> read_dynomotion(const std::vector<ControllerFile>& files);
 
+// ---- what files of a volumetric table have in common ----
+
+// What a reader of the file has to know beside its numbers; without comment signs.
+std::vector<std::string> head_of(const VolumetricTable& table, const ExportOptions& options,
+                                 const std::string& sense);
+// What of the options has no effect.
+void note_options(const ExportOptions& options, Export& out);
+void count_nodes(const VolumetricTable& table, Export& out);
+// X, Y, Z of more than one command.
+std::vector<std::size_t> axes_of_grid(const VolumetricTable& table);
+// m. Error (bad_input): steps that are not equal, which `controller` needs.
+Result<double> equal_step(const VolumetricTable& table, std::size_t axis,
+                          const std::string& controller);
+
 }  // namespace mdof::controllers

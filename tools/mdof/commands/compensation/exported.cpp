@@ -156,6 +156,14 @@ Status export_axes(store::Store& store, const ExportRequest& request,
   return {};
 }
 
+// Some hold both: then it is the table that says.
+Result<bool> takes_a_volume(store::Store& store, const controllers::Format& format,
+                            const ExportRequest& request) {
+  if (!format.volume.write || !format.axes.write) return format.volume.write != nullptr;
+  if (request.tables.size() > 1) return false;
+  return store.is_volumetric(request.tables.front());
+}
+
 Status export_volume(store::Store& store, const ExportRequest& request,
                      const algo::TableLimits& limits, ExportedTables& out) {
   const std::int64_t id = request.tables.front();
@@ -235,10 +243,10 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   MDOF_TRY(store::Store store, open_to_read(request.database));
   if (square) {
     MDOF_CHECK(export_square(store, request, out));
-  } else if (out.format->volume.write) {
-    MDOF_CHECK(export_volume(store, request, limits, out));
   } else {
-    MDOF_CHECK(export_axes(store, request, limits, out));
+    MDOF_TRY(const bool volume, takes_a_volume(store, *out.format, request));
+    MDOF_CHECK(volume ? export_volume(store, request, limits, out)
+                      : export_axes(store, request, limits, out));
   }
   return out;
 }

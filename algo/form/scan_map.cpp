@@ -109,6 +109,28 @@ void set_range(const std::vector<double>& at_m, double pixel_m, double& from_m, 
   count = last - first + 1;
 }
 
+// Outer rows and columns without a height are left out: the map ends where the scan does.
+SurfaceMap without_empty_edges(const SurfaceMap& map) {
+  std::size_t left = map.nx, right = 0, low = map.ny, high = 0;
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i) {
+      if (std::isnan(map.at(i, j))) continue;
+      left = std::min(left, i);
+      right = std::max(right, i);
+      low = std::min(low, j);
+      high = j;
+    }
+  SurfaceMap part = map;
+  part.x0_m = map.x_m(left);
+  part.y0_m = map.y_m(low);
+  part.nx = right - left + 1;
+  part.ny = high - low + 1;
+  part.z_m.clear();
+  for (std::size_t j = low; j <= high; ++j)
+    for (std::size_t i = left; i <= right; ++i) part.z_m.push_back(map.at(i, j));
+  return part;
+}
+
 }  // namespace
 
 Result<SurfaceMap> scan_map(const ScanPoints& points, double pixel_m) {
@@ -130,7 +152,7 @@ Result<SurfaceMap> scan_map(const ScanPoints& points, double pixel_m) {
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)
       map.z_m[j * map.nx + i] = pixel_height(cells, map.x_m(i), map.y_m(j), pixel_m, scratch);
-  if (map.measured() > 0) return map;
+  if (map.measured() > 0) return without_empty_edges(map);
   return bad_input("no pixel of " + std::to_string(pixel_m * 1e3) +
                    " mm has heights enough around it; take larger pixels, or scan more densely");
 }

@@ -200,7 +200,7 @@ Result<SpiralCounts> SpiralPath::each(const std::function<Status(const PathPoint
   return counts;
 }
 
-MapReach middle_of(const SurfaceMap& map) {
+MapMiddle middle_of(const SurfaceMap& map) {
   std::size_t least_i = map.nx, most_i = 0, least_j = map.ny, most_j = 0;
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i) {
@@ -213,15 +213,27 @@ MapReach middle_of(const SurfaceMap& map) {
   return {(map.x_m(least_i) + map.x_m(most_i)) / 2, (map.y_m(least_j) + map.y_m(most_j)) / 2};
 }
 
-double reach_m(const SurfaceMap& map, double x_centre_m, double y_centre_m) {
-  double square = 0;
+FarthestPixel farthest_pixel(const SurfaceMap& map, double x_centre_m, double y_centre_m) {
+  double square = -1;
+  FarthestPixel found;
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i) {
       if (std::isnan(map.at(i, j))) continue;
       const double x = map.x_m(i) - x_centre_m, y = map.y_m(j) - y_centre_m;
-      square = std::max(square, x * x + y * y);
+      if (x * x + y * y <= square) continue;
+      square = x * x + y * y;
+      found = {std::sqrt(square), map.x_m(i), map.y_m(j)};
     }
-  return std::sqrt(square);
+  return found;
+}
+
+bool is_edge_missing(const SurfaceMap& map) {
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i) {
+      const bool is_inside = i > 0 && j > 0 && i + 1 < map.nx && j + 1 < map.ny;
+      if (!is_inside && !std::isnan(map.at(i, j))) return false;
+    }
+  return true;
 }
 
 FeedRoughness feed_roughness(double tool_radius_m, double feed_m) {

@@ -69,12 +69,20 @@ class SpiralPath {
   std::vector<double> cos_, sin_;  // of the points of a turn
 };
 
-// The radius of the farthest measured pixel, and the middle of the measured part.
-struct MapReach {
-  double x_mid_m = 0, y_mid_m = 0;
+// The middle of the measured part.
+struct MapMiddle {
+  double x_m = 0, y_m = 0;
 };
-MapReach middle_of(const SurfaceMap& map);
-double reach_m(const SurfaceMap& map, double x_centre_m, double y_centre_m);
+MapMiddle middle_of(const SurfaceMap& map);
+
+// The measured pixel that is farthest from the centre.
+struct FarthestPixel {
+  double radius_m = 0, x_m = 0, y_m = 0;
+};
+FarthestPixel farthest_pixel(const SurfaceMap& map, double x_centre_m, double y_centre_m);
+
+// No pixel of the outermost rows and columns has a height: the part may be larger than its map.
+bool is_edge_missing(const SurfaceMap& map);
 
 // Roughness that a round tool leaves between two turns: height and mean deviation of arcs of the
 // radius r, feed apart: Rt = r - sqrt(r^2 - feed^2 / 4), Ra = 4 Rt / (9 sqrt 3).

@@ -89,18 +89,21 @@ TEST(ReachByHand, OfTheMeasuredPixels) {
   std::vector<double> z(4 * 5, kHole);
   z[1 * 4 + 3] = z[2 * 4 + 1] = 0;
   const SurfaceMap map = small_map(4, 5, z);
-  const MapReach middle = algo::middle_of(map);
-  EXPECT_EQ(middle.x_mid_m, 10 + 2 * 2);
-  EXPECT_EQ(middle.y_mid_m, -1 + 1.5 * 3);
+  const MapMiddle middle = algo::middle_of(map);
+  EXPECT_EQ(middle.x_m, 10 + 2 * 2);
+  EXPECT_EQ(middle.y_m, -1 + 1.5 * 3);
   // (16, 2) and (12, 5): from (13, 1) they are 3, 1 and 1, 4 away.
-  EXPECT_NEAR(reach_m(map, 13, 1), std::sqrt(17), 1e-12);
-  EXPECT_NEAR(reach_m(map, 12, 5), 5, 1e-12);
-  EXPECT_EQ(reach_m(small_map(1, 1, {kHole}), 0, 0), 0);
+  const FarthestPixel far = farthest_pixel(map, 13, 1);
+  EXPECT_NEAR(far.radius_m, std::sqrt(17), 1e-12);
+  EXPECT_EQ(far.x_m, 12);
+  EXPECT_EQ(far.y_m, 5);
+  EXPECT_NEAR(farthest_pixel(map, 12, 5).radius_m, 5, 1e-12);
+  EXPECT_EQ(farthest_pixel(small_map(1, 1, {kHole}), 0, 0).radius_m, 0);
   // A whole map from its first corner to its last.
   const SurfaceMap whole = small_map(3, 2, std::vector<double>(6, 0.0));
-  EXPECT_EQ(algo::middle_of(whole).x_mid_m, 12);
-  EXPECT_EQ(algo::middle_of(whole).y_mid_m, 0.5);
-  EXPECT_NEAR(reach_m(whole, 10, -1), 5, 1e-12);
+  EXPECT_EQ(algo::middle_of(whole).x_m, 12);
+  EXPECT_EQ(algo::middle_of(whole).y_m, 0.5);
+  EXPECT_NEAR(farthest_pixel(whole, 10, -1).radius_m, 5, 1e-12);
 }
 
 // Arcs of 5 with 6 between them are 1 high; of 3 or less none is left.

@@ -245,5 +245,17 @@ TEST(TurnSpectrumSmall, UndulationsAreSharesOfTheLargest) {
   EXPECT_EQ(spectrum.undulations(0.31), 2u);
 }
 
+TEST(PathGaps, AnEdgeIsMissingWhereNoneOfItsPixelsIsMeasured) {
+  SurfaceMap map = map_of([](double, double) { return 0.0; }, 0, 0, 1e-3, 4, 5);
+  for (std::size_t k = 0; k < 20; ++k)
+    if (k != 1 * 4 + 2 && k != 3 * 4 + 1) map.z_m[k] = SurfaceMap::kMissing;
+  EXPECT_TRUE(is_edge_missing(map));
+  for (const std::size_t k : {0u, 3u, 2u * 4, 3u * 4 + 3, 4u * 4 + 1, 19u}) {
+    SurfaceMap other = map;
+    other.z_m[k] = 0;
+    EXPECT_FALSE(is_edge_missing(other)) << k;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

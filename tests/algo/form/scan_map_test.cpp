@@ -27,8 +27,11 @@ ScanPoints rings(double first_mm, double last_mm, double step_rad) {
 TEST(ScanMap, IsTheParabolaThatWasScanned) {
   const auto map = scan_map(rings(6, 20, 0.5), 1e-3);
   ASSERT_TRUE(map) << map.error().message;
-  EXPECT_EQ(map->nx, 41u);
-  EXPECT_NEAR(map->x0_m, -20e-3, 1e-15);
+  // Pixels of 20 mm have points on one side only: the map ends at 19 mm.
+  EXPECT_EQ(map->nx, 39u);
+  EXPECT_EQ(map->ny, 39u);
+  EXPECT_NEAR(map->x0_m, -19e-3, 1e-15);
+  EXPECT_FALSE(std::isnan(map->at(0, 19)) || std::isnan(map->at(38, 19)));
   std::size_t between = 0;
   for (std::size_t j = 0; j < map->ny; ++j)
     for (std::size_t i = 0; i < map->nx; ++i) {

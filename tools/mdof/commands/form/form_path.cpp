@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -70,11 +71,27 @@ class Motion {
   std::size_t count_ = 0;
 };
 
+// The farthest measured pixel, where the map shows that the part ends there.
+Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, double y_centre_m) {
+  const algo::FarthestPixel pixel = algo::farthest_pixel(map, x_centre_m, y_centre_m);
+  if (!algo::is_edge_missing(map)) return pixel.radius_m;
+  const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 7); };
+  const double angle_deg =
+      std::atan2(pixel.y_m - y_centre_m, pixel.x_m - x_centre_m) * 180 / std::numbers::pi;
+  return bad_input(
+      map.name +
+      ": no pixel of its edge has a height, so the part may be larger than what was measured; the "
+      "farthest measured pixel is at radius " +
+      mm(pixel.radius_m) + " mm, " + plain_number(angle_deg) +
+      " degrees; measure the edge, or say where the path begins: --outer-radius-mm " +
+      mm(pixel.radius_m));
+}
+
 Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMap& map) {
   algo::SpiralRequest request;
-  const algo::MapReach middle = algo::middle_of(map);
-  request.x_centre_m = middle.x_mid_m;
-  request.y_centre_m = middle.y_mid_m;
+  const algo::MapMiddle middle = algo::middle_of(map);
+  request.x_centre_m = middle.x_m;
+  request.y_centre_m = middle.y_m;
   if (!o.centre.empty()) {
     double x = 0, y = 0;
     char after = 0;
@@ -89,9 +106,12 @@ Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMa
     request.x_centre_m = from_mm(x);
     request.y_centre_m = from_mm(y);
   }
-  request.outer_radius_m = o.outer_radius_mm
-                               ? from_mm(*o.outer_radius_mm)
-                               : algo::reach_m(map, request.x_centre_m, request.y_centre_m);
+  if (o.outer_radius_mm) {
+    request.outer_radius_m = from_mm(*o.outer_radius_mm);
+  } else {
+    MDOF_TRY(request.outer_radius_m,
+             measured_radius_m(map, request.x_centre_m, request.y_centre_m));
+  }
   request.feed_m = from_mm(o.feed_mm_min / o.speed_rpm);
   request.points_per_turn = static_cast<std::size_t>(o.points_per_rev);
   request.tool_radius_m = from_mm(o.tool_radius_mm);
@@ -227,8 +247,10 @@ Action declare_form_path(CLI::App& command) {
                   "Axis of the spindle [default: middle of the measured part]")
       ->type_name("X,Y");
   command
-      .add_option("--outer-radius-mm", o->outer_radius_mm,
-                  "Where it begins [default: the farthest measured pixel]")
+      .add_option(
+          "--outer-radius-mm", o->outer_radius_mm,
+          "Where it begins [default: the farthest measured pixel, where pixels of the map's "
+          "edge are measured]")
       ->check(positive_number());
   command.add_option("--points-per-rev", o->points_per_rev, "Points a turn")
       ->check(whole_number_in(4, 1'000'000))

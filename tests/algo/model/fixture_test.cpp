@@ -83,5 +83,21 @@ TEST(Fixture, NamesThePlanesThereAre) {
   EXPECT_TRUE(says(refusal(unknown), {"\"D\"", "\"sied\"", "\"top\"", "\"side\""}));
 }
 
+// Each probe of a plane in turn is 0.1 mm off it: whichever it is, it is found, and a micrometre is
+// none.
+TEST(Fixture, NamesAnyProbeThatIsOffThePlaneOfTheOthers) {
+  const std::size_t across[] = {2, 2, 2, 1, 1};  // the coordinate along which it looks
+  for (std::size_t k = 0; k < 5; ++k)
+    for (const double off_m : {-0.1e-3, 0.1e-3, 0.9e-6, 1.1e-6}) {
+      Rig rig = test::rig_x();
+      rig.probes[k].position_m[across[k]] += off_m;
+      const auto fixture = make_fixture(rig);
+      EXPECT_EQ(fixture.has_value(), off_m == 0.9e-6) << k << " " << off_m;
+      if (fixture) continue;
+      EXPECT_TRUE(says(fixture.error().message,
+                       {"look at one plane", ("\"" + rig.probes[k].id + "\"").c_str()}));
+    }
+}
+
 }  // namespace
 }  // namespace mdof::algo

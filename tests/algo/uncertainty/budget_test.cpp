@@ -302,5 +302,19 @@ TEST(Budget, ARangeIsDrawnAsHighestLessLowest) {
   EXPECT_NEAR(budgets.trials(straightness, {500, 4}).u / summary_of(values, 4).u, 1, 0.01);
 }
 
+// Two runs are enough to scatter: s of 1.4142 µrad over √2, with one degree of freedom. Of two runs
+// of which one lacks targets there is none to compare.
+TEST(Budget, TwoRunsScatter) {
+  const Rig rig = rig_x_with("", "");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 2};
+  synthetic.added = [](std::size_t k, double d, double, double time_s) {
+    return k == 3 || k == 4 ? (time_s < 182 ? 1e-6 : -1e-6) * d : 0.0;
+  };
+  const Budget slope =
+      budget(RunBudgets::create(rig, synthetic.measure()).value(), "EYX_slope_urad");
+  EXPECT_NEAR(slope.u_random, 1e-6, 1e-10);
+  EXPECT_FALSE(slope.is_single_run);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -99,5 +99,24 @@ TEST(Fixture, NamesAnyProbeThatIsOffThePlaneOfTheOthers) {
     }
 }
 
+// Linear along both ways between nodes, held outside; one row or one column is the same across.
+TEST(HeightAt, IsBilinearAndHeldOutside) {
+  const HeightMap map{{0, 2}, {10, 11, 13}, {1, 2, 6, 3, 5, 1}};
+  EXPECT_NEAR(height_at(map, 0, 10), 1, 1e-15);
+  EXPECT_NEAR(height_at(map, 2, 13), 1, 1e-15);
+  EXPECT_NEAR(height_at(map, 0.5, 10.25), 0.75 * 1.25 + 0.25 * 3.5, 1e-15);
+  EXPECT_NEAR(height_at(map, 1.5, 12), 0.25 * 4 + 0.75 * 3, 1e-15);
+  EXPECT_NEAR(height_at(map, -5, 11), 2, 1e-15);
+  EXPECT_NEAR(height_at(map, 9, 99), 1, 1e-15);
+  const HeightMap row{{7}, {0, 1, 2}, {4, 6, 5}}, column{{0, 1, 2}, {7}, {4, 6, 5}};
+  for (const double across : {-3.0, 7.0, 30.0})
+    for (const auto& [at, height] :
+         {std::pair(-1.0, 4.0), std::pair(0.5, 5.0), std::pair(1.25, 5.75), std::pair(8.0, 5.0)}) {
+      EXPECT_NEAR(height_at(row, across, at), height, 1e-15) << at;
+      EXPECT_NEAR(height_at(column, at, across), height, 1e-15) << at;
+    }
+  EXPECT_EQ(height_at({}, 1, 1), 0);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -174,5 +174,36 @@ TEST(PassBins, FitOwnReadingsAlone) {
   EXPECT_FALSE(std::isnan(found.bins[1].point.probe_m[0]));
 }
 
+// The bin of 5 mm is from 450 to 550 ms. A gap of ten scans before it is none of its own.
+TEST(PassBins, AGapIsOfTheBinInWhichItLies) {
+  const auto flags_of = [](std::int64_t from_ms, std::int64_t to_ms) {
+    const auto frames = pass_over(
+        1.5, [](double t) { return 10e-3 * t; },
+        [&](std::int64_t ms) { return ms < from_ms || ms >= to_ms; }, nothing);
+    const PassBins bins = found_in(frames, 1);
+    EXPECT_EQ(bins.bins.size(), 2u) << from_ms;
+    return bins.bins.empty() ? std::vector<std::string>() : bins.bins[0].point.flags;
+  };
+  const std::vector<std::string> none, gap = {"gap"};
+  EXPECT_EQ(flags_of(440, 449), none);
+  EXPECT_EQ(flags_of(552, 560), none);
+  EXPECT_EQ(flags_of(470, 480), gap);
+  EXPECT_EQ(flags_of(470, 472), none);  // three periods are no gap yet
+}
+
+// Of two scans at the ends of a bin what lies between is missing; one alone is too few.
+TEST(PassBins, TwoScansAtTheEndsLeaveAHole) {
+  for (const bool both : {true, false}) {
+    const auto frames = pass_over(
+        1.5, [](double t) { return 10e-3 * t; },
+        [&](std::int64_t ms) { return ms < 440 || ms > 560 || ms == 455 || (both && ms == 545); },
+        nothing);
+    const PassBins bins = found_in(frames, 1);
+    ASSERT_EQ(bins.left_out.size(), 1u);
+    EXPECT_EQ(bins.left_out[0].position_m, 5e-3);
+    EXPECT_EQ(bins.left_out[0].fault, both ? BinFault::gap : BinFault::too_few);
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -336,5 +336,29 @@ TEST(Plausibility, TargetsThatShiftAreToldWithTheirTimeAndShift) {
   EXPECT_TRUE(std::isnan(none.min_m) && std::isnan(none.max_m) && std::isnan(none.travel_m));
 }
 
+// A stop is enough to see that a probe is noisier than 1 µm, or 0.25 % of its range; none is not.
+TEST(Plausibility, OneStopTellsThatAProbeIsNoisy) {
+  const Rig rig = rig_of_five();  // ranges of 400 µm
+  const auto noisy = [&](std::size_t points, double sd_m) {
+    Plausibility figures;
+    for (const Probe& probe : rig.probes) {
+      ProbeFigures& of = figures.probes.emplace_back();
+      of.id = probe.id;
+      of.points = points;
+      of.sd_m = probe.id == "D" ? sd_m : 1e-8;
+      of.min_m = -1e-6;
+      of.max_m = 1e-6;
+      of.travel_m = 2e-6;
+    }
+    std::vector<std::string> named;
+    for (const Notice& notice : unit_notices(rig, figures))
+      if (notice.code == NoticeCode::reading_too_noisy) named.push_back(notice.subject);
+    return named;
+  };
+  EXPECT_EQ(noisy(1, 1.2e-6), std::vector<std::string>{"D"});
+  EXPECT_TRUE(noisy(1, 0.9e-6).empty());
+  EXPECT_TRUE(noisy(0, 1.2e-6).empty());
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -53,5 +53,20 @@ TEST(SeparationGrid, PositionsWithinTheMatchAreOne) {
   EXPECT_FALSE(grid_of({}, {at_positions({0, 0.1e-3, 5e-3})}, 0.31e-3));  // two are no line
 }
 
+// Steps are differences: wherever the positions lie, and one that lies out of them is named.
+TEST(SeparationGrid, StepsAreTheSameOnEitherSideOfZero) {
+  for (const double from_m : {-50e-3, -20e-3, 0.0, 70e-3}) {
+    std::vector<double> x = {from_m, from_m + 10e-3, from_m + 20e-3, from_m + 40e-3};
+    const auto grid = grid_of({}, {at_positions(x), at_positions(x, 10e-3)}, 0.1e-3);
+    ASSERT_TRUE(grid) << from_m << " " << grid.error().message;
+    EXPECT_NEAR(grid->step_m, 10e-3, 1e-15) << from_m;
+    x[2] += 0.3e-3;
+    const auto uneven = grid_of({}, {at_positions(x), at_positions(x, 10e-3)}, 0.1e-3);
+    ASSERT_FALSE(uneven);
+    EXPECT_NE(uneven.error().message.find("not equally spaced"), std::string::npos)
+        << uneven.error().message;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -281,6 +281,7 @@ TEST(PlaneMapEdges, TheExtremeIsTheLargestBySize) {
   PlaneMap map;
   for (const double e : {1.0, -5.0, 4.0, 5.0, -2.0}) {
     PlanePoint point;
+    point.u.setZero();
     point.error.setConstant(e);
     point.error[2] = -e;
     map.points.push_back(point);

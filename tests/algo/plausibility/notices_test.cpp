@@ -106,6 +106,14 @@ TEST(Notices, ACreepingStopIsKeptWithAFlagOrLeftOutWithAWord) {
   EXPECT_NEAR(little.points[2].position_m, 10e-3, 18e-6);
   ASSERT_EQ(little.notices.size(), 1u);
   EXPECT_EQ(little.notices[0].code, NoticeCode::stop_crept);
+  // It creeps on towards + over nearly the whole stop.
+  const double length_s =
+      1e-9 * static_cast<double>(clean.points[2].end_ns - clean.points[2].begin_ns);
+  const auto crept = of_kind(little, DwellEventKind::crept);
+  ASSERT_EQ(crept.size(), 1u);
+  EXPECT_NEAR(crept[0].length_s, length_s, 0.1 * length_s);
+  EXPECT_GT(crept[0].size_m, 5e-6);
+  EXPECT_LT(crept[0].size_m, 20e-6);
   for (const double creep_um : {60.0, 100.0}) {
     const auto far = detect(log, creeping(log, creep_um, from_s, to_s));
     ASSERT_EQ(far.points.size(), 25u) << creep_um;

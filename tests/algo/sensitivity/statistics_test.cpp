@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <string>
@@ -316,6 +317,24 @@ TEST(StudyStatistics, BlocksAreMultiplesOfTheBins) {
     EXPECT_EQ(block_trials(e) % (bins * kCellTrials), 0u);
     EXPECT_GE(block_trials(e), 10'000u);
   }
+}
+
+// The scale stands behind the magic, the version and three counts: low, and the width of a bin,
+// which is above 0 and whose 8192 reach a number.
+TEST(StudyStatistics, AScaleThatReachesBeyondAllNumbersIsRefused) {
+  const OneOutput e([](double u, auto) { return u; });
+  const std::string bytes = study(e, 1000).serialise();
+  const auto is_read = [&](std::size_t which, double value) {
+    std::string other = bytes;
+    std::memcpy(other.data() + 8 + 4 + 3 * 8 + which * 8, &value, 8);
+    return StudyStatistics::parse(other, e).has_value();
+  };
+  EXPECT_TRUE(is_read(0, -3));
+  EXPECT_TRUE(is_read(1, 0.5));
+  EXPECT_TRUE(is_read(1, 2e304));
+  EXPECT_FALSE(is_read(1, 2.3e304));  // 8192 of them are 1.88e308
+  for (const double none : {0.0, -1.0, HUGE_VAL, std::nan("")}) EXPECT_FALSE(is_read(1, none));
+  for (const double none : {-HUGE_VAL, HUGE_VAL, std::nan("")}) EXPECT_FALSE(is_read(0, none));
 }
 
 }  // namespace

@@ -64,12 +64,33 @@ Status check_sources(const std::vector<Run>& runs) {
   return {};
 }
 
+// By which the readings of each run count.
+Result<std::vector<double>> signs_of(const std::vector<Run>& runs,
+                                     std::optional<bool> against_command) {
+  std::vector<double> signs;
+  for (const Run& run : runs) {
+    if (against_command) MDOF_CHECK(check_travel(run.header, *against_command));
+    const ImportedSense stated = imported_sense(run.header);
+    const std::optional<bool> against =
+        stated.against_command ? stated.against_command : against_command;
+    if (stated.sense == PositioningSense::body && !against)
+      return bad_input(
+          name_of(run) +
+          " has errors of the body and no travel, so that the sign for the command is not "
+          "known; import the file again with the travel of its axis");
+    signs.push_back(stated.sense == PositioningSense::body && *against ? -1 : 1);
+  }
+  return signs;
+}
+
 // Readings of one approach at each target of the grid.
 Result<std::vector<std::vector<double>>> readings_of(const std::vector<Run>& runs,
+                                                     const std::vector<double>& signs,
                                                      const std::vector<double>& grid,
                                                      int direction) {
   std::vector<std::vector<double>> at(grid.size());
-  for (const Run& run : runs)
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Run& run = runs[r];
     for (const MeasuredPoint& p : run.points) {
       const std::size_t i = target_at(grid, p.target_m);
       if (std::abs(grid[i] - p.target_m) > kSamePosition_m)
@@ -77,8 +98,9 @@ Result<std::vector<std::vector<double>>> readings_of(const std::vector<Run>& run
                          " mm and " + name_of(runs.front()) +
                          " none; build one table from runs of the same targets");
       if (p.point.direction == direction || p.point.direction == 0)
-        at[i].push_back(p.point.probe_m.at(0));
+        at[i].push_back(signs[r] * p.point.probe_m.at(0));
     }
+  }
   return at;
 }
 
@@ -130,7 +152,16 @@ std::size_t target_at(const std::vector<double>& targets, double position_m) {
   return static_cast<std::size_t>((take_above ? above : below) - targets.begin());
 }
 
-Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs) {
+Status check_travel(const RunHeader& run, bool against_command) {
+  const auto stated = imported_sense(run).against_command;
+  if (!stated || *stated == against_command) return {};
+  return bad_input("run " + std::to_string(run.id) + " was imported with travel \"" +
+                   (*stated ? "-" : "+") + "\", the machine says the other for axis " +
+                   letter(run.axis) + "; correct the one that is wrong");
+}
+
+Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs,
+                                                  std::optional<bool> against_command) {
   if (runs.empty()) return bad_input("a compensation table needs at least one run");
   MDOF_CHECK(check_sources(runs));
   CompensationTable table;
@@ -146,8 +177,9 @@ Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs) 
   }
   for (auto* group : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
     group->fill(std::vector<double>(n, kNaN));
-  MDOF_TRY(const auto forward, readings_of(runs, table.position_m, 1));
-  MDOF_TRY(const auto reverse, readings_of(runs, table.position_m, -1));
+  MDOF_TRY(const auto signs, signs_of(runs, against_command));
+  MDOF_TRY(const auto forward, readings_of(runs, signs, table.position_m, 1));
+  MDOF_TRY(const auto reverse, readings_of(runs, signs, table.position_m, -1));
   PositioningErrors& along = table.positioning;
   for (std::size_t i = 0; i < n; ++i) {
     along.forward.push_back(mean_of(forward[i]));

@@ -1,6 +1,7 @@
 // Imported runs of an axis' positioning -> a table, which holds EXX (EYY, EZZ) alone.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,13 @@ std::size_t target_at(const std::vector<double>& targets, double position_m);
 // one reading. What was declared at import stands beside it, the largest of the runs', where each
 // has it. Errors: a run that was not imported, of another axis or error, of the same file; other
 // targets; fewer than two.
-Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs);
+//
+// The table has the sense of the command; a run in that of the body is turned by its travel, or by
+// `against_command` of a machine. Errors besides: neither is known, or they differ.
+Result<CompensationTable> build_positioning_table(
+    const std::vector<Run>& runs, std::optional<bool> against_command = std::nullopt);
+// Error: the run says another travel.
+Status check_travel(const RunHeader& run, bool against_command);
 
 // What a reader of that table should know.
 std::vector<std::string> positioning_notes(const std::vector<Run>& runs);

@@ -119,7 +119,7 @@ Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& re
     MDOF_TRY(Run run, store.run(id));
     runs.push_back(std::move(run));
   }
-  MDOF_TRY(CompensationTable table, algo::build_positioning_table(runs));
+  MDOF_TRY(CompensationTable table, algo::build_positioning_table(runs, request.against_command));
   MDOF_CHECK(algo::check_limits(table, request.limits));
   auto notes = table_notes(runs);
   for (auto& note : algo::positioning_notes(runs)) notes.push_back(std::move(note));

@@ -38,6 +38,8 @@ struct TableRequest {
   std::optional<Reference> reference;       // none: at the rig's tool point, else at the fixture
   std::optional<Deed> deed = std::nullopt;  // who asks
   algo::TableLimits limits = {};
+  // Of imported positioning whose runs do not say it: travel "-" of the machine.
+  std::optional<bool> against_command = std::nullopt;
 };
 struct BuiltTable {
   CompensationTable table;

@@ -31,12 +31,29 @@ Result<ReplayRequest> read_replay_request(const Params& params) {
   return request;
 }
 
+Result<std::optional<PositioningSense>> sense_param(const Params& params) {
+  if (!params.has("sense")) return std::nullopt;
+  const std::string text(params.string("sense"));
+  if (const auto sense = positioning_sense_from(text)) return sense;
+  return fail(ErrorCode::usage, "sense \"" + text + "\" is none of \"command\", \"body\"");
+}
+
+// Whether the body goes along - as the command grows.
+Result<std::optional<bool>> travel_param(const Params& params) {
+  if (!params.has("travel")) return std::nullopt;
+  const std::string text(params.string("travel"));
+  if (text == "+" || text == "-") return text == "-";
+  return fail(ErrorCode::usage, "travel \"" + text + "\" is none of \"+\", \"-\"");
+}
+
 Result<ImportRequest> read_import_request(const Params& params) {
   ImportRequest request;
   request.file = params.string("path");
   MDOF_TRY(request.axis, axis_param(params));
   request.error = params.string("error");
   request.format = params.string("format");
+  MDOF_TRY(request.sense, sense_param(params));
+  MDOF_TRY(request.against_command, travel_param(params));
   if (params.has("u_um")) request.u_um = params.number("u_um");
   if (params.has("u_urad")) request.u_urad = params.number("u_urad");
   request.note = params.string("note");

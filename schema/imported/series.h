@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "schema/axis.h"
@@ -51,6 +52,19 @@ struct ImportedSeries {
   std::vector<ImportedReading> readings;
   std::vector<std::string> about;  // what the file says of itself: machine, date, who
 };
+
+// The sense of a deviation along the axis: of the command, the actual less the commanded place in
+// the controller's coordinates, or of the body, along + of the machine. They differ by their sign
+// where the body goes along - as the command grows. Positions are commands in both.
+enum class PositioningSense { command, body };
+struct ImportedSense {
+  PositioningSense sense = PositioningSense::command;
+  std::optional<bool> against_command;  // travel "-"; none: not said at the import
+};
+const char* to_string(PositioningSense sense);  // "command", "body"
+std::optional<PositioningSense> positioning_sense_from(std::string_view word);
+// Of a run of positioning; one of a version before this has the sense of the command.
+ImportedSense imported_sense(const RunHeader& run);
 
 bool is_imported(const RunHeader& run);
 // Error (bad_input): the run is an imported one, which has not what `what` needs.

@@ -37,6 +37,15 @@ bool Machine::names_stored_rows() const {
          });
 }
 
+void turn_positioning(MachineFrame& frame) {
+  if (frame.positioning_by_command && frame.against_command) {
+    ErrorFunction& along = frame.error[frame.direction];
+    for (auto* values : {&along.forward, &along.reverse})
+      for (double& e : *values) e = -e;
+  }
+  frame.positioning_by_command = false;
+}
+
 bool moves_along(const MachineFrame& frame) {
   return frame.kind == FrameKind::linear || frame.moves_with != 0;
 }

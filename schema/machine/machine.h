@@ -87,7 +87,10 @@ struct MachineFrame {
   bool is_known(std::size_t k, bool of_line) const {
     return of_line ? location[k].value.has_value() : error[k].known();
   }
-  std::string file;   // columns of several errors; empty: none
+  std::string file;  // columns of several errors; empty: none
+  // Errors along a linear axis that the description gives are those of the place in the
+  // controller's coordinates: not yet turned where they stand in files.
+  bool positioning_by_command = false;
   StoredRows runs;    // of the axis, five-probe runs or imported ones: their means
   StoredRows tables;  // compensation tables of the axis
 };
@@ -136,6 +139,9 @@ std::string with_unit(const std::string& name, std::size_t k);
 // Whether an axis can have this error of its line: a turn about itself and, of a linear axis, a
 // shift are none.
 bool has_location(const MachineFrame& frame, std::size_t k);
+
+// Turns positioning that is in the sense of the command into that of the body.
+void turn_positioning(MachineFrame& frame);
 
 // Positions of an axis as they are written: mm, of a rotary axis degrees.
 double position_from_written(const MachineFrame& frame, double written);

@@ -136,6 +136,12 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
       table.reject("point",
                    "must be \"standing\" (the errors hold where an indicator stands still) or "
                    "\"moving\" (at a point that goes with the axis)");
+    const std::string sense = table.string("positioning_sense", "body");
+    frame.positioning_by_command = sense == "command";
+    if (sense != "command" && sense != "body")
+      table.reject("positioning_sense",
+                   "must be \"body\" (along + of the machine) or \"command\" (actual - commanded "
+                   "place in the controller's coordinates)");
     frame.runs = read_stored_rows(table, "runs");
     frame.tables = read_stored_rows(table, "tables");
     if (frame.tables.latest)
@@ -144,6 +150,8 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
   frame.file = table.string("file", "");
   read_range(table, frame);
   read_errors(table, frame);
+  // What stands in files is turned when it is read.
+  if (frame.file.empty() && frame.error[frame.direction].file.empty()) turn_positioning(frame);
 }
 
 MachineFrame frame_of(const ChainAxis& axis) {

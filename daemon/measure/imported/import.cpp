@@ -27,6 +27,11 @@ std::string options_json(const ImportRequest& request, const ImportedError& erro
   json.key(error.angle ? "u_urad" : "u_um");
   const std::optional<double>& u = error.angle ? request.u_urad : request.u_um;
   u ? json.value(*u) : json.null();
+  if (!error.named) {
+    json.field("sense", to_string(request.sense.value_or(PositioningSense::command)));
+    json.key("travel");
+    request.against_command ? json.value(*request.against_command ? "-" : "+") : json.null();
+  }
   json.key("about").begin_array();
   for (const std::string& line : series.about) json.value(line);
   json.end_array().end_object().end_object();
@@ -104,6 +109,12 @@ Result<Run> imported_run(const ImportRequest& request) {
   const std::string name = request.error.empty() ? positioning_name(request.axis) : request.error;
   MDOF_TRY(const ImportedError error, imported_error(request.axis, name));
   MDOF_TRY(const std::optional<double> u_si, standard_uncertainty(request, error));
+  if (error.named && (request.sense || request.against_command))
+    return fail(ErrorCode::usage,
+                error.name +
+                    " is an error of the body; the sense and the travel are given of "
+                    "positioning (" +
+                    positioning_name(request.axis) + ") alone");
   MDOF_TRY(const ImportedSeries series,
            drivers::read_imported_file(request.file, request.format, error.angle, request.opened));
   Run run;

@@ -19,6 +19,11 @@ struct ImportRequest {
   std::string format;  // as of read_imported_file(); empty: by what the file contains
   std::optional<double> u_um, u_urad;  // standard uncertainty of a deviation, common to all
   std::string note;
+  // Of positioning alone: the sense of its deviations (the command's where it is not given, as ISO
+  // 230-2 and the formats define them), and the travel of the axis, "-" where its body goes along -
+  // as the command grows.
+  std::optional<PositioningSense> sense;
+  std::optional<bool> against_command;
   algo::TableLimits limits = {};
   bool despite_warnings = false;  // also a doubtful file
 };

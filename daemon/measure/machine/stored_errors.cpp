@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "algo/compensation/error_correlation.h"
+#include "algo/compensation/imported_table.h"
 #include "algo/compensation/shared_quantities.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
@@ -149,6 +150,10 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
   machine.simulated = machine.simulated || table.simulated;
   machine.noise_only = machine.noise_only || table.noise_only();
   if (table.has_positioning()) {
+    for (const std::int64_t id : table.runs) {
+      MDOF_TRY(const RunHeader header, store.run_header(id));
+      MDOF_CHECK(algo::check_travel(header, frame.against_command));
+    }
     const PositioningErrors& along = table.positioning;
     std::vector<double> u = along.u_forward;
     for (std::size_t i = 0; table.has_declared() && i < u.size(); ++i)
@@ -208,6 +213,7 @@ Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, Sto
   // Imported positioning and measured runs are tables of their own.
   TableRequest measured, imported;
   measured.reference = Reference::fixture;
+  imported.against_command = frame.against_command;
   for (const std::int64_t id : ids) {
     MDOF_TRY(const RunHeader header, store.run_header(id));
     if (letter(header.axis) != frame.id[0] || frame.kind != FrameKind::linear)

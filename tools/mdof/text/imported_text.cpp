@@ -27,6 +27,17 @@ double u_of(const MeasuredPoint& p) {
   return p.point.probe_u_m.empty() ? std::nan("") : to_key_unit(p.point.probe_u_m.front());
 }
 
+bool is_positioning(const Run& run) {
+  return run.header.provenance.model == positioning_name(run.header.axis);
+}
+
+std::string sense_text(const Run& run) {
+  if (!is_positioning(run)) return "";
+  return imported_sense(run.header).sense == PositioningSense::body
+             ? ", of the body along + of the machine"
+             : ", of the place in the controller's coordinates";
+}
+
 void write_reading(JsonWriter& json, const MeasuredPoint& p, const std::string& key) {
   json.begin_object().field("target", p.target).field("run", p.run).key("direction");
   p.point.direction == 0 ? json.null() : json.value(p.point.direction);
@@ -44,6 +55,11 @@ std::string imported_json(const Run& run, const std::string& result_sha256,
   write_header_members(json, run.header, words::text);
   json.field("imported", true).field("error", run.header.provenance.model);
   json.field("sense", "actual - nominal, as the file has it");
+  if (is_positioning(run)) {
+    const ImportedSense stated = imported_sense(run.header);
+    json.field("positioning_sense", to_string(stated.sense)).key("travel");
+    stated.against_command ? json.value(*stated.against_command ? "-" : "+") : json.null();
+  }
   json.key("points").begin_array();
   for (const MeasuredPoint& p : run.points) write_reading(json, p, key);
   json.end_array().field("result_sha256", result_sha256).key("history");
@@ -79,7 +95,8 @@ std::string imported_text(const Run& run, const std::string& result_sha256, std:
   const double u = run.points.empty() ? std::nan("") : u_of(run.points.front());
   return "IMPORTED: measured elsewhere, " + run.header.provenance.model + " alone.\n" +
          head_text(run.header, result_sha256, width, all_warnings) + "\n" + table.text(width) +
-         wrapped("deviation = actual - nominal, as the file has it; its standard uncertainty was " +
+         wrapped("deviation = actual - nominal, as the file has it" + sense_text(run) +
+                     "; its standard uncertainty was " +
                      (std::isnan(u)
                           ? std::string("not declared")
                           : "declared as " + fixed(u, 4) + (error_of(run).angle ? " µrad" : " µm")),

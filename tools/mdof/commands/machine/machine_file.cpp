@@ -112,6 +112,7 @@ Result<Machine> described_machine(const std::string& file) {
     if (!frame.file.empty()) MDOF_CHECK(read_shared_file(machine, frame, folder));
     for (std::size_t k = 0; k < kBodyErrors; ++k)
       if (!frame.error[k].file.empty()) MDOF_CHECK(read_own_file(machine, frame, k, folder));
+    turn_positioning(frame);
   }
   return machine;
 }

@@ -19,7 +19,7 @@ namespace mdof::tools {
 namespace {
 
 struct ImportCommand {
-  std::string database, socket, axis;
+  std::string database, socket, axis, sense, travel;
   daemon::ImportRequest request;
   LimitOptions limits;
   bool json = false;
@@ -48,6 +48,8 @@ std::string params_of(const ImportCommand& command) {
   json.begin_object().field("path", canonical_path(request.file)).field("axis", command.axis);
   if (!request.error.empty()) json.field("error", request.error);
   if (!request.format.empty()) json.field("format", request.format);
+  if (!command.sense.empty()) json.field("sense", command.sense);
+  if (!command.travel.empty()) json.field("travel", command.travel);
   if (request.u_um) json.field("u_um", *request.u_um);
   if (request.u_urad) json.field("u_urad", *request.u_urad);
   if (!request.note.empty()) json.field("note", request.note);
@@ -69,9 +71,15 @@ Result<Run> import_and_store(const ImportCommand& command) {
 
 Status import(ImportCommand command) {
   command.request.axis = *axis_from(command.axis);  // the option takes no other
+  command.request.sense = positioning_sense_from(command.sense);
+  if (!command.travel.empty()) command.request.against_command = command.travel == "-";
   MDOF_TRY(command.request.limits, command.limits.limits());
   MDOF_TRY(Run run, import_and_store(command));
   show_notices(run.header.notices, true);
+  if (run.header.provenance.model == positioning_name(run.header.axis) && command.sense.empty())
+    say(run.header.provenance.model +
+        " is taken in the sense of the command (actual - commanded place in the controller's "
+        "coordinates), the default of the format; else --sense body");
   say("stored; a table of it is made with: mdof compensation build " +
       std::to_string(run.header.id));
   if (command.json) return write_line(stored_json(run));
@@ -93,6 +101,15 @@ Action declare_import(CLI::App& command) {
       ->type_name("NAME");
   command.add_option("--format", o->request.format, "[default: as in the file]")
       ->check(CLI::IsMember({"csv", "iso230-2", "rtl"}));
+  command
+      .add_option("--sense", o->sense,
+                  "Of positioning: command (actual - commanded place, as ISO 230-2; default), or "
+                  "body (along + of the machine)")
+      ->check(CLI::IsMember({"command", "body"}));
+  command
+      .add_option("--travel", o->travel,
+                  "\"-\" where the body goes along - as the command grows [default: not known]")
+      ->check(CLI::IsMember({"+", "-"}));
   command
       .add_option("--u-um", o->request.u_um,
                   "Standard uncertainty of each deviation (the laser, its alignment, temperature)")
@@ -123,6 +140,7 @@ Command import_command() {
               "(1 or -1) and run; an ISO 230-2 series target_mm, direction, run, deviation_um.\n"
               "Examples:\n"
               "  mdof import laser_X.rtl --axis X --u-um 0.3\n"
+              "  mdof import errors_Y.csv --axis Y --sense body --travel -\n"
               "  mdof import straightness.csv --axis X --error EYX",
           .declare = declare_import};
 }

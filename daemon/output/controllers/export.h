@@ -42,6 +42,14 @@ struct ExportOptions {
   // What may be left with the correction: no more than this beside the tolerance, of angles in rad,
   // and no more than this share of what there was; a step of the controller's numbers is always.
   double residual_m = 1e-6, residual_share = 0.2;
+  // LinuxCNC alone: which joints take the table of an axis, two for a gantry; empty: X Y Z are 0 1
+  // 2. Rows in inches instead of mm.
+  struct Joint {
+    char axis = 'X';
+    int number = 0;
+  };
+  std::vector<Joint> joints;
+  bool inch = false;
   std::vector<std::string> marks;  // what a reader of the files has to know
 };
 
@@ -110,7 +118,8 @@ struct Format {
   bool sign_confirmed;  // else the export has to be asked for
   double quantum_m;     // step of its numbers; of a squareness rad
   bool takes_home;      // ExportOptions::home_m is taken out of it
-  AxisFiles axes;       // one of the three, or axes and a volume
+  bool takes_joints;    // ExportOptions::joints and inch
+  AxisFiles axes;       // one of the three
   VolumeFiles volume;
   SquareFiles square;
 };

@@ -1,7 +1,9 @@
 #include "daemon/output/controllers/linuxcnc.h"
 
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "daemon/output/controllers/series.h"
 #include "daemon/output/controllers/text_lines.h"
@@ -14,18 +16,30 @@ namespace mdof::controllers {
 namespace {
 
 constexpr std::size_t kMostRows = 256, kLongestLine = 253;
-constexpr int kDecimals = 9;  // of mm
+constexpr int kDecimals = 9, kInchDecimals = 11;
+constexpr double kCompInch_m = 0.0254;
 constexpr const char* kIni = "compensation.ini";
+constexpr const char* kUnits = "# [TRAJ] LINEAR_UNITS of these rows: ";
 constexpr const char* kAxes = "XYZ";
 
-std::string rows_text(const Series& s, double zero_m) {
+std::string rows_text(const Series& s, double zero_m, bool inch) {
+  const auto number = [inch](double m) {
+    return inch ? fixed(m / kCompInch_m, kInchDecimals) : fixed(to_mm(m), kDecimals);
+  };
   std::string text;
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
-    const auto trim = [&](double error) { return to_mm(s.factor * error - zero_m); };
-    text += fixed(to_mm(s.position_m[i]), kDecimals) + " " + fixed(trim(s.forward[i]), kDecimals) +
-            " " + fixed(trim(s.reverse[i]), kDecimals) + "\n";
+    const auto trim = [&](double error) { return number(s.factor * error - zero_m); };
+    text += number(s.position_m[i]) + " " + trim(s.forward[i]) + " " + trim(s.reverse[i]) + "\n";
   }
   return text;
+}
+
+std::vector<int> joints_of(char axis, const ExportOptions& options) {
+  if (options.joints.empty()) return {axis - 'X'};
+  std::vector<int> numbers;
+  for (const ExportOptions::Joint& joint : options.joints)
+    if (joint.axis == axis) numbers.push_back(joint.number);
+  return numbers;
 }
 
 // The constant that makes the trim 0 at home; where nobody said where that is, what it is at 0.
@@ -50,12 +64,13 @@ std::string ini_of(const CompensationTable& table, const ExportOptions& options)
   std::string text;
   for (const std::string& line :
        head_lines(table, options,
-                  "columns are position, trim forward, trim reverse in mm; trim = -" +
+                  std::string("columns are position, trim forward, trim reverse in ") +
+                      (options.inch ? "inches" : "mm") + "; trim = -" +
                       positioning_name(table.axis) + ", added to the motor command"))
     text += "# " + line + "\n";
-  const int joint = static_cast<int>(table.axis);
-  return text + "[JOINT_" + std::to_string(joint) + "]\nCOMP_FILE = " + file +
-         "\nCOMP_FILE_TYPE = 1\n";
+  for (const int joint : joints_of(letter(table.axis), options))
+    text += "[JOINT_" + std::to_string(joint) + "]\nCOMP_FILE = " + file + "\nCOMP_FILE_TYPE = 1\n";
+  return text;
 }
 
 Status add_joint(const CompensationTable& table, const ExportOptions& options, Export& out,
@@ -71,14 +86,19 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
     return bad_input("table " + std::to_string(table.id) + " has no " + error +
                          ", and a COMP_FILE of LinuxCNC holds nothing else",
                      Remedy::import_positioning);
+  if (joints_of(letter(table.axis), options).empty())
+    return fail(ErrorCode::usage, std::string("table ") + std::to_string(table.id) +
+                                      " is of axis " + letter(table.axis) +
+                                      ", which has no joint; name it with the others, such as " +
+                                      letter(table.axis) + "=1");
   MDOF_TRY(const Series s, fitted(*along, table.id, kMostRows, options, out));
-  out.files.push_back(
-      {std::string(1, letter(table.axis)) + ".comp", rows_text(s, zero_of(s, options, out))});
+  out.files.push_back({std::string(1, letter(table.axis)) + ".comp",
+                       rows_text(s, zero_of(s, options, out), options.inch)});
   ini += ini_of(table, options);
   return {};
 }
 
-Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int type) {
+Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int type, bool inch) {
   AppliedCorrection read{{'E', axis, axis}, axis, axis, {}, {}, {}};
   const auto lines = lines_of(file.text);
   if (lines.empty() || lines.size() > kMostRows)
@@ -91,7 +111,7 @@ Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int t
     for (std::size_t i = 0; three && i < row.size(); ++i) {
       const auto x = decimal_from(words[i]);
       three = x.has_value();
-      row[i] = from_mm(x.value_or(0));
+      row[i] = inch ? x.value_or(0) * kCompInch_m : from_mm(x.value_or(0));
     }
     if (!three)
       return wrong_at(file.name, n + 1, "not three numbers: LinuxCNC would stop reading here");
@@ -111,6 +131,30 @@ struct JointLines {
   int type = 0;  // LinuxCNC's default
 };
 
+constexpr std::size_t kMostJoints = 16;
+
+// "[JOINT_12]"
+std::optional<std::size_t> joint_of(std::string_view line) {
+  constexpr std::string_view kHead = "[JOINT_";
+  if (!line.starts_with(kHead) || !line.ends_with("]")) return std::nullopt;
+  const auto number = line.substr(kHead.size(), line.size() - kHead.size() - 1);
+  std::size_t joint = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), joint);
+  if (error != std::errc() || end != number.data() + number.size() || joint >= kMostJoints)
+    return std::nullopt;
+  return joint;
+}
+
+std::string joints_text(const ExportOptions& options) {
+  if (options.joints.empty()) return "0 1 2 are X Y Z";
+  std::string numbers, axes;
+  for (const ExportOptions::Joint& joint : options.joints) {
+    numbers += (numbers.empty() ? "" : " ") + std::to_string(joint.number);
+    axes += (axes.empty() ? "" : " ") + std::string(1, joint.axis);
+  }
+  return numbers + " are " + axes;
+}
+
 }  // namespace
 
 Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
@@ -118,10 +162,12 @@ Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
   std::string ini =
-      "# For the ini file of LinuxCNC, with the .comp files beside it.\n"
-      "# Restart LinuxCNC to change a table. Joints 0 1 2 are X Y Z.\n"
+      std::string("# For the ini file of LinuxCNC, with the .comp files beside it.\n") +
+      "# Restart LinuxCNC to change a table. Joints " + joints_text(options) +
+      ".\n"
       "# A joint with a table ignores BACKLASH.\n"
       "# A .comp file has no comments: it would be cut there.\n";
+  if (options.inch) ini += std::string(kUnits) + "inch\n";
   for (const CompensationTable& table : tables) MDOF_CHECK(add_joint(table, options, out, ini));
   out.files.push_back({kIni, ini});
   return out;
@@ -130,14 +176,16 @@ Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
 Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<ControllerFile>& files) {
   const ControllerFile* ini = find_file(files, kIni);
   if (!ini) return bad_input(std::string(kIni) + ": is not there");
-  std::array<JointLines, 3> joints;
+  std::array<JointLines, kMostJoints> joints;
   std::size_t joint = joints.size(), n = 0;
+  bool inch = false;
   for (const std::string_view line : lines_of(ini->text)) {
     ++n;
+    if (line.starts_with(kUnits)) inch = line.ends_with(" inch");
     if (line.starts_with("#")) continue;
     const auto words = words_of(line);
-    if (line.starts_with("[JOINT_") && line.size() == 9) {
-      joint = static_cast<std::size_t>(line[7] - '0');
+    if (const auto number = joint_of(line)) {
+      joint = *number;
     } else if (joint < joints.size() && words.size() == 3 && words[0] == "COMP_FILE") {
       joints[joint].file = std::string(words[2]);
     } else if (joint < joints.size() && words.size() == 3 && words[0] == "COMP_FILE_TYPE") {
@@ -152,7 +200,11 @@ Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<Controlle
     const ControllerFile* file = find_file(files, joints[j].file);
     if (!file)
       return bad_input(joints[j].file + ": is not there, and LinuxCNC would never come up");
-    MDOF_TRY(AppliedCorrection read, read_comp(*file, kAxes[j], joints[j].type));
+    // The name says the axis: joints have none.
+    const std::size_t axis = std::string_view(kAxes).find(joints[j].file.front());
+    if (axis == std::string_view::npos)
+      return bad_input(joints[j].file + ": is the file of no axis X, Y or Z");
+    MDOF_TRY(AppliedCorrection read, read_comp(*file, kAxes[axis], joints[j].type, inch));
     all.push_back(std::move(read));
   }
   return all;

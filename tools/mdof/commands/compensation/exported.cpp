@@ -1,14 +1,17 @@
 #include "tools/mdof/commands/compensation/exported.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/machine/stored_errors.h"
 #include "daemon/measure/machine/volumetric.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
+#include "schema/imported/series.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/compensation/in_force.h"
@@ -89,6 +92,58 @@ Status judge_sign(const controllers::Format& format, const ExportRequest& reques
   return {};
 }
 
+// "X=0,Y=1,Y=3"
+Status take_joints(const ExportRequest& request, ExportedTables& out) {
+  if ((!request.joints.empty() || request.units != "mm") && !out.format->takes_joints)
+    return fail(ErrorCode::usage,
+                request.format + " takes neither --joint nor --units; they are of linuxcnc");
+  out.options.inch = request.units == "inch";
+  auto& joints = out.options.joints;
+  std::istringstream words(request.joints);
+  for (std::string word; std::getline(words, word, ',');) {
+    int number = -1;
+    const char* const end = word.data() + word.size();
+    const bool right = word.size() > 2 && word[0] >= 'X' && word[0] <= 'Z' && word[1] == '=' &&
+                       std::from_chars(word.data() + 2, end, number).ptr == end && number >= 0 &&
+                       number < 16;
+    if (!right)
+      return fail(ErrorCode::usage,
+                  "--joint \"" + word +
+                      "\" must be an axis and its joint from 0 to 15, as X=0,Z=1; "
+                      "a gantry has two, as Y=1,Y=3");
+    for (const auto& joint : joints)
+      if (joint.number == number)
+        return fail(ErrorCode::usage, "--joint names joint " + std::to_string(number) + " twice");
+    joints.push_back({word[0], number});
+  }
+  return {};
+}
+
+// What was measured in one approach alone holds in both where that is asked for.
+Status take_one_approach(CompensationTable& table, const ExportRequest& request,
+                         ExportedTables& out) {
+  const auto has = [](const std::vector<double>& x) {
+    return std::any_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
+  };
+  const auto take = [&](const std::string& error, std::vector<double>& forward,
+                        std::vector<double>& reverse) -> Status {
+    if (has(forward) == has(reverse)) return {};
+    const std::string what = "table " + std::to_string(table.id) + " has " + error + " of the " +
+                             (has(forward) ? "forward" : "reverse") + " approach alone";
+    if (!request.one_approach)
+      return bad_input(what +
+                       "; measure both, or take it for both with --one-approach, where a "
+                       "reversal is not corrected");
+    out.options.marks.push_back("ONE APPROACH: " + what + "; a reversal is not corrected");
+    (has(forward) ? reverse : forward) = has(forward) ? forward : reverse;
+    return {};
+  };
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    MDOF_CHECK(take(error_names(table.axis)[k].name, table.forward[k], table.reverse[k]));
+  if (!table.has_positioning()) return {};
+  return take(positioning_name(table.axis), table.positioning.forward, table.positioning.reverse);
+}
+
 Result<std::int64_t> squareness_number(const std::string& word) {
   std::int64_t number = 0;
   const char* const end = word.data() + word.size();
@@ -128,6 +183,16 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
   home->each([&request](const std::string&) { request.home_given = true; });
   command.add_flag("--cut-range", request.cut_range,
                    "Of a table with missing values, the longest range without");
+  command.add_flag("--one-approach", request.one_approach,
+                   "What was measured in one approach alone holds in both");
+  command
+      .add_option("--joint", request.joints,
+                  "Of linuxcnc: joints of the axes, as X=0,Z=1; of a gantry two, as Y=1,Y=3 "
+                  "[default: X=0,Y=1,Z=2]")
+      ->type_name("AXIS=N,…");
+  command.add_option("--units", request.units, "Of linuxcnc: of the rows, [TRAJ] LINEAR_UNITS")
+      ->check(CLI::IsMember({"mm", "inch"}))
+      ->capture_default_str();
   add_consent_flags(command, request.consent, "a table, marked as such,");
   command.add_flag("--not-in-force", request.not_in_force,
                    "Also a table that is not active, marked as such");
@@ -149,6 +214,7 @@ Status export_axes(store::Store& store, const ExportRequest& request,
     MDOF_TRY(CompensationTable table, store.table(id));
     MDOF_CHECK(judge_table(store, table, request, out));
     MDOF_CHECK(algo::check_limits(table, limits));
+    MDOF_CHECK(take_one_approach(table, request, out));
     tables.push_back(std::move(table));
   }
   MDOF_TRY(out.files, out.format->axes.write(tables, out.options));
@@ -239,6 +305,7 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   out.options.cut_range = request.cut_range;
   MDOF_TRY(const algo::TableLimits limits, request.limits.limits());
   if (request.home_given) out.options.home_m = from_mm(request.home_mm);
+  MDOF_CHECK(take_joints(request, out));
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
   MDOF_TRY(store::Store store, open_to_read(request.database));
   if (square) {

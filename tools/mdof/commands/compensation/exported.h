@@ -22,6 +22,8 @@ struct ExportRequest {
   std::vector<std::int64_t> tables;
   std::string squareness;  // its number or "latest"; instead of tables
   double tolerance_um = 0, home_mm = 0, residual_um = 1, residual_percent = 20;
+  std::string joints, units = "mm";  // "Y=1,Y=3"; of LinuxCNC
+  bool one_approach = false;
   LimitOptions limits;
   bool home_given = false, cut_range = false, not_in_force = false, unverified_sign = false;
   daemon::Consent consent;

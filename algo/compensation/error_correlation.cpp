@@ -60,23 +60,27 @@ Covariance5 of_weights(const std::array<std::vector<std::vector<double>>, kError
 
 }  // namespace
 
-Result<std::vector<Covariance5>> error_correlations(const CompensationTable& table,
-                                                    const std::vector<Rig>& rigs,
-                                                    const std::vector<Run>& runs,
-                                                    const TableOptions& options) {
+Result<ErrorCorrelations> error_correlations(const CompensationTable& table,
+                                             const std::vector<Rig>& rigs,
+                                             const std::vector<Run>& runs,
+                                             const TableOptions& options) {
   MDOF_TRY(const DeclaredCovariance declared, declared_covariance(table, rigs, runs, options));
-  MDOF_TRY(const Covariance5 noise, of_noise(rigs.front(), restate(runs.front(), options.stated)));
+  MDOF_TRY(const Covariance5 probes, of_noise(rigs.front(), restate(runs.front(), options.stated)));
   const auto references = references_of(table);
-  std::vector<Covariance5> all;
+  ErrorCorrelations all;
   for (std::size_t row = 0; row < table.position_m.size(); ++row) {
     const Covariance5 weights = of_weights(references, row);
+    Covariance5 noise{};
     Covariance5 sum = declared.forward.empty() ? Covariance5{} : declared.forward[row];
     for (std::size_t k = 0; k < kErrorCount; ++k)
       for (std::size_t l = 0; l < kErrorCount; ++l) {
         const double both = table.u_forward[k][row] * table.u_forward[l][row];
-        if (std::isfinite(both)) sum[at(k, l)] += noise[at(k, l)] * weights[at(k, l)] * both;
+        if (!std::isfinite(both)) continue;
+        noise[at(k, l)] = probes[at(k, l)] * weights[at(k, l)] * both;
+        sum[at(k, l)] += noise[at(k, l)];
       }
-    all.push_back(coefficients(sum));
+    all.combined.push_back(coefficients(sum));
+    all.noise.push_back(coefficients(noise));
   }
   return all;
 }

@@ -7,6 +7,7 @@
 #include "algo/machine/compensating.h"
 #include "algo/machine/plane_map.h"
 #include "schema/base/number/number_text.h"
+#include "schema/sample.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -83,6 +84,13 @@ class CorrectedPlace {
   CompensatingCommand found_;
 };
 
+bool has_noise(const Machine& machine) {
+  for (const MachineFrame& frame : machine.frames)
+    for (const ErrorFunction& f : frame.error)
+      if (!f.u_independent.empty()) return true;
+  return false;
+}
+
 Status add_node(VolumetricTable& table, const Machine& machine, const VolumetricRequest& request,
                 std::size_t node) {
   MDOF_TRY(const CorrectedPlace place,
@@ -90,6 +98,8 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
   const ToolError error = tool_error(machine, place.command(), request.approach);
   table.correction_m.push_back(place.correction_m());
   table.u_m.push_back({error.u[0], error.u[1], error.u[2]});
+  if (has_noise(machine))
+    table.u_independent_m.push_back({error.u_noise[0], error.u_noise[1], error.u_noise[2]});
   table.place_left_m = std::max(table.place_left_m, place.found().residual_m.norm());
   table.turn_left_rad = std::max(table.turn_left_rad, place.found().angles_rad.norm());
   for (std::size_t k = 0; k < 3; ++k) {
@@ -225,11 +235,14 @@ VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_
       value.correction_m[k] += weight * table.correction_m[node][k];
       // The errors of neighbours are not independent: no smaller than between them.
       value.u_m[k] += weight * table.u_m[node][k];
+      if (!table.u_independent_m.empty())
+        value.u_independent_m[k] += weight * table.u_independent_m[node][k];
     }
   }
-  if (at_a_node) return value;
-  for (std::size_t k = 0; k < 3; ++k)
+  if (table.u_independent_m.empty()) value.u_independent_m = {kNaN, kNaN, kNaN};
+  for (std::size_t k = 0; k < 3 && !at_a_node; ++k)
     value.u_m[k] = std::hypot(value.u_m[k], table.interpolation_m[k] / std::numbers::sqrt3);
+  value.u_common_m = u_beside(value.u_m, value.u_independent_m);
   return value;
 }
 

@@ -36,10 +36,12 @@ Status check_limits(const VolumetricTable& table, const TableLimits& limits);
 
 struct VolumetricValue {
   Vec3 correction_m{}, u_m{};
-  bool inside = true;  // else the value of the nearest place of the grid
+  Vec3 u_common_m{}, u_independent_m{};  // parts of u_m; NaN: not known apart
+  bool inside = true;                    // else the value of the nearest place of the grid
 };
 // Linear along each axis between the nodes. u is that of the nodes about it with what
-// interpolation may be off, of a rectangular distribution; at a node without it.
+// interpolation may be off, of a rectangular distribution, which is in u_common; at a node without
+// it.
 VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m);
 
 }  // namespace mdof::algo

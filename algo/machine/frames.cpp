@@ -53,9 +53,12 @@ Matrix6 root_of(const Matrix6& covariance) {
   return L;
 }
 
-std::vector<std::array<double, kBodyErrors>> shared_at(const ErrorCorrelation& correlation,
-                                                       const Place& place) {
-  std::vector<std::array<double, kBodyErrors>> all;
+using SharedErrors = std::vector<std::array<double, kBodyErrors>>;
+
+SharedErrors shared_at(const ErrorCorrelation& correlation, double at) {
+  SharedErrors all;
+  if (correlation.shared.empty()) return all;
+  const Place place = place_of(correlation.position, at);
   for (const SharedPart& part : correlation.shared) {
     const auto& low = part.at[place.cell];
     const auto& high = part.at[std::min(place.cell + 1, part.at.size() - 1)];
@@ -67,9 +70,11 @@ std::vector<std::array<double, kBodyErrors>> shared_at(const ErrorCorrelation& c
 }
 
 // Without the shared parts.
-Matrix6 parts_of(const ErrorCorrelation& correlation, const Place& place,
-                 const std::array<double, kBodyErrors>& u,
-                 const std::vector<std::array<double, kBodyErrors>>& shared) {
+Matrix6 parts_of(const ErrorCorrelation& correlation, double at,
+                 const std::array<double, kBodyErrors>& u, const SharedErrors& shared) {
+  if (correlation.at.empty())
+    return Matrix6(Eigen::Map<const Eigen::Matrix<double, kBodyErrors, 1>>(u.data()).asDiagonal());
+  const Place place = place_of(correlation.position, at);
   const auto& low = correlation.at[place.cell];
   const auto& high = correlation.at[std::min(place.cell + 1, correlation.at.size() - 1)];
   Matrix6 covariance;
@@ -118,6 +123,7 @@ double travel_of(const MachineFrame& frame, const Command& command) {
 
 FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach) {
   FrameValues v;
+  std::array<double, kBodyErrors> u_noise{};
   const double at = command_of(frame, command);
   v.travel = travel_of(frame, command);
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
@@ -128,12 +134,11 @@ FrameValues values_at(const MachineFrame& frame, const Command& command, Machine
     v.beyond[k] = f.known() && place.beyond;
     v.location[k] = frame.location[k].value.value_or(0);
     v.u_location[k] = frame.location[k].u.value_or(0);
-    v.u_parts(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) = v.u_error[k];
+    u_noise[k] = value_at(f.u_independent, place);
   }
-  if (frame.correlation.at.empty()) return v;
-  const Place place = place_of(frame.correlation.position, at);
-  v.shared = shared_at(frame.correlation, place);
-  v.u_parts = parts_of(frame.correlation, place, v.u_error, v.shared);
+  v.shared = shared_at(frame.correlation, at);
+  v.u_parts = parts_of(frame.correlation, at, v.u_error, v.shared);
+  v.noise_parts = parts_of(frame.noise_correlation, at, u_noise, {});
   return v;
 }
 

@@ -27,6 +27,9 @@ struct FrameValues {
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> u_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
   std::vector<std::array<double, kBodyErrors>> shared;
+  // The same of the part that is independent from position to position of the axis.
+  Eigen::Matrix<double, kBodyErrors, kBodyErrors> noise_parts =
+      Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
   std::array<bool, kBodyErrors> beyond{};  // the end of the table is held
 };
 FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach);

@@ -190,13 +190,28 @@ Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
   return sum;
 }
 
-Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
-                          const std::vector<FrameValues>& values) {
-  // By frame and independent part of its body's errors.
+namespace {
+
+// By frame and independent part of its body's errors.
+Vector6 body_variance(const std::vector<ErrorDerivative>& derivatives,
+                      const std::vector<FrameValues>& values,
+                      Eigen::Matrix<double, kBodyErrors, kBodyErrors> FrameValues::*of) {
   std::vector<Eigen::Matrix<double, 6, kBodyErrors>> parts(
       values.size(), Eigen::Matrix<double, 6, kBodyErrors>::Zero());
-  std::vector<Vector6> shared;
+  for (const ErrorDerivative& d : derivatives)
+    if (!d.of_line)
+      parts[d.frame] += d.d * (values[d.frame].*of).row(static_cast<Eigen::Index>(d.k));
   Vector6 sum = Vector6::Zero();
+  for (const auto& of_frame : parts) sum += of_frame.cwiseAbs2().rowwise().sum();
+  return sum;
+}
+
+}  // namespace
+
+Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
+                          const std::vector<FrameValues>& values) {
+  Vector6 sum = body_variance(derivatives, values, &FrameValues::u_parts);
+  std::vector<Vector6> shared;
   for (const ErrorDerivative& d : derivatives) {
     const FrameValues& v = values[d.frame];
     if (d.of_line) {
@@ -204,12 +219,15 @@ Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
     } else {
       if (shared.size() < v.shared.size()) shared.resize(v.shared.size(), Vector6::Zero());
       for (std::size_t p = 0; p < v.shared.size(); ++p) shared[p] += d.d * v.shared[p][d.k];
-      parts[d.frame] += d.d * v.u_parts.row(static_cast<Eigen::Index>(d.k));
     }
   }
-  for (const auto& of_frame : parts) sum += of_frame.cwiseAbs2().rowwise().sum();
   for (const Vector6& part : shared) sum += part.cwiseAbs2();
   return sum.cwiseSqrt();
+}
+
+Vector6 noise_uncertainty(const std::vector<ErrorDerivative>& derivatives,
+                          const std::vector<FrameValues>& values) {
+  return body_variance(derivatives, values, &FrameValues::noise_parts).cwiseSqrt();
 }
 
 LinearBound linear_bound(const Machine& machine, const Command& command,
@@ -236,6 +254,7 @@ ToolError tool_error(const Machine& machine, const Command& command, MachineAppr
   ToolError error{exact_error(machine, command, values),
                   linear_error(all, values),
                   error_uncertainty(all, values),
+                  noise_uncertainty(all, values),
                   linear_bound(machine, command, values),
                   {},
                   {},

@@ -270,10 +270,12 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                   offset_param(),
                   count_param(kMaxNodesPage),
                   {"generation", ParamType::integer,
-                   "of the pages before: error -32001 if it has changed", false}},
+                   "of the pages before: error -32001 if it has changed", false},
+                  {"u_parts", ParamType::boolean, "of the volume: u_common and u_independent too",
+                   false, "false"}},
        .result = "table members, doubtful, generation, points: errors (actual - nominal) in um and "
                  "urad; of the volume nodes: each X, Y, Z in mm, their three corrections and three "
-                 "u in um",
+                 "u in um, with u_parts three u_common and three u_independent",
        .example = R"({"axis": "X", "offset": 0, "count": 20})",
        .handler = [&m](const Params& p) { return grid(m, p); }});
   table.add(
@@ -291,7 +293,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
            "error in um and urad; correction, to be added to the command, null with "
            "correction_reason where its sign is not known; u; inside: that approach was "
            "measured there; simulated; doubtful: its runs carry doubtful notices; generation; of "
-           "the volume correction and u by axis",
+           "the volume correction, u, u_common and u_independent by axis",
        .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
        .handler = [&m](const Params& p) { return at(m, p); }});
 }

@@ -122,6 +122,7 @@ Result<std::string> volume_grid(const Methods& m, const Params& params) {
     return fail(ErrorCode::conflict, "generation changed to " + std::to_string(active->generation) +
                                          "; read the grid again from offset 0");
   const VolumetricTable& table = active->table;
+  const bool with_parts = params.boolean("u_parts", false);
   JsonWriter json(48 * 1024);
   json.begin_object();
   write_active(json, *active);
@@ -131,7 +132,7 @@ Result<std::string> volume_grid(const Methods& m, const Params& params) {
   append_page_of(json, static_cast<std::size_t>(std::min(offset, total)),
                  static_cast<std::size_t>(std::max<std::int64_t>(end, 0)), [&](std::size_t node) {
                    JsonWriter row;
-                   write_volumetric_node(row, table, node);
+                   write_volumetric_node(row, table, node, with_parts);
                    return row.take();
                  });
   json.end_array().end_object();
@@ -154,6 +155,8 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
   const algo::VolumetricValue value = algo::volumetric_at(table, command_m);
   write_um(json, "correction", value.correction_m);
   write_um(json, "u", value.u_m);
+  write_um(json, "u_common", value.u_common_m);
+  write_um(json, "u_independent", value.u_independent_m);
   json.field("u_covers", covers_text(table));
   write_strings(json, "not_declared", table.u_not_declared);
   write_strings(json, "not_measured", table.not_measured);

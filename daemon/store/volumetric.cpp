@@ -15,7 +15,7 @@ constexpr std::string_view kVolumetric =
     "SELECT v.id, v.machine, document.text, v.chain, v.chain_travel, v.simulated, v.noise_only, "
     "v.approach, v.tool_m, v.rotary_rad, v.X_m, v.Y_m, v.Z_m, v.correction_m, v.u_m, "
     "v.interpolation_m, v.place_left_m, v.turn_left_rad, v.not_measured, v.u_not_declared, "
-    "v.beyond_tables, v.created_utc, v.sha256 "
+    "v.beyond_tables, v.created_utc, v.sha256, v.u_independent_m "
     "FROM volumetric_table AS v JOIN document ON document.id = v.description ";
 
 std::vector<double> flat(const std::vector<Vec3>& values) {
@@ -41,23 +41,31 @@ std::string json_list(const std::vector<std::string>& names) {
 }
 
 Status check_shape(const VolumetricTable& t) {
-  if (t.nodes() > 0 && t.correction_m.size() == t.nodes() && t.u_m.size() == t.nodes()) return {};
+  const bool parts = t.u_independent_m.empty() || t.u_independent_m.size() == t.nodes();
+  if (t.nodes() > 0 && t.correction_m.size() == t.nodes() && t.u_m.size() == t.nodes() && parts)
+    return {};
   return fail(ErrorCode::usage,
               "volumetric table: must have one correction and one u for each of " +
                   std::to_string(t.nodes()) + " nodes");
 }
 
 // The bytes are not copied: what is bound has to live until the statement has run.
-void bind_values(Statement& insert, const VolumetricTable& t, const std::vector<double>& correction,
-                 const std::vector<double>& u) {
+struct FlatNodes {
+  explicit FlatNodes(const VolumetricTable& t)
+      : correction(flat(t.correction_m)), u(flat(t.u_m)), u_independent(flat(t.u_independent_m)) {}
+  std::vector<double> correction, u, u_independent;
+};
+
+void bind_values(Statement& insert, const VolumetricTable& t, const FlatNodes& nodes) {
   insert.bind_bytes(bytes_of(t.tool_m)).bind_bytes(bytes_of(t.rotary_rad));
   for (const auto& commands : t.command_m) insert.bind_bytes(bytes_of(commands));
-  insert.bind_bytes(bytes_of(correction)).bind_bytes(bytes_of(u));
+  insert.bind_bytes(bytes_of(nodes.correction)).bind_bytes(bytes_of(nodes.u));
   insert.bind_bytes(bytes_of(t.interpolation_m)).bind(t.place_left_m).bind(t.turn_left_rad);
   for (const auto* names : {&t.not_measured, &t.u_not_declared, &t.beyond_tables}) {
     const std::string list = json_list(*names);
     insert.bind(std::string_view(list));
   }
+  insert.bind_bytes(bytes_of(nodes.u_independent));
 }
 
 }  // namespace
@@ -81,16 +89,16 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
                "INSERT INTO volumetric_table (id, machine, description, chain, chain_travel, "
                "simulated, noise_only, approach, created_utc, sha256, tool_m, rotary_rad, X_m, "
                "Y_m, Z_m, correction_m, u_m, interpolation_m, place_left_m, turn_left_rad, "
-               "not_measured, u_not_declared, beyond_tables) "
-               "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
+               "not_measured, u_not_declared, beyond_tables, u_independent_m) "
+               "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
   const std::string travels = travels_of(table.machine);
   insert.bind(id).bind(std::string_view(table.name)).bind(description);
   insert.bind(std::string_view(table.machine.text)).bind(std::string_view(travels));
   insert.bind(std::int64_t{table.simulated}).bind(std::int64_t{table.noise_only});
   insert.bind(std::string_view(table.approach)).bind(std::string_view(table.created_utc));
   insert.bind(std::string_view(table.sha256));
-  const std::vector<double> correction = flat(table.correction_m), u = flat(table.u_m);
-  bind_values(insert, table, correction, u);
+  const FlatNodes nodes(table);
+  bind_values(insert, table, nodes);
   MDOF_CHECK(insert.run());
   MDOF_TRY(Statement source, connection_.prepare("INSERT INTO volumetric_source VALUES (?,?,?)"));
   for (std::size_t row = 0; row < table.runs.size(); ++row)
@@ -126,6 +134,7 @@ Result<VolumetricTable> Store::volumetric_of(Statement& row) {
   }
   t.created_utc = row.text(21);
   t.sha256 = row.text(22);
+  t.u_independent_m = vectors_from(row.bytes(23));
   if (!check_shape(t))
     return bad_input(file().string() + ": volumetric table " + std::to_string(t.id) +
                      " is damaged; restore the database from a backup");

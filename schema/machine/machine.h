@@ -27,6 +27,8 @@ struct ErrorFunction {
   std::vector<double> reverse;   // as the command falls; empty: the same
   std::vector<double> u;         // standard uncertainty; empty: not declared
   std::string file;              // where it stands, as MACHINE.toml names it; empty: here
+  // The part of u that is independent from position to position, as noise; empty: none is known.
+  std::vector<double> u_independent{};
 
   bool known() const { return !forward.empty(); }
 };
@@ -81,6 +83,7 @@ struct MachineFrame {
   std::array<ErrorFunction, kBodyErrors> error;
   std::array<LocationError, kBodyErrors> location;
   ErrorCorrelation correlation;                // of the errors of the body
+  ErrorCorrelation noise_correlation;          // of the parts u_independent
   std::optional<std::array<double, 2>> range;  // of the command that is used, m or rad
 
   // Whether the error was measured; `of_line`: that of the location.

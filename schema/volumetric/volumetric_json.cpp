@@ -61,11 +61,19 @@ void write_volumetric_members(JsonWriter& json, const VolumetricTable& t) {
       .field("sha256", t.sha256);
 }
 
-void write_volumetric_node(JsonWriter& json, const VolumetricTable& t, std::size_t node) {
+void write_volumetric_node(JsonWriter& json, const VolumetricTable& t, std::size_t node,
+                           bool with_parts) {
+  const auto add_um = [&](const Vec3& values) {
+    for (const double x : values) json.value(to_um(x) + 0.0);  // -0 is 0
+  };
   json.begin_array();
   for (const double x : t.command_at(node)) json.value(to_mm(x));
-  for (const auto* values : {&t.correction_m, &t.u_m})
-    for (const double x : (*values)[node]) json.value(to_um(x) + 0.0);  // -0 is 0
+  add_um(t.correction_m[node]);
+  add_um(t.u_m[node]);
+  if (with_parts) {
+    add_um(t.u_common_at(node));
+    add_um(t.u_independent_at(node));
+  }
   json.end_array();
 }
 

@@ -10,7 +10,9 @@ namespace mdof {
 void write_volumetric_members(JsonWriter& json, const VolumetricTable& table);
 // {"X_um": ..., "Y_um": ..., "Z_um": ...} under a key of an open object.
 void write_um(JsonWriter& json, const char* key, const Vec3& value_m);
-// One node: [X_mm, Y_mm, Z_mm, three corrections in um, three u in um].
-void write_volumetric_node(JsonWriter& json, const VolumetricTable& table, std::size_t node);
+// One node: [X_mm, Y_mm, Z_mm, three corrections in um, three u in um]; with parts three u_common
+// and three u_independent behind them.
+void write_volumetric_node(JsonWriter& json, const VolumetricTable& table, std::size_t node,
+                           bool with_parts);
 
 }  // namespace mdof

@@ -1,9 +1,11 @@
 #include "schema/volumetric/volumetric_table.h"
 
+#include <cmath>
 #include <span>
 
 #include "schema/base/canonical.h"
 #include "schema/base/sha256.h"
+#include "schema/sample.h"
 
 namespace mdof {
 
@@ -12,12 +14,29 @@ Vec3 VolumetricTable::command_at(std::size_t node) const {
   return {command_m[0][node % nx], command_m[1][node / nx % ny], command_m[2][node / (nx * ny)]};
 }
 
+Vec3 u_beside(const Vec3& u_m, const Vec3& part_m) {
+  Vec3 rest{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double square = u_m[k] * u_m[k] - part_m[k] * part_m[k];
+    rest[k] = square < 0 ? 0 : std::sqrt(square);  // below 0: rounding
+  }
+  return rest;
+}
+
+Vec3 VolumetricTable::u_independent_at(std::size_t node) const {
+  return u_independent_m.empty() ? Vec3{kNaN, kNaN, kNaN} : u_independent_m[node];
+}
+
+Vec3 VolumetricTable::u_common_at(std::size_t node) const {
+  return u_beside(u_m[node], u_independent_at(node));
+}
+
 std::string volumetric_sha256(const VolumetricTable& t) {
   using canonical::put;
   std::string bytes;
   const auto put_text = [&](std::string_view text) { put(bytes, text); };
   const auto put_vector = [&](const Vec3& v) { put(bytes, std::span<const double>(v)); };
-  put_text("mdof volumetric table 1");
+  put_text(t.u_independent_m.empty() ? "mdof volumetric table 1" : "mdof volumetric table 2");
   put_text(t.name);
   put_text(t.machine.text);
   put_text(travels_of(t.machine));
@@ -30,7 +49,7 @@ std::string volumetric_sha256(const VolumetricTable& t) {
   put_vector(t.tool_m);
   put_vector(t.rotary_rad);
   for (const auto& commands : t.command_m) canonical::put_counted(bytes, commands);
-  for (const auto* nodes : {&t.correction_m, &t.u_m})
+  for (const auto* nodes : {&t.correction_m, &t.u_m, &t.u_independent_m})
     for (const Vec3& v : *nodes) put_vector(v);
   put_vector(t.interpolation_m);
   put(bytes, t.place_left_m);
@@ -48,6 +67,8 @@ std::string covers_text(const VolumetricTable& table) {
                          : "the u of the errors; those of different axes, but for the scales of "
                            "common probes, and those of files, taken as independent";
   if (!table.u_not_declared.empty()) text += "; some errors have none";
+  if (!table.u_independent_m.empty())
+    text += "; u_independent: noise, from one position of an axis to another; u_common: the rest";
   return text + "; between nodes interpolation";
 }
 

@@ -31,6 +31,10 @@ struct VolumetricTable {
   // By node: added to the commands of X, Y, Z, m; standard uncertainty of the tool's place along X,
   // Y, Z of the work, m (NaN: nothing that counts declares one).
   std::vector<Vec3> correction_m, u_m;
+  // The part of u_m by noise of the axes' tables, which is independent from one position of an axis
+  // to another: nodes with the same command of an axis have that axis' part in common. Empty: the
+  // table is older than this, or nothing declares one.
+  std::vector<Vec3> u_independent_m;
   // The largest that straight lines between nodes are off the correction of the model, found in the
   // middle of cells, faces and edges; m, by axis.
   Vec3 interpolation_m{};
@@ -49,14 +53,21 @@ struct VolumetricTable {
     return x + command_m[0].size() * (y + command_m[1].size() * z);
   }
   Vec3 command_at(std::size_t node) const;
+  // The two parts: that one, and what its causes make common to all nodes, as squareness, what the
+  // rigs declare and u of files. NaN: not known apart.
+  Vec3 u_independent_at(std::size_t node) const;
+  Vec3 u_common_at(std::size_t node) const;
 };
 
+// The part of u that is left beside another, m; NaN where one is.
+Vec3 u_beside(const Vec3& u_m, const Vec3& part_m);
+
 // SHA-256 of what the table says. Bytes hashed (schema/base/canonical.h):
-//   s "mdof volumetric table 1", s name, s chain, s travels, s description, i number of runs, i
-//   each run, i simulated, i noise_only, s approach, d tool_m[3], d rotary_rad[3], then of X, Y, Z
-//   i n, d command_m[n], d correction_m[nodes][3], d u_m[nodes][3], d interpolation_m[3],
-//   d place_left_m, d turn_left_rad, then of not_measured, u_not_declared, beyond_tables i n, s
-//   each
+//   s "mdof volumetric table 1" (2 with u_independent_m), s name, s chain, s travels, s
+//   description, i number of runs, i each run, i simulated, i noise_only, s approach, d tool_m[3],
+//   d rotary_rad[3], then of X, Y, Z i n, d command_m[n], d correction_m[nodes][3], d
+//   u_m[nodes][3], d u_independent_m[nodes][3] (2), d interpolation_m[3], d place_left_m, d
+//   turn_left_rad, then of not_measured, u_not_declared, beyond_tables i n, s each
 std::string volumetric_sha256(const VolumetricTable& table);
 
 // What its u covers: one sentence for people, without a full stop.

@@ -18,7 +18,8 @@ constexpr std::int64_t kPage = 50;
 
 // One error of a table, without the positions at which it has no value.
 ErrorFunction function_of(const std::vector<double>& position, const std::vector<double>& forward,
-                          const std::vector<double>& reverse, const std::vector<double>& u) {
+                          const std::vector<double>& reverse, const std::vector<double>& u,
+                          const std::vector<double>& u_noise) {
   ErrorFunction f;
   for (std::size_t i = 0; i < position.size(); ++i) {
     const bool has_forward = std::isfinite(forward[i]), has_reverse = std::isfinite(reverse[i]);
@@ -27,6 +28,7 @@ ErrorFunction function_of(const std::vector<double>& position, const std::vector
     f.forward.push_back(has_forward ? forward[i] : reverse[i]);
     f.reverse.push_back(has_reverse ? reverse[i] : forward[i]);
     f.u.push_back(std::isfinite(u[i]) ? u[i] : 0);
+    f.u_independent.push_back(std::isfinite(u_noise[i]) ? u_noise[i] : 0);
   }
   return f;
 }
@@ -104,6 +106,20 @@ struct TakenTables {
   StatedAxes stated;
 };
 
+ErrorCorrelation correlation_of(const CompensationTable& table,
+                                const std::vector<Covariance5>& by_row) {
+  ErrorCorrelation correlation;
+  correlation.position = table.position_m;
+  for (const Covariance5& named : by_row) {
+    auto& at = correlation.at.emplace_back();
+    for (std::size_t k = 0; k < kBodyErrors; ++k) at[k][k] = 1;
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      for (std::size_t l = 0; l < kErrorCount; ++l)
+        at[body_error_of(table, k)][body_error_of(table, l)] = named[k * kErrorCount + l];
+  }
+  return correlation;
+}
+
 // The correlation of its errors, by the runs that it was built from.
 Status take_correlation(store::Store& store, MachineFrame& frame, const CompensationTable& table,
                         TakenTables& taken) {
@@ -116,14 +132,8 @@ Status take_correlation(store::Store& store, MachineFrame& frame, const Compensa
   }
   const auto all = algo::error_correlations(table, of.rigs, of.runs, of.options);
   if (!all) return {};  // as what the rigs declare: building the table has said why
-  frame.correlation.position = table.position_m;
-  for (const Covariance5& named : *all) {
-    auto& at = frame.correlation.at.emplace_back();
-    for (std::size_t k = 0; k < kBodyErrors; ++k) at[k][k] = 1;
-    for (std::size_t k = 0; k < kErrorCount; ++k)
-      for (std::size_t l = 0; l < kErrorCount; ++l)
-        at[body_error_of(table, k)][body_error_of(table, l)] = named[k * kErrorCount + l];
-  }
+  frame.correlation = correlation_of(table, all->combined);
+  frame.noise_correlation = correlation_of(table, all->noise);
   taken.frames.push_back(&frame);
   taken.built_from.push_back(std::move(of));
   return {};
@@ -160,9 +170,9 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
       u[i] = std::hypot(u[i], along.u_declared[i]);
     // Its errors are those of the place in the controller's coordinates; the body's are along +.
     const double body = frame.against_command ? -1 : 1;
-    return take(
-        frame, frame.direction,
-        function_of(table.position_m, scaled(along.forward, body), scaled(along.reverse, body), u));
+    return take(frame, frame.direction,
+                function_of(table.position_m, scaled(along.forward, body),
+                            scaled(along.reverse, body), u, along.u_forward));
   }
   MDOF_CHECK(check_set_up(machine, frame, table));
   taken.stated.push_back({frame.id, table.stated.reference, table.slope_removed});
@@ -171,7 +181,8 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
     for (std::size_t row = 0; row < table.position_m.size(); ++row)
       u.push_back(table.u_of(table.u_forward, named, row));
     MDOF_CHECK(take(frame, body_error_of(table, named),
-                    function_of(table.position_m, table.forward[named], table.reverse[named], u)));
+                    function_of(table.position_m, table.forward[named], table.reverse[named], u,
+                                table.u_forward[named])));
   }
   return take_correlation(store, frame, table, taken);
 }

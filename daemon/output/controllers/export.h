@@ -119,7 +119,7 @@ struct Format {
   double quantum_m;     // step of its numbers; of a squareness rad
   bool takes_home;      // ExportOptions::home_m is taken out of it
   bool takes_joints;    // ExportOptions::joints and inch
-  AxisFiles axes;       // one of the three
+  AxisFiles axes;       // one of the three, or axes and a volume
   VolumeFiles volume;
   SquareFiles square;
 };

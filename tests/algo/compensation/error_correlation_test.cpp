@@ -37,7 +37,7 @@ Case made_of(const Rig& rig, double noise) {
   Case c{build_table(runs, options).value(), {}};
   for (auto& u : c.table.u_forward) u.assign(c.table.position_m.size(), noise);
   EXPECT_TRUE(add_declared_uncertainty(c.table, {rig}, runs, options));
-  c.correlations = error_correlations(c.table, {rig}, runs, options).value();
+  c.correlations = error_correlations(c.table, {rig}, runs, options).value().combined;
   return c;
 }
 

@@ -106,6 +106,11 @@ TEST_F(VolumeMethods, TheGridComesInPagesAndIsWhatAtSays) {
   EXPECT_EQ(nodes, 1681u);
   EXPECT_EQ(call("compensation.grid", R"({"axis":"volume","offset":1681})").size("/result/points"),
             0u);
+  // u of files is not known apart.
+  const Answer parts = call("compensation.grid", R"({"axis":"volume","count":1,"u_parts":true})");
+  EXPECT_EQ(parts.size("/result/points/0"), 15u);
+  EXPECT_EQ(parts.at("/result/points/0/14"), "null");
+  EXPECT_EQ(value_at("").at("/result/u_common/X_um"), "null");
   const Answer other = call("compensation.grid", R"({"axis":"volume","generation":1})");
   EXPECT_EQ(other.code(), rpc::kChanged);
 }

@@ -151,6 +151,7 @@ inline VolumetricTable make_volume(const std::vector<std::int64_t>& runs = {}) {
   for (int i = 0; i < 6; ++i) {
     t.correction_m.push_back({1e-6 / 3 * i, -0.0, 7e-7});
     t.u_m.push_back({1e-8, kNaN, 3e-8 * i});
+    t.u_independent_m.push_back({5e-9, 0, 1e-8 * i});
   }
   t.interpolation_m = {1e-9, 2e-9, 3e-9};
   t.place_left_m = 4e-9;

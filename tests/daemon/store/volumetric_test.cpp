@@ -29,6 +29,7 @@ TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
     EXPECT_EQ(std::isnan(back->u_m[i][1]), true);
     EXPECT_EQ(back->u_m[i][2], table.u_m[i][2]);
   }
+  EXPECT_EQ(back->u_independent_m, table.u_independent_m);
   EXPECT_EQ(back->interpolation_m, table.interpolation_m);
   EXPECT_EQ(back->place_left_m, 4e-9);
   EXPECT_EQ(back->turn_left_rad, 5e-6);
@@ -39,6 +40,13 @@ TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
   VolumetricTable short_of_one = make_volume();
   short_of_one.u_m.pop_back();
   EXPECT_EQ(store->add_volumetric(short_of_one).error().code, ErrorCode::usage);
+  VolumetricTable half = make_volume();
+  half.u_independent_m.pop_back();
+  EXPECT_EQ(store->add_volumetric(half).error().code, ErrorCode::usage);
+  VolumetricTable without_parts = make_volume();
+  without_parts.u_independent_m.clear();
+  EXPECT_TRUE(
+      store->volumetric(store->add_volumetric(without_parts).value())->u_independent_m.empty());
   EXPECT_EQ(store->add_volumetric(make_volume({9})).error().code, ErrorCode::not_found);
 }
 

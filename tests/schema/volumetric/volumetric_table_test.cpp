@@ -55,6 +55,10 @@ TEST(VolumetricTable, EveryStatementIsInItsHash) {
       [](auto& t) { t.command_m[0][1] += 1e-12; },
       [](auto& t) { t.correction_m[5][2] = -t.correction_m[5][2]; },
       [](auto& t) { t.u_m[0][0] *= 2; },
+      [](auto& t) { t.u_independent_m.assign(6, Vec3{}); },
+      [](auto& t) {
+        t.u_independent_m.assign(6, Vec3{1e-9, 0, 0});
+      },
       [](auto& t) { t.interpolation_m[1] = 1e-9; },
       [](auto& t) { t.place_left_m = 1e-9; },
       [](auto& t) { t.turn_left_rad = 1e-9; },
@@ -76,8 +80,22 @@ TEST(VolumetricTable, EveryStatementIsInItsHash) {
 
 TEST(VolumetricTable, ANodeIsItsCommandsItsCorrectionsAndTheirUInMicrometres) {
   JsonWriter json;
-  write_volumetric_node(json, small_table(), 4);
+  write_volumetric_node(json, small_table(), 4, false);
   EXPECT_EQ(json.take(), "[10,50,30,4,2,-3,0.01,0.08,0.03]");
+}
+
+TEST(VolumetricTable, ItsUHasTwoPartsWhereTheyAreKnown) {
+  VolumetricTable t = small_table();
+  JsonWriter unknown;
+  write_volumetric_node(unknown, t, 4, true);
+  EXPECT_EQ(unknown.take(), "[10,50,30,4,2,-3,0.01,0.08,0.03,null,null,null,null,null,null]");
+  t.u_m[4] = {5e-8, 3e-8, 1e-8};
+  t.u_independent_m.assign(6, Vec3{3e-8, 3e-8, 1.0000000001e-8});
+  EXPECT_NEAR(t.u_common_at(4)[0], 4e-8, 1e-20);
+  EXPECT_EQ(t.u_common_at(4)[1], 0);
+  EXPECT_EQ(t.u_common_at(4)[2], 0);  // rounding, not NaN
+  EXPECT_EQ(t.u_independent_at(4)[0], 3e-8);
+  EXPECT_NE(covers_text(t).find("u_common"), std::string::npos);
 }
 
 TEST(VolumetricTable, ItsWordsSayWhatUDoesNotHave) {

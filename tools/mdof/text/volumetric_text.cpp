@@ -71,21 +71,23 @@ std::string volumetric_document(const VolumetricTable& t, std::int64_t generatio
   json.field("doubtful", doubtful);
   write_state_of(json, generation);
   json.key("points").begin_array();
-  for (std::size_t node = 0; node < t.nodes(); ++node) write_volumetric_node(json, t, node);
+  for (std::size_t node = 0; node < t.nodes(); ++node) write_volumetric_node(json, t, node, true);
   json.end_array().end_object();
   return json.take();
 }
 
 std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
-  TextTable out({"command of", "largest correction/µm", "u/µm", "at X/mm", "Y/mm", "Z/mm",
-                 "between nodes/µm"});
+  TextTable out({"command of", "largest correction/µm", "u/µm", "u_common/µm", "u_independent/µm",
+                 "at X/mm", "Y/mm", "Z/mm", "between nodes/µm"});
   for (std::size_t k = 0; k < 3; ++k) {
     if (!t.machine.find(kAxes[k])) continue;
     const Largest largest = largest_of(t, k);
     const Vec3 at = t.command_at(largest.node);
     out.add({std::string(1, kAxes[k]), um_to_place(largest.correction_m, largest.u_m),
-             um_to_place(largest.u_m, largest.u_m), in_mm(at[0]), in_mm(at[1]), in_mm(at[2]),
-             fixed(to_um(t.interpolation_m[k]), 4)});
+             um_to_place(largest.u_m, largest.u_m),
+             um_to_place(t.u_common_at(largest.node)[k], largest.u_m),
+             um_to_place(t.u_independent_at(largest.node)[k], largest.u_m), in_mm(at[0]),
+             in_mm(at[1]), in_mm(at[2]), fixed(to_um(t.interpolation_m[k]), 4)});
   }
   const std::string of = t.runs.empty() ? "" : ", of the runs " + runs_text(t);
   return noise_only_notice(t.noise_only) + simulated_notice(t.simulated) +
@@ -113,13 +115,15 @@ std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
 std::string volumetric_csv(const VolumetricTable& t) {
   CsvText csv;
   csv.cells({"X_mm", "Y_mm", "Z_mm", "correction_X_um", "correction_Y_um", "correction_Z_um",
-             "u_X_um", "u_Y_um", "u_Z_um", "u_covers"});
+             "u_X_um", "u_Y_um", "u_Z_um", "u_common_X_um", "u_common_Y_um", "u_common_Z_um",
+             "u_independent_X_um", "u_independent_Y_um", "u_independent_Z_um", "u_covers"});
   csv.end_row();
   const std::string covers = covers_text(t);
   for (std::size_t node = 0; node < t.nodes(); ++node) {
     for (const double x : t.command_at(node)) csv.cell(to_mm(x));
     for (const double x : t.correction_m[node]) csv.cell(to_um(x) + 0.0);  // -0 is 0
-    for (const double x : t.u_m[node]) csv.cell(to_um(x));
+    for (const Vec3& u : {t.u_m[node], t.u_common_at(node), t.u_independent_at(node)})
+      for (const double x : u) csv.cell(to_um(x));
     csv.cell(covers).end_row();
   }
   return csv.take();

@@ -1,0 +1,190 @@
+// The parts of u of a volumetric table against simulated measurements: the tool by matrices in long
+// double, errors drawn anew in each trial.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "algo/compensation/volumetric.h"
+#include "algo/machine/compensating.h"
+#include "tests/algo/machine/random_machine.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kTravelOfParts_m = 0.1;
+constexpr int kTrialsOfParts = 8000;
+constexpr double kSameSpread = 0.05;  // six standard deviations of such an estimate
+
+using NoiseMixing = std::array<std::array<double, kBodyErrors>, kBodyErrors>;
+
+// What one of six independent parts of the noise of an axis does to each error, m or rad.
+struct Axis6 {
+  NoiseMixing noise{};
+  std::array<double, kBodyErrors> common{};  // u of a shift of the whole table
+};
+
+struct Simulated {
+  Machine machine;
+  std::array<Axis6, 3> axes;
+  double u_EC0Y = 3e-6;
+};
+
+ErrorCorrelation same_everywhere(const Axis6& axis, bool with_common) {
+  ErrorCorrelation correlation;
+  correlation.position = {0, kTravelOfParts_m};
+  correlation.at.resize(2);
+  const auto covariance = [&](std::size_t k, std::size_t l) {
+    double sum = k == l && with_common ? axis.common[k] * axis.common[k] : 0;
+    for (std::size_t q = 0; q < kBodyErrors; ++q) sum += axis.noise[k][q] * axis.noise[l][q];
+    return sum;
+  };
+  for (auto& at : correlation.at)
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      for (std::size_t l = 0; l < kBodyErrors; ++l)
+        at[k][l] = covariance(k, l) / std::sqrt(covariance(k, k) * covariance(l, l));
+  return correlation;
+}
+
+Simulated simulated_axes(unsigned seed) {
+  test::RandomMachines random(seed);
+  Simulated s;
+  s.machine = random.machine("XYZ", 1e-6, 1e-5, kTravelOfParts_m);
+  for (MachineFrame& frame : s.machine.frames) {
+    Axis6& axis = s.axes[frame.direction];
+    frame.range = {0, kTravelOfParts_m};
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      const double size = k < 3 ? 1e-7 : 1e-6;
+      double noise = 0;
+      for (double& part : axis.noise[k])
+        noise = std::hypot(noise, part = random.between(-size, size));
+      axis.common[k] = random.between(0, size);
+      frame.error[k].u_independent = {noise, noise};
+      frame.error[k].u.assign(2, std::hypot(noise, axis.common[k]));
+    }
+    frame.correlation = same_everywhere(axis, true);
+    frame.noise_correlation = same_everywhere(axis, false);
+    if (frame.direction == 1) frame.location[5] = {0.0, s.u_EC0Y};
+  }
+  return s;
+}
+
+Machine measured_anew(const Simulated& s, std::mt19937_64& source, bool with_common,
+                      bool with_noise) {
+  std::normal_distribution<double> normal;
+  Machine machine = s.machine;
+  for (MachineFrame& frame : machine.frames) {
+    const Axis6& axis = s.axes[frame.direction];
+    std::array<std::array<double, kBodyErrors>, 2> parts;
+    for (auto& of_position : parts)
+      for (double& part : of_position) part = with_noise ? normal(source) : 0;
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      const double shift = with_common ? axis.common[k] * normal(source) : 0;
+      for (std::size_t i = 0; i < 2; ++i) {
+        frame.error[k].forward[i] += shift;
+        for (std::size_t q = 0; q < kBodyErrors; ++q)
+          frame.error[k].forward[i] += axis.noise[k][q] * parts[i][q];
+      }
+    }
+    if (frame.direction == 1 && with_common) *frame.location[5].value += s.u_EC0Y * normal(source);
+  }
+  return machine;
+}
+
+struct SpreadOfNodes {
+  Vec3 first{}, last{}, product{};  // sums over the trials, about the truth
+};
+
+SpreadOfNodes spread_of_nodes(const Simulated& s, unsigned seed, bool with_common,
+                              bool with_noise) {
+  std::mt19937_64 source(seed);
+  const Command first{}, last{kTravelOfParts_m, kTravelOfParts_m, kTravelOfParts_m, 0, 0, 0};
+  const auto at_first = test::true_error(s.machine, first).place;
+  const auto at_last = test::true_error(s.machine, last).place;
+  SpreadOfNodes sums;
+  for (int trial = 0; trial < kTrialsOfParts; ++trial) {
+    const Machine machine = measured_anew(s, source, with_common, with_noise);
+    const auto one = test::true_error(machine, first).place;
+    const auto other = test::true_error(machine, last).place;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = static_cast<double>(one[k] - at_first[k]);
+      const auto b = static_cast<double>(other[k] - at_last[k]);
+      sums.first[k] += a * a / kTrialsOfParts;
+      sums.last[k] += b * b / kTrialsOfParts;
+      sums.product[k] += a * b / kTrialsOfParts;
+    }
+  }
+  return sums;
+}
+
+TEST(VolumetricParts, AreTheSpreadOfTheirCauses) {
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    const Simulated s = simulated_axes(seed);
+    VolumetricRequest request;
+    request.step_m = kTravelOfParts_m;
+    request.incomplete = true;
+    const auto table = build_volumetric(s.machine, request);
+    ASSERT_TRUE(table) << table.error().message;
+    ASSERT_EQ(table->nodes(), 8U);
+    const SpreadOfNodes all = spread_of_nodes(s, seed, true, true),
+                        noise = spread_of_nodes(s, seed, false, true),
+                        common = spread_of_nodes(s, seed, true, false);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto near = [&](double variance, double u_m) {
+        EXPECT_NEAR(std::sqrt(variance) / u_m, 1, kSameSpread) << "seed " << seed << " of " << k;
+      };
+      near(all.first[k], table->u_m[0][k]);
+      near(all.last[k], table->u_m[7][k]);
+      near(noise.first[k], table->u_independent_at(0)[k]);
+      near(noise.last[k], table->u_independent_at(7)[k]);
+      near(common.first[k], table->u_common_at(0)[k]);
+      near(common.last[k], table->u_common_at(7)[k]);
+      // Nodes without a common command have no noise in common.
+      EXPECT_NEAR(noise.product[k] / std::sqrt(noise.first[k] * noise.last[k]), 0, 0.05);
+    }
+    const VolumetricValue value = volumetric_at(*table, {0.03, 0.05, 0.07});
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(std::hypot(value.u_common_m[k], value.u_independent_m[k]), value.u_m[k], 1e-15);
+  }
+}
+
+// Bar: 94 ... 96.5 % of 2,000 simulations at nodes; between them noise counts as if its parts were
+// one, so that no less.
+TEST(VolumetricParts, ValuesHoldTheTruth) {
+  constexpr int kSimulations = 2000;
+  constexpr double k95 = 1.959964;
+  const Simulated s = simulated_axes(7);
+  const std::array<Vec3, 3> places = {{{0, 0, 0}, {0.1, 0.1, 0.1}, {0.05, 0.02, 0.07}}};
+  std::array<Vec3, 3> truth{};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Command at{places[i][0], places[i][1], places[i][2], 0, 0, 0};
+    const auto found = compensating_command(s.machine, at, MachineApproach::mean);
+    ASSERT_TRUE(found);
+    for (std::size_t k = 0; k < 3; ++k) truth[i][k] = found->command[k] - at[k];
+  }
+  VolumetricRequest request;
+  request.step_m = kTravelOfParts_m;
+  request.incomplete = true;
+  std::array<std::array<int, 3>, 3> held{};
+  std::mt19937_64 source(8);
+  for (int n = 0; n < kSimulations; ++n) {
+    const auto table = build_volumetric(measured_anew(s, source, true, true), request);
+    ASSERT_TRUE(table) << table.error().message;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const VolumetricValue value = volumetric_at(*table, places[i]);
+      for (std::size_t k = 0; k < 3; ++k)
+        held[i][k] += std::abs(value.correction_m[k] - truth[i][k]) <= k95 * value.u_m[k] ? 1 : 0;
+    }
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      RecordProperty("held_" + std::to_string(i) + std::to_string(k), held[i][k]);
+      EXPECT_GE(held[i][k], 0.94 * kSimulations) << i << " of " << k;
+      if (i < 2) {
+        EXPECT_LE(held[i][k], 0.965 * kSimulations) << i << " of " << k;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace mdof::algo

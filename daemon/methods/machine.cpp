@@ -1,5 +1,6 @@
 // machine.at.
 #include "algo/machine/budget/budget.h"
+#include "daemon/measure/machine/machine_files.h"
 #include "daemon/measure/machine/stored_errors.h"
 #include "daemon/methods/methods.h"
 #include "daemon/words/words.h"
@@ -16,17 +17,12 @@ using rpc::ParamType;
 constexpr std::string_view kLetters = "XYZABC";
 constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad", "c_urad"};
 
-// The text alone: tables in files would be files of the daemon.
+// What is asked at each command reads no files.
 Status check_no_files(const Machine& machine) {
-  for (const MachineFrame& frame : machine.frames) {
-    bool any = !frame.file.empty();
-    for (const ErrorFunction& error : frame.error) any = any || !error.file.empty();
-    if (any)
-      return bad_input(
-          "axis " + frame.id +
-          ": machine.at reads no files; give its tables in the text, as EXX_um = [[…]]");
-  }
-  return {};
+  if (!names_files(machine)) return {};
+  return bad_input(
+      "machine.at reads no files; give the tables in the text, as EXX_um = [[…]], or by runs and "
+      "tables of the database");
 }
 
 void write_error(JsonWriter& json, const char* key, const algo::Vector6& error) {
@@ -57,6 +53,7 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
 
 Result<QueryThread::Work> machine_at(Methods&, const Params& params) {
   MDOF_TRY(const Machine machine, machine_param(params));
+  MDOF_CHECK(check_no_files(machine));
   MDOF_TRY(const algo::Command at, command_of(params, machine));
   return [machine, at](store::Store& store) -> Result<std::string> {
     Machine measured = machine;
@@ -68,16 +65,19 @@ Result<QueryThread::Work> machine_at(Methods&, const Params& params) {
 
 }  // namespace
 
+std::string machine_source(const Params& params) {
+  return std::string(params.string("machine_source", "machine"));
+}
+
 Result<Machine> machine_param(const Params& params) {
-  const std::string source(params.string("machine_source", "machine"));
-  MDOF_TRY(Machine machine, parse_machine(params.string("machine"), source));
-  MDOF_CHECK(check_no_files(machine));
-  return machine;
+  return parse_machine(params.string("machine"), machine_source(params));
 }
 
 std::vector<rpc::Param> machine_params() {
-  return {{"machine", ParamType::string, "MACHINE.toml as text", true, {}, {.bytes = 60'000}},
-          {"machine_source", ParamType::string, "its file name, for messages", false}};
+  return {
+      {"machine", ParamType::string, "MACHINE.toml as text", true, {}, {.bytes = 60'000}},
+      {"machine_source", ParamType::string,
+       "its file name, for messages; absolute where it names files, which stand beside it", false}};
 }
 
 Result<algo::Command> command_of(const Params& params, const Machine& machine) {

@@ -67,9 +67,10 @@ std::vector<rpc::Param> limit_params();
 Result<algo::TableLimits> limits_param(const rpc::Params& params);
 Result<Reference> reference_param(const rpc::Params& params);  // not given: the fixture
 // MACHINE.toml as text, and the commands of its axes: machine.at and what is built of a machine.
-// Error: tables in files, which would be files of the daemon.
+// Its files are not read yet.
 std::vector<rpc::Param> machine_params();
 Result<Machine> machine_param(const rpc::Params& params);
+std::string machine_source(const rpc::Params& params);
 std::vector<rpc::Param> command_params(const char* what);
 Result<algo::Command> command_of(const rpc::Params& params, const Machine& machine);
 // The runs along two axes: run_x, run_y, run_z, two of them.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "daemon/measure/machine/machine_files.h"
 #include "daemon/measure/machine/volumetric.h"
+#include "daemon/methods/client_file.h"
 #include "daemon/rpc/list_page.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_page.h"
@@ -68,20 +70,55 @@ std::string built_json(const BuiltVolumetric& built) {
   return with_notices(json.take(), built.notices, words::text);
 }
 
+// Files beside MACHINE.toml, as the client may read them.
+struct ClientFiles {
+  std::string source;
+  std::optional<FileUser> user;  // none: no client of the Unix socket
+
+  Status read(VolumetricTableRequest& request) const {
+    if (!names_files(request.machine)) return {};
+    if (!user || !source.starts_with('/'))
+      return fail(ErrorCode::usage,
+                  source +
+                      ": names tables in files; over the Unix socket give machine_source as an "
+                      "absolute path, beside which they stand, or give the tables in the text");
+    std::vector<ClientFile> open;
+    const FindFile beside = files_beside(source);
+    MDOF_TRY(
+        const std::string hashes,
+        read_machine_files(request.machine, [&](const std::string& name) -> Result<std::string> {
+          MDOF_TRY(const std::string path, beside(name));
+          MDOF_TRY(ClientFile file, open_for(*user, path));
+          open.push_back(std::move(file));
+          return "/proc/self/fd/" + std::to_string(open.back().file.get());
+        }));
+    request.description += hashes;
+    return {};
+  }
+};
+
+ClientFiles client_files(const Params& params) {
+  ClientFiles files{machine_source(params), std::nullopt};
+  if (const auto who = params.caller().credentials())
+    files.user = FileUser{who->uid, who->gid, params.caller().further_groups()};
+  return files;
+}
+
 void build_volume(Methods& m, const Params& params, Reply reply) {
   auto request = read_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
-  answer_with_change(
-      m, std::move(reply),
-      [request = std::move(*request), deed = deed_of(params, "compensation.build_volume")](
-          store::Store& reader) -> Result<Change> {
-        MDOF_TRY(auto calculated, calculate_volumetric(reader, request));
-        return [built = std::move(calculated),
-                deed](store::Store& store) mutable -> Result<std::string> {
-          MDOF_CHECK(store_volumetric(store, built.table, deed));
-          return built_json(built);
-        };
-      });
+  answer_with_change(m, std::move(reply),
+                     [request = std::move(*request), files = client_files(params),
+                      deed = deed_of(params, "compensation.build_volume")](
+                         store::Store& reader) mutable -> Result<Change> {
+                       MDOF_CHECK(files.read(request));
+                       MDOF_TRY(auto calculated, calculate_volumetric(reader, request));
+                       return [built = std::move(calculated),
+                               deed](store::Store& store) mutable -> Result<std::string> {
+                         MDOF_CHECK(store_volumetric(store, built.table, deed));
+                         return built_json(built);
+                       };
+                     });
 }
 
 void write_active(JsonWriter& json, const store::ActiveVolumetric& active) {

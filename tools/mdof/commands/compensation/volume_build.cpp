@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 
 #include "daemon/history.h"
 #include "daemon/measure/machine/volumetric.h"
@@ -36,8 +37,9 @@ Status check_options(const VolumeOptions& o) {
 Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
   const VolumeOptions& o = command.options;
   daemon::VolumetricTableRequest request;
-  MDOF_TRY(request.description, read_text_file(o.machine));
-  MDOF_TRY(request.machine, described_machine(o.machine));
+  MDOF_TRY(DescribedMachine described, described_with_text(o.machine));
+  request.description = std::move(described.text);
+  request.machine = std::move(described.machine);
   request.grid.along = {};
   for (const char axis : axes_of(o)) request.grid.along[kAxes.find(axis)] = true;
   request.grid.step_m = from_mm(*o.step_mm);
@@ -61,7 +63,9 @@ Result<daemon::BuiltVolumetric> build_there(rpc::Client& mdofd, const VolumeBuil
   const VolumeOptions& o = command.options;
   MDOF_TRY(const std::string text, read_text_file(o.machine));
   JsonWriter params;
-  params.begin_object().field("machine", text).field("machine_source", o.machine);
+  // mdofd reads the files beside it, as this user may.
+  const std::string source = std::filesystem::absolute(o.machine).lexically_normal().string();
+  params.begin_object().field("machine", text).field("machine_source", source);
   params.field("axes", axes_of(o)).field("step_mm", *o.step_mm);
   if (!o.at.empty()) {
     MDOF_TRY(const Machine machine, described_machine(o.machine));

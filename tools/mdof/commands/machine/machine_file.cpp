@@ -3,10 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
+#include "daemon/measure/machine/machine_files.h"
 #include "daemon/measure/machine/stored_errors.h"
-#include "drivers/csv/csv_table.h"
 #include "schema/base/files.h"
 #include "schema/units.h"
 #include "tools/mdof/output.h"
@@ -18,79 +17,6 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::string_view kAxisLetters = "XYZABC";
-
-// µm and µrad to m and rad: the same power of ten.
-std::vector<double> from_key_unit(const std::vector<double>& values) {
-  std::vector<double> si;
-  for (const double v : values) si.push_back(from_um(v));
-  return si;
-}
-
-std::vector<double> positions_of(const MachineFrame& frame, const std::vector<double>& column) {
-  std::vector<double> positions;
-  for (const double p : column) positions.push_back(position_from_written(frame, p));
-  return positions;
-}
-
-std::string position_column(const MachineFrame& frame) {
-  return std::string("position_") + position_unit(frame);
-}
-
-// A standard uncertainty of MACHINE.toml holds where the file has none.
-Status take(ErrorFunction& f, std::size_t k, const std::string& where) {
-  if (f.u.size() == 1 && f.position.size() != 1) f.u.assign(f.position.size(), f.u.front());
-  return check_function(f, k, where);
-}
-
-Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
-                     const std::filesystem::path& folder) {
-  ErrorFunction& f = frame.error[k];
-  const std::string unit = k < 3 ? "_um" : "_urad";
-  MDOF_TRY(const auto csv, drivers::read_csv_table((folder / f.file).string(),
-                                                   {position_column(frame), "deviation" + unit},
-                                                   {"reverse" + unit, "u" + unit}));
-  f.position = positions_of(frame, csv.columns[0]);
-  f.forward = from_key_unit(csv.columns[1]);
-  f.reverse = from_key_unit(csv.columns[2]);
-  if (!csv.columns[3].empty()) f.u = from_key_unit(csv.columns[3]);
-  machine.simulated = machine.simulated || csv.simulated;
-  machine.noise_only = machine.noise_only || csv.noise_only;
-  return take(f, k, csv.source + ": " + error_name(frame, k));
-}
-
-// Four columns an error, none of which has to be there: but one of all.
-Status read_shared_file(Machine& machine, MachineFrame& frame,
-                        const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < kBodyErrors; ++k) {
-    const std::string key = with_unit(error_name(frame, k), k);
-    for (const char* prefix : {"", "forward_", "reverse_", "u_", "u_forward_"})
-      names.push_back(prefix + key);
-  }
-  MDOF_TRY(const auto csv, drivers::read_csv_table((folder / frame.file).string(),
-                                                   {position_column(frame)}, names));
-  bool any = false;
-  for (std::size_t k = 0; k < kBodyErrors; ++k) {
-    const auto column = [&](std::size_t i) { return from_key_unit(csv.columns[1 + 5 * k + i]); };
-    const auto forward = column(0).empty() ? column(1) : column(0);
-    if (forward.empty()) continue;
-    const std::string where = csv.source + ": " + error_name(frame, k);
-    ErrorFunction& f = frame.error[k];
-    if (f.known() || !f.file.empty())
-      return bad_input(where + " is in MACHINE.toml too; give it once");
-    f.position = positions_of(frame, csv.columns[0]);
-    f.forward = forward;
-    f.reverse = column(2);
-    f.u = column(3).empty() ? column(4) : column(3);
-    MDOF_CHECK(take(f, k, where));
-    any = true;
-  }
-  machine.simulated = machine.simulated || csv.simulated;
-  machine.noise_only = machine.noise_only || csv.noise_only;
-  if (any) return {};
-  return bad_input(csv.source + ": no column of an error of axis " + frame.id + ", such as " +
-                   names[0] + "; add it or rename the one that holds it");
-}
 
 Result<double> number_in(const std::string& text, const std::string& whole) {
   double x = 0;
@@ -105,16 +31,18 @@ Result<double> number_in(const std::string& text, const std::string& whole) {
 }  // namespace
 
 Result<Machine> described_machine(const std::string& file) {
-  MDOF_TRY(const std::string text, read_text_file(file));
-  MDOF_TRY(Machine machine, parse_machine(text, file));
-  const auto folder = std::filesystem::path(file).parent_path();
-  for (MachineFrame& frame : machine.frames) {
-    if (!frame.file.empty()) MDOF_CHECK(read_shared_file(machine, frame, folder));
-    for (std::size_t k = 0; k < kBodyErrors; ++k)
-      if (!frame.error[k].file.empty()) MDOF_CHECK(read_own_file(machine, frame, k, folder));
-    turn_positioning(frame);
-  }
-  return machine;
+  MDOF_TRY(DescribedMachine described, described_with_text(file));
+  return std::move(described.machine);
+}
+
+Result<DescribedMachine> described_with_text(const std::string& file) {
+  DescribedMachine described;
+  MDOF_TRY(described.text, read_text_file(file));
+  MDOF_TRY(described.machine, parse_machine(described.text, file));
+  MDOF_TRY(const std::string hashes,
+           daemon::read_machine_files(described.machine, daemon::files_beside(file)));
+  described.text += hashes;
+  return described;
 }
 
 Status add_stored_errors(Machine& machine, const std::string& database) {

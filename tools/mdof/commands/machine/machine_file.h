@@ -18,6 +18,12 @@ namespace mdof::tools {
 // With the tables of its files, which stand relative to MACHINE.toml; what it names of the database
 // is not in it yet.
 Result<Machine> described_machine(const std::string& file);
+// The same with its text, to which a comment with the hash of each file is added.
+struct DescribedMachine {
+  Machine machine;
+  std::string text;
+};
+Result<DescribedMachine> described_with_text(const std::string& file);
 // Adds the rows of the database that it names, and the notices of them are shown; opened only where
 // it names some. `database`: what --db gave.
 Status add_stored_errors(Machine& machine, const std::string& database);

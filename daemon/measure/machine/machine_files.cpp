@@ -1,0 +1,144 @@
+#include "daemon/measure/machine/machine_files.h"
+
+#include <filesystem>
+
+#include "drivers/csv/csv_table.h"
+#include "schema/base/files.h"
+#include "schema/base/output/printable.h"
+#include "schema/base/sha256.h"
+#include "schema/units.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+
+// µm and µrad to m and rad: the same power of ten.
+std::vector<double> from_key_unit(const std::vector<double>& values) {
+  std::vector<double> si;
+  for (const double v : values) si.push_back(from_um(v));
+  return si;
+}
+
+std::vector<double> positions_of(const MachineFrame& frame, const std::vector<double>& column) {
+  std::vector<double> positions;
+  for (const double p : column) positions.push_back(position_from_written(frame, p));
+  return positions;
+}
+
+std::string position_column(const MachineFrame& frame) {
+  return std::string("position_") + position_unit(frame);
+}
+
+// A standard uncertainty of MACHINE.toml holds where the file has none.
+Status complete(ErrorFunction& f, std::size_t k, const std::string& where) {
+  if (f.u.size() == 1 && f.position.size() != 1) f.u.assign(f.position.size(), f.u.front());
+  return check_function(f, k, where);
+}
+
+// What was opened, under the name that its reader knows; its hash as a line.
+struct OpenedFile {
+  std::string name, path, line;
+
+  Status named(Status status) const {
+    if (status) return status;
+    std::string& message = status.error().message;
+    if (const auto at = message.find(path); at != std::string::npos)
+      message.replace(at, path.size(), name);
+    return status;
+  }
+};
+
+Result<OpenedFile> open_named(const FindFile& find, const std::string& name) {
+  OpenedFile file{name, {}, {}};
+  MDOF_TRY(file.path, find(name));
+  const auto text = read_text_file(file.path, kMostBytes);
+  if (!text) return tl::unexpected(file.named(tl::unexpected(text.error())).error());
+  file.line = "# " + printable(name) + ": sha256 " + sha256_hex(*text) + "\n";
+  return file;
+}
+
+Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
+                     const std::string& path) {
+  ErrorFunction& f = frame.error[k];
+  const std::string unit = k < 3 ? "_um" : "_urad";
+  MDOF_TRY(const auto csv,
+           drivers::read_csv_table(path, {position_column(frame), "deviation" + unit},
+                                   {"reverse" + unit, "u" + unit}));
+  f.position = positions_of(frame, csv.columns[0]);
+  f.forward = from_key_unit(csv.columns[1]);
+  f.reverse = from_key_unit(csv.columns[2]);
+  if (!csv.columns[3].empty()) f.u = from_key_unit(csv.columns[3]);
+  machine.simulated = machine.simulated || csv.simulated;
+  machine.noise_only = machine.noise_only || csv.noise_only;
+  return complete(f, k, csv.source + ": " + error_name(frame, k));
+}
+
+// Four columns an error, none of which has to be there: but one of all.
+Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string& path) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < kBodyErrors; ++k) {
+    const std::string key = with_unit(error_name(frame, k), k);
+    for (const char* prefix : {"", "forward_", "reverse_", "u_", "u_forward_"})
+      names.push_back(prefix + key);
+  }
+  MDOF_TRY(const auto csv, drivers::read_csv_table(path, {position_column(frame)}, names));
+  bool any = false;
+  for (std::size_t k = 0; k < kBodyErrors; ++k) {
+    const auto column = [&](std::size_t i) { return from_key_unit(csv.columns[1 + 5 * k + i]); };
+    const auto forward = column(0).empty() ? column(1) : column(0);
+    if (forward.empty()) continue;
+    const std::string where = csv.source + ": " + error_name(frame, k);
+    ErrorFunction& f = frame.error[k];
+    if (f.known() || !f.file.empty())
+      return bad_input(where + " is in MACHINE.toml too; give it once");
+    f.position = positions_of(frame, csv.columns[0]);
+    f.forward = forward;
+    f.reverse = column(2);
+    f.u = column(3).empty() ? column(4) : column(3);
+    MDOF_CHECK(complete(f, k, where));
+    any = true;
+  }
+  machine.simulated = machine.simulated || csv.simulated;
+  machine.noise_only = machine.noise_only || csv.noise_only;
+  if (any) return {};
+  return bad_input(csv.source + ": no column of an error of axis " + frame.id + ", such as " +
+                   names[0] + "; add it or rename the one that holds it");
+}
+
+}  // namespace
+
+bool names_files(const Machine& machine) {
+  for (const MachineFrame& frame : machine.frames) {
+    if (!frame.file.empty()) return true;
+    for (const ErrorFunction& error : frame.error)
+      if (!error.file.empty()) return true;
+  }
+  return false;
+}
+
+Result<std::string> read_machine_files(Machine& machine, const FindFile& find) {
+  std::string lines;
+  for (MachineFrame& frame : machine.frames) {
+    if (!frame.file.empty()) {
+      MDOF_TRY(const OpenedFile file, open_named(find, frame.file));
+      MDOF_CHECK(file.named(read_shared_file(machine, frame, file.path)));
+      lines += file.line;
+    }
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      if (frame.error[k].file.empty()) continue;
+      MDOF_TRY(const OpenedFile file, open_named(find, frame.error[k].file));
+      MDOF_CHECK(file.named(read_own_file(machine, frame, k, file.path)));
+      lines += file.line;
+    }
+    turn_positioning(frame);
+  }
+  return lines;
+}
+
+FindFile files_beside(const std::string& machine_file) {
+  return [folder = std::filesystem::path(machine_file).parent_path()](
+             const std::string& name) -> Result<std::string> { return (folder / name).string(); };
+}
+
+}  // namespace mdof::daemon

@@ -17,16 +17,19 @@ struct Residuals {
   double exchange = 0;              // what that mistake changes
 };
 
+// `left_m`: what the form of the file cannot hold; `between_m`: what straight lines between its
+// nodes leave of the machine's errors.
 CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
-                       const Format& format, const ExportOptions& options, double left_m) {
+                       const Format& format, const ExportOptions& options, double left_m,
+                       double between_m) {
   CheckedError e;
   e.error = name;
   e.angle = angle;
   e.before = r.before;
-  e.residual = r.with;
-  const double step = format.quantum_m + kRoundingOfGrid_m + left_m;
-  e.bound = std::min({step, options.residual_m, std::max(options.residual_share * e.before, step)});
-  e.cancels = e.residual <= e.bound;
+  e.residual = r.with + between_m;
+  const double step = format.quantum_m + kRoundingOfGrid_m;
+  e.bound = std::min(options.residual_m, std::max(options.residual_share * e.before, step));
+  e.cancels = r.with <= step + left_m && e.residual <= e.bound;
   e.controls.push_back({"wrong sign", r.wrong_sign, r.wrong_sign > e.bound, r.before <= e.bound});
   if (r.exchanged)
     e.controls.push_back(
@@ -92,7 +95,7 @@ Result<Check> check_export(const Format& format, const VolumetricTable& table,
     if (table.machine.find(kCommands[k]))
       check.errors.push_back(judged_by(std::string(1, kCommands[k]), false,
                                        residuals_of(table, applied, k), format, options,
-                                       exported.left_m));
+                                       exported.left_m, table.interpolation_m[k]));
   return check;
 }
 
@@ -104,7 +107,7 @@ Result<Check> check_export(const Format& format, const SquareAxes& axes, const E
   check.share = options.residual_share;
   const Residuals r{std::abs(leaning(axes, 0)), std::abs(leaning(axes, k)),
                     std::abs(leaning(axes, -k)), std::nullopt, 0};
-  check.errors.push_back(judged_by("EC0Y", true, r, format, options, 0));
+  check.errors.push_back(judged_by("EC0Y", true, r, format, options, 0, 0));
   return check;
 }
 

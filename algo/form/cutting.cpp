@@ -5,12 +5,16 @@
 #include <string>
 #include <utility>
 
+#include "algo/form/local_parabola.h"
 #include "algo/form/registration.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
 
-constexpr double kGrowth = 1.5;  // of an error that varies at its floor
+constexpr double kGrowth = 1.5;     // of an error that varies at its floor
+constexpr double kInACorner = 0.2;  // of the square of smoothing, which has a quarter there
 
 // Actual - wanted of each pass, over the pixels that all have.
 Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
@@ -30,27 +34,70 @@ Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
   return errors;
 }
 
+// Pixels that do not determine a parabola stay as they are.
+SurfaceMap smoothed(const SurfaceMap& map, double side_m) {
+  if (side_m <= 0) return map;
+  const LocalParabola square(map, side_m, kInACorner);
+  SurfaceMap result = map;
+  Parabola found;
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i)
+      if (!std::isnan(map.at(i, j)) && square.at(i, j, found))
+        result.z_m[j * map.nx + i] = found.z_m;
+  return result;
+}
+
 // What each pass left against its own path, and the correction of the next path.
 struct Shares {
   std::vector<SurfaceMap> left;
   SurfaceMap correction;  // the next path is wanted - correction
+  double factor = 1;      // of the mean
+  double left_by_smoothing_rms_m = 0;
 };
 
-Shares shares_of(std::vector<SurfaceMap> errors, bool repeated, CuttingGain gain) {
+// Of repeated passes, about their mean, as RMS.
+double spread_rms_m(const std::vector<SurfaceMap>& left, const SurfaceMap& mean) {
+  double variance = 0;
+  for (SurfaceMap off : left) {
+    for (std::size_t k = 0; k < off.z_m.size(); ++k) off.z_m[k] -= mean.z_m[k];
+    variance += std::pow(figures_of(off).rms_m, 2) / static_cast<double>(left.size() - 1);
+  }
+  return std::sqrt(variance);
+}
+
+// Takes the share of the correction out that is random, by its RMS over n passes: Wiener's filter
+// in one number. The piston stays.
+double shrink(SurfaceMap& correction, double random_rms_m, std::size_t n) {
+  const MapFigures figures = figures_of(correction);
+  const double random = random_rms_m * random_rms_m / static_cast<double>(n);
+  const double square = figures.rms_m * figures.rms_m;
+  const double factor = square > random ? 1 - random / square : 0;
+  for (double& z : correction.z_m) z = figures.mean_m + factor * (z - figures.mean_m);
+  return factor;
+}
+
+Shares shares_of(std::vector<SurfaceMap> errors, const CuttingPasses& passes) {
   Shares shares;
-  SurfaceMap& correction = shares.correction;
-  correction = errors.front();
-  std::fill(correction.z_m.begin(), correction.z_m.end(), 0.0);
+  SurfaceMap found = errors.front();  // the correction before it is smoothed
+  std::fill(found.z_m.begin(), found.z_m.end(), 0.0);
+  shares.correction = found;
   for (std::size_t pass = 0; pass < errors.size(); ++pass) {
     SurfaceMap& error = errors[pass];
-    const double part = gain == CuttingGain::one ? 1 : 1 / static_cast<double>(pass + 1);
+    const double part = passes.gain == CuttingGain::one ? 1 : 1 / static_cast<double>(pass + 1);
     for (std::size_t k = 0; k < error.z_m.size(); ++k) {
-      double& c = correction.z_m[k];
       // left = cut - path = error + (wanted - path)
-      if (!repeated) error.z_m[k] += c;
-      c += part * (error.z_m[k] - c);
+      if (!passes.repeated) error.z_m[k] += shares.correction.z_m[k];
+      found.z_m[k] += part * (error.z_m[k] - found.z_m[k]);
     }
+    if (passes.repeated && pass + 1 < errors.size()) continue;
+    shares.correction = smoothed(found, passes.smooth_m);
+    if (passes.gain != CuttingGain::optimal) continue;
+    const double random_m =
+        passes.random_rms_m ? *passes.random_rms_m : spread_rms_m(errors, found);
+    shares.factor = shrink(shares.correction, random_m, pass + 1);
   }
+  for (std::size_t k = 0; k < found.z_m.size(); ++k) found.z_m[k] -= shares.correction.z_m[k];
+  shares.left_by_smoothing_rms_m = figures_of(found).rms_m;
   shares.left = std::move(errors);
   return shares;
 }
@@ -76,6 +123,7 @@ void split(std::vector<SurfaceMap>& left, CuttingResult& result) {
   result.repeatable_rms_m = std::sqrt(std::max(0.0, repeats / pixels - variance / n));
   result.floor_gain_one_m = std::sqrt(2.0) * random;
   result.floor_mean_m = random * std::sqrt(1 + 1 / n);
+  if (result.factor) result.floor_optimal_m = random * std::sqrt(1 + *result.factor / n);
 }
 
 // Repeated: whether the next pass will be better than those. Else: whether the passes became so.
@@ -85,8 +133,9 @@ bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
     double square = 0;
     for (const MapFigures& pass : error)
       square += pass.rms_m * pass.rms_m / static_cast<double>(error.size());
-    const double floor =
-        passes.gain == CuttingGain::one ? *result.floor_gain_one_m : *result.floor_mean_m;
+    const double floor = passes.gain == CuttingGain::one    ? *result.floor_gain_one_m
+                         : passes.gain == CuttingGain::mean ? *result.floor_mean_m
+                                                            : *result.floor_optimal_m;
     return floor < std::sqrt(square);
   }
   double least = error[1].rms_m;
@@ -98,10 +147,24 @@ bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
 
 Result<CuttingResult> next_cut(const CuttingPasses& passes) {
   CuttingResult result;
+  if (passes.smooth_m > 0 && !LocalParabola(passes.wanted, passes.smooth_m, 1).is_large_enough())
+    return fail(ErrorCode::usage, "smoothing over " + plain_number(to_mm(passes.smooth_m)) +
+                                      " mm, which are less than two pixels (" +
+                                      plain_number(to_mm(passes.wanted.dx_m)) + " x " +
+                                      plain_number(to_mm(passes.wanted.dy_m)) +
+                                      " mm); take a larger square, or 0 for none");
+  if (passes.gain == CuttingGain::optimal && !passes.random_rms_m &&
+      (!passes.repeated || passes.cuts.size() < 2))
+    return fail(
+        ErrorCode::usage,
+        "the optimal gain needs the RMS of the random share of a pass: state it, or give two "
+        "passes and more with the same path");
   MDOF_TRY(std::vector<SurfaceMap> errors, errors_of(passes));
   for (const SurfaceMap& error : errors) result.error.push_back(figures_of(error));
   result.pixels = result.error.front().pixels;
-  Shares shares = shares_of(std::move(errors), passes.repeated, passes.gain);
+  Shares shares = shares_of(std::move(errors), passes);
+  if (passes.gain == CuttingGain::optimal) result.factor = shares.factor;
+  if (passes.smooth_m > 0) result.left_by_smoothing_rms_m = shares.left_by_smoothing_rms_m;
   result.next = empty_like(passes.wanted);
   for (std::size_t k = 0; k < result.next.z_m.size(); ++k)
     result.next.z_m[k] = passes.wanted.z_m[k] - shares.correction.z_m[k];

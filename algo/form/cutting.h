@@ -12,8 +12,9 @@
 namespace mdof::algo {
 
 enum class CuttingGain {
-  one,  // the error of the last pass (Eq. 5)
-  mean  // the mean of all passes: their random shares average out
+  one,     // the error of the last pass (Eq. 5)
+  mean,    // the mean of all passes: their random shares average out
+  optimal  // the mean times repeatable^2 / (repeatable^2 + random^2 / n): the least error
 };
 
 struct CuttingPasses {
@@ -21,6 +22,11 @@ struct CuttingPasses {
   std::vector<SurfaceMap> cuts;  // measured after each pass, in order
   bool repeated = false;         // all were cut with the path of the first; else each with the next
   CuttingGain gain = CuttingGain::one;
+  // Side of the square over which the correction is smoothed by parabolas: noise of single pixels
+  // is then not cut into the part. 0: none. The passes before were corrected with the same one.
+  double smooth_m = 0;
+  // RMS of the random share of one pass, where it is known; `optimal` needs it for the first path.
+  std::optional<double> random_rms_m = std::nullopt;
 };
 
 struct CuttingResult {
@@ -28,13 +34,17 @@ struct CuttingResult {
   // Of two passes and more. What a pass leaves against its own path is a share that comes again and
   // a random one, RMS of one pass; the first is freed of what of the second is in the mean.
   std::optional<double> repeatable_rms_m, random_rms_m;
-  std::optional<double> floor_gain_one_m, floor_mean_m;  // of the next pass, for ever
+  std::optional<double> floor_gain_one_m, floor_mean_m,
+      floor_optimal_m;  // of the next pass, for ever
   std::optional<bool> converges;
-  std::size_t pixels = 0;  // that all maps have
-  SurfaceMap next;         // the path of the next pass, over the pixels of `wanted`
+  std::size_t pixels = 0;        // that all maps have
+  SurfaceMap next;               // the path of the next pass, over the pixels of `wanted`
+  std::optional<double> factor;  // of the mean; only with `optimal`
+  std::optional<double> left_by_smoothing_rms_m;  // of the correction; only with smooth_m
 };
 
-// Error bad_input: maps that do not overlap.
+// Errors: maps that do not overlap; smooth_m below two pixels; `optimal` of one pass without
+// random_rms_m.
 Result<CuttingResult> next_cut(const CuttingPasses& passes);
 
 }  // namespace mdof::algo

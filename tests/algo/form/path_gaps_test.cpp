@@ -9,6 +9,7 @@
 
 #include "algo/form/spiral_path.h"
 #include "algo/form/turn_spectrum.h"
+#include "tests/algo/form/known_maps.h"
 
 namespace mdof::algo {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "algo/form/cutting.h"
 #include "schema/base/json_writer.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/form/map_file.h"
@@ -22,6 +23,8 @@ struct FormCutCommand {
   std::string wanted, gain = "1", out;
   std::vector<std::string> cuts;
   bool repeated = false, json = false;
+  double smooth_mm = 0;
+  std::optional<double> random_um;
   MapOptions maps;
 };
 
@@ -47,13 +50,18 @@ std::string cut_json(const algo::CuttingResult& found, const FormCutCommand& o) 
   json.key("floor_rms_um").begin_object();
   write_optional(json, "gain_1", found.floor_gain_one_m);
   write_optional(json, "mean", found.floor_mean_m);
+  write_optional(json, "optimal", found.floor_optimal_m);
   json.end_object().key("converges");
   if (found.converges)
     json.value(*found.converges);
   else
     json.null();
   if (!found.converges) json.field("converges_reason", kOnePass);
+  write_optional(json, "left_by_smoothing_rms_um", found.left_by_smoothing_rms_m);
   json.field("gain", o.gain)
+      .key("factor")
+      .value(found.factor.value_or(1))
+      .field("smooth_mm", o.smooth_mm)
       .field("repeated", o.repeated)
       .field("pixels", static_cast<std::uint64_t>(found.pixels))
       .field("next", o.out)
@@ -66,16 +74,29 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
   for (std::size_t k = 0; k < found.error.size(); ++k)
     table.add({std::to_string(k + 1), in_um(found.error[k].pv_m), in_um(found.error[k].rms_m)});
   std::string text = "error = cut - wanted\n" + table.text();
+  if (found.factor)
+    text += "optimal gain: " + fixed(*found.factor, 4) + " of the mean of the passes\n";
+  if (found.left_by_smoothing_rms_m)
+    text += "smoothing over squares of " + plain_number(o.smooth_mm) +
+            " mm leaves out of the correction: RMS " + in_um(*found.left_by_smoothing_rms_m) +
+            " µm\n";
   if (!found.converges) return text + kOnePass + "\nnext path: " + o.out + "\n";
-  text += "of it comes again: RMS " + in_um(*found.repeatable_rms_m) +
-          " µm; random: " + in_um(*found.random_rms_m) +
-          " µm a pass\nfloor of further passes: RMS " + in_um(*found.floor_gain_one_m) +
-          " µm with gain 1, " + in_um(*found.floor_mean_m) + " µm with the mean of all passes\n" +
-          (*found.converges ? "converges" : "DOES NOT CONVERGE") + "\nnext path: " + o.out + "\n";
+  text +=
+      "of it comes again: RMS " + in_um(*found.repeatable_rms_m) +
+      " µm; random: " + in_um(*found.random_rms_m) + " µm a pass\nfloor of further passes: RMS " +
+      in_um(*found.floor_gain_one_m) + " µm with gain 1, " + in_um(*found.floor_mean_m) +
+      " µm with the mean of all passes\n" +
+      (found.floor_optimal_m ? "with the optimal gain: " + in_um(*found.floor_optimal_m) + " µm\n"
+                             : "") +
+      (*found.converges ? "converges" : "DOES NOT CONVERGE") + "\nnext path: " + o.out + "\n";
   return text;
 }
 
 Status form_cut(const FormCutCommand& o) {
+  if (o.gain == "optimal" && !o.random_um && (!o.repeated || o.cuts.size() < 2))
+    return fail(ErrorCode::usage,
+                "--gain optimal: the random share of a pass is unknown; state it with --random-um, "
+                "or give two --repeated passes and more");
   algo::CuttingPasses passes;
   MDOF_TRY(passes.wanted, load_map(o.wanted, o.maps));
   for (const std::string& file : o.cuts) {
@@ -83,7 +104,11 @@ Status form_cut(const FormCutCommand& o) {
     passes.cuts.push_back(std::move(cut));
   }
   passes.repeated = o.repeated;
-  passes.gain = o.gain == "mean" ? algo::CuttingGain::mean : algo::CuttingGain::one;
+  passes.gain = o.gain == "mean"      ? algo::CuttingGain::mean
+                : o.gain == "optimal" ? algo::CuttingGain::optimal
+                                      : algo::CuttingGain::one;
+  if (o.random_um) passes.random_rms_m = from_um(*o.random_um);
+  passes.smooth_m = from_mm(o.smooth_mm);
   MDOF_TRY(const algo::CuttingResult found, algo::next_cut(passes));
   MDOF_CHECK(save_map(found.next, o.out));
   return o.json ? write_line(cut_json(found, o)) : write_out(cut_text(found, o));
@@ -100,9 +125,22 @@ Action declare_form_cut(CLI::App& command) {
   command.add_flag("--repeated", o->repeated,
                    "All passes were cut with the path of the first [default: each with the next]");
   command
-      .add_option("--gain", o->gain,
-                  "Correct by the error of the last pass (1), or by the mean of all passes (mean)")
-      ->check(CLI::IsMember({"1", "mean"}))
+      .add_option(
+          "--gain", o->gain,
+          "Correct by the error of the last pass (1), by the mean of all passes (mean), or by "
+          "the share of the mean that comes again (optimal)")
+      ->check(CLI::IsMember({"1", "mean", "optimal"}))
+      ->capture_default_str();
+  command
+      .add_option("--random-um", o->random_um,
+                  "RMS of the random share of a pass, for --gain optimal [default: what --repeated "
+                  "passes show]")
+      ->check(not_negative_number());
+  command
+      .add_option("--smooth-mm", o->smooth_mm,
+                  "Smooth the correction over squares of this side, so that noise of single pixels "
+                  "is not cut into the part; 0: do not")
+      ->check(not_negative_number())
       ->capture_default_str();
   command.add_option("--out", o->out, "Write the path of the next pass as a map (CSV)")
       ->required()
@@ -119,7 +157,7 @@ Command form_cut_command() {
           .summary = "Path of the next pass from what the passes before left",
           .footer =
               "Passes that were not --repeated are taken as cut with the paths that this command "
-              "writes, with the same --gain.\n"
+              "writes, with the same --gain, --random-um and --smooth-mm.\n"
               "Example:\n"
               "  mdof form cut wanted.csv cut1.csv --out path2.csv",
           .declare = declare_form_cut};

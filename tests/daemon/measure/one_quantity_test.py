@@ -37,7 +37,7 @@ OTHERS = {"clearance", "completion", "help", "machine kinematics", "machine budg
           "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
           "compensation deactivate", "compensation export", "compensation linuxcnc", "compensation list", "device list", "device monitor",
           "device probe", "doctor", "drift", "encoder set", "export", "history", "import", "iso230-2", "live",
-          "machine circle", "machine diagonal", "machine error", "machine map", "machine perpendicularity", "record", "runs",
+          "machine circle", "machine diagonal", "machine error", "machine map", "machine perpendicularity", "machine study", "record", "runs",
           "selftest", "sensitivity", "separate reversal", "separate shift", "separate square", "setup network",
           "solve", "status", "stop", "straightness", "studies", "study", "verify"}
 OTHER_METHODS = {"compensation.activate", "compensation.build_volume", "compensation.deactivate", "device.list", "encoder.set", "history.list",

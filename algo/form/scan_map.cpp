@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "algo/linear_algebra/least_squares.h"
 
@@ -75,9 +76,16 @@ bool is_one_sided(const std::vector<Cell>& cells) {
   return std::hypot(x, y) > kMostOneSided * static_cast<double>(cells.size());
 }
 
-// Height of the parabola at the middle; missing: the points do not determine it.
-double height(const std::vector<Cell>& cells) {
-  if (cells.size() < kLeastCells) return SurfaceMap::kMissing;
+// The parabola at the middle of its points.
+struct Fitted {
+  double z_m = SurfaceMap::kMissing;  // missing: the points do not determine it
+  double variance = 0;                // of z, of points of variance 1
+  double squares = 0, freedom = 0;    // of what it leaves, a point
+};
+
+Fitted fitted(const std::vector<Cell>& cells) {
+  Fitted found;
+  if (cells.size() < kLeastCells) return found;
   Eigen::MatrixXd A(static_cast<Eigen::Index>(cells.size()), kParabolaTerms);
   Eigen::VectorXd b(A.rows());
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
@@ -87,18 +95,27 @@ double height(const std::vector<Cell>& cells) {
     b[i] = w * c.z;
   }
   const LeastSquares fit(A, kRankTolerance);
-  return fit.rank() < kParabolaTerms ? SurfaceMap::kMissing : fit.solve(b)[0];
+  if (fit.rank() < kParabolaTerms) return found;
+  const Eigen::VectorXd x = fit.solve(b);
+  found.z_m = x[0];
+  found.squares = (b - A * x).squaredNorm();
+  found.freedom = static_cast<double>(A.rows() - kParabolaTerms);
+  const Eigen::MatrixXd normal = A.transpose() * A;
+  Eigen::VectorXd first = Eigen::VectorXd::Zero(kParabolaTerms);
+  first[0] = 1;
+  found.variance = LeastSquares(normal).solve(first)[0];
+  return found;
 }
 
-double pixel_height(const Cells& cells, double x_m, double y_m, double pixel_m,
+Fitted pixel_height(const Cells& cells, double x_m, double y_m, double pixel_m,
                     std::vector<Cell>& scratch) {
   for (double reach = kLeastReach; reach <= kFarthestReach; reach *= kReachStep) {
     cells.around(x_m, y_m, reach * pixel_m, scratch);
     if (is_one_sided(scratch)) continue;
-    const double z = height(scratch);
-    if (!std::isnan(z)) return z;
+    const Fitted found = fitted(scratch);
+    if (!std::isnan(found.z_m)) return found;
   }
-  return SurfaceMap::kMissing;
+  return {};
 }
 
 // Pixels at whole multiples, one beyond the points.
@@ -110,7 +127,8 @@ void set_range(const std::vector<double>& at_m, double pixel_m, double& from_m, 
 }
 
 // Outer rows and columns without a height are left out: the map ends where the scan does.
-SurfaceMap without_empty_edges(const SurfaceMap& map) {
+ScanMap without_empty_edges(ScanMap scan) {
+  const SurfaceMap map = scan.map, u = scan.u;
   std::size_t left = map.nx, right = 0, low = map.ny, high = 0;
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i) {
@@ -120,22 +138,25 @@ SurfaceMap without_empty_edges(const SurfaceMap& map) {
       low = std::min(low, j);
       high = j;
     }
-  SurfaceMap part = map;
-  part.x0_m = map.x_m(left);
-  part.y0_m = map.y_m(low);
-  part.nx = right - left + 1;
-  part.ny = high - low + 1;
-  part.z_m.clear();
-  for (std::size_t j = low; j <= high; ++j)
-    for (std::size_t i = left; i <= right; ++i) part.z_m.push_back(map.at(i, j));
-  return part;
+  for (SurfaceMap* const part : {&scan.map, &scan.u}) {
+    part->x0_m = map.x_m(left);
+    part->y0_m = map.y_m(low);
+    part->nx = right - left + 1;
+    part->ny = high - low + 1;
+    part->z_m.clear();
+    for (std::size_t j = low; j <= high; ++j)
+      for (std::size_t i = left; i <= right; ++i)
+        part->z_m.push_back((part == &scan.map ? map : u).at(i, j));
+  }
+  return scan;
 }
 
 }  // namespace
 
-Result<SurfaceMap> scan_map(const ScanPoints& points, double pixel_m) {
+Result<ScanMap> scan_map(const ScanPoints& points, double pixel_m) {
   if (points.z_m.empty()) return bad_input("the scan has no height");
-  SurfaceMap map;
+  ScanMap scan;
+  SurfaceMap& map = scan.map;
   map.dx_m = map.dy_m = pixel_m;
   double nx = 0, ny = 0;
   set_range(points.x_m, pixel_m, map.x0_m, nx);
@@ -147,12 +168,22 @@ Result<SurfaceMap> scan_map(const ScanPoints& points, double pixel_m) {
   map.nx = static_cast<std::size_t>(nx);
   map.ny = static_cast<std::size_t>(ny);
   map.z_m.assign(map.nx * map.ny, SurfaceMap::kMissing);
+  scan.u = map;
   const Cells cells(points, map);
   std::vector<Cell> scratch;
+  double squares = 0, freedom = 0;
   for (std::size_t j = 0; j < map.ny; ++j)
-    for (std::size_t i = 0; i < map.nx; ++i)
-      map.z_m[j * map.nx + i] = pixel_height(cells, map.x_m(i), map.y_m(j), pixel_m, scratch);
-  if (map.measured() > 0) return without_empty_edges(map);
+    for (std::size_t i = 0; i < map.nx; ++i) {
+      const Fitted found = pixel_height(cells, map.x_m(i), map.y_m(j), pixel_m, scratch);
+      map.z_m[j * map.nx + i] = found.z_m;
+      if (std::isnan(found.z_m)) continue;
+      squares += found.squares;
+      freedom += found.freedom;
+      scan.u.z_m[j * map.nx + i] = std::sqrt(found.variance);
+    }
+  scan.noise_m = std::sqrt(squares / std::max(1.0, freedom));
+  for (double& u : scan.u.z_m) u *= scan.noise_m;
+  if (map.measured() > 0) return without_empty_edges(std::move(scan));
   return bad_input("no pixel of " + std::to_string(pixel_m * 1e3) +
                    " mm has heights enough around it; take larger pixels, or scan more densely");
 }

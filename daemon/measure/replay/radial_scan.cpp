@@ -1,11 +1,13 @@
 #include "daemon/measure/replay/radial_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
 
+#include "algo/form/map_figures.h"
 #include "algo/form/scan_map.h"
 #include "algo/model/restate.h"
 #include "daemon/measure/evaluation.h"
@@ -113,6 +115,7 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
 // What the scanning probe reads of the motion alone, at the targets of its run.
 struct Motion {
   std::vector<double> position_m, reading_m;
+  double u_m = 0;  // RMS over the targets
 
   bool holds(double at_m) const { return at_m >= position_m.front() && at_m <= position_m.back(); }
   double at(double at_m) const {
@@ -134,10 +137,29 @@ Rig with_scanning_probe(Rig rig, const RigScan& scan) {
   return rig;
 }
 
+// Of the reading, by the covariance of the five errors: the reading is linear in them.
+double reading_variance(const drivers::ForwardModel& model, double travel_m,
+                        const AxisErrors& errors) {
+  std::array<double, 5> slope{};
+  double without_m = 0;
+  model(travel_m, Errors5{}, {&without_m, 1});
+  for (std::size_t k = 0; k < 5; ++k) {
+    Errors5 one{};
+    one[k] = 1e-6;
+    model(travel_m, one, {&slope[k], 1});
+    slope[k] = (slope[k] - without_m) / 1e-6;
+  }
+  double variance = 0;
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t k = 0; k < 5; ++k)
+      variance += slope[i] * errors.covariance[5 * i + k] * slope[k];
+  return variance;
+}
+
 Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
   MDOF_TRY(const auto model, forward_model(with_scanning_probe(rig, scan)));
   struct Sum {
-    double n = 0, position_m = 0, reading_m = 0;
+    double n = 0, position_m = 0, reading_m = 0, variance = 0;
   };
   std::map<int, Sum> targets;
   double read_m = 0;
@@ -148,6 +170,8 @@ Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
     sum.n += 1;
     sum.position_m += p.point.position_m;
     sum.reading_m += read_m;
+    sum.variance +=
+        reading_variance(model, rig.sides.target_travel_m(p.point.position_m), p.errors);
   }
   std::vector<std::pair<double, double>> sorted;
   for (const auto& [target, sum] : targets)
@@ -157,6 +181,9 @@ Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
     return bad_input("run " + std::to_string(run.header.id) +
                      ": has errors at fewer than two targets; a scan needs them along the radius");
   Motion motion;
+  for (const auto& [target, sum] : targets)
+    motion.u_m += sum.variance / (sum.n * sum.n) / static_cast<double>(targets.size());
+  motion.u_m = std::sqrt(motion.u_m);
   for (const auto& [position_m, reading_m] : sorted) {
     motion.position_m.push_back(position_m);
     motion.reading_m.push_back(reading_m);
@@ -199,6 +226,7 @@ Status add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points, R
   MDOF_TRY(const Motion motion, motion_of(run, rig, *scan));
   const auto [least, most] = std::minmax_element(motion.reading_m.begin(), motion.reading_m.end());
   out.motion_pv_m = std::max(out.motion_pv_m, *most - *least);
+  out.u_motion_m = std::max(out.u_motion_m, motion.u_m);
   MDOF_TRY(const Columns columns, read_columns(run.header, rig, *scan));
   add_points(columns, motion, rig, *scan, points, out);
   return {};
@@ -224,9 +252,11 @@ Result<RadialScan> radial_scan(store::Store& store, const std::vector<std::int64
   }
   out.points = points.z_m.size();
   out.pixel_m = pixel_m ? *pixel_m : default_pixel_m(points);
-  auto map = algo::scan_map(points, out.pixel_m);
-  if (!map) return in_context(name, std::move(map.error()));
-  out.map = std::move(*map);
+  auto scan = algo::scan_map(points, out.pixel_m);
+  if (!scan) return in_context(name, std::move(scan.error()));
+  out.map = std::move(scan->map);
+  const algo::MapFigures u = algo::figures_of(scan->u);
+  out.u_noise_m = std::hypot(u.rms_m, u.mean_m);
   out.map.name = name;
   return out;
 }

@@ -1,5 +1,6 @@
 // mdof form scan RUN...: a height map of a part on a spindle from a probe of one's own.
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "algo/form/map_figures.h"
 #include "schema/base/json_writer.h"
@@ -12,6 +13,12 @@
 
 namespace mdof::tools {
 namespace {
+
+constexpr const char* kScanU =
+    "noise of the heights, as it differs from one to the next, and u of the axis' errors that were "
+    "taken out; without the probe's calibration, encoder and angle, errors of the spindle, and "
+    "noise "
+    "that neighbours share";
 
 struct FormScanCommand {
   std::vector<std::string> runs;
@@ -35,6 +42,13 @@ std::string scan_json(const daemon::RadialScan& scan, const std::vector<std::int
       .field("heights_beyond_targets", static_cast<std::uint64_t>(scan.beyond_targets))
       .field("heights_without_place", static_cast<std::uint64_t>(scan.without_height))
       .field("motion_taken_out_pv_um", to_um(scan.motion_pv_m))
+      .field("u_um", to_um(std::hypot(scan.u_noise_m, scan.u_motion_m)))
+      .key("u_parts_um")
+      .begin_object()
+      .field("noise", to_um(scan.u_noise_m))
+      .field("motion", to_um(scan.u_motion_m))
+      .end_object()
+      .field("u_covers", kScanU)
       .end_object();
   return json.take();
 }
@@ -45,7 +59,9 @@ std::string scan_text(const daemon::RadialScan& scan) {
          " µm about the mean, " + std::to_string(figures.pixels) + " pixels of " +
          in_mm(scan.pixel_m) + " mm from " + std::to_string(scan.points) +
          " heights\nwhat the probe reads of the axis' motion is taken out: " +
-         in_um(scan.motion_pv_m) + " µm PV\n";
+         in_um(scan.motion_pv_m) + " µm PV\nu of a height " +
+         in_um(std::hypot(scan.u_noise_m, scan.u_motion_m)) + " µm (noise " +
+         in_um(scan.u_noise_m) + " µm, motion " + in_um(scan.u_motion_m) + " µm): " + kScanU + "\n";
 }
 
 Status form_scan(const FormScanCommand& o) {

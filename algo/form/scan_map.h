@@ -15,7 +15,7 @@ struct ScanPoints {
 struct ScanMap {
   SurfaceMap map;
   // Standard uncertainty of each height by noise that differs from point to point, which the
-  // scatter about the parabolas tells; without noise that neighbours have in common.
+  // scatter about the parabolas shows; without noise that neighbours have in common.
   SurfaceMap u;
   double noise_m = 0;  // standard deviation of one point
 };

@@ -83,14 +83,42 @@ GridErrors::GridErrors(const Machine& machine, const GridPlan& plan)
 }
 
 // Of the frames that go with the first axis, or of all others.
-Eigen::Vector3d GridVariances::variance(const Command& command, bool of_first) const {
-  auto values = values_at(machine_, command, plan_.approach);
-  for (std::size_t i = 0; i < values.size(); ++i) {
+std::vector<FrameValues> GridVariances::values(const Command& command, bool of_first) const {
+  auto all = values_at(machine_, command, plan_.approach);
+  for (std::size_t i = 0; i < all.size(); ++i) {
     if (goes_with(machine_.frames[i], plan_.first) == of_first) continue;
-    values[i].u_parts.setZero();
-    values[i].u_location = {};
+    all[i].u_parts.setZero();
+    all[i].u_location = {};
+    all[i].shared.clear();
   }
-  return error_uncertainty(derivatives(machine_, command), values).head<3>().cwiseAbs2();
+  return all;
+}
+
+// Without the shared parts.
+Eigen::Vector3d GridVariances::variance(const Command& command, bool of_first) const {
+  auto alone = values(command, of_first);
+  for (FrameValues& v : alone) v.shared.clear();
+  return error_uncertainty(derivatives(machine_, command), alone).head<3>().cwiseAbs2();
+}
+
+std::vector<Vector6> GridVariances::shared(const Command& command, bool of_first) const {
+  auto effects = shared_effects(derivatives(machine_, command), values(command, of_first));
+  effects.resize(shared_, Vector6::Zero());
+  return effects;
+}
+
+std::vector<GridVariances::Line> GridVariances::lines(Command command, std::size_t along,
+                                                      const std::vector<double>& range,
+                                                      bool of_first) const {
+  std::vector<Line> all;
+  if (shared_ == 0) return all;
+  command[along] = range.front();
+  const auto begin = shared(command, of_first);
+  command[along] = range.back();
+  const auto end = shared(command, of_first);
+  for (std::size_t p = 0; p < shared_; ++p)
+    all.push_back({(begin[p] + end[p]).head<3>() / 2, (end[p] - begin[p]).head<3>() / 2});
+  return all;
 }
 
 GridVariances::Parabola GridVariances::parabola(Command command, std::size_t along,
@@ -111,17 +139,25 @@ GridVariances::GridVariances(const Machine& machine, const GridPlan& plan)
       plan_(plan),
       first_part_(parts_of_range(plan.first_m)),
       second_part_(parts_of_range(plan.second_m)) {
-  for (std::size_t i = 0; i < plan.first_m.size(); ++i)
+  for (const MachineFrame& frame : machine.frames)
+    shared_ = std::max(shared_, frame.correlation.shared.size());
+  for (std::size_t i = 0; i < plan.first_m.size(); ++i) {
     of_first_.push_back(parabola(plan.command(i, 0), plan.second, plan.second_m, true));
+    shared_of_first_.push_back(lines(plan.command(i, 0), plan.second, plan.second_m, true));
+  }
 }
 
 void GridVariances::begin_line(std::size_t j) {
   of_line_ = parabola(plan_.command(0, j), plan_.first, plan_.first_m, false);
+  shared_of_line_ = lines(plan_.command(0, j), plan_.first, plan_.first_m, false);
 }
 
 Eigen::Vector3d GridVariances::u_at(std::size_t i, std::size_t j) const {
   const Parabola& column = of_first_[i];
-  const Eigen::Vector3d sum = of_line_.at(first_part_[i]) + column.at(second_part_[j]);
+  Eigen::Vector3d sum = of_line_.at(first_part_[i]) + column.at(second_part_[j]);
+  for (std::size_t p = 0; p < shared_; ++p)
+    sum += (shared_of_line_[p].at(first_part_[i]) + shared_of_first_[i][p].at(second_part_[j]))
+               .cwiseAbs2();
   const double rounding = of_line_.rounding + column.rounding;
   Eigen::Vector3d u;
   for (Eigen::Index k = 0; k < 3; ++k) u[k] = sum[k] > rounding ? std::sqrt(sum[k]) : kNaN;

@@ -54,7 +54,7 @@ class GridErrors {
 
 // Standard uncertainty of that place, as of error_uncertainty(). The arm of a linear axis' errors
 // is linear in the other axis' command, so that the variance which an axis adds is a polynomial of
-// second order in it.
+// second order in it; what a part that frames share (frames.h) does to the place is linear.
 class GridVariances {
  public:
   GridVariances(const Machine& machine, const GridPlan& plan);
@@ -68,7 +68,15 @@ class GridVariances {
     double rounding = 0;  // what is below it is rounding
     Eigen::Vector3d at(double part) const { return constant + part * (linear + part * square); }
   };
+  struct Line {
+    Eigen::Vector3d constant, linear;
+    Eigen::Vector3d at(double part) const { return constant + part * linear; }
+  };
+  std::vector<FrameValues> values(const Command& command, bool of_first) const;
   Eigen::Vector3d variance(const Command& command, bool of_first) const;
+  std::vector<Vector6> shared(const Command& command, bool of_first) const;
+  std::vector<Line> lines(Command command, std::size_t along, const std::vector<double>& range,
+                          bool of_first) const;
   Parabola parabola(Command command, std::size_t along, const std::vector<double>& range,
                     bool of_first) const;
 
@@ -77,6 +85,9 @@ class GridVariances {
   std::vector<double> first_part_, second_part_;
   std::vector<Parabola> of_first_;  // of the frames that go with the first axis, along the second
   Parabola of_line_;                // of all others, along the first axis
+  std::size_t shared_ = 0;          // how many parts frames share
+  std::vector<std::vector<Line>> shared_of_first_;
+  std::vector<Line> shared_of_line_;
 };
 
 }  // namespace mdof::algo

@@ -208,20 +208,24 @@ Vector6 body_variance(const std::vector<ErrorDerivative>& derivatives,
 
 }  // namespace
 
+std::vector<Vector6> shared_effects(const std::vector<ErrorDerivative>& derivatives,
+                                    const std::vector<FrameValues>& values) {
+  std::vector<Vector6> effects;
+  for (const ErrorDerivative& d : derivatives) {
+    const auto& shared = values[d.frame].shared;
+    if (d.of_line) continue;
+    if (effects.size() < shared.size()) effects.resize(shared.size(), Vector6::Zero());
+    for (std::size_t p = 0; p < shared.size(); ++p) effects[p] += d.d * shared[p][d.k];
+  }
+  return effects;
+}
+
 Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
                           const std::vector<FrameValues>& values) {
   Vector6 sum = body_variance(derivatives, values, &FrameValues::u_parts);
-  std::vector<Vector6> shared;
-  for (const ErrorDerivative& d : derivatives) {
-    const FrameValues& v = values[d.frame];
-    if (d.of_line) {
-      sum += (d.d * v.u_location[d.k]).cwiseAbs2();
-    } else {
-      if (shared.size() < v.shared.size()) shared.resize(v.shared.size(), Vector6::Zero());
-      for (std::size_t p = 0; p < v.shared.size(); ++p) shared[p] += d.d * v.shared[p][d.k];
-    }
-  }
-  for (const Vector6& part : shared) sum += part.cwiseAbs2();
+  for (const ErrorDerivative& d : derivatives)
+    if (d.of_line) sum += (d.d * values[d.frame].u_location[d.k]).cwiseAbs2();
+  for (const Vector6& part : shared_effects(derivatives, values)) sum += part.cwiseAbs2();
   return sum.cwiseSqrt();
 }
 

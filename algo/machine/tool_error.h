@@ -30,6 +30,11 @@ struct ErrorDerivative {
 // All errors that the machine can have, frame by frame.
 std::vector<ErrorDerivative> derivatives(const Machine& machine, const Command& command);
 
+// What one standard uncertainty of each part that frames share (FrameValues::shared) does to the
+// tool.
+std::vector<Vector6> shared_effects(const std::vector<ErrorDerivative>& derivatives,
+                                    const std::vector<FrameValues>& values);
+
 // Sum of derivative times error.
 Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
                      const std::vector<FrameValues>& values);

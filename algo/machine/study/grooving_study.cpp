@@ -217,7 +217,8 @@ Machine found_machine(const Machine& machine, const AxisReading& x, const AxisRe
 }
 
 PlaneRange range_of_map(const PlaneMap& map) {
-  return {extreme_of(map, 0).range, extreme_of(map, 1).range};
+  const auto extremes = extremes_of(map);
+  return {extremes[0].range, extremes[1].range};
 }
 
 PlaneRange actual_range(const Plant& plant) {

@@ -66,7 +66,7 @@ Machine both_axes(const std::vector<BuiltFrom>& tables) {
   Machine machine;
   for (const BuiltFrom& of : tables) {
     const auto together = error_correlations(of.table, of.rigs, of.runs, of.options).value();
-    const Machine one = test::machine_of(of.table, kToolPlace_m, together);
+    const Machine one = test::machine_of(of.table, kToolPlace_m, together.combined);
     machine.tool_m = one.tool_m;
     machine.frames.push_back(one.frames.front());
   }

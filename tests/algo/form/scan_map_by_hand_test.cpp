@@ -144,8 +144,9 @@ TEST(ScanMapByHand, IsTheFitThatIsWrittenPlainly) {
   std::size_t heights = 0, missing = 0;
   for (const auto& [seed, n] : {std::pair(1u, 60u), std::pair(2u, 140u), std::pair(3u, 500u)}) {
     const ScanPoints points = scattered(seed, n);
-    const auto map = scan_map(points, kPixel_m);
-    ASSERT_TRUE(map) << map.error().message;
+    const auto found = scan_map(points, kPixel_m);
+    ASSERT_TRUE(found) << found.error().message;
+    const SurfaceMap* const map = &found->map;
     const auto cells = means_of_cells(points, kPixel_m);
     for (std::size_t j = 0; j < map->ny; ++j)
       for (std::size_t i = 0; i < map->nx; ++i) {
@@ -173,8 +174,9 @@ TEST(ScanMapByHand, GoesOnePixelBeyondThePoints) {
       points.y_m.push_back(1.1e-3 + 0.25e-3 * j);
       points.z_m.push_back(3e-6);
     }
-  const auto map = scan_map(points, 1e-3);
-  ASSERT_TRUE(map) << map.error().message;
+  const auto found = scan_map(points, 1e-3);
+  ASSERT_TRUE(found) << found.error().message;
+  const SurfaceMap* const map = &found->map;
   EXPECT_NEAR(map->x0_m, -3e-3, 1e-15);
   EXPECT_NEAR(map->y0_m, 1e-3, 1e-15);
   EXPECT_EQ(map->nx, 9u);  // -3 ... 5 mm: the last point is at 4.9 mm

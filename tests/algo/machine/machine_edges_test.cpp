@@ -286,14 +286,14 @@ TEST(PlaneMapEdges, TheExtremeIsTheLargestBySize) {
     point.error[2] = -e;
     map.points.push_back(point);
   }
-  const MapExtreme first = extreme_of(map, 0);
+  const MapExtreme first = extremes_of(map)[0];
   EXPECT_EQ(first.point, 1u);  // the first of those of the same size
   EXPECT_EQ(first.value, -5);
   EXPECT_EQ(first.range, 10);
-  EXPECT_EQ(extreme_of(map, 2).value, 5);
+  EXPECT_EQ(extremes_of(map)[2].value, 5);
   map.points.resize(1);
-  EXPECT_EQ(extreme_of(map, 0).value, 1);
-  EXPECT_EQ(extreme_of(map, 0).range, 0);
+  EXPECT_EQ(extremes_of(map)[0].value, 1);
+  EXPECT_EQ(extremes_of(map)[0].range, 0);
 }
 
 // Without errors the first step finds that nothing is left.

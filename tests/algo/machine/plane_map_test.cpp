@@ -23,6 +23,12 @@ void declare_u(Machine& machine, test::RandomMachines& random) {
     if (frame.kind != FrameKind::linear) continue;
     frame.correlation.position = {0, 0.3};
     frame.correlation.at.resize(2);
+    for (std::size_t p = 0; p < 3; ++p) {  // what the axes share: a probe's scale
+      SharedPart& part = frame.correlation.shared.emplace_back();
+      part.at.resize(2);
+      for (auto& at : part.at)
+        for (double& e : at) e = random.between(-3e-7, 3e-7);
+    }
     for (auto& matrix : frame.correlation.at) {
       const double rho = random.between(-0.15, 0.95);
       for (std::size_t k = 0; k < kBodyErrors; ++k) {

@@ -182,9 +182,9 @@ TEST(PassBins, AGapIsOfTheBinInWhichItLies) {
         [&](std::int64_t ms) { return ms < from_ms || ms >= to_ms; }, nothing);
     const PassBins bins = found_in(frames, 1);
     EXPECT_EQ(bins.bins.size(), 2u) << from_ms;
-    return bins.bins.empty() ? std::vector<std::string>() : bins.bins[0].point.flags;
+    return bins.bins.empty() ? "no bin" : to_string(bins.bins[0].point.flags);
   };
-  const std::vector<std::string> none, gap = {"gap"};
+  const std::string none, gap = "gap";
   EXPECT_EQ(flags_of(440, 449), none);
   EXPECT_EQ(flags_of(552, 560), none);
   EXPECT_EQ(flags_of(470, 480), gap);

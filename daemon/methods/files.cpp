@@ -138,6 +138,12 @@ std::vector<rpc::Param> import_params() {
       {"error", ParamType::string, "what was measured, such as EYX [positioning, EXX of X]", false,
        "\"\""},
       {"format", ParamType::string, "csv, iso230-2 or rtl [as in the file]", false, "\"\""},
+      {"sense", ParamType::string,
+       "of positioning: command (actual - commanded place) or body (along + of the machine) "
+       "[command]",
+       false},
+      {"travel", ParamType::string,
+       "- where the body goes along - as the command grows [not known]", false},
       {"u_um",
        ParamType::number,
        "standard uncertainty of each deviation",

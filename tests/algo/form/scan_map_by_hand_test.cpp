@@ -164,9 +164,9 @@ TEST(ScanMapByHand, IsTheFitThatIsWrittenPlainly) {
   EXPECT_GT(missing, 50u);
 }
 
-// Pixels at whole multiples of their size, from the one before the first point to the one behind
-// the last.
-TEST(ScanMapByHand, GoesOnePixelBeyondThePoints) {
+// Pixels at whole multiples of their size. One that has the points on one side has no height,
+// and rows without any are left out.
+TEST(ScanMapByHand, EndsWhereItsHeightsEnd) {
   ScanPoints points;
   for (int j = 0; j <= 24; ++j)
     for (int i = 0; i <= 30; ++i) {
@@ -177,13 +177,13 @@ TEST(ScanMapByHand, GoesOnePixelBeyondThePoints) {
   const auto found = scan_map(points, 1e-3);
   ASSERT_TRUE(found) << found.error().message;
   const SurfaceMap* const map = &found->map;
-  EXPECT_NEAR(map->x0_m, -3e-3, 1e-15);
-  EXPECT_NEAR(map->y0_m, 1e-3, 1e-15);
-  EXPECT_EQ(map->nx, 9u);  // -3 ... 5 mm: the last point is at 4.9 mm
-  EXPECT_EQ(map->ny, 8u);  // 1 ... 8 mm: the last point is at 7.1 mm
+  EXPECT_NEAR(map->x0_m, -2e-3, 1e-15);
+  EXPECT_NEAR(map->y0_m, 2e-3, 1e-15);
+  EXPECT_EQ(map->nx, 7u);  // -2 ... 4 mm: the points are from -2.6 to 4.9 mm
+  EXPECT_EQ(map->ny, 5u);  // 2 ... 6 mm: the points are from 1.1 to 7.1 mm
   EXPECT_EQ(map->dx_m, 1e-3);
   EXPECT_EQ(map->dy_m, 1e-3);
-  EXPECT_NEAR(map->at(4, 3), 3e-6, 1e-15);
+  for (const double z : map->z_m) EXPECT_NEAR(z, 3e-6, 1e-15);
 }
 
 }  // namespace

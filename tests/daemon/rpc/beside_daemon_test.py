@@ -23,7 +23,7 @@ IN_USE = 4
 SCAN = '[scan]\nprobe = "F"\nposition_mm = [0, 0, 0]\nmeasures = "+Z"\ncentre_mm = 0\n'
 # In this order, of one database: WRITES makes what READS shows. "@" is the folder. Runs: 1, 4 X; 2 Y; 3 laser; 5 a scan.
 WRITES = [("replay", LOG["X"], "--rig", RIG["X"]), ("replay", LOG["Y"], "--rig", RIG["Y"]),
-          ("import", "@/laser.csv", "--axis", "X", "--u-um", "0.3", "--note", "laser"),
+          ("import", "@/laser.csv", "--axis", "X", "--u-um", "0.3", "--sense", "body", "--travel", "-", "--note", "laser"),
           ("replay", "@/again.csv", "--rig", RIG["X"], "--settle-s", "0.12", "--note", "again"),
           ("replay", "@/scan.csv", "--rig", "@/scan.toml"), ("squareness", "1", "2"),
           ("compensation", "build", "1"), ("compensation", "build", "3"),

@@ -211,17 +211,21 @@ TEST(SquarenessByHand, OfTwoRunsOfOneAxis) {
 
 // The angle of the square in one rig alone, and that of both where they agree.
 TEST(ArtefactByHand, OneRigMayKnowIt) {
-  Rig with = test::rig_x(), without = test::rig_x();
-  with.artefact_angle_error_rad = -4e-6;
-  with.u_artefact_angle_rad = 0.25e-6;
+  const Rig x_without = test::rig_x(),
+            y_without = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_Y.toml").value();
+  Rig x_with = x_without, y_with = y_without;
+  for (Rig* rig : {&x_with, &y_with}) {
+    rig->artefact_angle_error_rad = -4e-6;
+    rig->u_artefact_angle_rad = 0.25e-6;
+  }
   for (const auto& [x, y] :
-       {std::pair(with, without), std::pair(without, with), std::pair(with, with)}) {
+       {std::pair(x_with, y_without), std::pair(x_without, y_with), std::pair(x_with, y_with)}) {
     const auto artefact = artefact_of(x, y, {});
     ASSERT_TRUE(artefact);
     EXPECT_EQ(artefact->angle_error_rad, -4e-6);
     EXPECT_EQ(artefact->u_rad, 0.25e-6);
   }
-  EXPECT_EQ(artefact_of(without, without, {})->angle_error_rad, 0);
+  EXPECT_EQ(artefact_of(x_without, y_without, {})->angle_error_rad, 0);
 }
 
 // 0, 3, -2, 2, 1 µm: a mean of 0.8 µm and a slope of 10 µrad.

@@ -159,9 +159,7 @@ TEST_F(VolumeMethods, WhatCannotBeBuiltIsRefused) {
   says(R"("axes": "XY", "step_mm": 5, "limit_um": 4)", "limit");
   says(R"("axes": "XY", "step_mm": 5, "Z_mm": 4)", "no axis Z");
   const std::string named = a_machine(R"(squareness = 7\n)");
-  says(R"("axes": "XY", "step_mm": 5)", "give one", named);
-  says(R"("axes": "XY", "step_mm": 5)", "no squareness 7",
-       named.substr(0, named.find("EC0Y_urad")));
+  says(R"("axes": "XY", "step_mm": 5)", "no squareness 7", named);
   EXPECT_NE(build(R"("axes": "XY", "step_mm": 5)", "x = ").code(), 0);
   EXPECT_EQ(call("compensation.status").at("/result/volume"), "null");
 }

@@ -88,7 +88,7 @@ def is_beyond_64_bits(value):
     return isinstance(value, int) and not -2 ** 63 <= value < 2 ** 64
 
 
-CONSENTS = {"despite_warnings", "incomplete", "rig"}
+NEEDED = {"despite_warnings", "incomplete", "rig", "run_x", "run_y"}
 
 
 def request(rng, number, method, world):
@@ -97,7 +97,7 @@ def request(rng, number, method, world):
         given = [value_for(rng, p, world) for p in parameters[:rng.randrange(len(parameters) + 2)]]
     elif rng.random() < 0.1:  # what there is, and as little as possible
         given = {p["name"]: rng.choice(world[p["name"]]) for p in parameters
-                 if p["name"] in world and (p["required"] or p["name"] in CONSENTS)}
+                 if p["name"] in world and (p["required"] or p["name"] in NEEDED)}
     else:
         given = {p["name"]: value_for(rng, p, world) for p in parameters
                  if rng.random() < (0.95 if p["required"] else 0.3)}

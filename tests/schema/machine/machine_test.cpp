@@ -203,7 +203,7 @@ TEST(MachineToml, NamesRowsOfTheDatabase) {
                                             {"", "runs = []\n", "empty"},
                                             {"", "runs = true\n", "number"},
                                             {"", "tables = \"latest\"\n", "numbers of tables"},
-                                            {"squareness = [1, 2]\n", "", "one number"}}) {
+                                            {"squareness = [1, 2, 3, 4]\n", "", "at most three"}}) {
     const auto refused = named(root, of_axis);
     ASSERT_FALSE(refused) << of_axis;
     EXPECT_NE(refused.error().message.find(says), std::string::npos) << refused.error().message;

@@ -1,5 +1,6 @@
 #include "algo/form/local_parabola.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "algo/linear_algebra/least_squares.h"
@@ -13,16 +14,24 @@ std::array<double, kTerms> terms(double u, double v) {
   return {{1, u, v, u * u, u * v, v * v}};
 }
 
+// Of half a side; a square beyond the map is one as large as the map.
+std::ptrdiff_t pixels(double half_side_m, double pixel_m, std::size_t of_map) {
+  return static_cast<std::ptrdiff_t>(
+      std::min(std::floor(half_side_m / pixel_m + 1e-9), static_cast<double>(of_map)));
+}
+
 }  // namespace
 
 LocalParabola::LocalParabola(const SurfaceMap& map, double side_m, double least_share)
     : map_(map),
-      ni_(static_cast<std::ptrdiff_t>(std::floor(side_m / 2 / map.dx_m + 1e-9))),
-      nj_(static_cast<std::ptrdiff_t>(std::floor(side_m / 2 / map.dy_m + 1e-9))),
+      ni_(pixels(side_m / 2, map.dx_m, map.nx)),
+      nj_(pixels(side_m / 2, map.dy_m, map.ny)),
       half_x_m_(static_cast<double>(ni_) * map.dx_m),
       half_y_m_(static_cast<double>(nj_) * map.dy_m),
       least_share_(least_share) {
-  if (!is_large_enough()) return;
+  const bool fits = 2 * ni_ < static_cast<std::ptrdiff_t>(map.nx) &&
+                    2 * nj_ < static_cast<std::ptrdiff_t>(map.ny);
+  if (!is_large_enough() || !fits) return;
   // Of a whole square the same weights everywhere.
   Eigen::MatrixXd A(static_cast<Eigen::Index>(size()), kTerms);
   Eigen::Index row = 0;
@@ -32,7 +41,8 @@ LocalParabola::LocalParabola(const SurfaceMap& map, double side_m, double least_
                            static_cast<double>(b) / static_cast<double>(nj_));
       for (int k = 0; k < kTerms; ++k) A(row, k) = t[static_cast<std::size_t>(k)];
     }
-  const Eigen::MatrixXd inverse = LeastNorm(A).inverse();
+  const ThinQr qr = thin_qr(A);
+  const Eigen::MatrixXd inverse = qr.R.triangularView<Eigen::Upper>().solve(qr.Q.transpose());
   constexpr std::array<Eigen::Index, 4> kWanted{{0, 3, 4, 5}};
   for (std::size_t k = 0; k < kWanted.size(); ++k)
     for (Eigen::Index r = 0; r < A.rows(); ++r) weight_[k].push_back(inverse(kWanted[k], r));

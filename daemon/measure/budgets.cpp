@@ -133,16 +133,12 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
 
 Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessRequest& request,
                                         const algo::TrialsRequest& trials) {
-  MDOF_TRY(const Run a, store.run(request.run_a));
-  MDOF_TRY(const Run b, store.run(request.run_b));
-  MDOF_CHECK(check_axes(request, a, b));
-  MDOF_TRY(const Rig rig_a, rig_of(a.header));
-  MDOF_TRY(const Rig rig_b, rig_of(b.header));
-  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_a, rig_b, request.given));
   // Whatever keeps the two from having a squareness is stated here.
-  MDOF_TRY(const Squareness fitted, algo::squareness(a, b, artefact, request.partial));
-  MDOF_TRY(Budget budget, algo::squareness_budget(rig_a, a, rig_b, b, artefact, trials));
-  FoundBudgets found{kAtFixture, {}, {}, algo::inherited_notices({&a, &b}), fitted.simulated};
+  MDOF_TRY(const RunsOfSquareness of, runs_of_squareness(store, request));
+  MDOF_TRY(Budget budget,
+           algo::squareness_budget(of.rig_a, of.a, of.rig_b, of.b, of.fitted.artefact, trials));
+  FoundBudgets found{
+      kAtFixture, {}, {}, algo::inherited_notices({&of.a, &of.b}), of.fitted.simulated};
   found.budgets.push_back(std::move(budget));
   return found;
 }
@@ -162,17 +158,15 @@ void append_new(std::vector<T>& to, std::vector<T> more) {
 }
 
 // Its square taken to be true.
-Result<FoundSetUp> square_set_up(store::Store& store, const SquarenessRequest& request) {
-  MDOF_TRY(const Run a, store.run(request.run_a));
-  MDOF_TRY(const Run b, store.run(request.run_b));
-  MDOF_TRY(const Rig rig_a, rig_of(a.header));
-  MDOF_TRY(const Rig rig_b, rig_of(b.header));
-  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_a, rig_b, {0.0, 0.0}));
-  MDOF_TRY(const Squareness fitted, algo::squareness(a, b, artefact, request.partial));
-  MDOF_TRY(Budget budget, algo::squareness_budget(rig_a, a, rig_b, b, artefact));
+Result<FoundSetUp> square_set_up(store::Store& store, SquarenessRequest request) {
+  request.given = {0.0, 0.0};
+  MDOF_TRY(const RunsOfSquareness of, runs_of_squareness(store, request));
+  MDOF_TRY(Budget budget,
+           algo::squareness_budget(of.rig_a, of.a, of.rig_b, of.b, of.fitted.artefact));
   std::erase(budget.not_declared, "u_artefact_angle_urad");  // the reversal takes the angle out
-  return FoundSetUp{
-      {artefact.corner, std::move(budget)}, algo::inherited_notices({&a, &b}), fitted.simulated};
+  return FoundSetUp{{of.fitted.artefact.corner, std::move(budget)},
+                    algo::inherited_notices({&of.a, &of.b}),
+                    of.fitted.simulated};
 }
 
 }  // namespace

@@ -223,23 +223,14 @@ Status store_squareness(store::Store& store, Squareness& squareness,
 namespace {
 
 // Sets the combined standard uncertainties of `s`.
-Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& a, const Run& b) {
-  MDOF_TRY(const Rig rig_a, rig_of(a.header));
-  MDOF_TRY(const Rig rig_b, rig_of(b.header));
+Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& a, const Rig& rig_a,
+                                              const Run& b, const Rig& rig_b) {
   MDOF_TRY(auto budgets, algo::squareness_and_slope_budgets(rig_a, a, rig_b, b, s.artefact));
   s.u_error_rad = budgets[0].u;
   s.u_slope_a_rad = budgets[1].u;
   s.u_slope_b_rad = budgets[2].u;
   return std::vector(std::make_move_iterator(budgets.begin()),
                      std::make_move_iterator(budgets.end()));
-}
-
-}  // namespace
-
-Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
-  MDOF_TRY(FittedSquareness fitted, calculate_squareness(store, request));
-  MDOF_CHECK(store_squareness(store, fitted.squareness, request.deed));
-  return fitted;
 }
 
 Status check_axes(const SquarenessRequest& request, const Run& a, const Run& b) {
@@ -253,23 +244,40 @@ Status check_axes(const SquarenessRequest& request, const Run& a, const Run& b) 
   return {};
 }
 
+}  // namespace
+
+Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
+  MDOF_TRY(FittedSquareness fitted, calculate_squareness(store, request));
+  MDOF_CHECK(store_squareness(store, fitted.squareness, request.deed));
+  return fitted;
+}
+
+Result<RunsOfSquareness> runs_of_squareness(store::Store& store, const SquarenessRequest& request) {
+  MDOF_TRY(Run a, store.run(request.run_a));
+  MDOF_TRY(Run b, store.run(request.run_b));
+  MDOF_CHECK(check_axes(request, a, b));
+  MDOF_TRY(Rig rig_a, rig_of(a.header));
+  MDOF_TRY(Rig rig_b, rig_of(b.header));
+  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_a, rig_b, request.given));
+  MDOF_TRY(Squareness fitted, algo::squareness(a, b, artefact, request.partial));
+  return RunsOfSquareness{std::move(a), std::move(b), std::move(rig_a), std::move(rig_b),
+                          std::move(fitted)};
+}
+
 Result<FittedSquareness> calculate_squareness(store::Store& store,
                                               const SquarenessRequest& request) {
-  MDOF_TRY(const Run a, store.run(request.run_a));
-  MDOF_TRY(const Run b, store.run(request.run_b));
-  MDOF_CHECK(check_axes(request, a, b));
-  MDOF_TRY(const Rig rig_a, rig_of(a.header));
-  MDOF_TRY(const Rig rig_b, rig_of(b.header));
-  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_a, rig_b, request.given));
-  MDOF_TRY(Squareness s, algo::squareness(a, b, artefact, request.partial));
-  MDOF_TRY(auto budgets, state_uncertainty(s, a, b));
-  return FittedSquareness{std::move(s), std::move(budgets), algo::inherited_notices({&a, &b})};
+  MDOF_TRY(RunsOfSquareness of, runs_of_squareness(store, request));
+  MDOF_TRY(auto budgets, state_uncertainty(of.fitted, of.a, of.rig_a, of.b, of.rig_b));
+  return FittedSquareness{std::move(of.fitted), std::move(budgets),
+                          algo::inherited_notices({&of.a, &of.b})};
 }
 
 Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness) {
   MDOF_TRY(const Run a, store.run(squareness.run_a));
   MDOF_TRY(const Run b, store.run(squareness.run_b));
-  MDOF_TRY(auto budgets, state_uncertainty(squareness, a, b));
+  MDOF_TRY(const Rig rig_a, rig_of(a.header));
+  MDOF_TRY(const Rig rig_b, rig_of(b.header));
+  MDOF_TRY(auto budgets, state_uncertainty(squareness, a, rig_a, b, rig_b));
   return FittedSquareness{std::move(squareness), std::move(budgets),
                           algo::inherited_notices({&a, &b})};
 }

@@ -80,8 +80,15 @@ struct SquarenessRequest {
   std::optional<Deed> deed = std::nullopt;      // who asks
   std::optional<AxisPair> axes = std::nullopt;  // that the runs have to be of
 };
-// Error: a run is of another axis than the request says.
-Status check_axes(const SquarenessRequest& request, const Run& a, const Run& b);
+// Two runs with their rigs, and the fit without the uncertainty of what the rigs declare.
+struct RunsOfSquareness {
+  Run a, b;
+  Rig rig_a, rig_b;
+  Squareness fitted;
+};
+// Errors: no such run; a run of another axis than the request says; those of algo::artefact_of()
+// and algo::squareness().
+Result<RunsOfSquareness> runs_of_squareness(store::Store& store, const SquarenessRequest& request);
 struct FittedSquareness {
   Squareness squareness;
   std::vector<Budget> budgets;  // of EC0Y, then of EYX_slope_urad and EXY_slope_urad; with Z alike

@@ -11,7 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostSharedPoints = 20'000;  // as of declared_uncertainty
+// Of a table, as of declared_uncertainty: one with more has said so when it was built.
+constexpr std::size_t kMostSharedPoints = 20'000;
 
 // A contributor of one run of one table.
 struct InRun {
@@ -29,8 +30,8 @@ bool is_of_several_tables(const std::vector<InRun>& all) {
 Result<std::map<std::string, std::vector<InRun>>> quantities_of(
     const std::vector<BuiltFrom>& tables, const std::vector<std::vector<Run>>& runs) {
   std::map<std::string, std::vector<InRun>> all;
-  std::size_t points = 0;
-  for (std::size_t t = 0; t < tables.size(); ++t)
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    std::size_t points = 0;
     for (std::size_t r = 0; r < runs[t].size(); ++r) {
       if (!tables[t].rigs[r].declares_uncertainty()) continue;
       points += runs[t][r].points.size();
@@ -41,6 +42,7 @@ Result<std::map<std::string, std::vector<InRun>>> quantities_of(
         if (!contributor.common_as.empty())
           all[contributor.common_as].push_back({t, r, contributor});
     }
+  }
   std::erase_if(all, [](const auto& of) { return !is_of_several_tables(of.second); });
   return all;
 }

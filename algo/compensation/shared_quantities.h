@@ -29,8 +29,8 @@ struct SharedQuantity {
 };
 
 // The same certificate and uncertainty are the same probe, as for the squareness of two runs
-// (uncertainty/statistics/common_quantities.h). Errors: those of contributors(); so many points
-// that it would take long.
+// (uncertainty/statistics/common_quantities.h). Errors: those of contributors(); a table of so
+// many points that it would take long.
 Result<std::vector<SharedQuantity>> shared_quantities(const std::vector<BuiltFrom>& tables);
 
 }  // namespace mdof::algo

@@ -118,10 +118,10 @@ struct Format {
   bool sign_confirmed;  // else the export has to be asked for
   double quantum_m;     // step of its numbers; of a squareness rad
   bool takes_home;      // ExportOptions::home_m is taken out of it
-  bool takes_joints;    // ExportOptions::joints and inch
   AxisFiles axes;       // one of the three, or axes and a volume
   VolumeFiles volume;
   SquareFiles square;
+  bool takes_joints = false;  // ExportOptions::joints and inch
 };
 
 // In the order of the help.

@@ -23,9 +23,9 @@ int sign_of(double x) {
   return x > 0 ? 1 : x < 0 ? -1 : 0;
 }
 
-// Which way the faces across `along` face, +1 or -1; 0: not known, or there is none. The material
-// is around the origin of M, but for the top target plane, whose normal is the local z: M's origin
-// lies on it.
+// The sign of the outward normal, along `along`, of the faces across it; 0: not known, or there is
+// no such face. The material is around the origin of M. The top target plane goes through that
+// origin: there the normal of the plane counts, which is the local z.
 Result<int> side_of_face(const Rig& rig, Axis along) {
   MDOF_TRY(const Fixture fixture, make_fixture(rig));
   const auto row = local_axes(rig.axis)[static_cast<std::size_t>(along)];  // `along`, local

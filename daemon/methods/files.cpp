@@ -35,7 +35,7 @@ Result<std::optional<PositioningSense>> sense_param(const Params& params) {
   if (!params.has("sense")) return std::nullopt;
   const std::string text(params.string("sense"));
   if (const auto sense = positioning_sense_from(text)) return sense;
-  return fail(ErrorCode::usage, "sense \"" + text + "\" is none of \"command\", \"body\"");
+  return fail(ErrorCode::usage, "sense \"" + text + "\" must be \"command\" or \"body\"");
 }
 
 // Whether the body goes along - as the command grows.
@@ -43,7 +43,7 @@ Result<std::optional<bool>> travel_param(const Params& params) {
   if (!params.has("travel")) return std::nullopt;
   const std::string text(params.string("travel"));
   if (text == "+" || text == "-") return text == "-";
-  return fail(ErrorCode::usage, "travel \"" + text + "\" is none of \"+\", \"-\"");
+  return fail(ErrorCode::usage, "travel \"" + text + "\" must be \"+\" or \"-\"");
 }
 
 Result<ImportRequest> read_import_request(const Params& params) {

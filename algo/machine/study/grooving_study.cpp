@@ -268,8 +268,7 @@ Result<GroovingState> read_state(const Plant& plant, const GroovingInstruments& 
   state.angle_error_rad = -(x.slope + y.slope) + noise.of_one(by.square_rad);
   state.u_angle_rad = std::hypot(
       by.square_rad, 2 * noise.u_of_mean(by.position_m) / kWidth_m);  // two ends of two lines
-  DiagonalLines lines = read_lines(plant, noise, by.line_m);
-  lines.u_line_m = 0;
+  const DiagonalLines lines = read_lines(plant, noise, by.line_m);
   MDOF_TRY(state.square, squareness_of_diagonals(lines));
   DiagonalLines one = lines;
   one.other = {};

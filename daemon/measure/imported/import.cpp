@@ -140,7 +140,7 @@ Result<Run> imported_run(const ImportRequest& request) {
   for (const ImportedReading& r : series.readings)
     run.points.push_back(point_of(r, targets, u_si, error));
   MDOF_CHECK(check_gate({request.file, false, without_information(header.notices)},
-                        {.simulated = true, .despite_warnings = request.despite_warnings},
+                        {.simulated = false, .despite_warnings = request.despite_warnings},
                         "it is not stored"));
   return run;
 }

@@ -29,8 +29,8 @@ struct ImportRequest {
 };
 
 // Complete, not stored. Errors: those of imported_error() and read_imported_file(); an uncertainty
-// that is none, or in the unit of another error; deviations beyond the limits, or means of targets
-// whose slope is; a doubtful file (gate.h).
+// that is negative, not finite or in the other unit; deviations beyond the limits, or means of
+// targets whose slope is; a doubtful file (gate.h).
 Result<Run> imported_run(const ImportRequest& request);
 
 }  // namespace mdof::daemon

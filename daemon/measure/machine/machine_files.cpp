@@ -74,7 +74,7 @@ Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
   return complete(f, k, csv.source + ": " + error_name(frame, k));
 }
 
-// Four columns an error, none of which has to be there: but one of all.
+// Up to five columns an error. The file may lack any error, but not all of them.
 Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string& path) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < kBodyErrors; ++k) {

@@ -20,8 +20,9 @@ struct RadialScan {
       0;  // left out: before the first target of the run or behind its last
   std::size_t without_height = 0;  // left out: the probe, the encoder or the angle gave none
   double motion_pv_m = 0;  // what the motion of the axis had in the readings, and was taken out
-  // Standard uncertainty of a height, RMS over the map: by the scatter of the heights around it,
-  // and by the errors of the axis that were taken out.
+  // Standard uncertainty of a height: by the scatter of the heights around it, RMS over the map;
+  // and by the errors of the axis that were taken out, RMS over the targets of the run that has
+  // most.
   double u_noise_m = 0, u_motion_m = 0;
   bool simulated = false;
 };

@@ -50,9 +50,9 @@ struct Squareness {
   // Combined standard uncertainties, as their budgets have them; what algo::squareness() makes is
   // of noise, repeatability and the artefact alone.
   double u_error_rad = 0;
-  // How far the axes are from straight lines: √(s_a² + s_b²), s the standard deviation of a fitted slope that
-  // follows from the residuals of its line. It says how well one angle describes such axes, not how
-  // well it is known.
+  // How far the axes are from straight lines: √(s_a² + s_b²), s the standard deviation of a fitted
+  // slope that follows from the residuals of its line. It says how well one angle describes such
+  // axes, not how well it is known.
   double form_rad = 0;
   // Of the straightness of each axis along the other, over the travel of the moving body along + of
   // M.

@@ -12,7 +12,7 @@
 #include "daemon/station/check_start.h"
 #include "daemon/station/clock_watch.h"
 #include "daemon/station/hotplug.h"
-#include "daemon/store/file/told_head.h"
+#include "daemon/store/file/announced_head.h"
 #include "daemon/systemd/notify.h"
 #include "daemon/version.h"
 #include "daemon/words/error_text.h"
@@ -226,7 +226,7 @@ Status App::Parts::listen() {
   MDOF_TRY(methods->generation, reader->generation());
   // Never back, though what raised it is lost.
   methods->generation =
-      std::max(methods->generation, store::read_told_head(config.database).generation);
+      std::max(methods->generation, store::read_announced_head(config.database).generation);
   add_all_methods(table, *methods);
   MDOF_TRY(const auto handed_over, systemd::take_listen_sockets());
   for (const int fd : handed_over) MDOF_CHECK(server.listen_fd(fd));

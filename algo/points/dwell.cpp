@@ -271,7 +271,7 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
     Point point = average(first_row, end_row);
     if (slots_[slots_.size() - 2].unplaced > unplaced_before_)
       add_flag(point, Flag::missing, "encoder");
-    gave_point_ = keep_or_tell(std::move(point), first_row, end_row, out);
+    gave_point_ = keep_or_report(std::move(point), first_row, end_row, out);
   } else if (still_s >= options_.min_length_s) {
     note({DwellEventKind::short_stop, still_since_ns_, left_m_, 0, still_s});
   }
@@ -294,8 +294,8 @@ std::size_t DwellDetector::end_of_rest(const Slot& last) const {
 
 // A stop that creeps a little has readings that belong to its mean position; one that creeps far is
 // a slow travel.
-bool DwellDetector::keep_or_tell(Point point, std::size_t first_row, std::size_t end_row,
-                                 std::vector<Point>& out) {
+bool DwellDetector::keep_or_report(Point point, std::size_t first_row, std::size_t end_row,
+                                   std::vector<Point>& out) {
   const auto begin = buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(first_row);
   const auto end = buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(end_row);
   const auto [low, high] = std::minmax_element(begin, end);

@@ -118,8 +118,8 @@ class DwellDetector {
   void look_for_jump();
   void note(const DwellEvent& event);
   // Whether it has become a point.
-  bool keep_or_tell(Point point, std::size_t first_row, std::size_t end_row,
-                    std::vector<Point>& out);
+  bool keep_or_report(Point point, std::size_t first_row, std::size_t end_row,
+                      std::vector<Point>& out);
   void remember_path(double position_m);
   void remember_way(const Slot& slot);
   int direction_to(double position_m) const;

@@ -201,9 +201,9 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
                 Remedy::export_table);
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);
-  const bool in_force = now && now->table.id == request.table;
-  if (!in_force) MDOF_CHECK(check_no_volumetric(store));
-  if (!in_force) MDOF_CHECK(check_gate(judged, request.consent, "it is not activated"));
+  const bool is_active = now && now->table.id == request.table;
+  if (!is_active) MDOF_CHECK(check_no_volumetric(store));
+  if (!is_active) MDOF_CHECK(check_gate(judged, request.consent, "it is not activated"));
   return store::Marks{judged.simulated, !judged.doubtful.empty()};
 }
 

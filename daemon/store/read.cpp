@@ -93,12 +93,23 @@ Result<std::vector<std::string>> Store::texts(std::string_view json_array) {
   }
 }
 
-Status Store::check_exists(std::string_view sql, const char* what, std::int64_t id) {
-  MDOF_TRY(Statement row, connection_.prepare(sql));
+Status Store::check_exists(RowOf table, std::int64_t id) {
+  struct Known {
+    const char* sql;
+    const char* what;
+    Remedy remedy;
+  };
+  static constexpr Known kTables[] = {
+      {"SELECT 1 FROM run WHERE id = ?", "run", Remedy::list_runs},
+      {"SELECT 1 FROM compensation_table WHERE id = ?", "compensation table", Remedy::list_tables},
+      {"SELECT 1 FROM volumetric_table WHERE id = ?", "volumetric table", Remedy::list_tables},
+      {"SELECT 1 FROM study WHERE id = ?", "study", Remedy::list_studies}};
+  const Known& known = kTables[static_cast<std::size_t>(table)];
+  MDOF_TRY(Statement row, connection_.prepare(known.sql));
   MDOF_TRY(const bool found, row.bind(id).step());
   if (found) return {};
   return fail(ErrorCode::not_found,
-              file().string() + ": no " + what + " " + std::to_string(id) + "; list what there is");
+              file().string() + ": no " + known.what + " " + std::to_string(id), known.remedy);
 }
 
 Result<RunHeader> Store::header_of(Statement& row) {
@@ -170,7 +181,7 @@ Result<std::vector<RunHeader>> Store::headers(std::string_view where, std::int64
 }
 
 Result<RunHeader> Store::run_header(std::int64_t run) {
-  MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_CHECK(check_run(run));
   MDOF_TRY(auto list, headers("WHERE run.id BETWEEN ?1 AND ?2", run, run, std::nullopt));
   if (list.empty())
@@ -259,7 +270,7 @@ tl::unexpected<Error> Store::other_rows(std::int64_t run) const {
 
 Result<std::vector<MeasuredPoint>> Store::read_points(std::int64_t run, std::int64_t offset,
                                                       std::int64_t count) {
-  MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Statement rows, connection_.prepare(kPoints));
   rows.bind(run).bind(std::max<std::int64_t>(offset, 0)).bind(count);
   std::vector<MeasuredPoint> list;
@@ -272,7 +283,7 @@ Result<std::vector<MeasuredPoint>> Store::read_points(std::int64_t run, std::int
 }
 
 Result<std::int64_t> Store::count_points(std::int64_t run) {
-  MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Statement row,
            connection_.prepare(
                "SELECT count(*) FROM point WHERE id BETWEEN ?1 << 32 AND (?1 << 32) + 4294967295"));
@@ -323,7 +334,7 @@ Result<std::string> Store::result_sha256(std::int64_t run) {
 }
 
 Result<std::string> Store::hash_rows(std::int64_t run, std::vector<std::uint64_t>* rows) {
-  MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  MDOF_CHECK(check_exists(RowOf::run, run));
   ResultHash hash;
   constexpr std::int64_t kPage = 4096;
   for (std::int64_t offset = 0;; offset += kPage) {

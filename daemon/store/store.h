@@ -200,8 +200,8 @@ class Store {
   Result<ChainHead> chain_head() { return store::chain_head(connection_); }
   Result<bool> has_hash(const std::string& sha256) { return store::has_hash(connection_, sha256); }
   // Error (bad_input): the chain no longer has the head that mdofd announced last
-  // (file/told_head.h).
-  Status check_told_head();
+  // (file/announced_head.h).
+  Status check_announced_head();
   Status check_head(const ChainHead& told);
 
   const std::filesystem::path& file() const { return connection_.file(); }
@@ -253,7 +253,9 @@ class Store {
                       const std::vector<MeasuredPoint>& points);
   Status mark_damage(RunHeader& header);
   Result<std::vector<Squareness>> checked_squareness(sqlite::Statement& rows);
-  Status check_exists(std::string_view sql, const char* what, std::int64_t id);
+  enum class RowOf { run, compensation_table, volumetric_table, study };
+  // Error (not_found) with the command that lists what there is.
+  Status check_exists(RowOf table, std::int64_t id);
   // plausibility_read.cpp
   Result<std::optional<Plausibility>> plausibility(std::int64_t run);
   // tables.cpp

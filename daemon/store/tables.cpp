@@ -136,8 +136,7 @@ Squareness squareness_from(const Statement& row) {
 }  // namespace
 
 Result<std::int64_t> Store::add_squareness(const Squareness& s, const std::optional<Deed>& deed) {
-  for (const std::int64_t run : {s.run_a, s.run_b})
-    MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  for (const std::int64_t run : {s.run_a, s.run_b}) MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO squareness (run_x, run_y, EC0Y_rad, u_EC0Y_rad, "
@@ -186,8 +185,7 @@ Result<std::vector<Squareness>> Store::checked_squareness(Statement& rows) {
 Result<std::int64_t> Store::add_table(const CompensationTable& table,
                                       const std::optional<Deed>& deed) {
   MDOF_CHECK(check_shape(table));
-  for (const std::int64_t run : table.runs)
-    MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  for (const std::int64_t run : table.runs) MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(
       Statement insert,
@@ -253,8 +251,7 @@ Result<CompensationTable> Store::table_of(Statement& row) {
 }
 
 Result<CompensationTable> Store::table(std::int64_t id) {
-  MDOF_CHECK(
-      check_exists("SELECT 1 FROM compensation_table WHERE id = ?", "compensation table", id));
+  MDOF_CHECK(check_exists(RowOf::compensation_table, id));
   MDOF_TRY(Statement row, connection_.prepare(std::string(kTable) + "WHERE id = ?"));
   MDOF_CHECK(row.bind(id).step());
   return table_of(row);
@@ -349,7 +346,7 @@ Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const 
 // Which of all activations counts depends on every one of them, so that all are checked; an index
 // that is damaged could hide one.
 Result<ActiveTable> Store::active(Axis axis) {
-  MDOF_CHECK(check_told_head());
+  MDOF_CHECK(check_announced_head());
   MDOF_CHECK(check_activations(connection_));
   MDOF_TRY(Statement row,
            connection_.prepare(

@@ -1,5 +1,5 @@
 // Store: is everything as it was stored?
-#include "daemon/store/file/told_head.h"
+#include "daemon/store/file/announced_head.h"
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 #include "schema/base/sha256.h"
@@ -22,11 +22,11 @@ Result<std::vector<std::string>> Store::verify() {
 
 Status Store::verify_ledger(std::vector<std::string>& findings) {
   MDOF_CHECK(store::verify_ledger(connection_, findings));
-  return check_told_head();
+  return check_announced_head();
 }
 
-Status Store::check_told_head() {
-  return check_head(read_told_head(file()).head);
+Status Store::check_announced_head() {
+  return check_head(read_announced_head(file()).head);
 }
 
 Status Store::check_head(const ChainHead& told) {
@@ -39,7 +39,7 @@ Status Store::check_head(const ChainHead& told) {
                    std::to_string(now.link) +
                    ": what was stored last is gone, or was changed. Restore the database; or, to "
                    "go on with this one, remove " +
-                   told_head_file(file()).string());
+                   announced_head_file(file()).string());
 }
 
 Status Store::verify_file(std::vector<std::string>& findings) {

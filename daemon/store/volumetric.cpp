@@ -79,8 +79,7 @@ Result<std::int64_t> Store::next_table() {
 Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
                                            const std::optional<Deed>& deed) {
   MDOF_CHECK(check_shape(table));
-  for (const std::int64_t run : table.runs)
-    MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", run));
+  for (const std::int64_t run : table.runs) MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(const std::int64_t id, next_table());
   MDOF_TRY(const std::int64_t description, document_id(table.description));
@@ -145,7 +144,7 @@ Result<VolumetricTable> Store::volumetric_of(Statement& row) {
 }
 
 Result<VolumetricTable> Store::volumetric(std::int64_t id) {
-  MDOF_CHECK(check_exists("SELECT 1 FROM volumetric_table WHERE id = ?", "volumetric table", id));
+  MDOF_CHECK(check_exists(RowOf::volumetric_table, id));
   MDOF_TRY(Statement row, connection_.prepare(std::string(kVolumetric) + "WHERE v.id = ?"));
   MDOF_CHECK(row.bind(id).step());
   return volumetric_of(row);
@@ -173,9 +172,7 @@ Result<std::vector<VolumetricTable>> Store::list_volumetric(std::int64_t offset,
 Result<Activation> Store::change_volumetric(std::optional<std::int64_t> table,
                                             const std::string& actor, const std::string& utc,
                                             const std::optional<Deed>& deed) {
-  if (table)
-    MDOF_CHECK(
-        check_exists("SELECT 1 FROM volumetric_table WHERE id = ?", "volumetric table", *table));
+  if (table) MDOF_CHECK(check_exists(RowOf::volumetric_table, *table));
   const auto now = active_volumetric();
   if (!now && now.error().code != ErrorCode::not_found && table) return tl::unexpected(now.error());
   const bool none = !now && now.error().code == ErrorCode::not_found;
@@ -197,7 +194,7 @@ Result<Activation> Store::change_volumetric(std::optional<std::int64_t> table,
 }
 
 Result<ActiveVolumetric> Store::active_volumetric() {
-  MDOF_CHECK(check_told_head());
+  MDOF_CHECK(check_announced_head());
   MDOF_CHECK(check_activations(connection_));
   MDOF_TRY(Statement row,
            connection_.prepare("SELECT generation, volumetric_table, actor, activated_utc FROM "

@@ -172,8 +172,7 @@ Status Store::end_interrupted_runs() {
 
 Result<std::int64_t> Store::insert_run(const RunHeader& header) {
   const Provenance& from = header.provenance;
-  if (header.supersedes)
-    MDOF_CHECK(check_exists("SELECT 1 FROM run WHERE id = ?", "run", *header.supersedes));
+  if (header.supersedes) MDOF_CHECK(check_exists(RowOf::run, *header.supersedes));
   MDOF_TRY(const std::int64_t recording,
            recording_id(from.recording_sha256, from.recording_kind, from.recording_path));
   MDOF_TRY(const std::int64_t rig, document_id(from.rig_text));

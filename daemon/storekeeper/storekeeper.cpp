@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <future>
 
-#include "daemon/store/file/told_head.h"
+#include "daemon/store/file/announced_head.h"
 #include "daemon/storekeeper/storage_errors.h"
 #include "daemon/words/error_text.h"
 
@@ -184,7 +184,7 @@ void Storekeeper::watch_files() {
 // What another program did to the chain since its head was announced.
 std::string Storekeeper::chain_fault() {
   if (!store_) return {};
-  const Status whole = store_->check_head(told_);
+  const Status whole = store_->check_head(announced_);
   if (whole || whole.error().code != ErrorCode::bad_input) return {};
   return words::text(whole.error()) + ", and restart mdofd; until then nothing is stored";
 }
@@ -193,29 +193,29 @@ std::string Storekeeper::chain_fault() {
 void Storekeeper::begin_chain() {
   if (!store_) return;
   const std::lock_guard guard(fault_mutex_);
-  told_ = store::read_told_head(options_.database).head;
-  changes_told_ = -1;
+  announced_ = store::read_announced_head(options_.database).head;
+  changes_announced_ = -1;
 }
 
 void Storekeeper::tell_head() {
-  if (!store_ || !lost_.empty() || store_->changes() == changes_told_) return;
-  changes_told_ = store_->changes();
+  if (!store_ || !lost_.empty() || store_->changes() == changes_announced_) return;
+  changes_announced_ = store_->changes();
   const auto head = store_->chain_head();
-  if (!head || *head == told_ || !store_->check_head(told_)) return;
+  if (!head || *head == announced_ || !store_->check_head(announced_)) return;
   // With less durability a power cut may take what was announced, which is no fault then.
   const auto generation = store_->generation();
   if (options_.durability == store::Durability::full && generation) {
-    const Status written = store::write_told_head(options_.database, {*head, *generation});
+    const Status written = store::write_announced_head(options_.database, {*head, *generation});
     if (!written) note_full(written.error());
   }
   if (events_.head_changed) events_.head_changed(*head);
   const std::lock_guard guard(fault_mutex_);
-  told_ = *head;
+  announced_ = *head;
 }
 
 store::ChainHead Storekeeper::chain_head() const {
   const std::lock_guard guard(fault_mutex_);
-  return told_;
+  return announced_;
 }
 
 void Storekeeper::note_damage(const std::string& what) {

@@ -187,10 +187,10 @@ class Storekeeper {
   std::chrono::steady_clock::time_point tried_{};
   mutable std::mutex fault_mutex_;  // guards the next seven
   std::string lost_, full_, held_, damaged_;
-  store::ChainHead told_;
+  store::ChainHead announced_;
   bool opened_ = false;
   std::map<std::int64_t, std::string> open_because_;
-  std::int64_t changes_told_ = -1;  // of the database, when its head was announced
+  std::int64_t changes_announced_ = -1;  // of the database, when its head was announced
   std::vector<Unended> unended_;
   std::deque<Points> waiting_points_;  // for a foreign program to release the database
   std::size_t waiting_count_ = 0;      // points in them

@@ -68,10 +68,10 @@ Result<std::shared_ptr<Session>> Service::admit(Peer peer, Transport& transport)
   const auto place = place_for(peer);
   if (!place) {
     const std::string& why = place.error().message;
-    if (std::exchange(told_, why) != why) log("clients are turned away: " + why);
+    if (std::exchange(last_refusal_, why) != why) log("clients are turned away: " + why);
     return tl::unexpected(place.error());
   }
-  told_.clear();
+  last_refusal_.clear();
   auto session = std::make_shared<Session>(SessionParts{dispatcher_, topics_, options_},
                                            std::move(peer), transport);
   holders_.push_back({session, *place});

@@ -57,7 +57,7 @@ class Service {
   Dispatcher dispatcher_;
   TopicHub topics_;
   std::vector<Holder> holders_;
-  std::string told_;  // the log, why a client was turned away
+  std::string last_refusal_;  // the log, why a client was turned away
 };
 
 }  // namespace mdof::rpc

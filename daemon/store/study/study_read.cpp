@@ -36,7 +36,7 @@ std::uint64_t natural(std::int64_t x) {
 }  // namespace
 
 Result<StudyRecord> Store::study(std::int64_t id) {
-  MDOF_CHECK(check_exists("SELECT 1 FROM study WHERE id = ?", "study", id));
+  MDOF_CHECK(check_exists(RowOf::study, id));
   MDOF_TRY(Statement row, connection_.prepare(std::string(kStudy) + "WHERE study.id = ?"));
   MDOF_TRY(const bool found, row.bind(id).step());
   if (found) return record_of(row);

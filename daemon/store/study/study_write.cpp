@@ -58,7 +58,7 @@ Status Store::insert_outcome(std::int64_t study, const StudyOutcome& outcome) {
 
 Status Store::save_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint) {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
-  MDOF_CHECK(check_exists("SELECT 1 FROM study WHERE id = ?", "study", study));
+  MDOF_CHECK(check_exists(RowOf::study, study));
   MDOF_CHECK(replace_checkpoint(study, checkpoint));
   return transaction.commit();
 }
@@ -66,7 +66,7 @@ Status Store::save_checkpoint(std::int64_t study, const StudyCheckpoint& checkpo
 Status Store::end_study(std::int64_t study, const StudyOutcome& outcome,
                         const std::optional<StudyCheckpoint>& checkpoint) {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
-  MDOF_CHECK(check_exists("SELECT 1 FROM study WHERE id = ?", "study", study));
+  MDOF_CHECK(check_exists(RowOf::study, study));
   MDOF_CHECK(insert_outcome(study, outcome));
   if (checkpoint) {
     MDOF_CHECK(replace_checkpoint(study, *checkpoint));

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <regex>
 
-#include "daemon/store/file/told_head.h"
+#include "daemon/store/file/announced_head.h"
 #include "daemon/store/store.h"
 #include "tests/daemon/store/fixtures.h"
 #include "tests/shown.h"
@@ -167,17 +167,17 @@ TEST_F(LedgerTest, AChainCalculatedAnewHasNotTheHeadThatWasTold) {
     auto store = reader();
     told = store->chain_head().value();
     generation = store->generation().value();
-    ASSERT_TRUE(store->check_told_head()) << "nothing was told";
+    ASSERT_TRUE(store->check_announced_head()) << "nothing was told";
     EXPECT_GT(told.link, 0);
   }
-  ASSERT_TRUE(write_told_head(file_, {told, generation}));
+  ASSERT_TRUE(write_announced_head(file_, {told, generation}));
   EXPECT_TRUE(reader()->active(Axis::x));
   EXPECT_TRUE(reader()->verify()->empty());
   {  // an ordinary change goes on from it
     ASSERT_TRUE(writer()->add_run(make_run(4)));
     auto store = reader();
     EXPECT_NE(store->chain_head()->link, told.link);
-    EXPECT_TRUE(store->check_told_head());
+    EXPECT_TRUE(store->check_announced_head());
     EXPECT_TRUE(store->has_hash(told.sha256).value());
   }
   const std::string whole = contents(file_);
@@ -192,13 +192,13 @@ TEST_F(LedgerTest, AChainCalculatedAnewHasNotTheHeadThatWasTold) {
   auto store = reader();
   EXPECT_FALSE(store->has_hash(told.sha256).value());
   for (const Status& noticed :
-       {store->check_told_head(), Status(store->active(Axis::x).map([](auto&&) {}))}) {
+       {store->check_announced_head(), Status(store->active(Axis::x).map([](auto&&) {}))}) {
     ASSERT_FALSE(noticed);
     EXPECT_TRUE(contains(noticed.error().message, "which mdofd reported last"))
         << noticed.error().message;
   }
   EXPECT_EQ(store->verify()->size(), 1u) << store->verify()->front();
-  fs::remove(told_head_file(file_));
+  fs::remove(announced_head_file(file_));
   EXPECT_TRUE(reader()->verify()->empty()) << "the chain itself fits";
   EXPECT_EQ(reader()->active(Axis::x)->table.id, 1);
 }

@@ -4,7 +4,7 @@
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
 #include "tools/mdof/commands/command.h"
-#include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/commands/compensation/active_table.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/database_writer.h"

@@ -3,7 +3,7 @@
 
 #include "schema/axis.h"
 #include "tools/mdof/commands/command.h"
-#include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/commands/compensation/active_table.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"

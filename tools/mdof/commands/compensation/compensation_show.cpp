@@ -7,7 +7,7 @@
 #include "daemon/words/error_text.h"
 #include "schema/axis.h"
 #include "tools/mdof/commands/command.h"
-#include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/commands/compensation/active_table.h"
 #include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/csv/table_csv.h"
 #include "tools/mdof/options.h"

@@ -14,7 +14,7 @@
 #include "schema/imported/series.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
-#include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/commands/compensation/active_table.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/text/text_table.h"

@@ -10,13 +10,13 @@
 
 namespace mdof::store {
 
-std::filesystem::path told_head_file(const std::filesystem::path& database);
-struct ToldHead {
+std::filesystem::path announced_head_file(const std::filesystem::path& database);
+struct AnnouncedHead {
   ChainHead head;               // link 0: none was announced, or the file cannot be read
   std::int64_t generation = 0;  // of the active tables
 };
-ToldHead read_told_head(const std::filesystem::path& database);
+AnnouncedHead read_announced_head(const std::filesystem::path& database);
 // Replaces the file in one step. Not flushed: after a power cut an older head is as good.
-Status write_told_head(const std::filesystem::path& database, const ToldHead& told);
+Status write_announced_head(const std::filesystem::path& database, const AnnouncedHead& announced);
 
 }  // namespace mdof::store

@@ -1,4 +1,4 @@
-#include "tools/mdof/commands/compensation/in_force.h"
+#include "tools/mdof/commands/compensation/active_table.h"
 
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/json_read.h"

@@ -108,9 +108,9 @@ struct App::Parts {
   void read_anew();
   void start_stations();
   std::optional<DatumSetting> last_datum(Axis axis);
-  void tell(const char* topic, const std::string& json, std::string_view of = "");
+  void report(const char* topic, const std::string& json, std::string_view of = "");
   void to_journal(Axis axis, const Trouble& trouble);
-  void heed_signals();
+  void handle_signals();
   Status listen();
   void watch();
   void watch_clock();
@@ -123,7 +123,7 @@ struct App::Parts {
 Status App::Parts::open_store() {
   Storekeeper::Events events;
   events.recorded = [this](std::int64_t run, std::int64_t seq) {
-    loop.post([this, run, seq] { tell(kRunTopic, recorded_json(run, seq)); });
+    loop.post([this, run, seq] { report(kRunTopic, recorded_json(run, seq)); });
   };
   events.failed = [this](std::int64_t run, const Error& error) {
     loop.post([this, run, error] {
@@ -139,7 +139,7 @@ Status App::Parts::open_store() {
       std::fprintf(stderr, "storage %s%s%s\n", now.state.c_str(), now.reason.empty() ? "" : ": ",
                    now.reason.c_str());
       if (now.state == "ok") read_anew();
-      tell(kRunTopic, storage_json(now));
+      report(kRunTopic, storage_json(now));
     });
   };
   events.head_changed = [](const store::ChainHead& head) {
@@ -166,17 +166,17 @@ void App::Parts::read_anew() {
 void App::Parts::start_stations() {
   StationEvents events;
   events.run_event = [this](std::string json) {
-    loop.post([this, json = std::move(json)] { tell(kRunTopic, json); });
+    loop.post([this, json = std::move(json)] { report(kRunTopic, json); });
   };
   events.trouble = [this](Axis axis, std::int64_t run, const Trouble& trouble) {
     loop.post([this, axis, run, trouble] {
-      tell(kRunTopic, trouble_json(axis, run, trouble));
+      report(kRunTopic, trouble_json(axis, run, trouble));
       to_journal(axis, trouble);
     });
   };
   for (auto& axis : config.axes) {
     events.live = [this, of = std::string(1, letter(axis.rig.axis))](std::string json) {
-      loop.post([this, of, json = std::move(json)] { tell(kLiveTopic, json, of); });
+      loop.post([this, of, json = std::move(json)] { report(kLiveTopic, json, of); });
     };
     stations.push_back(std::make_unique<Station>(axis, config.measure, config.text,
                                                  config.recordings, *keeper, events,
@@ -194,11 +194,12 @@ std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
 }
 
 // A message that cannot be sent is counted, which clients see, and the journal says why.
-void App::Parts::tell(const char* topic, const std::string& json, std::string_view of) {
-  const Status told = service.publish(topic, json, of);
-  if (told) return;
+void App::Parts::report(const char* topic, const std::string& json, std::string_view of) {
+  const Status reported = service.publish(topic, json, of);
+  if (reported) return;
   const auto now = std::chrono::steady_clock::now();
-  if (const auto text = journal.admit(std::string("publish ") + topic, told.error().message, now))
+  if (const auto text =
+          journal.admit(std::string("publish ") + topic, reported.error().message, now))
     std::fprintf(stderr, "%s\n", printable(*text).c_str());
 }
 
@@ -221,7 +222,7 @@ Status App::Parts::listen() {
                                               std::chrono::steady_clock::now()});
   methods->replayer = replayer.get();
   methods->announce = [this](std::int64_t generation) {
-    tell(kRunTopic, compensation_json(generation));
+    report(kRunTopic, compensation_json(generation));
   };
   MDOF_TRY(methods->generation, reader->generation());
   // Never back, though what raised it is lost.
@@ -275,11 +276,11 @@ void App::Parts::watch_clock() {
   if (!step_ns) return;
   const double step_s = static_cast<double>(*step_ns) * 1e-9;
   std::fprintf(stderr, "the time of day was set by %.3f s; the measurement continues\n", step_s);
-  tell(kRunTopic, clock_json(step_s));
+  report(kRunTopic, clock_json(step_s));
 }
 
 // A signal that comes while the parts are still made waits for the loop, which then ends at once.
-void App::Parts::heed_signals() {
+void App::Parts::handle_signals() {
   std::vector<int> signals{SIGTERM, SIGINT};
   struct sigaction hang_up {};
   ::sigaction(SIGHUP, nullptr, &hang_up);
@@ -310,7 +311,7 @@ App::~App() = default;
 Result<std::unique_ptr<App>> App::create(Config config) {
   sqlite::survive_cut_shm();
   auto parts = std::make_unique<Parts>(std::move(config));
-  parts->heed_signals();
+  parts->handle_signals();
   MDOF_CHECK(parts->open_store());
   parts->start_stations();
   MDOF_CHECK(parts->listen());

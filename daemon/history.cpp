@@ -29,7 +29,7 @@ Actor this_process() {
   return actor_of(::getuid(), ::getgid(), ::getpid());
 }
 
-Deed deed_now(std::string name, Actor by) {
+Action action_now(std::string name, Actor by) {
   return {.name = std::move(name), .by = std::move(by), .utc = utc_now()};
 }
 
@@ -38,19 +38,22 @@ std::string actor_text(const Actor& actor) {
          " gid " + std::to_string(actor.gid) + " pid " + std::to_string(actor.pid);
 }
 
-std::string deed_json(const Deed& deed) {
+std::string action_json(const Action& action) {
   JsonWriter json;
-  json.begin_object().field("deed", deed.name).field("of", deed.subject).field("id", deed.row);
-  json.field("utc", deed.utc).field("uid", deed.by.uid).field("gid", deed.by.gid);
-  json.field("pid", deed.by.pid).field("user", deed.by.user);
-  if (!deed.detail.empty()) json.field("detail", deed.detail);
+  json.begin_object()
+      .field("deed", action.name)
+      .field("of", action.subject)
+      .field("id", action.row);
+  json.field("utc", action.utc).field("uid", action.by.uid).field("gid", action.by.gid);
+  json.field("pid", action.by.pid).field("user", action.by.user);
+  if (!action.detail.empty()) json.field("detail", action.detail);
   json.end_object();
   return json.take();
 }
 
-void write_deeds(JsonWriter& json, const std::vector<Deed>& deeds) {
+void write_actions(JsonWriter& json, const std::vector<Action>& actions) {
   json.begin_array();
-  for (const Deed& deed : deeds) json.raw(deed_json(deed));
+  for (const Action& action : actions) json.raw(action_json(action));
   json.end_array();
 }
 

@@ -99,11 +99,11 @@ class Fit {
   }
 
   void judge(MountingCalibration& found) const;
-  void tell_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
-                  const Eigen::MatrixXd& covariance, MountedProbe& out) const;
+  void report_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
+                    const Eigen::MatrixXd& covariance, MountedProbe& out) const;
   double u_of(Eigen::Index unknown, const Unseen& unseen, const Eigen::MatrixXd& covariance) const;
-  void tell_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
-                       MountingCalibration& found) const;
+  void report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
+                         MountingCalibration& found) const;
 
   MountingModel model_;
   Eigen::VectorXd pose_, probe_;
@@ -119,8 +119,8 @@ double Fit::u_of(Eigen::Index unknown, const Unseen& unseen,
   return std::sqrt(covariance(unknown, unknown) + share * scale * scale);
 }
 
-void Fit::tell_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
-                     const Eigen::MatrixXd& covariance, MountedProbe& out) const {
+void Fit::report_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
+                       const Eigen::MatrixXd& covariance, MountedProbe& out) const {
   const Eigen::VectorXd found = change();
   const auto seen = [&](MountingUnknown which) {
     return unseen.share(unknown_of(k, which)) <= kUnseenShare;
@@ -171,8 +171,8 @@ void Fit::tell_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
 
 // Of the places and directions along the machine's axes and the zeros that are seen, with the
 // diagonal of u_of().
-void Fit::tell_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
-                          MountingCalibration& found) const {
+void Fit::report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
+                            MountingCalibration& found) const {
   Eigen::MatrixXd all = covariance;
   for (Eigen::Index i = 0; i < all.rows(); ++i) {
     const double unseen_part = model_.scale()(i);
@@ -238,8 +238,8 @@ MountingFit Fit::result(const Rig& rig, const std::vector<Clamping>& clampings) 
   fit.found.clampings = clampings.size();
   fit.found.probes.resize(rig.probes.size());
   for (std::size_t k = 0; k < rig.probes.size(); ++k)
-    tell_probe(rig, k, unseen, fit.covariance, fit.found.probes[k]);
-  tell_covariance(rig, unseen, fit.covariance, fit.found);
+    report_probe(rig, k, unseen, fit.covariance, fit.found.probes[k]);
+  report_covariance(rig, unseen, fit.covariance, fit.found);
   for (std::size_t i = 0; i < clampings.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const Errors5 a = model_.angles_of(pose_, i), b = model_.angles_of(pose_, j);

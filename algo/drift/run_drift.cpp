@@ -20,7 +20,7 @@ constexpr double kLeastScatter_m = 1e-12;
 
 using Points = std::vector<const MeasuredPoint*>;
 
-Points that_tell(const std::vector<MeasuredPoint>& points) {
+Points usable_for_drift(const std::vector<MeasuredPoint>& points) {
   Points out;
   for (const MeasuredPoint& p : points)
     if (p.errors.valid && p.point.direction != 0) out.push_back(&p);
@@ -187,23 +187,23 @@ bool RunDrift::removable() const {
 }
 
 DriftOfRun::DriftOfRun(const std::vector<MeasuredPoint>& points) {
-  const Points tell = that_tell(points);
-  found_.closures = closures_of(tell);
-  if (tell.empty()) {
-    found_.not_seen = why_not_seen(design_of(tell));
+  const Points report = usable_for_drift(points);
+  found_.closures = closures_of(report);
+  if (report.empty()) {
+    found_.not_seen = why_not_seen(design_of(report));
     return;
   }
-  found_.length_s = time_of_s(*tell.back()) - time_of_s(*tell.front());
-  fit_.emplace(errors_fit(tell));
+  found_.length_s = time_of_s(*report.back()) - time_of_s(*report.front());
+  fit_.emplace(errors_fit(report));
   if (fit_->design().orders() == 0) {
     found_.not_seen = why_not_seen(fit_->design());
     fit_.reset();
     return;
   }
   for (std::size_t k = 0; k < kErrorCount; ++k)
-    if (fit_->series()[k].significant() && may_be_steps(tell, *fit_, k)) fit_->take_for_steps(k);
+    if (fit_->series()[k].significant() && may_be_steps(report, *fit_, k)) fit_->take_for_steps(k);
   std::copy_n(fit_->series().begin(), kErrorCount, found_.errors.begin());
-  found_.probes = drifts_of_probes(tell);
+  found_.probes = drifts_of_probes(report);
 }
 
 std::vector<MeasuredPoint> DriftOfRun::without(std::vector<MeasuredPoint> points) const {

@@ -11,7 +11,7 @@ namespace {
 // Of the largest variance: what is below it is rounding of a parabola.
 constexpr double kRoundingOfParabola = 2e-15;
 
-bool goes_with(const MachineFrame& frame, std::size_t direction) {
+bool moves_along(const MachineFrame& frame, std::size_t direction) {
   const char axis = "XYZ"[direction];
   if (frame.moves_with != 0) return frame.moves_with == axis;
   return frame.kind == FrameKind::linear && frame.id[0] == axis;
@@ -54,10 +54,10 @@ void GridErrors::Chain::add(const Segment& next) {
 void GridErrors::add_frame(const MachineFrame& frame, const GridPlan& plan) {
   Segment actual, nominal;
   std::size_t count = 1;
-  if (goes_with(frame, plan.first)) {
+  if (moves_along(frame, plan.first)) {
     actual.varies = Varies::with_first;
     count = plan.first_m.size();
-  } else if (goes_with(frame, plan.second)) {
+  } else if (moves_along(frame, plan.second)) {
     actual.varies = Varies::with_second;
     count = plan.second_m.size();
   }
@@ -86,7 +86,7 @@ GridErrors::GridErrors(const Machine& machine, const GridPlan& plan)
 std::vector<FrameValues> GridVariances::values(const Command& command, bool of_first) const {
   auto all = values_at(machine_, command, plan_.approach);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (goes_with(machine_.frames[i], plan_.first) == of_first) continue;
+    if (moves_along(machine_.frames[i], plan_.first) == of_first) continue;
     all[i].u_parts.setZero();
     all[i].u_location = {};
     all[i].shared.clear();

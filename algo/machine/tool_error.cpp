@@ -121,8 +121,8 @@ bool counts_as_missing(const Machine& machine, const ErrorDerivative& d) {
   return frame.kind != FrameKind::fixed && !is_known(frame, d) && !stands_for_another(machine, d);
 }
 
-void name_what_is_missing(const Machine& machine, const std::vector<ErrorDerivative>& all,
-                          ToolError& error) {
+void name_missing_errors(const Machine& machine, const std::vector<ErrorDerivative>& all,
+                         ToolError& error) {
   for (const ErrorDerivative& d : all) {
     const bool known = is_known(machine.frames[d.frame], d);
     const bool missing = counts_as_missing(machine, d);
@@ -263,7 +263,7 @@ ToolError tool_error(const Machine& machine, const Command& command, MachineAppr
                   {},
                   {},
                   {}};
-  name_what_is_missing(machine, all, error);
+  name_missing_errors(machine, all, error);
   for (double& u : error.u)
     if (u == 0) u = kNaN;
   for (std::size_t i = 0; i < values.size(); ++i)

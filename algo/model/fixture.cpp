@@ -48,7 +48,7 @@ Result<const TargetPlane*> named_plane(const Rig& rig, const Probe& probe) {
 
 // The plane that a probe looks at; nullptr: the rig has none, so one across the probe.
 Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
-  constexpr double kLooksAt = 0.5, kDoubt = 0.15;  // cosines
+  constexpr double kLooksAt = 0.5, kMargin = 0.15;  // cosines
   if (!probe.plane.empty()) return named_plane(rig, probe);
   if (rig.planes.empty()) return nullptr;
   const TargetPlane *best = nullptr, *second = nullptr;
@@ -64,7 +64,7 @@ Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
     return bad_input(rig.source + ": probe \"" + probe.id +
                      "\" looks at none of the [[plane]] tables (its direction is more than 60° "
                      "from every normal); add the plane it measures");
-  if (second && cosine(*second, probe) > cosine(*best, probe) - kDoubt)
+  if (second && cosine(*second, probe) > cosine(*best, probe) - kMargin)
     return bad_input(
         rig.source + ": probe \"" + probe.id + "\" may look at the plane \"" + best->id +
         "\" or at \"" + second->id +

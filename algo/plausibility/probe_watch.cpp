@@ -48,7 +48,7 @@ void ProbeWatch::take_newest(const FrameBlock& frames, std::size_t first, std::s
       continue;
     }
     const double newest = x[n - 1];
-    let_go(probe, newest, frames.time_ns[last - 1]);
+    release(probe, newest, frames.time_ns[last - 1]);
     std::size_t same = 0;
     while (same < n && x[n - 1 - same] == newest) ++same;
     probe.rows = same;
@@ -66,7 +66,7 @@ void ProbeWatch::hold(Probe& probe, std::size_t index, double low_m, double high
   probe.frozen.push_back({index, probe.since_ns, INT64_MAX, probe.held_m});
 }
 
-void ProbeWatch::let_go(Probe& probe, double reading_m, std::int64_t time_ns) {
+void ProbeWatch::release(Probe& probe, double reading_m, std::int64_t time_ns) {
   if (probe.is_frozen) {
     probe.frozen.back().end_ns = time_ns;
   } else if (probe.begun) {

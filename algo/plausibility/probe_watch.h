@@ -75,7 +75,7 @@ class ProbeWatch {
   };
 
   void hold(Probe& probe, std::size_t index, double low_m, double high_m);
-  void let_go(Probe& probe, double reading_m, std::int64_t time_ns);
+  void release(Probe& probe, double reading_m, std::int64_t time_ns);
   bool noise_says_frozen(const Probe& probe) const;
   bool travel_says_frozen(const Probe& probe) const;
 

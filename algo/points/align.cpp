@@ -130,7 +130,7 @@ Status Aligner::push(SampleBlock& block, FrameBlock& out) {
     if (out.size() == 0) clear_columns(out);
     MDOF_CHECK(enqueue(block));
     emit(out, false);
-    let_go_of_what_is_too_old();
+    drop_expired_samples();
     return {};
   }
   if (block.time_ns.front() <= encoder_.newest_ns) {
@@ -238,7 +238,7 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
 }
 
 // Where encoder positions wait, emit() drops what they have left behind.
-void Aligner::let_go_of_what_is_too_old() {
+void Aligner::drop_expired_samples() {
   if (!encoder_.readings.empty()) return;
   const std::int64_t oldest_ns = newest_ns_ - 2 * lag_bound_ns_ - to_ns(1);
   for (Track& probe : probes_) {

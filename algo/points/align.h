@@ -84,7 +84,7 @@ class Aligner {
   Status enqueue(const SampleBlock& block);
   Status enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track);
   void emit(FrameBlock& out, bool at_end);
-  void let_go_of_what_is_too_old();
+  void drop_expired_samples();
   static Reading value_at(Track& track, std::int64_t time_ns);
   static bool has_fresh(Track& track, std::int64_t time_ns);
   void mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const;

@@ -343,15 +343,15 @@ void DwellDetector::pass_hole() {
   const double before_m = encoder_before_[1];
   note({DwellEventKind::hole, last_ns_, before_m, buffer_.encoder_m[row_] - before_m,
         ns_to_s(length_ns)});
-  const bool told = !breaks_.empty() && breaks_.front() <= last_ns_;
-  if (length_ns > std::max(kUnseen_ns, 2 * hole_ns_) && !told) {
+  const bool reported = !breaks_.empty() && breaks_.front() <= last_ns_;
+  if (length_ns > std::max(kUnseen_ns, 2 * hole_ns_) && !reported) {
     breaks_.push_front(last_ns_);
   }
 }
 
 void DwellDetector::pass_break(std::vector<Point>& out) {
   breaks_.pop_front();
-  end_of_sight(out);
+  end_of_visible_rows(out);
   slots_.clear();
   path_.clear();
   left_ns_ = 0;
@@ -361,11 +361,11 @@ void DwellDetector::pass_break(std::vector<Point>& out) {
 
 void DwellDetector::flush(std::vector<Point>& out) {
   if (period_ns_ == 0 && early_.size() >= 2) start(out);
-  end_of_sight(out);
+  end_of_visible_rows(out);
 }
 
 // The axis may still stand: an empty slot stands for the one that leaves the window.
-void DwellDetector::end_of_sight(std::vector<Point>& out) {
+void DwellDetector::end_of_visible_rows(std::vector<Point>& out) {
   if (slot_open_) close_slot(out);
   if (!dwelling_) return;
   Slot after = slots_.back();

@@ -126,7 +126,7 @@ class DwellDetector {
   void begin_dwell();
   void end_dwell(std::vector<Point>& out);
   std::size_t end_of_rest(const Slot& last) const;
-  void end_of_sight(std::vector<Point>& out);
+  void end_of_visible_rows(std::vector<Point>& out);
   void pass_break(std::vector<Point>& out);
   Point average(std::size_t from, std::size_t to);
   std::span<const double> own_readings(std::size_t probe, std::size_t from, std::size_t to,

@@ -138,8 +138,8 @@ const char* to_string(Cycle cycle) {
 int Passes::next(const Visit& visit) {
   follow(visit.target);
   if (heading_ == 0) ++(visit.direction > 0 ? forward_before_ : reverse_before_);
-  const bool goes_on = heading_ == visit.direction;
-  return (visit.direction > 0 ? forward_ : reverse_) + (goes_on ? 0 : 1);
+  const bool continues = heading_ == visit.direction;
+  return (visit.direction > 0 ? forward_ : reverse_) + (continues ? 0 : 1);
 }
 
 void Passes::follow(int target) {

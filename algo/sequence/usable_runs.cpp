@@ -22,7 +22,7 @@ Status check_state(const Run& run, bool take_partial, const std::string& what) {
   return bad_input(is + "; build " + what + " from complete runs");
 }
 
-bool goes_on_from(const Run& run, const Run& other) {
+bool continues_from(const Run& run, const Run& other) {
   return run.header.supersedes && *run.header.supersedes == other.header.id;
 }
 
@@ -49,8 +49,8 @@ std::string in_common(const Run& a, const Run& b) {
   if (!sha256.empty() && sha256 == b.header.provenance.recording_sha256)
     return name_of(a) + " and " + name_of(b) + " are of the same recording (" +
            b.header.provenance.recording_path + ")";
-  if (goes_on_from(b, a)) return name_of(b) + " goes on from " + name_of(a) + " and holds it";
-  if (goes_on_from(a, b)) return name_of(a) + " goes on from " + name_of(b) + " and holds it";
+  if (continues_from(b, a)) return name_of(b) + " goes on from " + name_of(a) + " and holds it";
+  if (continues_from(a, b)) return name_of(a) + " goes on from " + name_of(b) + " and holds it";
   if (share_a_reading(a, b)) return name_of(a) + " and " + name_of(b) + " have readings in common";
   return "";
 }

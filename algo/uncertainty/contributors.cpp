@@ -118,7 +118,7 @@ std::vector<double> by_mounting(const Basis& basis, const Fixture& fixture, Set 
 }
 
 template <class Set>
-PointShifts by_whole_mounting(const Basis& basis, Set set) {
+PointShifts by_mounting(const Basis& basis, Set set) {
   const std::vector<double> change = by_mounting(basis, basis.solver.fixture(), set);
   return by_all_probes(
       basis, [&](std::size_t j, std::size_t k) { return change[j * basis.probes() + k]; });
@@ -279,19 +279,17 @@ class List {
       add(std::string("installation: angle about ") + kAxisLetters[c], "u_angle_mrad",
           u.installation_angle.component(c), 1e3, "mrad",
           [c, size = u.installation_angle.u[c]](const Basis& b) {
-            return std::vector<PointShifts>{
-                by_whole_mounting(b, [&](Mounting& mounting, double sign) {
-                  mounting.part[kFixture].turn = b.local(along_axis(c, sign * size));
-                })};
+            return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
+              mounting.part[kFixture].turn = b.local(along_axis(c, sign * size));
+            })};
           });
     for (std::size_t c = 0; c < 3; ++c)
       add(std::string("installation: offset ") + kAxisLetters[c], "u_offset_mm",
           u.installation_offset.component(c), 1e3, "mm",
           [c, size = u.installation_offset.u[c]](const Basis& b) {
-            return std::vector<PointShifts>{
-                by_whole_mounting(b, [&](Mounting& mounting, double sign) {
-                  mounting.part[kFixture].shift = b.local(along_axis(c, sign * size));
-                })};
+            return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
+              mounting.part[kFixture].shift = b.local(along_axis(c, sign * size));
+            })};
           });
   }
 
@@ -375,7 +373,7 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   for (auto&& more : {physics_contributors(rig, basis->solver, run, basis->points),
                       expansion_contributors(rig, basis->solver, basis->points)})
     list.insert(list.end(), more.begin(), more.end());
-  name_what_goes_with_probes(rig, list);
+  name_probe_correlations(rig, list);
   name_common_surfaces(rig, list);
   std::move(own.begin(), own.end(), std::back_inserter(list));
   return list;

@@ -19,7 +19,7 @@ double of(const ChannelDelays& delays, const std::string& id) {
 }
 
 // "": it is one of the rig's.
-std::string doubt_of(const std::string& id, const Rig& rig) {
+std::string delay_problem(const std::string& id, const Rig& rig) {
   std::vector<std::string> known = {kEncoderChannel};
   for (const Probe& probe : rig.probes) known.push_back(probe.id);
   if (std::find(known.begin(), known.end(), id) != known.end()) return "";
@@ -41,7 +41,8 @@ void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDela
     const std::string id = channel.string("id", "");
     const double delay_us = channel.number("delay_us", 0);
     if (!channel.has("delay_us")) continue;
-    if (const std::string doubt = doubt_of(id, rig); !doubt.empty()) channel.reject("id", doubt);
+    if (const std::string problem = delay_problem(id, rig); !problem.empty())
+      channel.reject("id", problem);
     if (!(delay_us >= 0 && delay_us <= kMost_us)) {
       channel.reject("delay_us", "must be from 0 to " + plain_number(kMost_us, kDigits) +
                                      ": by how much later than its time stamp says this channel "

@@ -103,10 +103,11 @@ std::vector<std::string> table_notes(const std::vector<Run>& runs) {
   return notes;
 }
 
-Status store_table(store::Store& store, CompensationTable& table, const std::optional<Deed>& deed) {
+Status store_table(store::Store& store, CompensationTable& table,
+                   const std::optional<Action>& action) {
   table.created_utc = utc_now();
   table.sha256 = table_sha256(table);
-  MDOF_TRY(table.id, store.add_table(table, deed));
+  MDOF_TRY(table.id, store.add_table(table, action));
   return {};
 }
 
@@ -131,7 +132,7 @@ Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& re
 
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request) {
   MDOF_TRY(BuiltTable built, calculate_table(store, request));
-  MDOF_CHECK(store_table(store, built.table, request.deed));
+  MDOF_CHECK(store_table(store, built.table, request.action));
   return built;
 }
 
@@ -181,11 +182,11 @@ Result<store::Activation> activate_table(store::Store& store, const ActivationRe
 Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request,
                                            const store::Marks& marks) {
   MDOF_TRY(const bool volumetric, store.is_volumetric(request.table));
-  const std::string actor = actor_text(request.deed.by);
+  const std::string actor = actor_text(request.action.by);
   MDOF_TRY(auto done,
            volumetric
-               ? store.change_volumetric(request.table, actor, request.deed.utc, request.deed)
-               : store.activate(request.table, actor, request.deed.utc, request.deed));
+               ? store.change_volumetric(request.table, actor, request.action.utc, request.action)
+               : store.activate(request.table, actor, request.action.utc, request.action));
   done.marks = marks;
   return done;
 }
@@ -208,7 +209,7 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
 }
 
 Status store_squareness(store::Store& store, Squareness& squareness,
-                        const std::optional<Deed>& deed) {
+                        const std::optional<Action>& action) {
   MDOF_TRY(const auto before, store.squareness_of(squareness.run_a, squareness.run_b));
   for (const Squareness& stored : before) {
     squareness.id = stored.id;
@@ -216,7 +217,7 @@ Status store_squareness(store::Store& store, Squareness& squareness,
     if (squareness == stored) return {};
   }
   squareness.created_utc = utc_now();
-  MDOF_TRY(squareness.id, store.add_squareness(squareness, deed));
+  MDOF_TRY(squareness.id, store.add_squareness(squareness, action));
   return {};
 }
 
@@ -248,7 +249,7 @@ Status check_axes(const SquarenessRequest& request, const Run& a, const Run& b) 
 
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
   MDOF_TRY(FittedSquareness fitted, calculate_squareness(store, request));
-  MDOF_CHECK(store_squareness(store, fitted.squareness, request.deed));
+  MDOF_CHECK(store_squareness(store, fitted.squareness, request.action));
   return fitted;
 }
 

@@ -231,7 +231,7 @@ Status Pipeline::explain_nothing() const {
                      "encoder's channel and unit");
   }
   if (unplaced_ > 0 && unplaced_ == found_.size()) return bad_input(words::text(not_placed()));
-  const auto doubt = algo::encoder_unit_notice(s.encoder_max_m - s.encoder_min_m);
+  const auto problem = algo::encoder_unit_notice(s.encoder_max_m - s.encoder_min_m);
   if (!found_.empty()) {
     return bad_input("none of the " + std::to_string(found_.size()) +
                      " stops is near a given target; check targets_mm");
@@ -242,7 +242,7 @@ Status Pipeline::explain_nothing() const {
                        plain_number(s.longest_still_s) + " s" + " within " +
                        plain_number(to_um(s.tolerance_m)) + " um" + ", needed are " +
                        plain_number(options_.dwell.shortest_s()) + " s" +
-                       (doubt ? "; " + words::text(*doubt) : ""),
+                       (problem ? "; " + words::text(*problem) : ""),
                    Remedy::stop_longer);
 }
 
@@ -339,7 +339,7 @@ Result<Run> Pipeline::finish() {
   for (auto& [probe, why] : aligner_.too_slow()) notices.push_back(std::move(why));
   add_plausibility(run);
   run.points = sequence_.points;
-  corrections_.tell(solver_, found_, run);
+  corrections_.report(solver_, found_, run);
   append(notices, dwell_.notices(found_));
   if (auto contradiction = residuals().contradiction(run.points))
     notices.push_back(std::move(*contradiction));

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/deed.h"
+#include "schema/action.h"
 #include "schema/encoder_datum.h"
 #include "schema/notice/notice.h"
 
@@ -28,7 +28,7 @@ struct RunRequest {
   Notices notices;                   // to be kept with the run
   std::vector<std::string> notes;    // for whoever asks; they follow from its options
   std::optional<CutOffRun> resumes;  // goes on from there
-  std::optional<Deed> deed = std::nullopt;  // who asks for it
+  std::optional<Action> action = std::nullopt;  // who asks for it
 };
 
 }  // namespace mdof::daemon

@@ -55,13 +55,13 @@ Result<TableRequest> read_table_request(const Params& params) {
 void build(Methods& m, const Params& params, Reply reply) {
   auto request = read_table_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
-  request->deed = deed_of(params, "compensation.build");
+  request->action = action_of(params, "compensation.build");
   answer_with_change(
       m, std::move(reply), [request = *request](store::Store& reader) -> Result<Change> {
         MDOF_TRY(auto calculated, calculate_table(reader, request));
         return [built = std::move(calculated),
-                deed = request.deed](store::Store& store) mutable -> Result<std::string> {
-          MDOF_CHECK(store_table(store, built.table, deed));
+                action = request.action](store::Store& store) mutable -> Result<std::string> {
+          MDOF_CHECK(store_table(store, built.table, action));
           JsonWriter json;
           json.begin_object();
           write_table_members(json, built.table);
@@ -76,7 +76,7 @@ void activate(Methods& m, const Params& params, Reply reply) {
   const ActivationRequest request{
       params.integer("table"),
       {params.boolean("simulated", false), params.boolean("despite_warnings", false)},
-      deed_of(params, "compensation.activate")};
+      action_of(params, "compensation.activate")};
   answer_with_change(m, std::move(reply), [&m, request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(const store::Marks marks, check_activation(reader, request));
     return change_active(
@@ -89,15 +89,15 @@ void deactivate(Methods& m, const Params& params, Reply reply) {
   if (is_volume(params)) return deactivate_volume(m, params, std::move(reply));
   const auto axis = axis_param(params);
   if (!axis) return reply(tl::unexpected(axis.error()));
-  answer_with_change(
-      m, std::move(reply),
-      [&m, axis = *axis,
-       deed = deed_of(params, "compensation.deactivate")](store::Store&) -> Result<Change> {
-        return change_active(m, std::string("\"axis\":\"") + letter(axis) + "\"",
-                             [axis, deed](store::Store& store) {
-                               return store.deactivate(axis, actor_text(deed.by), deed.utc, deed);
-                             });
-      });
+  answer_with_change(m, std::move(reply),
+                     [&m, axis = *axis, action = action_of(params, "compensation.deactivate")](
+                         store::Store&) -> Result<Change> {
+                       return change_active(m, std::string("\"axis\":\"") + letter(axis) + "\"",
+                                            [axis, action](store::Store& store) {
+                                              return store.deactivate(axis, actor_text(action.by),
+                                                                      action.utc, action);
+                                            });
+                     });
 }
 
 std::string status(const Methods& m) {

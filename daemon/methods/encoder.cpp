@@ -32,9 +32,9 @@ void set_encoder(Methods& m, const Params& params, Reply reply) {
   const auto station = station_of(m, *axis);
   if (!station) return reply(tl::unexpected(station.error()));
   const double position_mm = params.number("position_mm");
-  const Deed deed = deed_of(params, "encoder.set");
+  const Action action = action_of(params, "encoder.set");
   auto shared = std::make_shared<Reply>(std::move(reply));
-  (*station)->set_encoder(from_mm(position_mm), deed, [=](const Result<EncoderDatum>& set) {
+  (*station)->set_encoder(from_mm(position_mm), action, [=](const Result<EncoderDatum>& set) {
     if (!set) return (*shared)(tl::unexpected(set.error()));
     std::fprintf(stderr, "axis %c: its encoder is set to %.4f mm by %s (offset now %.4f mm)\n",
                  letter(*axis), position_mm, set->by.c_str(), to_mm(set->offset_m));

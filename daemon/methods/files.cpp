@@ -91,7 +91,7 @@ void store_run(Methods& m, const Params& params, Result<Request> request, MakeRu
   const FileUser user{who->uid, who->gid, params.caller().further_groups()};
   m.replayer->start([request = std::move(*request), user, make](
                         const ProgressCallback& progress) { return make(request, user, progress); },
-                    deed_of(params, method),
+                    action_of(params, method),
                     [shared](const Result<std::int64_t>& id) {
                       if (!id) return (*shared)(tl::unexpected(id.error()));
                       JsonWriter json;

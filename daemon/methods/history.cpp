@@ -10,17 +10,17 @@ using rpc::count_param;
 using rpc::offset_param;
 using rpc::Params;
 
-constexpr std::int64_t kMaxDeedsPage = 200;
+constexpr std::int64_t kMaxActionsPage = 200;
 
 Result<QueryThread::Work> list_history(Methods&, const Params& params) {
-  const rpc::ListPage page = list_page_of(params, kMaxDeedsPage);
+  const rpc::ListPage page = list_page_of(params, kMaxActionsPage);
   return [page](store::Store& store) -> Result<std::string> {
-    MDOF_TRY(const auto deeds, store.list_deeds(page.offset, page.count));
-    MDOF_TRY(const auto total, store.count_deeds());
+    MDOF_TRY(const auto actions, store.list_actions(page.offset, page.count));
+    MDOF_TRY(const auto total, store.count_actions());
     JsonWriter json;
     json.begin_object().field("total", total).field("offset", page.offset).key("history");
     json.begin_array();
-    append_page(json, deeds, deed_json);
+    append_page(json, actions, action_json);
     json.end_array().end_object();
     return json.take();
   };
@@ -32,7 +32,7 @@ void add_history_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "history.list",
              .summary = "Who did what with runs, squareness, tables and encoders: newest first, a "
                         "page at a time.",
-             .params = {offset_param(), count_param(kMaxDeedsPage)},
+             .params = {offset_param(), count_param(kMaxActionsPage)},
              .result =
                  "total, history: deed (run.start, compensation.activate, ...), of and id "
                  "(what it was done to), utc, uid, gid, pid, user; detail, where there is more "

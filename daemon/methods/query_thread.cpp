@@ -44,7 +44,7 @@ void QueryThread::answer(rpc::Reply reply, Work work) {
   }
   client.calls.push_back({std::move(reply), std::move(work)});
   if (client.calls.size() == 1) order_.add(std::move(key), client.share);
-  if (!served_) hand_over();
+  if (!served_) deliver();
 }
 
 // Before there is another client, so that there are never more than are connected.
@@ -59,7 +59,7 @@ void QueryThread::admit(const Key& client) {
 }
 
 // A client waits for a turn as long as it has calls, also while the thread has one of them.
-void QueryThread::hand_over() {
+void QueryThread::deliver() {
   while (!order_.empty()) {
     const Key key = order_.take();
     if (key.expired()) {
@@ -85,7 +85,7 @@ void QueryThread::done(Cost cost, std::string damage) {
   order_.charge(client.share, cost);
   client.calls.pop_front();  // what is left of it after it was passed on
   if (!client.calls.empty()) order_.add(key, client.share);
-  hand_over();
+  deliver();
 }
 
 void QueryThread::work() {

@@ -59,7 +59,7 @@ class QueryThread {
   using Cost = std::chrono::nanoseconds;
 
   void admit(const Key& client);
-  void hand_over();
+  void deliver();
   void done(Cost cost, std::string damage);
   // Of the thread:
   void work();

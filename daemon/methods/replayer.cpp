@@ -24,8 +24,8 @@ std::atomic<bool> left_behind{false};
 struct Replayer::Shared {
   explicit Shared(Storekeeper& to) : keeper(to) {}
 
-  void work(const Make& make, const Deed& deed, const Done& done);
-  void store(Result<Run> run, const Deed& deed, const Done& done);
+  void work(const Make& make, const Action& action, const Done& done);
+  void store(Result<Run> run, const Action& action, const Done& done);
 
   std::atomic<bool> busy{false}, stopping{false};
   std::mutex mutex;  // guards the next two
@@ -34,24 +34,24 @@ struct Replayer::Shared {
   Storekeeper& keeper;  // only under the mutex and before `stopping`: it goes after that
 };
 
-void Replayer::Shared::work(const Make& make, const Deed& deed, const Done& done) {
+void Replayer::Shared::work(const Make& make, const Action& action, const Done& done) {
   ::pthread_setname_np(::pthread_self(), "replay");
   // Linux: of this thread alone.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
   auto run = make([this](const Progress&) { return !stopping; });
   const std::lock_guard lock(mutex);
   busy = false;  // before the answer: who has it may ask for the next
-  if (!stopping) store(std::move(run), deed, done);
+  if (!stopping) store(std::move(run), action, done);
   working = false;
   ended.notify_all();
 }
 
-void Replayer::Shared::store(Result<Run> run, const Deed& deed, const Done& done) {
+void Replayer::Shared::store(Result<Run> run, const Action& action, const Done& done) {
   if (!run) return done(tl::unexpected(run.error()));
   const auto whole = std::make_shared<Run>(std::move(*run));
   const bool posted =
-      keeper.post([whole, deed, done, uncertainty = uncertainty_of(*whole)](store::Store& store) {
-        done(store.add_run(*whole, deed, uncertainty));
+      keeper.post([whole, action, done, uncertainty = uncertainty_of(*whole)](store::Store& store) {
+        done(store.add_run(*whole, action, uncertainty));
       });
   if (!posted) done(io_error("the store is behind with its work; try again"));
 }
@@ -76,7 +76,7 @@ bool Replayer::was_left_behind() {
   return left_behind;
 }
 
-void Replayer::start(Make make, const Deed& deed, Done done) {
+void Replayer::start(Make make, const Action& action, Done done) {
   if (shared_->busy.exchange(true))
     return done(fail(ErrorCode::conflict,
                      "another log is being replayed or imported; try again when it is done"));
@@ -85,8 +85,8 @@ void Replayer::start(Make make, const Deed& deed, Done done) {
     const std::lock_guard lock(shared_->mutex);
     shared_->working = true;
   }
-  thread_ = std::thread([shared = shared_, make = std::move(make), deed, done = std::move(done)] {
-    shared->work(make, deed, done);
+  thread_ = std::thread([shared = shared_, make = std::move(make), action, done = std::move(done)] {
+    shared->work(make, action, done);
   });
 }
 

@@ -165,7 +165,7 @@ void start_run(Methods& m, const Params& params, Reply reply) {
   if (!station) return reply(tl::unexpected(station.error()));
   auto request = read_run_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
-  request->deed = deed_of(params, "run.start");
+  request->action = action_of(params, "run.start");
   begin_run(m, **station, *request, std::move(reply));
 }
 
@@ -177,7 +177,7 @@ void resume_run(Methods& m, const Params& params, Reply reply) {
   if (!station) return reply(tl::unexpected(station.error()));
   auto request = request_to_resume(m.reader, run, (*station)->config());
   if (!request) return reply(tl::unexpected(request.error()));
-  request->deed = deed_of(params, "run.resume");
+  request->action = action_of(params, "run.resume");
   begin_run(m, **station, *request, std::move(reply));
 }
 
@@ -186,7 +186,7 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
   for (auto& station : m.stations) {
     if (id < 1 || station->run() != id) continue;  // 0: it has none, -1: about to begin
     const bool abort = params.boolean("abort");
-    return station->stop_run(abort, deed_of(params, abort ? "run.abort" : "run.stop"),
+    return station->stop_run(abort, action_of(params, abort ? "run.abort" : "run.stop"),
                              answer_with_run(std::move(reply), station->config().rig.axis));
   }
   reply(fail(ErrorCode::not_found,
@@ -234,7 +234,7 @@ StatedRun stated_in_a_call(const Run& run) {
 }
 
 std::string run_json(const Run& run, const StatedRun& stated, const RunHeader& header,
-                     const std::vector<Deed>& deeds, std::size_t most_visits) {
+                     const std::vector<Action>& actions, std::size_t most_visits) {
   JsonWriter json;
   json.begin_object();
   write_header_members(json, header, words::text);
@@ -248,7 +248,7 @@ std::string run_json(const Run& run, const StatedRun& stated, const RunHeader& h
   run.plausibility ? write_plausibility(json, *run.plausibility, most_visits)
                    : static_cast<void>(json.null());
   json.key("history");
-  write_deeds(json, deeds);
+  write_actions(json, actions);
   json.end_object();
   return json.take();
 }
@@ -262,11 +262,11 @@ Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::i
                      Remedy::show_run, std::to_string(id));
   MDOF_TRY(auto run, run_stated_at(store, id, reference));
   explain(m, run.header);
-  MDOF_TRY(const auto deeds, store.deeds_of_run(id));
+  MDOF_TRY(const auto actions, store.actions_of_run(id));
   const StatedRun stated = stated_in_a_call(run);
-  std::string whole = run_json(run, stated, run.header, deeds, kMaxVisits);
+  std::string whole = run_json(run, stated, run.header, actions, kMaxVisits);
   return whole.size() <= kPageBytes ? whole
-                                    : run_json(run, stated, shortened(run.header), deeds, 0);
+                                    : run_json(run, stated, shortened(run.header), actions, 0);
 }
 
 Result<QueryThread::Work> get_run(Methods& m, const Params& params) {

@@ -99,10 +99,10 @@ Result<std::string> subscribe(const Params& params) {
 
 }  // namespace
 
-Deed deed_of(const Params& params, std::string name) {
+Action action_of(const Params& params, std::string name) {
   const auto who = params.caller().credentials();
-  if (!who) return deed_now(std::move(name), {-1, -1, -1, "tcp"});
-  return deed_now(std::move(name), actor_of(who->uid, who->gid, who->pid));
+  if (!who) return action_now(std::move(name), {-1, -1, -1, "tcp"});
+  return action_now(std::move(name), actor_of(who->uid, who->gid, who->pid));
 }
 
 std::vector<rpc::Param> limit_params() {

@@ -20,12 +20,12 @@ void squareness(Methods& m, const Params& params, Reply reply) {
     request.given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
   if (params.has("u_artefact_urad"))
     request.given.u_rad = from_urad(params.number("u_artefact_urad"));
-  request.deed = deed_of(params, "squareness.fit");
+  request.action = action_of(params, "squareness.fit");
   answer_with_change(m, std::move(reply), [request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(auto found, calculate_squareness(reader, request));
     return [fitted = std::move(found),
-            deed = request.deed](store::Store& store) mutable -> Result<std::string> {
-      MDOF_CHECK(store_squareness(store, fitted.squareness, deed));
+            action = request.action](store::Store& store) mutable -> Result<std::string> {
+      MDOF_CHECK(store_squareness(store, fitted.squareness, action));
       return with_notices(squareness_json(fitted.squareness, fitted.budgets), fitted.notices,
                           words::text);
     };

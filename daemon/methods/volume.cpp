@@ -109,13 +109,13 @@ void build_volume(Methods& m, const Params& params, Reply reply) {
   if (!request) return reply(tl::unexpected(request.error()));
   answer_with_change(m, std::move(reply),
                      [request = std::move(*request), files = client_files(params),
-                      deed = deed_of(params, "compensation.build_volume")](
+                      action = action_of(params, "compensation.build_volume")](
                          store::Store& reader) mutable -> Result<Change> {
                        MDOF_CHECK(files.read(request));
                        MDOF_TRY(auto calculated, calculate_volumetric(reader, request));
                        return [built = std::move(calculated),
-                               deed](store::Store& store) mutable -> Result<std::string> {
-                         MDOF_CHECK(store_volumetric(store, built.table, deed));
+                               action](store::Store& store) mutable -> Result<std::string> {
+                         MDOF_CHECK(store_volumetric(store, built.table, action));
                          return built_json(built);
                        };
                      });
@@ -135,9 +135,9 @@ bool is_volume(const Params& params) {
 void deactivate_volume(Methods& m, const Params& params, Reply reply) {
   answer_with_change(
       m, std::move(reply),
-      [&m, deed = deed_of(params, "compensation.deactivate")](store::Store&) -> Result<Change> {
-        return change_active(m, R"("axis":"volume")", [deed](store::Store& store) {
-          return store.change_volumetric(std::nullopt, actor_text(deed.by), deed.utc, deed);
+      [&m, action = action_of(params, "compensation.deactivate")](store::Store&) -> Result<Change> {
+        return change_active(m, R"("axis":"volume")", [action](store::Store& store) {
+          return store.change_volumetric(std::nullopt, actor_text(action.by), action.utc, action);
         });
       });
 }

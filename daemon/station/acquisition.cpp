@@ -94,11 +94,11 @@ void Acquisition::fail(const std::string& error) {
   // Who it is has been said.
   const std::string who = "device \"" + spec_.name + "\"";
   const std::size_t begin = error.starts_with(who) ? error.find_first_not_of(": ", who.size()) : 0;
-  tell(Trouble::Kind::lost, begin == std::string::npos ? error : error.substr(begin));
+  report(Trouble::Kind::lost, begin == std::string::npos ? error : error.substr(begin));
 }
 
 // What holds now is in the status, too, for those who come later.
-void Acquisition::tell(Trouble::Kind kind, const std::string& text, const std::string& channel) {
+void Acquisition::report(Trouble::Kind kind, const std::string& text, const std::string& channel) {
   const Trouble trouble{kind, spec_.name, text, utc_now(), channel};
   {
     const std::lock_guard lock(status_mutex_);
@@ -118,7 +118,7 @@ void Acquisition::acquire(std::uint64_t pass) {
   last_ns_.reset();
   lost_since_.reset();
   datum_lost_.clear();
-  clock_in_doubt_ = false;
+  clock_is_uncertain_ = false;
   marks_passed_ = 0;
   clock_steps_ = 0;
   {
@@ -218,10 +218,10 @@ void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   lost[kEncoderChannel] = info.datum_lost;
   for (const auto& [encoder, why] : lost) {
     if (why.empty() || !datum_lost_.insert(encoder).second) continue;
-    tell(Trouble::Kind::suspect,
-         "the encoder's datum is lost and no stop can be placed any more: " + why + "; " +
-             words::remedy(info.datum_remedy) + " and measure anew",
-         encoder);
+    report(Trouble::Kind::suspect,
+           "the encoder's datum is lost and no stop can be placed any more: " + why + "; " +
+               words::remedy(info.datum_remedy) + " and measure anew",
+           encoder);
   }
 }
 
@@ -232,24 +232,25 @@ void Acquisition::watch_clock(const drivers::Driver& driver, SampleBlock& block)
   const auto clock = driver.info().clock;
   if (!clock) return;
   if (clock->doubtful) mark_suspect(block);
-  if (clock->doubtful != clock_in_doubt_ || clock->steps != clock_steps_) tell_clock(*clock);
+  if (clock->doubtful != clock_is_uncertain_ || clock->steps != clock_steps_) report_clock(*clock);
 }
 
-void Acquisition::tell_clock(const drivers::ClockState& clock) {
+void Acquisition::report_clock(const drivers::ClockState& clock) {
   const bool stepped = std::exchange(clock_steps_, clock.steps) != clock.steps;
-  const bool was = std::exchange(clock_in_doubt_, clock.doubtful);
+  const bool was = std::exchange(clock_is_uncertain_, clock.doubtful);
   if (stepped)
-    tell(Trouble::Kind::clock,
-         "its clock jumped, or its link had been slow for long: when its samples were taken is not "
-         "known until the clock has settled (4 s); they are suspect, and stops in it are left out "
-         "or lack its probes. Look at its power and network, and measure points near it again");
+    report(
+        Trouble::Kind::clock,
+        "its clock jumped, or its link had been slow for long: when its samples were taken is not "
+        "known until the clock has settled (4 s); they are suspect, and stops in it are left out "
+        "or lack its probes. Look at its power and network, and measure points near it again");
   else if (clock.doubtful && !was)
-    tell(Trouble::Kind::clock,
-         "its packets come " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
-             " s late, or its clock stood still: its samples are suspect until they are in time "
-             "again; look at its network and at the load of this machine");
+    report(Trouble::Kind::clock,
+           "its packets come " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
+               " s late, or its clock stood still: its samples are suspect until they are in time "
+               "again; look at its network and at the load of this machine");
   else if (was && !clock.doubtful)
-    tell(Trouble::Kind::back, "the times of its samples are valid again");
+    report(Trouble::Kind::back, "the times of its samples are valid again");
 }
 
 bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
@@ -268,9 +269,9 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
       if (steady_clock::now() > next_refresh_) refresh_info(driver);
       note_loss(block);
       watch_clock(driver, block);
-      const bool came_back = mend(block);
+      const bool came_back = recover(block);
       watch_rate(block.scans(), came_back ? 0 : block.lost);
-      hand_over(block, pass);
+      deliver(block, pass);
     } else {
       watch_rate(0, 0);
     }
@@ -280,18 +281,18 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
 }
 
 // With the first samples: to be open alone is no proof that it works. Whether it was lost.
-bool Acquisition::mend(const SampleBlock& block) {
+bool Acquisition::recover(const SampleBlock& block) {
   if (!lost_since_) return false;
   const std::chrono::duration<double> away = steady_clock::now() - *lost_since_;
   lost_since_.reset();
   {
     const std::lock_guard lock(status_mutex_);
     status_.last_error = std::exchange(status_.error, "");
-    status_.mended_utc = utc_now();
+    status_.recovered_utc = utc_now();
   }
   std::string text = "it gives samples again after " + with_one_decimal(away.count()) + " s";
   if (block.lost > 0) text += "; scans lost meanwhile: " + std::to_string(block.lost);
-  tell(Trouble::Kind::back, text);
+  report(Trouble::Kind::back, text);
   return true;
 }
 
@@ -308,13 +309,14 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
                                     [](const Trouble& t) { return t.kind == Trouble::Kind::slow; });
   const bool slow = lost_in_window_ > 0 || rate_hz < (was_slow ? kWell : kSlow) * is.info.rate_hz;
   if (slow && !was_slow) {
-    tell(Trouble::Kind::slow,
-         "it gives " + with_one_decimal(rate_hz) + " of " + with_one_decimal(is.info.rate_hz) +
-             " scans a second, " + std::to_string(lost_in_window_) +
-             " were lost in 5 s; look at its network or cable and at the load of this machine, or "
-             "lower its rate");
+    report(
+        Trouble::Kind::slow,
+        "it gives " + with_one_decimal(rate_hz) + " of " + with_one_decimal(is.info.rate_hz) +
+            " scans a second, " + std::to_string(lost_in_window_) +
+            " were lost in 5 s; look at its network or cable and at the load of this machine, or "
+            "lower its rate");
   }
-  if (was_slow && !slow) tell(Trouble::Kind::back, "it gives all its scans again");
+  if (was_slow && !slow) report(Trouble::Kind::back, "it gives all its scans again");
   window_end_ = now + kWindow;
   scans_in_window_ = lost_in_window_ = 0;
 }
@@ -348,7 +350,7 @@ void Acquisition::measure_rate(const SampleBlock& block) {
         1e9 * static_cast<double>(scans_since_opened_ - 1) / static_cast<double>(passed_ns);
 }
 
-void Acquisition::hand_over(SampleBlock& block, std::uint64_t pass) {
+void Acquisition::deliver(SampleBlock& block, std::uint64_t pass) {
   if (!spec_.live) {
     while (acquiring_ && !sink_.samples(block, pass, kReadTimeout)) turn_ = steady_clock::now();
     return;

@@ -44,21 +44,21 @@ class Acquisition final : public DeviceReader {
   void acquire(std::uint64_t pass);
   bool open_and_read(drivers::Driver& driver, std::uint64_t pass);
   bool read_until_trouble(drivers::Driver& driver, std::uint64_t pass);
-  void hand_over(SampleBlock& block, std::uint64_t pass);
+  void deliver(SampleBlock& block, std::uint64_t pass);
   void note_loss(SampleBlock& block);
   void measure_rate(const SampleBlock& block);
   void refresh_info(const drivers::Driver& driver);
   void pause();
   void set_state(const std::string& state);
   void fail(const std::string& error);
-  bool mend(const SampleBlock& block);
+  bool recover(const SampleBlock& block);
   void watch_rate(std::uint64_t scans, std::uint64_t lost);
   void watch_datum(const drivers::DeviceInfo& info);
   void watch_mark(const drivers::Driver& driver);
   void forget_suspicion(const std::string& encoder);  // with status_mutex_ locked
   void watch_clock(const drivers::Driver& driver, SampleBlock& block);
-  void tell_clock(const drivers::ClockState& clock);
-  void tell(Trouble::Kind kind, const std::string& text, const std::string& channel = "");
+  void report_clock(const drivers::ClockState& clock);
+  void report(Trouble::Kind kind, const std::string& text, const std::string& channel = "");
   void trust_counts(drivers::Driver& driver);
 
   const drivers::DriverSpec spec_;
@@ -81,7 +81,7 @@ class Acquisition final : public DeviceReader {
   std::optional<std::chrono::steady_clock::time_point> lost_since_;
   std::set<std::string> datum_lost_;  // of these encoders
   int marks_passed_ = 0;
-  bool clock_in_doubt_ = false;
+  bool clock_is_uncertain_ = false;
   std::uint64_t clock_steps_ = 0;
   std::chrono::steady_clock::time_point window_end_;  // of watch_rate()
   std::uint64_t scans_in_window_ = 0, lost_in_window_ = 0;

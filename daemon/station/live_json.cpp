@@ -37,7 +37,7 @@ std::string device_json(const DeviceStatus& s) {
   json.key("last_error");
   s.last_error.empty() ? json.null() : json.value(s.last_error);
   json.key("mended_utc");
-  s.mended_utc.empty() ? json.null() : json.value(s.mended_utc);
+  s.recovered_utc.empty() ? json.null() : json.value(s.recovered_utc);
   json.key("trouble").begin_array();
   for (const auto& trouble : s.standing) json.value(trouble_line(trouble));
   json.end_array().key("clock");

@@ -133,7 +133,7 @@ PipelineOptions Station::with_devices(PipelineOptions options) const {
 
 NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& options) const {
   NewRun run;
-  run.deed = request.deed;
+  run.action = request.action;
   RunHeader& h = run.header;
   if (request.resumes) h.supersedes = request.resumes->id;
   h.axis = config_.rig.axis;
@@ -226,7 +226,7 @@ void Station::begin_run(NewRun description, const RunRequest& request, const Opt
   done(io_error("the store is behind; try again"));
 }
 
-void Station::stop_run(bool abort, const Deed& deed, RunDone done) {
+void Station::stop_run(bool abort, const Action& action, RunDone done) {
   if (shared_->run <= 0) {
     return done(fail(ErrorCode::not_found,
                      std::string("no run of axis ") + letter(config_.rig.axis) + " is under way"));
@@ -234,7 +234,7 @@ void Station::stop_run(bool abort, const Deed& deed, RunDone done) {
   Item item;
   item.kind = Item::Kind::stop;
   item.abort = abort;
-  item.deed = deed;
+  item.action = action;
   item.done = std::move(done);
   shared_->queue.push_always(std::move(item));
 }

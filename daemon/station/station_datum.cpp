@@ -9,7 +9,7 @@ namespace mdof::daemon {
 
 // ---- main thread ----
 
-void Station::set_encoder(double position_m, const Deed& deed, DatumDone done) {
+void Station::set_encoder(double position_m, const Action& action, DatumDone done) {
   const std::string axis(1, letter(config_.rig.axis));
   if (!config_.live())
     return done(fail(ErrorCode::conflict,
@@ -22,7 +22,7 @@ void Station::set_encoder(double position_m, const Deed& deed, DatumDone done) {
   Item item;
   item.kind = Item::Kind::datum;
   item.position_m = position_m;
-  item.deed = deed;
+  item.action = action;
   item.datum_done = std::move(done);
   shared_->queue.push_always(std::move(item));
 }
@@ -30,25 +30,25 @@ void Station::set_encoder(double position_m, const Deed& deed, DatumDone done) {
 // ---- measuring thread; no run is under way: set_encoder() has seen to it ----
 
 void Station::take_datum(const Item& item) {
-  const auto found = zero_.find(config_.rig.axis, item.position_m, item.deed->utc);
+  const auto found = zero_.find(config_.rig.axis, item.position_m, item.action->utc);
   if (found) return store_datum(*found, item);
   shared_->run = 0;
   item.datum_done(tl::unexpected(found.error()));
 }
 
 void Station::store_datum(const DatumSetting& setting, const Item& asked) {
-  const auto put = [shared = shared_, deed = asked.deed,
+  const auto put = [shared = shared_, action = asked.action,
                     done = asked.datum_done](Result<DatumSetting> stored) {
     Item item;
     item.kind = Item::Kind::datum_stored;
     item.setting = std::move(stored);
-    item.deed = deed;
+    item.action = action;
     item.datum_done = done;
     shared->queue.push_always(std::move(item));
   };
   if (const std::string fault = keeper_.fault(); !fault.empty()) return put(io_error(fault));
-  const bool posted = keeper_.post([put, setting, deed = asked.deed](store::Store& store) {
-    const auto id = store.add_datum(setting, deed);
+  const bool posted = keeper_.post([put, setting, action = asked.action](store::Store& store) {
+    const auto id = store.add_datum(setting, action);
     put(id ? Result<DatumSetting>(setting) : tl::unexpected(id.error()));
   });
   if (!posted) put(io_error("the store is behind with its work; try again"));
@@ -56,7 +56,7 @@ void Station::store_datum(const DatumSetting& setting, const Item& asked) {
 
 // The live view begins afresh, as the axis does not jump.
 void Station::put_datum(const Item& item) {
-  const auto set = item.setting ? zero_.put(*item.setting, actor_text(item.deed->by))
+  const auto set = item.setting ? zero_.put(*item.setting, actor_text(item.action->by))
                                 : Result<EncoderDatum>(tl::unexpected(item.setting.error()));
   if (set) {
     view_.reset();

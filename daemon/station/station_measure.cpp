@@ -159,7 +159,7 @@ void Station::handle(Item& item) {
       if (!open_) return item.done(fail(ErrorCode::not_found, "the run has just ended"));
       return finish(item.abort ? RunState::aborted : RunState::complete,
                     item.abort ? Notices{notice(NoticeCode::aborted)} : Notices(), item.source,
-                    item.done, item.deed);
+                    item.done, item.action);
     case Item::Kind::ended:
       if (!open_ || !of_this_pass(item)) return;
       return finish(item.reason.empty() ? RunState::complete : RunState::failed,
@@ -251,7 +251,7 @@ void Station::record() {
   if (!kept) open_->blocks_not_recorded += count;
 }
 
-void Station::tell_unsolved(const std::vector<MeasuredPoint>& points) {
+void Station::report_unsolved(const std::vector<MeasuredPoint>& points) {
   const auto solved = [](const MeasuredPoint& p) { return p.errors.valid; };
   if (std::all_of(points.begin(), points.end(), solved)) return;
   ChannelsByDevice channels;
@@ -274,7 +274,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   std::vector<MeasuredPoint> fresh(points.begin() + static_cast<std::ptrdiff_t>(first),
                                    points.end());
   open_->stored.insert(open_->stored.end(), fresh.begin(), fresh.end());
-  tell_unsolved(fresh);
+  report_unsolved(fresh);
   const std::int64_t run = open_->id;
   auto messages = points_messages(run, config_.rig, open_->model, open_->stored, first);
   std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
@@ -289,7 +289,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
 }
 
 void Station::finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
-                     const std::optional<Deed>& deed) {
+                     const std::optional<Action>& action) {
   if (!config_.live())
     acquisitions_.front()->cease();  // what is still on its way belongs to this pass
   auto result = open_->pipeline.finish();
@@ -326,7 +326,7 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
   const RunState became = run.header.state;
   std::optional<RunUncertainty> uncertainty;
   if (result) uncertainty = uncertainty_of(run);
-  keeper_.end_run(id, std::move(run), {differs, deed, std::move(uncertainty)},
+  keeper_.end_run(id, std::move(run), {differs, action, std::move(uncertainty)},
                   [shared = shared_, id, axis, became,
                    done = std::move(done)](const Result<std::int64_t>& stored) {
                     shared->run = 0;

@@ -15,7 +15,7 @@ constexpr std::string_view kSettings =
 }  // namespace
 
 Result<std::int64_t> Store::add_datum(const DatumSetting& setting,
-                                      const std::optional<Deed>& deed) {
+                                      const std::optional<Action>& action) {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO encoder_datum (axis, device, before_m, position_m, "
@@ -27,7 +27,7 @@ Result<std::int64_t> Store::add_datum(const DatumSetting& setting,
   MDOF_CHECK(insert.run());
   const std::int64_t id = connection_.last_insert_rowid();
   MDOF_CHECK(add_link(connection_, Fact::encoder_datum, id));
-  MDOF_CHECK(insert_deed("encoder_datum", id, deed));
+  MDOF_CHECK(insert_action("encoder_datum", id, action));
   MDOF_CHECK(transaction.commit());
   return id;
 }

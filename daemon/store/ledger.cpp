@@ -51,7 +51,7 @@ constexpr std::array<FactKind, 10> kKinds = {{
      "WHERE generation = ?"},
     {Fact::deactivation, "deactivation", "generation", "deactivation of generation",
      "SELECT axis, actor, deactivated_utc FROM deactivation NOT INDEXED WHERE generation = ?"},
-    {Fact::deed, "deed", "id", "deed",
+    {Fact::action, "deed", "id", "deed",
      "SELECT name, subject, row, uid, gid, pid, user, utc FROM deed NOT INDEXED WHERE id = ?"},
     {Fact::encoder_datum, "encoder_datum", "id", "encoder datum",
      "SELECT axis, device, before_m, position_m, offset_m, utc FROM encoder_datum NOT INDEXED "

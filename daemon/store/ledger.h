@@ -36,7 +36,7 @@ enum class Fact {
   table,
   activation,
   deactivation,
-  deed,
+  action,
   encoder_datum,
   volumetric_table,
   volumetric_activation,

@@ -135,7 +135,8 @@ Squareness squareness_from(const Statement& row) {
 
 }  // namespace
 
-Result<std::int64_t> Store::add_squareness(const Squareness& s, const std::optional<Deed>& deed) {
+Result<std::int64_t> Store::add_squareness(const Squareness& s,
+                                           const std::optional<Action>& action) {
   for (const std::int64_t run : {s.run_a, s.run_b}) MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert,
@@ -152,7 +153,7 @@ Result<std::int64_t> Store::add_squareness(const Squareness& s, const std::optio
   MDOF_CHECK(insert.run());
   const std::int64_t id = connection_.last_insert_rowid();
   MDOF_CHECK(add_link(connection_, Fact::squareness, id));
-  MDOF_CHECK(insert_deed("squareness", id, deed));
+  MDOF_CHECK(insert_action("squareness", id, action));
   MDOF_CHECK(transaction.commit());
   return id;
 }
@@ -183,7 +184,7 @@ Result<std::vector<Squareness>> Store::checked_squareness(Statement& rows) {
 }
 
 Result<std::int64_t> Store::add_table(const CompensationTable& table,
-                                      const std::optional<Deed>& deed) {
+                                      const std::optional<Action>& action) {
   MDOF_CHECK(check_shape(table));
   for (const std::int64_t run : table.runs) MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
@@ -206,7 +207,7 @@ Result<std::int64_t> Store::add_table(const CompensationTable& table,
   for (std::size_t row = 0; row < table.runs.size(); ++row)
     MDOF_CHECK(source.bind(id).bind(static_cast<std::int64_t>(row)).bind(table.runs[row]).run());
   MDOF_CHECK(add_link(connection_, Fact::table, id));
-  MDOF_CHECK(insert_deed("compensation_table", id, deed));
+  MDOF_CHECK(insert_action("compensation_table", id, action));
   MDOF_CHECK(transaction.commit());
   return id;
 }
@@ -302,7 +303,7 @@ Result<std::int64_t> Store::next_generation(const std::string& utc) {
 }
 
 Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
-                                   const std::string& utc, const std::optional<Deed>& deed) {
+                                   const std::string& utc, const std::optional<Action>& action) {
   MDOF_TRY(const CompensationTable wanted, this->table(table));
   const auto now = active(wanted.axis);
   if (now && now->table.id == table) return Activation{now->generation, false};
@@ -318,13 +319,13 @@ Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
                  .bind(std::string_view(utc))
                  .run());
   MDOF_CHECK(add_link(connection_, Fact::activation, generation));
-  MDOF_CHECK(insert_deed("activation", generation, deed));
+  MDOF_CHECK(insert_action("activation", generation, action));
   MDOF_CHECK(transaction.commit());
   return Activation{generation, true};
 }
 
 Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const std::string& utc,
-                                     const std::optional<Deed>& deed) {
+                                     const std::optional<Action>& action) {
   MDOF_TRY(const std::int64_t last, generation());
   const auto now = active(axis);
   if (!now && now.error().code == ErrorCode::not_found) return Activation{last, false};
@@ -338,7 +339,7 @@ Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const 
                  .bind(std::string_view(utc))
                  .run());
   MDOF_CHECK(add_link(connection_, Fact::deactivation, generation));
-  MDOF_CHECK(insert_deed("deactivation", generation, deed));
+  MDOF_CHECK(insert_action("deactivation", generation, action));
   MDOF_CHECK(transaction.commit());
   return Activation{generation, true};
 }

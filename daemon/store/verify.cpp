@@ -29,12 +29,12 @@ Status Store::check_announced_head() {
   return check_head(read_announced_head(file()).head);
 }
 
-Status Store::check_head(const ChainHead& told) {
-  MDOF_TRY(const bool found, store::has_link(connection_, told));
+Status Store::check_head(const ChainHead& reported) {
+  MDOF_TRY(const bool found, store::has_link(connection_, reported));
   if (found) return {};
   MDOF_TRY(const ChainHead now, chain_head());
   return bad_input(file().string() + ": its chain of hashes has no link " +
-                   std::to_string(told.link) + " of hash " + told.sha256 +
+                   std::to_string(reported.link) + " of hash " + reported.sha256 +
                    " any more, which mdofd reported last, and ends at link " +
                    std::to_string(now.link) +
                    ": what was stored last is gone, or was changed. Restore the database; or, to "

@@ -77,7 +77,7 @@ Result<std::int64_t> Store::next_table() {
 }
 
 Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
-                                           const std::optional<Deed>& deed) {
+                                           const std::optional<Action>& action) {
   MDOF_CHECK(check_shape(table));
   for (const std::int64_t run : table.runs) MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
@@ -103,7 +103,7 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
   for (std::size_t row = 0; row < table.runs.size(); ++row)
     MDOF_CHECK(source.bind(id).bind(static_cast<std::int64_t>(row)).bind(table.runs[row]).run());
   MDOF_CHECK(add_link(connection_, Fact::volumetric_table, id));
-  MDOF_CHECK(insert_deed("volumetric_table", id, deed));
+  MDOF_CHECK(insert_action("volumetric_table", id, action));
   MDOF_CHECK(transaction.commit());
   return id;
 }
@@ -171,7 +171,7 @@ Result<std::vector<VolumetricTable>> Store::list_volumetric(std::int64_t offset,
 
 Result<Activation> Store::change_volumetric(std::optional<std::int64_t> table,
                                             const std::string& actor, const std::string& utc,
-                                            const std::optional<Deed>& deed) {
+                                            const std::optional<Action>& action) {
   if (table) MDOF_CHECK(check_exists(RowOf::volumetric_table, *table));
   const auto now = active_volumetric();
   if (!now && now.error().code != ErrorCode::not_found && table) return tl::unexpected(now.error());
@@ -188,7 +188,7 @@ Result<Activation> Store::change_volumetric(std::optional<std::int64_t> table,
   insert.bind(generation).bind(table);
   MDOF_CHECK(insert.bind(std::string_view(actor)).bind(std::string_view(utc)).run());
   MDOF_CHECK(add_link(connection_, Fact::volumetric_activation, generation));
-  MDOF_CHECK(insert_deed("volumetric_activation", generation, deed));
+  MDOF_CHECK(insert_action("volumetric_activation", generation, action));
   MDOF_CHECK(transaction.commit());
   return Activation{generation, true};
 }

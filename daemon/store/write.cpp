@@ -58,7 +58,7 @@ RunEnd end_of(const Run& run) {
 
 }  // namespace
 
-Result<std::int64_t> Store::add_run(const Run& run, const std::optional<Deed>& deed,
+Result<std::int64_t> Store::add_run(const Run& run, const std::optional<Action>& action,
                                     const std::optional<RunUncertainty>& uncertainty) {
   assert(run.header.state != RunState::open);
   // Of a long run on another core while its rows are written; a short one is not worth a thread.
@@ -66,14 +66,14 @@ Result<std::int64_t> Store::add_run(const Run& run, const std::optional<Deed>& d
   const auto policy = run.points.size() < kLong ? std::launch::deferred : std::launch::async;
   auto sha256 = std::async(policy, [&run] { return store::result_sha256(run); });
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
-  MDOF_TRY(const std::int64_t id, insert_whole(run, sha256, uncertainty));
-  MDOF_CHECK(insert_deed("run", id, deed));
+  MDOF_TRY(const std::int64_t id, insert_complete_run(run, sha256, uncertainty));
+  MDOF_CHECK(insert_action("run", id, action));
   MDOF_CHECK(transaction.commit());
   return id;
 }
 
-Result<std::int64_t> Store::insert_whole(const Run& run, std::future<std::string>& sha256,
-                                         const std::optional<RunUncertainty>& uncertainty) {
+Result<std::int64_t> Store::insert_complete_run(const Run& run, std::future<std::string>& sha256,
+                                                const std::optional<RunUncertainty>& uncertainty) {
   MDOF_TRY(const std::int64_t id, insert_run(run.header));
   MDOF_CHECK(insert_points(id, 0, run.points));
   const RunEnd end = end_of(run);
@@ -84,10 +84,11 @@ Result<std::int64_t> Store::insert_whole(const Run& run, std::future<std::string
   return id;
 }
 
-Result<std::int64_t> Store::begin_run(const RunHeader& header, const std::optional<Deed>& deed) {
+Result<std::int64_t> Store::begin_run(const RunHeader& header,
+                                      const std::optional<Action>& action) {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(const std::int64_t id, insert_run(header));
-  MDOF_CHECK(insert_deed("run", id, deed));
+  MDOF_CHECK(insert_action("run", id, action));
   MDOF_CHECK(transaction.commit());
   open_runs_[id] = 0;
   return id;
@@ -119,7 +120,7 @@ Status Store::insert_all_of_end(std::int64_t run, const RunEnd& end) {
   MDOF_CHECK(insert_plausibility(run, end));
   MDOF_TRY(const std::string sha256, result_sha256(run));
   MDOF_CHECK(insert_end(run, end, sha256));
-  return insert_deed("run", run, end.deed);
+  return insert_action("run", run, end.action);
 }
 
 Result<std::int64_t> Store::end_and_supersede(std::int64_t run, const RunEnd& end, Run result,
@@ -134,7 +135,7 @@ Result<std::int64_t> Store::end_and_supersede(std::int64_t run, const RunEnd& en
   header.supersedes = run;
   header.state = asked.state;
   header.notices = std::move(asked.notices);
-  MDOF_TRY(const std::int64_t id, insert_whole(result, sha256, uncertainty));
+  MDOF_TRY(const std::int64_t id, insert_complete_run(result, sha256, uncertainty));
   MDOF_CHECK(transaction.commit());
   open_runs_.erase(run);
   return id;

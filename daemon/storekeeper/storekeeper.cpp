@@ -67,7 +67,7 @@ Result<std::unique_ptr<Storekeeper>> Storekeeper::start(const Options& options, 
   keeper->opened_ = keeper->store_.has_value();
   keeper->begin_chain();
   keeper->watch_database();
-  keeper->tell_head();
+  keeper->announce_head();
   keeper->thread_ = std::thread([k = keeper.get()] { k->work(); });
   return keeper;
 }
@@ -89,21 +89,21 @@ void Storekeeper::work() {
   auto next_commit = std::chrono::steady_clock::now() + options_.commit_interval;
   while (!queue_.closed_and_empty()) {
     if (const auto job = queue_.pop(std::min(options_.commit_interval, kLongestPop))) (*job)();
-    tell_head();
+    announce_head();
     const auto now = std::chrono::steady_clock::now();
     last_turn_.store(now);
     if (now < next_commit) continue;
     commit_recordings();
     watch_files();
     if (!store_) open_again();
-    if (now >= next_try_) store_what_waits();
-    if (!unended_.empty()) end_what_can_be();
+    if (now >= next_try_) store_waiting_items();
+    if (!unended_.empty()) end_finished_runs();
     next_commit = now + options_.commit_interval;
   }
   commit_recordings();
-  store_what_waits();
-  give_up_what_waits();
-  end_what_can_be();
+  store_waiting_items();
+  discard_waiting_items();
+  end_finished_runs();
 }
 
 // One transaction a recording and interval: durable at the price of one disk flush.
@@ -171,7 +171,7 @@ void Storekeeper::watch_files() {
   if (now - files_watched_ < kBetweenLooks) return;
   files_watched_ = now;
   watch_database();
-  tell_head();
+  announce_head();
   if (store_ && !store_->damage().empty()) set(damaged_, store_->damage());
   note_space();
   for (auto& [run, recording] : recordings_) {
@@ -197,7 +197,7 @@ void Storekeeper::begin_chain() {
   changes_announced_ = -1;
 }
 
-void Storekeeper::tell_head() {
+void Storekeeper::announce_head() {
   if (!store_ || !lost_.empty() || store_->changes() == changes_announced_) return;
   changes_announced_ = store_->changes();
   const auto head = store_->chain_head();
@@ -299,10 +299,10 @@ Result<store::RecordingWriter> Storekeeper::create_recording(const NewRun& run) 
 
 Result<std::int64_t> Storekeeper::begin(NewRun& run) {
   if (const std::string reason = fault(); !reason.empty()) return io_error(reason);
-  if (run.recording.empty()) return store_->begin_run(run.header, run.deed);
+  if (run.recording.empty()) return store_->begin_run(run.header, run.action);
   auto writer = run.begun ? std::move(*run.begun) : create_recording(run);
   if (!writer) return tl::unexpected(writer.error());
-  auto id = store_->begin_run(run.header, run.deed);
+  auto id = store_->begin_run(run.header, run.action);
   if (id) recordings_.emplace(*id, Recording{std::move(*writer), store::FileWatch(run.recording)});
   return id;
 }

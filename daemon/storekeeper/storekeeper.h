@@ -31,13 +31,13 @@ struct NewRun {
   std::filesystem::path recording;  // empty: not recorded (a replay)
   RecordingHeader recording_header;
   std::optional<store::RecordingWriter> begun;  // a recording that has a beginning already
-  std::optional<Deed> deed = std::nullopt;      // who asked for it
+  std::optional<Action> action = std::nullopt;  // who asked for it
 };
 
 // How a run ends, beside its result.
 struct RunEnding {
   bool differs = false;  // from the points already stored
-  std::optional<Deed> deed = std::nullopt;
+  std::optional<Action> action = std::nullopt;
   std::optional<RunUncertainty> uncertainty = std::nullopt;  // of the result's points
 };
 
@@ -130,8 +130,8 @@ class Storekeeper {
   void watch_database();
   std::string chain_fault();
   void begin_chain();
-  void tell_head();
-  void end_what_can_be();
+  void announce_head();
+  void end_finished_runs();
   Result<std::int64_t> begin(NewRun& run);
   Result<std::int64_t> begin_or_clear(NewRun& run);
   struct Points;
@@ -148,8 +148,8 @@ class Storekeeper {
   void explain(std::int64_t run, const std::string& why);
   void refused_end(Unended unended, const Error& error);
   void try_later();
-  void store_what_waits();
-  void give_up_what_waits();
+  void store_waiting_items();
+  void discard_waiting_items();
   Status end_or_wait(std::int64_t run, const store::RunEnd& end);
 
   struct Recording {

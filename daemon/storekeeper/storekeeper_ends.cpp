@@ -49,7 +49,7 @@ store::RunEnd refused_at_first(store::RunEnd whole, const Error& error) {
 }  // namespace
 
 // Runs whose end the disk refused: tried again until it takes it.
-void Storekeeper::end_what_can_be() {
+void Storekeeper::end_finished_runs() {
   std::erase_if(unended_, [&](Unended& waiting) {
     waiting.end.state = RunState::failed;
     if (!store_->end_run(waiting.run, waiting.end)) return false;
@@ -133,7 +133,7 @@ void Storekeeper::try_later() {
   next_try_ = std::chrono::steady_clock::now() + options_.busy_timeout;
 }
 
-void Storekeeper::store_what_waits() {
+void Storekeeper::store_waiting_items() {
   for (; !waiting_points_.empty(); waiting_points_.pop_front()) {
     const Points& next = waiting_points_.front();
     const Status kept = keep_points(next.run, next.points);
@@ -151,7 +151,7 @@ void Storekeeper::store_what_waits() {
 }
 
 // mdofd ends: the runs stay without an end, as after a power cut, and their recordings have all.
-void Storekeeper::give_up_what_waits() {
+void Storekeeper::discard_waiting_items() {
   const auto error =
       io_error("mdofd ended while a foreign program held the database: the recording has the run",
                Remedy::resume_or_replay);
@@ -182,7 +182,7 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
     ending.how.differs = !ending.result.points.empty();
   }
   store::RunEnd whole = end_of(ending.result);
-  whole.deed = ending.how.deed;
+  whole.action = ending.how.action;
   if (!ending.how.differs) {
     whole.uncertainty = ending.how.uncertainty;
     MDOF_CHECK(end_or_wait(run, whole));

@@ -22,8 +22,8 @@ Status identify(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const Welcome welcome, port.welcome());
   MDOF_TRY(const std::string version, port.ask("$VER"));
   MDOF_TRY(const auto information, port.ask_if_known("$COI"));
-  const std::string told = field(information.value_or(""), "SNO");
-  setup.serial = told.empty() ? welcome.serial : told;
+  const std::string reported = field(information.value_or(""), "SNO");
+  setup.serial = reported.empty() ? welcome.serial : reported;
   const std::string name = version.substr(0, version.find(';'));
   const std::string rest = version.substr(std::min(name.size() + 1, version.size()));
   setup.description = name.empty() ? welcome.name : name;
@@ -135,16 +135,16 @@ Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& chann
   // A late reply to $CHI12 must not pass for one to $CHI1.
   if (!info.empty() && info.front() != ':')
     return io_error("answers " + command + " with \"" + info + "\", which is not about it");
-  const auto told_um = range_um_of(info);
+  const auto stated_um = range_um_of(info);
   const std::string& where = channel.input.where;
-  if (!told_um && channel.range_um == 0)
+  if (!stated_um && channel.range_um == 0)
     return wrong(where + ": the controller does not say the range of channel " +
                      channel.input.input + " in a unit of length",
                  "give its range_um");
-  const double range_um = channel.range_um > 0 ? channel.range_um : *told_um;
-  if (told_um && std::abs(range_um - *told_um) > kSameRange * *told_um)
+  const double range_um = channel.range_um > 0 ? channel.range_um : *stated_um;
+  if (stated_um && std::abs(range_um - *stated_um) > kSameRange * *stated_um)
     return wrong(where + ": range_um is " + plain_number(range_um) + ", the controller says " +
-                     plain_number(*told_um) + " of channel " + channel.input.input,
+                     plain_number(*stated_um) + " of channel " + channel.input.input,
                  "correct it, or leave it out");
   return Setup::Input{range_um, false};
 }
@@ -167,8 +167,8 @@ Status read_inputs(CommandPort& port, const Options& options, Setup& setup) {
 Status read_data_port(CommandPort& port, const Options& options, Setup& setup) {
   setup.data_port = options.data_port.value_or(kDataPort);
   if (options.data_port) return {};
-  MDOF_TRY(const auto told, setting(port, "$GDP"));
-  setup.data_port = told.value_or(kDataPort);
+  MDOF_TRY(const auto reported, setting(port, "$GDP"));
+  setup.data_port = reported.value_or(kDataPort);
   if (setup.data_port >= 1 && setup.data_port <= 65535) return {};
   return io_error("says its data port is " + std::to_string(setup.data_port));
 }

@@ -165,7 +165,7 @@ std::string SimulatedCapancdt::channel_info(std::string_view which) const {
     return std::string("\r\n") + kWrong;
   const auto& input = options_.inputs[static_cast<std::size_t>(*channel - 1)];
   std::string text = ":ANO2800" + std::to_string(*channel) + ",NAMCS2,SNO" + options_.serial;
-  if (options_.tells_range)
+  if (options_.states_range)
     text += ",OFS0,RNG" + std::to_string(std::lround(input.range_um)) + ",UNT\xB5m";
   return text + "OK\r\n";
 }

@@ -57,7 +57,7 @@ class SimulatedCapancdt final : public SimulatedDevice {
     std::string name = "DT6220", version = "V1.2a", serial = "1001";
     std::int32_t article = 2303025;
     std::vector<Input> inputs = std::vector<Input>(4);
-    bool tells_range = true;    // by $CHI
+    bool states_range = true;   // by $CHI
     int data_port = kDataPort;  // that $GDP says
     int frames_per_packet = 1;
     std::uint32_t first_counter = 0;

@@ -89,11 +89,11 @@ void DeviceClock::take(std::int64_t ticks, std::int64_t received_ns, double offs
 }
 
 void DeviceClock::step(std::int64_t ticks, std::int64_t received_ns) {
-  const std::size_t doubted =
-      std::max(doubted_stretches_, fitted_ ? kStretchesToFit : kStretchesToBegin);
+  const std::size_t uncertain =
+      std::max(uncertain_stretches_, fitted_ ? kStretchesToFit : kStretchesToBegin);
   reset();
   ++steps_;
-  doubted_stretches_ = doubted;
+  uncertain_stretches_ = uncertain;
   add(ticks, received_ns);
 }
 
@@ -113,8 +113,8 @@ void DeviceClock::fit() {
   fitted_ = true;
 }
 
-bool DeviceClock::in_doubt() const {
-  return late_since_ns_ || best_.size() <= doubted_stretches_;
+bool DeviceClock::is_uncertain() const {
+  return late_since_ns_ || best_.size() <= uncertain_stretches_;
 }
 
 std::int64_t DeviceClock::host_ns(std::int64_t ticks) {
@@ -142,7 +142,7 @@ ClockState DeviceClock::state() const {
   state.drift_ppm = -slope_ * 1e6;
   state.settled = fitted_;
   state.steps = steps_;
-  state.doubtful = in_doubt();
+  state.doubtful = is_uncertain();
   state.late_ns = late_since_ns_ ? std::llround(late_ns_) : 0;
   if (best_.empty()) return state;
   std::vector<double> spreads;

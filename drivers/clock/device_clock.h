@@ -55,7 +55,7 @@ class DeviceClock {
   double nominal_ns(std::int64_t ticks) const;
   void fit();
   void step(std::int64_t ticks, std::int64_t received_ns);
-  bool in_doubt() const;
+  bool is_uncertain() const;
   bool is_late(double offset_ns, double nominal_ns, std::int64_t received_ns);
   void take(std::int64_t ticks, std::int64_t received_ns, double offset_ns, double nominal_ns);
 
@@ -68,8 +68,8 @@ class DeviceClock {
   double given_offset_ns_ = 0;
   std::int64_t given_ns_ = INT64_MIN;
   bool fitted_ = false, given_any_ = false;
-  std::size_t doubted_stretches_ = 0;  // after a step
-  double late_ns_ = 0;                 // the newest packet, while packets are late
+  std::size_t uncertain_stretches_ = 0;  // after a step
+  double late_ns_ = 0;                   // the newest packet, while packets are late
   std::optional<std::int64_t> late_since_ns_;
   std::uint64_t steps_ = 0;
 };

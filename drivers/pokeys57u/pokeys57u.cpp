@@ -54,12 +54,12 @@ DeviceInfo PoKeys57u::info() const {
   if (!identity_.firmware.empty()) text += ", firmware " + identity_.firmware;
   if (device_) text += ", at " + device_->path();
   return {settings_.name,           "pokeys57u", text, channels_,
-          1000 / settings_.poll_ms, false,       {},   doubt_};
+          1000 / settings_.poll_ms, false,       {},   zero_problem_};
 }
 
 void PoKeys57u::trust_count() {
   for (Counter& counter : counters_) counter.sure = true;
-  doubt_.clear();
+  zero_problem_.clear();
 }
 
 Status PoKeys57u::open() {
@@ -70,8 +70,8 @@ Status PoKeys57u::open() {
     return found;
   }
   MDOF_CHECK(set_up_encoders());
-  MDOF_TRY(const auto told, watch_for_restart());
-  if (!told) return does_not_say("its time");
+  MDOF_TRY(const auto reported, watch_for_restart());
+  if (!reported) return does_not_say("its time");
   next_ = last_ = steady_clock::now();
   return {};
 }
@@ -180,7 +180,7 @@ Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
   const auto behind = static_cast<std::int32_t>(
       before->ms + static_cast<std::uint32_t>(std::llround(passed_ms)) - now.ms);
   if (behind < kTickSlack_ms + passed_ms * kTickDrift) return reply->span;
-  doubt_ = "it was without power and its encoders count from 0 again";
+  zero_problem_ = "it was without power and its encoders count from 0 again";
   for (Counter& counter : counters_) {
     counter = {};
     counter.sure = false;
@@ -297,8 +297,8 @@ double PoKeys57u::value_of(std::size_t i, Time time, Quality& quality) {
   const auto step = static_cast<double>(count - counter.last.value_or(count));
   if (counter.sure && std::abs(step) > most + kStepSlack_counts) {
     counter.sure = false;
-    doubt_ = input.name + " jumped by " + std::to_string(std::llround(step)) +
-             " counts, faster than it can count";
+    zero_problem_ = input.name + " jumped by " + std::to_string(std::llround(step)) +
+                    " counts, faster than it can count";
   }
   counter.last = count;
   counter.at = time;

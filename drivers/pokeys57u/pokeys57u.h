@@ -102,7 +102,7 @@ class PoKeys57u final : public Driver {
   std::array<Counts, 2> counts_{};  // of the last poll
   Codes analogue_{};
   Time next_, last_, tick_due_;  // poll, scan
-  std::string doubt_;            // what made a zero unsure
+  std::string zero_problem_;     // what made a zero unsure
   bool failing_ = false;
   std::uint64_t rejected_ = 0;
 };

@@ -131,7 +131,7 @@ Frame SimulatedPokeys57u::answer(const Frame& asked, std::int64_t now_ns) {
   reply.id = asked.id;
   switch (asked.command) {
     case kDeviceData:
-      tell_what_it_is(reply);
+      answer_identity(reply);
       break;
     case kTick:
       set_tick(reply, static_cast<std::uint32_t>((now_ns - powered_ns_) / 1'000'000));
@@ -159,7 +159,7 @@ Frame SimulatedPokeys57u::answer(const Frame& asked, std::int64_t now_ns) {
   return reply;
 }
 
-void SimulatedPokeys57u::tell_what_it_is(Frame& reply) const {
+void SimulatedPokeys57u::answer_identity(Frame& reply) const {
   reply.parameter[2] = 0x32;  // firmware 4.2.19
   reply.parameter[3] = 19;
   if (options_.old_board) {

@@ -65,7 +65,7 @@ class SimulatedPokeys57u final : public usb::SimulatedUsb {
   };
   void take(const Frame& asked, std::int64_t now_ns);
   Frame answer(const Frame& asked, std::int64_t now_ns);
-  void tell_what_it_is(Frame& reply) const;
+  void answer_identity(Frame& reply) const;
   Counts counts(std::size_t block, std::int64_t now_ns) const;
   std::int64_t count(std::size_t input, std::int64_t now_ns) const;
   void begin_counts(std::int64_t now_ns);

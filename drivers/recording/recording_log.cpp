@@ -219,7 +219,7 @@ std::string RecordingLog::span_of(const RecordingChunk& chunk) const {
 std::string RecordingLog::whole_chunks() {
   std::string text;
   std::int64_t first = 0, last = -1;  // the stretch being gathered
-  const auto tell = [&] {
+  const auto report = [&] {
     if (last < first) return;
     text += (text.empty() ? "chunks " : ", ") + std::to_string(first);
     if (last > first) text += "-" + std::to_string(last);
@@ -229,12 +229,12 @@ std::string RecordingLog::whole_chunks() {
     SampleBlock block;
     if (!load(seq, chunk, block)) continue;
     if (seq != last + 1) {
-      tell();
+      report();
       first = seq;
     }
     last = seq;
   }
-  tell();
+  report();
   return text.empty() ? "nothing" : text;
 }
 

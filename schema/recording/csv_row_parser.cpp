@@ -74,7 +74,7 @@ Result<bool> CsvRowParser::next(SampleBlock& block) {
     parse_plain_rows();
     if (row_ < limits_.scans_per_block && begin_ < text_.size()) MDOF_CHECK(parse_one_line());
     if (row_ == limits_.scans_per_block || block_ends_) {
-      hand_over(block);
+      deliver(block);
       return true;
     }
   }
@@ -87,11 +87,11 @@ Result<bool> CsvRowParser::last(SampleBlock& block) {
                      (bad_lines_.empty() ? ": a header but no rows; was the recording saved?"
                                          : ": no good row; the first line says: " + bad_lines_[0]));
   if (row_ == 0) return false;
-  hand_over(block);
+  deliver(block);
   return true;
 }
 
-void CsvRowParser::hand_over(SampleBlock& block) {
+void CsvRowParser::deliver(SampleBlock& block) {
   block_.time_ns.resize(row_);
   for (std::vector<double>& column : block_.value) column.resize(row_);
   for (std::size_t channel = 0; channel < missing_.size(); ++channel)

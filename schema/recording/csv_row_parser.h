@@ -65,7 +65,7 @@ class CsvRowParser {
   Status report_bad(std::uint64_t line, const std::string& reason);
   std::string where(std::uint64_t line) const;
   void prepare_block();
-  void hand_over(SampleBlock& block);
+  void deliver(SampleBlock& block);
   void mark_missing(std::size_t channel);
 
   CsvHeader header_;

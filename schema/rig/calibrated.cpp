@@ -119,7 +119,7 @@ void apply(const CalibratedProbe& found, Probe& probe) {
 
 // What takes the place of what an earlier record found, and the zeros that the rig declares, have
 // their covariances no longer.
-void keep_what_holds(CalibrationRecord& record, Rig& rig) {
+void keep_valid_values(CalibrationRecord& record, Rig& rig) {
   for (const CalibratedProbe& found : record.probes)
     for (const Probe& probe : rig.probes) {
       if (probe.id != found.id) continue;
@@ -133,7 +133,7 @@ void keep_what_holds(CalibrationRecord& record, Rig& rig) {
 }
 
 void apply(CalibrationRecord& record, Rig& rig) {
-  keep_what_holds(record, rig);
+  keep_valid_values(record, rig);
   for (const CalibratedProbe& found : record.probes)
     for (Probe& probe : rig.probes)
       if (probe.id == found.id) apply(found, probe);
@@ -141,7 +141,7 @@ void apply(CalibrationRecord& record, Rig& rig) {
   if (record.u_together_m && offset.u == Vec3{}) offset = {*record.u_together_m};
 }
 
-std::string what_of(const CalibrationRecord& record) {
+std::string calibrated_quantity(const CalibrationRecord& record) {
   return record.kind == "mounting" ? "places of the probes" : "sensitivity";
 }
 
@@ -197,7 +197,7 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
 std::vector<std::string> calibration_notes(const Rig& rig) {
   std::vector<std::string> notes;
   for (const CalibrationRecord& record : rig.records)
-    notes.push_back(what_of(record) + " by the calibration \"" + record.id + "\" of " +
+    notes.push_back(calibrated_quantity(record) + " by the calibration \"" + record.id + "\" of " +
                     record.date + ", valid until " + record.valid_until);
   return notes;
 }

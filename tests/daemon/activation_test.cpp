@@ -34,7 +34,7 @@ class ActivationTest : public ::testing::Test {
   }
   Result<store::Activation> activated(std::int64_t id) {
     return activate_table(*store_,
-                          {id, {false, true}, deed_now("compensation.activate", this_process())});
+                          {id, {false, true}, action_now("compensation.activate", this_process())});
   }
 
   std::filesystem::path folder_;

@@ -25,8 +25,8 @@ bool fails() {
   static const bool sticky = number("MDOF_FAIL_STICKY") != 0;
   const long call = ++calls;
   if (wanted == 0 || call < wanted || (call > wanted && !sticky)) return false;
-  const char* told = std::getenv("MDOF_FAIL_TOLD");
-  if (call == wanted && told) ::close(::open(told, O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
+  const char* reported = std::getenv("MDOF_FAIL_TOLD");
+  if (call == wanted && reported) ::close(::open(reported, O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
   errno = static_cast<int>(error);
   return true;
 }

@@ -122,7 +122,7 @@ struct Server::Parts {
   Status open_ports(std::size_t device);
   Status listen_at(std::size_t device, std::size_t port, int tcp_port);
   Status serve_line(std::size_t device, std::size_t port);
-  void tell(std::size_t device, std::size_t port, const std::string& address);
+  void report(std::size_t device, std::size_t port, const std::string& address);
   Status plug(std::size_t device);
   void accept();
   void turn_devices();
@@ -148,21 +148,21 @@ Status Server::Parts::listen_at(std::size_t device, std::size_t port, int tcp_po
   MDOF_TRY(auto listener, listen_on(host, tcp_port));
   listener.device = device;
   listener.port = port;
-  tell(device, port, host + ":" + std::to_string(listener.tcp_port));
+  report(device, port, host + ":" + std::to_string(listener.tcp_port));
   listeners.push_back(std::move(listener));
   return {};
 }
 
 Status Server::Parts::serve_line(std::size_t device, std::size_t port) {
   MDOF_TRY(auto line, open_line());
-  tell(device, port, line.path);
+  report(device, port, line.path);
   devices[device].device->opened(port, next_id, device_ns(devices[device]));
   clients.push_back({std::move(line.device_end), device, port, next_id++, {}, "", false});
   held_lines.push_back(std::move(line.host_end));
   return {};
 }
 
-void Server::Parts::tell(std::size_t device, std::size_t port, const std::string& address) {
+void Server::Parts::report(std::size_t device, std::size_t port, const std::string& address) {
   const Served& served = devices[device];
   addresses += served.name + " " + served.device->ports()[port].name + " " + address + "\n";
 }

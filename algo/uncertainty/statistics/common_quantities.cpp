@@ -49,7 +49,7 @@ void name_common_surfaces(const Rig& rig, std::vector<Contributor>& list) {
     }
 }
 
-void name_what_goes_with_probes(const Rig& rig, std::vector<Contributor>& list) {
+void name_probe_correlations(const Rig& rig, std::vector<Contributor>& list) {
   for (Contributor& contributor : list) {
     if (std::find(kOfProbes.begin(), kOfProbes.end(), contributor.key) == kOfProbes.end()) continue;
     for (const Probe& probe : rig.probes)

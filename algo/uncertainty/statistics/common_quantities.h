@@ -11,7 +11,7 @@ namespace mdof::algo {
 
 // Sets Contributor::common_as: the scale, the linearity and the tilt factor of a probe are its own
 // wherever it is clamped; the same id, certificate and uncertainty are the same probe.
-void name_what_goes_with_probes(const Rig& rig, std::vector<Contributor>& list);
+void name_probe_correlations(const Rig& rig, std::vector<Contributor>& list);
 
 // "plane top: flatness"; the plane is one of the rig's.
 std::string flatness_name(const Rig& rig, const TargetPlane& plane);

@@ -126,8 +126,8 @@ LargestChange PointCorrections::linearity(const std::vector<const Point*>& point
   return most;
 }
 
-void PointCorrections::tell(const algo::Solver& solver, const std::vector<Point>& before,
-                            Run& run) const {
+void PointCorrections::report(const algo::Solver& solver, const std::vector<Point>& before,
+                              Run& run) const {
   if (!rig_.physics) return;
   const auto points = kept(before, run);
   Notices& notices = run.header.notices;
@@ -146,12 +146,12 @@ void PointCorrections::tell(const algo::Solver& solver, const std::vector<Point>
   if (asked_.dielectric) notices.push_back(change_notice("dielectric", true, made.dielectric));
   if (left.dielectric && not_made.dielectric.size_m > 0)
     notices.push_back(change_notice("dielectric", false, not_made.dielectric));
-  tell_air(run);
-  tell_failures(run);
+  report_air(run);
+  report_failures(run);
 }
 
 // At the first and the last point, since it may change.
-void PointCorrections::tell_air(Run& run) const {
+void PointCorrections::report_air(Run& run) const {
   if (!known_.dielectric || run.points.empty()) return;
   const auto first = air_at(run.points.front().point), last = air_at(run.points.back().point);
   if (!first || !last) return;
@@ -164,7 +164,7 @@ void PointCorrections::tell_air(Run& run) const {
   run.header.notices.push_back(notice(NoticeCode::air_of_run, "", {{"conditions", conditions}}));
 }
 
-void PointCorrections::tell_failures(Run& run) const {
+void PointCorrections::report_failures(Run& run) const {
   std::size_t closed = 0, without_air = 0;
   std::string first;
   for (const MeasuredPoint& p : run.points) {

@@ -39,7 +39,7 @@ class PointCorrections {
   // Of a run whose points were corrected: by how much at most, what is left in though it is
   // known, and points that could not be corrected. `before`: these points and
   // others as they were averaged.
-  void tell(const algo::Solver& solver, const std::vector<Point>& before, Run& run) const;
+  void report(const algo::Solver& solver, const std::vector<Point>& before, Run& run) const;
 
  private:
   struct Changes {
@@ -50,8 +50,8 @@ class PointCorrections {
   Changes changes(const algo::Solver& solver, algo::WhichCorrections which,
                   const std::vector<const Point*>& points) const;
   LargestChange linearity(const std::vector<const Point*>& points) const;
-  void tell_air(Run& run) const;
-  void tell_failures(Run& run) const;
+  void report_air(Run& run) const;
+  void report_failures(Run& run) const;
 
   Rig rig_;
   algo::WhichCorrections asked_, known_;  // known_: could be made

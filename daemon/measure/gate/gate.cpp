@@ -16,7 +16,7 @@ constexpr std::size_t kMostMarks = 5;
 
 // A run's notes are of its encoder's datum and of its rig; that the rig was calibrated and its
 // readings corrected is not doubtful.
-std::vector<std::string> doubtful_notes(const Run& run) {
+std::vector<std::string> doubtful_run_notes(const Run& run) {
   std::vector<std::string> notes = run.header.notes;
   for (const std::string& good : rig_notes(run.header.provenance.rig_text)) std::erase(notes, good);
   return notes;
@@ -24,7 +24,7 @@ std::vector<std::string> doubtful_notes(const Run& run) {
 
 Notices datum_notices(const Run& run) {
   Notices found;
-  for (const std::string& note : doubtful_notes(run))
+  for (const std::string& note : doubtful_run_notes(run))
     found.push_back(notice(NoticeCode::datum_missing, "", {{"note", note}}));
   return found;
 }

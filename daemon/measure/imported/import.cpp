@@ -55,8 +55,8 @@ MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targ
 }
 
 // A deviation as long as the way between two targets is one in another unit.
-Notices doubts(const ImportedSeries& series, const ImportedError& error,
-               const std::vector<double>& targets) {
+Notices import_notices(const ImportedSeries& series, const ImportedError& error,
+                       const std::vector<double>& targets) {
   double largest = 0, step = std::numeric_limits<double>::infinity();
   for (const ImportedReading& r : series.readings)
     largest = std::max(largest, std::abs(r.deviation));
@@ -136,7 +136,7 @@ Result<Run> imported_run(const ImportRequest& request) {
                        ""};
   const std::vector<double> targets = algo::imported_targets(series.readings);
   MDOF_CHECK(check_readings(series, request, error, targets));
-  header.notices = doubts(series, error, targets);
+  header.notices = import_notices(series, error, targets);
   for (const ImportedReading& r : series.readings)
     run.points.push_back(point_of(r, targets, u_si, error));
   MDOF_CHECK(check_gate({request.file, false, without_information(header.notices)},

@@ -42,10 +42,10 @@ Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
 }
 
 Status store_volumetric(store::Store& store, VolumetricTable& table,
-                        const std::optional<Deed>& deed) {
+                        const std::optional<Action>& action) {
   table.created_utc = utc_now();
   table.sha256 = volumetric_sha256(table);
-  MDOF_TRY(table.id, store.add_volumetric(table, deed));
+  MDOF_TRY(table.id, store.add_volumetric(table, action));
   return {};
 }
 

@@ -136,7 +136,7 @@ Result<Run> OnTheFlyRun::finish() {
   for (auto& [probe, why] : aligner_.too_slow()) notices.push_back(std::move(why));
   judge(sequence, run);
   run.points = std::move(sequence.points);
-  corrections_.tell(solver_, as_read, run);
+  corrections_.report(solver_, as_read, run);
   if (auto contradiction = residuals.contradiction(run.points))
     notices.push_back(std::move(*contradiction));
   append(notices, algo::repeat_notices(rig_, run.points));

@@ -73,7 +73,7 @@ Residuals residuals_of(const VolumetricTable& table, const VolumetricTable& appl
 
 // What the tool goes along X by a metre of Y's command, where X goes to x + k y; by the bodies of
 // the chain, whose lines enclose 90 deg + EC0Y.
-double leaning(const SquareAxes& axes, double k) {
+double angle_after_shear(const SquareAxes& axes, double k) {
   const auto moved = [&](char axis, double command) {
     const ChainAxis* of = axes.machine.find(axis);
     const double body = of->against_command ? -command : command;
@@ -105,8 +105,8 @@ Result<Check> check_export(const Format& format, const SquareAxes& axes, const E
   Check check;
   check.most_residual_m = options.residual_m;
   check.share = options.residual_share;
-  const Residuals r{std::abs(leaning(axes, 0)), std::abs(leaning(axes, k)),
-                    std::abs(leaning(axes, -k)), std::nullopt, 0};
+  const Residuals r{std::abs(angle_after_shear(axes, 0)), std::abs(angle_after_shear(axes, k)),
+                    std::abs(angle_after_shear(axes, -k)), std::nullopt, 0};
   check.errors.push_back(judged_by("EC0Y", true, r, format, options, 0, 0));
   return check;
 }

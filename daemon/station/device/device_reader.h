@@ -18,7 +18,7 @@ struct DeviceStatus {
   std::string state = "closed";  // "open", "closed", "failed: reopening", "ended"
   std::string error;             // of the failure that holds; "": it is well
   std::string last_error;        // of the last one that is over, and when that was
-  std::string mended_utc;
+  std::string recovered_utc;
   std::vector<Trouble> standing;  // what holds now
   drivers::DeviceInfo info;
   double measured_hz = 0;      // scans a second since it was opened; 0: not known yet

@@ -95,20 +95,20 @@ std::optional<DwellEvent> slow_over(int windows, double per_window_m, bool stood
   EXPECT_FALSE(window(0, 1e-3, false));
   for (int i = 1; i <= windows; ++i)
     EXPECT_FALSE(window(i, std::abs(per_window_m), stood && i == 2));
-  auto told = window(windows + 1, 1e-3, false);
+  auto reported = window(windows + 1, 1e-3, false);
   EXPECT_FALSE(window(windows + 2, 1e-3, false));
-  return told;
+  return reported;
 }
 
 TEST(SlowStretchRule, IsToldWithItsPlaceSizeAndLength) {
   for (const double per_window_m : {10e-6, -10e-6}) {
-    const auto told = slow_over(10, per_window_m);
-    ASSERT_TRUE(told);
-    EXPECT_EQ(told->kind, DwellEventKind::creep);
-    EXPECT_EQ(told->time_ns, 50'000'000);
-    EXPECT_NEAR(told->size_m, 10 * per_window_m, 1e-12);
-    EXPECT_NEAR(told->position_m, 6 * per_window_m, 1e-12);
-    EXPECT_NEAR(told->length_s, 0.5, 1e-12);
+    const auto reported = slow_over(10, per_window_m);
+    ASSERT_TRUE(reported);
+    EXPECT_EQ(reported->kind, DwellEventKind::creep);
+    EXPECT_EQ(reported->time_ns, 50'000'000);
+    EXPECT_NEAR(reported->size_m, 10 * per_window_m, 1e-12);
+    EXPECT_NEAR(reported->position_m, 6 * per_window_m, 1e-12);
+    EXPECT_NEAR(reported->length_s, 0.5, 1e-12);
   }
 }
 

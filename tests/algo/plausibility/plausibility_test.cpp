@@ -313,14 +313,14 @@ TEST(Plausibility, TargetsThatShiftAreToldWithTheirTimeAndShift) {
   EXPECT_EQ(run.scans_lost, 0u);
   EXPECT_FALSE(run.targets_given);
   EXPECT_EQ(run.least_dwell_s, 0);
-  std::size_t told = 0;
+  std::size_t reported = 0;
   for (const Notice& notice : visit_notices(run)) {
     if (notice.code != NoticeCode::targets_shifted) continue;
-    ++told;
+    ++reported;
     EXPECT_NEAR(test::number(notice, "shift_mm"), 0.3, 1e-9);
     EXPECT_NEAR(test::number(notice, "time_s"), 22, 1e-9);  // the end of the first run's third stop
   }
-  EXPECT_EQ(told, 1u);
+  EXPECT_EQ(reported, 1u);
   // What the probes read of these stops.
   const Plausibility found = plausibility(run);
   ASSERT_EQ(found.probes.size(), 5u);

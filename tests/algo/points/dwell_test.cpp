@@ -334,12 +334,12 @@ TEST(Sequence, WhatNobodySawIsNoApproach) {
   for (const double t : {0.0, 2e-3, 4e-3}) axis.move_to(t), axis.dwell();
   axis.jump_unseen(6e-3, 10);
   for (const double t : {6e-3, 4e-3, 2e-3}) axis.move_to(t), axis.dwell();
-  const Sequence told = recognise_sequence(detect(axis.frames, 1000, {}, axis.breaks), {});
-  ASSERT_EQ(told.points.size(), 6u);
-  EXPECT_EQ(told.points[2].point.direction, 1);
-  EXPECT_TRUE(told.points[2].point.flags.empty());
-  EXPECT_EQ(told.points[3].point.direction, -1);
-  EXPECT_EQ(to_string(told.points[3].point.flags), "approach_assumed");
+  const Sequence reported = recognise_sequence(detect(axis.frames, 1000, {}, axis.breaks), {});
+  ASSERT_EQ(reported.points.size(), 6u);
+  EXPECT_EQ(reported.points[2].point.direction, 1);
+  EXPECT_TRUE(reported.points[2].point.flags.empty());
+  EXPECT_EQ(reported.points[3].point.direction, -1);
+  EXPECT_EQ(to_string(reported.points[3].point.flags), "approach_assumed");
   // The hole in the time line says it as well.
   const Sequence untold = recognise_sequence(detect(axis.frames, 1000), {});
   ASSERT_EQ(untold.points.size(), 6u);

@@ -39,13 +39,13 @@ Told odd_stops_of(const std::vector<Visited>& places, bool parked_first = false)
     }
   }
   if (parked_first) add_flag(points.front().point, Flag::approach_assumed);
-  Told told;
+  Told reported;
   for (const StopLeftOut& stop : leave_out_odd_stops(points, targets_m))
-    told.reasons.push_back(stop.reason);
-  for (const double x : targets_m) told.kept_mm.push_back(1e3 * x);
+    reported.reasons.push_back(stop.reason);
+  for (const double x : targets_m) reported.kept_mm.push_back(1e3 * x);
   for (const MeasuredPoint& p : points)
     EXPECT_EQ(p.point.position_m, targets_m[static_cast<std::size_t>(p.target) - 1]);
-  return told;
+  return reported;
 }
 
 // Targets at 0, 10 ... 60 mm, and one more place.
@@ -60,9 +60,9 @@ Told with_place(const Visited& odd, int forward, int reverse) {
 }
 
 bool is_target(const Visited& place, int forward, int reverse) {
-  const Told told = with_place(place, forward, reverse);
-  EXPECT_EQ(told.kept_mm.size() + (told.reasons.empty() ? 0 : 1), 8u);
-  return told.reasons.empty();
+  const Told reported = with_place(place, forward, reverse);
+  EXPECT_EQ(reported.kept_mm.size() + (reported.reasons.empty() ? 0 : 1), 8u);
+  return reported.reasons.empty();
 }
 
 TEST(OddStops, ATargetHasSixTenthsOfTheVisits) {

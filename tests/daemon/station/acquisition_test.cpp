@@ -186,7 +186,7 @@ TEST(Acquisition, ReopensAFailedDeviceAndTellsWhatWasLost) {
   EXPECT_EQ(status.scans, 20u);
   EXPECT_EQ(status.error, "");  // it is well again, and what it was is no state
   EXPECT_EQ(status.last_error, "10.0.0.9: no route");
-  EXPECT_FALSE(status.mended_utc.empty());
+  EXPECT_FALSE(status.recovered_utc.empty());
   EXPECT_TRUE(status.standing.empty());
   EXPECT_TRUE(acquisition.healthy(std::chrono::seconds(5)));
   acquisition.stop();
@@ -217,12 +217,12 @@ TEST(Acquisition, TellsOnceThatADeviceIsLostAndThatItIsBack) {
                           collector.sink());
   acquisition.start();
   ASSERT_TRUE(collector.wait_for(2));
-  const auto told = collector.troubles();
-  ASSERT_EQ(told.size(), 2u);
-  EXPECT_EQ(told[0], "device \"fake\": lost: 10.0.0.9: gone");
-  EXPECT_TRUE(told[1].starts_with("device \"fake\": back: it gives samples again after "))
-      << told[1];
-  EXPECT_TRUE(told[1].ends_with("; scans lost meanwhile: 1000")) << told[1];
+  const auto reported = collector.troubles();
+  ASSERT_EQ(reported.size(), 2u);
+  EXPECT_EQ(reported[0], "device \"fake\": lost: 10.0.0.9: gone");
+  EXPECT_TRUE(reported[1].starts_with("device \"fake\": back: it gives samples again after "))
+      << reported[1];
+  EXPECT_TRUE(reported[1].ends_with("; scans lost meanwhile: 1000")) << reported[1];
 }
 
 TEST(Acquisition, TellsThatAnEncoderHasLostItsDatumAndHoldsToIt) {
@@ -231,10 +231,11 @@ TEST(Acquisition, TellsThatAnEncoderHasLostItsDatumAndHoldsToIt) {
                           collector.sink());
   acquisition.start();
   ASSERT_TRUE(collector.wait_for(3));
-  const auto told = collector.troubles();
-  ASSERT_EQ(told.size(), 5u);  // lost, suspect, back, lost, back
-  EXPECT_NE(told[1].find("suspect: the encoder's datum is lost"), std::string::npos) << told[1];
-  EXPECT_NE(told[1].find("it counts from 0 again"), std::string::npos) << told[1];
+  const auto reported = collector.troubles();
+  ASSERT_EQ(reported.size(), 5u);  // lost, suspect, back, lost, back
+  EXPECT_NE(reported[1].find("suspect: the encoder's datum is lost"), std::string::npos)
+      << reported[1];
+  EXPECT_NE(reported[1].find("it counts from 0 again"), std::string::npos) << reported[1];
   const auto standing = acquisition.status().standing;
   ASSERT_EQ(standing.size(), 1u);
   EXPECT_EQ(standing[0].kind, Trouble::Kind::suspect);

@@ -94,10 +94,10 @@ TEST(Datum, StopsAfterItIsLostAreLeftOutAndCounted) {
       EXPECT_EQ(whole->points[i].point.position_m, before->points[i].point.position_m);
       EXPECT_TRUE(whole->points[i].errors.valid);
     }
-    const std::string told = notices(*whole);
-    EXPECT_NE(told.find("stops_not_placed"), std::string::npos) << told;
-    EXPECT_NE(told.find("stops_not_placed t7"), std::string::npos) << told;
-    EXPECT_EQ(told.find("five probes"), std::string::npos) << told;
+    const std::string reported = notices(*whole);
+    EXPECT_NE(reported.find("stops_not_placed"), std::string::npos) << reported;
+    EXPECT_NE(reported.find("stops_not_placed t7"), std::string::npos) << reported;
+    EXPECT_EQ(reported.find("five probes"), std::string::npos) << reported;
     EXPECT_EQ(notices(*before).find("stops_not_placed"), std::string::npos);
   }
 }

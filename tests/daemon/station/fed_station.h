@@ -232,8 +232,8 @@ class FedStation : public ::testing::Test {
   }
   Result<std::int64_t> stop(bool abort = false) {
     std::promise<Result<std::int64_t>> id;
-    const Deed deed = deed_now(abort ? "run.abort" : "run.stop", this_process());
-    station_->stop_run(abort, deed, [&](const auto& ended) { id.set_value(ended); });
+    const Action action = action_now(abort ? "run.abort" : "run.stop", this_process());
+    station_->stop_run(abort, action, [&](const auto& ended) { id.set_value(ended); });
     return id.get_future().get();
   }
   // Gives scans begin ... end - 1, 100 a block.

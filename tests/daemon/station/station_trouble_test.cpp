@@ -76,7 +76,7 @@ TEST_F(StationTrouble, TheEndOfTheProgramComesInEveryStateWithoutALongWait) {
   station_.reset();
   make_station();
   ASSERT_TRUE(start());
-  station_->stop_run(false, deed_now("run.stop", this_process()), {});
+  station_->stop_run(false, action_now("run.stop", this_process()), {});
   station_.reset();  // with a run that is about to end
   make_station();
   station_->start_run({}, [](const auto&) {});
@@ -155,8 +155,8 @@ class StationDatum : public FedStation {
   }
   Result<EncoderDatum> set(double mm) {
     std::promise<Result<EncoderDatum>> done;
-    const Deed deed{"encoder.set", {1000, 1000, 4711, "anna"}, "2026-11-23T08:00:00Z"};
-    station_->set_encoder(1e-3 * mm, deed, [&](const auto& datum) { done.set_value(datum); });
+    const Action action{"encoder.set", {1000, 1000, 4711, "anna"}, "2026-11-23T08:00:00Z"};
+    station_->set_encoder(1e-3 * mm, action, [&](const auto& datum) { done.set_value(datum); });
     return done.get_future().get();
   }
 };

@@ -14,7 +14,7 @@ DatumSetting setting(Axis axis, double position_m) {
   return {0, axis, "t7", 0.00003125, position_m, position_m - 0.00003125, "2026-11-23T07:00:00Z"};
 }
 
-Deed said_by_anna() {
+Action said_by_anna() {
   return {.name = "encoder.set", .by = {1000, 100, 4711, "anna"}, .utc = "2026-11-23T07:00:00Z"};
 }
 
@@ -37,15 +37,15 @@ TEST_F(EncoderData, TheLastOfAnAxisComesBackAsItWasSaid) {
 TEST_F(EncoderData, ItsDeedTellsWhereTheAxisStood) {
   auto store = writer();
   ASSERT_TRUE(store->add_datum(setting(Axis::y, 0.0125), said_by_anna()));
-  const auto deeds = store->list_deeds(0, 9).value();
-  ASSERT_EQ(deeds.size(), 1u);
-  EXPECT_EQ(deeds[0].name, "encoder.set");
-  EXPECT_EQ(deeds[0].subject, "encoder_datum");
-  EXPECT_EQ(deeds[0].row, 1);
-  EXPECT_EQ(deeds[0].by.user, "anna");
-  EXPECT_EQ(deeds[0].detail, "Y stands at 12.5 mm; until then it was at 0.03125 mm");
+  const auto actions = store->list_actions(0, 9).value();
+  ASSERT_EQ(actions.size(), 1u);
+  EXPECT_EQ(actions[0].name, "encoder.set");
+  EXPECT_EQ(actions[0].subject, "encoder_datum");
+  EXPECT_EQ(actions[0].row, 1);
+  EXPECT_EQ(actions[0].by.user, "anna");
+  EXPECT_EQ(actions[0].detail, "Y stands at 12.5 mm; until then it was at 0.03125 mm");
   EXPECT_TRUE(store->add_run(make_run(3), said_by_anna()));
-  EXPECT_EQ(store->list_deeds(0, 1).value()[0].detail, "");
+  EXPECT_EQ(store->list_actions(0, 1).value()[0].detail, "");
 }
 
 TEST_F(EncoderData, AnyChangeOfItIsFound) {
@@ -63,9 +63,9 @@ TEST_F(EncoderData, AnyChangeOfItIsFound) {
            change);
     EXPECT_FALSE(reader()->verify()->empty()) << change;
   }
-  const auto told = reader()->last_datum(Axis::x);
-  ASSERT_FALSE(told);
-  EXPECT_TRUE(contains(told.error().message, "encoder datum 9: was not stored by mdof"));
+  const auto reported = reader()->last_datum(Axis::x);
+  ASSERT_FALSE(reported);
+  EXPECT_TRUE(contains(reported.error().message, "encoder datum 9: was not stored by mdof"));
 }
 
 TEST_F(EncoderData, ItIsAppendOnly) {
@@ -76,7 +76,7 @@ TEST_F(EncoderData, ItIsAppendOnly) {
     EXPECT_TRUE(contains(db->execute(sql).error().message, "append only")) << sql;
 }
 
-// Of schema version 9, in which a deed of an encoder was none.
+// Of schema version 9, in which an action of an encoder was none.
 TEST_F(EncoderData, DeedsFromBeforeKeepTheirHashes) {
   constexpr std::size_t kBefore = 9;
   {
@@ -85,16 +85,16 @@ TEST_F(EncoderData, DeedsFromBeforeKeepTheirHashes) {
     ASSERT_TRUE(db->execute(
         "INSERT INTO deed VALUES (1, 'run.start', 'run', 1, 1000, 100, 4711, 'anna', 'then'), "
         "(2, 'run.stop', 'run', 1, 1001, 101, 4712, 'bert', 'now')"));
-    for (const std::int64_t row : {1, 2}) ASSERT_TRUE(add_link(*db, Fact::deed, row));
+    for (const std::int64_t row : {1, 2}) ASSERT_TRUE(add_link(*db, Fact::action, row));
   }
   auto store = writer();
   ASSERT_TRUE(store) << store.error().message;
   EXPECT_TRUE(store->verify()->empty());
   ASSERT_TRUE(store->add_datum(setting(Axis::x, 0.0125), said_by_anna()));
-  const auto deeds = store->list_deeds(0, 9).value();
-  ASSERT_EQ(deeds.size(), 3u);
-  EXPECT_EQ(deeds[1].by.user, "bert");
-  EXPECT_EQ(deeds[2].by.pid, 4711);
+  const auto actions = store->list_actions(0, 9).value();
+  ASSERT_EQ(actions.size(), 3u);
+  EXPECT_EQ(actions[1].by.user, "bert");
+  EXPECT_EQ(actions[2].by.pid, 4711);
   EXPECT_TRUE(store->verify()->empty());
 }
 

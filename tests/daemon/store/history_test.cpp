@@ -5,7 +5,7 @@
 namespace mdof::store {
 namespace {
 
-Deed by_anna(const std::string& name) {
+Action by_anna(const std::string& name) {
   return {.name = name, .by = {1000, 100, 4711, "anna"}, .utc = "2026-11-22T18:00:00.000Z"};
 }
 
@@ -17,14 +17,14 @@ class Deeds : public StoreTest {
     const auto id = store.begin_run(run.header, by_anna("run.start")).value();
     RunEnd end;
     end.state = RunState::failed;
-    end.deed = by_anna("run.stop");
+    end.action = by_anna("run.stop");
     return store.end_and_supersede(id, end, run).value();
   }
 
-  std::string names(const std::vector<Deed>& deeds) {
+  std::string names(const std::vector<Action>& actions) {
     std::string all;
-    for (const Deed& deed : deeds)
-      all += deed.name + " " + deed.subject + " " + std::to_string(deed.row) + "; ";
+    for (const Action& action : actions)
+      all += action.name + " " + action.subject + " " + std::to_string(action.row) + "; ";
     return all;
   }
 };
@@ -51,28 +51,28 @@ TEST_F(Deeds, ARunThatWasNumberedAgainIsNoResult) {
 TEST_F(Deeds, EachChangeHasItsDeed) {
   auto store = writer();
   const auto run = measured(*store);
-  const auto deeds = store->deeds_of_run(run).value();
-  EXPECT_EQ(names(deeds), "run.start run 1; run.stop run 1; ");  // of the one that it supersedes
-  EXPECT_EQ(deeds[1].by.uid, 1000);
-  EXPECT_EQ(deeds[1].by.gid, 100);
-  EXPECT_EQ(deeds[1].by.pid, 4711);
-  EXPECT_EQ(deeds[1].by.user, "anna");
-  EXPECT_EQ(deeds[1].utc, "2026-11-22T18:00:00.000Z");
+  const auto actions = store->actions_of_run(run).value();
+  EXPECT_EQ(names(actions), "run.start run 1; run.stop run 1; ");  // of the one that it supersedes
+  EXPECT_EQ(actions[1].by.uid, 1000);
+  EXPECT_EQ(actions[1].by.gid, 100);
+  EXPECT_EQ(actions[1].by.pid, 4711);
+  EXPECT_EQ(actions[1].by.user, "anna");
+  EXPECT_EQ(actions[1].utc, "2026-11-22T18:00:00.000Z");
   const auto table = store->add_table(make_table({run}), by_anna("compensation.build")).value();
   const auto on = store->activate(table, "anna", "x", by_anna("compensation.activate")).value();
   const auto off = store->deactivate(Axis::x, "anna", "x", by_anna("compensation.deactivate"));
-  EXPECT_EQ(names(store->list_deeds(0, 3).value()),
+  EXPECT_EQ(names(store->list_actions(0, 3).value()),
             "compensation.deactivate deactivation " + std::to_string(off->generation) +
                 "; compensation.activate activation " + std::to_string(on.generation) +
                 "; compensation.build compensation_table 1; ");
-  EXPECT_EQ(store->count_deeds().value(), 5);
+  EXPECT_EQ(store->count_actions().value(), 5);
   EXPECT_TRUE(store->verify()->empty());
 }
 
 TEST_F(Deeds, WhoStoresNothingDidNothing) {
   auto store = writer();
   EXPECT_FALSE(store->add_table(make_table({99}), by_anna("compensation.build")));
-  EXPECT_EQ(store->count_deeds().value(), 0);
+  EXPECT_EQ(store->count_actions().value(), 0);
 }
 
 TEST_F(Deeds, ADeedOfAnotherIsFound) {
@@ -87,10 +87,10 @@ TEST_F(Deeds, ADeedOfAnotherIsFound) {
     tamper(std::string("DROP TRIGGER deed_no_update; DROP TRIGGER deed_no_delete; ") + change);
     EXPECT_FALSE(reader()->verify()->empty()) << change;
   }
-  const auto told = reader()->list_deeds(0, 10);
-  ASSERT_FALSE(told);
-  EXPECT_TRUE(contains(told.error().message, "deed 1: is not what was stored"))
-      << told.error().message;
+  const auto reported = reader()->list_actions(0, 10);
+  ASSERT_FALSE(reported);
+  EXPECT_TRUE(contains(reported.error().message, "deed 1: is not what was stored"))
+      << reported.error().message;
 }
 
 }  // namespace

@@ -161,24 +161,24 @@ TEST_F(LedgerTest, EveryFactIsCheckedWhenItIsServedAndByVerify) {
 // A chain that fits again, of other facts: nothing in the database tells it from the true one.
 TEST_F(LedgerTest, AChainCalculatedAnewHasNotTheHeadThatWasTold) {
   store_all();
-  ChainHead told;
+  ChainHead reported;
   std::int64_t generation = 0;
   {
     auto store = reader();
-    told = store->chain_head().value();
+    reported = store->chain_head().value();
     generation = store->generation().value();
     ASSERT_TRUE(store->check_announced_head()) << "nothing was told";
-    EXPECT_GT(told.link, 0);
+    EXPECT_GT(reported.link, 0);
   }
-  ASSERT_TRUE(write_announced_head(file_, {told, generation}));
+  ASSERT_TRUE(write_announced_head(file_, {reported, generation}));
   EXPECT_TRUE(reader()->active(Axis::x));
   EXPECT_TRUE(reader()->verify()->empty());
   {  // an ordinary change goes on from it
     ASSERT_TRUE(writer()->add_run(make_run(4)));
     auto store = reader();
-    EXPECT_NE(store->chain_head()->link, told.link);
+    EXPECT_NE(store->chain_head()->link, reported.link);
     EXPECT_TRUE(store->check_announced_head());
-    EXPECT_TRUE(store->has_hash(told.sha256).value());
+    EXPECT_TRUE(store->has_hash(reported.sha256).value());
   }
   const std::string whole = contents(file_);
   {
@@ -190,7 +190,7 @@ TEST_F(LedgerTest, AChainCalculatedAnewHasNotTheHeadThatWasTold) {
     ASSERT_TRUE(link_old_facts(*db));
   }
   auto store = reader();
-  EXPECT_FALSE(store->has_hash(told.sha256).value());
+  EXPECT_FALSE(store->has_hash(reported.sha256).value());
   for (const Status& noticed :
        {store->check_announced_head(), Status(store->active(Axis::x).map([](auto&&) {}))}) {
     ASSERT_FALSE(noticed);

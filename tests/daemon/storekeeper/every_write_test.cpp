@@ -70,14 +70,15 @@ class EveryWrite : public ::testing::Test {
     fs::copy_file(folder_ / "fresh.db", life / "mdof.db");
     return life;
   }
-  std::unique_ptr<Storekeeper> keeper_of(const fs::path& life, Told& told) {
+  std::unique_ptr<Storekeeper> keeper_of(const fs::path& life, Told& reported) {
     Storekeeper::Options options{life / "mdof.db"};
     options.commit_interval = std::chrono::milliseconds(1);
-    return Storekeeper::start(options, {[&](std::int64_t, std::int64_t seq) { told.chunks = seq; },
-                                        [&](std::int64_t, const Error&) { told.refused = true; }})
+    return Storekeeper::start(options,
+                              {[&](std::int64_t, std::int64_t seq) { reported.chunks = seq; },
+                               [&](std::int64_t, const Error&) { reported.refused = true; }})
         .value();
   }
-  static bool begin(Storekeeper& keeper, const fs::path& recording, Told& told) {
+  static bool begin(Storekeeper& keeper, const fs::path& recording, Told& reported) {
     std::promise<bool> begun;
     NewRun run;
     run.recording = recording;
@@ -86,66 +87,67 @@ class EveryWrite : public ::testing::Test {
     run.header.provenance.recording_path = recording.string();
     run.header.provenance.model = "rigid";
     keeper.begin_run(std::move(run), [&](const auto& id) {
-      told.run = id.value_or(0);
+      reported.run = id.value_or(0);
       begun.set_value(id.has_value());
     });
     return begun.get_future().get();
   }
   static void append(Storekeeper& keeper, int block, std::vector<MeasuredPoint> points,
-                     Told& told) {
-    EXPECT_TRUE(keeper.record(told.run, {some_scans(block)}, true));
+                     Told& reported) {
+    EXPECT_TRUE(keeper.record(reported.run, {some_scans(block)}, true));
     std::promise<void> done;
-    keeper.append_points(told.run, points, [&](const Status& kept) {
-      if (kept) told.points += points.size();
-      told.refused = told.refused || !kept;
+    keeper.append_points(reported.run, points, [&](const Status& kept) {
+      if (kept) reported.points += points.size();
+      reported.refused = reported.refused || !kept;
       done.set_value();
     });
     done.get_future().get();
   }
   // A run of three points in two portions; `otherwise`: at its end they turn out otherwise, and
   // what supersedes it has four.
-  static void measure(Storekeeper& keeper, const fs::path& recording, bool otherwise, Told& told) {
-    if (!begin(keeper, recording, told)) return;
-    append(keeper, 0, {solved_point(1), solved_point(2)}, told);
-    append(keeper, 1, {solved_point(3)}, told);
+  static void measure(Storekeeper& keeper, const fs::path& recording, bool otherwise,
+                      Told& reported) {
+    if (!begin(keeper, recording, reported)) return;
+    append(keeper, 0, {solved_point(1), solved_point(2)}, reported);
+    append(keeper, 1, {solved_point(3)}, reported);
     mdof::Run result;
     result.header.state = RunState::complete;
     for (int target = 1; target <= (otherwise ? 4 : 3); ++target)
       result.points.push_back(solved_point(target));
     std::promise<void> done;
-    keeper.end_run(told.run, result, {otherwise}, [&](const auto& id) {
-      told.ended = id.value_or(0);
-      told.refused = told.refused || !id;
+    keeper.end_run(reported.run, result, {otherwise}, [&](const auto& id) {
+      reported.ended = id.value_or(0);
+      reported.refused = reported.refused || !id;
       done.set_value();
     });
     done.get_future().get();
   }
 
   // What anybody finds who opens it afterwards.
-  static void expect_sound(store::Store& store, const fs::path& recording, const Told& told,
+  static void expect_sound(store::Store& store, const fs::path& recording, const Told& reported,
                            std::size_t points_at_end) {
     const auto findings = store.verify();
     ASSERT_TRUE(findings) << findings.error().message;
     EXPECT_TRUE(findings->empty()) << findings->front();
-    if (told.run == 0) return;
-    const auto run = store.run(told.run);
+    if (reported.run == 0) return;
+    const auto run = store.run(reported.run);
     ASSERT_TRUE(run) << run.error().message;
-    EXPECT_GE(run->points.size(), told.points);
-    const auto by = store.superseded_by(told.run).value();
+    EXPECT_GE(run->points.size(), reported.points);
+    const auto by = store.superseded_by(reported.run).value();
     if (by) {
       EXPECT_EQ(run->header.state, RunState::failed);
       EXPECT_EQ(store.run(*by)->points.size(), points_at_end) << "both, or neither";
       EXPECT_EQ(store.run(*by)->header.state, RunState::complete);
     }
-    if (told.ended != 0) {
-      const auto read = store.run(told.ended);
+    if (reported.ended != 0) {
+      const auto read = store.run(reported.ended);
       ASSERT_TRUE(read) << read.error().message;
       EXPECT_EQ(read->header.state, RunState::complete);
       EXPECT_EQ(read->points.size(), points_at_end);
     }
     drivers::RecordingLog log("recording", recording);
     const Status opened = log.open();
-    ASSERT_TRUE(opened || told.chunks == 0) << opened.error().message;
+    ASSERT_TRUE(opened || reported.chunks == 0) << opened.error().message;
     std::size_t scans = 0;
     SampleBlock block;
     while (opened) {
@@ -153,8 +155,9 @@ class EveryWrite : public ::testing::Test {
       if (!state || *state == drivers::ReadState::end) break;
       scans += block.scans();
     }
-    EXPECT_GE(scans, kScansOfBlock * static_cast<std::size_t>(told.chunks));
-    EXPECT_GE(scans, kScansOfBlock * (told.points / 2 + told.points % 2)) << "of the points";
+    EXPECT_GE(scans, kScansOfBlock * static_cast<std::size_t>(reported.chunks));
+    EXPECT_GE(scans, kScansOfBlock * (reported.points / 2 + reported.points % 2))
+        << "of the points";
   }
 
   fs::path folder_;
@@ -163,7 +166,7 @@ class EveryWrite : public ::testing::Test {
 // All files of a folder but SQLite's shared memory, as they are now.
 class Snapshot {
  public:
-  Snapshot(const fs::path& folder, const Told& told) : told_(told) {
+  Snapshot(const fs::path& folder, const Told& reported) : told_(reported) {
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (entry.path().extension() == ".lock" || entry.path().string().ends_with("-shm")) continue;
       std::ifstream in(entry.path(), std::ios::binary);
@@ -176,7 +179,7 @@ class Snapshot {
       std::ofstream(folder / name, std::ios::binary)
           .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
-  const Told& told() const { return told_; }
+  const Told& reported() const { return told_; }
 
  private:
   std::map<std::string, std::string> files_;
@@ -188,17 +191,17 @@ TEST_F(EveryWrite, ACrashBetweenAnyTwoLosesNothingThatWasAcknowledged) {
     std::vector<Snapshot> crashes;
     {
       const fs::path life = begin_life(otherwise ? "superseded" : "plain");
-      Told told;
+      Told reported;
       const WatchedDisk disk([&] {
-        crashes.emplace_back(life, told);
+        crashes.emplace_back(life, reported);
         return SQLITE_OK;
       });
-      auto keeper = keeper_of(life, told);
-      measure(*keeper, life / "run.mdofrec", otherwise, told);
-      EXPECT_EQ(told.ended, otherwise ? 2 : 1);
-      EXPECT_FALSE(told.refused);
+      auto keeper = keeper_of(life, reported);
+      measure(*keeper, life / "run.mdofrec", otherwise, reported);
+      EXPECT_EQ(reported.ended, otherwise ? 2 : 1);
+      EXPECT_FALSE(reported.refused);
       keeper.reset();
-      crashes.emplace_back(life, told);
+      crashes.emplace_back(life, reported);
     }
     EXPECT_GT(crashes.size(), 40u);
     std::set<std::size_t> kept;
@@ -210,8 +213,8 @@ TEST_F(EveryWrite, ACrashBetweenAnyTwoLosesNothingThatWasAcknowledged) {
       auto store = store::Store::open(after / "mdof.db", store::Access::read_write,
                                       {store::Durability::off, 50});
       ASSERT_TRUE(store) << store.error().message;
-      expect_sound(*store, after / "run.mdofrec", crash.told(), otherwise ? 4 : 3);
-      kept.insert(crash.told().points);
+      expect_sound(*store, after / "run.mdofrec", crash.reported(), otherwise ? 4 : 3);
+      kept.insert(crash.reported().points);
       const auto run = store->run_header(1);
       EXPECT_TRUE(!run || run->state != RunState::open);
       EXPECT_TRUE(store->begin_run({})) << "it goes on";
@@ -229,33 +232,33 @@ TEST_F(EveryWrite, ADiskThatIsFullFromAnyOneOnLosesNothingAndIsToldAndGoesOn) {
     const fs::path life = begin_life("life" + std::to_string(first_refused));
     std::atomic<bool> begun = false, has_room = false;
     std::atomic<int> writes = 0;
-    Told told, next;
+    Told reported, next;
     {
       std::unique_ptr<Storekeeper> keeper;
       const WatchedDisk disk([&] {
         return begun && !has_room && writes++ >= first_refused ? SQLITE_FULL : SQLITE_OK;
       });
-      keeper = keeper_of(life, told);
+      keeper = keeper_of(life, reported);
       begun = true;
-      measure(*keeper, life / "run.mdofrec", otherwise, told);
+      measure(*keeper, life / "run.mdofrec", otherwise, reported);
       has_room = true;
-      EXPECT_TRUE(told.run != 0 || !fs::exists(life / "run.mdofrec")) << "of no run";
-      const Told before = told;
+      EXPECT_TRUE(reported.run != 0 || !fs::exists(life / "run.mdofrec")) << "of no run";
+      const Told before = reported;
       measure(*keeper, life / "next.mdofrec", otherwise, next);
-      told.chunks = before.chunks;  // those of the next were counted there as well
-      told.refused = before.refused;
+      reported.chunks = before.chunks;  // those of the next were counted there as well
+      reported.refused = before.refused;
       keeper.reset();
     }
     EXPECT_GT(next.ended, 0) << "what comes once there is room again is stored";
     EXPECT_FALSE(next.refused);
     auto store = store::Store::open(life / "mdof.db", store::Access::read_only);
     ASSERT_TRUE(store) << store.error().message;
-    expect_sound(*store, life / "run.mdofrec", told, otherwise ? 4 : 3);
+    expect_sound(*store, life / "run.mdofrec", reported, otherwise ? 4 : 3);
     expect_sound(*store, life / "next.mdofrec", next, otherwise ? 4 : 3);
-    const bool whole = told.ended > 0 && !told.refused;
-    EXPECT_TRUE(whole || told.run == 0 || told.refused) << "lost in silence";
-    if (told.run > 0) {
-      const RunHeader run = store->run_header(told.run).value();
+    const bool whole = reported.ended > 0 && !reported.refused;
+    EXPECT_TRUE(whole || reported.run == 0 || reported.refused) << "lost in silence";
+    if (reported.run > 0) {
+      const RunHeader run = store->run_header(reported.run).value();
       EXPECT_NE(run.state, RunState::open);
       EXPECT_TRUE(whole || (run.state == RunState::failed && !run.notices.empty()))
           << "it does not say why";

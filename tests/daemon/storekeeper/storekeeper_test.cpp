@@ -235,9 +235,10 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredWithTheEndOfTheirRun) {
   std::vector<MeasuredPoint> all;
   std::vector<std::future<Status>> kept;
   const auto append = [&](std::int64_t run, const MeasuredPoint& p) {
-    auto told = std::make_shared<std::promise<Status>>();
-    kept.push_back(told->get_future());
-    keeper_->append_points(run, {p}, [told](const Status& status) { told->set_value(status); });
+    auto reported = std::make_shared<std::promise<Status>>();
+    kept.push_back(reported->get_future());
+    keeper_->append_points(run, {p},
+                           [reported](const Status& status) { reported->set_value(status); });
   };
   for (int target = 1; target <= 5; ++target) {
     all.push_back(point(target, 1));

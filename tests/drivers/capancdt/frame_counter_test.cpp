@@ -235,17 +235,17 @@ TEST(CapancdtRateWatch, OneSlowStretchAtTheBeginningIsAHoldUp) {
 
 // A tenth: 9 % are borne, of 11 % it tells.
 TEST(CapancdtRateWatch, TellsMoreThanATenth) {
-  const auto told = [](double ratio) {
+  const auto reported = [](double ratio) {
     RateWatch watch(1e6);
     bool tells = false;
     for (int i = 0; i < 10'000; ++i)
       tells = tells || watch.add(i, static_cast<std::int64_t>(i * ratio * 1e6));
     return tells;
   };
-  EXPECT_FALSE(told(1.09));
-  EXPECT_FALSE(told(0.91));
-  EXPECT_TRUE(told(1.11));
-  EXPECT_TRUE(told(0.89));
+  EXPECT_FALSE(reported(1.09));
+  EXPECT_FALSE(reported(0.91));
+  EXPECT_TRUE(reported(1.11));
+  EXPECT_TRUE(reported(0.89));
 }
 
 }  // namespace

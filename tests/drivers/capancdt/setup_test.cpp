@@ -27,14 +27,14 @@ TEST(CapancdtSetup, AChannelThatIsNotThere) {
 TEST(CapancdtSetup, RangeFromTheControllerOrTheConfiguration) {
   SimulatedCapancdt::Options device;
   device.inputs[0].range_um = 500;
-  Rack told(device);
-  Capancdt driver(told.options);
+  Rack reported(device);
+  Capancdt driver(reported.options);
   ASSERT_EQ(error_of(driver.open()), "");
   EXPECT_NEAR(collect(driver, 5).all.value.at(0).at(0), 100, 1e-4);
-  told.options.channels[0].range_um = 2000;
-  expect_has(error_of(Capancdt(told.options).open()), "the controller says 500");
+  reported.options.channels[0].range_um = 2000;
+  expect_has(error_of(Capancdt(reported.options).open()), "the controller says 500");
 
-  device.tells_range = false;
+  device.states_range = false;
   Rack untold(device);
   expect_has(error_of(Capancdt(untold.options).open()), "give its range_um");
   for (auto& channel : untold.options.channels) channel.range_um = channel.number == 1 ? 500 : 2000;

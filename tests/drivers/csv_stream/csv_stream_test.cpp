@@ -67,10 +67,11 @@ TEST(CsvStream, APositionInVoltsNeedsTheScaleOfTheRig) {
         TomlTable::parse("source = \"tcp://" + served.address() + "\"\n", "mdofd.toml").value();
     const auto stream = configure_csv_stream(table, context)->make().value();
     const auto opened = stream->open();
-    const std::string told = opened ? "" : opened.error().message;
-    ASSERT_EQ(told.empty(), scaled) << told;
+    const std::string reported = opened ? "" : opened.error().message;
+    ASSERT_EQ(reported.empty(), scaled) << reported;
     if (scaled) continue;
-    EXPECT_NE(told.find("scale in rig_X.toml ([encoder] um_per_V)"), std::string::npos) << told;
+    EXPECT_NE(reported.find("scale in rig_X.toml ([encoder] um_per_V)"), std::string::npos)
+        << reported;
   }
   // Of a source that sends no header line it is known at once.
   DriverContext context;

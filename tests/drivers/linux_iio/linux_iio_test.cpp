@@ -127,9 +127,9 @@ int exit_of_child(const LinuxIioOptions& options, const std::string& part, Restr
   if (child == 0) {
     if (!restrict()) ::_exit(kNotPossibleHere);
     const auto status = make_linux_iio("probes", options)->open();
-    const bool told = !status && status.error().message.find(part) != std::string::npos;
-    if (!told && !status) std::fprintf(stderr, "%s\n", status.error().message.c_str());
-    ::_exit(told ? 0 : 1);
+    const bool reported = !status && status.error().message.find(part) != std::string::npos;
+    if (!reported && !status) std::fprintf(stderr, "%s\n", status.error().message.c_str());
+    ::_exit(reported ? 0 : 1);
   }
   int status = 0;
   ::waitpid(child, &status, 0);

@@ -16,7 +16,7 @@ double volts_of_input(std::size_t input, std::int64_t /*t_ns*/) {
 
 class Usb1608Device : public testing::Test {
  protected:
-  usb::Reply tell(std::uint8_t request, const std::string& bytes = "") {
+  usb::Reply report(std::uint8_t request, const std::string& bytes = "") {
     return device.control({0x40, request, 0, 0, static_cast<std::uint16_t>(bytes.size())}, bytes,
                           now);
   }
@@ -25,7 +25,7 @@ class Usb1608Device : public testing::Test {
   }
   DeviceStatus status() { return read_status(ask(kStatus, 0, 2)).value(); }
   usb::Reply start(std::uint8_t options, double rate_hz = 1000) {
-    return tell(kScanStart, scan_start({0, pacer_period(rate_hz), 0x05, options}));
+    return report(kScanStart, scan_start({0, pacer_period(rate_hz), 0x05, options}));
   }
 
   SimulatedMccUsb1608fsPlus device{volts_of_input, {}};
@@ -34,7 +34,7 @@ class Usb1608Device : public testing::Test {
 
 TEST_F(Usb1608Device, SamplesTheInputsOfItsMask) {
   EXPECT_EQ(ask(kSerial, 0, 8), "01A2B3C4");
-  ASSERT_EQ(tell(kConfig, config(0)).answer, Answer::done);
+  ASSERT_EQ(report(kConfig, config(0)).answer, Answer::done);
   ASSERT_EQ(start(kNoStall).answer, Answer::done);
   EXPECT_TRUE(status().running);
   now = 15 * kMs;
@@ -51,10 +51,10 @@ TEST_F(Usb1608Device, SamplesTheInputsOfItsMask) {
 TEST_F(Usb1608Device, StartWhileRunningStalls) {
   ASSERT_EQ(start(kNoStall).answer, Answer::done);
   EXPECT_EQ(start(kNoStall).answer, Answer::stall);
-  EXPECT_EQ(tell(kScanStop).answer, Answer::done);
+  EXPECT_EQ(report(kScanStop).answer, Answer::done);
   EXPECT_EQ(start(kNoStall).answer, Answer::done);
-  EXPECT_EQ(tell(kScanStart, "short").answer, Answer::stall);
-  EXPECT_EQ(tell(0x99).answer, Answer::stall);
+  EXPECT_EQ(report(kScanStart, "short").answer, Answer::stall);
+  EXPECT_EQ(report(0x99).answer, Answer::stall);
 }
 
 TEST_F(Usb1608Device, AnOverrunStallsUnlessToldNotTo) {
@@ -67,8 +67,8 @@ TEST_F(Usb1608Device, AnOverrunStallsUnlessToldNotTo) {
   EXPECT_EQ(device.in(kSamplesIn, 64, now).answer, Answer::stall);
   EXPECT_TRUE(status().overrun);
   device.clear_halt(kSamplesIn);
-  tell(kScanStop);
-  tell(kClearFifo);
+  report(kScanStop);
+  report(kClearFifo);
   ASSERT_EQ(start(kNoStall).answer, Answer::done);
   EXPECT_FALSE(status().overrun);
   now += 60 * kMs;

@@ -11,7 +11,7 @@ using modbus::bytes;
 
 class Usb1608Vectors : public testing::Test {
  protected:
-  usb::Answer tell(std::uint8_t request, const std::string& out) {
+  usb::Answer report(std::uint8_t request, const std::string& out) {
     return device.control({0x40, request, 0, 0, static_cast<std::uint16_t>(out.size())}, out, 0)
         .answer;
   }
@@ -28,9 +28,9 @@ TEST_F(Usb1608Vectors, TheStatusBitsAreTheVendors) {
   EXPECT_EQ(mismatch(ask(0x44, 0, 2), "00 00"), "");
   // src/usb/ai/AiUsb1608fsPlus.h, TAINSCAN_CFG: scan_count, pacer_period (u32), chan_mask, options;
   // 40 MHz / 1 kHz - 1; getOptionsCode: 0x80, do not stall. CMD_AINSCAN_START is 0x11.
-  EXPECT_EQ(tell(0x11, bytes("00 00 00 00 3F 9C 00 00 07 80")), usb::Answer::done);
+  EXPECT_EQ(report(0x11, bytes("00 00 00 00 3F 9C 00 00 07 80")), usb::Answer::done);
   EXPECT_EQ(mismatch(ask(0x44, 0, 2), "02 00"), "");
-  EXPECT_EQ(tell(0x12, ""), usb::Answer::done);  // CMD_AINSTOP
+  EXPECT_EQ(report(0x12, ""), usb::Answer::done);  // CMD_AINSTOP
   EXPECT_EQ(mismatch(ask(0x44, 0, 2), "00 00"), "");
 }
 
@@ -38,8 +38,8 @@ TEST_F(Usb1608Vectors, TheStatusBitsAreTheVendors) {
 // V); samples are 16 bits, little-endian, lowest channel first (processScanData16), on endpoint
 // 0x81.
 TEST_F(Usb1608Vectors, SamplesComeAsTheVendorReadsThem) {
-  EXPECT_EQ(tell(0x14, bytes("00 00 00 00 00 00 00 00")), usb::Answer::done);
-  EXPECT_EQ(tell(0x11, bytes("00 00 00 00 3F 9C 00 00 06 81")), usb::Answer::done);
+  EXPECT_EQ(report(0x14, bytes("00 00 00 00 00 00 00 00")), usb::Answer::done);
+  EXPECT_EQ(report(0x11, bytes("00 00 00 00 3F 9C 00 00 06 81")), usb::Answer::done);
   const std::string samples = device.in(0x81, 64, 1'500'000).bytes;
   EXPECT_EQ(mismatch(samples, "00 00 00 C0"), "");
 }

@@ -123,7 +123,7 @@ TEST_F(UsbHandle, ControlTransfersGoBothWays) {
   EXPECT_EQ(handle->vendor_in(1, 0, 0, 4, 500ms).value(), "abcd");
   EXPECT_TRUE(has(handle->vendor_in(1, 0, 0, 8, 500ms).error().message, "4 bytes instead of 8"));
   EXPECT_TRUE(handle->vendor_out(2, 0, 0, "hello", 500ms));
-  bus.change([&] { EXPECT_EQ(device.told, "hello"); });
+  bus.change([&] { EXPECT_EQ(device.reported, "hello"); });
   EXPECT_TRUE(has(handle->vendor_in(9, 0, 0, 1, 500ms).error().message, "request 0x09"));
   EXPECT_TRUE(has(handle->vendor_out(9, 0, 0, "", 500ms).error().message, "refused (stalled)"));
 }

@@ -26,7 +26,7 @@ class StubDevice final : public SimulatedUsb {
   Reply control(const Setup& setup, std::string_view out, std::int64_t /*now_ns*/) override {
     if (setup.request == 1) return {Answer::done, std::string("abcd").substr(0, setup.length)};
     if (setup.request != 2) return {Answer::stall, ""};
-    told = out;
+    reported = out;
     return {};
   }
   Reply in(std::uint8_t endpoint, std::size_t most, std::int64_t /*now_ns*/) override {
@@ -48,7 +48,7 @@ class StubDevice final : public SimulatedUsb {
   bool gone() const override { return gone_; }
 
   std::deque<std::string> echoes, stream;
-  std::string told;
+  std::string reported;
   std::uint8_t halted = 0;
   bool mute = false, too_long = false, gone_ = false;
 

@@ -85,12 +85,12 @@ TEST_F(NetworkAccess, TheDoctorNamesWhatTheServiceMayNotReach) {
   EXPECT_EQ(found({"192.168.0.7"}), "");  // no service here
   install();
   EXPECT_EQ(found({"127.0.0.1", "[::1]"}), "");
-  const std::string told = found({"192.168.0.7", "192.168.1.9"});
-  EXPECT_NE(told.find("WRONG network: the service mdofd may not reach 192.168.0.7 (device at "
-                      "192.168.0.7)"),
+  const std::string reported = found({"192.168.0.7", "192.168.1.9"});
+  EXPECT_NE(reported.find("WRONG network: the service mdofd may not reach 192.168.0.7 (device at "
+                          "192.168.0.7)"),
             std::string::npos)
-      << told;
-  EXPECT_NE(told.find("sudo mdof setup network 192.168.0.7 && sudo systemctl daemon-reload"),
+      << reported;
+  EXPECT_NE(reported.find("sudo mdof setup network 192.168.0.7 && sudo systemctl daemon-reload"),
             std::string::npos);
   ASSERT_TRUE(allow_address(units(), "192.168.0.0/24"));
   const std::string left = found({"192.168.0.7", "192.168.1.9"});

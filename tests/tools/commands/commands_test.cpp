@@ -54,7 +54,7 @@ TEST(Commands, EachIsCalledByItsName) {
 }
 
 // What the option's value `value` is told; empty: it is taken.
-std::string told(const Command& row, const CLI::Option& option, const std::string& value) {
+std::string reported(const Command& row, const CLI::Option& option, const std::string& value) {
   CLI::App app("", "mdof");
   Action chosen;
   declare_commands(app, chosen);
@@ -80,15 +80,15 @@ TEST(Commands, EachNumberIsFiniteAndItsLimitsAreReadable) {
     for (const CLI::Option* option : app.get_options()) {
       const std::string name = std::string(row.name) + " " + option->get_name();
       for (const char* value : {"-1", "1e300"})
-        EXPECT_FALSE(std::regex_search(told(row, *option, value), many_digits))
-            << name << ": " << told(row, *option, value);
-      if (told(row, *option, "zero").find("zero") == std::string::npos) continue;
+        EXPECT_FALSE(std::regex_search(reported(row, *option, value), many_digits))
+            << name << ": " << reported(row, *option, value);
+      if (reported(row, *option, "zero").find("zero") == std::string::npos) continue;
       for (const char* value : {"nan", "inf", "-inf", "1e999"})
-        EXPECT_NE(told(row, *option, value), "") << name << " " << value;
+        EXPECT_NE(reported(row, *option, value), "") << name << " " << value;
       if (name.ends_with("--seed")) {
-        EXPECT_NE(told(row, *option, "-3"), "") << name;
+        EXPECT_NE(reported(row, *option, "-3"), "") << name;
       }
-      numbers += told(row, *option, "0.5").empty();
+      numbers += reported(row, *option, "0.5").empty();
     }
   }
   EXPECT_GT(numbers, 30);

@@ -201,14 +201,14 @@ TEST(StudyRunner, ADamagedCheckpointIsAnErrorAndNoMore) {
 TEST(StudyWorkers, DoTheFirstPiecesAndNoOthers) {
   std::atomic<bool> go_on = true;
   std::atomic<int> done = 0;
-  const std::size_t told = in_parallel(
+  const std::size_t reported = in_parallel(
       3, 1'000'000'000,
       [&](unsigned worker, std::size_t) {
         EXPECT_LT(worker, 3u);
         if (++done > 1000) go_on = false;
       },
       [&] { return go_on.load(); });
-  EXPECT_EQ(told, static_cast<std::size_t>(done));
+  EXPECT_EQ(reported, static_cast<std::size_t>(done));
   EXPECT_EQ(in_parallel(
                 2, 0, [](unsigned, std::size_t) {}, [] { return true; }),
             0u);

@@ -19,10 +19,10 @@ std::vector<std::string> joined_lines(const std::string& text) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = trimmed(std::string_view(text).substr(at, end - at));
     at = end + 1;
-    const bool goes_on = line.ends_with('\\');
-    joined += goes_on ? std::string(line.substr(0, line.size() - 1)) + " " : std::string(line);
+    const bool continues = line.ends_with('\\');
+    joined += continues ? std::string(line.substr(0, line.size() - 1)) + " " : std::string(line);
     lines.emplace_back();  // empty where it goes on: the numbers of lines stay
-    if (!goes_on) std::swap(lines.back(), joined);
+    if (!continues) std::swap(lines.back(), joined);
   }
   if (!joined.empty()) lines.back() = std::move(joined);  // the file ends with a line that goes on
   return lines;

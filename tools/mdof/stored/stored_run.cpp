@@ -18,9 +18,9 @@ Result<std::string> read_text(rpc::Client& daemon, std::int64_t id) {
   MDOF_TRY(store::Store store, store::Store::open(database, store::Access::read_only));
   MDOF_TRY(const Run run, daemon::run_stated_at(store, id, Reference::fixture));
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
-  MDOF_TRY(const auto deeds, store.deeds_of_run(id));
+  MDOF_TRY(const auto actions, store.actions_of_run(id));
   const std::size_t width = terminal_columns();
-  return show_text(run, daemon::uncertainty_of(run), sha256, width) + history_text(deeds, width);
+  return show_text(run, daemon::uncertainty_of(run), sha256, width) + history_text(actions, width);
 }
 
 }  // namespace

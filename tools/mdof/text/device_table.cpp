@@ -39,10 +39,10 @@ std::vector<std::string> row_of(const element& device) {
 std::string remarks(const element& device, std::size_t columns) {
   std::string lines;
   for (const auto& line : texts(device, "trouble")) lines += wrapped(line, columns, 2) + "\n";
-  const std::string mended = text(device, "last_error");
-  if (lines.empty() && !mended.empty())
+  const std::string recovered = text(device, "last_error");
+  if (lines.empty() && !recovered.empty())
     lines = wrapped("device \"" + text(device, "device") + "\": recovered at " +
-                        readable_utc(text(device, "mended_utc")) + ": " + mended,
+                        readable_utc(text(device, "mended_utc")) + ": " + recovered,
                     columns, 2) +
             "\n";
   return lines;

@@ -10,11 +10,11 @@
 namespace mdof::tools {
 
 // A line each, with a title; nothing where nothing is known.
-inline std::string history_text(const std::vector<Deed>& deeds, std::size_t width) {
-  std::string text = deeds.empty() ? "" : "\nhistory\n";
-  for (const Deed& deed : deeds)
-    text += wrapped(deed.utc + " run " + std::to_string(deed.row) + ": " + deed.name + " by " +
-                        daemon::actor_text(deed.by),
+inline std::string history_text(const std::vector<Action>& actions, std::size_t width) {
+  std::string text = actions.empty() ? "" : "\nhistory\n";
+  for (const Action& action : actions)
+    text += wrapped(action.utc + " run " + std::to_string(action.row) + ": " + action.name +
+                        " by " + daemon::actor_text(action.by),
                     width, 2) +
             "\n";
   return text;

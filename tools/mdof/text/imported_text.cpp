@@ -48,7 +48,7 @@ void write_reading(JsonWriter& json, const MeasuredPoint& p, const std::string& 
 }  // namespace
 
 std::string imported_json(const Run& run, const std::string& result_sha256,
-                          const std::vector<Deed>& deeds) {
+                          const std::vector<Action>& actions) {
   const std::string key = error_of(run).key();
   JsonWriter json;
   json.begin_object();
@@ -63,7 +63,7 @@ std::string imported_json(const Run& run, const std::string& result_sha256,
   json.key("points").begin_array();
   for (const MeasuredPoint& p : run.points) write_reading(json, p, key);
   json.end_array().field("result_sha256", result_sha256).key("history");
-  daemon::write_deeds(json, deeds);
+  daemon::write_actions(json, actions);
   json.end_object();
   return json.take();
 }

@@ -35,7 +35,7 @@ Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
                                command.keep_slope,
                                command.partial,
                                {},
-                               daemon::deed_now("compensation.build", daemon::this_process())};
+                               daemon::action_now("compensation.build", daemon::this_process())};
   MDOF_TRY(request.limits, command.limits.limits());
   if (!command.reference.empty())
     reference_from(command.reference, request.reference.emplace());  // the option takes no other

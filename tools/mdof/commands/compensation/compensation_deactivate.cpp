@@ -24,12 +24,12 @@ Result<std::string> deactivated(const DeactivateCommand& command) {
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   if (mdofd) return mdofd->call("compensation.deactivate", "{" + axis + "}");
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  const Deed deed = daemon::deed_now("compensation.deactivate", daemon::this_process());
-  const std::string actor = daemon::actor_text(deed.by);
+  const Action action = daemon::action_now("compensation.deactivate", daemon::this_process());
+  const std::string actor = daemon::actor_text(action.by);
   MDOF_TRY(const auto done,
            command.axis == kVolume
-               ? store.change_volumetric(std::nullopt, actor, deed.utc, deed)
-               : store.deactivate(*axis_from(command.axis), actor, deed.utc, deed));
+               ? store.change_volumetric(std::nullopt, actor, action.utc, action)
+               : store.deactivate(*axis_from(command.axis), actor, action.utc, action));
   return store::activation_json(axis, done);
 }
 

@@ -53,7 +53,8 @@ Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
   auto built = daemon::calculate_volumetric(store, request);
   if (!built) return in_context(o.machine, std::move(built.error()));
   MDOF_CHECK(daemon::store_volumetric(
-      store, built->table, daemon::deed_now("compensation.build_volume", daemon::this_process())));
+      store, built->table,
+      daemon::action_now("compensation.build_volume", daemon::this_process())));
   return built;
 }
 

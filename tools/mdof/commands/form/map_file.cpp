@@ -28,27 +28,27 @@ class MapReader {
       : file_(std::move(file)), text_(file_, units) {}
 
   Status take(std::string_view piece) {
-    if (!is_told_) {
-      is_told_ = true;
-      is_whole_ = is_sdf(piece) || is_zygo_dat(piece);
+    if (!is_reported_) {
+      is_reported_ = true;
+      is_complete_ = is_sdf(piece) || is_zygo_dat(piece);
       if (piece.starts_with("PK\x03\x04"))
         return bad_input(file_ + ": is an archive, such as .x3p; export it as .sdf or x, y, z");
     }
-    if (!is_whole_) return text_.feed(piece);
+    if (!is_complete_) return text_.feed(piece);
     if (whole_.size() + piece.size() > kMostBytes)
       return bad_input(file_ + ": larger than 2 GiB; this is not the file meant");
     whole_.append(piece);
     return {};
   }
   Result<SurfaceMap> map() {
-    if (!is_whole_) return text_.finish();
+    if (!is_complete_) return text_.finish();
     return is_sdf(whole_) ? parse_sdf(whole_, file_) : parse_zygo_dat(whole_, file_);
   }
 
  private:
   std::string file_, whole_;
   MapTextReader text_;
-  bool is_told_ = false, is_whole_ = false;
+  bool is_reported_ = false, is_complete_ = false;
 };
 
 // The run of "run:12", and of "12" where no file is called so.

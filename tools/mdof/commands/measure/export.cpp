@@ -56,7 +56,7 @@ class Export {
     MDOF_CHECK(files_.publish());
     for (const auto& name : names_) say(name);
     show_notices(log_.notices(), true);
-    tell_what_csv_cannot();
+    report_missing_from_csv();
     return {};
   }
 
@@ -99,7 +99,7 @@ class Export {
     return lines;
   }
 
-  void tell_what_csv_cannot() const {
+  void report_missing_from_csv() const {
     if (marked_ > 0)
       warn(std::to_string(marked_) +
            " values are over range, suspect or stale; a CSV log cannot say which");

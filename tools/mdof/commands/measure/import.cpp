@@ -65,7 +65,7 @@ Result<Run> import_and_store(const ImportCommand& command) {
   MDOF_TRY(Run run, daemon::imported_run(command.request));
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id,
-           store.add_run(run, daemon::deed_now("run.import", daemon::this_process())));
+           store.add_run(run, daemon::action_now("run.import", daemon::this_process())));
   return run;
 }
 

@@ -51,7 +51,7 @@ Result<rpc::Client> subscribe(const LiveCommand& command) {
 }
 
 // Trouble is printed when it comes; a screen shows it with the next update.
-Status tell(const std::string& notification, const LiveCommand& command) {
+Status report(const std::string& notification, const LiveCommand& command) {
   const auto trouble = read_trouble(notification);
   if (!trouble || (!command.axis.empty() && trouble->axis != command.axis)) return {};
   if (command.ndjson) return write_line(trouble->json);
@@ -69,7 +69,7 @@ Result<LiveUpdate> next_update(rpc::Client& client, const LiveCommand& command) 
     if (!line) continue;
     const auto update = read_update(*line);
     if (update && (command.axis.empty() || update->axis == command.axis)) return *update;
-    if (!update) MDOF_CHECK(tell(*line, command));
+    if (!update) MDOF_CHECK(report(*line, command));
   }
   return io_error("mdofd sends no readings" +
                   (command.axis.empty() ? std::string() : " of the axis " + command.axis) +

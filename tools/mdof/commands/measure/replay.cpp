@@ -81,8 +81,9 @@ Result<Run> replay_and_store(const ReplayCommand& command) {
   MDOF_TRY(Run run, replay_here(command.request));
   MDOF_CHECK(asked_reference(command, run));  // what cannot be shown is not stored
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  MDOF_TRY(run.header.id, store.add_run(run, daemon::deed_now("run.replay", daemon::this_process()),
-                                        daemon::uncertainty_of(run)));
+  MDOF_TRY(run.header.id,
+           store.add_run(run, daemon::action_now("run.replay", daemon::this_process()),
+                         daemon::uncertainty_of(run)));
   return run;
 }
 

@@ -25,25 +25,25 @@ namespace {
 // run_json() with three members more. The lines are made on reading: what is stored, and its hash,
 // is as it was.
 std::string with_lines_hash_and_history(const Run& run, const std::string& sha256,
-                                        const std::vector<Deed>& deeds) {
+                                        const std::vector<Action>& actions) {
   const daemon::StatedRun stated = daemon::stated_run(run);
   std::string json = run_json(run, stated.points, stated.figures, words::text);
   json.pop_back();
   JsonWriter lines, history;
   write_straightness_lines(lines, algo::straightness_lines(run.header.moving(), run.points));
-  daemon::write_deeds(history, deeds);
+  daemon::write_actions(history, actions);
   return json + ",\"straightness_lines\":" + lines.take() + ",\"result_sha256\":\"" + sha256 +
          "\",\"history\":" + history.take() + "}";
 }
 
 Status show_imported(store::Store& store, const Run& run, const ChosenRun& choice) {
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
-  MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
+  MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
   if (choice.csv) return write_csv_of(run, false, imported_csv(run), choice.all_warnings);
-  if (choice.json) return write_line(imported_json(run, sha256, deeds));
+  if (choice.json) return write_line(imported_json(run, sha256, actions));
   const std::size_t width = terminal_columns();
   return write_out(imported_text(run, sha256, width, choice.all_warnings) +
-                   history_text(deeds, width));
+                   history_text(actions, width));
 }
 
 Status show(const ChosenRun& choice) {
@@ -56,15 +56,15 @@ Status show(const ChosenRun& choice) {
                         choice.all_warnings);
   }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
-  MDOF_TRY(const auto deeds, store.deeds_of_run(run.header.id));
-  if (choice.json) return write_line(with_lines_hash_and_history(run, sha256, deeds));
+  MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
+  if (choice.json) return write_line(with_lines_hash_and_history(run, sha256, actions));
   const std::size_t width = terminal_columns();
   MDOF_TRY(const auto by, store.superseded_by(run.header.id));
   if (by)
     warn("run " + std::to_string(*by) + " supersedes this run; mdof show " + std::to_string(*by));
   const std::string drift = drift_notice(run, drift_of(run).found, width);
   return write_out(show_text(run, daemon::uncertainty_of(run), sha256, width, choice.all_warnings) +
-                   (drift.empty() ? "" : "\n" + drift) + history_text(deeds, width));
+                   (drift.empty() ? "" : "\n" + drift) + history_text(actions, width));
 }
 
 Action declare_show(CLI::App& command) {

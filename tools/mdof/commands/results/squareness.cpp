@@ -43,7 +43,7 @@ Result<daemon::FittedSquareness> fit(const SquarenessCommand& command) {
                                     command.run_b,
                                     {},
                                     command.partial,
-                                    daemon::deed_now("squareness.fit", daemon::this_process())};
+                                    daemon::action_now("squareness.fit", daemon::this_process())};
   if (command.artefact_urad) request.given.angle_error_rad = from_urad(*command.artefact_urad);
   if (command.u_artefact_urad) request.given.u_rad = from_urad(*command.u_artefact_urad);
   return daemon::fit_squareness(store, request);

@@ -52,7 +52,7 @@ Diagnosis diagnose(const drivers::DriverSpec& device) {
 }
 
 // As mdofd says of one of its devices.
-Diagnosis as_told(const simdjson::dom::element& device) {
+Diagnosis diagnosis_from(const simdjson::dom::element& device) {
   const std::string state = text(device, "state"), error = text(device, "error");
   std::string what =
       "device " + text(device, "device") + " (" + text(device, "driver") + "): " + state;
@@ -78,7 +78,7 @@ std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::strin
   std::set<std::string> known;
   for (const auto device : devices) {
     known.insert(text(device, "device"));
-    all.push_back(as_told(device));
+    all.push_back(diagnosis_from(device));
   }
   for (const auto& axis : config.axes)
     for (const auto& device : axis.devices)

@@ -19,27 +19,28 @@ struct HistoryCommand {
   bool json = false;
 };
 
-std::string deeds_json(const std::vector<Deed>& deeds, std::int64_t total) {
+std::string actions_json(const std::vector<Action>& actions, std::int64_t total) {
   JsonWriter json;
   json.begin_object().field("total", total).key("history");
-  daemon::write_deeds(json, deeds);
+  daemon::write_actions(json, actions);
   json.end_object();
   return json.take();
 }
 
-std::string deeds_text(const std::vector<Deed>& deeds, std::int64_t total) {
+std::string actions_text(const std::vector<Action>& actions, std::int64_t total) {
   TextTable table({"when", "what", "of", "id", "by", "detail"});
-  for (const Deed& deed : deeds)
-    table.add({deed.utc, deed.name, deed.subject, std::to_string(deed.row),
-               daemon::actor_text(deed.by), deed.detail});
-  return table.text(terminal_columns()) + left_out(deeds.size(), total, "deeds");
+  for (const Action& action : actions)
+    table.add({action.utc, action.name, action.subject, std::to_string(action.row),
+               daemon::actor_text(action.by), action.detail});
+  return table.text(terminal_columns()) + left_out(actions.size(), total, "actions");
 }
 
 Status list_history(const HistoryCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const auto deeds, store.list_deeds(command.page.offset, command.page.count));
-  MDOF_TRY(const auto total, store.count_deeds());
-  return command.json ? write_line(deeds_json(deeds, total)) : write_out(deeds_text(deeds, total));
+  MDOF_TRY(const auto actions, store.list_actions(command.page.offset, command.page.count));
+  MDOF_TRY(const auto total, store.count_actions());
+  return command.json ? write_line(actions_json(actions, total))
+                      : write_out(actions_text(actions, total));
 }
 
 Action declare_history(CLI::App& command) {

@@ -73,7 +73,7 @@ std::string temperature_text(const daemon::ParkedLog& log, const algo::WarmUp& f
 }
 
 // The series of the last window that is not below its limit, the furthest above it first.
-std::string what_keeps_it(const daemon::ParkedLog& log, const algo::WarmUp& found) {
+std::string limiting_cause(const daemon::ParkedLog& log, const algo::WarmUp& found) {
   std::string worst;
   double most = 0;
   for (std::size_t s = 0; s < found.windows.size(); ++s) {
@@ -109,7 +109,7 @@ std::string parked_verdict(const daemon::ParkedLog& log, const algo::WarmUp& fou
   if (found.ready_after_s)
     return "ready after " + minutes(*found.ready_after_s) +
            " min: from then on every window is below its limit";
-  const std::string what = what_keeps_it(log, found);
+  const std::string what = limiting_cause(log, found);
   return "not ready yet: " +
          (what.empty() ? "the windows at the end that are below the limit are fewer than " +
                              std::to_string(algo::kFewestBelow) + " or last less than " +

@@ -1,5 +1,5 @@
 // An entry of the history (an audit trail): a change of what is stored, and who asked for it. The
-// database's table and the member of the RPC are called "deed", and so is it here.
+// database's table and the member of the RPC keep their first name, "deed".
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Actor {
   std::string user;
 };
 
-struct Deed {
+struct Action {
   std::string name;  // "run.start", "run.resume", "run.stop", "run.abort", "run.replay",
                      // "squareness.fit", "compensation.build", ".build_volume", ".activate",
                      // ".deactivate", "encoder.set"

@@ -262,14 +262,16 @@ void write_run(Xml& xml, const ReportRun& run) {
 }
 
 void write_squareness(Xml& xml, const charts::SquarenessResults& of) {
+  const AxisPair axes = of.squareness.axes;
   xml.open("dcc:measurementResult");
   write_text(xml, "dcc:name",
-             "squareness of X (run " + std::to_string(of.squareness.run_a) + ") and Y (run " +
+             std::string("squareness of ") + letter(axes.a) + " (run " +
+                 std::to_string(of.squareness.run_a) + ") and " + letter(axes.b) + " (run " +
                  std::to_string(of.squareness.run_b) + ")");
   xml.open("dcc:results");
   open_result(xml, "squareness",
-              "the angle from +X to +Y is 90 degrees + EC0Y. U covers: " + covers_text(of.budget));
-  write_figure(xml, of.budget, "EC0Y");
+              squareness_sense(axes, " degrees") + ". U covers: " + covers_text(of.budget));
+  write_figure(xml, of.budget, squareness_name(axes));
   close_result(xml);
   xml.close();
   xml.close();
@@ -295,7 +297,8 @@ void write_measurements(Xml& xml, const Report& report) {
                "Guide to the expression of uncertainty in measurement");
   xml.close();
   for (const ReportRun& run : report.runs) write_run(xml, run);
-  if (report.squareness) write_squareness(xml, *report.squareness);
+  for (const auto& pair : report.squareness)
+    if (pair.results) write_squareness(xml, *pair.results);
   xml.close();
 }
 

@@ -38,6 +38,7 @@ struct Characteristic {
   std::string key;  // "EYX_straightness_um", "EYX_um"
   std::string where;
   std::optional<double> limit;  // in the unit of the key
+  std::string sense = "error: actual - nominal";
   bool angle() const { return key.ends_with("_urad"); }
   std::string kind() const {
     return std::string("UserDefined") + (angle() ? "Angular" : "Linear") + "Characteristic";
@@ -133,8 +134,11 @@ Document document_of(const Report& report) {
     add_points(document, measured);
     document.runs.push_back(std::move(measured));
   }
-  if (report.squareness && !document.runs.empty()) {  // of two runs: stated with the last
-    const Budget& b = report.squareness->budget;
+  for (const auto& pair : report.squareness) {
+    if (!pair.results) continue;
+    const Squareness& s = pair.results->squareness;
+    const Budget& b = pair.results->budget;
+    // Of two runs: stated with the last.
     document.runs.back().all.push_back({document.characteristics.size(),
                                         to_key_unit(b.value),
                                         to_key_unit(b.u),
@@ -145,9 +149,9 @@ Document document_of(const Report& report) {
                                         "NOT_ANALYZED"});
     document.characteristics.push_back(
         {b.figure,
-         "of runs " + std::to_string(report.squareness->squareness.run_a) + " and " +
-             std::to_string(report.squareness->squareness.run_b),
-         {}});
+         "of runs " + std::to_string(s.run_a) + " and " + std::to_string(s.run_b),
+         {},
+         squareness_sense(s.axes, " deg")});
   }
   return document;
 }
@@ -178,7 +182,7 @@ void write_characteristics(Xml& xml, const std::vector<Characteristic>& all) {
     xml.leaf("Name", all[i].name());
     write_limit(xml, all[i]);
     xml.leaf("WhatToMeasure",
-             charts::split_key(all[i].key).name + " of ISO 230-1, error: actual - nominal");
+             charts::split_key(all[i].key).name + " of ISO 230-1, " + all[i].sense);
     xml.close();
   }
   xml.close();

@@ -68,26 +68,28 @@ void write_title(Html& html, const Report& report) {
     html.element("p", phrase(Phrase::english_texts, language), "quiet");
 }
 
-void write_squareness(Html& html, const Report& report) {
-  const Language language = report.language;
-  if (!report.squareness && report.why_no_squareness.empty()) return;
-  html.element("h2", phrase(Phrase::squareness, language));
-  if (!report.squareness) {
-    html.element("p", phrase(Phrase::left_out, language, {report.why_no_squareness}));
+void write_squareness(Html& html, const charts::SquarenessOfPair& pair, Language language) {
+  const std::string a(1, letter(pair.axes.a)), b_axis(1, letter(pair.axes.b));
+  html.element("h2", phrase(Phrase::squareness, language, {a, b_axis}));
+  if (!pair.results) {
+    html.element("p", phrase(Phrase::left_out, language, {pair.reason}));
     return;
   }
+  const std::string angle = squareness_name(pair.axes);
   const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
-  const Budget& b = report.squareness->budget;
+  const Budget& b = pair.results->budget;
   const bool known = b.u > 0;
   const double U = to_urad(b.U);
   html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::unit), "u", "U (95 %)", "k"},
-             {{"EC0Y", value_text(to_urad(report.squareness->squareness.error_rad), U), "µrad",
+             {{angle, value_text(to_urad(pair.results->squareness.error_rad), U), "µrad",
                known ? uncertainty_text(to_urad(b.u)) : of(Phrase::unknown),
                known ? uncertainty_text(U) : of(Phrase::unknown),
                known ? charts::fixed_text(b.coverage_factor, 2) : of(Phrase::unknown)}},
              "numbers");
+  html.element("p", phrase(Phrase::squareness_is, language,
+                           {angle, a, b_axis, squareness_sign(pair.axes) > 0 ? "+" : "−"}));
   html.element("p", phrase(Phrase::u_covers, language, {covers_text(b)}));
-  html.figure(charts::squareness_svg(*report.squareness, language));
+  html.figure(charts::squareness_svg(*pair.results, language));
 }
 
 }  // namespace
@@ -125,7 +127,7 @@ std::string report_html(const Report& report) {
     write_points(html, run, language);
     write_provenance(html, run, language);
   }
-  write_squareness(html, report);
+  for (const auto& pair : report.squareness) write_squareness(html, pair, language);
   return html.take(output::code_of(language), phrase(Phrase::report_title, language),
                    !report.head.empty());
 }

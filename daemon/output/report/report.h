@@ -34,9 +34,7 @@ struct Report {
   ReportFacts facts;
   std::string head;  // HTML above everything else: a company's head; empty: none
   std::vector<ReportRun> runs;
-  // Of the one run along X and the one along Y, where there are these.
-  std::optional<charts::SquarenessResults> squareness;
-  std::string why_no_squareness;  // it was to be had and failed
+  std::vector<charts::SquarenessOfPair> squareness;  // XY, XZ, YZ, where both have one run
   std::string software_version;   // that made the report
   Language language = Language::english;
 };

@@ -128,11 +128,7 @@ Result<report::Report> report_of_runs(const ReportRequest& request) {
   MDOF_CHECK(decide(all, tolerances));
   std::vector<const charts::StatedResults*> results;
   for (const report::ReportRun& run : all.runs) results.push_back(&run.results);
-  auto squareness = squareness_of_runs(store, results);
-  if (squareness)
-    all.squareness = std::move(*squareness);
-  else
-    all.why_no_squareness = squareness.error().message;
+  all.squareness = squareness_of_runs(store, results);
   return all;
 }
 

@@ -10,6 +10,26 @@
 #include "tools/mdof/stored/run_choice.h"
 
 namespace mdof::tools {
+namespace {
+
+Result<charts::SquarenessResults> squareness_of_two(store::Store& store,
+                                                    const charts::StatedResults& a,
+                                                    const charts::StatedResults& b) {
+  daemon::SquarenessRequest request;
+  request.run_a = a.run.header.id;
+  request.run_b = b.run.header.id;
+  MDOF_TRY(auto fitted, daemon::calculate_squareness(store, request));
+  charts::SquarenessResults results;
+  results.squareness = fitted.squareness;
+  results.budget = std::move(fitted.budgets.front());
+  MDOF_TRY(results.run_a, daemon::run_stated_at(store, request.run_a, Reference::fixture));
+  MDOF_TRY(results.run_b, daemon::run_stated_at(store, request.run_b, Reference::fixture));
+  for (const auto* run : {&a, &b})
+    results.marks.insert(results.marks.end(), run->marks.begin(), run->marks.end());
+  return results;
+}
+
+}  // namespace
 
 Result<charts::StatedResults> stated_results(store::Store& store, std::int64_t run,
                                              Reference reference) {
@@ -36,7 +56,7 @@ Result<std::vector<std::int64_t>> run_numbers(store::Store& store,
   return numbers;
 }
 
-Result<std::optional<charts::SquarenessResults>> squareness_of_runs(
+std::vector<charts::SquarenessOfPair> squareness_of_runs(
     store::Store& store, const std::vector<const charts::StatedResults*>& runs) {
   const auto only = [&](Axis axis) -> const charts::StatedResults* {
     const auto is_along = [axis](const charts::StatedResults* r) {
@@ -45,20 +65,18 @@ Result<std::optional<charts::SquarenessResults>> squareness_of_runs(
     if (std::count_if(runs.begin(), runs.end(), is_along) != 1) return nullptr;
     return *std::find_if(runs.begin(), runs.end(), is_along);
   };
-  const charts::StatedResults *x = only(Axis::x), *y = only(Axis::y);
-  if (!x || !y) return std::optional<charts::SquarenessResults>();
-  daemon::SquarenessRequest request;
-  request.run_a = x->run.header.id;
-  request.run_b = y->run.header.id;
-  MDOF_TRY(auto fitted, daemon::calculate_squareness(store, request));
-  charts::SquarenessResults results;
-  results.squareness = fitted.squareness;
-  results.budget = std::move(fitted.budgets.front());
-  MDOF_TRY(results.run_a, daemon::run_stated_at(store, x->run.header.id, Reference::fixture));
-  MDOF_TRY(results.run_b, daemon::run_stated_at(store, y->run.header.id, Reference::fixture));
-  for (const auto* run : {x, y})
-    results.marks.insert(results.marks.end(), run->marks.begin(), run->marks.end());
-  return std::optional(std::move(results));
+  std::vector<charts::SquarenessOfPair> pairs;
+  for (const AxisPair axes : daemon::kAxisPairs) {
+    const charts::StatedResults *a = only(axes.a), *b = only(axes.b);
+    if (!a || !b) continue;
+    charts::SquarenessOfPair pair{axes, {}, ""};
+    if (auto results = squareness_of_two(store, *a, *b))
+      pair.results = std::move(*results);
+    else
+      pair.reason = results.error().message;
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
 }
 
 }  // namespace mdof::tools

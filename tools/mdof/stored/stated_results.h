@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +21,9 @@ Result<std::vector<std::int64_t>> run_numbers(store::Store& store,
                                               const std::vector<std::string>& words,
                                               const std::string& axis);
 
-// Of the one run along X and the one along Y among these, as `mdof squareness` fits it; nothing is
-// stored. Nothing where there is not one of each. Error: why it cannot be fitted.
-Result<std::optional<charts::SquarenessResults>> squareness_of_runs(
+// Of each pair of axes, XY, XZ, YZ, with one run along each of both among these, as
+// `mdof squareness` fits it; nothing is stored.
+std::vector<charts::SquarenessOfPair> squareness_of_runs(
     store::Store& store, const std::vector<const charts::StatedResults*>& runs);
 
 }  // namespace mdof::tools

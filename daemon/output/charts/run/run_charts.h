@@ -3,6 +3,7 @@
 // units of the result documents, as data-… attributes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,9 +55,15 @@ std::string table_svg(const CompensationTable& table, const std::vector<std::str
 // Two axes as they were measured against one square, their errors enlarged.
 struct SquarenessResults {
   Squareness squareness;
-  Budget budget;     // of EC0Y
+  Budget budget;     // of EC0Y, EB0Z or EA0Z
   Run run_a, run_b;  // stated at the fixture
   std::vector<std::string> marks;
+};
+// Of two axes with one run each among several runs; nothing where it cannot be calculated.
+struct SquarenessOfPair {
+  AxisPair axes;
+  std::optional<SquarenessResults> results;
+  std::string reason;  // why there are no results
 };
 std::string squareness_svg(const SquarenessResults& results, Language language);
 

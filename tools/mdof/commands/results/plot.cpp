@@ -42,13 +42,18 @@ void draw_squareness(store::Store& store, const std::vector<charts::StatedResult
                      output::Language language, Plotted& plotted) {
   std::vector<const charts::StatedResults*> all;
   for (const auto& run : runs) all.push_back(&run);
-  const auto found = squareness_of_runs(store, all);
-  if (!found) plotted.left_out.push_back("no chart of squareness: " + found.error().message);
-  if (!found || !*found) return;
-  const Squareness& s = (*found)->squareness;
-  const std::string name =
-      "squareness-" + std::to_string(s.run_a) + "-" + std::to_string(s.run_b) + ".svg";
-  plotted.charts.push_back({name, charts::squareness_svg(**found, language)});
+  for (const charts::SquarenessOfPair& pair : squareness_of_runs(store, all)) {
+    if (!pair.results) {
+      plotted.left_out.push_back(std::string("no chart of the squareness of ") +
+                                 letter(pair.axes.a) + " and " + letter(pair.axes.b) + ": " +
+                                 pair.reason);
+      continue;
+    }
+    const Squareness& s = pair.results->squareness;
+    const std::string name =
+        "squareness-" + std::to_string(s.run_a) + "-" + std::to_string(s.run_b) + ".svg";
+    plotted.charts.push_back({name, charts::squareness_svg(*pair.results, language)});
+  }
 }
 
 Status draw_table(store::Store& store, std::int64_t number, output::Language language,
@@ -145,8 +150,9 @@ Command plot_command() {
       .footer =
           "Writes run-N-five-errors.svg, -straightness.svg, -repeatability.svg, -drift.svg and a\n"
           "-budget-FIGURE.svg for each figure; with --point the raw readings of a stop,\n"
-          "run-N-point-K.svg; of one run along X and one along Y also squareness-X-Y.svg, of a\n"
-          "table table-N.svg. All files are written or none. What is drawn carries its numbers\n"
+          "run-N-point-K.svg; of two axes with one run each also squareness-A-B.svg (numbers of\n"
+          "the runs), of a table table-N.svg. All files are written or none. What is drawn carries "
+          "its numbers\n"
           "as data- attributes, in the units of mdof show --json. The same results give the\n"
           "same bytes.\n\n"
           "Examples:\n"

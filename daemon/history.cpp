@@ -29,7 +29,7 @@ Actor this_process() {
   return actor_of(::getuid(), ::getgid(), ::getpid());
 }
 
-Action action_now(std::string name, Actor by) {
+HistoryEntry action_now(std::string name, Actor by) {
   return {.name = std::move(name), .by = std::move(by), .utc = utc_now()};
 }
 
@@ -38,7 +38,7 @@ std::string actor_text(const Actor& actor) {
          " gid " + std::to_string(actor.gid) + " pid " + std::to_string(actor.pid);
 }
 
-std::string action_json(const Action& action) {
+std::string action_json(const HistoryEntry& action) {
   JsonWriter json;
   json.begin_object()
       .field("deed", action.name)
@@ -51,9 +51,9 @@ std::string action_json(const Action& action) {
   return json.take();
 }
 
-void write_actions(JsonWriter& json, const std::vector<Action>& actions) {
+void write_actions(JsonWriter& json, const std::vector<HistoryEntry>& actions) {
   json.begin_array();
-  for (const Action& action : actions) json.raw(action_json(action));
+  for (const HistoryEntry& action : actions) json.raw(action_json(action));
   json.end_array();
 }
 

@@ -4,19 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "schema/action.h"
 #include "schema/base/json_writer.h"
+#include "schema/history_entry.h"
 
 namespace mdof::daemon {
 
 Actor actor_of(std::int64_t uid, std::int64_t gid, std::int64_t pid);
 Actor this_process();
-Action action_now(std::string name, Actor by);
+HistoryEntry action_now(std::string name, Actor by);
 
 // "uid 1000 (anna) gid 1000 pid 4711"
 std::string actor_text(const Actor& actor);
 // {"deed", "of": "run", "id", "utc", "uid", "gid", "pid", "user"}, and "detail" where it has one
-std::string action_json(const Action& action);
-void write_actions(JsonWriter& json, const std::vector<Action>& actions);  // an array
+std::string action_json(const HistoryEntry& action);
+void write_actions(JsonWriter& json, const std::vector<HistoryEntry>& actions);  // an array
 
 }  // namespace mdof::daemon

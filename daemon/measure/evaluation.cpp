@@ -104,7 +104,7 @@ std::vector<std::string> table_notes(const std::vector<Run>& runs) {
 }
 
 Status store_table(store::Store& store, CompensationTable& table,
-                   const std::optional<Action>& action) {
+                   const std::optional<HistoryEntry>& action) {
   table.created_utc = utc_now();
   table.sha256 = table_sha256(table);
   MDOF_TRY(table.id, store.add_table(table, action));
@@ -209,7 +209,7 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
 }
 
 Status store_squareness(store::Store& store, Squareness& squareness,
-                        const std::optional<Action>& action) {
+                        const std::optional<HistoryEntry>& action) {
   MDOF_TRY(const auto before, store.squareness_of(squareness.run_a, squareness.run_b));
   for (const Squareness& stored : before) {
     squareness.id = stored.id;

@@ -36,7 +36,7 @@ struct TableRequest {
   bool keep_slope = false;
   bool partial = false;                // take partial runs as well
   std::optional<Reference> reference;  // none: at the rig's tool point, else at the fixture
-  std::optional<Action> action = std::nullopt;  // who asks
+  std::optional<HistoryEntry> action = std::nullopt;  // who asks
   algo::TableLimits limits = {};
   // Of imported positioning whose runs do not say it: travel "-" of the machine.
   std::optional<bool> against_command = std::nullopt;
@@ -53,7 +53,7 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
 // The two parts of that: what takes long, from a store that may be read-only, and storing.
 Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& request);
 Status store_table(store::Store& store, CompensationTable& table,
-                   const std::optional<Action>& action);
+                   const std::optional<HistoryEntry>& action);
 
 // What a table inherits of its runs beside notices.
 std::vector<std::string> table_notes(const std::vector<Run>& runs);
@@ -61,7 +61,7 @@ std::vector<std::string> table_notes(const std::vector<Run>& runs);
 struct ActivationRequest {
   std::int64_t table = 0;
   Consent consent;
-  Action action;  // who asks
+  HistoryEntry action;  // who asks
 };
 // Activates the table. Refuses one that is not what its hash says, and what check_gate()
 // refuses: a controller sees numbers only.
@@ -78,8 +78,8 @@ struct SquarenessRequest {
   std::int64_t run_a = 0, run_b = 0;  // in the order X, Y, Z of their axes
   algo::ArtefactGiven given;
   bool partial = false;
-  std::optional<Action> action = std::nullopt;  // who asks
-  std::optional<AxisPair> axes = std::nullopt;  // that the runs have to be of
+  std::optional<HistoryEntry> action = std::nullopt;  // who asks
+  std::optional<AxisPair> axes = std::nullopt;        // that the runs have to be of
 };
 // Two runs with their rigs, and the fit without the uncertainty of what the rigs declare.
 struct RunsOfSquareness {
@@ -102,7 +102,7 @@ Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessReq
 Result<FittedSquareness> calculate_squareness(store::Store& store,
                                               const SquarenessRequest& request);
 Status store_squareness(store::Store& store, Squareness& squareness,
-                        const std::optional<Action>& action);
+                        const std::optional<HistoryEntry>& action);
 // The same of one that is stored, its uncertainties made anew.
 Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness);
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "schema/action.h"
 #include "schema/encoder_datum.h"
+#include "schema/history_entry.h"
 #include "schema/notice/notice.h"
 
 namespace mdof::daemon {
@@ -28,7 +28,7 @@ struct RunRequest {
   Notices notices;                   // to be kept with the run
   std::vector<std::string> notes;    // for whoever asks; they follow from its options
   std::optional<CutOffRun> resumes;  // goes on from there
-  std::optional<Action> action = std::nullopt;  // who asks for it
+  std::optional<HistoryEntry> action = std::nullopt;  // who asks for it
 };
 
 }  // namespace mdof::daemon

@@ -32,7 +32,7 @@ void set_encoder(Methods& m, const Params& params, Reply reply) {
   const auto station = station_of(m, *axis);
   if (!station) return reply(tl::unexpected(station.error()));
   const double position_mm = params.number("position_mm");
-  const Action action = action_of(params, "encoder.set");
+  const HistoryEntry action = action_of(params, "encoder.set");
   auto shared = std::make_shared<Reply>(std::move(reply));
   (*station)->set_encoder(from_mm(position_mm), action, [=](const Result<EncoderDatum>& set) {
     if (!set) return (*shared)(tl::unexpected(set.error()));

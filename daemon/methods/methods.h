@@ -60,7 +60,7 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 }
 
 // Shared by the nouns.
-Action action_of(const rpc::Params& params, std::string name);  // by the caller, now
+HistoryEntry action_of(const rpc::Params& params, std::string name);  // by the caller, now
 Result<Axis> axis_param(const rpc::Params& params);
 // What a deviation or a correction may be at the most.
 std::vector<rpc::Param> limit_params();

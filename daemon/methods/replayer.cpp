@@ -24,8 +24,8 @@ std::atomic<bool> left_behind{false};
 struct Replayer::Shared {
   explicit Shared(Storekeeper& to) : keeper(to) {}
 
-  void work(const Make& make, const Action& action, const Done& done);
-  void store(Result<Run> run, const Action& action, const Done& done);
+  void work(const Make& make, const HistoryEntry& action, const Done& done);
+  void store(Result<Run> run, const HistoryEntry& action, const Done& done);
 
   std::atomic<bool> busy{false}, stopping{false};
   std::mutex mutex;  // guards the next two
@@ -34,7 +34,7 @@ struct Replayer::Shared {
   Storekeeper& keeper;  // only under the mutex and before `stopping`: it goes after that
 };
 
-void Replayer::Shared::work(const Make& make, const Action& action, const Done& done) {
+void Replayer::Shared::work(const Make& make, const HistoryEntry& action, const Done& done) {
   ::pthread_setname_np(::pthread_self(), "replay");
   // Linux: of this thread alone.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
@@ -46,7 +46,7 @@ void Replayer::Shared::work(const Make& make, const Action& action, const Done& 
   ended.notify_all();
 }
 
-void Replayer::Shared::store(Result<Run> run, const Action& action, const Done& done) {
+void Replayer::Shared::store(Result<Run> run, const HistoryEntry& action, const Done& done) {
   if (!run) return done(tl::unexpected(run.error()));
   const auto whole = std::make_shared<Run>(std::move(*run));
   const bool posted =
@@ -76,7 +76,7 @@ bool Replayer::was_left_behind() {
   return left_behind;
 }
 
-void Replayer::start(Make make, const Action& action, Done done) {
+void Replayer::start(Make make, const HistoryEntry& action, Done done) {
   if (shared_->busy.exchange(true))
     return done(fail(ErrorCode::conflict,
                      "another log is being replayed or imported; try again when it is done"));

@@ -26,7 +26,7 @@ class Replayer {
   // `conflict` while a file is under way.
   using Make = std::function<Result<Run>(const ProgressCallback&)>;
   using Done = std::function<void(Result<std::int64_t>)>;
-  void start(Make make, const Action& action, Done done);
+  void start(Make make, const HistoryEntry& action, Done done);
 
  private:
   struct Shared;  // with the thread, which may outlive this

@@ -234,7 +234,7 @@ StatedRun stated_in_a_call(const Run& run) {
 }
 
 std::string run_json(const Run& run, const StatedRun& stated, const RunHeader& header,
-                     const std::vector<Action>& actions, std::size_t most_visits) {
+                     const std::vector<HistoryEntry>& actions, std::size_t most_visits) {
   JsonWriter json;
   json.begin_object();
   write_header_members(json, header, words::text);

@@ -99,7 +99,7 @@ Result<std::string> subscribe(const Params& params) {
 
 }  // namespace
 
-Action action_of(const Params& params, std::string name) {
+HistoryEntry action_of(const Params& params, std::string name) {
   const auto who = params.caller().credentials();
   if (!who) return action_now(std::move(name), {-1, -1, -1, "tcp"});
   return action_now(std::move(name), actor_of(who->uid, who->gid, who->pid));

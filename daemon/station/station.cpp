@@ -226,7 +226,7 @@ void Station::begin_run(NewRun description, const RunRequest& request, const Opt
   done(io_error("the store is behind; try again"));
 }
 
-void Station::stop_run(bool abort, const Action& action, RunDone done) {
+void Station::stop_run(bool abort, const HistoryEntry& action, RunDone done) {
   if (shared_->run <= 0) {
     return done(fail(ErrorCode::not_found,
                      std::string("no run of axis ") + letter(config_.rig.axis) + " is under way"));

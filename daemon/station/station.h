@@ -54,12 +54,12 @@ class Station {
 
   void start_run(const RunRequest& request, const RunDone& done);
   // `done`: the id of the run to read (see Storekeeper::end_run), once it is on the disk.
-  void stop_run(bool abort, const Action& action, RunDone done);
+  void stop_run(bool abort, const HistoryEntry& action, RunDone done);
   // The axis stands at `position_m` now: holds once it is stored with who says so. Errors
   // (conflict): a run is under way, the axis moves, nothing comes from its encoder; it is that of a
   // log. Others: it could not be stored.
   using DatumDone = std::function<void(Result<EncoderDatum>)>;
-  void set_encoder(double position_m, const Action& action, DatumDone done);
+  void set_encoder(double position_m, const HistoryEntry& action, DatumDone done);
   EncoderState encoder() const { return zero_.state(); }
   // The run under way: 0 none, -1 about to begin.
   std::int64_t run() const { return shared_->run.load(); }
@@ -96,7 +96,7 @@ class Station {
     std::shared_ptr<const PipelineOptions> options;  // of the run to attach
     std::shared_ptr<Beginning> beginning;            // of a run that goes on from another
     bool abort = false;
-    std::optional<Action> action;  // who stops, or says where the axis stands
+    std::optional<HistoryEntry> action;  // who stops, or says where the axis stands
     std::string reason;
     drivers::SourceInfo source;
     std::uint64_t pass = 0;  // of a source that is read once a run
@@ -145,7 +145,7 @@ class Station {
   void take_mark(const std::string& device);
   void end_unless_from_mark();
   void finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
-              const std::optional<Action>& action = std::nullopt);
+              const std::optional<HistoryEntry>& action = std::nullopt);
   const Pipeline* pipeline() const;
   void note_newest();
   void show_live();

@@ -9,7 +9,7 @@ namespace mdof::daemon {
 
 // ---- main thread ----
 
-void Station::set_encoder(double position_m, const Action& action, DatumDone done) {
+void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDone done) {
   const std::string axis(1, letter(config_.rig.axis));
   if (!config_.live())
     return done(fail(ErrorCode::conflict,

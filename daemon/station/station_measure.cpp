@@ -289,7 +289,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
 }
 
 void Station::finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
-                     const std::optional<Action>& action) {
+                     const std::optional<HistoryEntry>& action) {
   if (!config_.live())
     acquisitions_.front()->cease();  // what is still on its way belongs to this pass
   auto result = open_->pipeline.finish();

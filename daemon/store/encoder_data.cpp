@@ -15,7 +15,7 @@ constexpr std::string_view kSettings =
 }  // namespace
 
 Result<std::int64_t> Store::add_datum(const DatumSetting& setting,
-                                      const std::optional<Action>& action) {
+                                      const std::optional<HistoryEntry>& action) {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO encoder_datum (axis, device, before_m, position_m, "

@@ -11,8 +11,8 @@ namespace {
 constexpr std::string_view kActions =
     "SELECT id, name, subject, row, uid, gid, pid, user, utc FROM deed ";
 
-Action action_of(const Statement& row) {
-  Action action;
+HistoryEntry action_of(const Statement& row) {
+  HistoryEntry action;
   action.id = row.integer(0);
   action.name = row.text(1);
   action.subject = row.text(2);
@@ -25,7 +25,7 @@ Action action_of(const Statement& row) {
 }  // namespace
 
 Status Store::insert_action(std::string_view subject, std::int64_t row,
-                            const std::optional<Action>& action) {
+                            const std::optional<HistoryEntry>& action) {
   if (!action) return {};
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO deed (name, subject, row, uid, gid, pid, user, utc) "
@@ -37,8 +37,8 @@ Status Store::insert_action(std::string_view subject, std::int64_t row,
   return add_link(connection_, Fact::action, connection_.last_insert_rowid());
 }
 
-Result<std::vector<Action>> Store::read_actions(Statement& rows) {
-  std::vector<Action> list;
+Result<std::vector<HistoryEntry>> Store::read_actions(Statement& rows) {
+  std::vector<HistoryEntry> list;
   for (;;) {
     MDOF_TRY(const bool row, rows.step());
     if (!row) return list;
@@ -48,14 +48,14 @@ Result<std::vector<Action>> Store::read_actions(Statement& rows) {
   }
 }
 
-Status Store::add_detail(Action& action) {
+Status Store::add_detail(HistoryEntry& action) {
   if (action.subject != "encoder_datum") return {};
   MDOF_TRY(const auto setting, datum(action.row));
   if (setting) action.detail = setting_text(*setting);
   return {};
 }
 
-Result<std::vector<Action>> Store::actions_of_run(std::int64_t run) {
+Result<std::vector<HistoryEntry>> Store::actions_of_run(std::int64_t run) {
   MDOF_TRY(Statement rows,
            connection_.prepare("WITH RECURSIVE chain (id) AS (SELECT ?1 UNION SELECT supersedes "
                                "FROM run JOIN chain USING (id) WHERE supersedes IS NOT NULL) " +
@@ -66,7 +66,7 @@ Result<std::vector<Action>> Store::actions_of_run(std::int64_t run) {
   return read_actions(rows);
 }
 
-Result<std::vector<Action>> Store::list_actions(std::int64_t offset, std::int64_t count) {
+Result<std::vector<HistoryEntry>> Store::list_actions(std::int64_t offset, std::int64_t count) {
   MDOF_TRY(Statement rows,
            connection_.prepare(std::string(kActions) + "ORDER BY id DESC LIMIT ?2 OFFSET ?1"));
   rows.bind(offset).bind(count);

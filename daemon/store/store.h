@@ -14,11 +14,11 @@
 #include "daemon/store/file/writer_lock.h"
 #include "daemon/store/ledger.h"
 #include "daemon/store/study/study_record.h"
-#include "schema/action.h"
 #include "schema/base/result.h"
 #include "schema/base/sqlite.h"
 #include "schema/compensation_table.h"
 #include "schema/encoder_datum.h"
+#include "schema/history_entry.h"
 #include "schema/notice/notice.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
@@ -49,7 +49,7 @@ struct RunEnd {
   std::vector<AngleFigure> angles;
   std::optional<Plausibility> plausibility = std::nullopt;
   std::optional<Temperature> temperature = std::nullopt;
-  std::optional<Action> action = std::nullopt;               // of who asked for it
+  std::optional<HistoryEntry> action = std::nullopt;         // of who asked for it
   std::optional<RunUncertainty> uncertainty = std::nullopt;  // of its points, for SQL users
 };
 
@@ -87,7 +87,7 @@ struct Activation {
 std::string activation_json(const std::string& members, const Activation& activation);
 
 // Thread-bound. A message names the file; not_found names the run or table that is not there.
-// What somebody asked for takes an `Action`: who did it, stored in the same transaction.
+// What somebody asked for takes a `HistoryEntry`: who did it, stored in the same transaction.
 // Doubles come back with the bits that they went in with; a NaN comes back as a NaN.
 class Store {
  public:
@@ -97,12 +97,13 @@ class Store {
   // ---- runs ----
   // A whole run in one transaction: all of it is stored or nothing. The header's id is not used;
   // its state must not be open. Gives the run's id.
-  Result<std::int64_t> add_run(const Run& run, const std::optional<Action>& action = std::nullopt,
+  Result<std::int64_t> add_run(const Run& run,
+                               const std::optional<HistoryEntry>& action = std::nullopt,
                                const std::optional<RunUncertainty>& uncertainty = std::nullopt);
   // A run that is being measured: begun, filled and ended, each call durable on return. Only this
   // store can fill it; if it ends before the run does, the run is `aborted` and says "interrupted".
   Result<std::int64_t> begin_run(const RunHeader& header,
-                                 const std::optional<Action>& action = std::nullopt);
+                                 const std::optional<HistoryEntry>& action = std::nullopt);
   Status append_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
   Status end_run(std::int64_t run, const RunEnd& end);
   // Ends it and stores what it turned out to be as a run that supersedes it, in one transaction.
@@ -132,50 +133,50 @@ class Store {
 
   // ---- squareness ----
   Result<std::int64_t> add_squareness(const Squareness& squareness,
-                                      const std::optional<Action>& action = std::nullopt);
+                                      const std::optional<HistoryEntry>& action = std::nullopt);
   Result<std::vector<Squareness>> list_squareness(std::int64_t offset, std::int64_t count);
   // Of these two runs, newest first.
   Result<std::vector<Squareness>> squareness_of(std::int64_t run_a, std::int64_t run_b);
 
   // ---- compensation tables ----
   Result<std::int64_t> add_table(const CompensationTable& table,
-                                 const std::optional<Action>& action = std::nullopt);
+                                 const std::optional<HistoryEntry>& action = std::nullopt);
   Result<CompensationTable> table(std::int64_t id);
   Result<std::vector<CompensationTable>> list_tables(std::int64_t offset, std::int64_t count,
                                                      std::optional<Axis> axis = std::nullopt);
   // Activates a table on its axis; gives the new generation. Generations rise strictly over all
   // axes, so that one number shows a client whether anything has changed.
   Result<Activation> activate(std::int64_t table, const std::string& actor, const std::string& utc,
-                              const std::optional<Action>& action = std::nullopt);
+                              const std::optional<HistoryEntry>& action = std::nullopt);
   // No table is active on the axis from then on.
   Result<Activation> deactivate(Axis axis, const std::string& actor, const std::string& utc,
-                                const std::optional<Action>& action = std::nullopt);
+                                const std::optional<HistoryEntry>& action = std::nullopt);
   Result<ActiveTable> active(Axis axis);  // not_found where none is active
   Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
 
   // ---- volumetric tables ----
   // Their numbers and generations are of one count with those of compensation tables.
   Result<std::int64_t> add_volumetric(const VolumetricTable& table,
-                                      const std::optional<Action>& action = std::nullopt);
+                                      const std::optional<HistoryEntry>& action = std::nullopt);
   Result<VolumetricTable> volumetric(std::int64_t id);
   Result<bool> is_volumetric(std::int64_t id);  // false: no such table, or one of an axis
   Result<std::vector<VolumetricTable>> list_volumetric(std::int64_t offset, std::int64_t count);
   // Activates one; without a table none is active from then on.
   Result<Activation> change_volumetric(std::optional<std::int64_t> table, const std::string& actor,
                                        const std::string& utc,
-                                       const std::optional<Action>& action = std::nullopt);
+                                       const std::optional<HistoryEntry>& action = std::nullopt);
   Result<ActiveVolumetric> active_volumetric();  // not_found where none is active
 
   // ---- where an axis stood when somebody said so ----
   Result<std::int64_t> add_datum(const DatumSetting& setting,  // its id is not used
-                                 const std::optional<Action>& action = std::nullopt);
+                                 const std::optional<HistoryEntry>& action = std::nullopt);
   Result<std::optional<DatumSetting>> last_datum(Axis axis);
 
   // ---- who did it ----
   // With a run, or with one that it supersedes; in order.
-  Result<std::vector<Action>> actions_of_run(std::int64_t run);
-  Result<std::vector<Action>> list_actions(std::int64_t offset,
-                                           std::int64_t count);  // newest first
+  Result<std::vector<HistoryEntry>> actions_of_run(std::int64_t run);
+  Result<std::vector<HistoryEntry>> list_actions(std::int64_t offset,
+                                                 std::int64_t count);  // newest first
   Result<std::int64_t> count_actions();
 
   // ---- sensitivity studies ----
@@ -268,9 +269,9 @@ class Store {
   Result<VolumetricTable> volumetric_of(sqlite::Statement& row);
   // history.cpp
   Status insert_action(std::string_view subject, std::int64_t row,
-                       const std::optional<Action>& action);
-  Result<std::vector<Action>> read_actions(sqlite::Statement& rows);
-  Status add_detail(Action& action);
+                       const std::optional<HistoryEntry>& action);
+  Result<std::vector<HistoryEntry>> read_actions(sqlite::Statement& rows);
+  Status add_detail(HistoryEntry& action);
   // encoder_data.cpp
   Result<std::optional<DatumSetting>> read_datum(sqlite::Statement& row);
   Result<std::optional<DatumSetting>> datum(std::int64_t id);

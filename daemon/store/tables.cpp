@@ -136,7 +136,7 @@ Squareness squareness_from(const Statement& row) {
 }  // namespace
 
 Result<std::int64_t> Store::add_squareness(const Squareness& s,
-                                           const std::optional<Action>& action) {
+                                           const std::optional<HistoryEntry>& action) {
   for (const std::int64_t run : {s.run_a, s.run_b}) MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert,
@@ -184,7 +184,7 @@ Result<std::vector<Squareness>> Store::checked_squareness(Statement& rows) {
 }
 
 Result<std::int64_t> Store::add_table(const CompensationTable& table,
-                                      const std::optional<Action>& action) {
+                                      const std::optional<HistoryEntry>& action) {
   MDOF_CHECK(check_shape(table));
   for (const std::int64_t run : table.runs) MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
@@ -303,7 +303,8 @@ Result<std::int64_t> Store::next_generation(const std::string& utc) {
 }
 
 Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
-                                   const std::string& utc, const std::optional<Action>& action) {
+                                   const std::string& utc,
+                                   const std::optional<HistoryEntry>& action) {
   MDOF_TRY(const CompensationTable wanted, this->table(table));
   const auto now = active(wanted.axis);
   if (now && now->table.id == table) return Activation{now->generation, false};
@@ -325,7 +326,7 @@ Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
 }
 
 Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const std::string& utc,
-                                     const std::optional<Action>& action) {
+                                     const std::optional<HistoryEntry>& action) {
   MDOF_TRY(const std::int64_t last, generation());
   const auto now = active(axis);
   if (!now && now.error().code == ErrorCode::not_found) return Activation{last, false};

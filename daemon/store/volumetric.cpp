@@ -77,7 +77,7 @@ Result<std::int64_t> Store::next_table() {
 }
 
 Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
-                                           const std::optional<Action>& action) {
+                                           const std::optional<HistoryEntry>& action) {
   MDOF_CHECK(check_shape(table));
   for (const std::int64_t run : table.runs) MDOF_CHECK(check_exists(RowOf::run, run));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
@@ -171,7 +171,7 @@ Result<std::vector<VolumetricTable>> Store::list_volumetric(std::int64_t offset,
 
 Result<Activation> Store::change_volumetric(std::optional<std::int64_t> table,
                                             const std::string& actor, const std::string& utc,
-                                            const std::optional<Action>& action) {
+                                            const std::optional<HistoryEntry>& action) {
   if (table) MDOF_CHECK(check_exists(RowOf::volumetric_table, *table));
   const auto now = active_volumetric();
   if (!now && now.error().code != ErrorCode::not_found && table) return tl::unexpected(now.error());

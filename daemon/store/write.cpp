@@ -58,7 +58,7 @@ RunEnd end_of(const Run& run) {
 
 }  // namespace
 
-Result<std::int64_t> Store::add_run(const Run& run, const std::optional<Action>& action,
+Result<std::int64_t> Store::add_run(const Run& run, const std::optional<HistoryEntry>& action,
                                     const std::optional<RunUncertainty>& uncertainty) {
   assert(run.header.state != RunState::open);
   // Of a long run on another core while its rows are written; a short one is not worth a thread.
@@ -85,7 +85,7 @@ Result<std::int64_t> Store::insert_complete_run(const Run& run, std::future<std:
 }
 
 Result<std::int64_t> Store::begin_run(const RunHeader& header,
-                                      const std::optional<Action>& action) {
+                                      const std::optional<HistoryEntry>& action) {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(const std::int64_t id, insert_run(header));
   MDOF_CHECK(insert_action("run", id, action));

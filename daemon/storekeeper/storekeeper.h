@@ -30,14 +30,14 @@ struct NewRun {
   RunHeader header;
   std::filesystem::path recording;  // empty: not recorded (a replay)
   RecordingHeader recording_header;
-  std::optional<store::RecordingWriter> begun;  // a recording that has a beginning already
-  std::optional<Action> action = std::nullopt;  // who asked for it
+  std::optional<store::RecordingWriter> begun;        // a recording that has a beginning already
+  std::optional<HistoryEntry> action = std::nullopt;  // who asked for it
 };
 
 // How a run ends, beside its result.
 struct RunEnding {
   bool differs = false;  // from the points already stored
-  std::optional<Action> action = std::nullopt;
+  std::optional<HistoryEntry> action = std::nullopt;
   std::optional<RunUncertainty> uncertainty = std::nullopt;  // of the result's points
 };
 

@@ -42,7 +42,7 @@ Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
 }
 
 Status store_volumetric(store::Store& store, VolumetricTable& table,
-                        const std::optional<Action>& action) {
+                        const std::optional<HistoryEntry>& action) {
   table.created_utc = utc_now();
   table.sha256 = volumetric_sha256(table);
   MDOF_TRY(table.id, store.add_volumetric(table, action));

@@ -28,7 +28,7 @@ struct BuiltVolumetric {
 Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
                                              const VolumetricTableRequest& request);
 Status store_volumetric(store::Store& store, VolumetricTable& table,
-                        const std::optional<Action>& action);
+                        const std::optional<HistoryEntry>& action);
 
 Result<Notices> doubtful_notices(store::Store& store, const VolumetricTable& table);
 Result<Judged> judged_table(store::Store& store, const VolumetricTable& table);

@@ -232,7 +232,7 @@ class FedStation : public ::testing::Test {
   }
   Result<std::int64_t> stop(bool abort = false) {
     std::promise<Result<std::int64_t>> id;
-    const Action action = action_now(abort ? "run.abort" : "run.stop", this_process());
+    const HistoryEntry action = action_now(abort ? "run.abort" : "run.stop", this_process());
     station_->stop_run(abort, action, [&](const auto& ended) { id.set_value(ended); });
     return id.get_future().get();
   }

@@ -155,7 +155,7 @@ class StationDatum : public FedStation {
   }
   Result<EncoderDatum> set(double mm) {
     std::promise<Result<EncoderDatum>> done;
-    const Action action{"encoder.set", {1000, 1000, 4711, "anna"}, "2026-11-23T08:00:00Z"};
+    const HistoryEntry action{"encoder.set", {1000, 1000, 4711, "anna"}, "2026-11-23T08:00:00Z"};
     station_->set_encoder(1e-3 * mm, action, [&](const auto& datum) { done.set_value(datum); });
     return done.get_future().get();
   }

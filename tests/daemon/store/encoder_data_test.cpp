@@ -14,7 +14,7 @@ DatumSetting setting(Axis axis, double position_m) {
   return {0, axis, "t7", 0.00003125, position_m, position_m - 0.00003125, "2026-11-23T07:00:00Z"};
 }
 
-Action said_by_anna() {
+HistoryEntry said_by_anna() {
   return {.name = "encoder.set", .by = {1000, 100, 4711, "anna"}, .utc = "2026-11-23T07:00:00Z"};
 }
 

@@ -5,7 +5,7 @@
 namespace mdof::store {
 namespace {
 
-Action by_anna(const std::string& name) {
+HistoryEntry by_anna(const std::string& name) {
   return {.name = name, .by = {1000, 100, 4711, "anna"}, .utc = "2026-11-22T18:00:00.000Z"};
 }
 
@@ -21,9 +21,9 @@ class Deeds : public StoreTest {
     return store.end_and_supersede(id, end, run).value();
   }
 
-  std::string names(const std::vector<Action>& actions) {
+  std::string names(const std::vector<HistoryEntry>& actions) {
     std::string all;
-    for (const Action& action : actions)
+    for (const HistoryEntry& action : actions)
       all += action.name + " " + action.subject + " " + std::to_string(action.row) + "; ";
     return all;
   }

@@ -281,7 +281,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
     ASSERT_TRUE(store->add_run(whole, std::nullopt, known));
     ASSERT_TRUE(store->add_squareness({0, {}, 1, 1, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}));
     ASSERT_TRUE(store->activate(store->add_table(make_table({1})).value(), "me", "now",
-                                Action{"compensation.activate", {}, "now"}));
+                                HistoryEntry{"compensation.activate", {}, "now"}));
     ASSERT_TRUE(store->deactivate(Axis::x, "me", "now"));
     ASSERT_TRUE(store->end_study(store->begin_study({}).value(), {}, std::nullopt));
     ASSERT_TRUE(store->add_datum({0, Axis::x, "t7", 0, 0, 0, "now"}));

@@ -10,9 +10,9 @@
 namespace mdof::tools {
 
 // A line each, with a title; nothing where nothing is known.
-inline std::string history_text(const std::vector<Action>& actions, std::size_t width) {
+inline std::string history_text(const std::vector<HistoryEntry>& actions, std::size_t width) {
   std::string text = actions.empty() ? "" : "\nhistory\n";
-  for (const Action& action : actions)
+  for (const HistoryEntry& action : actions)
     text += wrapped(action.utc + " run " + std::to_string(action.row) + ": " + action.name +
                         " by " + daemon::actor_text(action.by),
                     width, 2) +

@@ -48,7 +48,7 @@ void write_reading(JsonWriter& json, const MeasuredPoint& p, const std::string& 
 }  // namespace
 
 std::string imported_json(const Run& run, const std::string& result_sha256,
-                          const std::vector<Action>& actions) {
+                          const std::vector<HistoryEntry>& actions) {
   const std::string key = error_of(run).key();
   JsonWriter json;
   json.begin_object();

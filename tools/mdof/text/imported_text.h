@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/action.h"
+#include "schema/history_entry.h"
 #include "schema/run.h"
 
 namespace mdof::tools {
@@ -14,7 +14,7 @@ namespace mdof::tools {
 // "u":
 // {"EXX_um"}}]; direction null where the file does not say.
 std::string imported_json(const Run& run, const std::string& result_sha256,
-                          const std::vector<Action>& actions);
+                          const std::vector<HistoryEntry>& actions);
 std::string imported_csv(const Run& run);
 std::string imported_text(const Run& run, const std::string& result_sha256, std::size_t width,
                           bool all_warnings);

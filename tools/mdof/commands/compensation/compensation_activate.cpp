@@ -27,7 +27,7 @@ Result<std::string> activated(const ActivateCommand& command) {
       (command.consent.despite_warnings ? ",\"despite_warnings\":true" : "");
   if (mdofd) return mdofd->call("compensation.activate", "{" + table + consent + "}");
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  const Action action = daemon::action_now("compensation.activate", daemon::this_process());
+  const HistoryEntry action = daemon::action_now("compensation.activate", daemon::this_process());
   MDOF_TRY(const auto done,
            daemon::activate_table(store, {command.table, command.consent, action}));
   return store::activation_json(table, done);

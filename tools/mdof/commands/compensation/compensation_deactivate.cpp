@@ -24,7 +24,7 @@ Result<std::string> deactivated(const DeactivateCommand& command) {
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   if (mdofd) return mdofd->call("compensation.deactivate", "{" + axis + "}");
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  const Action action = daemon::action_now("compensation.deactivate", daemon::this_process());
+  const HistoryEntry action = daemon::action_now("compensation.deactivate", daemon::this_process());
   const std::string actor = daemon::actor_text(action.by);
   MDOF_TRY(const auto done,
            command.axis == kVolume

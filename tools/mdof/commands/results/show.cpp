@@ -25,7 +25,7 @@ namespace {
 // run_json() with three members more. The lines are made on reading: what is stored, and its hash,
 // is as it was.
 std::string with_lines_hash_and_history(const Run& run, const std::string& sha256,
-                                        const std::vector<Action>& actions) {
+                                        const std::vector<HistoryEntry>& actions) {
   const daemon::StatedRun stated = daemon::stated_run(run);
   std::string json = run_json(run, stated.points, stated.figures, words::text);
   json.pop_back();

@@ -19,7 +19,7 @@ struct HistoryCommand {
   bool json = false;
 };
 
-std::string actions_json(const std::vector<Action>& actions, std::int64_t total) {
+std::string actions_json(const std::vector<HistoryEntry>& actions, std::int64_t total) {
   JsonWriter json;
   json.begin_object().field("total", total).key("history");
   daemon::write_actions(json, actions);
@@ -27,9 +27,9 @@ std::string actions_json(const std::vector<Action>& actions, std::int64_t total)
   return json.take();
 }
 
-std::string actions_text(const std::vector<Action>& actions, std::int64_t total) {
+std::string actions_text(const std::vector<HistoryEntry>& actions, std::int64_t total) {
   TextTable table({"when", "what", "of", "id", "by", "detail"});
-  for (const Action& action : actions)
+  for (const HistoryEntry& action : actions)
     table.add({action.utc, action.name, action.subject, std::to_string(action.row),
                daemon::actor_text(action.by), action.detail});
   return table.text(terminal_columns()) + left_out(actions.size(), total, "actions");

@@ -15,7 +15,7 @@ struct Actor {
   std::string user;
 };
 
-struct Action {
+struct HistoryEntry {
   std::string name;  // "run.start", "run.resume", "run.stop", "run.abort", "run.replay",
                      // "squareness.fit", "compensation.build", ".build_volume", ".activate",
                      // ".deactivate", "encoder.set"

@@ -1,5 +1,7 @@
 #include "daemon/output/report/html.h"
 
+#include <openssl/evp.h>
+
 #include <algorithm>
 
 #include "daemon/output/charts/svg.h"
@@ -45,6 +47,15 @@ constexpr std::string_view kStyle =
     "@media print{body{margin:0;padding:0;max-width:none}"
     "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}";
 
+std::string base64(std::string_view bytes) {
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // OpenSSL ends it with a NUL
+  const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                                     reinterpret_cast<const unsigned char*>(bytes.data()),
+                                     static_cast<int>(bytes.size()));
+  text.resize(static_cast<std::size_t>(length));
+  return text;
+}
+
 }  // namespace
 
 void Html::element(std::string_view tag, std::string_view text, std::string_view css_class) {
@@ -70,6 +81,13 @@ void Html::facts(const std::vector<std::pair<std::string, std::string>>& facts) 
     if (!value.empty())
       text_ += "<dt>" + xml_escaped(name) + "</dt><dd>" + xml_escaped(value) + "</dd>\n";
   text_ += "</dl>\n";
+}
+
+void Html::attachment(std::string_view text, std::string_view file_name,
+                      std::string_view media_type, std::string_view bytes) {
+  text_ += "<p><a download=\"" + xml_escaped(file_name) +
+           "\" href=\"data:" + xml_escaped(media_type) + ";base64," + base64(bytes) + "\">" +
+           xml_escaped(text) + "</a></p>\n";
 }
 
 void Html::table(const std::vector<std::string>& head,

@@ -19,6 +19,9 @@ class Html {
   // `css_class` "long": its rows may be on several pages, with the head on each.
   void table(const std::vector<std::string>& head,
              const std::vector<std::vector<std::string>>& rows, std::string_view css_class = "");
+  // A file that the page has in it: a link that saves `bytes` as `file_name`.
+  void attachment(std::string_view text, std::string_view file_name, std::string_view media_type,
+                  std::string_view bytes);
   // An SVG document, with its number as part of the page.
   void figure(std::string_view svg);
 

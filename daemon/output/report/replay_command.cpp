@@ -13,20 +13,17 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-std::string option(const char* name, double value, double by_default) {
-  return value == by_default ? "" : std::string(" ") + name + " " + charts::exact_text(value);
+std::string option(const char* name, double value) {
+  return std::string(" ") + name + " " + charts::exact_text(value);
 }
 
+// All of them, whatever the defaults are: a recording has options of its own, which would hold.
 std::string options_of(const daemon::PipelineOptions& o) {
-  const daemon::PipelineOptions by_default;
-  std::string text;
-  if (o.model != by_default.model) text += std::string(" --model ") + to_string(o.model);
-  text +=
-      option("--tolerance-um", to_um(o.dwell.tolerance_m), to_um(by_default.dwell.tolerance_m)) +
-      option("--settle-s", o.dwell.settle_s, by_default.dwell.settle_s) +
-      option("--min-length-s", o.dwell.min_length_s, by_default.dwell.min_length_s) +
-      option("--max-gap-s", o.align.max_gap_s, by_default.align.max_gap_s) +
-      option("--lag-bound-s", o.align.lag_bound_s, by_default.align.lag_bound_s);
+  std::string text =
+      std::string(" --model ") + to_string(o.model) +
+      option("--tolerance-um", to_um(o.dwell.tolerance_m)) +
+      option("--settle-s", o.dwell.settle_s) + option("--min-length-s", o.dwell.min_length_s) +
+      option("--max-gap-s", o.align.max_gap_s) + option("--lag-bound-s", o.align.lag_bound_s);
   if (!o.sequence.targets_m.empty()) {
     text += " --targets-mm";
     for (const double target_m : o.sequence.targets_m)
@@ -34,10 +31,10 @@ std::string options_of(const daemon::PipelineOptions& o) {
   }
   if (o.remove_drift) text += " --remove-drift";
   if (!o.on_the_fly) return text;
-  const algo::OnTheFlyOptions by_itself;
-  text += " --on-the-fly" +
-          option("--interval-mm", o.on_the_fly->interval_mm, by_itself.interval_mm) +
-          option("--bin-mm", o.on_the_fly->bin_mm, by_itself.bin_mm);
+  text += " --on-the-fly";
+  // 0: as it was given targets, or as the travel says.
+  if (o.on_the_fly->interval_mm > 0) text += option("--interval-mm", o.on_the_fly->interval_mm);
+  if (o.on_the_fly->bin_mm > 0) text += option("--bin-mm", o.on_the_fly->bin_mm);
   if (o.on_the_fly->from_mm) text += " --from-mm " + charts::exact_text(*o.on_the_fly->from_mm);
   if (o.on_the_fly->to_mm) text += " --to-mm " + charts::exact_text(*o.on_the_fly->to_mm);
   return text;
@@ -46,18 +43,16 @@ std::string options_of(const daemon::PipelineOptions& o) {
 }  // namespace
 
 std::string rig_file(const RunHeader& run) {
-  return run.provenance.recording_kind == "csv" ? "rig-of-run-" + std::to_string(run.id) + ".toml"
-                                                : "";
+  return run.provenance.rig_text.empty() ? "" : "rig-of-run-" + std::to_string(run.id) + ".toml";
 }
 
 std::string replay_command(const RunHeader& run) {
-  std::string command = "mdof replay " + quoted(run.provenance.recording_path);
-  if (const std::string rig = rig_file(run); !rig.empty()) {
-    command += " --rig " + rig;
-    const auto options = daemon::read_options_json(run.provenance.options_json, {});
-    if (options) command += options_of(*options);
-  }
-  return command + " --db check.db";
+  const bool was_piped = run.provenance.recording_path == "-";
+  std::string command = "mdof replay " + (was_piped ? "-" : quoted(run.provenance.recording_path));
+  if (const std::string rig = rig_file(run); !rig.empty()) command += " --rig " + rig;
+  if (const auto options = daemon::read_options_json(run.provenance.options_json, {}))
+    command += options_of(*options);
+  return command + " --db check.db" + (was_piped ? " < LOG.csv" : "");
 }
 
 }  // namespace mdof::report

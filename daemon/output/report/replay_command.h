@@ -7,10 +7,10 @@
 
 namespace mdof::report {
 
-// The file in which the command looks for the rig of a run; empty: the recording has it.
+// The file in which the command looks for the rig of a run; empty: the run has none.
 std::string rig_file(const RunHeader& run);
 
-// For a shell, with the options that were used where they differ from the defaults.
+// For a shell, with the rig and the options that were used, whatever the recording has.
 std::string replay_command(const RunHeader& run);
 
 }  // namespace mdof::report

@@ -7,6 +7,7 @@
 #include "daemon/output/report/replay_command.h"
 #include "daemon/output/report/sections.h"
 #include "schema/axis.h"
+#include "schema/base/sha256.h"
 #include "schema/units.h"
 
 namespace mdof::report {
@@ -92,6 +93,16 @@ void write_squareness(Html& html, const charts::SquarenessOfPair& pair, Language
   html.figure(charts::squareness_svg(*pair.results, language));
 }
 
+void write_attachments(Html& html, const Report& report) {
+  if (report.attachments.empty()) return;
+  html.element("h2", phrase(Phrase::attachments, report.language));
+  for (const Attachment& file : report.attachments)
+    html.attachment(
+        phrase(Phrase::attached_file, report.language,
+               {file.file_name, std::to_string(file.bytes.size()), sha256_hex(file.bytes)}),
+        file.file_name, file.media_type, file.bytes);
+}
+
 }  // namespace
 
 void write_provenance(Html& html, const ReportRun& run, Language language) {
@@ -116,6 +127,8 @@ std::string report_html(const Report& report) {
   if (!report.head.empty()) html.raw("<header>\n" + report.head + "</header>\n");
   write_alarms(html, report);
   write_title(html, report);
+  for (const daemon::Comparison& comparison : report.comparisons)
+    write_comparison(html, comparison, language);
   for (const ReportRun& run : report.runs) {
     html.element("h2", name_of_run(run, language));
     write_results(html, run, language);
@@ -128,6 +141,7 @@ std::string report_html(const Report& report) {
     write_provenance(html, run, language);
   }
   for (const auto& pair : report.squareness) write_squareness(html, pair, language);
+  write_attachments(html, report);
   return html.take(output::code_of(language), phrase(Phrase::report_title, language),
                    !report.head.empty());
 }

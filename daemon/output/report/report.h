@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/measure/several_runs/comparison.h"
 #include "daemon/output/charts/run/run_charts.h"
 #include "daemon/output/phrases.h"
 #include "schema/rig/rig.h"
@@ -30,12 +31,19 @@ struct ReportRun {
   std::optional<std::int64_t> superseded_by;
 };
 
+// A file inside the report, which a reader can save.
+struct Attachment {
+  std::string file_name, media_type, bytes;
+};
+
 struct Report {
   ReportFacts facts;
   std::string head;  // HTML above everything else: a company's head; empty: none
   std::vector<ReportRun> runs;
+  std::vector<daemon::Comparison> comparisons;       // before and after, an axis each
   std::vector<charts::SquarenessOfPair> squareness;  // XY, XZ, YZ, where both have one run
-  std::string software_version;   // that made the report
+  std::vector<Attachment> attachments;
+  std::string software_version;  // that made the report
   Language language = Language::english;
 };
 

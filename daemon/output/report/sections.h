@@ -1,4 +1,4 @@
-// The sections of a report about one run.
+// The sections of a report: of one run, of two runs of an axis.
 #pragma once
 
 #include "daemon/output/report/html.h"
@@ -14,5 +14,8 @@ void write_notices(Html& html, const ReportRun& run, Language language);
 void write_charts(Html& html, const ReportRun& run, Language language);
 void write_points(Html& html, const ReportRun& run, Language language);
 void write_provenance(Html& html, const ReportRun& run, Language language);
+
+// What changed between two runs of an axis.
+void write_comparison(Html& html, const daemon::Comparison& comparison, Language language);
 
 }  // namespace mdof::report

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <map>
 
 #include "algo/uncertainty/conformity/decision.h"
 #include "daemon/measure/evaluation.h"
@@ -14,6 +15,7 @@
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/stored/stated_results.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -69,6 +71,26 @@ Result<report::ReportRun> report_run(store::Store& store, std::int64_t number,
   MDOF_TRY(run.result_sha256, store.result_sha256(number));
   MDOF_TRY(run.superseded_by, store.superseded_by(number));
   return run;
+}
+
+// Of each axis two runs, the one before first.
+Result<std::vector<daemon::Comparison>> compare_pairs(store::Store& store,
+                                                      const std::vector<report::ReportRun>& runs,
+                                                      Reference reference) {
+  std::map<Axis, std::vector<std::int64_t>> numbers;
+  for (const report::ReportRun& run : runs)
+    numbers[run.results.run.header.axis].push_back(run.results.run.header.id);
+  std::vector<daemon::Comparison> found;
+  for (const auto& [axis, pair] : numbers) {
+    if (pair.size() != 2)
+      return fail(ErrorCode::usage, std::string("--before-after: axis ") + letter(axis) + " has " +
+                                        std::to_string(pair.size()) +
+                                        " runs in this report; give two runs of each axis, the "
+                                        "run before first");
+    MDOF_TRY(auto comparison, daemon::compare_runs(store, {pair[0], pair[1], reference}));
+    found.push_back(std::move(comparison));
+  }
+  return found;
 }
 
 // Each tolerance has to be that of a figure of some run: one that decides nothing is a mistake.
@@ -129,12 +151,17 @@ Result<report::Report> report_of_runs(const ReportRequest& request) {
   std::vector<const charts::StatedResults*> results;
   for (const report::ReportRun& run : all.runs) results.push_back(&run.results);
   all.squareness = squareness_of_runs(store, results);
+  if (request.before_after) {
+    MDOF_TRY(all.comparisons, compare_pairs(store, all.runs, reference));
+  }
   return all;
 }
 
 void warn_of(const report::Report& report) {
   for (const report::ReportRun& run : report.runs)
     for (const std::string& mark : run.results.marks) warn(mark);
+  for (const daemon::Comparison& comparison : report.comparisons)
+    show_notices(comparison.notices, false);
 }
 
 }  // namespace mdof::tools

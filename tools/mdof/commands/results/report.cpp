@@ -4,6 +4,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "daemon/output/documents/dcc.h"
+#include "daemon/words/error_text.h"
 #include "schema/base/files.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/output/output_files.h"
@@ -40,10 +42,20 @@ Result<std::string> company_head(const std::string& file) {
   return head + "\n";
 }
 
+// The same bytes as mdof export --format dcc gives.
+void attach_certificate(report::Report& report) {
+  const auto dcc = documents::dcc_xml(report);
+  if (dcc)
+    report.attachments.push_back({"certificate.xml", "application/xml", *dcc});
+  else
+    say("no certificate (DCC) is inside: " + words::text(dcc.error()));
+}
+
 Status write_report(const ReportCommand& command) {
   MDOF_TRY(report::Report report, report_of_runs(command.request));
   output::language_from(command.language, report.language);  // the option takes no other
   MDOF_TRY(report.head, company_head(command.head));
+  attach_certificate(report);
   MDOF_CHECK(write_file(command.out, report::report_html(report), Existing::replace));
   warn_of(report);
   const std::string pdf =
@@ -66,6 +78,8 @@ Action declare_report(CLI::App& command) {
   add_report_options(command, o->request);
   command.add_option("--template", o->head, "HTML of the company's head, above everything else")
       ->type_name("FILE.html");
+  command.add_flag("--before-after", o->request.before_after,
+                   "Two runs of each axis, the run before first: add what changed, with U");
   command.add_flag("--pdf", o->pdf, "Also print it, to FILE.pdf, by chromium or weasyprint");
   add_language_option(command, o->language);
   add_json_flag(command, o->json);
@@ -81,10 +95,12 @@ Command report_command() {
       .footer =
           "The file needs nothing else and has no script. Title, results with u, U and k,\n"
           "decisions, conditions, fixture, calibrations, notices, charts, points, and how to\n"
-          "replay the recording. The same results give the same bytes.\n\n"
+          "replay the recording. The same results give the same bytes. The DCC of mdof export\n"
+          "is inside the file, where the laboratory's country is stated.\n\n"
           "Examples:\n"
           "  mdof report 12 --out report.html --set customer=\"Muster AG\" --set serial_number=17\n"
           "  mdof report 1 2 --out bericht.html --language de\n"
+          "  mdof report 12 17 --before-after --out report.html --set country=DE\n"
           "  mdof report 12 --out report.html --tolerance EYX_straightness_um=0.5",
       .declare = declare_report};
 }

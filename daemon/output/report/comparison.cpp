@@ -1,0 +1,52 @@
+// The section of a report about two runs of an axis, before and after something was done to it.
+#include "daemon/output/report/numbers.h"
+#include "daemon/output/report/sections.h"
+#include "schema/axis.h"
+#include "schema/units.h"
+
+namespace mdof::report {
+namespace {
+
+using output::Phrase;
+using output::phrase;
+
+Phrase effect_phrase(daemon::Effect effect) {
+  return effect == daemon::Effect::reduced     ? Phrase::effect_reduced
+         : effect == daemon::Effect::increased ? Phrase::effect_increased
+                                               : Phrase::effect_not_shown;
+}
+
+// "0.123 ± 0.045", in the unit of the figure's key.
+std::string with_U_text(const Budget& budget, const std::string& figure) {
+  const bool angle = figure.ends_with("_urad");
+  const auto shown = [&](double x) { return angle ? to_urad(x) : to_um(x); };
+  const double U = shown(budget.U);
+  return value_text(shown(budget.value), U) + "\u00a0±\u00a0" + uncertainty_text(U);
+}
+
+}  // namespace
+
+void write_comparison(Html& html, const daemon::Comparison& comparison, Language language) {
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  html.element(
+      "h2", phrase(Phrase::before_and_after, language, {std::string(1, letter(comparison.axis))}));
+  std::vector<std::vector<std::string>> rows;
+  std::vector<Budget> changes;
+  for (const daemon::ComparedFigure& figure : comparison.figures) {
+    const std::string& key = figure.change.figure;
+    rows.push_back({key.substr(0, key.rfind('_')), unit_of_key(key),
+                    with_U_text(figure.before, key), with_U_text(figure.after, key),
+                    with_U_text(figure.change, key), of(effect_phrase(figure.effect))});
+    changes.push_back(figure.change);
+  }
+  html.table({of(Phrase::figure), of(Phrase::unit),
+              phrase(Phrase::before_run, language, {std::to_string(comparison.before)}),
+              phrase(Phrase::after_run, language, {std::to_string(comparison.after)}),
+              of(Phrase::change), of(Phrase::effect)},
+             rows, "numbers");
+  html.element("p", of(Phrase::change_explained));
+  html.element("p", phrase(Phrase::u_covers, language, {covers_text(changes)}));
+  for (const std::string& note : comparison.notes) html.element("p", note);
+}
+
+}  // namespace mdof::report

@@ -142,6 +142,11 @@ bool TomlTable::is_table(std::string_view key) {
   return node && node->is_table();
 }
 
+bool TomlTable::is_boolean(std::string_view key) {
+  const auto* node = node_->table->get(key);
+  return node && node->is_boolean();
+}
+
 bool TomlTable::is_string(std::string_view key) {
   const auto* node = node_->table->get(key);
   return node && node->is_string();

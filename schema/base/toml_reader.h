@@ -26,6 +26,7 @@ class TomlTable {
   bool is_array(std::string_view key);  // [[key]], or key = [...]
   bool is_table(std::string_view key);  // [key], or key = {...}
   bool is_string(std::string_view key);
+  bool is_boolean(std::string_view key);
   std::string string(std::string_view key,
                      const std::optional<std::string>& fallback = std::nullopt);
   double number(std::string_view key, std::optional<double> fallback = std::nullopt);

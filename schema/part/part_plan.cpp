@@ -15,20 +15,8 @@ bool needs_source(const std::string& layer) {
   return layer == "form" || layer == "milling";
 }
 
-// Whether [layers] has true or false there. Asked of a copy, since a key of another type is an
-// error.
-bool is_boolean(std::string_view text, const std::string& source, const std::string& key) {
-  auto root = TomlTable::parse(text, source);
-  if (!root) return false;
-  auto layers = root->table("layers");
-  if (!layers) return false;
-  layers->boolean(key);
-  const Status status = root->finish();
-  return status || status.error().message != layers->where(key) + ": must be true or false";
-}
-
 // `layer = true`, `layer = "file"`, or a table { from = "file", on = true, compensated = false }.
-void read_layer(TomlTable& layers, PartLayer& layer, bool is_switch) {
+void read_layer(TomlTable& layers, PartLayer& layer) {
   const std::string& key = layer.name;
   if (layers.is_table(key)) {
     TomlTable table = *layers.table(key);
@@ -43,18 +31,18 @@ void read_layer(TomlTable& layers, PartLayer& layer, bool is_switch) {
       if (!(*layer.u_m >= 0 && std::isfinite(*layer.u_m)))
         table.reject("u_um", "must be 0 or greater");
     }
-  } else if (is_switch) {
-    layer.on = layers.boolean(key);
   } else if (layers.is_array(key)) {
     layer.from = layers.strings(key);
-  } else {
+  } else if (layers.is_string(key)) {
     layer.from = {layers.string(key)};
+  } else if (layers.is_boolean(key) || !needs_source(key)) {
+    layer.on = layers.boolean(key);
   }
   if (needs_source(key) && layer.on && layer.from.size() != 1)
-    layers.reject(key, "needs a file, such as " + key + " = \"" +
+    layers.reject(key, "needs one file, such as " + key + " = \"" +
                            (key == "form" ? "clamp.csv" : "plan.toml") + "\"");
   if (key == "budget" && !layer.from.empty())
-    layers.reject(key, "is true or false: its sources are in the machine's file");
+    layers.reject(key, "must be true or false; its sources are in the machine's file");
   for (const std::string& from : layer.from)
     if (key == "axes" && !table_number(from))
       layers.reject(key, "is \"" + from +
@@ -85,7 +73,7 @@ Result<PartPlan> parse_part_plan(std::string_view text, const std::string& sourc
   for (const char* name : kLayers) {
     if (!layers || !layers->has(name)) continue;
     PartLayer layer{name, {}, true, false, {}};
-    read_layer(*layers, layer, is_boolean(text, source, name));
+    read_layer(*layers, layer);
     // The same switch beside it: axes_on = false.
     const std::string on = std::string(name) + "_on";
     if (layers->has(on)) layer.on = layers->boolean(on);

@@ -16,11 +16,6 @@
 namespace mdof::daemon {
 namespace {
 
-template <class Texts>
-void append(std::vector<std::string>& to, const Texts& texts) {
-  to.insert(to.end(), texts.begin(), texts.end());
-}
-
 }  // namespace
 
 Result<OnTheFlyRun> OnTheFlyRun::create(const Rig& rig, const PipelineOptions& options) {

@@ -1,6 +1,5 @@
 // mdof budget RUN, mdof budget RUN_X RUN_Y: where the uncertainty of a figure comes from.
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <optional>
 
 #include "algo/uncertainty/conformity/decision.h"
@@ -32,12 +31,12 @@ struct BudgetCommand {
   bool partial = false, csv = false, json = false, all_warnings = false;
 };
 
-// The command line takes nan and inf for numbers.
-Status check_numbers(const BudgetCommand& command) {
-  if (command.at_mm && !std::isfinite(*command.at_mm))
-    return fail(ErrorCode::usage, "--at must be a position in mm");
-  if (command.tolerance && !(*command.tolerance >= 0 && std::isfinite(*command.tolerance)))
-    return fail(ErrorCode::usage, "--tolerance must be a finite number and not negative");
+Status check_options(const BudgetCommand& command) {
+  if (command.run_b.empty() &&
+      (command.artefact_urad || command.u_artefact_urad || command.partial))
+    return fail(ErrorCode::usage,
+                "--artefact-urad, --u-artefact-urad and --partial are for the squareness of two "
+                "runs; give the second run, or leave them out");
   if (command.tolerance && command.run_b.empty() && command.figure.empty())
     return fail(ErrorCode::usage, "--tolerance is for one figure: say which with --figure");
   if (!command.run_b.empty() && (!command.figure.empty() || command.at_mm))
@@ -54,9 +53,20 @@ Status check_numbers(const BudgetCommand& command) {
   return {};
 }
 
-Result<daemon::FoundBudgets> of_one_run(store::Store& store, const BudgetCommand& command) {
+// One run, or the two of a squareness; "latest" is looked up once.
+Result<std::vector<std::int64_t>> runs_of(store::Store& store, const BudgetCommand& command) {
+  if (command.run_b.empty()) {
+    MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
+    return std::vector{id};
+  }
+  MDOF_TRY(const auto pair, run_pair(command.database, {command.run, command.run_b}));
+  return std::vector{pair[0], pair[1]};
+}
+
+Result<daemon::FoundBudgets> of_one_run(store::Store& store, const BudgetCommand& command,
+                                        std::int64_t run) {
   daemon::RunBudgetsRequest request;
-  MDOF_TRY(request.run, run_number(store, command.run, axis_from(command.axis)));
+  request.run = run;
   reference_from(command.reference, request.reference);  // the option takes no other
   request.figure = command.figure;
   if (command.at_mm) request.at_m = from_mm(*command.at_mm);
@@ -64,9 +74,9 @@ Result<daemon::FoundBudgets> of_one_run(store::Store& store, const BudgetCommand
   return daemon::run_budgets(store, request);
 }
 
-Result<daemon::FoundBudgets> of_two_runs(store::Store& store, const BudgetCommand& command) {
+Result<daemon::FoundBudgets> of_two_runs(store::Store& store, const BudgetCommand& command,
+                                         const std::vector<std::int64_t>& runs) {
   daemon::SquarenessRequest request;
-  MDOF_TRY(const auto runs, run_pair(command.database, {command.run, command.run_b}));
   request.run_a = runs[0];
   request.run_b = runs[1];
   if (command.artefact_urad) request.given.angle_error_rad = from_urad(*command.artefact_urad);
@@ -80,15 +90,7 @@ struct Marked {
   std::vector<std::string> marks;
 };
 
-Result<Marked> marked(store::Store& store, const BudgetCommand& command) {
-  std::vector<std::int64_t> ids;
-  if (command.run_b.empty()) {
-    MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
-    ids = {id};
-  } else {
-    MDOF_TRY(const auto pair, run_pair(command.database, {command.run, command.run_b}));
-    ids = {pair[0], pair[1]};
-  }
+Result<Marked> marked(store::Store& store, const std::vector<std::int64_t>& ids) {
   Marked all;
   for (const std::int64_t id : ids) {
     MDOF_TRY(const Run run, store.run(id));
@@ -98,10 +100,9 @@ Result<Marked> marked(store::Store& store, const BudgetCommand& command) {
   return all;
 }
 
-Status draw_budgets(store::Store& store, const BudgetCommand& command,
+Status draw_budgets(const Marked& of, const BudgetCommand& command,
                     const std::vector<Budget>& budgets) {
   if (command.plots.empty()) return {};
-  MDOF_TRY(const Marked of, marked(store, command));
   std::vector<charts::NamedChart> drawn;
   for (const Budget& b : budgets)
     if (charts::has_budget(b))
@@ -124,18 +125,20 @@ std::string text_of(const daemon::FoundBudgets& found, const std::optional<Decis
 }
 
 Status budget(const BudgetCommand& command) {
-  MDOF_CHECK(check_numbers(command));
+  MDOF_CHECK(check_options(command));
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const auto found,
-           command.run_b.empty() ? of_one_run(store, command) : of_two_runs(store, command));
+  MDOF_TRY(const auto runs, runs_of(store, command));
+  MDOF_TRY(const auto found, runs.size() == 1 ? of_one_run(store, command, runs.front())
+                                              : of_two_runs(store, command, runs));
   show_notices(found.notices, command.all_warnings);
   if (const std::string text = not_declared_text(found.budgets); !text.empty()) warn(text);
   const auto decided =
       command.tolerance
           ? std::optional(algo::decision(found.budgets.front(), from_um(*command.tolerance)))
           : std::nullopt;
-  MDOF_CHECK(draw_budgets(store, command, found.budgets));
-  MDOF_TRY(const Marked of, command.csv ? marked(store, command) : Result<Marked>());
+  const bool shows_marks = command.csv || !command.plots.empty();
+  MDOF_TRY(const Marked of, shows_marks ? marked(store, runs) : Result<Marked>());
+  MDOF_CHECK(draw_budgets(of, command, found.budgets));
   MDOF_CHECK(command.csv    ? write_out(noise_only_comment(are_noise_only(found.budgets)) +
                                         csv_marks(of.marks) + budgets_csv(found.budgets))
              : command.json ? write_line(daemon::budgets_json(found, decided))
@@ -158,9 +161,11 @@ Action declare_budget(CLI::App& command) {
   command.add_option("--at", o->at_mm, "Of the five errors at the target nearest to this position")
       ->check(finite_number())
       ->type_name("MM");
-  command.add_option("--tolerance", o->tolerance,
-                     "Most that the figure may be, in its unit: conform, not conform or undecided "
-                     "(ISO 14253-1:2017); undecided wherever the rig leaves an uncertainty open");
+  command
+      .add_option("--tolerance", o->tolerance,
+                  "Most that the figure may be, in its unit: conform, not conform or undecided "
+                  "(ISO 14253-1:2017); undecided wherever the rig leaves an uncertainty open")
+      ->check(not_negative_number());
   command
       .add_option("--trials", o->trials.trials,
                   "Draw so many Monte Carlo trials beside the budget (JCGM 101)")

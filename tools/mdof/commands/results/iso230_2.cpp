@@ -88,20 +88,7 @@ Status iso230_of_run(const Iso230Command& command) {
                       : write_out(run_positioning_text(run, found, terminal_columns()));
 }
 
-// The command line takes nan and inf for numbers.
-Status check_finite(const Iso230Command& command) {
-  const std::pair<const char*, double> numbers[] = {
-      {"--scale-period-mm", command.scale_period_mm},
-      {"--device-limit-um", command.device_limit_um.value_or(0)},
-      {"--drift-um", command.drift_um.value_or(0)}};
-  for (const auto& [option, number] : numbers)
-    if (!std::isfinite(number))
-      return fail(ErrorCode::usage, std::string(option) + " must be a finite number");
-  return {};
-}
-
 Status iso230(const Iso230Command& command) {
-  MDOF_CHECK(check_finite(command));
   if (!command.file.empty()) return iso230_of_file(command);
   if (!command.run.empty()) return iso230_of_run(command);
   return fail(ErrorCode::usage, "of what? Give a FILE.csv, or --run RUN of a stored run");

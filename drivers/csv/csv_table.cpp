@@ -17,12 +17,12 @@ tl::unexpected<Error> no_column(const CsvHeader& header, const std::string& name
   std::string found;
   for (const std::string& column : header.columns) {
     if (stem_of(column) == stem_of(name))
-      return bad_input(place + "column " + column + " is read in another unit: convert it and " +
-                       "name it " + name);
+      return bad_input(place + "column " + column + " has another unit; convert the values and " +
+                       "name the column " + name);
     found += (found.empty() ? "" : ", ") + column;
   }
-  return bad_input(place + "no column " + name + " among: " + found +
-                   "; add it or rename the one that holds it");
+  return bad_input(place + "no column " + name + " (columns: " + found +
+                   "); add it, or rename the column that contains it");
 }
 
 // Channel of each of the columns.
@@ -70,12 +70,12 @@ Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::
     if (missing != value.end())
       return bad_input(table.where(before + static_cast<std::size_t>(missing - value.begin())) +
                        "column " + names[k] +
-                       ": no value (empty or nan); fill it in or take the line out");
+                       ": no value (empty or nan); add the value or delete the line");
     table.columns[k].insert(table.columns[k].end(), value.begin(), value.end());
   }
   if (table.rows() <= most_rows) return {};
   return bad_input(table.source + ": more than " + std::to_string(most_rows) +
-                   " rows; this is no series of targets");
+                   " rows, the limit of a series of targets");
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ Status Gunzip::next_member(std::string_view& input) {
     const std::size_t rest = input.find_first_not_of('\0');
     input.remove_prefix(rest == input.npos ? input.size() : rest);
     if (input.empty()) return {};
-    return bad_input("gzip file has other data behind its end" + so_far(unpacked_) +
-                     "copy it again");
+    return bad_input("other data follow the end of the gzip file" + so_far(unpacked_) +
+                     "copy the file again");
   }
   inflateReset(stream_.get());
   between_members_ = false;
@@ -61,7 +61,7 @@ Result<std::size_t> Gunzip::unpack(std::string_view& input, char* to, std::size_
 
 Status Gunzip::check_end() const {
   if (between_members_) return {};
-  return bad_input("gzip file is truncated: it ends" + so_far(unpacked_) + "copy it again");
+  return bad_input("gzip file is truncated: it ends" + so_far(unpacked_) + "copy the file again");
 }
 
 }  // namespace mdof::drivers

@@ -14,7 +14,7 @@ namespace {
 enum Column { kTarget, kDirection, kRun, kDeviation };
 constexpr double kMostRuns = 1e6;
 constexpr const char* kWhatDirectionIs =
-    "1 where the target was approached in the + sense (forward), -1 where in the - sense";
+    "1 if the target was approached in the + direction (forward), -1 if in the - direction";
 
 // The number of its first line.
 using Seen = std::map<std::tuple<double, int, int>, std::size_t>;
@@ -35,9 +35,9 @@ Result<PositioningReading> reading_of(const CsvTable& table, std::size_t row) {
 Status check_new(const CsvTable& table, std::size_t row, const PositioningReading& r, Seen& seen) {
   const auto [first, is_new] = seen.try_emplace({r.target_m, r.direction, r.run}, row);
   if (is_new) return {};
-  return bad_input(table.where(row) + "the target, direction and run of line " +
+  return bad_input(table.where(row) + "the target, direction and run are those of line " +
                    std::to_string(table.header_line + 1 + first->second) +
-                   " again; number the runs 1, 2, 3 ... or take one line out");
+                   "; number the runs 1, 2, 3 ... or delete one line");
 }
 
 // A word where the direction must be: what to write instead.

@@ -34,9 +34,8 @@ void read_source(TomlTable& table, const std::string& base_path, CsvStreamOption
     read_serial_settings(table, options.line);
   } else {
     table.reject("source",
-                 "must be \"tcp://HOST:PORT\", \"fifo:PATH\" or \"serial:/dev/...\"; a program is "
-                 "started by command = "
-                 "[\"python3\", \"my_probe.py\"]");
+                 "must be \"tcp://HOST:PORT\", \"fifo:PATH\" or \"serial:/dev/...\"; to start a "
+                 "program, give command = [\"python3\", \"my_probe.py\"]");
   }
 }
 

@@ -109,15 +109,15 @@ Status CsvStream::wait_for_header() {
 
 tl::unexpected<Error> CsvStream::no_header(Error why) const {
   if (waits_for_writer_)
-    why.message += "; nobody has written to it yet, start the script";
+    why.message += "; no program has written to the FIFO yet; start the script";
   else if (!options_.port.empty())
     why.message +=
-        "; is baud right? A device that sends no header line when the line is opened needs header "
-        "= \"encoder_mm,A_um,...\"";
+        "; check baud; if the device sends no header line when the port is opened, give header = "
+        "\"encoder_mm,A_um,...\"";
   else if (why.code == ErrorCode::io)
     why.message +=
-        "; does the script flush its output, and send a header line first on each connection? "
-        "(start_s)";
+        "; the script must send a header line first on each connection, and flush its output; for "
+        "a slow start raise start_s";
   return tl::unexpected(std::move(why));
 }
 
@@ -130,9 +130,10 @@ Status CsvStream::check_columns() const {
     found += (found.empty() ? "" : ", ") + channel.id;
   }
   for (const auto& id : ids) wanted += (wanted.empty() ? "" : ", ") + id;
-  return no_header({ErrorCode::bad_input,
-                    source_ + ": no column of the header is of the rig: there are " + found +
-                        ", wanted are some of " + wanted + " (as in A_um, A_V, encoder_mm)"});
+  return no_header(
+      {ErrorCode::bad_input,
+       source_ + ": no column of the header belongs to the rig (channels of the header: " + found +
+           "; of the rig: " + wanted + "); name columns such as A_um, A_V, encoder_mm"});
 }
 
 Status CsvStream::check_units() const {
@@ -196,10 +197,11 @@ tl::unexpected<Error> CsvStream::ended(const Error& why) {
       stream_ = std::move(*again);
       waits_for_writer_ = true;
     }
-    return io_error(source_ + ": the program that wrote to it has closed it; start it again");
+    return io_error(source_ +
+                    ": the program that wrote to the FIFO has closed it; start the program again");
   }
   return io_error((options_.server ? "tcp://" : "serial:") + why.message +
-                  (options_.server ? "; does the script still run?" : ""));
+                  (options_.server ? "; check that the script still runs" : ""));
 }
 
 void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
@@ -237,8 +239,8 @@ Status CsvStream::check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t
   const bool fast = device_ns > 2 * host_ns + kPaceOver_ns;
   const bool slow = host_ns > kPaceOver_ns && device_ns < host_ns / 2;
   if (fast || slow)
-    return bad_input(source_ + ": column time_s went on by " + seconds(device_ns) + " while " +
-                     seconds(host_ns) + " passed here; it must be live, and in seconds");
+    return bad_input(source_ + ": column time_s advanced by " + seconds(device_ns) + " in " +
+                     seconds(host_ns) + " of real time; time_s must be live and in seconds");
   if (host_ns > kPaceOver_ns) pace_from_ = {rows.back().time_ns, received_ns};
   return {};
 }
@@ -247,10 +249,10 @@ Status CsvStream::check_silence() const {
   const std::int64_t silent_ns = monotonic_ns() - last_row_ns_;
   if (silent_ns <= nanoseconds(options_.silence).count()) return {};
   const char* remedy = options_.port.empty()
-                           ? "; does the script run, and does it flush after each row? Slow "
-                             "devices need silence_s"
-                           : "; is the device on, does it send by itself, and is baud right? Slow "
-                             "devices need silence_s";
+                           ? "; check that the script runs and flushes after each row; for a "
+                             "slow device raise silence_s"
+                           : "; check baud, and that the device is on and sends without a "
+                             "request; for a slow device raise silence_s";
   return io_error(source_ + ": no row for " + seconds(silent_ns) + remedy);
 }
 

@@ -22,7 +22,7 @@ Status CsvStreamProtocol::give(std::string_view bytes, std::vector<CsvStreamRow>
     const std::size_t end = bytes.find('\n');
     unfinished_ += bytes.substr(0, end);
     if (unfinished_.size() > kLongestLine)
-      return bad_input(source_ + ":" + std::to_string(line_ + 1) + ": a line of more than " +
+      return bad_input(source_ + ":" + std::to_string(line_ + 1) + ": a line is longer than " +
                        std::to_string(kLongestLine) + " bytes; end each row with a newline");
     if (end == bytes.npos) return {};
     bytes.remove_prefix(end + 1);
@@ -47,7 +47,7 @@ Status CsvStreamProtocol::take_head(std::string_view line) {
   head_.append(line).append("\n");
   if (head_.size() > kLongestLine)
     return bad_input(source_ + ": no header line in the first " + std::to_string(kLongestLine) +
-                     " bytes; send one like time_s,encoder_mm,A_um first");
+                     " bytes; first send a header line such as time_s,encoder_mm,A_um");
   if (line.empty() || line.starts_with('#')) return {};
   MDOF_TRY(header_, parse_csv_header(head_, CsvKind::stream, source_));
   header_line_ = line;
@@ -62,13 +62,13 @@ Status CsvStreamProtocol::take_row(std::string_view line, std::vector<CsvStreamR
   if (parsed.state == CsvLine::State::blank) return skip(place + "empty line");
   if (parsed.state == CsvLine::State::bad) return skip(place + parsed.reason);
   if (parsed.time_ns > kLongest_ns || parsed.time_ns < -kLongest_ns)
-    return skip(place + "column time_s: beyond 100 years");
+    return skip(place + "column time_s: more than 100 years from 0");
   if (header_->time_column >= 0) {
     if (parsed.time_ns <= last_time_ns_)
-      return bad_input(place + "column time_s: " + std::to_string(parsed.time_ns) + " ns after " +
+      return bad_input(place + "column time_s: " + std::to_string(parsed.time_ns) + " ns follows " +
                        std::to_string(last_time_ns_) +
-                       " ns; time must grow from row to row, a script that starts anew sends its "
-                       "header again");
+                       " ns; the time must increase from row to row; a script that restarts must "
+                       "send its header line again");
     last_time_ns_ = parsed.time_ns;
   }
   rows.push_back({parsed.time_ns, std::move(parsed.values), std::exchange(lost_, 0),
@@ -85,9 +85,9 @@ Status CsvStreamProtocol::skip(const std::string& reason) {
   ++bad_, ++lost_, ++bad_in_window_;
   if (reasons_.size() < 3) reasons_.push_back(reason);
   if (bad_in_window_ <= bad_lines_allowed_) return {};
-  std::string message = source_ + ": more than " + std::to_string(bad_lines_allowed_) +
-                        " bad lines of " + std::to_string(kBadLinesWindow) +
-                        "; repair the script or the cable. The first:";
+  std::string message = source_ + ": more than " + std::to_string(bad_lines_allowed_) + " of " +
+                        std::to_string(kBadLinesWindow) +
+                        " lines are bad; repair the script or the cable. The first bad lines:";
   for (const auto& first : reasons_) message += "\n  " + first;
   return bad_input(message);
 }

@@ -82,7 +82,7 @@ Result<std::unique_ptr<SimulatedDevice>> make_simulated_csv_stream(SimulatedWiri
   }
   options.rate_hz = wiring.table().number("rate_hz", options.rate_hz);
   if (!(options.rate_hz > 0 && options.rate_hz <= 1e5))
-    wiring.table().reject("rate_hz", "must be up to 100000");
+    wiring.table().reject("rate_hz", "must be more than 0 and at most 100000");
   options.with_time = wiring.table().boolean("with_time", options.with_time);
   return std::make_unique<SimulatedCsvStream>(wiring.senses(std::move(sensed)), std::move(options));
 }

@@ -43,7 +43,7 @@ Result<ImportedSeries> series_of_csv(const std::string& path, bool angle, int de
     if (!direction.empty()) {
       if (std::abs(direction[row]) != 1)
         return bad_input(table.where(row) + "column direction: " + plain_number(direction[row]) +
-                         "; give 1 (approached in the + sense) or -1");
+                         "; give 1 (approached in the + direction) or -1 (in the - direction)");
       r.direction = direction[row] > 0 ? 1 : -1;
     }
     if (!run.empty()) {

@@ -84,19 +84,21 @@ class Rtl {
 
   Result<ImportedSeries> finish() {
     if (section_.empty())
-      return bad_input(source_ + ": has no section such as TARGET DATA::; this is no .rtl file");
+      return bad_input(source_ +
+                       ": has no section such as TARGET DATA::; this is not an .rtl file");
     if (targets_.empty() || targets_.size() != target_count_)
       return bad_input(source_ + ": has " + std::to_string(targets_.size()) +
-                       " targets, and its Target-count is " + std::to_string(target_count_));
+                       " targets, but Target-count is " + std::to_string(target_count_));
     for (std::size_t i = 1; i < targets_.size(); ++i)
       if (!(targets_[i] > targets_[i - 1]))
-        return bad_input(
-            source_ + ": target " + std::to_string(i + 1) +
-            " is not beyond the one before; forward and reverse could not be distinguished");
+        return bad_input(source_ + ": target " + std::to_string(i + 1) +
+                         " is not greater than the target before it, so forward and reverse cannot "
+                         "be distinguished");
     if (series_.readings.size() != run_count_ * target_count_)
       return bad_input(source_ + ": has " + std::to_string(series_.readings.size()) +
-                       " deviations; Run-count " + std::to_string(run_count_) + " times " +
-                       std::to_string(target_count_) + " targets are expected");
+                       " deviations instead of " + std::to_string(run_count_ * target_count_) +
+                       " (Run-count " + std::to_string(run_count_) + " times Target-count " +
+                       std::to_string(target_count_) + ")");
     MDOF_CHECK(check_filled());
     for (ImportedReading& reading : series_.readings)
       reading.position_m = from_mm(targets_[static_cast<std::size_t>(reading.position_m)]);
@@ -115,8 +117,8 @@ class Rtl {
       for (const char* const angle : {"angular", "rotary"})
         if (contains_word(value, angle))
           return wrong(std::string(key) + " \"" + utf8_from_latin1(value) +
-                       "\": a file of angles, whose scale is not public; only deviations of "
-                       "lengths are read. Make a CSV: position_mm,deviation_urad");
+                       "\" contains angles, whose scale in .rtl files is not public; convert the "
+                       "file to CSV with columns position_mm,deviation_urad");
     if (!value.empty())
       series_.about.push_back(utf8_from_latin1(key) + ": " + utf8_from_latin1(value));
     return {};
@@ -125,9 +127,11 @@ class Rtl {
   Status take_target_line(std::string_view line) {
     const auto [key, value] = key_and_value(line);
     if (key == "Target-count") {
-      if (target_count_ > 0) return wrong("Target-count again; a file has one list of targets");
+      if (target_count_ > 0) return wrong("a second Target-count; a file has one list of targets");
       target_count_ = count_from(value, kMostTargets);
-      return target_count_ > 0 ? Status() : wrong("Target-count is no number from 1 on");
+      return target_count_ > 0 ? Status()
+                               : wrong("Target-count must be a whole number from 1 to " +
+                                       std::to_string(kMostTargets));
     }
     if (key == "Targets" || key == "Flags" || key == "Filetype") {
       in_targets_ = key == "Targets";
@@ -137,8 +141,10 @@ class Rtl {
     if (!in_targets_) return {};
     for (const std::string_view word : words_of(line)) {
       const auto target = number_from(word);
-      if (!target) return wrong("target \"" + utf8_from_latin1(word) + "\" is no number of mm");
-      if (targets_.size() == kMostTargets) return wrong("too many targets");
+      if (!target)
+        return wrong("target \"" + utf8_from_latin1(word) + "\" is not a number (in mm)");
+      if (targets_.size() == kMostTargets)
+        return wrong("more than " + std::to_string(kMostTargets) + " targets");
       targets_.push_back(*target);
     }
     return {};
@@ -147,9 +153,11 @@ class Rtl {
   Status take_run_count(std::string_view line) {
     const auto [key, value] = key_and_value(line);
     if (key != "Run-count") return {};
-    if (run_count_ > 0) return wrong("Run-count again; a file has one set of runs");
+    if (run_count_ > 0) return wrong("a second Run-count; a file has one set of runs");
     run_count_ = count_from(value, kMostRtlRuns);
-    return run_count_ > 0 ? Status() : wrong("Run-count is no number from 1 on");
+    return run_count_ > 0 ? Status()
+                          : wrong("Run-count must be a whole number from 1 to " +
+                                  std::to_string(kMostRtlRuns));
   }
 
   Status take_deviation_line(std::string_view line) {
@@ -159,7 +167,8 @@ class Rtl {
     }
     if (!in_deviations_) return {};
     const auto words = words_of(line);
-    if (words.size() != 3) return wrong("a deviation is: run, target, µm");
+    if (words.size() != 3)
+      return wrong("a deviation line must contain run, target and deviation in µm");
     const std::size_t run = count_from(words[0], run_count_),
                       target = count_from(words[1], target_count_);
     const auto deviation_um = number_from(words[2]);
@@ -169,7 +178,9 @@ class Rtl {
     MDOF_CHECK(check_way(run, target));
     if (seen_.size() == kMostImportedReadings)
       return wrong("more than " + std::to_string(kMostImportedReadings) + " deviations");
-    if (!seen_.insert({run, target}).second) return wrong("this run has this target already");
+    if (!seen_.insert({run, target}).second)
+      return wrong("run " + std::to_string(run) + " has a deviation at target " +
+                   std::to_string(target) + " already");
     const bool forward = run % 2 == 1;
     series_.readings.push_back({static_cast<double>(target - 1), forward ? 1 : -1,
                                 static_cast<int>((run + 1) / 2), from_um(*deviation_um)});
@@ -186,8 +197,8 @@ class Rtl {
     if (!same || right) return {};
     return wrong("run " + std::to_string(run) + " goes from target " + std::to_string(before) +
                  " to " + std::to_string(target) +
-                 "; odd runs go forward and even ones backward. Of a test of one direction make a "
-                 "CSV: target_mm,direction,run,deviation_um");
+                 "; odd runs must go forward and even runs backward; convert a test of one "
+                 "direction to CSV with columns target_mm,direction,run,deviation_um");
   }
 
   // Programs write a run that was not measured, as the reverse runs of a test in one direction,
@@ -199,10 +210,11 @@ class Rtl {
         measured[2 * static_cast<std::size_t>(r.run) - (r.direction > 0 ? 1 : 0)] = true;
     for (std::size_t run = 1; run <= run_count_; ++run)
       if (!measured[run])
-        return bad_input(source_ + ": run " + std::to_string(run) + " (" +
-                         (run % 2 == 1 ? "forward" : "reverse") +
-                         ") has a deviation of exactly 0 at every target: it was not measured. "
-                         "Write the measured runs as CSV: target_mm,direction,run,deviation_um");
+        return bad_input(
+            source_ + ": run " + std::to_string(run) + " (" +
+            (run % 2 == 1 ? "forward" : "reverse") +
+            ") has a deviation of exactly 0 at every target, so it was not measured; write "
+            "the measured runs as CSV with columns target_mm,direction,run,deviation_um");
     return {};
   }
 

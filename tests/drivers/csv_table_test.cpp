@@ -89,8 +89,9 @@ TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
 
 TEST_F(CsvTableTest, SaysWhichColumnOrUnitIsMeant) {
   expect_error("position_um,deviation_um\n1,2\n",
-               {":1: column position_um is read in another unit", "name it position_mm"});
-  expect_error("x_mm,deviation_um\n1,2\n", {":1: no column position_mm among: x_mm, deviation_um"});
+               {":1: column position_um has another unit", "name the column position_mm"});
+  expect_error("x_mm,deviation_um\n1,2\n",
+               {":1: no column position_mm (columns: x_mm, deviation_um)"});
   expect_error("position_inch,deviation_um\n1,2\n", {":1:", "position_inch", "unknown unit"});
   expect_error("position_mm,deviation_um,deviation_um\n1,2,3\n", {"there twice"});
 }

@@ -36,7 +36,8 @@ TEST_F(CsvStreamFifo, WaitsForItsWriterAndForTheNext) {
   CsvStream stream("probe", options_);
   const auto early = stream.open();
   ASSERT_FALSE(early);
-  EXPECT_NE(early.error().message.find("nobody has written to it yet"), std::string::npos);
+  EXPECT_NE(early.error().message.find("no program has written to the FIFO yet"),
+            std::string::npos);
   for (int round = 0; round < 2; ++round) {
     std::thread writer([this] {
       const int fd = ::open(path_.c_str(), O_WRONLY);

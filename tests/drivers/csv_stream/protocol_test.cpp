@@ -70,7 +70,7 @@ TEST(CsvStreamProtocol, OneBadLineTooManyIsAnErrorAfterTheRowsBeforeIt) {
   CsvStreamProtocol protocol("probe", 1);
   const Fed fed = feed(protocol, "A_um,B_um\nx\n1,2\ny\n3,4\n", 1000);
   ASSERT_EQ(fed.rows.size(), 1u);
-  EXPECT_NE(fed.error.find("more than 1 bad lines of 10000"), fed.error.npos) << fed.error;
+  EXPECT_NE(fed.error.find("more than 1 of 10000 lines are bad"), fed.error.npos) << fed.error;
   EXPECT_NE(fed.error.find("probe:2: 1 fields"), fed.error.npos) << fed.error;
 }
 
@@ -97,7 +97,7 @@ TEST(CsvStreamProtocol, TimeMustGrowUntilTheHeaderComesAgain) {
   ASSERT_EQ(fed.rows.size(), 3u);
   EXPECT_FALSE(fed.rows[1].restarted);
   EXPECT_TRUE(fed.rows[2].restarted);
-  EXPECT_NE(fed.error.find("time must grow"), fed.error.npos) << fed.error;
+  EXPECT_NE(fed.error.find("the time must increase"), fed.error.npos) << fed.error;
 }
 
 TEST(CsvStreamProtocol, NoLineIsLongerThanItsLimit) {

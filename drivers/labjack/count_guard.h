@@ -59,7 +59,7 @@ double read_most_counts_per_s(TomlTable& channel);
 // For people: "counts to 3.5 mm/s", the speed of the axis that a counter can follow; "" for 0.
 std::string speed_text(double most_counts_per_s, double um_per_count);
 inline constexpr const char* kCountsLost =
-    "its encoder moved faster than most_counts_per_s and counts may be lost; from now on move more "
-    "slowly";
+    "the encoder moved faster than most_counts_per_s, so counts may be lost; move the axis more "
+    "slowly from now on";
 
 }  // namespace mdof::drivers::labjack

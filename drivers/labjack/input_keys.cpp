@@ -29,12 +29,11 @@ Result<int> negative_of(const std::string& device, const ChannelInput& channel, 
                         const std::string& negative) {
   const std::string partner = "AIN" + std::to_string(ain + 1);
   if (ain % 2 == 0 && negative == partner) return ain + 1;
-  return bad_input(channel.where + ": negative = \"" + negative + "\": a " + device +
-                   " measures an even AIN against the one after it" +
-                   (ain % 2 == 0
-                        ? ": " + channel.input + " against " + partner
-                        : ", and " + channel.input + " is none: use AIN" + std::to_string(ain - 1) +
-                              " with negative = \"" + channel.input + "\""));
+  return bad_input(
+      channel.where + ": negative = \"" + negative + "\" is not possible; a " + device +
+      " measures an even AIN against the next AIN; give " +
+      (ain % 2 == 0 ? "negative = \"" + partner + "\" with " + channel.input
+                    : "negative = \"" + channel.input + "\" with AIN" + std::to_string(ain - 1)));
 }
 
 Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<InputUse>& uses) {
@@ -43,17 +42,18 @@ Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<I
     if (uses[i].ain < 0) {
       const auto [other, fresh] = counters.emplace(channels[i].further, channels[i].input);
       if (!fresh)
-        return bad_input(channels[i].where + ": " + other->second +
-                         " counts already; an axis takes one counter of a device: count \"" +
-                         channels[i].id +
-                         "\" by another, or, where it is the encoder of another "
-                         "axis, give it in that axis' [axis.device] with same_as");
+        return bad_input(
+            channels[i].where + ": " + other->second +
+            " counts already, and an axis can use only one counter of a device; count \"" +
+            channels[i].id +
+            "\" with another device, or, if it is the encoder of another "
+            "axis, give it in [axis.device] of that axis with same_as");
     }
     for (std::size_t other = 0; other < uses.size(); ++other)
       if (uses[i].ain >= 0 && uses[other].negative == uses[i].ain)
         return bad_input(channels[i].where + ": " + channels[i].input +
                          " is the negative input of \"" + channels[other].id +
-                         "\" and gives no probe of its own; use another");
+                         "\", so it cannot be a channel of its own; use another input");
   }
   return {};
 }

@@ -22,9 +22,10 @@ Status check(const AinCalibration& c, std::size_t gain) {
       near(c.negative_slope / nominal.negative_slope, 1, kSlope) &&
       near(c.centre, nominal.centre, kCentre))
     return {};
-  return io_error("the calibration constants in its flash cannot be (slopes " +
+  return io_error("the calibration constants in the flash of the device are impossible (slopes " +
                   std::to_string(c.positive_slope) + ", " + std::to_string(c.negative_slope) +
-                  " V, centre " + std::to_string(c.centre) + "); have it calibrated by LabJack");
+                  " V, centre " + std::to_string(c.centre) +
+                  "); have the device calibrated by LabJack");
 }
 
 double volts(const AinCalibration& c, std::uint16_t raw) {
@@ -44,7 +45,7 @@ Status ScanSplitter::take(std::span<const std::uint16_t> samples,
   }
   if (!gap_ || candidates_ > 0) return {};
   return io_error("the stream dropped " + std::to_string(*gap_) +
-                  " scans and does not mark where: the times after it are not known");
+                  " scans without marking the place, so the times after it are unknown");
 }
 
 void ScanSplitter::end_scan(std::vector<Scan>& scans) {

@@ -40,7 +40,7 @@ void read_converter(TomlTable& table, Settings& settings) {
   if (!(settings.settling_us >= 0 && settings.settling_us <= kMostSettling_us))
     table.reject("settling_us", "must be from 0 (automatic) to 4400");
   const std::int64_t serial = table.integer("serial", 0);
-  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is no serial number of a T7");
+  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is not a serial number of a T7");
   settings.serial = static_cast<std::uint32_t>(serial);
 }
 
@@ -50,15 +50,15 @@ void read_rate(TomlTable& table, Settings& settings) {
   if (!(settings.rate_hz >= 1 && settings.rate_hz * static_cast<double>(words) <= kMostSamples_Hz))
     return table.reject("rate_hz", "must be from 1 to " +
                                        std::to_string(static_cast<int>(kMostSamples_Hz) / words) +
-                                       ": a T7 takes 100000 samples/s and a scan of these inputs "
-                                       "has " +
-                                       std::to_string(words) + " (a counter two)");
+                                       ": a T7 measures 100000 samples/s, and a scan of these "
+                                       "inputs has " +
+                                       std::to_string(words) + " samples (2 for a counter)");
   const auto automatic = static_cast<std::int64_t>(quick_packet(settings.rate_hz, words));
   const std::int64_t samples = table.integer("samples_per_packet", automatic);
   if (samples < 1 || samples > static_cast<std::int64_t>(labjack_t7::kMostSamples) ||
       samples % static_cast<std::int64_t>(words) != 0)
     table.reject("samples_per_packet", "must be a multiple of " + std::to_string(words) +
-                                           ", the samples of a scan, up to 512");
+                                           " (samples per scan) and at most 512");
   settings.samples_per_packet = static_cast<std::size_t>(samples);
 }
 
@@ -82,7 +82,7 @@ std::vector<std::string> known_inputs() {
 Result<Input> counter_of(const ChannelInput& channel, const labjack::InputKeys& keys, int line) {
   if (!keys.negative.empty() || keys.range_v > 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " counts; negative and range_v are of an AIN");
+                     " is a counter; negative and range_v apply to an AIN; remove them");
   MDOF_CHECK(check_um_per_count(channel));
   Input input;
   input.channel = {channel.id, Unit::um};
@@ -100,8 +100,8 @@ Result<Input> input_of(const ChannelInput& channel, const labjack::InputKeys& ke
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.um_per_count != 0 || keys.most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " gives volts and counts nothing; take um_per_count and most_counts_per_s "
-                     "away (the rig has um_per_V)");
+                     " gives volts, not counts; remove um_per_count and most_counts_per_s "
+                     "(the rig gives um_per_V)");
   Input input;
   input.channel = {channel.id, Unit::volt};
   input.ain = static_cast<int>(at - known.begin());

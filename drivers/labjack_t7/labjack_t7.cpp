@@ -16,7 +16,7 @@ using std::chrono::steady_clock;
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr int kClockReads = 5;
 constexpr double kEnable_s = 2;  // to write STREAM_ENABLE, at most
-constexpr const char* kZeroLost = "it was without power and its counter counts from 0 again";
+constexpr const char* kZeroLost = "the LabJack T7 lost power, and its counter restarted at 0";
 
 std::int64_t now_ns() {
   return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count();
@@ -159,8 +159,10 @@ Status LabjackT7::take_start() {
   const std::int64_t start = core_(stamp);
   const double since = static_cast<double>(start - enabled_ticks_);
   if (!(since >= 0 && since < ticks_per_scan_ + kEnable_s * kCore_Hz))
-    return io_error("STREAM_START_TIME_STAMP is " + std::to_string(stamp) +
-                    ", of another stream: another program has started or stopped one meanwhile");
+    return io_error(
+        "STREAM_START_TIME_STAMP is " + std::to_string(stamp) +
+        ", which belongs to another stream; end the program that started or stopped a stream "
+        "meanwhile");
   start_ticks_ = start;
   return {};
 }
@@ -195,9 +197,9 @@ Status LabjackT7::receive(milliseconds timeout) {
     MDOF_CHECK(take_packets(received_ns));
     const double packet_ns = 1e9 / rate_hz_ * static_cast<double>(settings_.samples_per_packet);
     if (static_cast<double>(received_ns - last_packet_ns_ - kSilence_ns) > packet_ns)
-      return io_error(
-          "no packet for 2 s on port " + std::to_string(settings_.stream.port) +
-          ": the T7 lost power or network, or another program has stopped or taken its stream");
+      return io_error("no packet for 2 s on port " + std::to_string(settings_.stream.port) +
+                      "; the T7 lost power or network, or another program has stopped the stream "
+                      "or receives it");
   } while (scans_.empty() && steady_clock::now() < until);
   return {};
 }

@@ -20,12 +20,12 @@ constexpr CodeText kErrors[] = {
     {2620, "no stream is running"},
     {2625, "an input of the scan list cannot be streamed"},
     {status::recovering, "the stream's buffer was full and is being emptied"},
-    {status::recovered, "the stream goes on after dropped scans"},
+    {status::recovered, "the stream continues after dropped scans"},
     {status::scan_overlap,
      "a scan began before the last had ended: lower rate_hz, resolution_index or settling_us"},
     {status::recovery_overflow,
      "more scans were dropped than the device can count: check network and load, lower rate_hz"},
-    {status::burst_complete, "the device ended the stream as if it had been asked for a burst"},
+    {status::burst_complete, "the device ended the stream like a burst, which was not requested"},
     {status::buffer_full, "the stream's buffer is full: check network and load, lower rate_hz"},
 };
 

@@ -18,26 +18,26 @@ Status check_words(std::uint32_t test) {
   if (test == kTestValue) return {};
   if (test == kTestSwapped)
     return io_error(
-        "TEST reads 0x22330011: the two words of each number come swapped; a gateway or proxy on "
-        "the way changes them: connect the T7 directly or set the gateway to the order high, low");
-  return io_error("TEST does not read 0x00112233: this is no LabJack; check the address");
+        "TEST reads 0x22330011, not 0x00112233; a gateway or proxy swaps the two words of each "
+        "number; connect the T7 directly, or set the gateway to the order high word, low word");
+  return io_error("TEST does not read 0x00112233, so this is not a LabJack; check the address");
 }
 
 Status check_product(float product) {
   if (product == kProduct) return {};
   return io_error("PRODUCT_ID is " + std::to_string(std::lround(product)) +
-                  ", not 7: this LabJack is no T7");
+                  ", not 7, so this LabJack is not a T7");
 }
 
 // What older ones lack would be missed later, and in other words.
 Status check_firmware(float firmware) {
   const auto is_older = [&](double than) { return firmware < than - 1e-5; };
-  const char* lacks = is_older(kStampFirmware)      ? "the time stamp of a stream (1.0214)"
-                      : is_older(kRecoveryFirmware) ? "streams that recover (1.026)"
+  const char* lacks = is_older(kStampFirmware)      ? "the time stamp of a stream (new in 1.0214)"
+                      : is_older(kRecoveryFirmware) ? "streams that recover (new in 1.026)"
                                                     : nullptr;
   if (!lacks) return {};
-  return io_error("its firmware " + plain_number(static_cast<double>(firmware), 5) + " lacks " +
-                  lacks + "; update it with LabJack's Kipling");
+  return io_error("firmware " + plain_number(static_cast<double>(firmware), 5) + " lacks " + lacks +
+                  "; update the firmware with LabJack Kipling");
 }
 
 // A T7-Pro sends no stream by itself over WiFi.
@@ -47,8 +47,8 @@ Status check_wire(Registers& registers) {
   MDOF_TRY(const std::uint32_t wifi, registers.u32(reg::wifi_ip));
   if (wifi == 0 || wifi != registers.peer_ipv4()) return {};
   return io_error(
-      "this is the address of its WiFi, over which a T7-Pro cannot stream; connect it by cable and "
-      "give the address of that (ETHERNET_IP in LabJack's Kipling)");
+      "this is the address of the WiFi interface, and a T7-Pro cannot stream over WiFi; connect "
+      "the T7 by Ethernet cable and give the Ethernet address (ETHERNET_IP in LabJack Kipling)");
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ Result<Identity> identify(Registers& registers, const Settings& settings) {
   MDOF_CHECK(check_product(product));
   MDOF_TRY(const std::uint32_t serial, registers.u32(reg::serial));
   if (settings.serial != 0 && serial != settings.serial)
-    return io_error("its serial number is " + std::to_string(serial) + ", the configuration says " +
+    return io_error("the serial number is " + std::to_string(serial) + ", but serial is " +
                     std::to_string(settings.serial) + "; correct address or serial");
   MDOF_TRY(const float firmware, registers.f32(reg::firmware));
   MDOF_CHECK(check_firmware(firmware));

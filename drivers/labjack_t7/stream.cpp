@@ -47,8 +47,9 @@ Result<bool> PacketReader::next(StreamPacket& packet) {
   const std::string_view b = std::string_view(bytes_).substr(taken_);
   if (b.size() < kHeader) return false;
   if (!is_header(b))
-    return io_error("what came on the stream port is no stream packet of a T7; is another " +
-                    std::string("device behind this address?"));
+    return io_error(
+        "the data on the stream port are not stream packets of a T7; check that the address is "
+        "that of the T7");
   const std::size_t size = kLengthFrom + word_at(b, 4);
   if (b.size() < size) return false;
   packet.transaction = word_at(b, 0);
@@ -63,14 +64,15 @@ Result<bool> PacketReader::next(StreamPacket& packet) {
 
 Status PacketLine::check(const StreamPacket& packet) const {
   if (packet.transaction != transaction_)
-    return io_error("stream packet " + std::to_string(packet.transaction) + " came where " +
-                    std::to_string(transaction_) + " was due: packets are missing");
+    return io_error("stream packet " + std::to_string(packet.transaction) + " came instead of " +
+                    std::to_string(transaction_) + ", so packets are missing");
   if (packet.status != 0 && packet.status != status::recovering &&
       packet.status != status::recovered)
     return io_error("the stream has stopped: " + error_text(packet.status));
   if (packet.samples.size() % words_ != 0)
     return io_error("a stream packet of " + std::to_string(packet.samples.size()) +
-                    " samples holds no whole scans of " + std::to_string(words_));
+                    " samples does not contain whole scans of " + std::to_string(words_) +
+                    " samples");
   return {};
 }
 

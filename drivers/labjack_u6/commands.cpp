@@ -48,7 +48,7 @@ std::string error_text(int code) {
       {56, "the number of samples in a packet is invalid"},
       {kRateInvalid, "the scan rate is invalid: change rate_hz"},
       {kRecovering, "the stream's buffer was full and is being emptied"},
-      {kRecovered, "the stream goes on after dropped scans"},
+      {kRecovered, "the stream continues after dropped scans"},
       {kRecoveryOverflow, "more scans were dropped than the device can count: lower rate_hz"},
   };
   std::string number = "U6 error " + std::to_string(code);
@@ -118,7 +118,7 @@ Result<Timers> read_timers(std::string_view reply) {
 Status read_config_io(std::string_view reply, int timers, int pin_offset) {
   MDOF_TRY(const Timers is, read_timers(reply));
   if (is.count == timers && is.pin_offset == pin_offset) return {};
-  return io_error("the U6 did not take the configuration of its timers");
+  return io_error("the U6 did not accept the configuration of its timers");
 }
 
 std::string start_quadrature() {

@@ -21,7 +21,7 @@ constexpr int kMostResolution = 8, kMostSettling_us = 2550;
 
 void read_serial(TomlTable& table, Settings& settings) {
   const std::int64_t serial = table.integer("serial", 0);
-  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is no serial number of a U6");
+  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is not a serial number of a U6");
   if (serial > 0) settings.serial = std::to_string(serial);
 }
 
@@ -49,8 +49,8 @@ void read_rate(TomlTable& table, Settings& settings) {
   if (!(settings.rate_hz >= 1 && settings.rate_hz * static_cast<double>(words) <= kMostSamples_Hz))
     table.reject("rate_hz", "must be from 1 to " +
                                 std::to_string(static_cast<int>(kMostSamples_Hz) / words) +
-                                ": a U6 takes 50000 samples/s and a scan of these inputs has " +
-                                std::to_string(words) + " (a counter two)");
+                                ": a U6 measures 50000 samples/s, and a scan of these inputs has " +
+                                std::to_string(words) + " samples (2 for a counter)");
 }
 
 std::string counter_name(int line) {
@@ -73,7 +73,7 @@ std::vector<std::string> known_inputs() {
 Result<Input> counter_of(const ChannelInput& channel, const labjack::InputKeys& keys, int line) {
   if (!keys.negative.empty() || keys.range_v > 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " counts; negative and range_v are of an AIN");
+                     " is a counter; negative and range_v apply to an AIN; remove them");
   MDOF_CHECK(check_um_per_count(channel));
   Input input;
   input.channel = {channel.id, Unit::um};
@@ -91,8 +91,8 @@ Result<Input> input_of(const ChannelInput& channel, const labjack::InputKeys& ke
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.um_per_count != 0 || keys.most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " gives volts and counts nothing; take um_per_count and most_counts_per_s "
-                     "away (the rig has um_per_V)");
+                     " gives volts, not counts; remove um_per_count and most_counts_per_s "
+                     "(the rig gives um_per_V)");
   Input input;
   input.channel = {channel.id, Unit::volt};
   input.ain = static_cast<int>(at - known.begin());
@@ -123,7 +123,7 @@ Status read_inputs(TomlTable& table, const DriverContext& context, Settings& set
   if (!analogue)
     return bad_input(
         channels.front().where +
-        ": a U6 streams its counter only beside an analogue input; add one of a probe");
+        ": a U6 streams its counter only together with an analogue input; add the AIN of a probe");
   return {};
 }
 

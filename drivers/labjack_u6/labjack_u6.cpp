@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr double kSilence_s = 2;
-constexpr const char* kZeroLost = "it was without power and its timer counts from 0 again";
+constexpr const char* kZeroLost = "the LabJack U6 lost power, and its counter restarted at 0";
 
 bool counts(const Input& input) {
   return input.ain < 0;
@@ -177,8 +177,8 @@ Status LabjackU6::why_silent() {
   stream_->cancel();
   if (const auto last = stream_->next(steady_clock::now())) MDOF_CHECK(take(*last));
   return io_error(
-      "nothing has come for 2 s: another program has stopped the stream, or the U6 hangs; unplug "
-      "it and plug it in again");
+      "no data for 2 s; another program has stopped the stream, or the U6 hangs; unplug the U6 and "
+      "plug it in again");
 }
 
 Status LabjackU6::take(const usb::InStream::Chunk& chunk) {

@@ -33,18 +33,19 @@ std::string framed(std::uint8_t kind, std::size_t size, std::uint8_t command,
 
 Status check_frame(std::string_view bytes) {
   if (bytes.size() >= 2 && byte_at(bytes, 0) == 0xB8 && byte_at(bytes, 1) == 0xB8)
-    return io_error("the U6 found a wrong checksum in what it was sent (B8 B8): check the cable");
-  if (bytes.size() < kHead) return io_error("a reply of the U6 was cut short: check the cable");
+    return io_error(
+        "the U6 reports a wrong checksum in the data it received (B8 B8); check the cable");
+  if (bytes.size() < kHead) return io_error("a reply of the U6 is incomplete; check the cable");
   if (byte_at(bytes, 0) != checksum8(bytes.substr(1, kHead - 1)) ||
       word_at(bytes, 4) != checksum16(bytes.substr(kHead)))
-    return io_error("a checksum of what the U6 sent is wrong: check the cable");
+    return io_error("a checksum in the data of the U6 is wrong; check the cable");
   return {};
 }
 
 Status check_order(std::uint8_t counter, std::uint8_t expected) {
   if (counter == expected) return {};
-  return io_error("stream packet " + std::to_string(counter) + " came where " +
-                  std::to_string(expected) + " was due: packets are missing");
+  return io_error("stream packet " + std::to_string(counter) + " came instead of " +
+                  std::to_string(expected) + ", so packets are missing");
 }
 
 }  // namespace
@@ -72,19 +73,19 @@ Result<std::string> extended_body(std::string_view reply, std::uint8_t command, 
   MDOF_CHECK(check_frame(reply));
   if (byte_at(reply, 1) != kExtended || byte_at(reply, 3) != command || reply.size() != size ||
       byte_at(reply, 2) != (size - kHead) / 2)
-    return io_error("the U6 answered another command; unplug it and plug it in again");
+    return io_error("the U6 answered another command; unplug the U6 and plug it in again");
   return std::string(reply.substr(kHead));
 }
 
 Result<int> normal_error(std::string_view reply, std::uint8_t command) {
   if (reply.size() < kNormalReply) {
     MDOF_CHECK(check_frame(reply));
-    return io_error("a reply of the U6 was cut short: check the cable");
+    return io_error("a reply of the U6 is incomplete; check the cable");
   }
   if (byte_at(reply, 0) != checksum8(reply.substr(1)))
-    return io_error("a checksum of what the U6 sent is wrong: check the cable");
+    return io_error("a checksum in the data of the U6 is wrong; check the cable");
   if (byte_at(reply, 1) != command + 1 || reply.size() != kNormalReply)
-    return io_error("the U6 answered another command; unplug it and plug it in again");
+    return io_error("the U6 answered another command; unplug the U6 and plug it in again");
   return static_cast<int>(byte_at(reply, 2));
 }
 
@@ -104,7 +105,7 @@ Result<StreamData> decode(std::string_view bytes, std::size_t samples) {
   MDOF_CHECK(check_frame(bytes));
   if (bytes.size() != stream_bytes(samples) || byte_at(bytes, 1) != kData ||
       byte_at(bytes, 2) != 4 + samples || byte_at(bytes, 3) != kStreamData)
-    return io_error("what came on the stream's pipe is no packet of " + std::to_string(samples) +
+    return io_error("the data of the stream are not a packet of " + std::to_string(samples) +
                     " samples");
   StreamData packet;
   packet.counter = byte_at(bytes, 10);

@@ -27,7 +27,9 @@ void read_range(TomlTable& table, Wiring& wiring) {
   if (table.is_array("range_v")) {
     const auto ends = table.numbers("range_v");
     if (ends.size() != 2 || !(ends[0] < ends[1]) || !std::isfinite(ends[1] - ends[0]))
-      return table.reject("range_v", "must be its ends in volts, as [0, 10], or 10 for -10 to 10");
+      return table.reject(
+          "range_v",
+          "must be both ends in volts, such as [0, 10], or one number: 10 for -10 to 10");
     wiring.low_v = ends[0];
     wiring.high_v = ends[1];
     return;
@@ -53,7 +55,8 @@ void read_board(TomlTable& table, Settings& settings) {
   if (!table.has("subdevice")) return;
   const std::int64_t subdevice = table.integer("subdevice");
   if (subdevice < 0 || subdevice > kMostSubdevice)
-    return table.reject("subdevice", "must be the number of a subdevice, as comedi_board_info has");
+    return table.reject("subdevice",
+                        "must be the number of a subdevice; comedi_board_info lists them");
   settings.subdevice = static_cast<unsigned>(subdevice);
 }
 
@@ -66,15 +69,14 @@ void read_timing(TomlTable& table, Settings& settings) {
   const double scan_us = 1e6 / settings.rate_hz;
   const double most_us = scan_us / static_cast<double>(settings.inputs.size());
   if (!(*settings.convert_us >= 0.1 && *settings.convert_us <= most_us))
-    table.reject("convert_us",
-                 "must be from 0.1 to the time of a scan by its inputs, 1e6 / rate_hz / inputs");
+    table.reject("convert_us", "must be from 0.1 to 1e6 / rate_hz / number of inputs");
 }
 
 Result<unsigned> number_of(const ChannelInput& channel) {
   for (unsigned n = 0; n <= kMostNumber; ++n)
     if (channel.input == "CH" + std::to_string(n)) return n;
   return bad_input(channel.where + ": input \"" + channel.input +
-                   "\" is none of a board; channel 0 of its subdevice is \"CH0\"");
+                   "\" is not an input of a board; channel 0 of the subdevice is \"CH0\"");
 }
 
 Result<InputSetting> input_of(const ChannelInput& channel, const Wiring& wiring) {
@@ -82,8 +84,8 @@ Result<InputSetting> input_of(const ChannelInput& channel, const Wiring& wiring)
   if (channel.um_per_count != 0)
     return bad_input(
         channel.where + ": " + channel.input +
-        " gives volts and counts nothing (counters of Comedi boards are not read); take "
-        "um_per_count away (the rig has um_per_V, of the encoder as well)");
+        " gives volts, not counts (the driver does not read counters of Comedi boards); remove "
+        "um_per_count (the rig gives um_per_V, also for the encoder)");
   return InputSetting{
       {channel.id, Unit::volt}, number, wiring.low_v, wiring.high_v, wiring.reference};
 }

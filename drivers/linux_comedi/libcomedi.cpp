@@ -48,15 +48,16 @@ std::string open_error(const std::string& device, int error) {
   std::string what = device + ": " + comedi_strerror(error);
   if (error == ENOENT)
     return what +
-           "; is the board there, and its driver loaded? ls /dev/comedi* (an ISA board is attached "
-           "by comedi_config)";
+           "; check that the board is installed and its driver is loaded (ls /dev/comedi*); attach "
+           "an ISA board with comedi_config";
   if (error == ENODEV || error == ENXIO)
-    return what + "; no board is attached to it: unplugged, or of another number";
+    return what +
+           "; no board is attached to this file; the board is unplugged or has another number";
   if (error == EACCES || error == EPERM)
     return what +
-           "; this user is not in the group iocard, which Debian gives Comedi boards: sudo usermod "
-           "-aG iocard $USER, log in anew";
-  if (error == ENOTTY) return what + "; it is no Comedi device";
+           "; this user is not in the group iocard, which may use Comedi boards on Debian; run "
+           "sudo usermod -aG iocard $USER, then log in again";
+  if (error == ENOTTY) return what + "; this is not a Comedi device";
   return what;
 }
 
@@ -193,9 +194,9 @@ Calibration LibraryBoard::calibrate(unsigned subdevice, const std::vector<BoardI
   calibration.found = true;
   const CalibrationFile file(comedi_parse_calibration_file(path.get()));
   if (!file) {
-    calibration.wrong = "cannot be read, or is no calibration file";
+    calibration.wrong = "cannot be read, or is not a calibration file";
   } else if (driver() != text(file->driver_name) || name() != text(file->board_name)) {
-    calibration.wrong = "is of the board \"" + text(file->board_name) + "\" (driver " +
+    calibration.wrong = "belongs to the board \"" + text(file->board_name) + "\" (driver " +
                         text(file->driver_name) + ")";
   } else if (auto set = set_hardware(*file, subdevice, inputs); !set) {
     calibration.wrong = set.error().message;
@@ -211,8 +212,8 @@ Status LibraryBoard::set_hardware(const comedi_calibration_t& file, unsigned sub
   if (!has_dacs(file, subdevice)) return {};
   if (!one_way(inputs))
     return io_error(
-        "sets the board's calibration converters for one range and reference: give all channels "
-        "the same");
+        "calibrates the board for one range and one reference only; give all channels the same "
+        "range_v and reference");
   for (const BoardInput& input : inputs)
     if (comedi_apply_parsed_calibration(device_.get(), subdevice, input.channel, input.range,
                                         static_cast<unsigned>(input.reference), &file) < 0)
@@ -223,7 +224,7 @@ Status LibraryBoard::set_hardware(const comedi_calibration_t& file, unsigned sub
 Result<Command> LibraryBoard::sources(unsigned subdevice) {
   comedi_cmd raw{};
   if (comedi_get_cmd_src_mask(device_.get(), subdevice, &raw) < 0)
-    return io_error("its commands cannot be asked for: " + last_error());
+    return io_error("cannot query the commands of the board: " + last_error());
   Command command;
   command.subdevice = subdevice;
   read_events(raw, command);
@@ -234,20 +235,20 @@ Result<int> LibraryBoard::test(Command& command) {
   std::vector<unsigned> inputs;
   comedi_cmd raw = raw_command(command, inputs);
   const int failed = comedi_command_test(device_.get(), &raw);
-  if (failed < 0) return io_error("a command cannot be tested: " + last_error());
+  if (failed < 0) return io_error("cannot test a command of the board: " + last_error());
   read_events(raw, command);
   return failed;
 }
 
 Status LibraryBoard::start(const Command& command) {
   if (comedi_set_read_subdevice(device_.get(), command.subdevice) < 0)
-    return io_error("its subdevice cannot be read: " + last_error());
+    return io_error("cannot read the subdevice: " + last_error());
   std::vector<unsigned> inputs;
   comedi_cmd raw = raw_command(command, inputs);
   if (comedi_command(device_.get(), &raw) < 0) {
     const bool busy = comedi_errno() == EBUSY;
     return io_error("the command is refused: " + last_error() +
-                    (busy ? "; another program reads the board" : ""));
+                    (busy ? "; end the program that reads the board" : ""));
   }
   subdevice_ = command.subdevice;
   return {};
@@ -268,7 +269,8 @@ Result<Received> LibraryBoard::receive(std::span<char> into, milliseconds timeou
   if (bytes == 0) return Received{0, StreamState::ended};
   if (errno == EAGAIN || errno == EINTR) return Received{};
   if (errno == EPIPE) return Received{0, StreamState::overran};
-  if (errno == ENODEV) return io_error("the board has gone: unplugged, or its driver was unloaded");
+  if (errno == ENODEV)
+    return io_error("the board is gone; it was unplugged, or its driver was unloaded");
   return io_error(std::string("cannot be read: ") + comedi_strerror(errno));
 }
 

@@ -111,16 +111,16 @@ void LinuxComedi::take(std::size_t bytes) {
 Status LinuxComedi::check(StreamState stream) {
   if (stream == StreamState::overran)
     return io_error(
-        "a buffer has run over, the board's or the kernel's of " + plain_number(setup_.buffer_s) +
-        " s: lower rate_hz, find what keeps this computer from reading, or enlarge the kernel's "
-        "(comedi_config --read-buffer)");
+        "the buffer of the board, or of the kernel (" + plain_number(setup_.buffer_s) +
+        " s), has overflowed; lower rate_hz, find what keeps this computer from reading, or "
+        "enlarge the buffer of the kernel (comedi_config --read-buffer)");
   if (stream == StreamState::ended)
-    return io_error("the board has ended the command by itself; dmesg may say why");
+    return io_error("the board has ended the command by itself; see dmesg");
   const double silent_s = static_cast<double>(monotonic_ns() - received_ns_) * 1e-9;
   const double kept_s = kBoardKeeps / rate_hz_ / static_cast<double>(channels_.size());
   if (silent_s > kSilence_s + kept_s)
-    return io_error("nothing has come for " + plain_number(kSilence_s + kept_s) +
-                    " s though it scans: interrupts of the board do not arrive; dmesg may say why");
+    return io_error("no data for " + plain_number(kSilence_s + kept_s) +
+                    " s although the board scans; its interrupts do not arrive; see dmesg");
   return {};
 }
 

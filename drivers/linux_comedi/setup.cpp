@@ -26,10 +26,10 @@ Result<unsigned> find_subdevice(const std::vector<Subdevice>& all, const Setting
   }
   if (known.empty())
     return bad_input(
-        "it has no analogue inputs that stream (asynchronous commands); comedi_board_info shows "
-        "what it has");
-  return bad_input("its subdevice " + std::to_string(*settings.subdevice) +
-                   " has no analogue inputs that stream; subdevice " + known + " has");
+        "the board has no analogue inputs that stream (asynchronous commands); see "
+        "comedi_board_info");
+  return bad_input("subdevice " + std::to_string(*settings.subdevice) +
+                   " has no analogue inputs that stream; possible subdevices: " + known);
 }
 
 Status check_reference(const Subdevice& subdevice, const InputSetting& input) {
@@ -40,14 +40,14 @@ Status check_reference(const Subdevice& subdevice, const InputSetting& input) {
        {Reference::ground, Reference::common, Reference::differential, Reference::other})
     if ((subdevice.references & bit(each)) != 0)
       known += (known.empty() ? " " : ", ") + std::string(name_of(each));
-  return bad_input(channel_text(input.number) + ": it does not measure against reference = \"" +
-                   name_of(input.reference) + "\"; it can:" + known);
+  return bad_input(channel_text(input.number) + ": reference = \"" + name_of(input.reference) +
+                   "\" is not possible; the board offers" + known);
 }
 
 Result<BoardInput> board_input(Board& board, unsigned subdevice, const Subdevice& has,
                                const InputSetting& input) {
   if (input.number >= has.channels)
-    return bad_input("it has no input " + channel_text(input.number) + "; its last is " +
+    return bad_input("the board has no input " + channel_text(input.number) + "; the last is " +
                      channel_text(has.channels - 1));
   MDOF_CHECK(check_reference(has, input));
   const auto ranges = board.ranges(subdevice, input.number);
@@ -55,8 +55,8 @@ Result<BoardInput> board_input(Board& board, unsigned subdevice, const Subdevice
     return BoardInput{input.number, *at, input.reference};
   std::string known;
   for (const Range& range : ranges) known += (known.empty() ? " " : ", ") + text_of(range);
-  return bad_input(channel_text(input.number) + ": no range of " +
-                   text_of({input.low_v, input.high_v}) + "; range_v can be:" + known);
+  return bad_input(channel_text(input.number) + ": the board has no range " +
+                   text_of({input.low_v, input.high_v}) + "; range_v can be" + known);
 }
 
 // What the board cannot do exactly it does as near as it can, and says so.
@@ -68,17 +68,19 @@ Status make_fit(Board& board, Command& command) {
     if (failed != 3 && failed != 4) break;  // 3 and 4: it has changed what did not fit
   }
   const std::string inputs =
-      failed == 5 ? ": not these inputs together, with these ranges and references" : "";
-  return bad_input(std::string("it takes no such command (") + failed_step(failed) + ")" + inputs);
+      failed == 5 ? "; the board cannot scan these inputs together with these ranges and references"
+                  : "";
+  return bad_input(std::string("the board refuses the command (") + failed_step(failed) + ")" +
+                   inputs);
 }
 
 Status check_rate(const Command& command, double rate_hz) {
   const double true_hz = rate_of(command);
   if (std::abs(true_hz / rate_hz - 1) <= kRateOff) return {};
   const double each_us = convert_us(command);
-  return bad_input("it cannot scan at rate_hz = " + plain_number(rate_hz) + "; the nearest is " +
-                   plain_number(true_hz, 9) + " with " + std::to_string(command.inputs.size()) +
-                   " inputs" +
+  return bad_input("the board cannot scan at rate_hz = " + plain_number(rate_hz) +
+                   "; the nearest is " + plain_number(true_hz, 9) + " with " +
+                   std::to_string(command.inputs.size()) + " inputs" +
                    (each_us > 0 ? " that are " + plain_number(each_us) + " us apart" : ""));
 }
 
@@ -95,24 +97,25 @@ Status convert(Board& board, const Subdevice& has, Setup& setup) {
     const BoardInput& input = command.inputs[i];
     const std::uint32_t greatest_code = board.greatest_code(command.subdevice, input.channel);
     if (greatest_code == 0)
-      return io_error(channel_text(input.channel) + ": its driver does not say its greatest code");
+      return io_error(channel_text(input.channel) +
+                      ": the driver of the board does not report the greatest code");
     const Range range = board.ranges(command.subdevice, input.channel).at(input.range);
     const bool corrected = used && calibration.to_volts.at(i).has_value();
     setup.conversions.push_back(
         {corrected ? *calibration.to_volts[i] : nominal(range, greatest_code), greatest_code});
     if (used && has.soft_calibrated && !corrected)
-      setup.notices.push_back(uncalibrated(calibration.file + " has nothing for " +
+      setup.notices.push_back(uncalibrated(calibration.file + " contains no calibration of " +
                                            channel_text(input.channel) + " at " + text_of(range)));
   }
   if (calibration.found && !calibration.wrong.empty())
     setup.notices.push_back(uncalibrated(calibration.file + ": " + calibration.wrong));
   if (!calibration.found && has.soft_calibrated)
     setup.notices.push_back(
-        uncalibrated("its board is calibrated by software and " +
-                     (calibration.file.empty() ? "its calibration file" : calibration.file) +
-                     " is not there; comedi_soft_calibrate makes it"));
+        uncalibrated("the board needs a calibration by software, but " +
+                     (calibration.file.empty() ? "the calibration file" : calibration.file) +
+                     " does not exist; create it with comedi_soft_calibrate"));
   setup.description +=
-      used ? ", calibrated by " + calibration.file : ", by the nominal ranges of its inputs";
+      used ? ", calibrated by " + calibration.file : ", nominal ranges without calibration";
   return {};
 }
 
@@ -128,9 +131,9 @@ void describe(Board& board, const Settings& settings, Setup& setup) {
 
 Result<Setup> set_up(Board& board, const Settings& settings) {
   if (!settings.board.empty() && settings.board != board.name())
-    return bad_input("is the board \"" + board.name() + "\" (driver " + board.driver() +
-                     ") where \"" + settings.board +
-                     "\" is wanted; boards are numbered as they are found: correct device");
+    return bad_input("the board is \"" + board.name() + "\" (driver " + board.driver() +
+                     "), but the configuration wants \"" + settings.board +
+                     "\"; boards are numbered in the order of detection; correct device");
   Setup setup;
   const auto subdevices = board.subdevices();
   MDOF_TRY(const unsigned subdevice, find_subdevice(subdevices, settings));

@@ -12,7 +12,7 @@ Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext
   options.chip = table.string("chip", options.chip);
   options.function = table.string("function", options.function);
   const std::int64_t ceiling = table.integer("ceiling", 0);
-  if (ceiling < 0) table.reject("ceiling", "must be the greatest count, as 65535");
+  if (ceiling < 0) table.reject("ceiling", "must be the greatest count, such as 65535");
   options.ceiling = static_cast<std::uint64_t>(ceiling);
   options.rate_hz = table.number("rate_hz", options.rate_hz);
   if (!(options.rate_hz >= 0.1 && options.rate_hz <= 5000))
@@ -20,8 +20,8 @@ Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext
   MDOF_TRY(options.channels, read_channels(table, context.rig, [&](TomlTable& channel) {
              if (channel.has("index_mm") && options.chip != kQuad8)
                channel.reject("index_mm",
-                              "needs chip = \"104-quad-8\": of the kernel's counters only that one "
-                              "is known to load its count at a reference mark",
+                              "needs chip = \"104-quad-8\", the only counter of the kernel that is "
+                              "known to load its count at a reference mark",
                               Remedy::count_without_mark);
            }));
   MDOF_CHECK(table.finish());

@@ -27,7 +27,7 @@ Result<std::int64_t> counts_now(Count& count) {
   const auto counts = count.unwrap(static_cast<std::uint64_t>(raw));
   if (counts) return *counts;
   return io_error(count.file.path() + ": " + std::to_string(raw) +
-                  " is beyond the ceiling; was the counter set up anew?");
+                  " is greater than the ceiling; the counter may have been reconfigured");
 }
 
 // The reading with which the mark turns out to be passed has no place yet; the next ones have.
@@ -107,12 +107,13 @@ Result<SysfsDevice> open_counter(const LinuxCounterOptions& options) {
   std::error_code ec;
   if (!chip && !std::filesystem::exists(folder, ec))
     return io_error(folder + ": " + sysfs_error(ENODEV) + "; ls " + options.sysfs_root +
-                    "/bus/counter/devices shows what there is");
+                    "/bus/counter/devices lists the counters");
   if (!options.chip.empty() && chip.value_or("") != options.chip)
-    return io_error(folder + "/name: is \"" + chip.value_or("") + "\" where chip is \"" +
-                    options.chip + "\"; counters are numbered as they are found: correct device");
+    return io_error(folder + "/name: is \"" + chip.value_or("") +
+                    "\", but the configuration wants chip \"" + options.chip +
+                    "\"; counters are numbered in the order of detection; correct device");
   SysfsDevice device;
-  device.datum_lost = "it was away, and whether it went on counting is not known";
+  device.datum_lost = "the device was disconnected, and may have stopped counting in the meantime";
   device.datum_remedy = has_mark(options) ? Remedy::pass_reference_mark : Remedy::set_encoder;
   device.description = "counter " + chip.value_or("without a name") + " at " + folder;
   for (const auto& channel : options.channels) {

@@ -15,18 +15,18 @@ Status check_quad8(const std::string& folder, const std::string& count, std::uin
   const std::string path = folder + "/" + count;
   if (ceiling != kCeiling)
     return io_error(
-        path + "/ceiling: is " + std::to_string(ceiling) + " and not " + std::to_string(kCeiling) +
-        ", so that what it loads at the mark is not known: set count_mode to normal; an "
-        "old kernel counts a bit more, which a newer one has corrected");
+        path + "/ceiling: is " + std::to_string(ceiling) + ", not " + std::to_string(kCeiling) +
+        ", so the count that it loads at the mark is unknown; set count_mode to normal; some "
+        "old kernels use one bit too many, so install a newer kernel");
   const std::string number = count.substr(std::string("count").size());
   const auto n = parse_sysfs_integer(number);
-  if (!n || *n < 0 || *n > 7) return io_error(path + ": is no count of a " + kQuad8);
+  if (!n || *n < 0 || *n > 7) return io_error(path + ": is not a count of a " + kQuad8);
   const std::string signal = folder + "/signal" + std::to_string(kFirstIndexSignal + *n);
   MDOF_TRY(const auto mode, read_sysfs(signal + "/synchronous_mode"));
   if (mode.value_or("") == "synchronous") return {};
   return to_be_written(
       signal + "/synchronous_mode",
-      "is \"" + mode.value_or("") + "\", and a mark would be as wide as the pulse of the index",
+      "is \"" + mode.value_or("") + "\", so the mark would be as wide as the index pulse",
       "synchronous");
 }
 
@@ -50,7 +50,7 @@ Result<Quad8Mark::State> Quad8Mark::take(std::int64_t count) {
   const State now = mark_.take(count);
   if (now == State::astray)
     return io_error(path_ + "/count: " + std::to_string(count) +
-                    " is where neither motion nor the reference mark brings it");
+                    " results neither from motion nor from the reference mark");
   if (now == State::passed && !off_) {
     MDOF_CHECK(enable(false));
     off_ = true;

@@ -28,22 +28,22 @@ Result<std::uint64_t> check_count(const CountFiles& files, const std::string& pa
     return to_be_written(path + "/function", "is \"" + *files.function + "\"",
                          "\"" + function + "\"");
   if (!function.empty() && !files.function)
-    return io_error(path +
-                    "/function: the device has none; take function out of the configuration");
+    return io_error(path + "/function: does not exist; remove function from the configuration");
   if (files.count_mode && *files.count_mode != "normal" && *files.count_mode != "modulo-n")
     return to_be_written(path + "/count_mode",
-                         "\"" + *files.count_mode + "\" stops at a limit, and the position with it",
-                         "normal");
+                         "\"" + *files.count_mode + "\" stops counting at a limit", "normal");
   if (files.floor && *files.floor != "0")
-    return to_be_written(path + "/floor", "is " + *files.floor + ", counts must begin at 0", "0");
+    return to_be_written(path + "/floor", "is " + *files.floor + ", but counts must begin at 0",
+                         "0");
   if (!files.ceiling && ceiling == 0)
     return io_error(path +
-                    "/ceiling: the device has none; give ceiling in the configuration, from "
-                    "its data sheet: 65535 for 16 bits");
+                    "/ceiling: does not exist; give ceiling in the configuration as in the "
+                    "data sheet (65535 for 16 bits)");
   if (!files.ceiling) return ceiling;
   const auto value = parse_sysfs_integer(*files.ceiling);
   if (!value || *value == 0)
-    return io_error(path + "/ceiling: \"" + *files.ceiling + "\" is no ceiling; set the device up");
+    return io_error(path + "/ceiling: \"" + *files.ceiling +
+                    "\" is not a ceiling; configure the counter");
   return static_cast<std::uint64_t>(*value);
 }
 

@@ -27,7 +27,7 @@ Result<SimulatedQuad8> SimulatedQuad8::make(const std::filesystem::path& sysfs_r
 Result<std::int64_t> SimulatedQuad8::value(const std::string& file) const {
   MDOF_TRY(const auto text, read_sysfs(path_ + "/" + file));
   const auto number = parse_sysfs_integer(text.value_or(""));
-  if (!number) return io_error(path_ + "/" + file + ": is no number");
+  if (!number) return io_error(path_ + "/" + file + ": is not a number");
   return *number;
 }
 

@@ -13,7 +13,7 @@ void read_table(TomlTable& channel, GapLaw& law) {
       return channel.reject("gap_table", "must be rows [pF, um], pF ascending");
     law.table.push_back({row[0], row[1]});
   }
-  if (law.table.size() < 2) channel.reject("gap_table", "must have two rows at least");
+  if (law.table.size() < 2) channel.reject("gap_table", "must have at least two rows");
 }
 
 GapLaw read_law(TomlTable& channel) {
@@ -27,7 +27,8 @@ GapLaw read_law(TomlTable& channel) {
   law.area_mm2 = channel.number("area_mm2");
   law.stray_pF = channel.number("stray_pF", 0);
   if (!(law.area_mm2 > 0 && law.area_mm2 < 1e6))
-    channel.reject("area_mm2", "must be the area of the electrode, more than 0");
+    channel.reject("area_mm2",
+                   "must be the area of the electrode, more than 0 and less than 1000000");
   return law;
 }
 

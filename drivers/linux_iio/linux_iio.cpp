@@ -21,17 +21,17 @@ Result<std::string> check_chip(const std::string& folder) {
   MDOF_TRY(const auto chip, read_sysfs(folder + "/name"));
   if (!chip)
     return io_error(folder + ": " + sysfs_error(ENODEV) +
-                    "; grep . /sys/bus/iio/devices/*/name shows what there is");
+                    "; grep . /sys/bus/iio/devices/*/name lists the devices");
   if (*chip != "ad7745" && *chip != "ad7746")
     return io_error(folder + "/name: is \"" + *chip +
-                    "\" where ad7745 or ad7746 is wanted; devices are numbered as they are found: "
-                    "correct device");
+                    "\", but must be ad7745 or ad7746; devices are numbered in the order of "
+                    "detection; correct device");
   MDOF_TRY(const auto scale, read_sysfs(folder + "/in_capacitance_scale"));
   const double pF = std::strtod(scale.value_or("").c_str(), nullptr);
   if (!(std::abs(pF / kAd7746_pF_per_count - 1) < 0.002))
     return io_error(folder + "/in_capacitance_scale: \"" + scale.value_or("") +
-                    "\" is not the 0.000000488 pF that this program knows of the chip; the "
-                    "kernel's driver has changed, inform the authors");
+                    "\", but this driver expects 0.000000488 pF; the driver of the kernel has "
+                    "changed; inform the authors of mdof");
   return *chip;
 }
 
@@ -43,10 +43,10 @@ Status set_sampling(const LinuxIioOptions& options, const std::string& folder) {
     MDOF_CHECK(write_sysfs(file, wanted));
     MDOF_TRY(hz, read_sysfs(file));
     if (hz != wanted)
-      return io_error(file + ": stays at " + hz.value_or("") + " where " + wanted + " was written");
+      return io_error(file + ": is still " + hz.value_or("") + " after " + wanted + " was written");
   }
   const auto value = parse_sysfs_integer(hz.value_or(""));
-  if (!value || *value <= 0) return io_error(file + ": \"" + hz.value_or("") + "\" is no rate");
+  if (!value || *value <= 0) return io_error(file + ": \"" + hz.value_or("") + "\" is not a rate");
   const double scan_s = static_cast<double>(options.channels.size()) *
                         (1 / static_cast<double>(*value) + kOverhead_s);
   if (options.rate_hz * scan_s <= 1) return {};
@@ -80,7 +80,7 @@ Result<SysfsInput> open_input(const LinuxIioOptions& options, std::size_t i) {
     MDOF_TRY(const std::int64_t raw, file->read_integer());
     if (raw < kAd7746LeastRaw || raw > kAd7746MostRaw)
       return io_error(file->path() + ": " + std::to_string(raw) +
-                      " is more than 24 bits; not an AD7746's");
+                      " exceeds 24 bits, so it is not a reading of an AD7746");
     return ad7746_gap_um(law, raw, subtracted);
   };
   return input;

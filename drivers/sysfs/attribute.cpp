@@ -21,18 +21,18 @@ std::string sysfs_error(int error) {
     case ENOENT:
     case ENODEV:
     case ENXIO:
-      return text + "; the device is gone or its driver is not loaded: check the cable and dmesg";
+      return text + "; the device is gone, or its driver is not loaded; check the cable and dmesg";
     case EACCES:
     case EPERM:
       return text + "; give the user of mdofd access by a udev rule";
     case EBUSY:
-      return text + "; another program or the kernel holds the device: end that one";
+      return text + "; another program or the kernel uses the device; end that program";
     case EIO:
     case EREMOTEIO:
     case ETIMEDOUT:
-      return text + "; the device does not answer its driver: check wires, supply and dmesg";
+      return text + "; the device does not answer its driver; check wires, supply and dmesg";
     case EINVAL:
-      return text + "; the device does not take this value";
+      return text + "; the device does not accept this value";
     default:
       return text + "; see dmesg";
   }
@@ -43,15 +43,16 @@ std::string sysfs_write_error(int error) {
     case EACCES:
     case EPERM:
       return std::string(std::strerror(error)) +
-             "; mdof's udev rules (60-mdof.rules) let the group mdof write it: install them, sudo "
-             "udevadm control --reload && sudo udevadm trigger --action=add "
-             "--subsystem-match=iio, and run as a member of that group; or leave the value as it "
-             "is by leaving out its key";
+             "; install the udev rules of mdof (60-mdof.rules), which let the group mdof write the "
+             "file, run sudo udevadm control --reload && sudo udevadm trigger --action=add "
+             "--subsystem-match=iio, and use a member of the group mdof; or remove the key of this "
+             "value, so that the value stays as it is";
     case EROFS:
       return std::string(std::strerror(error)) +
-             "; as a service mdofd may write there only with ReadWritePaths=-/sys/devices, which "
-             "its unit has: install that, or write a drop-in by sudo systemctl edit mdofd "
-             "([Service], then that line); a container must be given a writable /sys";
+             "; the service mdofd may write this file only with ReadWritePaths=-/sys/devices; "
+             "install the unit of mdof, which contains this line, or add the line to [Service] "
+             "with sudo "
+             "systemctl edit mdofd; in a container, make /sys writable";
     default:
       return sysfs_error(error);
   }
@@ -107,7 +108,7 @@ Result<std::int64_t> SysfsAttribute::read_integer() {
   MDOF_TRY(const std::string text, read());
   if (const auto value = parse_sysfs_integer(text)) return *value;
   return io_error(path_ + ": \"" + text.substr(0, 40) +
-                  "\" is no whole number; is this the right file, and the device's driver sound?");
+                  "\" is not a whole number; check the path and the driver of the device");
 }
 
 Result<std::optional<std::string>> read_sysfs(const std::string& path) {

@@ -115,7 +115,7 @@ Status Handle::drain(std::uint8_t endpoint, Timeout quiet) {
     if (!came) return {};
   }
   return io_error(at_endpoint(endpoint) +
-                  ": it does not stop sending; unplug it and plug it in again");
+                  ": the device does not stop sending; unplug the device and plug it in again");
 }
 
 Status Handle::clear_halt(std::uint8_t endpoint) {

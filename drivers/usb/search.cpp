@@ -98,7 +98,8 @@ class Search {
     if (other) return handle;
     if (const int code = libusb_claim_interface(connection.device, wanted_.interface); code != 0)
       return io_error(code == LIBUSB_ERROR_BUSY
-                          ? "it is in use by " + owner_of(place, wanted_.interface) + "; end that"
+                          ? "it is in use by " + owner_of(place, wanted_.interface) +
+                                "; end that program, or unload that driver"
                           : text_of_error(code));
     connection.claimed = wanted_.interface;
     if (!handle.serial_.empty() || !wanted_.ask_serial) return handle;
@@ -118,8 +119,8 @@ class Search {
 
   tl::unexpected<Error> not_opened(int code) const {
     if (code != LIBUSB_ERROR_ACCESS) return io_error(text_of_error(code));
-    return io_error(std::string("no permission to use it, which the udev rules ") + kRules +
-                        " give to the group mdof",
+    return io_error(std::string("no permission to use the device; the udev rules ") + kRules +
+                        " give it to the group mdof",
                     Remedy::install_udev_rules_for_usb, wanted_.model);
   }
 
@@ -132,14 +133,16 @@ class Search {
 
   Result<Handle> chosen() {
     if (wanted_.serial.empty() && count_ > 1)
-      return io_error("there are " + std::to_string(count_) + " " + ids(wanted_) +
-                      " on the USB and none is named; say which with serial: " + all_seen());
+      return io_error(std::to_string(count_) + " devices " + ids(wanted_) +
+                      " are on the USB, and serial is missing; give serial as one of " +
+                      all_seen());
     if (fitting_) return std::move(*fitting_);
     if (!failure_) return tl::unexpected(failure_.error());
     if (count_ == 0)
       return io_error("no " + wanted_.model + " (" + ids(wanted_) +
-                      ") is on the USB: check its cable and power");
-    return io_error("serial is \"" + wanted_.serial + "\", but on the USB is " + all_seen());
+                      ") is on the USB; check the cable and the power");
+    return io_error("no " + wanted_.model + " with serial \"" + wanted_.serial +
+                    "\" is on the USB; found: " + all_seen());
   }
 
   const Wanted& wanted_;

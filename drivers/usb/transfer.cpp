@@ -22,7 +22,7 @@ void LIBUSB_CALL on_end(libusb_transfer* raw) {
 }
 
 const char* const kGone =
-    "the device has left the USB: unplugged, without power, or it has reset itself; check the "
+    "the device is gone from the USB; it was unplugged, lost power or reset itself; check the "
     "cable and the hub";
 
 }  // namespace
@@ -96,16 +96,16 @@ std::string text_of(libusb_transfer_status status) {
     case LIBUSB_TRANSFER_NO_DEVICE:
       return kGone;
     case LIBUSB_TRANSFER_STALL:
-      return "the device has refused (stalled)";
+      return "the device has refused the request (stall)";
     case LIBUSB_TRANSFER_OVERFLOW:
-      return "the device has sent more than it was asked for (overflow)";
+      return "the device has sent more data than requested (overflow)";
     case LIBUSB_TRANSFER_TIMED_OUT:
     case LIBUSB_TRANSFER_CANCELLED:
       return "the device has not answered in time";
     case LIBUSB_TRANSFER_ERROR:
       break;
   }
-  return "the transfer over USB has failed: check the cable and the hub";
+  return "the transfer over USB has failed; check the cable and the hub";
 }
 
 std::string text_of_error(int code) {
@@ -114,10 +114,10 @@ std::string text_of_error(int code) {
     case LIBUSB_ERROR_NOT_FOUND:
       return kGone;
     case LIBUSB_ERROR_PIPE:
-      return "the device has refused (stalled)";
+      return "the device has refused the request (stall)";
     case LIBUSB_ERROR_NO_MEM:
-      return "there is no memory for USB transfers: "
-             "/sys/module/usbcore/parameters/usbfs_memory_mb limits what all programs may use";
+      return "there is no memory for USB transfers; raise "
+             "/sys/module/usbcore/parameters/usbfs_memory_mb, the limit of all programs";
     default:
       return std::string("libusb: ") + libusb_strerror(code);
   }

@@ -100,7 +100,7 @@ TEST(LabjackT7Configure, TheCounterHasAGreatestSpeed) {
   EXPECT_TRUE(has(refusal("address = \"t7\"\n", std::string(kChannels) + "most_counts_per_s = 0\n"),
                   "most_counts_per_s: must be more than 0"));
   EXPECT_TRUE(
-      has(with_channel("id = \"A\"\ninput = \"AIN0\"\nmost_counts_per_s = 5\n"), "counts nothing"));
+      has(with_channel("id = \"A\"\ninput = \"AIN0\"\nmost_counts_per_s = 5\n"), "not counts"));
 }
 
 TEST(LabjackT7Configure, AnEncoderCountsOrGivesVolts) {
@@ -163,7 +163,8 @@ TEST(LabjackT7Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
   EXPECT_EQ(s->inputs[0].negative, -1);
   EXPECT_EQ(s->inputs[0].range_v, 0);
   EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "AIN5")), "AIN2 against AIN3"));
-  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN3", "AIN2")), "use AIN2 with negative"));
+  EXPECT_TRUE(
+      has(refusal(a, kChannels + pair("AIN3", "AIN2")), "give negative = \"AIN3\" with AIN2"));
   EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN5", "AIN6")), "AIN5 is none"));
   EXPECT_TRUE(has(refusal(a, "[[channel]]\nid = \"A\"\ninput = \"AIN3\"\n" + pair("AIN2", "AIN3")),
                   "AIN3 is the negative input of \"C\""));
@@ -172,7 +173,7 @@ TEST(LabjackT7Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
       has(refusal(a, kChannels + pair("AIN12", "AIN13")), "AIN13 is the negative input of \"C\""));
   EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "AIN3") + "range_v = 2\n"),
                   "range_v: must be 10, 1, 0.1 or 0.01"));
-  EXPECT_TRUE(has(refusal(a, std::string(kChannels) + "range_v = 1\n"), "are of an AIN"));
+  EXPECT_TRUE(has(refusal(a, std::string(kChannels) + "range_v = 1\n"), "apply to an AIN"));
 }
 
 TEST(LabjackT7Configure, TheEncoderMayBeAtOtherPairsOfLines) {

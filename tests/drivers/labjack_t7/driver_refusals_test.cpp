@@ -32,7 +32,8 @@ TEST_F(LabjackT7Driver, AStampOfAnotherStreamIsRefused) {
   serve(faults);
   ASSERT_EQ(refusal(), "opened");
   const std::string message = read(20);
-  EXPECT_TRUE(has(message, "STREAM_START_TIME_STAMP is 0, of another stream")) << message;
+  EXPECT_TRUE(has(message, "STREAM_START_TIME_STAMP is 0, which belongs to another stream"))
+      << message;
 }
 
 // LabJack's ljm_constants.json: STREAM_START_TIME_STAMP from 1.0214, STREAM_AUTORECOVER_DISABLE
@@ -55,7 +56,7 @@ TEST_F(LabjackT7Driver, FirmwareThatLacksWhatIsNeededIsRefused) {
 
 TEST_F(LabjackT7Driver, AT7ProIsRefusedOverItsWifi) {
   for (const auto& [hardware, wifi_ip, says] :
-       {std::tuple{3U, 0x7F000001U, "over which a T7-Pro cannot stream"},
+       {std::tuple{3U, 0x7F000001U, "a T7-Pro cannot stream over WiFi"},
         {3U, 0xC0A80105U, "opened"},     // connected by cable
         {3U, 0U, "opened"},              // its WiFi is off
         {1U, 0x7F000001U, "opened"}}) {  // it has none

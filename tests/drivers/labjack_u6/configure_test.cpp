@@ -85,9 +85,9 @@ TEST(LabjackU6Configure, BadInputsAreRefused) {
   EXPECT_EQ(volts->inputs[1].channel, (Channel{"encoder", Unit::volt}));
   EXPECT_FALSE(volts->encoder.counts);
   EXPECT_TRUE(has(refusal("", channel("encoder", "FIO0")), "um_per_count"));
-  EXPECT_TRUE(has(refusal("", channel("A", "AIN0", "um_per_count = 1\n")), "counts nothing"));
+  EXPECT_TRUE(has(refusal("", channel("A", "AIN0", "um_per_count = 1\n")), "not counts"));
   EXPECT_TRUE(has(refusal("", channel("encoder", "FIO0", "um_per_count = 1\n")),
-                  "only beside an analogue input"));
+                  "only together with an analogue input"));
   EXPECT_TRUE(has(refusal("", channel("C", "AIN0")), "C"));
 }
 
@@ -106,12 +106,13 @@ TEST(LabjackU6Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
   EXPECT_EQ(list[3].gain, 2);
   EXPECT_TRUE(list[3].differential);
   EXPECT_TRUE(has(refusal("", kChannels + pair("AIN2", "AIN5")), "a U6 measures an even AIN"));
-  EXPECT_TRUE(has(refusal("", kChannels + pair("AIN3", "AIN2")), "use AIN2 with negative"));
+  EXPECT_TRUE(
+      has(refusal("", kChannels + pair("AIN3", "AIN2")), "give negative = \"AIN3\" with AIN2"));
   EXPECT_TRUE(has(refusal("", pair("AIN0", "AIN1") + "[[channel]]\nid = \"A\"\ninput = \"AIN1\"\n"),
                   "AIN1 is the negative input of \"B\""));
   EXPECT_TRUE(has(refusal("", kChannels + pair("AIN2", "AIN3") + "range_v = 2\n"),
                   "range_v: must be 10, 1, 0.1 or 0.01"));
-  EXPECT_TRUE(has(refusal("", kChannels + "range_v = 1\n"), "are of an AIN"));
+  EXPECT_TRUE(has(refusal("", kChannels + "range_v = 1\n"), "apply to an AIN"));
 }
 
 TEST(LabjackU6Configure, TheEncoderMayBeAtFio2) {

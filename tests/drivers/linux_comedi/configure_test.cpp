@@ -78,17 +78,17 @@ TEST(ComediConfigure, BadValuesNameTheirKey) {
       {"rate_hz = 1e7" + kChannels, "rate_hz"},
       {"sampling_hz = 5" + kChannels, "sampling_hz"},
       {"range_v = 0" + kChannels, "range_v: must be more than 0"},
-      {"range_v = [10, 0]" + kChannels, "range_v: must be its ends"},
-      {"range_v = [1]" + kChannels, "range_v: must be its ends"},
+      {"range_v = [10, 0]" + kChannels, "range_v: must be both ends"},
+      {"range_v = [1]" + kChannels, "range_v: must be both ends"},
       {"reference = \"diff\"" + kChannels, "reference: must be \"ground\""},
       {"subdevice = -1" + kChannels, "subdevice: must be the number"},
       {"rate_hz = 1000\nconvert_us = 501" + kChannels, "convert_us: must be from 0.1"},
       {"convert_us = 0" + kChannels, "convert_us: must be"},
-      {channel("A", "AIN0"), "channel 0 of its subdevice is \"CH0\""},
-      {channel("A", "CH256"), "is none of a board"},
-      {channel("A", "CH00"), "is none of a board"},
-      {channel("encoder", "CH0", "um_per_count = 1\n"), "counters of Comedi boards are not read"},
-      {channel("A", "CH0", "um_per_count = 1\n"), "counts nothing"},
+      {channel("A", "AIN0"), "channel 0 of the subdevice is \"CH0\""},
+      {channel("A", "CH256"), "is not an input of a board"},
+      {channel("A", "CH00"), "is not an input of a board"},
+      {channel("encoder", "CH0", "um_per_count = 1\n"), "does not read counters of Comedi boards"},
+      {channel("A", "CH0", "um_per_count = 1\n"), "not counts"},
       {channel("A", "CH0", "reference = 5\n"), "reference"},
   };
   for (const auto& [toml, message] : wrong) {
@@ -110,7 +110,7 @@ TEST(ComediConfigure, ADeviceIsOnesOwnByWhateverName) {
   EXPECT_EQ((*driver)->info().driver, "linux_comedi");
   const auto status = (*driver)->open();  // by comedilib: it is no board
   ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find("it is no Comedi device"), std::string::npos)
+  EXPECT_NE(status.error().message.find("this is not a Comedi device"), std::string::npos)
       << status.error().message;
 }
 

@@ -118,8 +118,9 @@ TEST_F(ComediBoard, ABufferThatRanOverIsAGapThatIsCounted) {
   const Collected before = collect(driver, 10'000);
   EXPECT_EQ(before.scans.size(), 300U);  // all that came before
   EXPECT_EQ(before.lost, 0U);
-  EXPECT_NE(before.error.find("a buffer has run over, the board's or the kernel's of 8.192 s"),
-            std::string::npos)
+  EXPECT_NE(
+      before.error.find("the buffer of the board, or of the kernel (8.192 s), has overflowed"),
+      std::string::npos)
       << before.error;
   SampleBlock block;
   EXPECT_FALSE(driver.read(block, std::chrono::milliseconds(1)));  // until it is opened again
@@ -139,7 +140,7 @@ TEST_F(ComediBoard, ABoardThatLeavesOrEndsIsAnError) {
   board_->unplug_at = 20;
   LinuxComedi driver(settings_);
   ASSERT_TRUE(driver.open());
-  EXPECT_NE(collect(driver, 10'000).error.find("the board has gone"), std::string::npos);
+  EXPECT_NE(collect(driver, 10'000).error.find("the board is gone"), std::string::npos);
   board_->open_error = "No such device";
   ASSERT_FALSE(driver.open());
   board_->open_error.clear();
@@ -158,26 +159,28 @@ TEST_F(ComediBoard, SilenceIsAnError) {
   ASSERT_TRUE(driver.open());
   const Collected all = collect(driver, 10'000);
   EXPECT_EQ(all.scans.size(), 10U);
-  EXPECT_NE(all.error.find("nothing has come for 2.051 s"), std::string::npos) << all.error;
+  EXPECT_NE(all.error.find("no data for 2.051 s"), std::string::npos) << all.error;
 }
 
 TEST_F(ComediBoard, WhatTheBoardLacksIsSaidWithWhatItHas) {
   settings_.inputs[0].reference = Reference::common;
   expect_refused(
-      "CH0: it does not measure against reference = \"common\"; it can: ground, differential");
+      "CH0: reference = \"common\" is not possible; the board offers ground, differential");
   settings_.inputs[0].reference = Reference::differential;
   settings_.inputs[0].high_v = 7;
   expect_refused(
-      "CH0: no range of -10 to 7 V; range_v can be: -10 to 10 V, -5 to 5 V, 0 to 10 V, 0 to 20");
+      "CH0: the board has no range -10 to 7 V; range_v can be -10 to 10 V, -5 to 5 V, 0 to 10 V, 0 "
+      "to 20");
   settings_.inputs[1].number = 8;
   settings_.inputs[0].high_v = 10;
-  expect_refused("it has no input CH8; its last is CH7");
+  expect_refused("the board has no input CH8; the last is CH7");
   settings_.subdevice = 0;
-  expect_refused("its subdevice 0 has no analogue inputs that stream; subdevice 1 has");
+  expect_refused("subdevice 0 has no analogue inputs that stream; possible subdevices: 1");
   board_->subdevices[1].streams = false;
-  expect_refused("it has no analogue inputs that stream");
+  expect_refused("the board has no analogue inputs that stream");
   settings_.board = "pci-6229";
-  expect_refused("is the board \"sim-6221\" (driver sim_driver) where \"pci-6229\" is wanted");
+  expect_refused(
+      "the board is \"sim-6221\" (driver sim_driver), but the configuration wants \"pci-6229\"");
   board_->open_error = "Permission denied";
   expect_refused("/dev/comedi0: Permission denied");
 }
@@ -193,7 +196,8 @@ TEST_F(ComediBoard, TheTrueRateIsSaidAndAWrongOneRefused) {
   expect_refused("the nearest is 9881.42292");
   board_->tick_ns = 70'000;
   expect_refused(
-      "it cannot scan at rate_hz = 10000; the nearest is 7142.85714 with 2 inputs that are 70 us "
+      "the board cannot scan at rate_hz = 10000; the nearest is 7142.85714 with 2 inputs that are "
+      "70 us "
       "apart");
   board_->tick_ns = 1000;
   board_->least_convert_ns = 60'000;  // two are more than a scan
@@ -203,7 +207,8 @@ TEST_F(ComediBoard, TheTrueRateIsSaidAndAWrongOneRefused) {
 TEST_F(ComediBoard, ACommandThatItDoesNotTake) {
   board_->refuses_inputs = true;
   expect_refused(
-      "it takes no such command (invalid chanlist): not these inputs together, with these ranges "
+      "the board refuses the command (invalid chanlist); the board cannot scan these inputs "
+      "together with these ranges "
       "and references");
   board_->refuses_inputs = false;
   board_->start_error = "the command is refused: Device or resource busy";
@@ -213,7 +218,7 @@ TEST_F(ComediBoard, ACommandThatItDoesNotTake) {
 TEST_F(ComediBoard, SaysWhatItIs) {
   EXPECT_EQ(opened().description,
             "Comedi sim_driver sim-6221 at /dev/comedi0, subdevice 1, inputs 20 us apart, a buffer "
-            "of 8.192 s, by the nominal ranges of its inputs");
+            "of 8.192 s, nominal ranges without calibration");
   EXPECT_TRUE(opened().notices.empty());
 }
 
@@ -237,19 +242,19 @@ TEST_F(ComediBoard, ACalibrationFileIsUsed) {
   EXPECT_NE(info.description.find(", calibrated by /var/lib/comedi/calibrations/sim"),
             std::string::npos);
   ASSERT_EQ(info.notices.size(), 1U);
-  EXPECT_NE(test::shown(info.notices[0]).find("has nothing for CH5 at -10 to 10 V"),
+  EXPECT_NE(test::shown(info.notices[0]).find("contains no calibration of CH5 at -10 to 10 V"),
             std::string::npos);
 }
 
 TEST_F(ComediBoard, NominalVoltsOfABoardThatNeedsAFileAreWarnedOf) {
   board_->subdevices[1].soft_calibrated = true;
   ASSERT_EQ(opened().notices.size(), 1U);
-  EXPECT_NE(
-      test::shown(opened().notices[0]).find("sim is not there; comedi_soft_calibrate makes it"),
-      std::string::npos);
+  EXPECT_NE(test::shown(opened().notices[0])
+                .find("sim does not exist; create it with comedi_soft_calibrate"),
+            std::string::npos);
   board_->subdevices[1].soft_calibrated = false;
   board_->calibration.found = true;
-  board_->calibration.wrong = "cannot be read, or is no calibration file";
+  board_->calibration.wrong = "cannot be read, or is not a calibration file";
   board_->code = [](std::uint64_t, unsigned) { return 1500U; };
   ASSERT_EQ(opened().notices.size(), 1U);
   EXPECT_NE(test::shown(opened().notices[0]).find("sim: cannot be read"), std::string::npos);

@@ -160,7 +160,7 @@ inline Result<Received> SimulatedBoard::receive(std::span<char> into,
                                                 std::chrono::milliseconds timeout) {
   const std::int64_t until_ns = monotonic_ns() + timeout.count() * 1'000'000;
   do {
-    if (due(of_->unplug_at)) return io_error("the board has gone");
+    if (due(of_->unplug_at)) return io_error("the board is gone");
     sample();
     const std::size_t bytes = std::min({into.size(), waiting_.size(), of_->most_bytes});
     if (bytes > 0) {

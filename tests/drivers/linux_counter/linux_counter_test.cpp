@@ -65,12 +65,12 @@ TEST(CheckCount, SaysWhatToWriteWhere) {
       {refused([](auto& f) { f.enable = "0"; }), "echo 1 > count0/enable"},
       {refused([](auto& f) { f.function = "increase"; }, "quadrature x4"),
        "echo \"quadrature x4\" > count0/function"},
-      {refused([](auto& f) { f.function.reset(); }, "quadrature x4"), "the device has none"},
-      {refused([](auto& f) { f.count_mode = "range limit"; }), "stops at a limit"},
+      {refused([](auto& f) { f.function.reset(); }, "quadrature x4"), "does not exist"},
+      {refused([](auto& f) { f.count_mode = "range limit"; }), "stops counting at a limit"},
       {refused([](auto& f) { f.floor = "5"; }), "echo 0 > count0/floor"},
       {refused([](auto& f) { f.ceiling.reset(); }), "give ceiling in the configuration"},
-      {refused([](auto& f) { f.ceiling = "0"; }), "is no ceiling"},
-      {refused([](auto& f) { f.ceiling = "many"; }), "is no ceiling"},
+      {refused([](auto& f) { f.ceiling = "0"; }), "is not a ceiling"},
+      {refused([](auto& f) { f.ceiling = "many"; }), "is not a ceiling"},
   };
   for (const auto& [message, part] : cases)
     EXPECT_NE(message.find(part), std::string::npos) << message;
@@ -224,9 +224,9 @@ TEST_F(LinuxCounter, WhatIsNotThereIsSaid) {
   options_.channels[0].input = "count7";
   expect_refused("mdofd.toml:5: channel: the device has no input \"count7\"; it has count0");
   options_.chip = "104-quad-8";
-  expect_refused("is \"simulated-counter\" where chip is \"104-quad-8\"");
+  expect_refused("is \"simulated-counter\", but the configuration wants chip \"104-quad-8\"");
   options_.device = "counter3";
-  expect_refused("bus/counter/devices shows what there is");
+  expect_refused("bus/counter/devices lists the counters");
 }
 
 std::string configured(const std::string& toml) {

@@ -141,7 +141,8 @@ TEST_F(LinuxIio, ARateThatMayNotBeWrittenIsRefusedWithTheRule) {
   std::filesystem::permissions(file, std::filesystem::perms(0444));
   constexpr uid_t kNobody = 65534;
   EXPECT_EQ(
-      exit_of_child(options_, file.string() + ": Permission denied; mdof's udev rules (60-mdof",
+      exit_of_child(options_,
+                    file.string() + ": Permission denied; install the udev rules of mdof (60-mdof",
                     [] { return ::geteuid() != 0 || ::seteuid(kNobody) == 0; }),
       0);
 }
@@ -185,9 +186,9 @@ TEST_F(LinuxIio, WhatIsNoAd7746IsRefused) {
   ASSERT_TRUE(tree_->set("in_capacitance_scale", "0.488"));
   expect_refused("is not the 0.000000488 pF");
   ASSERT_TRUE(tree_->set("name", "bme280"));
-  expect_refused("is \"bme280\" where ad7745 or ad7746 is wanted");
+  expect_refused("is \"bme280\", but must be ad7745 or ad7746");
   options_.device = "iio:device9";
-  expect_refused("shows what there is");
+  expect_refused("lists the devices");
 }
 
 TEST_F(LinuxIio, AnAd7745HasNoSecondInput) {
@@ -217,7 +218,7 @@ TEST(LinuxIioConfiguration, KeysAndTheirErrors) {
   const std::pair<std::string, const char*> wrong[] = {
       {channel, "area_mm2: is missing"},
       {channel + "area_mm2 = 0", "must be the area"},
-      {channel + "gap_table = [[1, 90]]", "two rows at least"},
+      {channel + "gap_table = [[1, 90]]", "at least two rows"},
       {channel + "gap_table = [[2, 90], [1, 45]]", "pF ascending"},
       {channel + "gap_table = [[1, 90], [2, 45]]\narea_mm2 = 5", "contradicts gap_table"},
       {"rate_hz = 1000" + channel + "area_mm2 = 5", "rate_hz: must be from 0.01 to 91"},

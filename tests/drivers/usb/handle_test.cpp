@@ -56,7 +56,8 @@ TEST_F(UsbHandle, OfSeveralTheNamedOneIsOpened) {
   const auto handle = open("S2");
   ASSERT_TRUE(handle) << handle.error().message;
   EXPECT_EQ(handle->serial(), "S2");
-  EXPECT_TRUE(has(refusal("S3"), "serial is \"S3\", but on the USB is \"S1\"")) << refusal("S3");
+  EXPECT_TRUE(has(refusal("S3"), "no Stub with serial \"S3\" is on the USB; found: \"S1\""))
+      << refusal("S3");
 }
 
 TEST_F(UsbHandle, ADeviceWithoutSerialNumberIsAsked) {
@@ -174,9 +175,9 @@ TEST_F(UsbHandle, AnUnplugEndsWhatWaitsAtOnce) {
   const std::string message = handle->bulk_in(0x81, 64, 10s).error().message;
   EXPECT_LT(steady_clock::now() - before, 5s);
   puller.join();
-  EXPECT_TRUE(has(message, "has left the USB")) << message;
-  EXPECT_TRUE(has(handle->vendor_in(1, 0, 0, 4, 500ms).error().message, "has left the USB"));
-  EXPECT_TRUE(has(handle->clear_halt(0x81).error().message, "has left the USB"));
+  EXPECT_TRUE(has(message, "is gone from the USB")) << message;
+  EXPECT_TRUE(has(handle->vendor_in(1, 0, 0, 4, 500ms).error().message, "is gone from the USB"));
+  EXPECT_TRUE(has(handle->clear_halt(0x81).error().message, "is gone from the USB"));
 }
 
 class UsbInStream : public UsbHandle {
@@ -226,7 +227,7 @@ TEST_F(UsbInStream, EndsWithAnUnplugAfterWhatCameBefore) {
   std::this_thread::sleep_for(10ms);
   bus.unplug(number);
   EXPECT_EQ(stream.next(steady_clock::now() + 5s).value().bytes, "last");
-  EXPECT_TRUE(has(message(stream.next(steady_clock::now() + 5s)), "has left the USB"));
+  EXPECT_TRUE(has(message(stream.next(steady_clock::now() + 5s)), "is gone from the USB"));
 }
 
 // With transfers under way; a descriptor lost each time would show at once.

@@ -148,7 +148,7 @@ TEST_F(UsbLabjackU6, SilenceIsAnError) {
   faults.stop_error = 0;
   plug(faults);
   ASSERT_EQ(refusal(), "opened");
-  EXPECT_TRUE(has(collect(driver(), 1000).error, "nothing has come for 2 s"));
+  EXPECT_TRUE(has(collect(driver(), 1000).error, "no data for 2 s"));
 }
 
 // Its last packet does not fill a transfer.
@@ -248,7 +248,7 @@ TEST_F(UsbLabjackU6, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
   cases[3].says = "checksum";
   cases[4].faults = {};
   cases[4].faults.unplug_at = 8;
-  cases[4].says = "has left the USB";
+  cases[4].says = "is gone from the USB";
   plug();
   for (const Case& c : cases) {
     again(c.faults);

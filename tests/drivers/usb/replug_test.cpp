@@ -86,7 +86,7 @@ Found replug(Driver& driver, Device& device, int times, const std::function<void
       found.growth_bytes = usb::resident_bytes() - resident;
     }
     bus.unplug(number);
-    found.failures += read_to_the_end(driver).find("has left the USB") == std::string::npos;
+    found.failures += read_to_the_end(driver).find("is gone from the USB") == std::string::npos;
     device.restart();
     each();
   }

@@ -67,7 +67,7 @@ Status RecordingLog::check_kind() {
   MDOF_TRY(const std::int64_t application, connection_->integer("PRAGMA application_id"));
   if (application != kRecordingApplication)
     return bad_input(file_.string() +
-                     ": is a SQLite database, but not a recording; name a .mdofrec");
+                     ": is an SQLite database, but not a recording; give a .mdofrec file");
   MDOF_TRY(const std::int64_t format, connection_->integer("PRAGMA user_version"));
   if (format > kRecordingFormat)
     return bad_input(file_.string() + ": has recording format " + std::to_string(format) +
@@ -158,7 +158,7 @@ Status RecordingLog::load(std::int64_t seq, RecordingChunk& chunk, SampleBlock& 
   MDOF_TRY(Statement row, connection_->prepare("SELECT device, first_ns, last_ns, scans, lost, "
                                                "sha256, payload FROM chunk WHERE seq = ?"));
   MDOF_TRY(const bool found, row.bind(seq).step());
-  if (!found) return bad_input("it is missing");
+  if (!found) return bad_input("the chunk is missing");
   chunk.device = row.text(0);
   chunk.first_ns = row.integer(1);
   chunk.last_ns = row.integer(2);
@@ -166,9 +166,9 @@ Status RecordingLog::load(std::int64_t seq, RecordingChunk& chunk, SampleBlock& 
   chunk.lost = static_cast<std::uint64_t>(row.integer(4));
   chunk.sha256 = row.text(5);
   chunk.payload = row.bytes(6);
-  if (sha256_of(chunk, previous) != chunk.sha256) return bad_input("its checksum does not fit");
+  if (sha256_of(chunk, previous) != chunk.sha256) return bad_input("the checksum does not match");
   MDOF_CHECK(decode_chunk(chunk.payload, block));
-  if (!describes(chunk, block)) return bad_input("its description does not fit its samples");
+  if (!describes(chunk, block)) return bad_input("the description does not match the samples");
   return {};
 }
 
@@ -189,10 +189,11 @@ Result<ReadState> RecordingLog::read(SampleBlock& block, std::chrono::millisecon
 Status RecordingLog::check_end() {
   if (!seal_ || (seal_->chunks == chunks_ && seal_->sha256 == sha256_of(*seal_, sha256_)))
     return {};
-  return bad_input(file_.string() + ": the seal does not fit: it was put on " +
-                   std::to_string(seal_->chunks) + " chunks and the file has " +
-                   std::to_string(chunks_) + ". What was read is whole, its end may be missing; " +
-                   "restore the file from a copy");
+  return bad_input(file_.string() + ": the seal does not match the file (sealed chunks: " +
+                   std::to_string(seal_->chunks) +
+                   ", chunks in the file: " + std::to_string(chunks_) +
+                   "). The chunks that were read are undamaged, but the " +
+                   "end may be missing; restore the file from a copy");
 }
 
 Progress RecordingLog::progress() const {
@@ -202,7 +203,7 @@ Progress RecordingLog::progress() const {
 tl::unexpected<Error> RecordingLog::damaged(const RecordingChunk& chunk, const Error& why) {
   return fail(why.code, file_.string() + ": chunk " + std::to_string(chunk.seq) + " of " +
                             std::to_string(chunks_) + span_of(chunk) +
-                            " is damaged: " + why.message + ". Still whole: " + whole_chunks() +
+                            " is damaged: " + why.message + ". Undamaged: " + whole_chunks() +
                             ". Restore the file from a copy");
 }
 
@@ -235,7 +236,7 @@ std::string RecordingLog::whole_chunks() {
     last = seq;
   }
   report();
-  return text.empty() ? "nothing" : text;
+  return text.empty() ? "no chunk" : text;
 }
 
 // Those that can be listed; a damaged file may end the list early.

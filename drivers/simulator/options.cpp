@@ -148,8 +148,8 @@ Result<std::vector<NamedError>> in_order(const std::vector<NamedError>& given, A
     const auto name = std::find_if(names.begin(), names.end(),
                                    [&](const ErrorName& n) { return n.name == error.name; });
     if (name == names.end())
-      return bad_input("[[error]] name \"" + error.name + "\" is no error of axis " + letter(axis) +
-                       "; they are" + names_of(axis));
+      return bad_input("[[error]] name \"" + error.name + "\" is not an error of axis " +
+                       letter(axis) + "; its errors are" + names_of(axis));
     NamedError& place = ordered[static_cast<std::size_t>(name - names.begin())];
     if (!place.name.empty())
       return bad_input("[[error]] name \"" + error.name + "\" is given twice; give it once");

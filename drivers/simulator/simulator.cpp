@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "drivers/scan_block.h"
+#include "schema/base/number/number_text.h"
 
 namespace mdof::drivers {
 namespace {
@@ -50,8 +51,9 @@ Status Simulator::open() {
   if (!gone_) return {};
   const bool over = !options_.real_time || now() >= gone_->to_ns();
   if (!over)
-    return io_error("device \"" + name_ + "\": disconnected by [[disconnect]] of its " +
-                    "configuration; wait until its to_s is over");
+    return io_error("device \"" + name_ +
+                    "\": disconnected by [[disconnect]] of its configuration until " +
+                    plain_number(gone_->to_s, 9) + " s after its start (to_s); wait until then");
   const std::int64_t resume_ns =
       options_.real_time ? std::max(gone_->to_ns(), now()) : gone_->to_ns();
   const std::uint64_t resume = first_scan_at(resume_ns);

@@ -87,12 +87,12 @@ namespace {
 Status reject_encoder(const SampleBlock& block, const Channel& encoder, const std::string& rig) {
   const std::string unit = suffix(encoder.unit);
   const std::string scale =
-      encoder.unit == Unit::volt ? "say its scale in " + rig + " ([encoder] um_per_V), or " : "";
+      encoder.unit == Unit::volt ? "give [encoder] um_per_V in " + rig + ", or " : "";
   return bad_input((block.device.empty() ? "" : "device \"" + block.device + "\": ") +
-                   "channel \"encoder\" is " + (unit.empty() ? "without a unit" : "in " + unit) +
-                   ", and the axis position must be a length: " + scale +
-                   "take an input that counts, with um_per_count, or that gives um or mm; a "
-                   "script makes it one and names its column encoder_mm or encoder_um");
+                   "channel \"encoder\" " + (unit.empty() ? "has no unit" : "is in " + unit) +
+                   ", but an axis position must be a length; " + scale +
+                   "choose an input that counts (with um_per_count) or gives um or mm; a script "
+                   "must name the column encoder_mm or encoder_um");
 }
 
 }  // namespace
@@ -123,15 +123,15 @@ Status Calibrator::apply_probe(const Probe& probe, std::size_t channel, SampleBl
   if (unit == Unit::volt) {
     if (!c.um_per_V) {
       return bad_input(rig_source_ + ": probe \"" + probe.id +
-                       "\" is logged in volts; give its um_per_V");
+                       "\" is logged in volts; give um_per_V of the probe");
     }
     um_per_unit = *c.um_per_V;
   } else if (unit == Unit::mm) {
     um_per_unit = 1e3;
   } else if (unit != Unit::um) {
     return bad_input("channel \"" + probe.id +
-                     "\" is a probe of the rig but its unit is no length; "
-                     "name its column " +
+                     "\" is a probe of the rig, but its unit is neither a length nor "
+                     "volts; name the column " +
                      probe.id + "_um or " + probe.id + "_V");
   }
   auto& column = block.value[channel];

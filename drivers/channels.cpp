@@ -13,18 +13,19 @@ Status check_id(const ChannelInput& channel, const Rig& rig) {
   for (const Probe& probe : rig.probes) known.push_back(probe.id);
   if (std::find(known.begin(), known.end(), channel.id) != known.end()) return {};
   const std::string nearest = nearest_of(channel.id, known);
-  return bad_input(channel.where + ": \"" + channel.id + "\" is no probe of " + rig.source +
-                   " and not \"" + kEncoderChannel + "\"" +
+  return bad_input(channel.where + ": \"" + channel.id + "\" is neither a probe of " + rig.source +
+                   " nor \"" + kEncoderChannel + "\"" +
                    (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
 }
 
 Status check_once(const ChannelInput& channel, const std::vector<ChannelInput>& before) {
   for (const auto& other : before) {
     if (other.id == channel.id)
-      return bad_input(channel.where + ": a second input for \"" + channel.id + "\"");
+      return bad_input(channel.where + ": channel \"" + channel.id +
+                       "\" has a second input; give each channel one input");
     if (other.input == channel.input)
-      return bad_input(channel.where + ": input \"" + channel.input + "\" is \"" + other.id +
-                       "\" already");
+      return bad_input(channel.where + ": input \"" + channel.input + "\" is already used by \"" +
+                       other.id + "\"; give each channel its own input");
   }
   return {};
 }
@@ -34,11 +35,13 @@ void read_index(TomlTable& table, ChannelInput& channel) {
   channel.index_mm = table.number("index_mm", 0);
   channel.index_where = table.where("index_mm");
   if (channel.id != kEncoderChannel)
-    table.reject("index_mm", "is of the encoder: where the axis is at its reference mark");
-  if (table.has("offset_mm"))
     table.reject("index_mm",
-                 "contradicts offset_mm: after the reference mark positions are counted from it; "
-                 "give one or the other");
+                 "applies to the encoder only (axis position at its reference mark); remove it");
+  if (table.has("offset_mm"))
+    table.reject(
+        "index_mm",
+        "contradicts offset_mm: positions are counted from the reference mark; give one or the "
+        "other");
   if (!(std::abs(*channel.index_mm) <= kMostOffset_mm))
     table.reject("index_mm", "must be a position of the axis in mm");
 }
@@ -47,7 +50,8 @@ void read_offset(TomlTable& table, ChannelInput& channel) {
   if (!table.has("offset_mm")) return;
   channel.offset_mm = table.number("offset_mm", 0);
   if (channel.id != kEncoderChannel)
-    table.reject("offset_mm", "is of the encoder; what a probe is off by is offset_um in the rig");
+    table.reject("offset_mm",
+                 "applies to the encoder only; give the offset of a probe as offset_um in the rig");
   if (!(std::abs(*channel.offset_mm) <= kMostOffset_mm))
     table.reject("offset_mm", "must be a position of the axis in mm");
 }
@@ -151,8 +155,8 @@ tl::unexpected<Error> no_such_input(const ChannelInput& channel,
 Status check_um_per_count(const ChannelInput& channel) {
   if (channel.um_per_count != 0) return {};
   return bad_input(channel.where +
-                   ": a counting encoder needs um_per_count, negative where it "
-                   "counts down as d grows");
+                   ": a counting encoder needs um_per_count (negative if the count "
+                   "decreases as the axis position d grows)");
 }
 
 }  // namespace mdof::drivers

@@ -30,8 +30,8 @@ namespace mdof::drivers {
 namespace {
 
 constexpr const char* kResetOnly =
-    "a LabJack can at most set the count to 0 at the mark, and reports nothing: near 0 that looks "
-    "like motion, so that whether the mark was passed is not known";
+    "a LabJack can only set the count to 0 at the mark, and does not report this; near 0 the reset "
+    "looks like motion, so it is unknown whether the axis passed the mark";
 
 Status check_index(const DriverRow& row, const EncoderOrigin& encoder) {
   if (!encoder.index_mm || !row.no_index) return {};
@@ -54,8 +54,9 @@ const std::vector<DriverRow>& driver_rows() {
       {
           .name = "csv_stream",
           .folder = "csv_stream",
-          .devices = "live CSV rows of a script: its standard output, a FIFO, a TCP server, a "
-                     "serial line",
+          .devices =
+              "live CSV rows of a script from its standard output, a FIFO, a TCP server or a "
+              "serial line",
           .configure = configure_csv_stream,
           .simulated = {{64, "probes in µm, the encoder in mm", "TCP", make_simulated_csv_stream}},
       },
@@ -66,7 +67,7 @@ const std::vector<DriverRow>& driver_rows() {
               "LabJack T7 over Ethernet: amplifier outputs and encoders in one hardware scan",
           .configure = configure_labjack_t7,
           .simulated = {{labjack_t7::kAins,
-                         "up to 14 probes or the encoder, in volts; the encoder always, in counts",
+                         "up to 14 probes or the encoder, in volts; also the encoder, in counts",
                          "TCP: command, stream", labjack_t7::make_simulated_labjack_t7}},
           .no_index = kResetOnly,
       },
@@ -78,50 +79,50 @@ const std::vector<DriverRow>& driver_rows() {
           .node = UsbDevice{.name = "LabJack",
                             .vendor = labjack_u6::kVendor,
                             .note = "U3, U6, UE9, T4, T7, T8"},
-          .simulated = {{labjack_u6::kAins, "up to 14 probes, in volts; the encoder always", "USB",
+          .simulated = {{labjack_u6::kAins, "up to 14 probes, in volts; also the encoder", "USB",
                          labjack_u6::make_simulated_labjack_u6}},
           .no_index = kResetOnly,
       },
       {
           .name = "linux_comedi",
           .folder = "linux_comedi",
-          .devices = "any board that Linux Comedi drives (PCI, USB, ISA), by comedilib: amplifier "
-                     "outputs in one hardware scan",
+          .devices = "any board with a Linux Comedi driver (PCI, USB, ISA), through comedilib: "
+                     "amplifier outputs in one hardware scan",
           .configure = configure_linux_comedi,
           .node = ClassDevice{.name = "Comedi board",
                               .subsystem = "comedi",
                               .group = "iocard",
-                              .remedy = "sudo usermod -aG iocard $USER, then log in anew; the "
-                                        "rules of libcomedi0 give boards to that group",
-                              .note = "as 90-comedi.rules of libcomedi0 has them, which comes "
-                                      "later, and for whoever is logged in"},
+                              .remedy = "sudo usermod -aG iocard $USER, then log in again; the "
+                                        "rules of libcomedi0 give boards to the group iocard",
+                              .note = "same rights as in 90-comedi.rules of libcomedi0 (read "
+                                      "later), and access for the user who is logged in"},
       },
       {
           .name = "linux_counter",
           .folder = "linux_counter",
-          .devices = "sysfs: encoders at counters of the Linux kernel",
+          .devices = "encoders at counters of the Linux kernel, through sysfs",
           .configure = configure_linux_counter,
-          .node = SysfsFile{.name = "104-QUAD-8 of Linux' counters",
+          .node = SysfsFile{.name = "104-QUAD-8 counter",
                             .subsystem = "counter",
                             .devices = kQuad8,
                             .files = "count*/preset count*/preset_enable",
                             .key = "index_mm",
-                            .note = "what mdofd writes where index_mm is given"},
+                            .note = "files that mdofd writes if index_mm is given"},
           .simulated = {{1, "the encoder", "`sysfs_root`", make_simulated_linux_counter}},
           .no_index = nullptr,
       },
       {
           .name = "linux_iio",
           .folder = "linux_iio",
-          .devices = "sysfs: AD7745, AD7746 capacitance converters behind Linux' industrial I/O",
+          .devices = "AD7745, AD7746 capacitance converters of Linux industrial I/O, through sysfs",
           .configure = configure_linux_iio,
           .node = SysfsFile{.name = "IIO converter",
                             .subsystem = "iio",
                             .devices = "ad7745|ad7746",
                             .files = "in_capacitance_sampling_frequency",
                             .key = "sampling_hz",
-                            .note = "AD7745, AD7746, the file of their rate, which mdofd writes "
-                                    "where sampling_hz is given"},
+                            .note = "AD7745, AD7746; the file of the sampling rate, which mdofd "
+                                    "writes if sampling_hz is given"},
           .simulated = {{2, "up to 2 probes, as capacitances", "`sysfs_root`",
                          make_simulated_linux_iio}},
       },
@@ -139,28 +140,31 @@ const std::vector<DriverRow>& driver_rows() {
       {
           .name = "modbus",
           .folder = "modbus",
-          .devices = "any Modbus TCP or RTU device by a profile: Lika SMAX, ADAM-6017, PoKeys57E "
-                     "ship; or your own",
+          .devices = "any Modbus TCP or RTU device with a profile: Lika SMAX, ADAM-6017, PoKeys57E "
+                     "are included, or your own",
           .configure = configure_modbus,
-          .simulated = {{64, "the values of the profile, in its order", "TCP or a serial line",
-                         make_simulated_modbus}},
+          .simulated = {{64, "the values of the profile, in the order of the profile",
+                         "TCP or a serial line", make_simulated_modbus}},
           .no_index = "a Modbus device does not report that the mark was passed",
       },
       {
           .name = "pokeys57u",
           .folder = "pokeys57u",
-          .devices = "PoLabs PoKeys57U, 56U over USB HID: encoders (and analogue inputs), asked "
+          .devices = "PoLabs PoKeys57U, 56U over USB HID: encoders (and analogue inputs), polled "
                      "for each scan",
           .configure = configure_pokeys57u,
-          .node = UsbDevice{.name = "PoKeys",
-                            .vendor = pokeys57u::kVendor,
-                            .node = UsbNode::hidraw,
-                            .interface = pokeys57u::kInterface,
-                            .note = "its HID interface 1; 0 is a keyboard and 2 a joystick"},
-          .simulated = {{pokeys57u::kEncoders, "encoders; the machine's where none is given",
+          .node =
+              UsbDevice{
+                  .name = "PoKeys",
+                  .vendor = pokeys57u::kVendor,
+                  .node = UsbNode::hidraw,
+                  .interface = pokeys57u::kInterface,
+                  .note = "HID interface 1; interface 0 is a keyboard, interface 2 a joystick"},
+          .simulated = {{pokeys57u::kEncoders, "encoders; by default that of the machine",
                          "USB HID", pokeys57u::make_simulated_pokeys57u}},
-          .no_index = "its maker's specification and its maker's own library (PoKeysLibEncoders.c) "
-                      "do not agree on how a PoKeys is made to look for the mark",
+          .no_index =
+              "the manufacturer's specification and library (PoKeysLibEncoders.c) disagree on "
+              "how a PoKeys is set to detect the mark",
       },
       {
           .name = "qsb",
@@ -209,7 +213,7 @@ Result<DriverSpec> configure_driver(const std::string& driver, TomlTable& table,
   }
   std::string known;
   for (const DriverRow& row : driver_rows()) known += std::string(" ") + row.name;
-  table.reject("driver", "\"" + driver + "\" is no driver; known are:" + known);
+  table.reject("driver", "\"" + driver + "\" is not a driver; the drivers are:" + known);
   MDOF_CHECK(table.finish());
   return bad_input("unknown driver " + driver);
 }

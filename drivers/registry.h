@@ -17,7 +17,7 @@ namespace mdof::drivers {
 // The simulated twin of a device, as mdof-simulate serves it: a kind of the name of its driver.
 struct SimulatedKind {
   std::size_t most_inputs;
-  const char* inputs;   // for people: "up to 14 probes, in volts; the encoder always"
+  const char* inputs;   // for people: "up to 14 probes, in volts; also the encoder"
   const char* reached;  // where a program reaches it: "TCP: command, stream"
   MakeSimulated make;
 };
@@ -32,7 +32,7 @@ struct DriverRow {
   std::optional<SimulatedKind> simulated = std::nullopt;  // none: it needs the kernel, or no device
   // Why `index_mm` of an encoder is refused; null: the driver knows for certain that its mark was
   // passed (index_mark.h).
-  const char* no_index = "this device counts nothing and sees no reference mark";
+  const char* no_index = "this device has no counter and detects no reference mark";
 };
 const std::vector<DriverRow>& driver_rows();  // by name
 const DriverRow* find_driver(const std::string& name);

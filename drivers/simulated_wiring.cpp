@@ -8,8 +8,8 @@ SensedInput SimulatedWiring::volt(const std::string& channel) {
   if (channel.empty()) return {};
   const auto um_per_V = um_per_V_of(channel);
   if (!um_per_V)
-    table_.reject("inputs",
-                  "\"" + channel + "\" of " + rig_.source + " needs um_per_V to be seen as volts");
+    table_.reject("inputs", "\"" + channel + "\" of " + rig_.source +
+                                " needs um_per_V, because its input gives volts");
   return {channel, 1 / um_per_V.value_or(1), 0};
 }
 

@@ -8,8 +8,8 @@ namespace {
 
 constexpr const char* kRulesHead =
     R"(# Made from the rows of drivers/registry.cpp.
-# Devices that mdof reads, for the group mdof (mdof.sysusers makes it) and for whoever is logged in
-# at the machine. A stable name by serial number: /dev/mdof/<serial>.
+# Devices that mdof reads, for the group mdof (mdof.sysusers makes it) and for the user who is
+# logged in at the machine. A stable name by serial number: /dev/mdof/<serial>.
 # Install: lib/udev/rules.d/60-mdof.rules, then udevadm control --reload && udevadm trigger
 
 ACTION=="remove", GOTO="mdof_end"

@@ -96,7 +96,8 @@ Status Capancdt::receive(milliseconds timeout) {
   }
   if (!all) return in_context("the data connection", all.error());
   if (s.parser.skipped_now() > kMostGarbage)
-    return io_error(s.data.name() + " sends what is no data of a capaNCDT 6200; correct data_port");
+    return io_error("the data from " + s.data.name() +
+                    " are not those of a capaNCDT 6200; correct data_port");
   return check_silence();
 }
 
@@ -139,18 +140,18 @@ Status Capancdt::update_clock(std::int64_t received_ns, bool all) {
   const auto measured_ns = s.rate.add(*s.newest_frame, received_ns);
   if (!measured_ns) return {};
   return io_error("a frame comes every " + std::to_string(*measured_ns / 1e3) +
-                  " us and not every " + std::to_string(s.setup.frame_ns() / 1e3) +
-                  " us as the controller said; did another client change its settings?");
+                  " us, but the controller reported " + std::to_string(s.setup.frame_ns() / 1e3) +
+                  " us; end any other client that changes its settings");
 }
 
 Status Capancdt::check_silence() const {
   const auto frames = nanoseconds(static_cast<std::int64_t>(8 * session_->setup.frame_ns()));
   const auto limit = options_.silence + frames;
   if (steady_clock::now() - session_->last_packet_time < limit) return {};
-  return io_error(session_->data.name() + " is connected and silent for " +
+  return io_error(session_->data.name() + " is connected, but has sent no data for " +
                   std::to_string(std::chrono::duration_cast<milliseconds>(limit).count()) +
-                  " ms: somebody else holds the data port, or the controller waits for a trigger; "
-                  "close the other client, set the trigger to continuous");
+                  " ms; another client uses the data port, or the controller waits for a trigger: "
+                  "end the other client, or set the trigger to continuous");
 }
 
 tl::unexpected<Error> Capancdt::naming_device(const Error& error) const {

@@ -32,7 +32,7 @@ Result<Welcome> CommandPort::welcome() {
 
 Result<std::string> CommandPort::ask(const std::string& command) {
   MDOF_TRY(auto reply, exchange(command));
-  if (reply.refused) return io_error("refuses " + command + ": " + reply.text);
+  if (reply.refused) return io_error("the controller refuses " + command + ": " + reply.text);
   return std::move(reply.text);
 }
 
@@ -49,8 +49,8 @@ Result<Reply> CommandPort::exchange(const std::string& command) {
     if (reply) return std::move(*reply);
   }
   return io_error(
-      "does not answer " + command +
-      "; is this the command port of a capaNCDT controller, and no other client on it?");
+      "no answer to " + command +
+      "; check that this is the command port of a capaNCDT controller, and end its other clients");
 }
 
 Result<std::optional<Reply>> CommandPort::try_once(const std::string& command) {

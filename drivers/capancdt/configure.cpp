@@ -61,7 +61,7 @@ Result<int> channel_number(const ChannelInput& channel) {
       number <= capancdt::kMostChannels && text[0] != '0')
     return number;
   return bad_input(channel.where + ": input \"" + text +
-                   "\" is no channel of a controller; \"1\" ... \"" +
+                   "\" is not a channel of a controller; give \"1\" to \"" +
                    std::to_string(capancdt::kMostChannels) + "\"");
 }
 
@@ -89,7 +89,8 @@ Status read_channel_table(TomlTable& table, const DriverContext& context, Option
         if (channel.has("range_um") && !(range_um.back() > 0 && range_um.back() <= kMostRange_um))
           channel.reject("range_um", "must be greater than 0 and at most 1000000");
         if (channel.has("um_per_count"))
-          channel.reject("um_per_count", "is for encoders that count; this is a probe");
+          channel.reject("um_per_count",
+                         "applies to encoders that count, not to probes; remove it");
       }));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     MDOF_TRY(const int number, channel_number(inputs[i]));

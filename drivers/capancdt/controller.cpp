@@ -30,8 +30,8 @@ Status identify(CommandPort& port, const Options& options, Setup& setup) {
   if (!setup.serial.empty()) setup.description += ", serial " + setup.serial;
   if (!rest.empty()) setup.description += ", " + rest.substr(0, rest.find(';'));
   if (options.serial.empty() || options.serial == setup.serial) return {};
-  return wrong("this is \"" + setup.description + "\" and not serial " + options.serial,
-               "correct serial, or address");
+  return wrong("the controller is \"" + setup.description + "\", but serial is " + options.serial,
+               "correct serial or address");
 }
 
 Status set(CommandPort& port, const std::string& command, std::optional<int> value) {
@@ -53,15 +53,15 @@ Result<std::optional<int>> setting(CommandPort& port, const std::string& command
   MDOF_TRY(const auto text, port.ask_if_known(command));
   if (!text) return std::nullopt;
   const auto value = parse_integer(*text);
-  if (!value) return io_error("answers " + command + " with \"" + *text + "\", which is no number");
+  if (!value) return io_error("the answer to " + command + " is \"" + *text + "\", not a number");
   return value;
 }
 
 Status check(const char* key, std::optional<int> wanted, std::optional<int> is) {
   if (!wanted || !is || *wanted == *is) return {};
-  return wrong(std::string(key) + " is " + std::to_string(*is) + " on the controller and " +
+  return wrong(std::string(key) + " is " + std::to_string(*is) + " on the controller, but " +
                    std::to_string(*wanted) + " in the configuration",
-               "correct one of them, or let the driver with configure = true");
+               "correct one of them, or let the driver set it with configure = true");
 }
 
 Status read_averaging(CommandPort& port, const Options& options, Setup& setup) {
@@ -107,14 +107,17 @@ Status read_corrections(CommandPort& port, const Options& options, Setup& setup)
 Status read_settings(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const auto trigger, setting(port, "$TRG?"));
   if (trigger.value_or(0) != 0)
-    return wrong("waits for a trigger (TRG " + std::to_string(*trigger) + ")",
-                 "its counter is no time then: set it to continuous, or configure = true");
+    return wrong("the controller waits for a trigger (TRG " + std::to_string(*trigger) +
+                     "), so its counter does not measure time",
+                 "set the trigger to continuous, or give configure = true");
   MDOF_CHECK(read_averaging(port, options, setup));
   MDOF_TRY(const auto time_us, setting(port, "$STI?"));
   if (!time_us)
-    return wrong("does not know $STI?", "this driver is for the 6200 family, not for the 6500");
+    return wrong("the controller does not know $STI?",
+                 "this driver needs the 6200 family, not the 6500");
   if (*time_us < 1 || *time_us > kMostSample_us)
-    return io_error("says its sample time is " + std::to_string(*time_us) + " us");
+    return io_error("the controller reports a sample time of " + std::to_string(*time_us) +
+                    " us, which is not from 1 to " + std::to_string(kMostSample_us));
   setup.sample_time_us = *time_us;
   MDOF_CHECK(check_filter(setup.sample_time_us, setup.window, options.settle_s));
   // The controller takes the nearest time it can; the one that it has is what counts.
@@ -134,25 +137,27 @@ Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& chann
   const std::string info = reply.value_or("");
   // A late reply to $CHI12 must not pass for one to $CHI1.
   if (!info.empty() && info.front() != ':')
-    return io_error("answers " + command + " with \"" + info + "\", which is not about it");
+    return io_error("the answer to " + command + " is \"" + info +
+                    "\", which belongs to another command");
   const auto stated_um = range_um_of(info);
   const std::string& where = channel.input.where;
   if (!stated_um && channel.range_um == 0)
-    return wrong(where + ": the controller does not say the range of channel " +
-                     channel.input.input + " in a unit of length",
-                 "give its range_um");
+    return wrong(where + ": the controller does not report the range of channel " +
+                     channel.input.input + " as a length",
+                 "give range_um");
   const double range_um = channel.range_um > 0 ? channel.range_um : *stated_um;
   if (stated_um && std::abs(range_um - *stated_um) > kSameRange * *stated_um)
-    return wrong(where + ": range_um is " + plain_number(range_um) + ", the controller says " +
-                     plain_number(*stated_um) + " of channel " + channel.input.input,
-                 "correct it, or leave it out");
+    return wrong(where + ": range_um is " + plain_number(range_um) +
+                     ", but the controller reports " + plain_number(*stated_um) + " for channel " +
+                     channel.input.input,
+                 "correct range_um or leave it out");
   return Setup::Input{range_um, false};
 }
 
 Status read_inputs(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const std::string text, port.ask("$CHS"));
   const auto channels = parse_channel_list(text);
-  if (!channels) return io_error("answers $CHS with \"" + text + "\", which is no list");
+  if (!channels) return io_error("the answer to $CHS is \"" + text + "\", not a list");
   for (const auto& channel : options.channels) {
     const auto index = static_cast<std::size_t>(channel.number - 1);
     if (index >= channels->size() || (*channels)[index] == 0)
@@ -170,7 +175,8 @@ Status read_data_port(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const auto reported, setting(port, "$GDP"));
   setup.data_port = reported.value_or(kDataPort);
   if (setup.data_port >= 1 && setup.data_port <= 65535) return {};
-  return io_error("says its data port is " + std::to_string(setup.data_port));
+  return io_error("the controller reports data port " + std::to_string(setup.data_port) +
+                  ", which is not from 1 to 65535; give data_port");
 }
 
 Result<Setup> dialogue(CommandPort& port, const Options& options) {
@@ -195,9 +201,11 @@ const char* to_string(Averaging averaging) {
 Status check_filter(double sample_time_us, int averaged_values, double settle_s) {
   const double filter_s = sample_time_us * 1e-6 * averaged_values;
   if (settle_s <= 0 || averaged_values < 2 || filter_s <= settle_s) return {};
-  return wrong("averages over " + plain_number(filter_s) + " s, longer than settle_s = " +
-                   plain_number(settle_s) + " s: a stop would begin with readings of the way to it",
-               "lower averaged_values or sample_time_us, or raise [measure] settle_s to that");
+  return wrong("the averaging takes " + plain_number(filter_s) +
+                   " s, longer than settle_s = " + plain_number(settle_s) +
+                   " s, so a stop would begin with readings of the motion to it",
+               "lower averaged_values or sample_time_us, or raise [measure] settle_s to " +
+                   plain_number(filter_s));
 }
 
 Result<Setup> set_up_controller(const Options& options) {

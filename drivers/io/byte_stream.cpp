@@ -80,7 +80,7 @@ Status ByteStream::write(std::string_view bytes, milliseconds timeout) {
     } else if (!would_block(errno)) {
       return io_error(name_ + ": write: " + std::strerror(errno));
     } else if (!ready(fd_, POLLOUT, until)) {
-      return io_error(name_ + ": takes no more bytes");
+      return io_error(name_ + ": the other side accepts no more bytes");
     }
   }
   return {};

@@ -93,7 +93,8 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const std::vector<std:
   pid_t pid = 0;
   if (const int error = surroundings.start(command, pid); error != 0)
     return io_error(name + ": cannot be started: " + std::strerror(error) +
-                    "; is it installed, executable, and is \"" + folder + "\" its folder?");
+                    "; check that the program is installed and executable, and that the folder \"" +
+                    folder + "\" exists");
   return std::unique_ptr<ChildProcess>(
       new ChildProcess(pid, std::move(output.read), std::move(errors.read)));
 }
@@ -133,24 +134,24 @@ void ChildProcess::take_errors() {
 std::string ChildProcess::how_it_ended() {
   const auto exit = exited(kExit);
   take_errors();
-  std::string text = "has closed its standard output, and runs on";
+  std::string text = "has closed its standard output, but still runs";
   if (exit && exit->si_code == CLD_EXITED)
     text = "has exited with status " + std::to_string(exit->si_status);
   else if (exit)
     text = "was killed by signal " + std::to_string(exit->si_status);
   const std::string& line = unfinished_.empty() ? last_line_ : unfinished_;
   return text + (line.empty() ? "; it wrote nothing to its standard error"
-                              : "; its last line of standard error: " + line);
+                              : "; the last line of its standard error: " + line);
 }
 
 Result<ByteStream> open_fifo(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  const std::string remedy = "; make it with: mkfifo " + path;
+  const std::string remedy = "; create it with mkfifo " + path;
   if (fd < 0) return io_error(path + ": " + std::strerror(errno) + remedy);
   ByteStream stream(fd, path);
   struct stat what {};
   if (::fstat(fd, &what) != 0 || !S_ISFIFO(what.st_mode))
-    return io_error(path + ": is no FIFO" + remedy);
+    return io_error(path + ": is not a FIFO" + remedy);
   return stream;
 }
 

@@ -54,7 +54,7 @@ pid_t holder_of(Name& name) {
 
 tl::unexpected<Error> in_use_by(pid_t pid) {
   if (pid == ::getpid())
-    return io_error("two devices of the configuration are this one; take one of them away");
+    return io_error("two devices of the configuration use this device; remove one of them");
   if (pid == 0) return io_error("it is in use by another program", Remedy::ask_daemon_for_device);
   std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
   std::string program;

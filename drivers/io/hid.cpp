@@ -59,7 +59,7 @@ Status HidDevice::write(std::string_view report) {
   numbered += report;
   const auto* bytes = reinterpret_cast<const unsigned char*>(numbered.data());
   if (::hid_write(handle(device_.get()), bytes, numbered.size()) >= 0) return {};
-  return io_error(path_ + ": cannot be written to; was it unplugged?");
+  return io_error(path_ + ": cannot be written to; check that the device is plugged in");
 }
 
 Result<std::string> HidDevice::read(std::size_t most, std::chrono::milliseconds timeout) {
@@ -67,7 +67,7 @@ Result<std::string> HidDevice::read(std::size_t most, std::chrono::milliseconds 
   auto* bytes = reinterpret_cast<unsigned char*>(report.data());
   const int wait_ms = static_cast<int>(std::clamp<std::int64_t>(timeout.count(), 0, 60'000));
   const int n = ::hid_read_timeout(handle(device_.get()), bytes, most, wait_ms);
-  if (n < 0) return io_error(path_ + ": cannot be read; was it unplugged?");
+  if (n < 0) return io_error(path_ + ": cannot be read; check that the device is plugged in");
   report.resize(static_cast<std::size_t>(n));
   return report;
 }

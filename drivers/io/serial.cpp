@@ -32,9 +32,9 @@ tl::unexpected<Error> not_opened(const std::string& path, int error) {
   if (error == EACCES)
     return io_error(path + ": no permission", Remedy::install_udev_rules_for_serial);
   if (error == ENOENT)
-    return io_error(path + ": is not there; plug the device in or correct the path");
+    return io_error(path + ": does not exist; plug the device in or correct the path");
   if (error == EBUSY || error == EWOULDBLOCK)
-    return io_error(path + ": is in use by another program; end that one");
+    return io_error(path + ": is in use by another program; end that program");
   return io_error(path + ": " + std::strerror(error));
 }
 
@@ -61,7 +61,8 @@ void set_line(int fd, int line, bool on) {
 
 Result<ByteStream> open_serial(const std::string& path, const SerialSettings& settings) {
   const Rate* rate = find_rate(settings.baud);
-  if (!rate) return bad_input(path + ": " + std::to_string(settings.baud) + " is no baud rate");
+  if (!rate)
+    return bad_input(path + ": baud = " + std::to_string(settings.baud) + " is not supported");
   const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return not_opened(path, errno);
   ByteStream port(fd, path);
@@ -69,7 +70,7 @@ Result<ByteStream> open_serial(const std::string& path, const SerialSettings& se
     return not_opened(path, errno);
   const termios t = raw_mode(settings, rate->code);
   if (::tcsetattr(fd, TCSANOW, &t) != 0)
-    return io_error(path + ": " + std::strerror(errno) + "; is it a serial port?");
+    return io_error(path + ": " + std::strerror(errno) + "; check that the path is a serial port");
   set_line(fd, TIOCM_RTS, settings.rts);
   set_line(fd, TIOCM_DTR, settings.dtr);
   ::tcflush(fd, TCIOFLUSH);

@@ -58,7 +58,7 @@ std::string Endpoint::text() const {
 }
 
 Result<Endpoint> parse_endpoint(const std::string& text, int default_port) {
-  const std::string remedy = "\"" + text + "\" is no address; such as 192.168.0.5:502";
+  const std::string remedy = "\"" + text + "\" is not an address; give one such as 192.168.0.5:502";
   Endpoint to{text, default_port};
   std::string port;
   if (text.starts_with('[')) {
@@ -107,8 +107,9 @@ Result<ByteStream> connect_tcp(const Endpoint& to, milliseconds timeout) {
 Error connect_error(const Endpoint& to, int error, bool service) {
   Error why{ErrorCode::io, to.text() + ": " + std::strerror(error)};
   const bool forbidden = error == EPERM || error == EACCES;
-  why.message += forbidden ? "; a firewall, or systemd's IPAddressDeny, forbids it"
-                           : "; is the device on, on the network, and is this its address?";
+  why.message += forbidden
+                     ? "; a firewall, or IPAddressDeny of systemd, forbids the connection"
+                     : "; check that the device is on and on the network, and check its address";
   if (forbidden || (service && error == ETIMEDOUT)) {
     why.remedy = Remedy::allow_network;
     why.remedy_for = to.host;

@@ -24,7 +24,7 @@ void read_rate(TomlTable& table, Settings& settings) {
   if (!(settings.rate_hz >= 1 && settings.rate_hz <= most_hz))
     table.reject("rate_hz", "must be from 1 to " + std::to_string(static_cast<int>(most_hz)) +
                                 " with " + std::to_string(settings.inputs.size()) +
-                                " inputs: 100000 scans/s, and 400000 samples/s in all");
+                                " inputs (limits: 100000 scans/s, 400000 samples/s in total)");
 }
 
 Result<Input> input_of(const ChannelInput& channel) {
@@ -34,8 +34,8 @@ Result<Input> input_of(const ChannelInput& channel) {
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.um_per_count != 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " gives volts and counts nothing; take um_per_count away (the rig has "
-                     "um_per_V, of the encoder as well)");
+                     " gives volts, not counts; remove um_per_count (the rig gives um_per_V, "
+                     "also for the encoder)");
   return Input{{channel.id, Unit::volt}, static_cast<std::size_t>(at - known.begin())};
 }
 

@@ -27,8 +27,8 @@ std::vector<std::size_t> words_of(const std::vector<Input>& inputs) {
 }
 
 const char* const kOverrun =
-    "its FIFO has run over, so that an unknown number of scans is missing and the times after them "
-    "are not known: lower rate_hz, or find what keeps this computer from USB for 80 ms";
+    "the FIFO of the device has overflowed, so an unknown number of scans is missing and later "
+    "times are unknown; lower rate_hz, or find what keeps this computer from USB for 80 ms";
 
 }  // namespace
 
@@ -150,11 +150,11 @@ Status MccUsb1608fsPlus::check_status() {
   if (status.overrun) return io_error(kOverrun);
   if (!status.running)
     return io_error(
-        "the scan has stopped: another program has stopped it, or the device has reset");
+        "the scan has stopped; another program has stopped it, or the device was reset");
   const double silent_s = static_cast<double>(monotonic_ns() - last_chunk_ns_) * 1e-9;
   if (silent_s > kSilence_s + static_cast<double>(kPacket) / 2 / rate_hz_)
     return io_error(
-        "nothing has come for 2 s though it says that it scans: unplug it and plug it "
+        "no data for 2 s although the device reports that it scans; unplug the device and plug it "
         "in again");
   sound_ = scans;
   next_status_ = steady_clock::now() + kStatusEvery;

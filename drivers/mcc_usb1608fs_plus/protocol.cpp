@@ -62,7 +62,7 @@ std::string config(std::uint8_t code) {
 }
 
 Result<DeviceStatus> read_status(std::string_view reply) {
-  if (reply.size() != 2) return io_error("the device's status was cut short");
+  if (reply.size() != 2) return io_error("the status of the device is incomplete");
   const std::uint32_t bits = number_at(reply, 0, 2);
   return DeviceStatus{(bits & kRunningBit) != 0, (bits & kOverrunBit) != 0};
 }
@@ -86,13 +86,14 @@ std::uint16_t calibration_address(std::uint8_t range_code, std::size_t input) {
 }
 
 Result<Calibration> read_calibration(std::string_view pair) {
-  if (pair.size() != kPairBytes) return io_error("the calibration memory was cut short");
+  if (pair.size() != kPairBytes)
+    return io_error("the data of the calibration memory are incomplete");
   const Calibration c{std::bit_cast<float>(number_at(pair, 0, 4)),
                       std::bit_cast<float>(number_at(pair, 4, 4))};
   if (possible(c)) return c;
-  return io_error("the constants in its calibration memory cannot be (slope " +
+  return io_error("the constants in the calibration memory are impossible (slope " +
                   std::to_string(c.slope) + ", offset " + std::to_string(c.offset) +
-                  " codes); have it calibrated by Measurement Computing");
+                  " codes); have the device calibrated by Measurement Computing");
 }
 
 std::string calibration_memory(const Calibrations& calibrations) {

@@ -83,7 +83,7 @@ Status ModbusClient::Impl::configure() {
   if (done) return {};
   return bad_input(stream.name() + ": unit " + std::to_string(options.unit) + " or time-out " +
                    std::to_string(options.response_timeout.count()) +
-                   " ms is out of range: units are 1 to 247, by TCP also 255");
+                   " ms is out of range; units are 1 to 247, with TCP also 255");
 }
 
 // A request for values, with the place in front of its error.
@@ -107,7 +107,8 @@ Result<Answer> ModbusClient::Impl::ask(const char* what, int address, std::size_
 Result<Answer> ModbusClient::Impl::ask_in_order(const std::string& pdu, int address,
                                                 modbus::Shape shape) {
   if (framing == Framing::tcp) {
-    if (!trusted) return io_error("the connection is not to be trusted after an error; open anew");
+    if (!trusted)
+      return io_error("replies may be mixed up after an error; open the connection again");
     return exchange(pdu);
   }
   if (!sentinels.add_regular(shape)) distrust();
@@ -149,14 +150,16 @@ Status ModbusClient::Impl::expect_silence(milliseconds wait) {
   if (!came) return tl::unexpected(std::move(came.error()));
   ++rejected;
   return io_error(
-      "bytes came that were not asked for: a late reply, or another master on the line");
+      "bytes arrived without a request, from a late reply or from another master on the line");
 }
 
 Status ModbusClient::Impl::prove(int address, modbus::Shape regular) {
   MDOF_CHECK(expect_silence(options.response_timeout / 2));
   const modbus::Shape sentinel = sentinels.pick(regular);
   if (sentinel.count == 0)
-    return io_error("reads of every length are in use: none proves the line");
+    return io_error(
+        "cannot test the line for late replies, because the profile uses reads of every length; "
+        "remove a value from the profile");
   const int last = modbus::kLastAddress + 1 - sentinel.count;
   const auto pdu = modbus::read_request(static_cast<modbus::Function>(sentinel.function),
                                         std::min(address, last), sentinel.count);
@@ -175,7 +178,7 @@ Status ModbusClient::Impl::prove(int address, modbus::Shape regular) {
 Result<Answer> ModbusClient::Impl::refused(int code) {
   if (heard_at - failed_at >= kLatest_timeouts * options.response_timeout) return Answer{};
   ++rejected;
-  return io_error("the line is being proved; the device answered with exception " +
+  return io_error("the device answered the test for late replies with exception " +
                   std::to_string(code) + ", " + modbus::exception_name(code));
 }
 
@@ -185,11 +188,12 @@ void ModbusClient::Impl::distrust() {
 
 std::string ModbusClient::Impl::why_no_reply(int rc) const {
   const int error = errno;
-  if (rc == 0) return "a reply of another unit came; do two devices share the address?";
+  if (rc == 0)
+    return "the reply came from another unit; check that no two devices share an address";
   if (error == ETIMEDOUT)
     return "no complete reply within " + std::to_string(options.response_timeout.count()) +
-           " ms; is the device on, are unit" +
-           (framing == Framing::rtu ? ", baud, parity and wiring" : " and address") + " right?";
+           " ms; check that the device is on, and check unit" +
+           (framing == Framing::rtu ? ", baud, parity and wiring" : " and address");
   if (error == ECONNRESET) return "the device has closed the connection";
   return std::string("no valid reply: ") + ::modbus_strerror(error);
 }
@@ -219,8 +223,8 @@ Status too_many(const char* what, int address, std::size_t count, int most) {
   if (count >= 1 && count <= static_cast<std::size_t>(most) && address >= 0 &&
       address + static_cast<int>(count) - 1 <= modbus::kLastAddress)
     return {};
-  return bad_input(registers_text(what, address, count) + ": from 1 to " + std::to_string(most) +
-                   " registers within 0 to 65535 can be asked for at a time");
+  return bad_input(registers_text(what, address, count) + ": a request can contain 1 to " +
+                   std::to_string(most) + " registers within 0 to 65535");
 }
 
 }  // namespace

@@ -25,10 +25,14 @@ void read_ring(TomlTable& table, Profile& profile) {
     if (value.ring_bits == 0) continue;
     any = true;
     if (bits < 1 || bits > 16 * registers_of(value.type))
-      table.reject("ring_bits", "must be from 1 to the bits that the register has");
+      table.reject("ring_bits", "must be from 1 to " +
+                                    std::to_string(16 * registers_of(value.type)) +
+                                    ", the bits of the register");
     value.ring_bits = static_cast<int>(bits);
   }
-  if (!any) table.reject("ring_bits", "no value of " + profile.name + " is a ring");
+  if (!any)
+    table.reject("ring_bits",
+                 "profile " + profile.name + " has no value with ring_bits; remove it");
 }
 
 void read_where(TomlTable& table, ModbusSettings& settings) {
@@ -36,13 +40,12 @@ void read_where(TomlTable& table, ModbusSettings& settings) {
   settings.port = table.string("port", "");
   const bool tcp = settings.profile.framing == Framing::tcp;
   if (tcp && settings.address.empty())
-    table.reject("address", "is missing: " + settings.profile.name +
-                                " is reached by TCP, such as "
-                                "\"192.168.0.5\"");
+    table.reject("address", "is missing; give the TCP address of " + settings.profile.name +
+                                ", such as \"192.168.0.5\"");
   else if (settings.address.empty() == settings.port.empty())
     table.reject("port",
-                 "give either this, a serial line such as \"/dev/ttyUSB0\", or address, "
-                 "that of a serial device server");
+                 "give either port (a serial line such as \"/dev/ttyUSB0\") or address "
+                 "(of a serial device server)");
   if (settings.address.empty()) return;
   if (auto to = parse_endpoint(settings.address, settings.profile.port); !to)
     table.reject("address", to.error().message);
@@ -66,8 +69,8 @@ Status read_uses(TomlTable& table, const Rig& rig, ModbusSettings& settings) {
     if (counts)
       MDOF_CHECK(check_um_per_count(input));
     else if (input.um_per_count != 0)
-      return bad_input(input.where + ": um_per_count is for counts, but \"" + input.input +
-                       "\" comes in " + suffix(value->unit));
+      return bad_input(input.where + ": um_per_count applies to counts, but \"" + input.input +
+                       "\" is in " + suffix(value->unit) + "; remove it");
     if (input.id == kEncoderChannel) settings.encoder = encoder_origin({input}, value->incremental);
     settings.channels.push_back({input.id, counts ? Unit::um : value->unit});
     settings.uses.push_back({*value, input.um_per_count});

@@ -16,7 +16,8 @@ constexpr milliseconds kConnect{2000}, kSilence{2000};
 constexpr int kFailures = 20;
 // Between two attempts, where an adapter that has gone fails at once.
 constexpr milliseconds kBetweenAttempts{10};
-constexpr const char* kDatumLost = "it was away, and whether it went on counting is not known";
+constexpr const char* kDatumLost =
+    "the device was disconnected, and may have stopped counting in the meantime";
 constexpr int kProof_timeouts = 10;  // to prove an RTU line at opening
 
 nanoseconds from_ms(double ms) {
@@ -114,9 +115,9 @@ Status ModbusDriver::check(const modbus::Check& check) {
   std::uint16_t is = 0;
   MDOF_CHECK(ask_at_opening(check.at, std::span(&is, 1)));
   if ((is & check.mask) == check.equals) return {};
-  return io_error(who() + ": " + check.says + ": register " + std::to_string(check.at.address) +
-                  " reads " + hex(is) + ", the profile wants " + hex(check.equals) +
-                  "; set the device so, or give a profile that fits it");
+  return io_error(who() + ": " + check.says + " (register " + std::to_string(check.at.address) +
+                  " is " + hex(is) + ", the profile requires " + hex(check.equals) +
+                  "); correct the setting of the device, or give a profile that matches it");
 }
 
 Result<ReadState> ModbusDriver::read(SampleBlock& block, milliseconds timeout) {

@@ -24,7 +24,7 @@ T choice(TomlTable& table, const char* key, const Word<T> (&words)[N]) {
     if (given == word) return means;
     known += std::string(known.empty() ? "" : ", ") + word;
   }
-  table.reject(key, "\"" + given + "\" is none of " + known);
+  table.reject(key, "\"" + given + "\" is not one of " + known);
   return words[0].means;
 }
 
@@ -44,7 +44,8 @@ double milliseconds_of(TomlTable& table, const char* key, double fallback) {
 Register read_register(TomlTable& table, Function function) {
   constexpr Word<Function> kFunctions[] = {{"holding", kReadHolding}, {"input", kReadInput}};
   if (table.has("registers")) function = choice(table, "registers", kFunctions);
-  if (!table.has("address")) table.reject("address", "is missing: a register's, from 0 to 65535");
+  if (!table.has("address"))
+    table.reject("address", "is missing; give the address of a register, from 0 to 65535");
   return {function, whole(table, "address", 0, 0, kLastAddress)};
 }
 
@@ -84,11 +85,12 @@ Value read_value(TomlTable& table) {
   if (table.has("over_range")) value.over_range = table.numbers("over_range");
   if (auto check = table.table("check")) value.check = read_check(*check);
   if (value.ring_bits > 0 && value.type == Type::f32)
-    table.reject("ring_bits", "is for counters, not for f32");
+    table.reject("ring_bits", "applies to counters, not to f32");
   if (value.ring_bits > 16 * registers_of(value.type))
-    table.reject("ring_bits", "is more than the register has");
+    table.reject("ring_bits", "is more than the " + std::to_string(16 * registers_of(value.type)) +
+                                  " bits of the register");
   if (value.at.address + registers_of(value.type) - 1 > kLastAddress)
-    table.reject("address", "ends beyond register 65535");
+    table.reject("address", "the value ends beyond register 65535");
   return value;
 }
 
@@ -99,13 +101,14 @@ void append_values(TomlTable& table, std::vector<Value>& values) {
   const int first = whole(table, "first", 1, 0, 1000);
   const auto hash = one.name.find('#');
   if (count > 1 && hash == std::string::npos)
-    table.reject("name", "needs a # for the number of each, as count is given");
+    table.reject("name", "needs a # for the number of each value, because count is given");
   for (int i = 0; i < count; ++i) {
     Value value = one;
     if (hash != std::string::npos) value.name.replace(hash, 1, std::to_string(first + i));
     value.at.address += i * registers_of(one.type);
     if (value.check) value.check->at.address += i;
-    if (value.at.address >= kLastAddress) table.reject("count", "goes beyond register 65535");
+    if (value.at.address >= kLastAddress)
+      table.reject("count", "the last value ends beyond register 65535");
     values.push_back(std::move(value));
   }
 }
@@ -155,7 +158,7 @@ Result<Profile> parse_profile(std::string_view text, const std::string& source_n
   for (std::size_t i = 0; i < profile.values.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (profile.values[i].name == profile.values[k].name)
-        table.reject("value", "\"" + profile.values[i].name + "\" is there twice");
+        table.reject("value", "\"" + profile.values[i].name + "\" is given twice");
   MDOF_CHECK(table.finish());
   return profile;
 }
@@ -171,8 +174,8 @@ Result<Profile> load_profile(const std::string& name_or_path, const std::string&
   if (name_or_path.find('/') == std::string::npos && !name_or_path.ends_with(".toml")) {
     const std::string nearest = nearest_of(name_or_path, names);
     return bad_input("there is no profile \"" + name_or_path + "\"" +
-                     (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +
-                     " Known are " + known + "; a file of your own is given by its path");
+                     (nearest.empty() ? "." : "; did you mean \"" + nearest + "\"?") +
+                     " Known profiles are " + known + "; give the path of a profile of your own");
   }
   const auto path = std::filesystem::path(base_path) / name_or_path;
   MDOF_TRY(const std::string text, read_text_file(path));

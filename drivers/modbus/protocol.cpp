@@ -26,20 +26,20 @@ std::uint8_t byte_at(std::string_view bytes, std::size_t offset) {
 }
 
 std::string not_this(const char* what, unsigned got, unsigned wanted) {
-  return std::string("a reply of ") + what + " " + std::to_string(got) + " came instead of " +
+  return std::string("the reply has ") + what + " " + std::to_string(got) + " instead of " +
          std::to_string(wanted);
 }
 
 Result<Frame> unwrap_tcp(std::string_view adu) {
-  if (adu.size() < kTcpHeader + 1) return io_error("a reply was cut short");
-  if (word_at(adu, 2) != 0) return io_error("a reply of another protocol came");
+  if (adu.size() < kTcpHeader + 1) return io_error("the reply is incomplete");
+  if (word_at(adu, 2) != 0) return io_error("the reply is of another protocol");
   if (word_at(adu, 4) != adu.size() - 6)
     return io_error(not_this("length", word_at(adu, 4), static_cast<unsigned>(adu.size() - 6)));
   return Frame{word_at(adu, 0), byte_at(adu, 6), std::string(adu.substr(kTcpHeader))};
 }
 
 Result<Frame> unwrap_rtu(std::string_view adu) {
-  if (adu.size() < 4) return io_error("a reply was cut short");
+  if (adu.size() < 4) return io_error("the reply is incomplete");
   const auto body = adu.substr(0, adu.size() - 2);
   const unsigned crc = byte_at(adu, body.size()) | byte_at(adu, body.size() + 1) << 8u;
   if (crc != crc16(body)) return io_error("the CRC of the reply is wrong");
@@ -49,7 +49,7 @@ Result<Frame> unwrap_rtu(std::string_view adu) {
 Result<Answer> read_answer(std::string_view asked, std::string_view pdu) {
   const std::size_t wanted = std::size_t{2} * word_at(asked, 3);
   if (pdu.size() < 2 || byte_at(pdu, 1) != pdu.size() - 2 || pdu.size() - 2 != wanted)
-    return io_error(not_this("data bytes", static_cast<unsigned>(pdu.size()) - 2,
+    return io_error(not_this("byte count", static_cast<unsigned>(pdu.size()) - 2,
                              static_cast<unsigned>(wanted)));
   return Answer{0, std::string(pdu.substr(2))};
 }
@@ -121,7 +121,7 @@ Result<Answer> answer_to(const Frame& asked, Framing framing, std::string_view a
   if (got != function) return io_error(not_this("function", got, function));
   if (function == kReadHolding || function == kReadInput) return read_answer(asked.pdu, reply.pdu);
   if (reply.pdu != asked.pdu.substr(0, kEchoed))
-    return io_error("the reply confirms another write than the one asked for");
+    return io_error("the reply confirms another write than the requested one");
   return Answer{};
 }
 
@@ -139,7 +139,7 @@ const char* exception_name(int code) {
                                     "gateway path unavailable",
                                     "gateway target device failed to respond"};
   const bool known = code > 0 && code < static_cast<int>(std::size(kNames)) && *kNames[code];
-  return known ? kNames[code] : "of no known meaning";
+  return known ? kNames[code] : "unknown";
 }
 
 }  // namespace mdof::drivers::modbus

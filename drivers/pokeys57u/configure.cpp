@@ -30,7 +30,7 @@ struct ChannelOptions {
 ChannelOptions read_channel(TomlTable& channel) {
   ChannelOptions read{{}, channel.number("most_counts_per_s", 0)};
   if (read.most_counts_per_s < 0 || !std::isfinite(read.most_counts_per_s))
-    channel.reject("most_counts_per_s", "must be more than 0");
+    channel.reject("most_counts_per_s", "must be 0 (the limit of the input) or more");
   if (!channel.has("counting")) return read;
   const std::string counting = channel.string("counting");
   if (counting == "x1") read.options = kEnabled;
@@ -53,7 +53,7 @@ Result<Input> make_input(const ChannelInput& channel, const ChannelOptions& more
   input.channel = {channel.id, input.counts() ? Unit::um : Unit::volt};
   if (input.counts()) MDOF_CHECK(check_um_per_count(channel));
   if (more.options && input.index >= kEncoders)
-    return bad_input(channel.where + ": counting is of encoder1 to encoder25 only");
+    return bad_input(channel.where + ": counting applies to encoder1 to encoder25 only; remove it");
   input.um_per_count = channel.um_per_count;
   input.options = more.options;
   input.most_counts_per_s =
@@ -65,7 +65,7 @@ Settings read_settings(TomlTable& table, const std::string& name) {
   Settings settings;
   settings.name = name;
   const std::int64_t serial = table.integer("serial", 0);
-  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is no serial number");
+  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is not a serial number");
   settings.serial = static_cast<std::uint32_t>(serial);
   settings.poll_ms = table.number("poll_ms", settings.poll_ms);
   if (!(settings.poll_ms >= 1 && settings.poll_ms <= 10'000))

@@ -71,7 +71,7 @@ Status PoKeys57u::open() {
   }
   MDOF_CHECK(set_up_encoders());
   MDOF_TRY(const auto reported, watch_for_restart());
-  if (!reported) return does_not_say("its time");
+  if (!reported) return does_not_say("query for the time");
   next_ = last_ = steady_clock::now();
   return {};
 }
@@ -87,8 +87,8 @@ Status PoKeys57u::connect() {
   if (settings_.serial == 0 && found.size() > 1) {
     for (const auto& entry : found) others.push_back(entry.serial);
     return io_error(place() + ": " + std::to_string(found.size()) +
-                    " PoKeys are plugged in (USB calls them " + joined(others) +
-                    "); say which by serial");
+                    " PoKeys are plugged in (serial numbers on the USB: " + joined(others) +
+                    "); choose one with serial");
   }
   for (const auto& entry : found) {
     const bool may_be = settings_.serial == 0 || entry.serial.empty() ||
@@ -103,8 +103,8 @@ Status PoKeys57u::connect() {
   }
   if (!failed) return failed;
   return io_error(place() + ": is not plugged in" +
-                  (others.empty() ? "" : "; there are " + joined(others)) +
-                  ". Check its cable, power and serial number");
+                  (others.empty() ? "" : " (found: " + joined(others) + ")") +
+                  "; check cable, power and serial number");
 }
 
 Status PoKeys57u::try_candidate(const HidEntry& entry, std::vector<std::string>& others) {
@@ -115,7 +115,7 @@ Status PoKeys57u::try_candidate(const HidEntry& entry, std::vector<std::string>&
     MDOF_TRY(const std::string waste, device_->read(kFrameBytes, kQuiet));
     if (waste.empty()) break;
   }
-  MDOF_TRY(const Frame reply, need(request(kDeviceData), "what it is"));
+  MDOF_TRY(const Frame reply, need(request(kDeviceData), "query for the device data"));
   const Identity identity = identity_of(reply);
   if (settings_.serial != 0 && identity.serial != settings_.serial) {
     others.push_back(std::to_string(identity.serial));
@@ -133,24 +133,26 @@ Result<Frame> PoKeys57u::need(const Frame& asked, const char* what) {
 }
 
 tl::unexpected<Error> PoKeys57u::does_not_say(const char* what) const {
-  return io_error(place() + ": does not say " + what + "; is it a PoKeys, and does another " +
-                  "program use it?");
+  return io_error(place() + ": no reply to the " + what +
+                  "; check that the device is a PoKeys57U " +
+                  "or 56U, and end any other program that uses it");
 }
 
 Status PoKeys57u::set_up_encoders() {
-  MDOF_TRY(const Frame is, need(request(kEncoderOptions), "how its encoders are set"));
+  MDOF_TRY(const Frame is, need(request(kEncoderOptions), "query for the encoder settings"));
   Frame wanted = request(kEncoderOptions, 1);
   wanted.data = is.data;
   for (const Input& input : settings_.inputs)
     if (input.options) wanted.data[input.index] = *input.options;
   if (wanted.data == is.data) return check_enabled(is);
-  MDOF_CHECK(need(wanted, "that its encoders are set"));
-  MDOF_TRY(const Frame now, need(request(kEncoderOptions), "how its encoders are set"));
+  MDOF_CHECK(need(wanted, "command that sets the encoders"));
+  MDOF_TRY(const Frame now, need(request(kEncoderOptions), "query for the encoder settings"));
   for (const Input& input : settings_.inputs) {
     if (input.options && (now.data[input.index] & 7) != *input.options)
-      return io_error(place() + ": " + input.name +
-                      " cannot be set to the counting asked for; set it with the vendor's program "
-                      "and leave counting out");
+      return io_error(
+          place() + ": " + input.name +
+          " does not accept the counting that is given; set the encoder with the program of the "
+          "manufacturer, and remove counting");
   }
   return check_enabled(now);
 }
@@ -161,8 +163,8 @@ Status PoKeys57u::check_enabled(const Frame& options) const {
     if (input.index < 3 || input.index >= kEncoders) continue;
     if ((options.data[input.index] & kEnabled) == 0)
       return io_error(place() + ": " + input.name +
-                      " is switched off; give its channel a counting, as \"x4\", and set its pins "
-                      "with the vendor's program");
+                      " is switched off; give counting in its channel, such as \"x4\", and set "
+                      "its pins with the program of the manufacturer");
   }
   return {};
 }
@@ -180,7 +182,7 @@ Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
   const auto behind = static_cast<std::int32_t>(
       before->ms + static_cast<std::uint32_t>(std::llround(passed_ms)) - now.ms);
   if (behind < kTickSlack_ms + passed_ms * kTickDrift) return reply->span;
-  zero_problem_ = "it was without power and its encoders count from 0 again";
+  zero_problem_ = "the PoKeys lost power, and its encoders restarted at 0";
   for (Counter& counter : counters_) {
     counter = {};
     counter.sure = false;
@@ -245,7 +247,7 @@ Status PoKeys57u::poll(SampleBlock& block) {
   failing_ = true;
   if (steady_clock::now() - last_ < settings_.silence) return {};
   return io_error("no valid reply for " + std::to_string(settings_.silence.count()) +
-                  " ms; is its cable sound, and does another program use it?");
+                  " ms; check the cable, and end any other program that uses the device");
 }
 
 // What is needed of the two blocks of counts and of the analogue inputs.
@@ -298,7 +300,7 @@ double PoKeys57u::value_of(std::size_t i, Time time, Quality& quality) {
   if (counter.sure && std::abs(step) > most + kStepSlack_counts) {
     counter.sure = false;
     zero_problem_ = input.name + " jumped by " + std::to_string(std::llround(step)) +
-                    " counts, faster than it can count";
+                    " counts, faster than the input can count";
   }
   counter.last = count;
   counter.at = time;

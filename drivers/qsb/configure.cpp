@@ -30,7 +30,8 @@ Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context)
   read_place(table, options);
   read_counting(table, options);
   const std::int64_t baud = table.integer("baud", options.line.baud);
-  if (baud < 1200 || baud > 921'600) table.reject("baud", "must be a baud rate, as 230400");
+  if (baud < 1200 || baud > 921'600)
+    table.reject("baud", "must be a baud rate from 1200 to 921600");
   options.line.baud = static_cast<int>(baud);
   options.line.rts = table.boolean("rts", true);
   const std::int64_t interval = table.integer("interval", 1);
@@ -40,7 +41,9 @@ Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context)
   MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
              options.index_inverted = channel.boolean("index_inverted", false);
              if (options.index_inverted && !channel.has("index_mm"))
-               channel.reject("index_inverted", "is of the reference mark: give index_mm as well");
+               channel.reject("index_inverted",
+                              "needs a reference mark, but index_mm is missing; add "
+                              "index_mm or remove index_inverted");
            }));
   MDOF_CHECK(table.finish());
   for (const auto& channel : channels) {

@@ -16,10 +16,10 @@ using std::chrono::steady_clock;
 constexpr milliseconds kConnect{2000}, kAnswer{300}, kBannerWait{1000};
 constexpr milliseconds kQuiet{50}, kDrain{500};
 constexpr std::size_t kLongestLine = 256;
-constexpr const char* kDatumLost = "it was reset or without power and counts from 0 again";
+constexpr const char* kDatumLost = "the QSB was reset or lost power, and its count restarted at 0";
 constexpr const char* kAtMark =
-    "its index is active wherever the axis goes (then index_inverted of its channel is wrong), or "
-    "the axis stands at its reference mark";
+    "the index signal is always active, so either index_inverted of the channel is wrong, or the "
+    "axis is at its reference mark";
 constexpr double kAhead_ns = 2e9;  // that a stamp may be before what the host's clock allows
 
 }  // namespace
@@ -36,7 +36,7 @@ DeviceInfo Qsb::info() const {
   std::string text = "US Digital " + (identity_.model.empty() ? "QSB" : identity_.model);
   if (!identity_.serial.empty())
     text += " " + identity_.serial + ", firmware " + std::to_string(identity_.firmware);
-  if (power_was_lost_) text += "; has been without power: its count began at 0";
+  if (power_was_lost_) text += "; lost power, so its count began at 0";
   const double rate_hz = 1e9 / (tick_.ns() * options_.interval);
   DeviceInfo info{name_,   "qsb", text,          {{options_.channel.id, Unit::um}},
                   rate_hz, false, clock_.state()};
@@ -110,15 +110,14 @@ Status Qsb::make_it_answer() {
     identity_ = qsb_identity(reply->data);
     return {};
   }
-  return io_error(place() + ": does not answer; is it a QSB, is its baud rate " +
-                  std::to_string(options_.line.baud) +
-                  ", and are its RTS and DTR as they must be?");
+  return io_error(place() + ": does not answer; check that the device is a QSB with baud rate " +
+                  std::to_string(options_.line.baud) + ", and check RTS and DTR");
 }
 
 Status Qsb::check_identity() {
   if (options_.serial.empty() || options_.serial == identity_.serial) return {};
-  return io_error(place() + ": its serial number is " + identity_.serial + " where serial is " +
-                  options_.serial + "; another device has its port: use /dev/serial/by-id");
+  return io_error(place() + ": the serial number is " + identity_.serial + ", but serial is " +
+                  options_.serial + "; another device has this port; use /dev/serial/by-id");
 }
 
 // A reset takes with the count what was set up before.
@@ -173,7 +172,7 @@ Result<QsbReply> Qsb::ask(char type, std::uint8_t reg, std::optional<std::uint32
   MDOF_TRY(const auto reply, one_reply(reg, kAnswer));
   if (!reply) return io_error(what + " was not answered; check the cable and the baud rate");
   if (reply->type == 'e')
-    return io_error(what + " was refused (reply e): its firmware does not take the value");
+    return io_error(what + " was refused (reply e); the firmware does not accept the value");
   if (reply->type == 'x')
     return io_error(what + " is not supported (reply x); a QSB-D or QSB-S is needed");
   return *reply;
@@ -216,7 +215,7 @@ Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
   const std::chrono::nanoseconds silent(monotonic_ns() - last_sample_ns_);
   if (block.scans() == 0 && silent > options_.silence)
     return io_error(place() + ": no line for " + std::to_string(options_.silence.count()) +
-                    " ms; has it power, and does another program talk to it?");
+                    " ms; check the power, and end any other program that uses the QSB");
   return ReadState::more;
 }
 
@@ -238,7 +237,9 @@ void Qsb::give_out(SampleBlock& block) {
 Status Qsb::fetch(milliseconds timeout) {
   std::array<char, 4096> bytes;
   const auto n = stream_->read(bytes, timeout);
-  if (!n) return io_error("QSB \"" + name_ + "\": " + n.error().message + "; was it unplugged?");
+  if (!n)
+    return io_error("QSB \"" + name_ + "\": " + n.error().message +
+                    "; check that the QSB is plugged in");
   const std::int64_t received_ns = monotonic_ns();
   received_.append(bytes.data(), *n);
   Status status;
@@ -252,8 +253,9 @@ Status Qsb::fetch(milliseconds timeout) {
 
 Status Qsb::take_line(std::string_view line, std::int64_t received_ns) {
   if (is_qsb_banner(line))
-    return io_error(place() + ": was reset in mid-stream (\"" + std::string(line.substr(0, 20)) +
-                    "\"), so its count began at 0; check its power, and reference the axis anew");
+    return io_error(place() + ": was reset during the stream (\"" +
+                    std::string(line.substr(0, 20)) +
+                    "\"), so its count began at 0; check the power, and reference the axis again");
   const auto reply = parse_qsb_line(line);
   if (reply && reply->type == 's' && reply->reg == qsb::kCount && reply->stamp)
     return take_sample(*reply, received_ns);
@@ -278,8 +280,9 @@ Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   const double step_ns = static_cast<double>(step) * tick_.ns();
   const auto passed_ns = static_cast<double>(received_ns - last_sample_ns_);
   if (step < 0 || step_ns > 2 * passed_ns + kAhead_ns)
-    return io_error(place() + ": its time stamps jump by " + std::to_string(step) +
-                    " ticks; it was reset, or its line is disturbed: reference the axis anew");
+    return io_error(
+        place() + ": the time stamps jumped by " + std::to_string(step) +
+        " ticks; the QSB was reset, or the line is disturbed; reference the axis again");
   const std::int64_t count = count_(reply.data);
   MDOF_TRY(const IndexMark::State mark, watch_mark(count, received_ns));
   if (mark == IndexMark::State::astray) return take_malformed();

@@ -275,7 +275,7 @@ class EncoderDatum(unittest.TestCase):
 
     def test_a_probe_has_no_such_offset(self):
         self.begin()
-        for channel, why in (('input = "AIN0"', "is of the encoder"), ('input = "DIO0"', "position of the axis")):
+        for channel, why in (('input = "AIN0"', "applies to the encoder only"), ('input = "DIO0"', "position of the axis")):
             config = self.setup_.config_text(self.simulators.addresses)
             value = "1e9" if channel.endswith('DIO0"') else "1"
             bad = os.path.join(self.folder.name, "bad.toml")
@@ -295,11 +295,11 @@ class Units(unittest.TestCase):
             shutil.copy(SETUPS["labjack_t7"].rig, folder)
             for device, why in (
                     ('driver = "modbus"\nprofile = "adam-6017"\naddress = "127.0.0.1"\n'
-                     'channel = [{ id = "encoder", input = "AI0" }]', "is in V, .* take an input that counts"),
+                     'channel = [{ id = "encoder", input = "AI0" }]', "is in V, .* choose an input that counts"),
                     ('driver = "pokeys57u"\nchannel = [{ id = "encoder", input = "analogue1" }]',
-                     "is in V, .* take an input that counts"),
+                     "is in V, .* choose an input that counts"),
                     ('driver = "modbus"\nprofile = "adam-6017"\naddress = "127.0.0.1"\n'
-                     'channel = [{ id = "encoder", input = "AI0", um_per_count = 3 }]', "um_per_count is for counts"),
+                     'channel = [{ id = "encoder", input = "AI0", um_per_count = 3 }]', "um_per_count applies to counts"),
                     ('driver = "labjack_t7"\naddress = "127.0.0.1"\nchannel = [{ id = "encoder", input = "AIN0" }]',
                      r"is in V, .*rig_volts_X.toml \(\[encoder\] um_per_V\)")):
                 config = os.path.join(folder, "mdofd.toml")

@@ -52,8 +52,8 @@ TEST(Channels, EachMistakeIsNamed) {
       {"", "add [[axis.device.channel]]"},
       {"[[channel]]\nid = \"lefft\"\ninput = \"1\"\n", "did you mean \"left\""},
       {"[[channel]]\nid = \"lefft\"\ninput = \"1\"\n", "mdofd.toml:2"},
-      {a + a, "a second input for \"A\""},
-      {a + "[[channel]]\nid = \"left\"\ninput = \"1\"\n", "is \"A\" already"},
+      {a + a, "channel \"A\" has a second input"},
+      {a + "[[channel]]\nid = \"left\"\ninput = \"1\"\n", "is already used by \"A\""},
       {"[channel]\nid = \"A\"\n", "[[channel]]"},
       {a + "index_mm = 3\n", "mdofd.toml:4: channel[1].index_mm: is of the encoder"},
   };
@@ -90,14 +90,14 @@ TEST(IndexSupport, WhoCannotTellSaysWhyAndWhatToDo) {
     const char* says;
   } cases[] = {
       {"labjack_t7", host + channel + counter + "input = \"DIO0\"\n",
-       "near 0 that looks like motion"},
+       "near 0 the reset looks like motion"},
       {"labjack_u6",
        channel + "id = \"A\"\ninput = \"AIN0\"\n" + channel + counter + "input = \"FIO0\"\n",
-       "near 0 that looks like motion"},
+       "near 0 the reset looks like motion"},
       {"pokeys57u", channel + counter + "input = \"ultrafast\"\n", "PoKeysLibEncoders.c"},
       {"modbus", host + "profile = \"pokeys57e\"\n" + channel + counter + "input = \"encoder1\"\n",
        "a Modbus device does not report"},
-      {"mcc_usb1608fs_plus", channel + "input = \"CH0\"\n", "counts nothing"},
+      {"mcc_usb1608fs_plus", channel + "input = \"CH0\"\n", "not counts"},
       {"qsb", "port = \"/dev/ttyUSB0\"\n" + channel + counter + "input = \"count\"\n", "accepted"},
   };
   for (const auto& c : cases) {

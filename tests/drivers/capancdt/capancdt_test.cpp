@@ -239,7 +239,7 @@ TEST(Capancdt, ASecondClientIsToldWhySilence) {
   const Collected got = collect(second, 1);
   EXPECT_EQ(got.all.scans(), 0u);
   expect_has(got.error, "device \"probes\" at 127.0.0.1:");
-  expect_has(got.error, "somebody else holds the data port, or the controller waits for a trigger");
+  expect_has(got.error, "another client uses the data port, or the controller waits for a trigger");
   EXPECT_TRUE(second.open());  // may be tried again
 }
 
@@ -298,7 +298,7 @@ TEST(Capancdt, GarbageAloneIsAnError) {
   ASSERT_EQ(error_of(driver.open()), "");
   const Collected got = collect(driver, 1);
   EXPECT_EQ(got.all.scans(), 0u);
-  expect_has(got.error, "sends what is no data of a capaNCDT 6200; correct data_port");
+  expect_has(got.error, "are not those of a capaNCDT 6200; correct data_port");
 }
 
 TEST(Capancdt, TwoControllersSideBySide) {

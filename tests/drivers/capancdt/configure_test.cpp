@@ -77,7 +77,7 @@ TEST(CapancdtConfigure, BadAddress) {
   expect_error(kChannel, "mdofd.toml:1: address: is missing");
   expect_error("address = \"\"\n" + kChannel, "mdofd.toml:1: address: must name the controller");
   expect_error("address = \"box:x\"\n" + kChannel,
-               "mdofd.toml:1: address: \"box:x\" is no address");
+               "mdofd.toml:1: address: \"box:x\" is not an address");
 }
 
 TEST(CapancdtConfigure, BadSettings) {
@@ -107,15 +107,16 @@ TEST(CapancdtConfigure, BadChannels) {
   expect_error(begin, "channel: is missing");
   for (const char* input : {"0", "33", "AIN0", "", "1 ", "-1", "01"})
     expect_error(begin + "[[channel]]\nid = \"A\"\ninput = \"" + input + "\"\n",
-                 std::string("input \"") + input + "\" is no channel of a controller");
-  expect_error(begin + "[[channel]]\nid = \"D\"\ninput = \"1\"\n", "\"D\" is no probe of rig.toml");
+                 std::string("input \"") + input + "\" is not a channel of a controller");
+  expect_error(begin + "[[channel]]\nid = \"D\"\ninput = \"1\"\n",
+               "\"D\" is neither a probe of rig.toml");
   expect_error(begin + kChannel + "range_um = 0\n",
                "mdofd.toml:5: channel[1].range_um: must be greater than 0");
-  expect_error(begin + kChannel + "um_per_count = 1\n", "um_per_count: is for encoders");
+  expect_error(begin + kChannel + "um_per_count = 1\n", "um_per_count: applies to encoders");
   expect_error(begin + kChannel + "rangeum = 1\n",
                "mdofd.toml:5: channel[1].rangeum: unknown key; did you mean \"range_um\"?");
   expect_error(begin + kChannel + "[[channel]]\nid = \"B\"\ninput = \"1\"\n",
-               "input \"1\" is \"A\" already");
+               "input \"1\" is already used by \"A\"");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ TEST(CapancdtSetup, IdentityIsChecked) {
   rack.options.serial = "1001";
   EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
   rack.options.serial = "1002";
-  expect_has(error_of(Capancdt(rack.options).open()), "and not serial 1002; correct serial");
+  expect_has(error_of(Capancdt(rack.options).open()), "but serial is 1002; correct serial");
 }
 
 TEST(CapancdtSetup, AChannelThatIsNotThere) {
@@ -32,11 +32,11 @@ TEST(CapancdtSetup, RangeFromTheControllerOrTheConfiguration) {
   ASSERT_EQ(error_of(driver.open()), "");
   EXPECT_NEAR(collect(driver, 5).all.value.at(0).at(0), 100, 1e-4);
   reported.options.channels[0].range_um = 2000;
-  expect_has(error_of(Capancdt(reported.options).open()), "the controller says 500");
+  expect_has(error_of(Capancdt(reported.options).open()), "the controller reports 500");
 
   device.states_range = false;
   Rack untold(device);
-  expect_has(error_of(Capancdt(untold.options).open()), "give its range_um");
+  expect_has(error_of(Capancdt(untold.options).open()), "give range_um");
   for (auto& channel : untold.options.channels) channel.range_um = channel.number == 1 ? 500 : 2000;
   Capancdt given(untold.options);
   ASSERT_EQ(error_of(given.open()), "");
@@ -78,7 +78,7 @@ TEST(CapancdtSetup, AveragingLongerThanAStopSettlesIsRefused) {
     rack.options.sample_time_us.reset();
     rack.options.settle_s = 1;
     expect_has(error_of(Capancdt(rack.options).open()),
-               "averages over 1.049 s, longer than settle_s = 1 s");
+               "the averaging takes 1.049 s, longer than settle_s = 1 s");
     rack.options.settle_s = 1.05;
     EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
   }
@@ -124,7 +124,8 @@ TEST(CapancdtSetup, ADumbControllerIsAnError) {
   device.faults.mute = true;
   Rack rack(device);
   rack.options.reply_timeout = 30ms;
-  expect_has(error_of(Capancdt(rack.options).open()), "does not answer $VER; is this the command");
+  expect_has(error_of(Capancdt(rack.options).open()),
+             "no answer to $VER; check that this is the command");
   Capancdt driver(rack.options);
   SampleBlock block;
   const auto state = driver.read(block, 1ms);
@@ -140,7 +141,7 @@ TEST(CapancdtSetup, NobodyThere) {
   }
   const std::string error = error_of(Capancdt(options).open());
   expect_has(error, "device \"probes\": 127.0.0.1:" + std::to_string(options.command.port));
-  expect_has(error, "is the device on, on the network");
+  expect_has(error, "the device is on and on the network");
 }
 
 }  // namespace

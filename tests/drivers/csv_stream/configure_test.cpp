@@ -35,7 +35,7 @@ TEST(CsvStreamConfiguration, KeysAndTheirErrors) {
       {"source = \"serial:ttyS0\"", "source: must be"},
       {"source = \"tcp://127.0.0.1:9000\"\nbaud = 9600", "baud"},
       {"source = \"udp://x\"", "mdofd.toml:1: source: must be \"tcp://HOST:PORT\""},
-      {"source = \"tcp://host\"", "is no address"},
+      {"source = \"tcp://host\"", "is not an address"},
       {"command = []", "must name a program"},
       {"command = [\"a\"]\nsource = \"fifo:b\"", "mdofd.toml:2: source: contradicts command"},
       {"command = [\"a\"]\nstart_s = 60", "start_s: must be from 0.1 to 5"},

@@ -51,7 +51,7 @@ TEST(Usb1608Configure, BadValuesNameTheirKey) {
 
 TEST(Usb1608Configure, BadInputsAreRefused) {
   EXPECT_TRUE(has(refusal("", channel("A", "CH8")), "CH7"));
-  EXPECT_TRUE(has(refusal("", channel("A", "CH0", "um_per_count = 1\n")), "counts nothing"));
+  EXPECT_TRUE(has(refusal("", channel("A", "CH0", "um_per_count = 1\n")), "not counts"));
   EXPECT_TRUE(has(refusal("", channel("A", "CH0") + channel("B", "CH0")), "CH0"));
 }
 

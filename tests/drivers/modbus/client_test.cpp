@@ -102,7 +102,8 @@ TEST(ModbusClient, ATcpClientIsOfNoUseAfterAnError) {
   EXPECT_FALSE(client->trusted());
   const auto again = client->read_holding(0, into);
   ASSERT_FALSE(again);
-  EXPECT_NE(again.error().message.find("open anew"), std::string::npos) << again.error().message;
+  EXPECT_NE(again.error().message.find("open the connection again"), std::string::npos)
+      << again.error().message;
 }
 
 TEST(ModbusClient, OptionsThatAreNoneAreRefused) {

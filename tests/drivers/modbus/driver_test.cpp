@@ -120,7 +120,7 @@ TEST(ModbusDriver, AnAdamInAnotherRangeOrNoAdamIsRefusedAtOpening) {
   ASSERT_FALSE(opened);
   EXPECT_NE(
       opened.error().message.find("the input is not set to +-10 V: register 203 reads 0x0142, "
-                                  "the profile wants 0x0143"),
+                                  "the profile requires 0x0143"),
       std::string::npos)
       << opened.error().message;
 
@@ -130,7 +130,7 @@ TEST(ModbusDriver, AnAdamInAnotherRangeOrNoAdamIsRefusedAtOpening) {
   auto wrong = driver_of(toml_of("adam-6017", served_too.address(), channel("A", "AI2")));
   const auto refused = wrong->open();
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("no ADAM-6017"), std::string::npos);
+  EXPECT_NE(refused.error().message.find("not an ADAM-6017"), std::string::npos);
 }
 
 TEST(ModbusDriver, ASlowAdamIsReadWithinItsTimeOutAndGivenUpBeyond) {
@@ -203,7 +203,7 @@ TEST(ModbusDriver, ACountingEncoderThatWasAwayIsSuspectUntilItIsTrusted) {
   EXPECT_EQ(driver->info().datum_lost, "");
   ASSERT_TRUE(driver->open());
   EXPECT_EQ(one_scan(*driver).quality_at(0, 0), Quality::suspect);
-  EXPECT_NE(driver->info().datum_lost.find("was away"), std::string::npos);
+  EXPECT_NE(driver->info().datum_lost.find("was disconnected"), std::string::npos);
   EXPECT_EQ(driver->info().datum_remedy, Remedy::set_encoder);
   driver->trust_count();
   EXPECT_EQ(one_scan(*driver).quality_at(0, 0), Quality::good);
@@ -346,10 +346,10 @@ TEST(ModbusConfiguration, WhatIsWrongIsNamedWithItsKey) {
   says(kPosition, "profile: is missing");
   says("profile = \"lika-smx\"\n" + kPosition, "did you mean \"lika-smax\"?");
   says("profile = \"mine.toml\"\n" + kPosition, "mine.toml: cannot be read: No such file");
-  says("profile = \"lika-smax\"\n" + kPosition, "mdofd.toml:1: port: give either this");
-  says(smax + "address = \"box\"\n" + kPosition, "mdofd.toml:2: port: give either this");
+  says("profile = \"lika-smax\"\n" + kPosition, "mdofd.toml:1: port: give either port");
+  says(smax + "address = \"box\"\n" + kPosition, "mdofd.toml:2: port: give either port");
   says("profile = \"adam-6017\"\n" + channel("A", "AI0"), "address: is missing");
-  says("profile = \"adam-6017\"\naddress = \"a:b\"\n" + channel("A", "AI0"), "is no address");
+  says("profile = \"adam-6017\"\naddress = \"a:b\"\n" + channel("A", "AI0"), "is not an address");
   says(smax + "baud = 0\n" + kPosition, "mdofd.toml:3: baud");
   says(smax + "parity = \"mark\"\n" + kPosition, "mdofd.toml:3: parity: must be none, even or odd");
   says(smax + "stop_bits = 3\n" + kPosition, "mdofd.toml:3: stop_bits");
@@ -363,9 +363,9 @@ TEST(ModbusConfiguration, WhatIsWrongIsNamedWithItsKey) {
   says("profile = \"pokeys57e\"\naddress = \"box\"\n" + channel("encoder", "encoder1"),
        "a counting encoder needs um_per_count");
   says("profile = \"adam-6017\"\naddress = \"box\"\n" + channel("A", "AI0", "um_per_count = 1\n"),
-       "um_per_count is for counts, but \"AI0\" comes in V");
+       "um_per_count applies to counts, but \"AI0\" is in V");
   says("profile = \"adam-6017\"\naddress = \"box\"\nring_bits = 3\n" + channel("A", "AI0"),
-       "no value of Advantech ADAM-6017 is a ring");
+       "profile Advantech ADAM-6017 has no value with ring_bits");
 }
 
 }  // namespace

@@ -96,15 +96,15 @@ TEST(ModbusProtocol, AReplyThatIsNoAnswerIsRefusedWithTheReason) {
   };
   EXPECT_EQ(tcp(good), "accepted");
   EXPECT_EQ(rtu(good), "accepted");
-  EXPECT_EQ(tcp({8, 7, good.pdu}), "a reply of transaction 8 came instead of 9");
-  EXPECT_EQ(tcp({9, 6, good.pdu}), "a reply of unit 6 came instead of 7");
-  EXPECT_EQ(rtu({9, 6, good.pdu}), "a reply of unit 6 came instead of 7");
-  EXPECT_EQ(rtu({9, 7, bytes("04 04 00 11 22 33")}), "a reply of function 4 came instead of 3");
-  EXPECT_EQ(rtu({9, 7, bytes("84 02")}), "a reply of function 132 came instead of 3");
-  EXPECT_EQ(rtu({9, 7, bytes("83 00")}), "a reply of function 131 came instead of 3");
-  EXPECT_EQ(rtu({9, 7, bytes("03 02 00 11")}), "a reply of data bytes 2 came instead of 4");
-  EXPECT_EQ(rtu({9, 7, bytes("03 04 00 11")}), "a reply of data bytes 2 came instead of 4");
-  EXPECT_EQ(rtu({9, 7, bytes("03 02 00 11 22 33")}), "a reply of data bytes 4 came instead of 4");
+  EXPECT_EQ(tcp({8, 7, good.pdu}), "the reply has transaction 8 instead of 9");
+  EXPECT_EQ(tcp({9, 6, good.pdu}), "the reply has unit 6 instead of 7");
+  EXPECT_EQ(rtu({9, 6, good.pdu}), "the reply has unit 6 instead of 7");
+  EXPECT_EQ(rtu({9, 7, bytes("04 04 00 11 22 33")}), "the reply has function 4 instead of 3");
+  EXPECT_EQ(rtu({9, 7, bytes("84 02")}), "the reply has function 132 instead of 3");
+  EXPECT_EQ(rtu({9, 7, bytes("83 00")}), "the reply has function 131 instead of 3");
+  EXPECT_EQ(rtu({9, 7, bytes("03 02 00 11")}), "the reply has byte count 2 instead of 4");
+  EXPECT_EQ(rtu({9, 7, bytes("03 04 00 11")}), "the reply has byte count 2 instead of 4");
+  EXPECT_EQ(rtu({9, 7, bytes("03 02 00 11 22 33")}), "the reply has byte count 4 instead of 4");
 }
 
 TEST(ModbusProtocol, AHeaderThatLiesIsRefused) {
@@ -124,10 +124,10 @@ TEST(ModbusProtocol, AHeaderThatLiesIsRefused) {
 // MODBUS Messaging on TCP/IP 3.1.3: the length counts unit and PDU, and a PDU has a function.
 TEST(ModbusProtocol, AReplyWithoutAFunctionIsCutShort) {
   const Frame asked{2, 1, read_request(kReadHolding, 55100, 2)};
-  EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 01 01")), "a reply was cut short");
-  EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 00")), "a reply was cut short");
+  EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 01 01")), "the reply is incomplete");
+  EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 00")), "the reply is incomplete");
   EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 08 01 03 04 00 11 22 33")),
-            "a reply of length 8 came instead of 7");
+            "the reply has length 8 instead of 7");
 }
 
 TEST(ModbusProtocol, EveryBitOfAnRtuReplyIsGuarded) {
@@ -149,9 +149,9 @@ TEST(ModbusProtocol, AWriteIsConfirmedByItsOwnEcho) {
     return why_not(Framing::tcp, asked, wrap(Framing::tcp, {4, 1, bytes(pdu)}));
   };
   EXPECT_EQ(reply("10 AB 7C 00 02"), "accepted");
-  EXPECT_EQ(reply("10 AB 7D 00 02"), "the reply confirms another write than the one asked for");
-  EXPECT_EQ(reply("10 AB 7C 00 01"), "the reply confirms another write than the one asked for");
-  EXPECT_EQ(reply("10 AB 7C 00 02 00"), "the reply confirms another write than the one asked for");
+  EXPECT_EQ(reply("10 AB 7D 00 02"), "the reply confirms another write than the requested one");
+  EXPECT_EQ(reply("10 AB 7C 00 01"), "the reply confirms another write than the requested one");
+  EXPECT_EQ(reply("10 AB 7C 00 02 00"), "the reply confirms another write than the requested one");
 }
 
 TEST(ModbusProtocol, ExceptionsHaveNames) {
@@ -164,13 +164,13 @@ TEST(ModbusProtocol, ExceptionsHaveNames) {
   EXPECT_STREQ(exception_name(7), "negative acknowledge");
   EXPECT_STREQ(exception_name(8), "memory parity error");
   EXPECT_STREQ(exception_name(10), "gateway path unavailable");
-  EXPECT_STREQ(exception_name(0), "of no known meaning");
-  EXPECT_STREQ(exception_name(12), "of no known meaning");
+  EXPECT_STREQ(exception_name(0), "unknown");
+  EXPECT_STREQ(exception_name(12), "unknown");
   EXPECT_STREQ(exception_name(2), "illegal data address");
   EXPECT_STREQ(exception_name(11), "gateway target device failed to respond");
-  EXPECT_STREQ(exception_name(9), "of no known meaning");
-  EXPECT_STREQ(exception_name(255), "of no known meaning");
-  EXPECT_STREQ(exception_name(-1), "of no known meaning");
+  EXPECT_STREQ(exception_name(9), "unknown");
+  EXPECT_STREQ(exception_name(255), "unknown");
+  EXPECT_STREQ(exception_name(-1), "unknown");
 }
 
 }  // namespace

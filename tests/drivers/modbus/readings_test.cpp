@@ -197,20 +197,20 @@ TEST(ModbusProfiles, WhatIsWrongIsNamedWithLineAndKey) {
   says(head, "value: is missing");
   says(value(""), "name: is missing");
   says(head + "protocol = \"udp\"\n" + value(""),
-       "p.toml:2: protocol: \"udp\" is none of tcp, rtu");
+       "p.toml:2: protocol: \"udp\" is not one of tcp, rtu");
   says(head + "join_gap = 126\n" + value(""), "p.toml:2: join_gap");
   says(head + "[[value]]\nname = \"v\"\n", "address: is missing");
   says(head + "[[value]]\nname = \"v\"\naddress = 65536\n", "address: must be from 0 to 65535");
-  says(head + value("type = \"u64\"\n"), "p.toml:5: value[1].type: \"u64\" is none of u16");
+  says(head + value("type = \"u64\"\n"), "p.toml:5: value[1].type: \"u64\" is not one of u16");
   says(head + value("words = \"middle\"\n"), "words");
   says(head + value("registers = \"coil\"\n"), "registers");
   says(head + value("scale = inf\n"), "scale: must be a finite number");
   says(head + value("scale = 0\n"), "scale: must not be 0");
   says(head + value("typ = \"u16\"\n"), "type");
   says(head + value("count = 3\n"), "name: needs a #");
-  says(head + value("ring_bits = 17\n"), "ring_bits: is more than the register has");
-  says(head + value("type = \"f32\"\nring_bits = 8\n"), "ring_bits: is for counters");
-  says(head + value("") + value(""), "\"v\" is there twice");
+  says(head + value("ring_bits = 17\n"), "ring_bits: is more than the 16 bits of the register");
+  says(head + value("type = \"f32\"\nring_bits = 8\n"), "ring_bits: applies to counters");
+  says(head + value("") + value(""), "\"v\" is given twice");
   says(head + "[[value]]\nname = \"v\"\naddress = 65535\ntype = \"u32\"\n",
        "beyond register 65535");
   says(head + "[[value]]\nname = \"v#\"\naddress = 65530\ncount = 9\n", "beyond register 65535");

@@ -144,7 +144,7 @@ TEST_F(QsbIndex, AfterAResetItIsSuspectUntilTheMarkIsPassedAgain) {
   open();
   at(990);
   expect_shown(1100, 50);
-  EXPECT_NE(collect(*driver_, 1000).error.find("was reset in mid-stream"), std::string::npos);
+  EXPECT_NE(collect(*driver_, 1000).error.find("was reset during the stream"), std::string::npos);
   ASSERT_TRUE(driver_->open());
   expect_shown(1300, 100, Quality::suspect);  // 1100 counts as 0
   EXPECT_NE(driver_->info().datum_lost, "");
@@ -212,7 +212,7 @@ TEST(QsbIndexConfiguration, KeysAndTheirErrors) {
        "mdofd.toml:6: channel[1].index_mm: contradicts offset_mm"},
       {"index_mm = 1e9", "mdofd.toml:6: channel[1].index_mm: must be a position"},
       {"index_mm = nan", "index_mm: must be a finite number"},
-      {"index_inverted = true", "index_inverted: is of the reference mark"},
+      {"index_inverted = true", "index_inverted: needs a reference mark"},
   };
   for (const auto& [keys, message] : wrong)
     EXPECT_NE(configured(keys).find(message), std::string::npos) << configured(keys);

@@ -75,7 +75,7 @@ TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
     EXPECT_EQ(all.scans[i][0], -2.5);
     EXPECT_EQ(all.first_quality(i), Quality::good);
   }
-  EXPECT_NE(all.error.find("was reset in mid-stream (\"QSB-S  0E!\")"), std::string::npos)
+  EXPECT_NE(all.error.find("was reset during the stream (\"QSB-S  0E!\")"), std::string::npos)
       << all.error;
   SampleBlock block;
   EXPECT_FALSE(driver.read(block, std::chrono::milliseconds(1)));
@@ -116,7 +116,7 @@ TEST(Qsb, AStampThatCannotBeIsAnError) {
     Qsb driver("scale", options_for_test(served));
     ASSERT_TRUE(driver.open());
     const Collected all = collect(driver, 500);
-    EXPECT_NE(all.error.find("time stamps jump by"), std::string::npos) << all.error;
+    EXPECT_NE(all.error.find("time stamps jumped by"), std::string::npos) << all.error;
   }
 }
 
@@ -161,7 +161,7 @@ TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
   options.serial = "00002";
   auto status = Qsb("scale", options).open();
   ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find("its serial number is 00001"), std::string::npos);
+  EXPECT_NE(status.error().message.find("the serial number is 00001"), std::string::npos);
   options.port = "/dev/no-such-port";
   status = Qsb("scale", options).open();
   ASSERT_FALSE(status);
@@ -212,7 +212,7 @@ TEST(QsbConfiguration, KeysAndTheirErrors) {
   const std::pair<std::string, const char*> wrong[] = {
       {channel, "port: is missing"},
       {"port = \"a\"\naddress = \"b:1\"" + channel, "port: contradicts address"},
-      {"address = \"b\"" + channel, "is no address"},
+      {"address = \"b\"" + channel, "is not an address"},
       {"port = \"a\"\nbaud = 3" + channel, "baud: must be a baud rate"},
       {"port = \"a\"\ninterval = 0" + channel, "interval: must be from 1 to 512"},
       {"port = \"a\"\ncounting = \"x3\"" + channel, "counting: must be"},

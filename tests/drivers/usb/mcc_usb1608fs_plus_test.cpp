@@ -115,7 +115,7 @@ TEST_F(Usb1608, ReadReturnsInTimeWithNothingAndSilenceIsAnError) {
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(driver().read(block, 20ms));
   EXPECT_EQ(block.scans(), 0U);
   EXPECT_LT(std::chrono::steady_clock::now() - before, 1s);
-  EXPECT_TRUE(has(collect(driver(), 10).error, "nothing has come for 2 s"));
+  EXPECT_TRUE(has(collect(driver(), 10).error, "no data for 2 s"));
 }
 
 TEST_F(Usb1608, AnOverrunIsAnErrorAndNothingBehindItIsGivenOut) {
@@ -132,7 +132,7 @@ TEST_F(Usb1608, AnOverrunIsAnErrorAndNothingBehindItIsGivenOut) {
     faults.stalls = stalls;
     change(faults);
     Collected rest = collect(driver(), 100'000);
-    EXPECT_TRUE(has(rest.error, "its FIFO has run over")) << rest.error;
+    EXPECT_TRUE(has(rest.error, "the FIFO of the device has overflowed")) << rest.error;
     EXPECT_TRUE(has(rest.error, "device \"daq\"")) << rest.error;
     rest.time_ns.insert(rest.time_ns.begin(), before.time_ns.begin(), before.time_ns.end());
     rest.scans.insert(rest.scans.begin(), before.scans.begin(), before.scans.end());
@@ -202,7 +202,7 @@ TEST_F(Usb1608, ImpossibleCalibrationIsRefused) {
     Calibrations bad = odd();
     bad[1].slope = slope;
     device->set_memory(calibration_memory(bad));
-    EXPECT_TRUE(has(refusal(), "CH1: the constants in its calibration memory cannot be"))
+    EXPECT_TRUE(has(refusal(), "CH1: the constants in the calibration memory are impossible"))
         << refusal();
     bad[1].slope = 1;
     bad[2].slope = slope;  // of an input that is not used
@@ -219,7 +219,7 @@ TEST_F(Usb1608, AnUnplugIsAnErrorAndItIsFoundAgain) {
   faults.unplug_at = 0;
   change(faults);
   const Collected before = collect(driver(), 100'000);
-  EXPECT_TRUE(has(before.error, "has left the USB")) << before.error;
+  EXPECT_TRUE(has(before.error, "is gone from the USB")) << before.error;
   expect_sound(before);
   bus.unplug(number);
   EXPECT_TRUE(has(refusal(), "no MCC USB-1608FS-Plus (09db:00ea)")) << refusal();
@@ -234,7 +234,7 @@ TEST_F(Usb1608, AnUnplugIsAnErrorAndItIsFoundAgain) {
 TEST_F(Usb1608, AnotherSerialNumberIsRefused) {
   plug();
   settings.serial = "01FFFFFF";
-  EXPECT_TRUE(has(refusal(), "on the USB is \"01A2B3C4\"")) << refusal();
+  EXPECT_TRUE(has(refusal(), "is on the USB; found: \"01A2B3C4\"")) << refusal();
 }
 
 }  // namespace

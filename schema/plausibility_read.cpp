@@ -108,7 +108,7 @@ Result<Plausibility> read_plausibility_json(const std::string& json) {
   simdjson::dom::parser parser;
   element root;
   if (parser.parse(simdjson::padded_string(json)).get(root) || !root.is_object())
-    return bad_input("it is no JSON object");
+    return bad_input("it is not a JSON object");
   std::string wrong;
   const Row row(root, wrong);
   Plausibility p;
@@ -124,7 +124,7 @@ Result<Plausibility> read_plausibility_json(const std::string& json) {
   p.scans_lost = row.natural("scans_lost");
   p.gaps = row.natural("gaps");
   p.probes = probes_of(row);
-  if (!wrong.empty()) return bad_input("its \"" + wrong + "\" cannot be read");
+  if (!wrong.empty()) return bad_input("the value of \"" + wrong + "\" cannot be read");
   return p;
 }
 

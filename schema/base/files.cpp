@@ -62,8 +62,8 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::size_
     if (n == 0) return text;
     text.append(piece.data(), n);
   }
-  return bad_input(file.string() + ": larger than " + std::to_string(limit_bytes) +
-                   " bytes; this is not the file meant");
+  return bad_input(file.string() + ": is larger than " + std::to_string(limit_bytes) +
+                   " bytes, so it is not the expected file");
 }
 
 Status read_in_pieces(const std::filesystem::path& file,

@@ -86,7 +86,7 @@ Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& sou
   if (const auto line = toml_line_deeper_than(text, kMaxTomlDepth))
     return bad_input(source_name + ":" + std::to_string(*line) + ": nested more than " +
                      std::to_string(kMaxTomlDepth) +
-                     " deep, by dots of a key or by brackets; write it flatter");
+                     " levels deep by dotted keys or brackets; use fewer levels");
   auto document = std::make_shared<Document>();
   document->source = source_name;
   try {
@@ -123,7 +123,7 @@ void TomlTable::missing(std::string_view key, const char* form) {
     if (!node_->asked.contains(name.str())) others.emplace_back(name.str());
   }
   const std::string near = nearest_of(key, others);
-  const std::string hint = near.empty() ? "" : " (or is \"" + near + "\" meant to be it?)";
+  const std::string hint = near.empty() ? "" : " (or rename \"" + near + "\")";
   reject(key, "is missing; add " + std::string(key) + " = " + form + hint);
 }
 

@@ -39,7 +39,7 @@ Result<PointFlag> point_flag_from(std::string_view text) {
   const auto* const at = std::find(kFlagNames.begin(), kFlagNames.end(), name);
   if (at == kFlagNames.end())
     return bad_input("flag \"" + std::string(text) +
-                     "\" is not known; was it written by a newer version?");
+                     "\" is unknown; a newer version of mdof may have written it");
   const auto flag = static_cast<Flag>(at - kFlagNames.begin());
   return PointFlag{flag, std::string(text.substr(std::min(text.size(), name.size() + 1)))};
 }

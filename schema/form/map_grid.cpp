@@ -77,10 +77,10 @@ Result<Steps> steps_of(const std::vector<double>& places, char axis, const std::
   for (const double x : places) {
     distinct.add(x);
     if (distinct.count() > kMostPlaces)
-      return bad_input(source + ": more than " + std::to_string(kMostPlaces) +
+      return bad_input(source + ": has more than " + std::to_string(kMostPlaces) +
                        " different values of " + axis +
-                       "_mm: these points lie on no grid; "
-                       "resample them to rows and columns");
+                       "_mm, so the points are not on a grid; "
+                       "resample the points to rows and columns");
   }
   const std::vector<double> value = distinct.sorted();
   const double span = value.back() - value.front();
@@ -101,18 +101,18 @@ Result<Steps> steps_of(const std::vector<double>& places, char axis, const std::
     if (const double gap = value[k] - value[k - 1]; gap > 1e-9 * span)
       total += std::max(1.0, std::nearbyint(gap / step));
   if (total >= static_cast<double>(kMostPlaces))
-    return bad_input(source + ": the least distance of " + axis + "_mm is " + mm(least) +
-                     " mm over " + mm(span) +
-                     " mm: these points lie on no grid; resample them to "
+    return bad_input(source + ": the smallest step of " + axis + "_mm is " + mm(least) +
+                     " mm over a length of " + mm(span) +
+                     " mm, so the points are not on a grid; resample the points to "
                      "rows and columns");
   return Steps{value.front(), span / total, static_cast<std::size_t>(total) + 1};
 }
 
 tl::unexpected<Error> off_grid(const std::string& place, char axis, double x_m,
                                const Steps& steps) {
-  return bad_input(place + std::string(1, axis) + "_mm = " + mm(x_m) + " is not on the grid of " +
-                   mm(steps.step_m) + " mm from " + mm(steps.first_m) +
-                   " mm on; resample the points to rows and columns");
+  return bad_input(place + std::string(1, axis) + "_mm = " + mm(x_m) +
+                   " is not on the grid (step " + mm(steps.step_m) + " mm, first value " +
+                   mm(steps.first_m) + " mm); resample the points to rows and columns");
 }
 
 }  // namespace
@@ -123,12 +123,14 @@ Result<SurfaceMap> grid_of(const MapPoints& points, const std::string& source,
   MDOF_TRY(const Steps columns, steps_of(points.x_m, 'x', source));
   MDOF_TRY(const Steps rows, steps_of(points.y_m, 'y', source));
   if (columns.count == 1 && rows.count == 1)
-    return bad_input(source + ": all its points have the same place; a map needs two pixels");
+    return bad_input(source +
+                     ": all points have the same position; a map needs at least two pixels");
   if (columns.count > kMostPixels / rows.count ||
       columns.count * rows.count / kLeastFilled > points.z_m.size() + 1000)
-    return bad_input(source + ": " + std::to_string(points.z_m.size()) + " points on a grid of " +
-                     std::to_string(columns.count) + " x " + std::to_string(rows.count) +
-                     " pixels: too few to be a map; resample them to rows and columns");
+    return bad_input(source + ": " + std::to_string(points.z_m.size()) +
+                     " points are too few for a grid of " + std::to_string(columns.count) + " x " +
+                     std::to_string(rows.count) +
+                     " pixels; resample the points to rows and columns");
   SurfaceMap map;
   map.name = source;
   map.x0_m = columns.first_m;

@@ -63,8 +63,8 @@ Result<XyzUnits> xyz_units(const std::string& text) {
   if (xy && z) return XyzUnits{*xy, *z};
   return fail(ErrorCode::usage,
               "\"" + text +
-                  "\" is no unit: it must be m, mm, um or nm, or two of them for x and y, "
-                  "and for z, such as mm,um; convert other units first");
+                  "\" is not a unit of a map; give m, mm, um or nm, or two of them (for x and y, "
+                  "and for z), such as mm,um; convert other units first");
 }
 
 std::string MapTextReader::place(std::size_t line) const {
@@ -84,8 +84,8 @@ Status MapTextReader::feed(std::string_view piece) {
     if (end == std::string_view::npos) {
       rest_.append(piece);
       if (rest_.size() > kMostLine)
-        return bad_input(place(line_ + 1) + "a line of more than " + std::to_string(kMostLine) +
-                         " bytes: this is no map");
+        return bad_input(place(line_ + 1) + "the line is longer than " + std::to_string(kMostLine) +
+                         " bytes, so this is not a map");
       return {};
     }
     if (rest_.empty()) {
@@ -153,7 +153,7 @@ Status MapTextReader::header(std::string_view text) {
     for (const std::string& name : names)
       if (name == wanted.substr(0, 1) || name.starts_with(wanted.substr(0, 2)))
         return bad_input(place(line_) + "column " + name + " is not in the unit of " + wanted +
-                         "; convert it and name it " + wanted);
+                         "; convert the values and name the column " + wanted);
     return bad_input(place(line_) + "no column " + wanted + " in " + shown(text) +
                      "; a map is a CSV with the header x_mm,y_mm,z_um, an XYZ without header, a "
                      ".sdf (ISO 25178-71) or a Zygo .dat");
@@ -164,7 +164,7 @@ Status MapTextReader::header(std::string_view text) {
 
 tl::unexpected<Error> MapTextReader::bad_cell(std::size_t column, std::string_view cell) const {
   return bad_input(place(line_) + "column " + std::to_string(column + 1) + " is " +
-                   shown(trimmed(cell)) + ", which is no finite number");
+                   shown(trimmed(cell)) + ", not a finite number");
 }
 
 Status MapTextReader::csv_row(std::string_view text) {
@@ -179,8 +179,8 @@ Status MapTextReader::csv_row(std::string_view text) {
     rest.remove_prefix(comma + 1);
   }
   if (column + 1 != columns_)
-    return bad_input(place(line_) + "has " + std::to_string(column + 1) + " columns, the header " +
-                     std::to_string(columns_));
+    return bad_input(place(line_) + "has " + std::to_string(column + 1) +
+                     " columns, but the header has " + std::to_string(columns_));
   return add(xyz);
 }
 
@@ -206,12 +206,12 @@ Status MapTextReader::xyz_row(std::string_view text) {
 Status MapTextReader::add(const std::array<double, 3>& xyz) {
   if (std::isnan(xyz[0]) || std::isnan(xyz[1]))
     return bad_input(place(line_) +
-                     "has no place (x or y is empty or nan); fill it in or take the "
-                     "line out");
+                     "has no position (x or y is empty or nan); add the value or delete "
+                     "the line");
   const std::size_t point = points_.z_m.size();
   if (point == kMostPixels)
     return bad_input(place(line_) + "more than " + std::to_string(kMostPixels) +
-                     " pixels; take a coarser map");
+                     " pixels; use a coarser map");
   if (stretch_.empty() || stretch_.back().second + (point - stretch_.back().first) != line_)
     stretch_.emplace_back(point, line_);
   points_.x_m.push_back(in_m(xyz[0], xy_m_));

@@ -71,14 +71,14 @@ class SdfReader {
         key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
       keys_[key] = {std::string(trimmed(line.substr(equals + 1))), line_};
     }
-    return bad_input(source_ + ": ends within its header; a line * ends it");
+    return bad_input(source_ + ": ends within the header; a header ends with a line *");
   }
 
   Result<Value> value(const std::string& name) const {
     std::string key;
     for (const char c : name) key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     const auto found = keys_.find(key);
-    if (found == keys_.end()) return bad_input(source_ + ": its header has no " + name);
+    if (found == keys_.end()) return bad_input(source_ + ": the header has no " + name);
     return found->second;
   }
 
@@ -89,7 +89,8 @@ class SdfReader {
     const char* const end = found.text.data() + found.text.size();
     const char* const begin = found.text.data() + (found.text.starts_with('+') ? 1 : 0);
     if (parse_double(begin, end, x) != end || !std::isfinite(x))
-      return bad_input(place(found.line) + name + " is \"" + found.text + "\", no finite number");
+      return bad_input(place(found.line) + name + " is \"" + found.text +
+                       "\", not a finite number");
     return x;
   }
 
@@ -126,13 +127,13 @@ class SdfReader {
           return bad_input(place(line_) + "\"" + std::string(word.substr(0, 40)) +
                            "\" is neither a height nor BAD");
         if (map.z_m.size() == wanted)
-          return bad_input(place(line_) + "more heights than NumPoints times NumProfiles, " +
+          return bad_input(place(line_) + "more heights than NumPoints times NumProfiles = " +
                            std::to_string(wanted));
         map.z_m.push_back(z * z_scale);
       }
     if (map.z_m.size() == wanted) return {};
-    return bad_input(source_ + ": has " + std::to_string(map.z_m.size()) + " heights, and " +
-                     std::to_string(wanted) + " by NumPoints times NumProfiles");
+    return bad_input(source_ + ": has " + std::to_string(map.z_m.size()) +
+                     " heights instead of NumPoints times NumProfiles = " + std::to_string(wanted));
   }
 
   std::string_view rest_;
@@ -152,8 +153,8 @@ Result<SurfaceMap> parse_sdf(std::string_view text, const std::string& source) {
   const std::string_view magic = trimmed(text.substr(0, text.find('\n')));
   if (magic == "aISO-1.0" || magic == "aISO-2.0" || magic == "aBCR-1.0")
     return SdfReader(text, source).read();
-  return bad_input(source + ": is an .sdf of the form \"" + std::string(magic.substr(0, 8)) +
-                   "\"; export it as text: aISO-1.0, aISO-2.0 or aBCR-1.0");
+  return bad_input(source + ": has the .sdf format \"" + std::string(magic.substr(0, 8)) +
+                   "\"; export the map as text (aISO-1.0, aISO-2.0 or aBCR-1.0)");
 }
 
 }  // namespace mdof

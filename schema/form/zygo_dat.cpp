@@ -62,12 +62,12 @@ Result<double> height_of_a_count(const Header& header, const std::string& source
       break;
     default:
       return bad_input(source + ": phase_res is " + std::to_string(header.i16(kPhaseRes)) +
-                       "; 0, 1 and 2 are known: this is no MetroPro file, or it is damaged");
+                       ", but must be 0, 1 or 2; the file is damaged or not a MetroPro file");
   }
   const double scale_m =
       header.real(kScaleFactor) * header.real(kObliquity) * header.real(kWavelength) / counts;
   if (!(std::isfinite(scale_m) && scale_m != 0))
-    return bad_input(source + ": its header has no wavelength, scale factor or obliquity factor");
+    return bad_input(source + ": the header has no wavelength, scale factor or obliquity factor");
   return header.i16(kSign) == 0 ? scale_m : -scale_m;
 }
 
@@ -92,13 +92,14 @@ Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& sou
   const std::size_t begin =
       std::size_t{header.u32(kHeaderSize)} + std::size_t{header.u32(kIntensityBytes)};
   if (header.u32(kHeaderSize) < kLeastHeader || begin + 4 * map.nx * map.ny > bytes.size())
-    return bad_input(source + ": has " + std::to_string(bytes.size()) + " bytes, and its header " +
-                     std::to_string(begin + 4 * map.nx * map.ny) + ": it is cut off or damaged");
+    return bad_input(
+        source + ": has " + std::to_string(bytes.size()) + " bytes, but the header requires " +
+        std::to_string(begin + 4 * map.nx * map.ny) + "; the file is truncated or damaged");
   map.dx_m = map.dy_m = header.real(kLateral);
   if (!(map.dx_m > 0 && std::isfinite(map.dx_m)))
     return bad_input(source +
-                     ": its lateral resolution is 0, so the size of a pixel is unknown; "
-                     "calibrate it in MetroPro, or export x, y and z");
+                     ": the lateral resolution is 0, so the size of a pixel is unknown; "
+                     "calibrate the resolution in MetroPro, or export x, y and z");
   map.x0_m = header.i16(kOrgX) * map.dx_m;
   map.y0_m = header.i16(kOrgY) * map.dy_m;
   MDOF_TRY(const double scale_m, height_of_a_count(header, source));

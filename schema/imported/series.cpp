@@ -14,8 +14,8 @@ Result<ImportedError> imported_error(Axis axis, const std::string& name) {
     if (name == known.name) return ImportedError{name, k, known.angle};
     all += std::string(", ") + known.name;
   }
-  return fail(ErrorCode::usage,
-              "\"" + name + "\" is no error of axis " + letter(axis) + "; there are " + all);
+  return fail(ErrorCode::usage, "\"" + name + "\" is not an error of axis " + letter(axis) +
+                                    "; the errors are " + all);
 }
 
 const char* to_string(PositioningSense sense) {
@@ -45,9 +45,9 @@ bool is_imported(const RunHeader& run) {
 
 Status check_measured(const RunHeader& run, const std::string& what) {
   if (!is_imported(run)) return {};
-  return bad_input("run " + std::to_string(run.id) + " is imported: it has " +
-                   run.provenance.model + " alone, from " + run.provenance.recording_path +
-                   ", and no rig; " + what + " needs a run that mdof measured or replayed");
+  return bad_input("run " + std::to_string(run.id) + ", imported from " +
+                   run.provenance.recording_path + ", contains only " + run.provenance.model +
+                   " and no rig; " + what + " needs a measured or replayed run");
 }
 
 }  // namespace mdof

@@ -80,7 +80,7 @@ Result<Notice> read_object(simdjson::dom::object object) {
     NoticeValue x;
     if (!read_value(item, x))
       return bad_input("notice " + std::string(code) + ": " + std::string(key) +
-                       " is no number or text");
+                       " is neither a number nor a text");
     const auto* text = std::get_if<std::string>(&x);
     if (key == "code" || key == "text") continue;
     if (key == "severity")
@@ -122,7 +122,7 @@ Result<Notices> read_notices(std::string_view json_array) {
   simdjson::dom::parser parser;
   simdjson::dom::array items;
   if (parser.parse(simdjson::padded_string(json_array)).get(items))
-    return bad_input("notices are no JSON array");
+    return bad_input("notices are not a JSON array");
   for (const element item : items) {
     MDOF_TRY(Notice one, read_item(item));
     read.push_back(std::move(one));

@@ -50,16 +50,16 @@ std::string reason_against(std::string_view field, bool parsed, double x) {
 CsvLine wrong_count(std::string_view line, std::size_t fields, std::size_t columns) {
   CsvLine result;
   result.state = State::bad;
-  result.reason = std::to_string(fields) + " fields where the header has " +
+  result.reason = std::to_string(fields) + " fields, but the header has " +
                   std::to_string(columns) + " columns";
   if (fields == 1 && line.find(';') != line.npos) {
     result.state = State::fatal;
     result.reason +=
-        ": columns are separated by semicolons; save the file with commas between "
+        "; columns are separated by semicolons: save the file with commas between "
         "columns and '.' in numbers, not a decimal comma";
   } else if (2 * fields > 3 * columns && line.find('.') == line.npos) {
     result.state = State::fatal;
-    result.reason += ": numbers have a decimal comma; save the file with '.' in numbers";
+    result.reason += "; numbers have a decimal comma: save the file with '.' in numbers";
   }
   return result;
 }
@@ -95,7 +95,7 @@ CsvLine parse_csv_line(std::string_view line, const CsvHeader& header) {
     if (!is_time) {
       result.values.push_back(x);
     } else if (reason.empty() && !parse_seconds(field, result.time_ns)) {
-      reason = quoted(field) + " s is no time; give seconds from the start of the recording";
+      reason = quoted(field) + " s is not a time; give seconds from the start of the recording";
     }
     if (reason.empty()) continue;
     result.state = State::bad;

@@ -84,8 +84,9 @@ Result<bool> CsvRowParser::next(SampleBlock& block) {
 Result<bool> CsvRowParser::last(SampleBlock& block) {
   if (rows() == 0)
     return bad_input(header_.source +
-                     (bad_lines_.empty() ? ": a header but no rows; was the recording saved?"
-                                         : ": no good row; the first line says: " + bad_lines_[0]));
+                     (bad_lines_.empty()
+                          ? ": a header but no rows; check that the recording was saved"
+                          : ": no valid row; the first bad line: " + bad_lines_[0]));
   if (row_ == 0) return false;
   deliver(block);
   return true;
@@ -226,7 +227,7 @@ Status CsvRowParser::store(const CsvLine& line) {
     const char* const what = time_ns == last_time_ns_ ? "stands still" : "runs backwards";
     return bad_input(where(line_) + "column time_s: time " + what + " (" + std::to_string(time_ns) +
                      " ns after " + std::to_string(last_time_ns_) +
-                     " ns); a log is one recording in order of time: split or repair it");
+                     " ns); a log must be one recording in order of time; split or repair it");
   }
   if (row_ == 0) block_.lost = std::exchange(lost_, 0);
   block_.time_ns[row_] = last_time_ns_ = time_ns;
@@ -261,8 +262,8 @@ Status CsvRowParser::count_blank_line(std::size_t bytes) {
   const std::uint64_t first = line_ + 1 - blank_lines_;
   return bad_input(
       where(first) + "more than " + std::to_string(limits_.blank_bytes) +
-      " bytes of empty lines from here on (" + std::to_string(blank_lines_) +
-      " lines so far); this is no recording: keep the lines before it, or record again");
+      " bytes of empty lines (" + std::to_string(blank_lines_) +
+      " lines so far), so this is not a recording; keep the lines before them, or record again");
 }
 
 // Blank lines that turn out not to be the end of the file.
@@ -276,10 +277,10 @@ Status CsvRowParser::report_blank_lines() {
 Status CsvRowParser::report_bad(std::uint64_t line, const std::string& reason) {
   bad_lines_.push_back(where(line) + reason);
   if (limits_.bad_lines == 0)
-    return bad_input(bad_lines_[0] + "; repair the line, no row may be left out here");
+    return bad_input(bad_lines_[0] + "; repair the line, because no row may be missing here");
   if (bad_lines_.size() > limits_.bad_lines) {
     std::string message = header_.source + ": more than " + std::to_string(limits_.bad_lines) +
-                          " bad lines; repair the file. The first:";
+                          " bad lines; repair the file. The first bad lines:";
     for (std::size_t k = 0; k < bad_lines_.size() && k < 3; ++k) message += "\n  " + bad_lines_[k];
     return bad_input(message);
   }

@@ -52,7 +52,7 @@ Status check_separator(const CsvHeader& header, std::string_view line) {
   if (line.find(',') != line.npos) return {};
   if (line.find(';') != line.npos)
     return bad_input(where(header) +
-                     "columns are separated by semicolons, which goes with a decimal comma; save "
+                     "columns are separated by semicolons, probably with decimal commas; save "
                      "the file with commas between columns and '.' in numbers");
   if (line.find('\t') != line.npos)
     return bad_input(where(header) + "columns are separated by tabs; save the file with commas");
@@ -67,7 +67,8 @@ std::string example_of(CsvKind kind) {
 Status check_first_name(const CsvHeader& header) {
   const std::string& name = header.columns[0];
   if (name.empty() || (name[0] != '-' && (name[0] < '0' || name[0] > '9'))) return {};
-  return bad_input(where(header) + "a row of numbers where the header must be; put a line like \"" +
+  return bad_input(where(header) +
+                   "a row of numbers instead of the header; add a header such as \"" +
                    example_of(header.kind) + "\" before it");
 }
 
@@ -85,40 +86,43 @@ Status check_unit(const CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (is_named(name, kTimeName) && name != kTimeColumn && has_time(header.kind))
     return bad_input(where(header, column) +
-                     (name == kTimeName ? "has no unit; name it time_s where it is in seconds, else"
-                                        : "time is read in seconds only;") +
-                     " convert it to seconds from the start and name it time_s");
+                     (name == kTimeName ? "has no unit" : "time is read in seconds only") +
+                     "; give seconds from the start and name the column time_s");
   if (!is_named(name, kEncoderChannel)) return {};
   for (const char* known : {kEncoderColumn, "encoder_um", "encoder_m", "encoder_V"})
     if (name == known) return {};
   return bad_input(where(header, column) +
-                   (name == kEncoderChannel ? "has no unit; name it encoder_mm, encoder_um, "
-                                              "encoder_m or encoder_V, whichever it is in"
-                                            : "the axis position is read in mm, um or m, and in V "
-                                              "where the rig has [encoder] um_per_V; convert it "
-                                              "and name it encoder_mm"));
+                   (name == kEncoderChannel
+                        ? "has no unit; name the column encoder_mm, "
+                          "encoder_um, encoder_m or encoder_V"
+                        : "the axis position must be in mm, um or m, or in V "
+                          "if the rig has [encoder] um_per_V; convert the values "
+                          "and name the column encoder_mm"));
 }
 
 Status add_column(CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (name.empty())
-    return bad_input(where(header, column) + "no name; name the column or take its comma away");
+    return bad_input(where(header, column) + "has no name; name the column or remove its comma");
   if (name == kTimeColumn && has_time(header.kind)) {
     if (header.time_column >= 0)
-      return bad_input(where(header, column) + "there twice; take one away");
+      return bad_input(where(header, column) + "is given twice; remove one of the columns");
     header.time_column = static_cast<int>(column);
     return {};
   }
   MDOF_CHECK(check_unit(header, column));
   const std::optional<Channel> channel = channel_of(name);
   if (!channel || channel->id.empty())
-    return bad_input(where(header, column) +
-                     "unknown unit; known are _um _mm _V _C (and _s _hz _urad _deg _percent _hPa, "
-                     "kept unread): convert the readings, of a probe to um, or rename the column");
+    return bad_input(
+        where(header, column) +
+        "unknown unit; known units are _um _mm _V _C (also _s _hz _urad _deg _percent "
+        "_hPa, which are not read); convert the readings (of a probe to um), or rename "
+        "the column");
   for (std::size_t k = 0; k < header.channels.size(); ++k)
     if (header.channels[k].id == channel->id)
-      return bad_input(where(header, column) + "channel \"" + channel->id + "\" is there twice (" +
-                       header.columns[header.channel_columns[k]] + "); take one away");
+      return bad_input(where(header, column) + "channel \"" + channel->id +
+                       "\" is given twice (also as " + header.columns[header.channel_columns[k]] +
+                       "); remove one of the columns");
   header.channels.push_back(*channel);
   header.channel_columns.push_back(column);
   return {};
@@ -128,8 +132,8 @@ Status check_required(const CsvHeader& header) {
   auto missing = [&](const char* name) {
     std::string found;
     for (const std::string& column : header.columns) found += (found.empty() ? "" : ", ") + column;
-    return bad_input(where(header) + "no column " + name + " among: " + found +
-                     "; add it or rename the one that holds it");
+    return bad_input(where(header) + "no column " + name + " (columns: " + found +
+                     "); add it, or rename the column that contains it");
   };
   if (header.kind == CsvKind::probe_log && header.time_column < 0) return missing(kTimeColumn);
   if (header.kind == CsvKind::table) return {};
@@ -153,7 +157,8 @@ Status parse_names(CsvHeader& header, std::string_view line) {
 }
 
 Status check_encoding(std::string_view text, const std::string& source) {
-  if (text.empty()) return bad_input(source + ": the file is empty; was the recording saved?");
+  if (text.empty())
+    return bad_input(source + ": the file is empty; check that the recording was saved");
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     return bad_input(source + ": the file is UTF-16; save it as plain CSV (UTF-8)");
   return {};

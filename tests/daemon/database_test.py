@@ -175,7 +175,7 @@ class Database(unittest.TestCase):
                 spoil(self.daemon.database)
                 told = self.lost()
                 self.assertIn(reason, told)
-                self.assertIn("is kept in the database itself", told)
+                self.assertIn("are in the database itself", told)
                 self.refused(reason, "run.start", axis="X")
                 self.refused(reason, "compensation.deactivate", axis="X")
                 self.assertEqual(self.client.call("compensation.status"), before[1])

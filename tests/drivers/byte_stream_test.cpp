@@ -118,7 +118,7 @@ TEST(Serial, OpensAPtyAndRefusesASecondProgram) {
     pulse_dtr(*port);
   }
   ::close(master);
-  EXPECT_NE(open_serial("/dev/no-such-port", {}).error().message.find("is not there"),
+  EXPECT_NE(open_serial("/dev/no-such-port", {}).error().message.find("does not exist"),
             std::string::npos);
   EXPECT_NE(
       open_serial(path, {.baud = 12345}).error().message.find("baud = 12345 is not supported"),

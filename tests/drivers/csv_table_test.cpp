@@ -70,16 +70,16 @@ TEST_F(CsvTableTest, ReadsMoreThanABlock) {
   const auto table = read(text).value();
   ASSERT_EQ(table.rows(), 20000u);
   EXPECT_EQ(table.columns[1][19999], -19999);
-  expect_error(text + "1,nan\n", {":20002: column deviation_um: no value", "fill it in"});
+  expect_error(text + "1,nan\n", {":20002: column deviation_um: no value", "add the value"});
 }
 
 TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
   const std::string head = "# a\nposition_mm,deviation_um\n1,2\n";
-  expect_error(head + "2,\n", {":4: column deviation_um: no value", "take the line out"});
+  expect_error(head + "2,\n", {":4: column deviation_um: no value", "delete the line"});
   expect_error(head + "nan,3\n", {":4: column position_mm: no value"});
   expect_error(head + "2,inf\n", {":4: column deviation_um", "not a finite number"});
   expect_error(head + "2,abc\n", {":4: column deviation_um: \"abc\" is not a number"});
-  expect_error(head + "2\n", {":4: 1 fields where the header has 2"});
+  expect_error(head + "2\n", {":4: 1 fields, but the header has 2"});
   expect_error(head + "\n3,4\n", {":4: empty line"});
   expect_error("position_mm;deviation_um\n1;2\n", {"semicolons"});
   expect_error("1,2\n3,4\n", {":1: a row of numbers", "position_mm,deviation_um"});
@@ -93,7 +93,7 @@ TEST_F(CsvTableTest, SaysWhichColumnOrUnitIsMeant) {
   expect_error("x_mm,deviation_um\n1,2\n",
                {":1: no column position_mm (columns: x_mm, deviation_um)"});
   expect_error("position_inch,deviation_um\n1,2\n", {":1:", "position_inch", "unknown unit"});
-  expect_error("position_mm,deviation_um,deviation_um\n1,2,3\n", {"there twice"});
+  expect_error("position_mm,deviation_um,deviation_um\n1,2,3\n", {"given twice"});
 }
 
 TEST_F(CsvTableTest, RowsAndReadingsHaveALimit) {

@@ -90,7 +90,8 @@ Status copy_bytes(const Descriptor& from, const fs::path& name, const fs::path& 
   for (off_t left = from.size(); left > 0;) {
     const auto piece = static_cast<std::size_t>(std::min<off_t>(left, off_t{1} << 30));
     const ssize_t done = ::sendfile(out.fd(), from.fd(), &at, piece);
-    if (done < 0) return failed(name, "copy it to a private folder (TMPDIR names another)");
+    if (done < 0)
+      return failed(name, "copy the file to a private folder (TMPDIR sets another folder)");
     if (done == 0) break;
     left -= done;
   }
@@ -100,14 +101,14 @@ Status copy_bytes(const Descriptor& from, const fs::path& name, const fs::path& 
 // Half of what is free, so that a hostile file fills no disk.
 Status check_room(const fs::path& database, off_t bytes, const fs::path& folder) {
   struct statvfs disk {};
-  if (::statvfs(folder.c_str(), &disk) != 0) return failed(folder, "ask for its free space");
+  if (::statvfs(folder.c_str(), &disk) != 0) return failed(folder, "query the free space");
   const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize / 2;
   if (static_cast<std::uint64_t>(bytes) <= room) return {};
   return io_error(database.string() +
                   ": has changes in its journal, and must be copied to be read; " +
-                  "the copy needs " + std::to_string(bytes >> 20) +
-                  " MB, and half of the room in " + folder.string() + " is " +
-                  std::to_string(room >> 20) + " MB: set TMPDIR to a folder with more room");
+                  "the copy needs " + std::to_string(bytes >> 20) + " MB, but may use only " +
+                  std::to_string(room >> 20) + " MB in " + folder.string() +
+                  " (half of the free space); set TMPDIR to a folder with more free space");
 }
 
 enum class Copied { yes, busy };
@@ -220,7 +221,7 @@ Result<PrivateCopy> PrivateCopy::make(const fs::path& database, int timeout_ms) 
   std::error_code ec;
   std::string folder = (fs::temp_directory_path(ec) / "mdof-copy-XXXXXX").string();
   if (ec || !::mkdtemp(folder.data()))
-    return failed(folder, "make a private folder (TMPDIR names another place)");
+    return failed(folder, "make a private folder (TMPDIR sets another place)");
   PrivateCopy copy{fs::path(folder)};
   constexpr int kStepMs = 10;
   for (int waited_ms = 0;; waited_ms += kStepMs) {
@@ -229,9 +230,10 @@ Result<PrivateCopy> PrivateCopy::make(const fs::path& database, int timeout_ms) 
     for (const char* ending : {"", "-journal", "-wal"})
       fs::remove(copy.file().string() + ending, ec);
     if (waited_ms >= timeout_ms)
-      return fail(ErrorCode::conflict, database.string() +
-                                           ": another program writes it all the time, so that it "
-                                           "cannot be copied; try again when it is done");
+      return fail(ErrorCode::conflict,
+                  database.string() +
+                      ": another program writes the database all the time, so it "
+                      "cannot be copied; try again when that program has ended");
     std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
   }
 }

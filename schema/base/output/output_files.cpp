@@ -20,7 +20,7 @@ constexpr int kMostNames = 100;  // of temporary files that an ended program can
 
 tl::unexpected<Error> not_written(const fs::path& path, int error, const char* more = "") {
   return io_error(path.string() + ": cannot be written: " + std::strerror(error) + more +
-                  "; name a file in a folder that may be written and has room");
+                  "; give a file in a folder that is writable and has free space");
 }
 
 fs::path folder_of(const fs::path& path) {
@@ -41,13 +41,14 @@ Result<std::optional<struct stat>> existing_file(const fs::path& path, Existing 
   }
   if (::stat(path.c_str(), &target) == 0 && is_direct(target)) return target;
   if (existing == Existing::refuse)
-    return fail(ErrorCode::usage, path.string() + ": is there already; name another file");
+    return fail(ErrorCode::usage, path.string() + ": exists already; give another file");
   if (S_ISLNK(itself.st_mode))
     return io_error(path.string() +
-                    ": cannot be written: it is a symbolic link, which is not written through; "
-                    "name the file itself");
+                    ": cannot be written, because it is a symbolic link; give the target of "
+                    "the link");
   if (!S_ISREG(itself.st_mode))
-    return io_error(path.string() + ": cannot be written: it is no regular file; name another one");
+    return io_error(path.string() +
+                    ": cannot be written, because it is not a regular file; give another file");
   return itself;
 }
 
@@ -68,7 +69,7 @@ Status flush_folder(const fs::path& folder) {
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (flushed) return {};
-  return not_written(folder, error, " (the files are there, but a power cut may lose them)");
+  return not_written(folder, error, " (the files exist, but a power cut may lose them)");
 }
 
 }  // namespace
@@ -90,7 +91,8 @@ Result<std::size_t> OutputFiles::add(const fs::path& path) {
     // A pipe that nobody reads is not waited for.
     file.descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (file.descriptor < 0 && errno == ENXIO)
-      return io_error(path.string() + ": cannot be written: it is a pipe that no program reads");
+      return io_error(path.string() +
+                      ": cannot be written, because it is a pipe that no program reads");
     if (file.descriptor < 0 || ::fcntl(file.descriptor, F_SETFL, 0) != 0)
       return not_written(path, errno);
     files_.push_back(std::move(file));
@@ -156,7 +158,7 @@ Error OutputFiles::undone(Error error) {
                                                       file.path.c_str(), RENAME_EXCHANGE) == 0)
       file.stage = Stage::written;
     if (file.stage == Stage::replaced || file.stage == Stage::exchanged)
-      error.message += "; " + file.path.string() + " is new already: export all files again";
+      error.message += "; " + file.path.string() + " is already replaced; export all files again";
   }
   return error;
 }

@@ -93,7 +93,7 @@ TEST(CsvStream, BadLinesAreCountedAsLost) {
   ASSERT_EQ(all.error, "");
   EXPECT_GE(all.lost, 10u);
   ASSERT_FALSE(stream.notices().empty());
-  EXPECT_NE(test::shown(stream.notices()[0]).find("2 fields where the header has 1"),
+  EXPECT_NE(test::shown(stream.notices()[0]).find("2 fields, but the header has 1"),
             std::string::npos);
   const Collected more = collect(stream, 5000);
   EXPECT_NE(more.error.find("more than 100 of 10000 lines are bad"), std::string::npos)
@@ -153,7 +153,7 @@ TEST(CsvStream, WithoutAHeaderOpenFails) {
   CsvStream stream = over_tcp(served);
   const auto status = stream.open();
   ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find("a row of numbers where the header must be"),
+  EXPECT_NE(status.error().message.find("a row of numbers instead of the header"),
             std::string::npos);
 }
 

@@ -61,7 +61,7 @@ TEST(CsvStreamProtocol, BadLinesAreCountedNamedAndSkipped) {
   EXPECT_EQ(fed.rows[2].lost, 1u);
   EXPECT_EQ(protocol.bad_lines(), 3u);
   EXPECT_EQ(protocol.bad_line_reasons(),
-            (std::vector<std::string>{"probe:3: 1 fields where the header has 2 columns",
+            (std::vector<std::string>{"probe:3: 1 fields, but the header has 2 columns",
                                       "probe:4: column B_um: \"x\" is not a number",
                                       "probe:6: empty line"}));
 }
@@ -87,8 +87,7 @@ TEST(CsvStreamProtocol, ALineADayIsNoError) {
 TEST(CsvStreamProtocol, AMissingHeaderIsSaid) {
   CsvStreamProtocol protocol("probe", 3);
   const Fed fed = feed(protocol, "0.1,2,3\n0.2,3,4\n");
-  EXPECT_NE(fed.error.find("a row of numbers where the header must be"), fed.error.npos)
-      << fed.error;
+  EXPECT_NE(fed.error.find("a row of numbers instead of the header"), fed.error.npos) << fed.error;
 }
 
 TEST(CsvStreamProtocol, TimeMustGrowUntilTheHeaderComesAgain) {

@@ -199,7 +199,7 @@ TEST_F(PoKeys57uOnHid, PowerThatWasLostMakesItSuspectOverReopens) {
   ASSERT_TRUE(driver.open());
   got = collect(driver, 5);
   EXPECT_EQ(got.first_quality(4), Quality::suspect);
-  EXPECT_NE(driver.info().datum_lost.find("without power"), std::string::npos);
+  EXPECT_NE(driver.info().datum_lost.find("lost power"), std::string::npos);
 }
 
 TEST_F(PoKeys57uOnHid, UnpluggedIsAnErrorAndReplugAnOpening) {

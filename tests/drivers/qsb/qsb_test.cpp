@@ -80,7 +80,7 @@ TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
   SampleBlock block;
   EXPECT_FALSE(driver.read(block, std::chrono::milliseconds(1)));
   ASSERT_TRUE(driver.open());
-  EXPECT_NE(driver.info().description.find("has been without power"), std::string::npos);
+  EXPECT_NE(driver.info().description.find("lost power"), std::string::npos);
   const Collected anew = collect(driver, 1);
   EXPECT_EQ(anew.scans.at(0)[0], 0);
   EXPECT_EQ(anew.first_quality(0), Quality::suspect);  // 0 is no place
@@ -165,7 +165,7 @@ TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
   options.port = "/dev/no-such-port";
   status = Qsb("scale", options).open();
   ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find("is not there"), std::string::npos);
+  EXPECT_NE(status.error().message.find("does not exist"), std::string::npos);
 }
 
 TEST(Qsb, BehindABridge) {

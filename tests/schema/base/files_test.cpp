@@ -38,7 +38,7 @@ TEST_F(TextFile, AsLongAsTheLimitIsReadAndALongerOneRefusedByName) {
   for (const std::size_t limit : {39'999, 20'000, 0}) {
     const auto refused = read_text_file(file_, limit);
     ASSERT_FALSE(refused) << limit;
-    EXPECT_NE(refused.error().message.find(file_.string() + ": larger than"), std::string::npos)
+    EXPECT_NE(refused.error().message.find(file_.string() + ": is larger than"), std::string::npos)
         << refused.error().message;
   }
 }

@@ -83,7 +83,7 @@ TEST_F(WatchedJournal, WhatIsInAWalWithoutANameIsKept) {
         }
         const auto refused = insert(db);
         return !refused &&
-               refused.error().message.find("is kept in the database itself") != std::string::npos;
+               refused.error().message.find("are in the database itself") != std::string::npos;
       });
       EXPECT_EQ(status, 0);
       kept = in_transaction ? 2 : 1;

@@ -75,10 +75,10 @@ TEST(HeightMapCsv, WhatIsWrongIsNamed) {
       {"x_mm,y_mm\n0,0\n", "no column z_um"},
       {head + "0,0,1\n1,0\n", "map.csv:3: has 2 columns"},
       {head + "0,0,1\n1,0,one\n", "map.csv:3: column 3 is \"one\""},
-      {head + "0,0,1\n1,0,inf\n", "no finite number"},
-      {head + "0,0,1\n,0,1\n", "map.csv:3: has no place"},
+      {head + "0,0,1\n1,0,inf\n", "not a finite number"},
+      {head + "0,0,1\n,0,1\n", "map.csv:3: has no position"},
       {head + "0,0,1\n1,0,2\n# again\n0,0,3\n", "map.csv:5: a second height"},
-      {head + "0,0,1\n0,0,1\n", "same place"},
+      {head + "0,0,1\n0,0,1\n", "same position"},
       {head + "0,0,nan\n1,0,\n", "no pixel has a height"},
       {head + "0,0,1\n1,0,2\n2.3,0,2\n3,0,1\n4,0,1\n", "grid"}};
   for (const auto& [text, message] : bad)
@@ -168,8 +168,8 @@ TEST(Sdf, BadPointsAndOtherDialects) {
     const auto map = parse_sdf(text, "s.sdf");
     return map ? std::string() : map.error().message;
   };
-  EXPECT_NE(error("bISO-1.0 ...").find("export it as text"), std::string::npos);
-  EXPECT_NE(error("aISO-1.0\n" + header).find("within its header"), std::string::npos);
+  EXPECT_NE(error("bISO-1.0 ...").find("export the map as text"), std::string::npos);
+  EXPECT_NE(error("aISO-1.0\n" + header).find("within the header"), std::string::npos);
   EXPECT_NE(error("aISO-1.0\n" + header + "*\n1 2 3 4 5\n").find("has 5 heights"),
             std::string::npos);
   EXPECT_NE(error("aISO-1.0\n" + header + "*\n1 2 3 4 5 6 7\n").find("more heights"),

@@ -263,7 +263,7 @@ TEST(CsvRowParser, RecognisesADecimalComma) {
 TEST(CsvRowParser, RefusesAFileWithoutAGoodRow) {
   expect_contains(parse(kHeader).error, {"x.csv", "no rows"});
   expect_contains(parse(kHeader + "\n\n").error, {"x.csv", "no rows"});
-  expect_contains(parse(kHeader + "a,b,c\n").error, {"no good row", "x.csv:2: ", "\"a\""});
+  expect_contains(parse(kHeader + "a,b,c\n").error, {"no valid row", "x.csv:2: ", "\"a\""});
 }
 
 TEST(CsvRowParser, NumbersTheRowsOfAFramesFile) {

@@ -112,7 +112,7 @@ Vec3 read_mm(TomlTable& table, const char* key) {
 double read_u(TomlTable& table, const char* key) {
   const double u = table.number(key);
   if (!(u >= 0 && std::isfinite(u)))
-    table.reject(key, "is a standard uncertainty: it must be a number and not negative");
+    table.reject(key, "must be a standard uncertainty, a number that is not negative");
   return u;
 }
 
@@ -197,8 +197,8 @@ std::string record_text(const CalibrationRecord& record) {
       record.kind + "-" + record.date + "-" + sha256_hex(body).substr(0, kIdDigits);
   const std::string hashed = line("id", id) + body;
   return "# Made by a calibration of " + record.kind +
-         ". A rig refers to it by calibration = \"this file\".\n# Not to be edited: the hash is of "
-         "all that follows it.\n" +
+         ". A rig refers to it with calibration = \"this file\".\n# Do not edit: sha256 is the "
+         "hash of the text below it.\n" +
          std::string(kRecordHead) + "\n" + std::string(kHashKey) + sha256_hex(hashed) + "\"\n" +
          hashed;
 }

@@ -100,7 +100,7 @@ Status check_function(const ErrorFunction& function, std::size_t k, const std::s
   if (function.forward.size() != rows || !fits(function.reverse) || !fits(function.u))
     return bad_input(where + ": must have one value for each position, and at least one");
   if (!all_below(function.position, 1e6))
-    return bad_input(where + ": a position is no finite number; correct it or take it out");
+    return bad_input(where + ": a position is not a finite number; correct or remove the position");
   if (!increasing(function.position))
     return bad_input(where +
                      ": positions must increase; sort them, and take the mean of readings at the "
@@ -108,10 +108,10 @@ Status check_function(const ErrorFunction& function, std::size_t k, const std::s
   const double most = k < 3 ? kMostShift_m : kMostTurn_rad;
   if (!all_below(function.forward, most) || !all_below(function.reverse, most))
     return bad_input(where + ": every value must be a number of at most " +
-                     (k < 3 ? "10,000 µm" : "100,000 µrad") + "; is the unit right?");
+                     (k < 3 ? "10,000 µm" : "100,000 µrad") + "; check the unit");
   const auto negative = [](double u) { return !(u >= 0); };
   if (!all_below(function.u, most) || std::any_of(function.u.begin(), function.u.end(), negative))
-    return bad_input(where + ": a standard uncertainty must be a number and not negative");
+    return bad_input(where + ": a standard uncertainty must be a number that is not negative");
   return {};
 }
 

@@ -31,7 +31,7 @@ std::vector<NamedError> errors_of(const Machine& machine) {
 double read_factor(TomlTable& table, const std::string& key) {
   const double factor = table.number(key);
   if (std::abs(factor) <= kLargestFactor) return factor;
-  table.reject(key, "is larger than 1e9; is the unit right?");
+  table.reject(key, "is larger than 1e9; check the unit");
   return 0;
 }
 
@@ -40,7 +40,7 @@ void read_factor_per_position(TomlTable& table, const Machine& machine, SourceEf
   const std::string of = table.string("of");
   const MachineFrame* axis = machine.find(of);
   if (!axis || axis->kind == FrameKind::fixed) {
-    table.reject("of", "\"" + of + "\" is no axis of the chain " + machine.chain.text);
+    table.reject("of", "\"" + of + "\" is not an axis of the chain " + machine.chain.text);
     return;
   }
   effect.of = static_cast<std::size_t>(axis - machine.frames.data());
@@ -71,8 +71,8 @@ SourceEffect read_effect(TomlTable& table, const Machine& machine,
     effect.factor = from_um(read_factor(table, "factor"));
   else if (!table.has("of"))
     table.reject("factor",
-                 "is needed, or factor_per_mm with of: the error in µm or µrad by one "
-                 "unit of the source");
+                 "is missing; give factor (the error in µm or µrad per unit of the source) "
+                 "or factor_per_mm with of");
   return effect;
 }
 
@@ -95,7 +95,7 @@ ErrorSource read_source(TomlTable& table, const Machine& machine,
   source.name = table.string("name");
   if (source.name.empty()) table.reject("name", "must not be empty");
   for (const ErrorSource& other : machine.sources)
-    if (other.name == source.name) table.reject("name", "\"" + source.name + "\" is there twice");
+    if (other.name == source.name) table.reject("name", "\"" + source.name + "\" is given twice");
   for (const NamedError& error : errors)
     if (error.name == source.name)
       table.reject("name", "\"" + source.name + "\" is the name of an error; give another one");
@@ -104,13 +104,13 @@ ErrorSource read_source(TomlTable& table, const Machine& machine,
     table.reject("unit", "must be a word such as um, urad or deg");
   source.u = table.number("u");
   if (!(source.u >= 0))
-    table.reject("u", "is a standard uncertainty: it must be a number and not negative");
+    table.reject("u", "must be a standard uncertainty, a number that is not negative");
   source.shape = read_shape(table);
   for (TomlTable& effect : table.tables("acts_on"))
     source.acts_on.push_back(read_effect(effect, machine, errors));
   if (source.acts_on.empty())
     table.reject("acts_on",
-                 "must name what the source acts on, such as "
+                 "must list the errors that the source changes, such as "
                  "[{error = \"EXX\", factor = 1}]");
   return source;
 }

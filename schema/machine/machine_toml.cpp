@@ -21,7 +21,7 @@ Vec3 read_point(TomlTable& table, std::string_view key) {
   Vec3 point = table.vector3(key);
   for (double& x : point) x = from_mm(x);
   if (!std::all_of(point.begin(), point.end(), [](double x) { return std::abs(x) < 1e3; }))
-    table.reject(key, "must be three numbers of mm");
+    table.reject(key, "must be three numbers in mm");
   return point;
 }
 
@@ -45,7 +45,7 @@ std::optional<double> read_u(TomlTable& table, const std::string& key, std::size
   if (!table.has(of)) return std::nullopt;
   const double u = value_from_written(k, table.number(of));
   if (!(u >= 0 && std::isfinite(u)))
-    table.reject(of, "is a standard uncertainty: it must be a number and not negative");
+    table.reject(of, "must be a standard uncertainty, a number that is not negative");
   return u;
 }
 
@@ -61,7 +61,7 @@ void read_function(TomlTable& table, const std::string& name, const MachineFrame
   if (!table.has(key)) return;
   if (table.is_array(key)) {
     if (frame.kind == FrameKind::fixed)
-      table.reject(key, "a frame that is no axis has no positions; give one number");
+      table.reject(key, "a frame that is not an axis has no positions; give one number");
     read_rows(table, key, frame, k, function);
   } else {
     function.forward = {value_from_written(k, table.number(key))};
@@ -96,7 +96,7 @@ void read_range(TomlTable& table, MachineFrame& frame) {
   if (!table.has(key)) return;
   const auto ends = table.numbers(key);
   if (ends.size() != 2 || !(ends[0] < ends[1])) {
-    table.reject(key, "must be [from, to], from below to");
+    table.reject(key, "must be [from, to] with from less than to");
     return;
   }
   frame.range = {position_from_written(frame, ends[0]), position_from_written(frame, ends[1])};
@@ -113,12 +113,13 @@ StoredRows read_stored_rows(TomlTable& table, const std::string& key) {
   }
   for (const double x : table.is_array(key) ? table.numbers(key) : std::vector{table.number(key)}) {
     if (!(x >= 1 && x <= 1e15 && x == std::floor(x))) {
-      table.reject(key, "must have the numbers of stored rows, from 1 on");
+      table.reject(key, "must contain numbers of stored rows, 1 or greater");
       return rows;
     }
     rows.ids.push_back(static_cast<std::int64_t>(x));
   }
-  if (rows.ids.empty()) table.reject(key, "must not be empty; take it out, or name a row");
+  if (rows.ids.empty())
+    table.reject(key, "must not be empty; remove the key, or give the number of a row");
   return rows;
 }
 
@@ -134,18 +135,19 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
     frame.point_moves = point == "moving";
     if (point != "moving" && point != "standing")
       table.reject("point",
-                   "must be \"standing\" (the errors hold where an indicator stands still) or "
-                   "\"moving\" (at a point that goes with the axis)");
+                   "must be \"standing\" (errors at the place of a fixed indicator) or "
+                   "\"moving\" (errors at a point that moves with the axis)");
     const std::string sense = table.string("positioning_sense", "body");
     frame.positioning_by_command = sense == "command";
     if (sense != "command" && sense != "body")
       table.reject("positioning_sense",
                    "must be \"body\" (along + of the machine) or \"command\" (actual - commanded "
-                   "place in the controller's coordinates)");
+                   "position in coordinates of the controller)");
     frame.runs = read_stored_rows(table, "runs");
     frame.tables = read_stored_rows(table, "tables");
     if (frame.tables.latest)
-      table.reject("tables", "must have numbers of tables; only runs and squareness have a latest");
+      table.reject("tables",
+                   "must contain numbers of tables; only runs and squareness accept \"latest\"");
   }
   frame.file = table.string("file", "");
   read_range(table, frame);
@@ -175,7 +177,7 @@ void read_axes(TomlTable& root, Machine& machine) {
     if (frame == machine.frames.end()) {
       table.reject("id", "the chain " + machine.chain.text + " has no axis \"" + id + "\"");
     } else if (read.find(id) != std::string::npos) {
-      table.reject("id", "axis " + id + " is there twice");
+      table.reject("id", "axis " + id + " is given twice");
     } else {
       read_axis(table, *frame);
       read += id;
@@ -204,7 +206,8 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
   const std::string with = table.string("with"), along = table.string("along");
   const MachineFrame* axis = machine.find(with);
   if (!axis || axis->kind != FrameKind::linear)
-    table.reject("with", "\"" + with + "\" is no linear axis of the chain " + machine.chain.text);
+    table.reject("with",
+                 "\"" + with + "\" is not a linear axis of the chain " + machine.chain.text);
   else
     frame.moves_with = with[0];
   if (along != "X" && along != "Y" && along != "Z")
@@ -214,8 +217,8 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
   frame.ratio = table.number("ratio");
   if (!(std::abs(frame.ratio) <= kLargestRatio) || frame.ratio == 0)
     table.reject("ratio",
-                 "must be a number from -1000 to 1000 that is not 0: mm along + of `along` "
-                 "by mm of the command of `with`");
+                 "must be from -1000 to 1000 and not 0 (mm along + of `along` per mm of the "
+                 "command of `with`)");
   const std::string point = table.string("point", "moving");
   frame.point_moves = point == "moving";
   if (point != "moving" && point != "standing")
@@ -233,7 +236,7 @@ void read_fixed_frames(TomlTable& root, Machine& machine) {
       table.reject("id", "must be a name of two letters or more that no other frame has");
     if (!place) {
       table.reject("after", "\"" + after +
-                                "\" is no link of the chain; give w, b, an axis or the " +
+                                "\" is not a link of the chain; give w, b, an axis or the " +
                                 "id of a frame above this one");
       continue;
     }
@@ -255,7 +258,7 @@ Result<Machine> parse_machine(std::string_view text, const std::string& source_n
   machine.simulated = root.boolean("simulated", false);
   machine.chain = read_machine(root);
   if (!machine.chain.known())
-    root.reject("machine", "[machine] chain is needed, such as chain = \"w-Y-X-b-Z-t\"");
+    root.reject("machine", "[machine] chain is missing; give one such as chain = \"w-Y-X-b-Z-t\"");
   else
     read_axes(root, machine);
   read_fixed_frames(root, machine);
@@ -263,7 +266,7 @@ Result<Machine> parse_machine(std::string_view text, const std::string& source_n
   machine.squareness = read_stored_rows(root, "squareness");
   if (machine.squareness.ids.size() > 3)
     root.reject("squareness",
-                "must be at most three numbers, of XY, XZ and YZ one each, or \"latest\"");
+                "must be at most three numbers (one each for XY, XZ and YZ) or \"latest\"");
   if (auto tool = root.table("tool")) machine.tool_m = read_point(*tool, "point_mm");
   MDOF_CHECK(root.finish());
   return machine;

@@ -101,7 +101,7 @@ void read_sections(TomlTable& tool, Reader& reader, MillingPlan& plan) {
     return;
   }
   for (const char* key : {"overhang_mm", "equivalent_diameter"})
-    if (tool.has(key)) tool.reject(key, "sections_mm gives it already; leave one out");
+    if (tool.has(key)) tool.reject(key, "contradicts sections_mm; give one or the other");
   for (const auto& row : tool.matrix("sections_mm")) {
     if (row.size() != 2 || !(row[0] > 0 && row[0] < kHuge) || !(row[1] > 0 && row[1] < kHuge)) {
       tool.reject("sections_mm", "each section is [length, diameter], both above 0");
@@ -109,7 +109,7 @@ void read_sections(TomlTable& tool, Reader& reader, MillingPlan& plan) {
     }
     plan.sections.push_back({row[0] * kMm, row[1] * kMm});
   }
-  if (plan.sections.empty()) tool.reject("sections_mm", "names no section");
+  if (plan.sections.empty()) tool.reject("sections_mm", "must contain at least one section");
 }
 
 constexpr std::string_view kMicroEndMill =

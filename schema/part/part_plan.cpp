@@ -42,11 +42,11 @@ void read_layer(TomlTable& layers, PartLayer& layer) {
     layers.reject(key, "needs one file, such as " + key + " = \"" +
                            (key == "form" ? "clamp.csv" : "plan.toml") + "\"");
   if (key == "budget" && !layer.from.empty())
-    layers.reject(key, "must be true or false; its sources are in the machine's file");
+    layers.reject(key, "must be true or false; the sources are in the machine file");
   for (const std::string& from : layer.from)
     if (key == "axes" && !table_number(from))
       layers.reject(key, "is \"" + from +
-                             "\"; it must be true (errors of the machine's file) or "
+                             "\"; it must be true (errors of the machine file) or "
                              "stored tables, such as \"table:12\"");
 }
 
@@ -69,7 +69,8 @@ Result<PartPlan> parse_part_plan(std::string_view text, const std::string& sourc
   plan.machine = root.string("machine");
   plan.path = root.string("path");
   auto layers = root.table("layers");
-  if (!layers) root.reject("layers", "table [layers] is missing: axes, budget, form, milling");
+  if (!layers)
+    root.reject("layers", "table [layers] is missing; add it with axes, budget, form or milling");
   for (const char* name : kLayers) {
     if (!layers || !layers->has(name)) continue;
     PartLayer layer{name, {}, true, false, {}};
@@ -83,7 +84,7 @@ Result<PartPlan> parse_part_plan(std::string_view text, const std::string& sourc
   bool any = false;
   for (const PartLayer& layer : plan.layers) any = any || layer.on;
   if (!any)
-    return bad_input(source + ": no layer is on; switch on one of axes, budget, form, milling");
+    return bad_input(source + ": all layers are off; switch on one of axes, budget, form, milling");
   return plan;
 }
 

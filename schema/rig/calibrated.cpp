@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kMostRecords = 16, kMostRecordBytes = std::size_t{256} << 10;
 
 std::string too_many(std::size_t records) {
-  return std::to_string(records) + " calibration records; a rig has at most " +
-         std::to_string(kMostRecords) + ": the newest mounting and sensitivity";
+  return std::to_string(records) + " calibration records, but a rig can have at most " +
+         std::to_string(kMostRecords) + "; keep the newest of mounting and of sensitivity";
 }
 
 std::vector<std::string> names_of(TomlTable& rig) {
@@ -43,9 +43,9 @@ void check_fit(const CalibrationRecord& record, const Fits& rig, TomlTable& tabl
   };
   if (record.rig != rig.name)
     return reject("rig",
-                  "is \"" + record.rig + "\", and " + rig.source + " is \"" + rig.name + "\"");
+                  "is \"" + record.rig + "\", but " + rig.source + " is \"" + rig.name + "\"");
   if (std::string(1, record.axis) != rig.axis)
-    return reject("axis", "is " + std::string(1, record.axis) + ", and that of " + rig.source +
+    return reject("axis", "is " + std::string(1, record.axis) + ", but the axis of " + rig.source +
                               " is " + rig.axis);
   std::vector<std::string> ids, more;
   for (const auto& probe : record.probes) ids.push_back(probe.id);
@@ -55,8 +55,8 @@ void check_fit(const CalibrationRecord& record, const Fits& rig, TomlTable& tabl
     for (const auto& id : rig.probes)
       if (std::find(ids.begin(), ids.end(), id) == ids.end()) more.push_back(id);
   if (!more.empty())
-    reject("probe", "the record is of the probes " + joined(ids) + ", and " + rig.source + " has " +
-                        joined(rig.probes));
+    reject("probe", "the record contains the probes " + joined(ids) + ", but " + rig.source +
+                        " has " + joined(rig.probes));
 }
 
 Fits fits_of(TomlTable& rig, const std::string& source) {
@@ -72,13 +72,13 @@ Result<std::string> read_one(const std::filesystem::path& file, const Fits& rig,
   MDOF_TRY(TomlTable table, TomlTable::parse(*text, file.string()));
   const auto parts = record_parts(*text);
   if (parts.size() != 1 || !table.is_array("calibration_record"))
-    return bad_input(file.string() + ": is no calibration record", Remedy::calibrate_anew);
+    return bad_input(file.string() + ": is not a calibration record", Remedy::calibrate_anew);
   auto tables = table.tables("calibration_record");
   const CalibrationRecord record = read_record(tables.front());
   if (!is_unchanged(parts.front()))
-    tables.front().reject("sha256",
-                          "is not that of the text below it: it was changed since it was made",
-                          Remedy::calibrate_anew);
+    tables.front().reject(
+        "sha256", "does not match the text below it; the record was changed after it was made",
+        Remedy::calibrate_anew);
   check_fit(record, rig, tables.front());
   MDOF_CHECK(table.finish());
   return std::string(parts.front());
@@ -142,7 +142,7 @@ void apply(CalibrationRecord& record, Rig& rig) {
 }
 
 std::string calibrated_quantity(const CalibrationRecord& record) {
-  return record.kind == "mounting" ? "places of the probes" : "sensitivity";
+  return record.kind == "mounting" ? "positions of the probes" : "sensitivity";
 }
 
 }  // namespace
@@ -170,24 +170,24 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
   auto tables = table.tables("calibration_record");
   const auto parts = record_parts(text);
   if (names.size() != tables.size() || parts.size() != tables.size())
-    return table.reject("calibration",
-                        "names " + std::to_string(names.size()) + " files, and this text has " +
-                            std::to_string(parts.size()) +
-                            " calibration records behind it; give the rig as a file");
+    return table.reject("calibration", "names " + std::to_string(names.size()) +
+                                           " files, but this text contains " +
+                                           std::to_string(parts.size()) +
+                                           " calibration records; give the rig as a file");
   if (parts.size() > kMostRecords)
     return table.reject("calibration", "names " + too_many(parts.size()));
   for (const std::string_view part : parts)
     if (part.size() > kMostRecordBytes)
       return table.reject("calibration",
-                          "a record has " + std::to_string(part.size()) + " bytes; at most " +
-                              std::to_string(kMostRecordBytes),
+                          "a record has " + std::to_string(part.size()) + " bytes, but at most " +
+                              std::to_string(kMostRecordBytes) + " are possible",
                           Remedy::calibrate_anew);
   Fits fits{rig.source, rig.name, std::string(1, letter(rig.axis)), {}};
   for (const Probe& probe : rig.probes) fits.probes.push_back(probe.id);
   for (std::size_t i = 0; i < tables.size(); ++i) {
     CalibrationRecord record = read_record(tables[i]);
     if (!is_unchanged(parts[i]))
-      tables[i].reject("sha256", "is not that of the text below it", Remedy::calibrate_anew);
+      tables[i].reject("sha256", "does not match the text below it", Remedy::calibrate_anew);
     check_fit(record, fits, tables[i]);
     apply(record, rig);
     rig.records.push_back(std::move(record));
@@ -197,8 +197,8 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
 std::vector<std::string> calibration_notes(const Rig& rig) {
   std::vector<std::string> notes;
   for (const CalibrationRecord& record : rig.records)
-    notes.push_back(calibrated_quantity(record) + " by the calibration \"" + record.id + "\" of " +
-                    record.date + ", valid until " + record.valid_until);
+    notes.push_back(calibrated_quantity(record) + " from the calibration \"" + record.id +
+                    "\" of " + record.date + ", valid until " + record.valid_until);
   return notes;
 }
 

@@ -13,7 +13,7 @@ bool is_axis(char letter) {
 }
 
 tl::unexpected<Error> no_chain(std::string_view text, const std::string& why) {
-  return bad_input("\"" + std::string(text) + "\" is no kinematic chain: " + why +
+  return bad_input("\"" + std::string(text) + "\" is not a kinematic chain: " + why +
                    "; write it from the work to the tool, such as \"w-Y-X-b-Z-t\" (w work, b bed, "
                    "t tool)");
 }
@@ -58,7 +58,7 @@ Result<Chain> parse_chain(std::string_view text) {
     } else if (link.size() == 1 && is_axis(link[0]) && !chain.find(link[0])) {
       chain.axes.push_back({link[0], !bed, false});
     } else {
-      return no_chain(text, "\"" + link + "\" stands twice or is none of b, X, Y, Z, A, B, C");
+      return no_chain(text, "\"" + link + "\" is given twice or is not one of b, X, Y, Z, A, B, C");
     }
   }
   if (!bed) return no_chain(text, "it has no bed, b");

@@ -26,8 +26,8 @@ CorrectionSigns correction_signs(const Chain& chain, Axis axis) {
     const ChainAxis* correcting = chain.find(by);
     if (!chain.known()) {
       signs.gap[k] =
-          "the machine's chain is not known: a wrong sign scraps parts; add [machine] chain, such "
-          "as \"w-Y-X-b-Z-t\", to the rig or to mdofd.toml and build the table again";
+          "the kinematic chain of the machine is unknown, so the sign is unknown; add [machine] "
+          "chain, such as \"w-Y-X-b-Z-t\", to the rig or to mdofd.toml and build the table again";
     } else if (!measured || !correcting) {
       signs.gap[k] = "the chain " + chain.text + " has no axis " + (measured ? by : letter(axis));
     } else {

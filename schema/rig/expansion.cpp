@@ -15,7 +15,7 @@ ThermalExpansion expansion_of(TomlTable& table, const std::string& body) {
   if (!(std::abs(ppm) <= kMostPpmPerK))
     table.reject(key, "must be the expansion in 1e-6/K, from -1000 to 1000; steel has 11.5");
   if (!(u_ppm >= 0 && u_ppm <= kMostPpmPerK))
-    table.reject(u_key, "is a standard uncertainty: it must be from 0 to 1000");
+    table.reject(u_key, "must be a standard uncertainty from 0 to 1000");
   return {ppm * 1e-6, u_ppm * 1e-6};
 }
 

@@ -26,8 +26,8 @@ void check_standoff(TomlTable& table, const Probe& probe, const ProbePhysics& ph
   if (physics.standoff_m == 0 || probe.calibration.reads_gap) return;
   if (physics.standoff_m < probe.range_m / 2)
     table.reject("standoff_um", plain_number(to_um(physics.standoff_m)) +
-                                    " um is less than half of range_um, so that the gap would be "
-                                    "closed at the end of the range; give the gap at reading 0");
+                                    " um is less than half of range_um, so the gap would be closed "
+                                    "at the end of the range; give the gap at reading 0");
 }
 
 ProbePhysics read_probe_physics(TomlTable& table, const Probe& probe) {
@@ -44,7 +44,7 @@ ProbePhysics read_probe_physics(TomlTable& table, const Probe& probe) {
     physics.u_tilt_factor = {kTiltFactorHalfWidth / std::sqrt(3.0), UncertaintyShape::rectangular};
   if ((has_factor || has_u) && physics.sensing_radius_m == 0)
     table.reject(has_factor ? "tilt_factor" : "u_tilt_factor",
-                 "is of no use without the radius of the electrode; add sensing_radius_mm");
+                 "needs the radius of the electrode; add sensing_radius_mm");
   physics.u_linearity = read_uncertainty(table, "u_linearity_um", from_um(1));
   return physics;
 }
@@ -52,7 +52,7 @@ ProbePhysics read_probe_physics(TomlTable& table, const Probe& probe) {
 double read_air(TomlTable& table, const std::string& key, const AirQuantity& of) {
   const double x = table.number(key);
   if (!(x >= of.least && x <= of.most))
-    table.reject(key, plain_number(x) + " is no " + of.name + " of air; it must be from " +
+    table.reject(key, plain_number(x) + " is not a possible " + of.name + " of air; give " +
                           plain_number(of.least) + " to " + plain_number(of.most) + " " + of.unit);
   return x;
 }
@@ -99,20 +99,21 @@ void check_linearity(TomlTable& table, const Probe& probe) {
   const char* key = c.polynomial_um.empty() ? "linearity" : "polynomial_um";
   if (c.linearity.empty() && c.polynomial_um.empty())
     return table.reject(key,
-                        "is missing, and [corrections] linearity = true needs it of each probe; "
-                        "add linearity or polynomial_um, or leave the correction out");
+                        "is missing, but [corrections] linearity = true needs it for each probe; "
+                        "add linearity or polynomial_um, or remove the correction");
   const auto range = readings_of_range(probe);
   if (!rises(c, range))
-    return table.reject(key,
-                        "is not monotonic: two readings would be the same displacement; correct "
-                        "its values (reading and correction are in um)");
+    return table.reject(
+        key,
+        "is not monotonic, so two readings would give the same displacement; correct "
+        "the values (reading and correction in um)");
   if (c.linearity.empty()) return;
   const double middle = (range[0] + range[1]) / 2, half = kRangeCovered * (range[1] - middle);
   if (c.linearity.front()[0] <= middle - half && c.linearity.back()[0] >= middle + half) return;
   table.reject(key, "covers readings from " + plain_number(c.linearity.front()[0], 6) + " to " +
-                        plain_number(c.linearity.back()[0], 6) + " um, and the probe reads from " +
+                        plain_number(c.linearity.back()[0], 6) + " um, but the probe reads from " +
                         plain_number(range[0], 6) + " to " + plain_number(range[1], 6) +
-                        " um; extend it, or say by valid_um where the probe is used");
+                        " um; extend the table, or give the used range of the probe as valid_um");
 }
 
 void leave_linearity_out(Rig& rig, RigPhysics& physics) {
@@ -125,8 +126,8 @@ void leave_linearity_out(Rig& rig, RigPhysics& physics) {
 
 void need(TomlTable& table, const char* key, bool known, const char* correction) {
   if (known) return;
-  table.reject(key, std::string("is missing, and [corrections] ") + correction +
-                        " = true needs it of each probe; add it, or leave the correction out");
+  table.reject(key, std::string("is missing, but [corrections] ") + correction +
+                        " = true needs it for each probe; add it, or remove the correction");
 }
 
 void check_needs(TomlTable& root, std::vector<TomlTable>& tables, const Rig& rig,
@@ -140,7 +141,7 @@ void check_needs(TomlTable& root, std::vector<TomlTable>& tables, const Rig& rig
   }
   if (physics.dielectric && !physics.air)
     root.reject("air",
-                "is missing, and [corrections] dielectric = true needs it; add a table [air] with "
+                "is missing, but [corrections] dielectric = true needs it; add a table [air] with "
                 "calibration_temperature_C, calibration_pressure_kPa and "
                 "calibration_humidity_percent");
 }

@@ -30,8 +30,8 @@ Result<StatedAt> stated_at(const Rig& rig, Reference reference) {
   if (rig.tool_point_m) return StatedAt{reference, *rig.tool_point_m};
   return fail(ErrorCode::usage,
               rig.source +
-                  ": has no tool_point_mm, so that nothing can be stated at the tool; add "
-                  "tool_point_mm = [x, y, z], the tool's point in the metrology frame");
+                  ": has no tool_point_mm, so errors cannot be stated at the tool; add "
+                  "tool_point_mm = [x, y, z], the point of the tool in the metrology frame");
 }
 
 StatedAt stated_at_by_default(const Rig& rig) {

@@ -18,12 +18,12 @@ bool is_capital(char c) {
 std::string fault(std::string_view key, const std::string& value) {
   if (key == "country" && !value.empty() &&
       (value.size() != 2 || !is_capital(value[0]) || !is_capital(value[1])))
-    return "\"" + value + "\" is no country of ISO 3166-1; give two capitals, such as DE";
+    return "\"" + value + "\" is not a country code of ISO 3166-1; give two capitals, such as DE";
   if (key == "place" && !value.empty() && value != "laboratory" && value != "customer" &&
       value != "other")
-    return "\"" + value + "\" is no place; give laboratory, customer or other";
+    return "\"" + value + "\" is not a place; give laboratory, customer or other";
   if (key == "date" && !value.empty() && !is_date(value))
-    return "\"" + value + "\" is no date; give YYYY-MM-DD";
+    return "\"" + value + "\" is not a date; give YYYY-MM-DD";
   return "";
 }
 
@@ -82,7 +82,7 @@ Status set_fact(ReportFacts& facts, std::string_view key, const std::string& val
     std::string names;
     for (const ReportKey& k : keys) names += (names.empty() ? "" : ", ") + std::string(k.name);
     return fail(ErrorCode::usage,
-                "the key \"" + std::string(key) + "\" is not known; give one of " + names);
+                "the key \"" + std::string(key) + "\" is unknown; give one of " + names);
   }
   if (const std::string why = fault(key, value); !why.empty())
     return fail(ErrorCode::usage, std::string(key) + ": " + why);

@@ -71,7 +71,7 @@ Calibration read_calibration(TomlTable& table) {
   }
   c.polynomial_um = table.numbers("polynomial_um", std::vector<double>{});
   if (!c.polynomial_um.empty() && !c.linearity.empty())
-    table.reject("polynomial_um", "is a second correction beside linearity; give one of them");
+    table.reject("polynomial_um", "contradicts linearity; give one or the other");
   if (table.has("valid_um")) {
     const auto valid = table.numbers("valid_um");
     if (valid.size() == 2 && valid[0] < valid[1]) {
@@ -103,8 +103,8 @@ Probe read_probe(TomlTable& table) {
   const double delay_us = table.number("delay_us", 0.0);
   if (!(delay_us >= 0 && delay_us <= kMostDelay_us))
     table.reject("delay_us",
-                 "must be from 0 to 10000000: by how much later than the encoder's its readings "
-                 "come, by its amplifier's filter");
+                 "must be from 0 to 10000000 (delay of the readings after those of the encoder, "
+                 "such as by the filter of the amplifier)");
   probe.delay_s = delay_us / 1e6;
   probe.uncertainty = {read_uncertainty(table, "u_calibration_um", from_um(1)),
                        read_uncertainty(table, "u_sensitivity_ppm", 1e-6),
@@ -172,8 +172,8 @@ void read_encoder(TomlTable& table, Rig& rig) {
   const double um_per_V = encoder->number("um_per_V");
   if (!(std::abs(um_per_V) > 0 && std::isfinite(um_per_V)))
     encoder->reject("um_per_V",
-                    "must be the micrometres along the axis for a volt of its encoder, negative "
-                    "where the volts fall as its position grows, and not 0");
+                    "must be the um of axis motion per volt of the encoder (not 0; negative if the "
+                    "voltage falls as the position grows)");
   rig.encoder_um_per_V = um_per_V;
 }
 
@@ -191,7 +191,7 @@ void read_installation_and_drift(TomlTable& table, Rig& rig) {
   if (!(limit_um_per_h > 0 && std::isfinite(limit_um_per_h)))
     drift->reject(
         "limit_um_per_h",
-        "must be the most by which a probe's readings may drift, in um/h, and more than 0");
+        "must be the largest permitted drift of the readings of a probe in um/h, more than 0");
   rig.drift_limit_m_per_s = from_um(limit_um_per_h) / 3600;
 }
 
@@ -210,11 +210,10 @@ void check_machine(TomlTable& table, const Rig& rig) {
   const std::string axis(1, letter(rig.axis));
   const ChainAxis* in_chain = rig.machine.find(axis[0]);
   if (!in_chain)
-    return table.reject("machine", "its chain " + rig.machine.text + " has no axis " + axis);
+    return table.reject("machine", "the chain " + rig.machine.text + " has no axis " + axis);
   if (in_chain->against_command != rig.sides.against_encoder)
-    table.reject("travel", "is \"" + std::string(rig.sides.travel()) + "\", and [machine] travel." +
-                               axis + " says otherwise (\"+\" where " +
-                               "it is not given): correct the one that is wrong");
+    table.reject("travel", "is \"" + std::string(rig.sides.travel()) + "\", but [machine] travel." +
+                               axis + " is the opposite (default \"+\"); correct the wrong one");
 }
 
 constexpr std::size_t kMostProbes = 1000;  // each is compared with each
@@ -348,16 +347,17 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
   for (auto& plane : table.tables("plane")) rig.planes.push_back(read_plane(plane));
   if (rig.probes.empty()) table.reject("probe", "the rig has no probes; add [[probe]] tables");
   if (rig.probes.size() > kMostProbes)
-    table.reject("probe", "the rig has " + std::to_string(rig.probes.size()) + " probes, at most " +
-                              std::to_string(kMostProbes) + " can be");
+    table.reject("probe", "the rig has " + std::to_string(rig.probes.size()) +
+                              " probes, but at most " + std::to_string(kMostProbes) +
+                              " are possible");
   else
     reject_doubles(table, rig.probes);
   rig.report = read_report_facts(table);
   apply_records(table, toml_text, rig);
   read_physics(table, rig);
   if (const auto scan = read_scan(table, rig.axis); scan && rig.probe_index(scan->probe))
-    table.reject("scan",
-                 "its probe \"" + scan->probe + "\" is one of the fixture; name another column");
+    table.reject("scan", "the scan probe \"" + scan->probe +
+                             "\" is a probe of the fixture; give another column");
   MDOF_CHECK(table.finish());
   MDOF_CHECK(check_rig(rig));
   return rig;

@@ -43,7 +43,7 @@ const ShapeName& read_shape(TomlTable& table) {
   for (const ShapeName& shape : kShapes)
     if (name == shape.name) return shape;
   table.reject("distribution", "\"" + name +
-                                   "\" is none of \"normal\", \"rectangular\", \"triangular\", "
+                                   "\" is not one of \"normal\", \"rectangular\", \"triangular\", "
                                    "\"u-shaped\"");
   return kShapes[0];
 }
@@ -54,11 +54,13 @@ Declared read_inline(TomlTable& table) {
   declared.shape = shape.shape;
   if (table.has("u") == table.has("half_width"))
     table.reject(table.has("u") ? "half_width" : "u",
-                 "give either u, the standard uncertainty, or half_width, the limits");
+                 "give either u (standard uncertainty) or half_width (half of the distance between "
+                 "the limits)");
   if (table.has("half_width")) {
     declared.u = numbers_of(table, "half_width");
     if (shape.half_width_by_u == 0)
-      table.reject("half_width", "a normal distribution has no limits; give u, or a distribution");
+      table.reject("half_width",
+                   "a normal distribution has no limits; give u, or another distribution");
     for (double& u : declared.u) u /= shape.half_width_by_u;
   } else {
     declared.u = numbers_of(table, "u");
@@ -79,7 +81,7 @@ Declared read(TomlTable& table, std::string_view key) {
   }
   for (const double u : declared.u)
     if (!(u >= 0 && std::isfinite(u)))
-      table.reject(key, "is a standard uncertainty: it must be a number and not negative");
+      table.reject(key, "must be a standard uncertainty, a number that is not negative");
   return declared;
 }
 

@@ -44,8 +44,8 @@ Kind read_kind(TomlTable& table) {
   }
   const std::string near = nearest_of(name, known);
   table.reject("distribution",
-               "\"" + name + "\" is no distribution; " +
-                   (near.empty() ? "they are " + list : "did you mean \"" + near + "\"?"));
+               "\"" + name + "\" is not a distribution; " +
+                   (near.empty() ? "possible: " + list : "did you mean \"" + near + "\"?"));
   return Kind::constant;
 }
 
@@ -141,7 +141,7 @@ Result<std::vector<double>> load_sample(const std::filesystem::path& file) {
     if (!good && !first)
       return bad_input(file.string() + ":" + std::to_string(number) + ": \"" +
                        std::string(line.substr(0, 40)) +
-                       "\" is not a finite number; the file is one column of them");
+                       "\" is not a finite number; the file must be one column of numbers");
     first = false;
   }
   if (sample.size() < 2)

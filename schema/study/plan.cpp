@@ -14,7 +14,7 @@ namespace plan_parts {
 std::string known_or_list(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = nearest_of(word, known);
   if (!near.empty()) return "did you mean \"" + near + "\"?";
-  std::string list = "they are";
+  std::string list = "possible:";
   for (const auto& k : known) list += " " + k;
   return list;
 }
@@ -29,7 +29,7 @@ std::uint64_t read_count(TomlTable& table, std::string_view key, std::uint64_t f
 
 double read_share(TomlTable& table, std::string_view key, double fallback) {
   const double p = table.number(key, fallback);
-  if (!(p > 0 && p < 1)) table.reject(key, "must lie between 0 and 1, both left out");
+  if (!(p > 0 && p < 1)) table.reject(key, "must be more than 0 and less than 1");
   return p;
 }
 

@@ -52,7 +52,7 @@ PlannedAllocation read_allocation(TomlTable& table, const StudyPlan& plan) {
   a.where = table.where("output");
   a.output = table.string("output");
   if (!has_output(plan, a.output))
-    table.reject("output", "\"" + a.output + "\" is no output of this plan; " +
+    table.reject("output", "\"" + a.output + "\" is not an output of this plan; " +
                                known_or_list(a.output, output_keys(plan)));
   a.limit = table.number("limit");
   if (!(a.limit > 0)) table.reject("limit", "must be greater than zero");
@@ -63,8 +63,8 @@ PlannedAllocation read_allocation(TomlTable& table, const StudyPlan& plan) {
   for (const auto& quantity : plan.quantities) names.push_back(quantity.name);
   for (const auto& name : a.tolerances) {
     if (!has_quantity(plan, name))
-      table.reject("tolerances",
-                   "\"" + name + "\" is no quantity of this plan; " + known_or_list(name, names));
+      table.reject("tolerances", "\"" + name + "\" is not a quantity of this plan; " +
+                                     known_or_list(name, names));
   }
   for (const auto& name : a.tolerances) {
     if (std::count(a.tolerances.begin(), a.tolerances.end(), name) > 1)
@@ -118,7 +118,7 @@ void read_outputs(TomlTable& table, StudyPlan& plan) {
     const auto found = std::find(names.begin(), names.end(), key);
     if (found == names.end()) {
       const bool square = key == "EC0Y_urad";
-      table.reject("outputs", "\"" + key + "\" is no output of this plan; " +
+      table.reject("outputs", "\"" + key + "\" is not an output of this plan; " +
                                   (square ? "it needs [squareness] rig_y and output_of = \"point\""
                                           : known_or_list(key, names)));
       return;

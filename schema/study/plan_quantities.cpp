@@ -42,7 +42,7 @@ void add_range(TomlTable& truth, StudyPlan& plan, const std::string& key, const 
     quantity.distribution.low = range[0];
     quantity.distribution.high = range[1];
   } else {
-    truth.reject(key, "must be [value] or [low, high], low the smaller");
+    truth.reject(key, "must be [value], or [low, high] with low less than high");
   }
   plan.quantities.push_back(std::move(quantity));
 }
@@ -116,7 +116,7 @@ Status read_quantity(TomlTable& table, const Path& folder, StudyPlan& plan) {
   }
   const char* low = key_of_low(quantity.distribution);
   if (low && !may_be_negative(targets->front().effect))
-    table.reject(low, "must not be negative: " + quantity.name + " is a " +
+    table.reject(low, "must not be negative, because " + quantity.name + " is a " +
                           (targets->front().effect == Effect::probe_circle ? "radius" : "tilt") +
                           " to any side");
   plan.quantities.push_back(std::move(quantity));
@@ -166,7 +166,7 @@ void read_matrix(TomlTable& table, PlannedCorrelation& group) {
   }
   if (!square) {
     table.reject("matrix", "must have a row and a column for each of the " + std::to_string(n) +
-                               " quantities (a star counts once a probe)");
+                               " quantities (a star counts once for each probe)");
     group.matrix.assign(n * n, 0);
   }
   for (std::size_t i = 0; i < n; ++i) {
@@ -213,8 +213,8 @@ void read_bins(TomlTable& table, StudyPlan& plan, const std::set<std::string>& g
   plan.bins = static_cast<std::size_t>(bins->integer("count", 20));
   if (plan.bins < 1 || plan.bins > kMostStudyBins)  // one below zero is large
     bins->reject("count", "must be from 1 to " + std::to_string(kMostStudyBins) +
-                              ": each bin takes 33 kB of memory an output and thread; for a finer "
-                              "look give the quantity a part of its range, a plan for each part");
+                              ", because each bin takes 33 kB of memory per output and thread; for "
+                              "finer bins write several plans, each with a part of the range");
   const PlannedQuantity* quantity = quantity_with(plan, plan.binned_key);
   if (!quantity || quantity->distribution.kind != Kind::rectangular ||
       quantity->name != plan.binned_key)
@@ -222,8 +222,8 @@ void read_bins(TomlTable& table, StudyPlan& plan, const std::set<std::string>& g
                                  "\" must be a quantity of this plan, without star, with a "
                                  "rectangular distribution");
   if (grouped.contains(plan.binned_key))
-    bins->reject("quantity",
-                 "\"" + plan.binned_key + "\" is correlated with others; bins need it independent");
+    bins->reject("quantity", "\"" + plan.binned_key +
+                                 "\" is correlated with others; bins need an independent quantity");
 }
 
 }  // namespace

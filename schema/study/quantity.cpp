@@ -123,8 +123,8 @@ Result<std::vector<QuantityTarget>> resolve_quantity(std::string_view name, cons
   const std::string near = nearest_of(name, quantity_names(rig));
   return bad_input("no quantity of rig \"" + rig.name + "\" is called \"" + std::string(name) +
                    "\"; " +
-                   (near.empty() ? "they begin with probe., installation., target., encoder., "
-                                   "temperature., truth. or are travel_mm"
+                   (near.empty() ? "names begin with probe., installation., target., encoder., "
+                                   "temperature. or truth., or are travel_mm"
                                  : "did you mean \"" + near + "\"?"));
 }
 

@@ -179,7 +179,7 @@ class EndToEnd(unittest.TestCase):
                         table=client.call("compensation.build", runs=[run])["table"])
             at = client.call("compensation.at", axis="Y", position_mm=10, direction=1)
             self.assertIsNone(at["correction"])
-            self.assertIn("chain is not known", at["correction_reason"])
+            self.assertIn("chain of the machine is unknown", at["correction_reason"])
             self.assertNotEqual(at["error"]["EXY_um"], None)
         finally:
             other.stop()

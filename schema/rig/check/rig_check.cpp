@@ -52,7 +52,8 @@ class Check {
     for (std::size_t k = 0; k < rig.planes.size(); ++k) check_plane(k);
     within(kArtefact_urad, std::abs(to_urad(rig.artefact_angle_error_rad.value_or(0))), "", 0,
            "artefact_angle_error_urad",
-           " urad from a right angle; give what the square is off 90 degrees, in urad");
+           " urad is an unusual deviation of a square from 90 degrees; give "
+           "artefact_angle_error_urad in urad");
   }
 
   std::vector<Finding> take() { return std::move(findings_); }
@@ -87,11 +88,11 @@ void Check::check_probe(std::size_t k) {
   if (!(length(probe.position_m) <= kMost_m))
     add(true, "probe", k, "position_mm",
         "probe \"" + probe.id + "\" is " + text_of(to_mm(length(probe.position_m))) +
-            " mm from the origin of M, and a fixture ends at " + text_of(to_mm(kMost_m)) +
-            " mm; give it in mm, not um");
-  within(
-      kRange_um, to_um(probe.range_m), "probe", k, "range_um",
-      " um is no range of the probe \"" + probe.id + "\"; give its full range in um, not mm or nm");
+            " mm from the origin of M, but a fixture ends at " + text_of(to_mm(kMost_m)) +
+            " mm; give position_mm in mm, not um");
+  within(kRange_um, to_um(probe.range_m), "probe", k, "range_um",
+         " um is an unusual range of the probe \"" + probe.id +
+             "\"; give the full range in um, not mm or nm");
   check_calibration(k);
 }
 
@@ -101,19 +102,19 @@ void Check::check_calibration(std::size_t k) {
   const double range_um = to_um(probe.range_m);
   if (c.um_per_V)
     within(kFull_V, range_um / std::abs(*c.um_per_V), "probe", k, "um_per_V",
-           " V would be the full range of the probe \"" + probe.id +
-               "\"; give um of displacement for a volt");
+           " V would be an unusual full range of the probe \"" + probe.id +
+               "\"; give um of displacement per volt");
   double most_um = 0;
   for (const auto& [reading_um, correction_um] : c.linearity)
     most_um = std::max(most_um, std::abs(correction_um));
   within(kShare, most_um / range_um, "probe", k, "linearity",
-         " of its range is no correction of the probe \"" + probe.id +
+         " times the range is an unusual correction of the probe \"" + probe.id +
              "\"; give pairs [reading_um, correction_um]");
   const double low_um = c.valid_um ? (*c.valid_um)[0] : c.reads_gap ? 0 : -range_um / 2;
   const double high_um = c.valid_um ? (*c.valid_um)[1] : c.reads_gap ? range_um : range_um / 2;
   if (c.offset_um >= low_um && c.offset_um <= high_um) return;
   add(std::abs(c.offset_um) > kRange_um.most_possible, "probe", k, "offset_um",
-      text_of(c.offset_um) + " um is outside of what the probe \"" + probe.id + "\" can read (" +
+      text_of(c.offset_um) + " um is outside of the readings of the probe \"" + probe.id + "\" (" +
           text_of(low_um) + " to " + text_of(high_um) +
           " um); give the raw reading at the nominal surface, in um");
 }
@@ -133,8 +134,8 @@ void Check::check_distances() {
   }
   if (extent_m == 0) return;  // no geometry at all, which the solver says better
   within(kExtent_mm, to_mm(extent_m), "probe", b, "position_mm",
-         " mm is the distance of the probes \"" + rig_.probes[a].id + "\" and \"" +
-             rig_.probes[b].id + "\", the largest; give positions in mm, not " +
+         " mm, the largest distance between probes (\"" + rig_.probes[a].id + "\" and \"" +
+             rig_.probes[b].id + "\"), is unusual; give positions in mm, not " +
              (to_mm(extent_m) > kExtent_mm.most_usual ? "um" : "m"));
 }
 
@@ -142,12 +143,13 @@ void Check::check_plane(std::size_t k) {
   const TargetPlane& plane = rig_.planes[k];
   if (plane.offset_m && !(std::abs(*plane.offset_m) <= kMost_m))
     add(true, "plane", k, "offset_mm",
-        text_of(to_mm(*plane.offset_m)) + " mm from C's origin is no place of a target; give mm");
+        text_of(to_mm(*plane.offset_m)) +
+            " mm from the origin of C is too far for a plane of a target; give offset_mm in mm");
   double most_m = 0;
   for (const double height_m : plane.flatness.height_m)
     most_m = std::max(most_m, std::abs(height_m));
   within(kFlatness_um, to_um(most_m), "plane", k, "flatness_um",
-         " um is no flatness of a target; give heights in um, not nm");
+         " um is an unusual flatness of a target; give heights in um, not nm");
 }
 
 std::vector<Finding> findings_of(const Rig& rig) {

@@ -10,7 +10,7 @@ namespace {
 std::string corrections_of(const RigPhysics& physics) {
   std::string what = physics.tilt ? "tilt" : "";
   if (physics.dielectric) what += what.empty() ? "dielectric" : " and dielectric";
-  return "readings corrected for " + what + ", as [corrections] of the rig ask";
+  return "readings are corrected for " + what + ", as [corrections] of the rig requests";
 }
 
 }  // namespace

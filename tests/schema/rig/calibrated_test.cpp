@@ -138,7 +138,7 @@ TEST(CalibratedRig, ATextWithoutItsRecordOrWithAChangedOneIsRefused) {
     ASSERT_FALSE(rig) << what;
     EXPECT_NE(rig.error().message.find(what), std::string::npos) << rig.error().message;
   };
-  says(rig_text(), "rig.toml:1: calibration: names 1 files, and this text has 0");
+  says(rig_text(), "rig.toml:1: calibration: names 1 files, but this text contains 0");
   says(test::rig_x_toml() + record_part(), "names 0 files");
   std::string changed = record_part();
   changed.replace(changed.find("0.01"), 0, "1");
@@ -150,7 +150,8 @@ TEST(CalibratedRig, ATextWithoutItsRecordOrWithAChangedOneIsRefused) {
   CalibrationRecord fewer = mounting();
   fewer.probes.pop_back();
   const std::string four = record_text(fewer);
-  says(rig_text() + four.substr(four.find(kRecordHead)), "the record is of the probes A, B, C, D");
+  says(rig_text() + four.substr(four.find(kRecordHead)),
+       "the record contains the probes A, B, C, D");
 }
 
 TEST(CalibratedRig, IsLoadedWithTheFilesItNames) {
@@ -195,7 +196,7 @@ TEST(CalibratedRig, SaysHowManyRecordsAndHowLargeOnesItTakes) {
   EXPECT_EQ(loaded("\"m.toml\""), "");
   std::string names = "[";
   for (int i = 0; i < 17; ++i) names += "\"m.toml\", ";
-  EXPECT_NE(loaded(names + "]").find("names 17 calibration records; a rig has at most 16"),
+  EXPECT_NE(loaded(names + "]").find("names 17 calibration records, but a rig can have at most 16"),
             std::string::npos);
   std::ofstream(folder / "large.toml") << record_text(mounting()) << std::string(300'000, '\n');
   EXPECT_NE(loaded("\"large.toml\"").find("larger than 262144 bytes"), std::string::npos);

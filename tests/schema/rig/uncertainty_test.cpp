@@ -87,7 +87,7 @@ TEST(RigUncertainty, WhatCannotBeIsRefusedWithItsPlace) {
       {"u_calibration_um = { half_width = 1 }", "normal distribution has no limits"},
       {"u_calibration_um = { u = 1, half_width = 1, distribution = \"rectangular\" }", "either u"},
       {"u_calibration_um = { distribution = \"rectangular\" }", "either u"},
-      {"u_calibration_um = { u = 1, distribution = \"square\" }", "none of \"normal\""},
+      {"u_calibration_um = { u = 1, distribution = \"square\" }", "not one of \"normal\""},
       {"u_calibration_um = { u = 1, dof = 0 }", "degree of freedom"},
       {"u_calibration_um = { u = 1, half = 2 }", "half"},
       {"u_calibration_mm = 1", "u_calibration_um"},

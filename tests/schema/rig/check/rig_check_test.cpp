@@ -63,7 +63,7 @@ TEST(RigCheck, AThousandProbesAreTheMost) {
   for (int i = 0; i < 999; ++i)
     text +=
         "\n[[probe]]\nid = \"A\"\nposition_mm = [10, 0, 0]\nmeasures = \"+Z\"\nrange_um = 200\n";
-  expect_refused(text, {"the rig has 1001 probes, at most 1000"});
+  expect_refused(text, {"the rig has 1001 probes, but at most 1000"});
 }
 
 TEST(RigCheck, LeavesRightRigsAlone) {

@@ -49,11 +49,14 @@ std::string table_sha256(const CompensationTable& t) {
 
 std::string covers_text(const CompensationTable& table) {
   if (table.has_positioning())
-    return table.has_declared() ? "repeatability and what was declared at import"
+    return table.has_declared() ? "repeatability and the uncertainty declared at import"
                                 : "repeatability only";
-  if (!table.noise_only()) return "noise, repeatability and what the rigs declare";
-  return table.has_declared() ? "noise and repeatability only: what the rigs declare adds nothing"
-                              : "noise and repeatability only";
+  if (!table.noise_only())
+    return "noise, repeatability and the uncertainties that the rigs declare";
+  return table.has_declared()
+             ? "noise and repeatability only (the uncertainties that the rigs declare "
+               "contribute zero)"
+             : "noise and repeatability only";
 }
 
 void add_not_declared(CompensationTable& table, const std::vector<std::string>& keys) {

@@ -46,9 +46,9 @@ bool datum_kind_from(const std::string& name, Kind& kind) {
 std::string datum_note(Kind kind, const std::string& device) {
   if (kind != Kind::none) return "";
   return "the encoder (device \"" + device +
-         "\") has no datum: it counts from where it was switched on, so positions are not those of "
-         "the machine; errors against each other are right, but a table is in place only where the "
-         "count began at the machine's zero";
+         "\") has no datum: it counts from its switch-on position, so positions are not machine "
+         "positions; differences between errors are correct, but a compensation table is shifted "
+         "unless counting began at machine zero";
 }
 
 std::string datum_text(const EncoderDatum& datum) {
@@ -65,8 +65,8 @@ std::string datum_text(const EncoderDatum& datum) {
 }
 
 std::string setting_text(const DatumSetting& setting) {
-  return std::string(1, letter(setting.axis)) + " stands at " + mm_text(setting.position_m) +
-         "; until then it was at " + mm_text(setting.before_m);
+  return std::string(1, letter(setting.axis)) + " set to " + mm_text(setting.position_m) +
+         "; the position before was " + mm_text(setting.before_m);
 }
 
 }  // namespace mdof

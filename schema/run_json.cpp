@@ -14,7 +14,8 @@ namespace mdof {
 namespace {
 
 constexpr const char* kTableSense =
-    "errors: actual - nominal, of the body that moves; correction says what is added to a command";
+    "error = actual minus nominal position of the moving body; the key correction gives the value "
+    "to add to a command";
 
 // {"EYX_um": {"factor", "command", "reason"}, ...}: a correction is factor times the error, added
 // to the command of that axis; factor null: there is none, for that reason.

@@ -56,8 +56,9 @@ void write_fit(JsonWriter& json, const Separation& fit) {
 }  // namespace
 
 const char* not_in_separation_u() {
-  return "what is not declared (probe's scale, drift within a set-up, flatness of other surfaces), "
-         "errors of the shifts, levers that differ, sag; a tilt between the set-ups is fitted";
+  return "undeclared sources (scale of the probe, drift within a set-up, flatness of other "
+         "surfaces), "
+         "errors of the shifts, unequal lever arms, sag; the tilt between the set-ups is fitted";
 }
 
 std::string separation_json(const SeparationRecord& record) {

@@ -23,12 +23,12 @@ bool declares(const Budget& budget) {
 
 std::string covers_text(const Budget& budget) {
   const std::string slow =
-      budget.is_single_run ? "; of a single run: noise slower than a stop is not in it" : "";
-  if (!budget.noise_only) return "noise, repeatability and what is declared" + slow;
-  return std::string("noise and repeatability only: ") +
-         (declares(budget) ? "what is declared adds nothing to it"
+      budget.is_single_run ? "; noise slower than a stop is not included (single run)" : "";
+  if (!budget.noise_only) return "noise, repeatability and the declared uncertainties" + slow;
+  return std::string("noise and repeatability only (") +
+         (declares(budget) ? "the declared uncertainties contribute zero"
                            : "no uncertainties are declared") +
-         slow;
+         ")" + slow;
 }
 
 std::string covers_text(const std::vector<Budget>& budgets) {

@@ -33,17 +33,17 @@ std::string covers_text(const RunUncertainty& uncertainty) {
       visits == VisitsCovered::repeated ? "noise and repeatability" : "noise";
   const std::string slow =
       visits == VisitsCovered::single
-          ? "; no target was visited again: noise slower than a stop is not in it"
-      : visits == VisitsCovered::left_out ? "; of each stop alone: repeatability is not in it"
+          ? "; noise slower than a stop is not included (no target was visited again)"
+      : visits == VisitsCovered::left_out ? "; repeatability is not included (u of each stop alone)"
                                           : "";
   if (!uncertainty.why.empty()) return random + " only: " + uncertainty.why + slow;
   if (!uncertainty.noise_only)
     return (visits == VisitsCovered::repeated ? "noise, repeatability" : "noise") +
-           std::string(" and what the rig declares") + slow;
-  return random + " only: " +
-         (uncertainty.declares ? "what the rig declares adds nothing to it"
+           std::string(" and the uncertainties that the rig declares") + slow;
+  return random + " only (" +
+         (uncertainty.declares ? "the uncertainties that the rig declares contribute zero"
                                : "the rig declares no uncertainties") +
-         slow;
+         ")" + slow;
 }
 
 bool is_noise_only(const RunUncertainty& uncertainty) {

@@ -63,13 +63,14 @@ std::string volumetric_sha256(const VolumetricTable& t) {
 
 std::string covers_text(const VolumetricTable& table) {
   std::string text = table.noise_only
-                         ? "noise and repeatability of the measured errors only, in part at least"
-                         : "the u of the errors; those of different axes, but for the scales of "
-                           "common probes, and those of files, taken as independent";
-  if (!table.u_not_declared.empty()) text += "; some errors have none";
+                         ? "noise and repeatability only, for at least some of the measured errors"
+                         : "the u of the errors; errors of different axes and of files are taken "
+                           "as independent, except for the scales of common probes";
+  if (!table.u_not_declared.empty()) text += "; some errors have no u";
   if (!table.u_independent_m.empty())
-    text += "; u_independent: noise, from one position of an axis to another; u_common: the rest";
-  return text + "; between nodes interpolation";
+    text +=
+        "; u_independent is noise that differs between positions of an axis, u_common is the rest";
+  return text + "; between nodes also interpolation";
 }
 
 }  // namespace mdof

@@ -209,7 +209,7 @@ class EncoderDatum(unittest.TestCase):
         said = self.client.call("history.list", count=1)["history"][0]
         self.assertEqual((said["deed"], said["of"]), ("encoder.set", "encoder_datum"))
         self.assertEqual((said["uid"], said["gid"], said["pid"]), (os.getuid(), os.getgid(), os.getpid()))
-        stands = re.match(r"X stands at ([\d.]+) mm; until then it was at ([\d.-]+) mm$", said["detail"])
+        stands = re.match(r"X set to ([\d.]+) mm; the position before was ([\d.-]+) mm$", said["detail"])
         self.assertTrue(stands, said["detail"])
         position_mm, before_mm = map(float, stands.groups())
         self.assertAlmostEqual(position_mm, self.said_mm[-1], places=6)

@@ -77,12 +77,12 @@ TEST(Budget, NoiseOfIndependentTargets) {
   EXPECT_NEAR(slope.u, u_mean / std::sqrt(sxx), 1e-12);
   EXPECT_EQ(slope.u, slope.u_random);
   // Nothing was visited again: what is slower than a stop cannot be seen, and that is said.
-  EXPECT_NE(covers_text(slope).find("of a single run: noise slower than a stop is not in it"),
+  EXPECT_NE(covers_text(slope).find("noise slower than a stop is not included (single run)"),
             std::string::npos);
   synthetic.runs = 3;
   EXPECT_EQ(
       covers_text(budget(RunBudgets::create(rig, synthetic.measure()).value(), "EYX_slope_urad")),
-      "noise and repeatability only: no uncertainties are declared");
+      "noise and repeatability only (no uncertainties are declared)");
 }
 
 // The scatter of whole runs' slopes is what a target's own scatter cannot show.

@@ -34,7 +34,7 @@ TEST(RunUncertainty, OfARigThatDeclaresNothingIsTheNoise) {
   const Rig rig = rig_x_with("", "");
   const auto u = run_uncertainty(rig, measured(rig, 10e-9));
   EXPECT_TRUE(u.noise_only);
-  EXPECT_EQ(covers_text(u), "noise and repeatability only: the rig declares no uncertainties");
+  EXPECT_EQ(covers_text(u), "noise and repeatability only (the rig declares no uncertainties)");
   EXPECT_EQ(u.not_declared.size(), 12u);
   ASSERT_EQ(u.points.size(), 54u);
   for (const auto& point : u.points) {
@@ -51,7 +51,7 @@ TEST(RunUncertainty, WhatIsDeclaredAddsToTheNoise) {
   const Rig rig = rig_x_with("B", "u_calibration_um = { u = 0.03, dof = 4 }");
   const auto found = run_uncertainty(rig, measured(rig, noise));
   EXPECT_FALSE(found.noise_only);
-  EXPECT_EQ(covers_text(found), "noise, repeatability and what the rig declares");
+  EXPECT_EQ(covers_text(found), "noise, repeatability and the uncertainties that the rig declares");
   const auto& point = found.points[7];
   const double share = kUp_m / kL_m / 2;
   const double random2 = noise * noise * (1 + 2 * share * share);
@@ -90,7 +90,7 @@ TEST(RunUncertainty, RepeatsReplaceTheNoiseWhereTheyScatterMore) {
   synthetic.runs = 1;
   const auto single = run_uncertainty(rig, synthetic.measure());
   EXPECT_LT(single.points[5].u_random[kEYX], 50e-9);
-  EXPECT_NE(covers_text(single).find("no target was visited again: noise slower than a stop"),
+  EXPECT_NE(covers_text(single).find("noise slower than a stop is not included (no target"),
             std::string::npos);
 }
 

@@ -43,7 +43,7 @@ TEST_F(EncoderData, ItsDeedTellsWhereTheAxisStood) {
   EXPECT_EQ(actions[0].subject, "encoder_datum");
   EXPECT_EQ(actions[0].row, 1);
   EXPECT_EQ(actions[0].by.user, "anna");
-  EXPECT_EQ(actions[0].detail, "Y stands at 12.5 mm; until then it was at 0.03125 mm");
+  EXPECT_EQ(actions[0].detail, "Y set to 12.5 mm; the position before was 0.03125 mm");
   EXPECT_TRUE(store->add_run(make_run(3), said_by_anna()));
   EXPECT_EQ(store->list_actions(0, 1).value()[0].detail, "");
 }

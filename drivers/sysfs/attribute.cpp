@@ -51,8 +51,7 @@ std::string sysfs_write_error(int error) {
       return std::string(std::strerror(error)) +
              "; the service mdofd may write this file only with ReadWritePaths=-/sys/devices; "
              "install the unit of mdof, which contains this line, or add the line to [Service] "
-             "with sudo "
-             "systemctl edit mdofd; in a container, make /sys writable";
+             "with sudo systemctl edit mdofd; in a container, make /sys writable";
     default:
       return sysfs_error(error);
   }

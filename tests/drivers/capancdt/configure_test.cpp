@@ -56,7 +56,7 @@ TEST(CapancdtConfigure, AveragingLongerThanAStopSettles) {
   const std::string text =
       "address = \"box\"\nsample_time_us = 32768\naveraging = \"moving\"\naveraged_values = 4\n" +
       kChannel;
-  expect_error(text, "mdofd.toml:4: averaged_values: averages over 0.1311 s, longer than");
+  expect_error(text, "mdofd.toml:4: averaged_values: the averaging takes 0.1311 s, longer than");
   EXPECT_TRUE(configure(text, 0.2));
   EXPECT_TRUE(configure(text, 0));
 }

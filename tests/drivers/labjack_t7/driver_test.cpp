@@ -203,7 +203,7 @@ TEST_F(LabjackT7Driver, EncodersOfTwoAxesAreCountedAndTrustedEachByItself) {
   ASSERT_EQ(refusal(), "opened");
   ASSERT_EQ(read(time_ns.size() + 20), "");
   EXPECT_EQ(quality[2].back(), Quality::suspect);
-  EXPECT_TRUE(has(driver().info().further_datum_lost["encoder_Y"], "counts from 0 again"));
+  EXPECT_TRUE(has(driver().info().further_datum_lost["encoder_Y"], "counter restarted at 0"));
   driver().trust_count();  // of the other axis
   ASSERT_EQ(read(time_ns.size() + 200), "");
   EXPECT_EQ(quality[2].back(), Quality::suspect);
@@ -226,7 +226,7 @@ TEST_F(LabjackT7Driver, ACountThatWasRestartedIsSuspect) {
   ASSERT_EQ(read(before + 20), "");
   EXPECT_EQ(quality[3].back(), Quality::suspect);
   EXPECT_EQ(quality[0].back(), Quality::good);
-  EXPECT_TRUE(has(driver().info().datum_lost, "counts from 0 again"));
+  EXPECT_TRUE(has(driver().info().datum_lost, "counter restarted at 0"));
   driver().trust_count();  // somebody has found the zero
   ASSERT_EQ(read(time_ns.size() + 200), "");
   EXPECT_EQ(quality[3].back(), Quality::good);

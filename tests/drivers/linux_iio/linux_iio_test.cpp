@@ -177,14 +177,14 @@ TEST_F(LinuxIio, AnI2cErrorIsAnError) {
   tree_->fail_reads(0, 0);
   ASSERT_TRUE(tree_->set("in_capacitance0_raw", "99999999"));
   ASSERT_TRUE(driver->open());
-  EXPECT_NE(collect(*driver, 20).error.find("more than 24 bits"), std::string::npos);
+  EXPECT_NE(collect(*driver, 20).error.find("exceeds 24 bits"), std::string::npos);
 }
 
 TEST_F(LinuxIio, WhatIsNoAd7746IsRefused) {
   options_.rate_hz = 91;
   expect_refused("lower rate_hz or raise sampling_hz");
   ASSERT_TRUE(tree_->set("in_capacitance_scale", "0.488"));
-  expect_refused("is not the 0.000000488 pF");
+  expect_refused("expects 0.000000488 pF");
   ASSERT_TRUE(tree_->set("name", "bme280"));
   expect_refused("is \"bme280\", but must be ad7745 or ad7746");
   options_.device = "iio:device9";

@@ -84,7 +84,7 @@ TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
   const Collected anew = collect(driver, 1);
   EXPECT_EQ(anew.scans.at(0)[0], 0);
   EXPECT_EQ(anew.first_quality(0), Quality::suspect);  // 0 is no place
-  EXPECT_NE(driver.info().datum_lost.find("counts from 0 again"), std::string::npos);
+  EXPECT_NE(driver.info().datum_lost.find("count restarted at 0"), std::string::npos);
 }
 
 TEST(Qsb, ACutLineIsCountedAndItsScansAreLost) {

@@ -198,8 +198,8 @@ TEST(MachineToml, NamesRowsOfTheDatabase) {
   EXPECT_TRUE(named("squareness = 1\n", "")->names_stored_rows());
   EXPECT_TRUE(named("", "tables = [1]\n")->names_stored_rows());
   for (const auto& [root, of_axis, says] : {std::array{"", "runs = \"newest\"\n", "latest"},
-                                            {"", "runs = [0]\n", "from 1 on"},
-                                            {"", "runs = [1.5]\n", "from 1 on"},
+                                            {"", "runs = [0]\n", "1 or greater"},
+                                            {"", "runs = [1.5]\n", "1 or greater"},
                                             {"", "runs = []\n", "empty"},
                                             {"", "runs = true\n", "number"},
                                             {"", "tables = \"latest\"\n", "numbers of tables"},

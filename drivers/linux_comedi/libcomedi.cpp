@@ -282,7 +282,7 @@ Result<std::unique_ptr<Board>> open_board(const std::string& device) {
   const int fd = comedi_fileno(opened.get());
   if (::fcntl(fd, F_SETFD, FD_CLOEXEC) < 0 ||
       ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) | O_NONBLOCK) < 0)
-    return io_error(device + ": its descriptor cannot be set up: " + comedi_strerror(errno));
+    return io_error(device + ": the file descriptor cannot be set up: " + comedi_strerror(errno));
   return std::make_unique<LibraryBoard>(std::move(opened));
 }
 

@@ -16,7 +16,7 @@ Status check_quad8(const std::string& folder, const std::string& count, std::uin
   if (ceiling != kCeiling)
     return io_error(
         path + "/ceiling: is " + std::to_string(ceiling) + ", not " + std::to_string(kCeiling) +
-        ", so the count that it loads at the mark is unknown; set count_mode to normal; some "
+        ", so the count that is loaded at the mark is unknown; set count_mode to normal; some "
         "old kernels use one bit too many, so install a newer kernel");
   const std::string number = count.substr(std::string("count").size());
   const auto n = parse_sysfs_integer(number);

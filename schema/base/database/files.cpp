@@ -120,7 +120,7 @@ Result<Copied> copy_once(const fs::path& database, const fs::path& to) {
   const Descriptor file(open_foreign(database, 0));
   const Descriptor shm(open_beside(database, "-shm"));
   const Descriptor journal(open_beside(database, "-journal")), wal(open_beside(database, "-wal"));
-  if (file.fd() < 0) return failed(database, "open it");
+  if (file.fd() < 0) return failed(database, "open the file");
   if (!share(file, kSharedBytes)) return Copied::busy;
   if (shm.fd() >= 0 && !share(shm, kCheckpointByte)) return Copied::busy;
   MDOF_CHECK(check_room(database, file.size() + journal.size() + wal.size(), to.parent_path()));

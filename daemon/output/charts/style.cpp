@@ -52,6 +52,13 @@ constexpr const char* kMarksOfRuns =
     ".mdof .grey-band{fill:#6e7781;fill-opacity:.16;stroke:#6e7781;stroke-width:.6}"
     ".mdof .alarm{fill:#b3261e;font-weight:600}";
 
+// From dark to light as heights grow, so that a print without colours has them too.
+constexpr const char* kHeights =
+    ".mdof .height-0{fill:#440154}.mdof .height-1{fill:#482878}.mdof .height-2{fill:#3e49"
+    "89}.mdof .height-3{fill:#31688e}.mdof .height-4{fill:#26828e}.mdof .height-5{fill:#1"
+    "f9e89}.mdof .height-6{fill:#35b779}.mdof .height-7{fill:#6ece58}.mdof .height-8{fill"
+    ":#b5de2b}.mdof .height-9{fill:#fde725}";
+
 void append_rules(std::string& css, const char* Colour::*shade) {
   for (const Colour& c : kColours)
     css += std::string(".mdof .") + c.mark + "{" + c.property + ":" + c.*shade + "}";
@@ -74,7 +81,7 @@ std::string style_sheet() {
 std::string printed_style_sheet() {
   std::string css = kShapes;
   append_rules(css, &Colour::light);
-  return css + kMarksOfRuns;
+  return css + kMarksOfRuns + kHeights;
 }
 
 }  // namespace mdof::charts

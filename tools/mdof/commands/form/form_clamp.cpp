@@ -20,7 +20,7 @@ namespace {
 constexpr double kPaPerMPa = 1e6;
 
 struct FormClampCommand {
-  std::string before, after, released, out;
+  std::string before, after, released, out, plots;
   std::optional<double> K, thickness_mm, young_GPa, poisson, yield_MPa;
   double smooth_mm = 10;
   MapOptions maps;
@@ -146,6 +146,10 @@ Status form_clamp(const FormClampCommand& o) {
   if (o.released.empty() && !o.K)
     warn("no RELEASED and no --K: all of the clamping is taken as elastic (K = 0)");
   if (!o.out.empty()) MDOF_CHECK(save_map(found.clamping.elastic, o.out));
+  MDOF_CHECK(plot_maps({{"clamping", "Deformation by clamping", found.clamping.clamping},
+                        {"elastic", "Elastic part of the deformation", found.clamping.elastic},
+                        {"plastic", "Plastic part of the deformation", found.clamping.plastic}},
+                       o.plots));
   MDOF_CHECK(o.json ? write_line(clamp_json(found, o)) : write_out(clamp_text(found, o)));
   if (!found.is_elastic || *found.is_elastic) return {};
   return fail(ErrorCode::check, o.after + ": the stress of the clamping, " +
@@ -176,6 +180,7 @@ Action declare_form_clamp(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--out", o->out, "Write the elastic part as a map (CSV)")->type_name("FILE");
   add_map_options(command, o->maps);
+  add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
   return [o] { return form_clamp(*o); };
 }

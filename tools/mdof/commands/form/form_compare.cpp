@@ -15,7 +15,7 @@ namespace mdof::tools {
 namespace {
 
 struct FormCompareCommand {
-  std::string a, b, register_how = "rigid", out;
+  std::string a, b, register_how = "rigid", out, plots;
   MapOptions maps;
   bool json = false;
 };
@@ -64,6 +64,7 @@ Status form_compare(const FormCompareCommand& o) {
     warn(o.a + ": its shape does not determine " + std::to_string(found.undetermined) +
          " of shift x, shift y and turn; these are taken as 0");
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
+  MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
   return o.json ? write_line(compare_json(found, o)) : write_out(compare_text(found, o));
 }
 
@@ -80,6 +81,7 @@ Action declare_form_compare(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--out", o->out, "Write the difference as a map (CSV)")->type_name("FILE");
   add_map_options(command, o->maps);
+  add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
   return [o] { return form_compare(*o); };
 }

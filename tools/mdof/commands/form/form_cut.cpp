@@ -20,7 +20,7 @@ constexpr const char* kOnePass =
     "one pass: what of its error comes again is unknown; cut once more with the same path";
 
 struct FormCutCommand {
-  std::string wanted, gain = "1", out;
+  std::string wanted, gain = "1", out, plots;
   std::vector<std::string> cuts;
   bool repeated = false, json = false;
   double smooth_mm = 0;
@@ -111,6 +111,7 @@ Status form_cut(const FormCutCommand& o) {
   passes.smooth_m = from_mm(o.smooth_mm);
   MDOF_TRY(const algo::CuttingResult found, algo::next_cut(passes));
   MDOF_CHECK(save_map(found.next, o.out));
+  MDOF_CHECK(plot_maps({{"next-path", "Path of the next pass", found.next}}, o.plots));
   return o.json ? write_line(cut_json(found, o)) : write_out(cut_text(found, o));
 }
 
@@ -146,6 +147,7 @@ Action declare_form_cut(CLI::App& command) {
       ->required()
       ->type_name("FILE");
   add_map_options(command, o->maps);
+  add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
   return [o] { return form_cut(*o); };
 }

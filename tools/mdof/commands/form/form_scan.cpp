@@ -23,7 +23,7 @@ constexpr const char* kScanU =
 struct FormScanCommand {
   std::vector<std::string> runs;
   std::optional<double> pixel_mm;
-  std::string database, out;
+  std::string database, out, plots;
   bool json = false;
 };
 
@@ -73,6 +73,7 @@ Status form_scan(const FormScanCommand& o) {
   }
   MDOF_TRY(const auto scan, load_scan(runs, pixel_m, o.database));
   if (!o.out.empty()) MDOF_CHECK(save_map(scan.map, o.out));
+  MDOF_CHECK(plot_maps({{"map", scan.map.name, scan.map}}, o.plots));
   return o.json ? write_line(scan_json(scan, runs)) : write_out(scan_text(scan));
 }
 
@@ -85,6 +86,7 @@ Action declare_form_scan(CLI::App& command) {
       ->check(positive_number());
   command.add_option("--out", o->out, "Write the map (CSV)")->type_name("FILE");
   add_database_option(command, o->database);
+  add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
   return [o] { return form_scan(*o); };
 }

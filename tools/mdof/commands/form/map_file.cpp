@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "daemon/output/charts/form/height_map_chart.h"
 #include "schema/base/files.h"
 #include "schema/base/output/output_files.h"
 #include "schema/form/map_text.h"
@@ -110,6 +111,18 @@ Status save_map(const SurfaceMap& map, const std::string& file) {
   MDOF_TRY(const std::size_t number, out.add(file));
   MDOF_CHECK(write_map_csv(map, [&](std::string_view text) { return out.write(number, text); }));
   return out.publish();
+}
+
+Status plot_maps(const std::vector<DrawnMap>& maps, const std::string& folder) {
+  if (folder.empty()) return {};
+  std::vector<charts::NamedChart> drawn;
+  for (const DrawnMap& of : maps)
+    if (of.map.measured() > 0)
+      drawn.push_back(
+          {of.file + ".svg", charts::height_map_svg(of.map, of.title, output::Language::english)});
+    else
+      warn(of.title + ": not drawn, since no pixel has a height");
+  return write_plots(drawn, folder);
 }
 
 void write_um(JsonWriter& json, const char* key, double pv_m, double rms_m) {

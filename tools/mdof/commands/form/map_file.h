@@ -33,6 +33,14 @@ Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
 // As CSV, whole or not at all; replaces a file of that name.
 Status save_map(const SurfaceMap& map, const std::string& file);
 
+// A map as a picture: the file's name without its ending, and a title.
+struct DrawnMap {
+  std::string file, title;
+  const SurfaceMap& map;
+};
+// As SVG into `folder`; empty: none. A map without a height is left out, which is said.
+Status plot_maps(const std::vector<DrawnMap>& maps, const std::string& folder);
+
 void write_um(JsonWriter& json, const char* key, double pv_m, double rms_m);  // {pv_um, rms_um}
 
 }  // namespace mdof::tools

@@ -361,7 +361,7 @@ class Devices(unittest.TestCase):
         self.assertEqual(json.loads(out)["points"], points)
         code, _, err = self.replayed(header, "--settle-s", "0.005")
         self.assertEqual(code, 2, err)
-        self.assertIn("raise settle_s of [measure] to 0.0065", err)
+        self.assertIn("set settle_s in [measure] to 0.0065 or more", err)
 
 
 if __name__ == "__main__":

@@ -114,8 +114,8 @@ TEST(EncoderZero, ItsCountGoesOnFromItsStartOrItsLastLoss) {
 TEST(EncoderZero, WhatARestartForgotIsTold) {
   EXPECT_TRUE(begins_with(EncoderZero({counting()}).state().note, "the encoder (device \"t7\")"));
   const std::string lost =
-      "set to 12.5 mm on 2026-11-01T06:00:00Z, lost by a restart of mdofd: set it again (mdof "
-      "encoder set Y POSITION_MM); ";
+      "set to 12.5 mm on 2026-11-01T06:00:00Z, lost by a restart of mdofd: set the position "
+      "again (mdof encoder set Y POSITION_MM); ";
   EXPECT_TRUE(begins_with(EncoderZero({counting()}, said(0.0125)).state().note,
                           lost + "the encoder (device \"t7\") has no datum"));
   auto configured = counting();
@@ -137,7 +137,7 @@ TEST(EncoderZero, WhatThePowerTookIsToldOtherwise) {
   zero.lose("t7");
   EXPECT_TRUE(begins_with(zero.state().note,
                           "set to 12.5 mm on 2026-11-23T07:00:00Z, lost when its device was "
-                          "without power: set it again"))
+                          "without power: set the position again"))
       << zero.state().note;
 }
 

@@ -76,7 +76,7 @@ TEST_F(StationMark, AfterARestartItIsToBePassedAgain) {
   pass_mark();
   make_station(true, kMark_mm);
   EXPECT_EQ(kind(), EncoderDatum::Kind::none);
-  EXPECT_SAYS(station_->encoder().note, "drive it over its reference mark");
+  EXPECT_SAYS(station_->encoder().note, "move the axis over its reference mark");
 }
 
 TEST_F(StationMark, ARunInWhichItIsPassedEndsThere) {
@@ -118,7 +118,7 @@ TEST_F(StationMark, ARunFromTheMarkGoesOnOnlyFromTheMark) {
   give(axis_, 0, 2500);
   ASSERT_TRUE(stop(true));
   make_station(true, kMark_mm);
-  EXPECT_SAYS(why_not_resumed(*id), "drive it over its reference mark");
+  EXPECT_SAYS(why_not_resumed(*id), "move the axis over its reference mark");
   pass_mark();
   EXPECT_EQ(why_not_resumed(*id), "goes on");
 }

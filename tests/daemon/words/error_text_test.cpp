@@ -34,16 +34,16 @@ TEST(ErrorText, EachRemedyHasWordsOfItsOwnInBothLanguages) {
 
 TEST(ErrorText, AnErrorEndsInItsRemedy) {
   const auto error = bad_input("run 7 has 200000 points", Remedy::show_run, "7").value();
-  EXPECT_EQ(words::text(error), "run 7 has 200000 points; mdof show 7 reads them");
+  EXPECT_EQ(words::text(error), "run 7 has 200000 points; read the run with mdof show 7");
   EXPECT_EQ(words::text(error, words::Language::german),
-            "run 7 has 200000 points; mdof show 7 liest sie");
+            "run 7 has 200000 points; die Messung mit mdof show 7 lesen");
   EXPECT_EQ(words::text(bad_input("a.csv: is empty").value()), "a.csv: is empty");
 }
 
 // Its place is put before the message; the remedy stays at the end.
 TEST(ErrorText, AnErrorInAContextKeepsItsRemedy) {
   const auto error = in_context("rig.toml", bad_input("no rig", Remedy::give_rig).value()).value();
-  EXPECT_EQ(words::text(error), "rig.toml: no rig; give one with --rig RIG.toml");
+  EXPECT_EQ(words::text(error), "rig.toml: no rig; give the rig file with --rig RIG.toml");
   EXPECT_STREQ(to_string(error.remedy), "give_rig");
 }
 

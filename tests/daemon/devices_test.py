@@ -293,7 +293,7 @@ class Devices(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         header = json.loads(done.stdout)
         self.assertEqual(header["state"], "complete")
-        self.assertTrue(any(f"goes on from run {cut}" in w and "set on" in w for w in notice_lines(header)), header)
+        self.assertTrue(any(f"continues run {cut}" in w and "set on" in w for w in notice_lines(header)), header)
         self.assertEqual(header["options"]["encoder_datum"]["kind"], "set")
         self.check_both_parts(header, cut, before)
         for run, why in ((header["run"], "is complete"), (cut, "supersedes it"), (4711, "4711")):

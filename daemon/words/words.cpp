@@ -36,13 +36,14 @@ static_assert(std::none_of(kPatterns.begin(), kPatterns.end(),
                            [](const Pattern& p) { return p.english == nullptr; }),
               "each code of notice_codes.inc has its words in notices.inc");
 
-// Values that algo/points/ranges_text.h and the approaches give: "targets 1-3", "forward".
+// Values that algo gives: "targets 1 to 3", "forward", "the end" (of a log).
 struct GermanName {
   std::string_view english, german;
 };
 constexpr GermanName kNames[] = {{"forward", "vorwärts"},         {"reverse", "rückwärts"},
                                  {"target ", "Sollposition "},    {"run ", "Lauf "},
-                                 {"targets ", "Sollpositionen "}, {"runs ", "Läufe "}};
+                                 {"targets ", "Sollpositionen "}, {"runs ", "Läufe "},
+                                 {"the end", "zum Ende"}};
 
 std::string german_name(const std::string& name) {
   for (const auto& [english, german] : kNames) {

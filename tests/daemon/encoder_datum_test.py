@@ -186,7 +186,7 @@ class EncoderDatum(unittest.TestCase):
         started, header, points = self.measured(37)
         self.assertEqual(header["state"], "complete", notice_lines(header))
         self.assertEqual(header["notes"] + started["notes"] + notice_lines(started), [])
-        self.assertNotIn("cannot be placed", " ".join(notice_lines(header)))
+        self.assertNotIn("no valid position", " ".join(notice_lines(header)))
         self.assertEqual(len(points), 2 * len(TARGETS))
 
     def encoder(self):

@@ -74,9 +74,9 @@ class RunState(unittest.TestCase):
     def test_a_run_ended_early_is_partial_and_says_what_is_missing(self):
         self.assertEqual(self.partial["state"], "partial")
         missing = self.missing_of(self.partial)
-        said = [w for w in notice_lines(self.partial) if "asked for are missing" in w]
+        said = [w for w in notice_lines(self.partial) if "requested points are missing" in w]
         self.assertEqual(len(said), 1, notice_lines(self.partial))
-        self.assertIn(f"{sum(missing.values())} of 16 points", said[0])
+        self.assertIn(f"{sum(missing.values())} of 16 requested points", said[0])
         for (target, direction), n in missing.items():
             if n > 0:
                 of_target = said[0].split(f"target {target} at")[1].split(";")[0]

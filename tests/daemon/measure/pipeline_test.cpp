@@ -166,7 +166,7 @@ TEST(Pipeline, AProbeThatIsDeadThroughoutIsTheReasonWhyNothingIsSolved) {
   EXPECT_SAYS(missing, "probe \"C\" gave no usable value in any stop");
   const std::string frozen =
       refusal([](SampleBlock& b) { std::fill(b.value[kC].begin(), b.value[kC].end(), 1.25); });
-  EXPECT_SAYS(frozen, "probe \"C\" reads the same in every scan");
+  EXPECT_SAYS(frozen, "probe \"C\" gives the same reading in every scan");
   const std::string saturated = refusal([](SampleBlock& b) {
     for (double& um : b.value[kC]) um += 150;
   });

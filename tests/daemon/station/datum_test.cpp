@@ -113,7 +113,8 @@ TEST(Datum, LostFromTheStartIsTheReasonWhyNothingWasMeasured) {
   const LostCountAxis axis(0);
   const auto run = measured(axis, axis.scans(), 100);
   ASSERT_FALSE(run);
-  EXPECT_NE(run.error().message.find("cannot be placed"), std::string::npos) << run.error().message;
+  EXPECT_NE(run.error().message.find("no valid position"), std::string::npos)
+      << run.error().message;
 }
 
 TEST(Datum, SingleSuspectReadingsCostNoStop) {

@@ -57,7 +57,7 @@ std::string study_line(const StudyResult& result) {
   std::string line =
       "Monte Carlo, " + count_text(result.trials) + " trials, seed " + std::to_string(result.seed);
   if (result.state == StudyState::interrupted)
-    line += "; interrupted, " + count_text(result.trials_wanted) + " trials were wanted";
+    line += "; interrupted, " + count_text(result.trials_wanted) + " trials were requested";
   return line;
 }
 

@@ -12,8 +12,8 @@ Status make_plot_folder(const fs::path& folder) {
   std::error_code ec;
   fs::create_directories(folder, ec);
   if (!ec && fs::is_directory(folder, ec)) return {};
-  return io_error(folder.string() + ": the folder for the plots cannot be made: " +
-                  (ec ? ec.message() : "a file has this name") + "; name one that can be written");
+  return io_error(folder.string() + ": cannot create the folder for the plots: " +
+                  (ec ? ec.message() : "a file has this name") + "; give another folder");
 }
 
 Result<std::vector<std::string>> write_charts(const std::vector<NamedChart>& charts,

@@ -56,7 +56,8 @@ Result<Days> days_of(const Report& report) {
     const std::string first = header.started_utc.substr(0, 10);
     if (header.provenance.recording_kind == "csv" || !is_date(first))
       return bad_input("run " + std::to_string(header.id) +
-                           ": its log does not say when it was measured, and a certificate must",
+                           ": the log does not contain the date of the measurement, which a "
+                           "certificate must state",
                        Remedy::state_in_report, "date");
     const std::string last = last_day(header, run.results.run.points);
     if (all.first.empty() || first < all.first) all.first = first;
@@ -100,9 +101,10 @@ void write_software(Xml& xml, const Report& report) {
   xml.open("dcc:refTypeDefinition");
   write_text(xml, "dcc:name", "mdof");
   write_text(xml, "dcc:description",
-             "mdof_position, mdof_target, mdof_pass, mdof_direction: of the points of a run; "
-             "mdof_EYX and others: an error by its name of ISO 230-1, actual minus nominal; "
-             "mdof_figure: a figure of a run, of the mean of both approaches");
+             "mdof_position, mdof_target, mdof_pass, mdof_direction: position, target, pass and "
+             "direction of approach of each point; mdof_EYX and others: error with its name of "
+             "ISO 230-1, actual minus nominal; mdof_figure: figure of a run, calculated from the "
+             "mean of both approaches");
   xml.leaf("dcc:namespace", "mdof");
   xml.leaf("dcc:link", "urn:mdof:refTypes");
   xml.close();

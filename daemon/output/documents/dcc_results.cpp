@@ -103,15 +103,16 @@ void write_points(Xml& xml, const ReportRun& run) {
   const auto& points = r.points;
   const auto& known = run.results.uncertainty.points;
   const std::size_t n = points.size();
-  open_result(
-      xml, "points",
-      "one column a point, in the order measured; U is the expanded uncertainty for 95 %. " +
-          ("U covers: " + covers_text(run.results.uncertainty)));
+  open_result(xml, "points",
+              "each list has one value per point, in the order of measurement; U is the expanded "
+              "uncertainty for 95 %. " +
+                  ("U covers: " + covers_text(run.results.uncertainty)));
   write_list(xml, "mdof_target", "target", "\\one", n,
              [&](std::size_t i) { return static_cast<double>(points[i].target); });
   write_list(xml, "mdof_pass", "pass", "\\one", n,
              [&](std::size_t i) { return static_cast<double>(points[i].run); });
-  write_list(xml, "mdof_direction", "direction of the approach: 1, -1, 0 unknown", "\\one", n,
+  write_list(xml, "mdof_direction", "direction of approach: 1 forward, -1 reverse, 0 unknown",
+             "\\one", n,
              [&](std::size_t i) { return static_cast<double>(points[i].point.direction); });
   write_list(xml, "mdof_position", "position", "\\metre", n,
              [&](std::size_t i) { return points[i].point.position_m; });
@@ -134,7 +135,8 @@ void write_figures(Xml& xml, const ReportRun& run) {
   if (budgets.empty()) return;
   open_result(
       xml, "figures",
-      "of the mean of both approaches; straightness about the least-squares line. U covers: " +
+      "calculated from the mean of both approaches; straightness is about the least-squares "
+      "line. U covers: " +
           covers_text(budgets));
   for (const Budget& b : budgets) write_figure(xml, b, charts::split_key(b.figure).name);
   close_result(xml);

@@ -131,7 +131,7 @@ std::string bins_svg(const StudyResult& result) {
     draw_output(svg, sheet.panel(i, x, false), outputs[i], result.binned_key);
   if (cut)
     svg.text("quiet", {kMarginPx, sheet.bottom() + 8}, Anchor::start,
-             "Extremes at the edge of a panel lie beyond it.");
+             "Extremes that are drawn at the edge of a panel lie outside it.");
   return svg.take();
 }
 

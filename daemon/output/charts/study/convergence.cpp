@@ -25,7 +25,7 @@ constexpr std::array<Figure, 4> kFigures = {
     {{&ConvergencePoint::mean, "ink", "ink-dot", "mean"},
      {&ConvergencePoint::sd, "edge dash", "quiet", "sd"},
      {&ConvergencePoint::low, "blue", "blue-dot", "lower end of the symmetric interval"},
-     {&ConvergencePoint::high, "orange dot", "orange-dot", "upper end"}}};
+     {&ConvergencePoint::high, "orange dot", "orange-dot", "upper end of the symmetric interval"}}};
 
 std::vector<const Convergence*> drawn(const StudyResult& result) {
   std::vector<const Convergence*> all;
@@ -60,7 +60,7 @@ void draw_figure(Svg& svg, const Panel& panel, const Convergence& c, const Figur
 
 std::string last_values(const Convergence& c) {
   const ConvergencePoint& p = c.points.back();
-  return key_label(c.key) + " at the last: mean " + number_text(p.mean) + ", sd " +
+  return key_label(c.key) + " after the last trial: mean " + number_text(p.mean) + ", sd " +
          number_text(p.sd) + ", interval [" + number_text(p.low) + ", " + number_text(p.high) + "]";
 }
 

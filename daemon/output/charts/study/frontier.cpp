@@ -138,20 +138,20 @@ std::string frontier_svg(const StudyResult& result) {
   std::vector<Range> y;
   for (const Frontier& f : all) y.push_back(second_range(f));
   const Sheet sheet(kHeadPx + 24, y, kFrontierPx);
-  const std::string title = titled(result, "tolerances that keep a limit");
+  const std::string title = titled(result, "tolerances that meet a limit");
   const bool some_left_out = leaves_some_out(result);
   Svg svg(kWidthPx, sheet.bottom() + (some_left_out ? 24 : 4), title, in_words(result, all));
   draw_head(svg, title, study_line(result));
   const std::vector<LegendItem> legend = {
-      {LegendSign::line, "blue", "largest that keeps the limit"},
-      {LegendSign::area, "wide", "keeps it"},
+      {LegendSign::line, "blue", "largest value that meets the limit"},
+      {LegendSign::area, "wide", "meets the limit"},
       {LegendSign::line, "ink", "95\u00a0% of the sampling uncertainty"}};
   draw_legend(svg, kHeadPx, legend);
   for (std::size_t i = 0; i < all.size(); ++i)
     draw_frontier(svg, sheet.panel(i, first_range(all[i]), false), all[i]);
   if (some_left_out)
     svg.text("quiet", {kMarginPx, sheet.bottom() + 8}, Anchor::start,
-             "Values of the first that leave the second without a bound are not drawn.");
+             "Points where the second tolerance has no upper bound are not drawn.");
   return svg.take();
 }
 

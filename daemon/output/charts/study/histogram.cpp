@@ -102,7 +102,7 @@ std::string extremes_line(const OutputSummary& o) {
 std::string missing_line(const OutputSummary& o) {
   std::string line;
   if (o.histogram.below + o.histogram.above > 0)
-    line = count_text(o.histogram.below) + " trials lie below what is drawn, " +
+    line = count_text(o.histogram.below) + " trials lie below the drawn range, " +
            count_text(o.histogram.above) + " above";
   if (o.unsolved > 0)
     line += (line.empty() ? "" : "; ") + count_text(o.unsolved) + " trials have no solution";

@@ -95,7 +95,7 @@ std::string left_out(const OutputIndices& output) {
   double largest = 0;
   for (std::size_t i = shown(output); i < output.causes.size(); ++i)
     largest = std::max(largest, output.causes[i].total);
-  return std::to_string(rest) + " more, none with a total above " + fixed_text(largest, 3);
+  return std::to_string(rest) + " more, each with a total of at most " + fixed_text(largest, 3);
 }
 
 void draw_output(Svg& svg, Panel panel, const OutputIndices& output, double top) {
@@ -113,7 +113,7 @@ std::string in_words(const StudyResult& result) {
   for (const OutputIndices& output : result.indices) {
     if (output.causes.empty()) continue;
     const CauseIndex& c = output.causes.front();
-    words += " " + split_key(output.key).name + ": most by " + c.cause + ", first order " +
+    words += " " + split_key(output.key).name + ": largest cause " + c.cause + ", first order " +
              with_se(c.first, c.first_se) + ", total " + with_se(c.total, c.total_se) + ".";
   }
   return words;
@@ -130,12 +130,12 @@ std::string indices_svg(const StudyResult& result) {
   constexpr double kTop = kHeadPx + 26;
   double height = kTop;
   for (const OutputIndices& output : result.indices) height += height_of(output);
-  const std::string title = titled(result, "what the scatter comes from");
+  const std::string title = titled(result, "causes of the scatter");
   Svg svg(kWidthPx, height, title, in_words(result));
   draw_head(svg, title, study_line(result));
   const std::array<LegendItem, 3> legend = {
-      {{LegendSign::area, "blue-dot", "first order: the cause alone"},
-       {LegendSign::area, "wide", "total: with its interactions"},
+      {{LegendSign::area, "blue-dot", "first order: effect of the cause alone"},
+       {LegendSign::area, "wide", "total: effect with its interactions"},
        {LegendSign::line, "ink", "± standard error"}}};
   draw_legend(svg, kHeadPx, legend);
   Panel panel;

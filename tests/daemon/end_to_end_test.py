@@ -80,7 +80,7 @@ class EndToEnd(unittest.TestCase):
         table = self.client.call("compensation.build", runs=[run])["table"]
         with self.assertRaisesRegex(RpcError, "not activated: .*despite_warnings"):
             self.client.call("compensation.activate", table=table, simulated=True)
-        with self.assertRaisesRegex(RpcError, "is simulated.*--simulated, in a call \"simulated\": true") as no:
+        with self.assertRaisesRegex(RpcError, "is simulated.*--simulated, or \"simulated\": true") as no:
             self.client.call("compensation.activate", table=table, despite_warnings=True)
         self.assertEqual(no.exception.data, {"remedy": "allow_simulated"})
         for key in ("straightness", "angles", "state", "note", "options", "notices"):

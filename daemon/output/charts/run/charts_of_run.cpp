@@ -18,7 +18,7 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
     all.charts.push_back({"run-" + number + "-" + name + ".svg", std::move(svg)});
   };
   if (!has_five_errors(results)) {
-    all.left_out.push_back(run + ": no point has errors, so there are no charts");
+    all.left_out.push_back(run + ": no point has error values, so there are no charts");
     return all;
   }
   add("five-errors", five_errors_svg(results, language));

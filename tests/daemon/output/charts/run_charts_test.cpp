@@ -62,7 +62,7 @@ TEST(RunCharts, OfARunWithoutErrorsAreNoneAndSaySo) {
     const RunCharts drawn = charts_of_run(each, Language::english);
     EXPECT_TRUE(drawn.charts.empty());
     ASSERT_EQ(drawn.left_out.size(), 1u);
-    EXPECT_NE(drawn.left_out[0].find("run 7: no point has errors"), std::string::npos);
+    EXPECT_NE(drawn.left_out[0].find("run 7: no point has error values"), std::string::npos);
   }
 }
 
@@ -72,7 +72,7 @@ TEST(RunCharts, ShowAPointWithoutErrorsAndWhy) {
   const std::string svg = five_errors_svg(results, Language::english);
   EXPECT_EQ(xml_fault(svg), "");
   EXPECT_EQ(count_of(svg, "data-reason=\"probe &lt;C&gt; lost\""), 5u);
-  EXPECT_NE(svg.find("1 of 9 points without errors: probe &lt;C&gt; lost"), std::string::npos);
+  EXPECT_NE(svg.find("no error values for 1 of 9 points: probe &lt;C&gt; lost"), std::string::npos);
 }
 
 TEST(RunCharts, SayThatUIsUnknown) {

@@ -38,17 +38,16 @@ Status check_options(const BudgetCommand& command) {
                 "--artefact-urad, --u-artefact-urad and --partial are for the squareness of two "
                 "runs; give the second run, or leave them out");
   if (command.tolerance && command.run_b.empty() && command.figure.empty())
-    return fail(ErrorCode::usage, "--tolerance is for one figure: say which with --figure");
+    return fail(ErrorCode::usage, "--tolerance applies to one figure; give --figure NAME");
   if (!command.run_b.empty() && (!command.figure.empty() || command.at_mm))
-    return fail(
-        ErrorCode::usage,
-        "of two runs the budget is that of their squareness; leave out --figure and --at, or one "
-        "run");
+    return fail(ErrorCode::usage,
+                "two runs have the budget of their squareness only; leave out --figure and --at, "
+                "or the second run");
   if (!command.run_b.empty() && command.reference != "fixture")
     return fail(ErrorCode::usage, "squareness is stated at the fixture; leave out --reference");
   if (!command.figure.empty() && command.at_mm)
     return fail(ErrorCode::usage,
-                "--at has the five errors at a target, and --figure one figure of the whole run; "
+                "--at shows the five errors at a target, --figure one figure of the whole run; "
                 "leave out one of them");
   return {};
 }
@@ -110,7 +109,7 @@ Status draw_budgets(const Marked& of, const BudgetCommand& command,
           {"budget-" + charts::file_name(b.figure) + ".svg",
            charts::budget_svg(b, "run " + of.runs, of.marks, words::Language::english)});
     else
-      warn("no budget of " + b.figure + " is drawn: its u is not known");
+      warn("the budget of " + b.figure + " is not drawn: its u is 0 or unknown");
   return write_plots(drawn, command.plots);
 }
 
@@ -118,10 +117,11 @@ std::string text_of(const daemon::FoundBudgets& found, const std::optional<Decis
   std::string head =
       noise_only_notice(are_noise_only(found.budgets)) + simulated_notice(found.simulated);
   if (found.at_m) head += "errors at " + in_mm(*found.at_m) + " mm\n";
-  return head + (found.budgets.size() == 1
-                     ? budget_text(found.budgets.front(), decided, terminal_columns())
-                     : budgets_text(found.budgets, terminal_columns()) +
-                           "One figure whole: --figure " + found.budgets.front().figure + "\n");
+  return head +
+         (found.budgets.size() == 1
+              ? budget_text(found.budgets.front(), decided, terminal_columns())
+              : budgets_text(found.budgets, terminal_columns()) +
+                    "Full budget of one figure: --figure " + found.budgets.front().figure + "\n");
 }
 
 Status budget(const BudgetCommand& command) {
@@ -144,39 +144,50 @@ Status budget(const BudgetCommand& command) {
              : command.json ? write_line(daemon::budgets_json(found, decided))
                             : write_out(text_of(found, decided)));
   if (!decided || decided->conformity == Conformity::conform) return {};
-  return fail(ErrorCode::check, found.budgets.front().figure + " is " +
-                                    to_string(decided->conformity) + " with its tolerance" +
+  const std::string& figure = found.budgets.front().figure;
+  if (decided->conformity == Conformity::not_conform)
+    return fail(ErrorCode::check, figure + " does not conform to the tolerance");
+  return fail(ErrorCode::check, "conformity of " + figure + " to the tolerance is undecided" +
                                     (decided->reason.empty() ? "" : ": " + decided->reason));
 }
 
 Action declare_budget(CLI::App& command) {
   const auto o = std::make_shared<BudgetCommand>();
-  add_run_argument(command, "RUN", o->run, "A run, or latest; of two the one along the first axis");
-  command.add_option("RUN_B", o->run_b, "A run along another axis: the budget of the squareness")
+  add_run_argument(command, "RUN", o->run,
+                   "Run number or latest; with RUN_B the run along the first axis");
+  command
+      .add_option("RUN_B", o->run_b, "Run along another axis; shows the budget of the squareness")
       ->type_name("")
       ->check(run_word_error);
   add_axis_of_latest(command, o->axis);
-  command.add_option("--figure", o->figure, "One figure whole, such as EYX_straightness_um")
+  command
+      .add_option("--figure", o->figure,
+                  "Show the full budget of one figure, such as EYX_straightness_um")
       ->type_name("NAME");
-  command.add_option("--at", o->at_mm, "Of the five errors at the target nearest to this position")
+  command
+      .add_option("--at", o->at_mm,
+                  "Show the budgets of the five errors at the target nearest to this position")
       ->check(finite_number())
       ->type_name("MM");
   command
-      .add_option("--tolerance", o->tolerance,
-                  "Most that the figure may be, in its unit: conform, not conform or undecided "
-                  "(ISO 14253-1:2017); undecided wherever the rig leaves an uncertainty open")
+      .add_option(
+          "--tolerance", o->tolerance,
+          "Largest permitted value of the figure, in its unit. Prints conform, not conform or "
+          "undecided (ISO 14253-1:2017); undecided if the rig does not declare every uncertainty")
       ->check(not_negative_number());
   command
       .add_option("--trials", o->trials.trials,
-                  "Draw so many Monte Carlo trials beside the budget (JCGM 101)")
+                  "Number of Monte Carlo trials to compare with the budget (JCGM 101)")
       ->check(CLI::Range(std::uint64_t{2}, kMostTrials));
-  command.add_option("--seed", o->trials.seed, "Of the trials")
+  command.add_option("--seed", o->trials.seed, "Seed of the trials")
       ->check(not_negative_number())
       ->capture_default_str();
   add_reference_option(command, o->reference)->capture_default_str();
   command.add_option("--artefact-urad", o->artefact_urad,
-                     "Angle error of the square [default: of the rigs]");
-  command.add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
+                     "Angle error of the square [default: from the rigs]");
+  command
+      .add_option("--u-artefact-urad", o->u_artefact_urad,
+                  "Standard uncertainty of the angle error of the square")
       ->check(not_negative_number());
   command.add_flag("--partial", o->partial, "Take partial runs as well");
   add_database_option(command, o->database);

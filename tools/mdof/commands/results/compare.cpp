@@ -34,7 +34,7 @@ std::string effect_text(const daemon::ComparedFigure& figure) {
   if (figure.effect != daemon::Effect::reduced) return text;
   const double left = std::abs(figure.after.value), before = std::abs(figure.before.value);
   return left > figure.after.U ? text + ", to 1/" + fixed(before / left, 1)
-                               : text + ", what is left is within its U";
+                               : text + ", to a value within its U";
 }
 
 std::string comparison_text(const daemon::Comparison& c) {
@@ -51,10 +51,9 @@ std::string comparison_text(const daemon::Comparison& c) {
   for (const std::string& note : c.notes)
     text += wrapped("note: " + note, terminal_columns()) + "\n";
   return text +
-         wrapped("± is the expanded uncertainty U (95 %); u: " + covers_text(changes) +
-                     ". The change is that of the absolute value; the runs are taken as "
-                     "independent: what they share cancels, so that its U is too large rather "
-                     "than too small.",
+         wrapped("± is the expanded uncertainty U (95 %). u contains " + covers_text(changes) +
+                     ". The change is |after| - |before|. Its U treats the runs as independent; "
+                     "uncertainties that both runs share cancel, so U tends to be too large.",
                  terminal_columns()) +
          "\n";
 }
@@ -76,8 +75,9 @@ Status compare(const CompareCommand& command) {
 
 Action declare_compare(CLI::App& command) {
   const auto o = std::make_shared<CompareCommand>();
-  add_run_argument(command, "RUN_BEFORE", o->before, "The run before, or latest");
-  add_run_argument(command, "RUN_AFTER", o->after, "The run of the same axis after, or latest");
+  add_run_argument(command, "RUN_BEFORE", o->before, "Run before the change, or latest");
+  add_run_argument(command, "RUN_AFTER", o->after,
+                   "Run of the same axis after the change, or latest");
   add_reference_option(command, o->reference)->capture_default_str();
   add_database_option(command, o->database);
   add_json_flag(command, o->json);
@@ -89,7 +89,7 @@ Action declare_compare(CLI::App& command) {
 
 Command compare_command() {
   return {.name = "compare",
-          .summary = "What a compensation did: figures of two runs of an axis, with U",
+          .summary = "Compare two runs of an axis, such as before and after a compensation",
           .footer = "Example:\n  mdof compare 1 7",
           .declare = declare_compare};
 }

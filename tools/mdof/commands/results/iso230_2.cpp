@@ -46,10 +46,10 @@ std::optional<PositioningUncertainty> uncertainty_of(const Iso230Command& comman
 
 std::string uncertainty_text(const std::optional<PositioningUncertainty>& U) {
   if (!U) return "uncertainty: not declared (--device-limit-um, --drift-um)\n";
-  return "U (k = 2): " + um_to_place(U->E_M_A, U->E_M_A) + " µm of E, M and A, " +
+  return "U (k = 2): " + um_to_place(U->E_M_A, U->E_M_A) + " µm for E, M and A, " +
          um_to_place(U->B, U->B) +
-         " µm of B\n"
-         "from device and drift; not temperature of the machine and alignment\n";
+         " µm for B\n"
+         "U contains measuring device and drift, but not machine temperature and alignment\n";
 }
 
 Status iso230_of_file(const Iso230Command& command) {
@@ -91,7 +91,7 @@ Status iso230_of_run(const Iso230Command& command) {
 Status iso230(const Iso230Command& command) {
   if (!command.file.empty()) return iso230_of_file(command);
   if (!command.run.empty()) return iso230_of_run(command);
-  return fail(ErrorCode::usage, "of what? Give a FILE.csv, or --run RUN of a stored run");
+  return fail(ErrorCode::usage, "missing input; give FILE.csv, or --run RUN for a stored run");
 }
 
 Action declare_iso230_2(CLI::App& command) {
@@ -101,26 +101,28 @@ Action declare_iso230_2(CLI::App& command) {
                                "CSV, CSV.gz, or - for standard input: target_mm, direction (1 or "
                                "-1), run, deviation_um")
                    ->type_name("");
-  auto* run = command.add_option("--run", o->run, "Errors of this stored run, or latest")
-                  ->type_name("RUN")
-                  ->check(run_word_error)
-                  ->excludes(file);
+  auto* run =
+      command.add_option("--run", o->run, "Evaluate the errors of this stored run, or of latest")
+          ->type_name("RUN")
+          ->check(run_word_error)
+          ->excludes(file);
   command
       .add_option("--error", o->of_run.errors,
-                  "Of the run this error, such as EYX [default: all five]")
+                  "Evaluate this error of the run, such as EYX [default: all five]")
       ->type_name("NAME")
       ->needs(run);
   add_axis_of_latest(command, o->axis);
   command.get_option("--axis")->needs(run);
   add_reference_option(command, o->reference)->capture_default_str()->needs(run);
   command
-      .add_flag("--keep-slope", o->of_run.keep_slope,
-                "Leave the slope of a straightness error in it, which is how the target lies")
+      .add_flag(
+          "--keep-slope", o->of_run.keep_slope,
+          "Keep the slope of straightness errors, which depends on the alignment of the target")
       ->needs(run);
   command.add_flag("--partial", o->of_run.partial, "Take a partial run as well")->needs(run);
   command
       .add_option("--scale-period-mm", o->scale_period_mm,
-                  "Warn where all intervals are whole periods of the scale")
+                  "Signal period of the scale; warns if all intervals are whole periods")
       ->check(positive_number());
   command
       .add_option(
@@ -129,8 +131,9 @@ Action declare_iso230_2(CLI::App& command) {
       ->check(not_negative_number())
       ->excludes(run);
   command
-      .add_option("--drift-um", o->drift_um,
-                  "E_VE: range of the readings of the axis at rest, over as long as the test took")
+      .add_option(
+          "--drift-um", o->drift_um,
+          "E_VE: range of the readings with the axis at rest, over the duration of the test")
       ->check(not_negative_number())
       ->excludes(run);
   add_database_option(command, o->database);
@@ -143,7 +146,7 @@ Action declare_iso230_2(CLI::App& command) {
 
 Command iso230_2_command() {
   return {.name = "iso230-2",
-          .summary = "Show the parameters of ISO 230-2 of a file or a run",
+          .summary = "Calculate the parameters of ISO 230-2 from a file or a run",
           .footer =
               "Examples:\n"
               "  mdof iso230-2 positioning_X.csv --device-limit-um 0.8 --drift-um 1.5\n"

@@ -30,14 +30,14 @@ std::vector<std::string> slope_row(const std::string& label, const ParallelismOf
 
 std::string plane_sentence(const Parallelism& found, const ParallelismOfPlane& plane) {
   const double length_m = found.to_m - found.from_m;
-  return wrapped(plane.error + ": B runs " +
+  return wrapped(plane.error + ": motion B is inclined to motion A by " +
                      with_u(urad_to_place(plane.budget.value, plane.budget.U),
                             urad_to_place(plane.budget.u, plane.budget.u)) +
-                     " µrad to +" + plane.error[1] +
-                     " of A, expanded U = " + urad_to_place(plane.budget.U, plane.budget.U) +
+                     " µrad towards +" + plane.error[1] +
+                     ", expanded U = " + urad_to_place(plane.budget.U, plane.budget.U) +
                      " (k = " + fixed(plane.budget.coverage_factor, 2) + ", 95 %); " +
                      um_to_place(plane.budget.value * length_m, plane.budget.U * length_m) +
-                     " µm over the " + in_mm(length_m) + " mm in common",
+                     " µm over the " + in_mm(length_m) + " mm that both runs cover",
                  terminal_columns()) +
          "\n";
 }
@@ -57,11 +57,11 @@ std::string parallelism_text(const Parallelism& found) {
                            found.planes.back().budget.noise_only) +
          simulated_notice(found.simulated) + table.text() + "\n" + sentences +
          wrapped(
-             "It holds if neither the target nor the fixture was moved against the machine "
-             "between the runs. ± one standard uncertainty: " +
+             "The result is valid only if neither the target nor the fixture was moved relative to "
+             "the machine between the runs. ± is the standard uncertainty u. It contains " +
                  covers_text(found.planes.front().budget) +
-                 "; what the rigs declare is taken as independent between the runs. By least "
-                 "squares, at the fixture.",
+                 ". The declared uncertainties of the two runs are taken as independent. Slopes "
+                 "are least-squares slopes at the fixture.",
              terminal_columns()) +
          "\n";
 }
@@ -83,8 +83,9 @@ Status parallelism(const ParallelismCommand& command) {
 
 Action declare_parallelism(CLI::App& command) {
   const auto o = std::make_shared<ParallelismCommand>();
-  add_run_argument(command, "RUN_A", o->word_a, "The run that is the datum, or latest");
-  add_run_argument(command, "RUN_B", o->word_b, "The run along the same axis that is compared");
+  add_run_argument(command, "RUN_A", o->word_a, "Run that is the datum, or latest");
+  add_run_argument(command, "RUN_B", o->word_b,
+                   "Run along the same axis that is compared with RUN_A, or latest");
   command.add_flag("--partial", o->partial, "Take partial runs as well");
   add_database_option(command, o->database);
   add_json_flag(command, o->json);

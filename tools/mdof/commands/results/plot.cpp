@@ -98,7 +98,7 @@ Result<Plotted> draw_all(const PlotCommand& command) {
 Status plot(const PlotCommand& command) {
   MDOF_TRY(const Plotted plotted, draw_all(command));
   if (plotted.charts.empty() && plotted.left_out.empty())
-    return fail(ErrorCode::usage, "name a run or --table NUMBER");
+    return fail(ErrorCode::usage, "missing run or table; give RUN or --table NUMBER");
   if (plotted.charts.empty())
     return fail(ErrorCode::bad_input, plotted.left_out.front() + "; no file is written");
   MDOF_TRY(const auto files, charts::write_charts(plotted.charts, command.out));
@@ -125,12 +125,13 @@ Action declare_plot(CLI::App& command) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      .add_option("--point", o->points,
-                  "Also the raw readings of this point, which is counted from 0 as measured")
+      .add_option(
+          "--point", o->points,
+          "Also draw the raw readings of this point (points are numbered from 0 as measured)")
       ->type_name("NUMBER")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_option("--out", o->out, "Folder of the files, made where it is missing")
+  command.add_option("--out", o->out, "Folder for the files (created if missing)")
       ->required()
       ->type_name("DIR");
   add_axis_of_latest(command, o->axis);
@@ -149,11 +150,11 @@ Command plot_command() {
       .summary = "Draw charts of stored runs as SVG files",
       .footer =
           "Writes run-N-five-errors.svg, -straightness.svg, -repeatability.svg, -drift.svg and a\n"
-          "-budget-FIGURE.svg for each figure; with --point the raw readings of a stop,\n"
-          "run-N-point-K.svg; of two axes with one run each also squareness-A-B.svg (numbers of\n"
-          "the runs), of a table table-N.svg. All files are written or none. What is drawn carries "
-          "its numbers\n"
-          "as data- attributes, in the units of mdof show --json. The same results give the\n"
+          "-budget-FIGURE.svg for each figure. --point adds run-N-point-K.svg with the raw "
+          "readings\n"
+          "of a stop. Two axes with one run each add squareness-A-B.svg (numbers of the runs),\n"
+          "--table adds table-N.svg. If one file cannot be written, none is. The values are data-\n"
+          "attributes of the drawing, in the units of mdof show --json. The same results give the\n"
           "same bytes.\n\n"
           "Examples:\n"
           "  mdof plot 12 --out plots\n"

@@ -36,8 +36,8 @@ Result<std::string> company_head(const std::string& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const char* refused : {"<script", "<!--", "<style", "<body", "</body", "</html", "<html"})
     if (lower.find(refused) != std::string::npos)
-      return bad_input(file + ": has \"" + refused +
-                       "\"; a head is a piece of HTML without it, such as "
+      return bad_input(file + ": contains \"" + refused +
+                       "\", which the HTML of a letterhead must not contain; an example: "
                        "<img src=\"data:image/png;base64,...\"><p>Muster AG</p>");
   return head + "\n";
 }
@@ -72,15 +72,18 @@ Status write_report(const ReportCommand& command) {
 Action declare_report(CLI::App& command) {
   const auto o = std::make_shared<ReportCommand>();
   add_run_arguments(command, o->request.runs, "Numbers of runs, see mdof runs; or latest");
-  command.add_option("--out", o->out, "The report; a file of this name is replaced")
+  command.add_option("--out", o->out, "File of the report; an existing file is replaced")
       ->required()
       ->type_name("FILE.html");
   add_report_options(command, o->request);
-  command.add_option("--template", o->head, "HTML of the company's head, above everything else")
+  command
+      .add_option("--template", o->head,
+                  "HTML file with the company letterhead, placed at the top of the report")
       ->type_name("FILE.html");
   command.add_flag("--before-after", o->request.before_after,
-                   "Two runs of each axis, the run before first: add what changed, with U");
-  command.add_flag("--pdf", o->pdf, "Also print it, to FILE.pdf, by chromium or weasyprint");
+                   "Add what changed between two runs of each axis (the run before first), with U");
+  command.add_flag("--pdf", o->pdf,
+                   "Also write the report as FILE.pdf (needs chromium or weasyprint)");
   add_language_option(command, o->language);
   add_json_flag(command, o->json);
   return [o] { return write_report(*o); };
@@ -93,10 +96,10 @@ Command report_command() {
       .name = "report",
       .summary = "Write a report of stored runs as one HTML file that prints to A4",
       .footer =
-          "The file needs nothing else and has no script. Title, results with u, U and k,\n"
-          "decisions, conditions, fixture, calibrations, notices, charts, points, and how to\n"
-          "replay the recording. The same results give the same bytes. The DCC of mdof export\n"
-          "is inside the file, where the laboratory's country is stated.\n\n"
+          "The file needs no other file and has no script. It contains title, results with u, U\n"
+          "and k, decisions, conditions, fixture, calibrations, notices, charts, points, and how\n"
+          "to replay the recording, and the DCC of mdof export where the laboratory's country is\n"
+          "stated. The same results give the same bytes.\n\n"
           "Examples:\n"
           "  mdof report 12 --out report.html --set customer=\"Muster AG\" --set serial_number=17\n"
           "  mdof report 1 2 --out bericht.html --language de\n"

@@ -61,7 +61,8 @@ Status show(const ChosenRun& choice) {
   const std::size_t width = terminal_columns();
   MDOF_TRY(const auto by, store.superseded_by(run.header.id));
   if (by)
-    warn("run " + std::to_string(*by) + " supersedes this run; mdof show " + std::to_string(*by));
+    warn("run " + std::to_string(*by) + " supersedes this run; see mdof show " +
+         std::to_string(*by));
   const std::string drift = drift_notice(run, drift_of(run).found, width);
   return write_out(show_text(run, daemon::uncertainty_of(run), sha256, width, choice.all_warnings) +
                    (drift.empty() ? "" : "\n" + drift) + history_text(actions, width));

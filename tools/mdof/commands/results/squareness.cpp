@@ -80,8 +80,8 @@ std::string squareness_text(const Squareness& s, const std::vector<Budget>& budg
          " µrad, expanded U = " + urad_to_place(budget.U, budget.U) +
          " (k = " + fixed(budget.coverage_factor, 2) + ", 95 %)\n" + squareness_sense(s.axes, "°") +
          "\nform " + in_urad(s.form_rad) + " µrad: residual straightness of both axes\n" +
-         wrapped("± one standard uncertainty: " + covers_text(budget) +
-                     "; mdof budget has the contributors. Slopes at the fixture.",
+         wrapped("± is the standard uncertainty u. It contains " + covers_text(budget) +
+                     ". mdof budget lists the contributors. Slopes are given at the fixture.",
                  terminal_columns()) +
          "\n";
 }
@@ -164,11 +164,14 @@ Status squareness(SquarenessCommand command) {
 Action declare_squareness(CLI::App& command) {
   const auto o = std::make_shared<SquarenessCommand>();
   add_run_argument(command, "RUN_A", o->words[0], "Run along the first axis, or latest");
-  add_run_argument(command, "RUN_B", o->words[1], "Run along the second, same square; or latest");
+  add_run_argument(command, "RUN_B", o->words[1],
+                   "Run along the second axis, with the same square, or latest");
   add_axes_option(command, o->axes);
   command.add_option("--artefact-urad", o->artefact_urad,
-                     "Angle error of the square [default: of the rigs]");
-  command.add_option("--u-artefact-urad", o->u_artefact_urad, "Its standard uncertainty")
+                     "Angle error of the square [default: from the rigs]");
+  command
+      .add_option("--u-artefact-urad", o->u_artefact_urad,
+                  "Standard uncertainty of the angle error of the square")
       ->check(not_negative_number());
   command.add_flag("--partial", o->partial, "Take partial runs as well");
   add_database_option(command, o->database);
@@ -183,9 +186,9 @@ Action declare_squareness(CLI::App& command) {
 
 Command squareness_command() {
   return {.name = "squareness",
-          .summary = "Angle between two axes from a run along each",
+          .summary = "Find the angle between two axes from a run along each axis",
           .footer =
-              "Axes in the order X, Y, Z: EC0Y of X and Y, EB0Z of X and Z, EA0Z of Y and Z.\n"
+              "Give the runs in the order X, Y, Z. X and Y give EC0Y, X and Z EB0Z, Y and Z EA0Z.\n"
               "Examples:\n  mdof squareness 1 2 --artefact-urad -1.3 --u-artefact-urad 0.4\n"
               "  mdof squareness latest latest --axes XZ",
           .declare = declare_squareness};

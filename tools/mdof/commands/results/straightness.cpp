@@ -64,8 +64,8 @@ Status straightness(const StraightnessCommand& command) {
   MDOF_TRY(const ReferenceLines lines, lines_of(series));
   if (lines.positions < lines.readings)
     warn(
-        "several readings at one position: all count, and the end-point line goes through the "
-        "means of those at the ends");
+        "several readings have the same position: all are used, and the end-point line goes "
+        "through the mean readings at the two ends");
   if (command.json) return write_line(straightness_json(lines, series.simulated));
   return write_out(simulated_notice(series.simulated) + straightness_table(lines));
 }
@@ -85,7 +85,7 @@ Action declare_straightness(CLI::App& command) {
 
 Command straightness_command() {
   return {.name = "straightness",
-          .summary = "Straightness of a series in a file by each reference line",
+          .summary = "Calculate straightness from a file by each reference line",
           .footer = "Example:\n  mdof straightness deviations.csv --json",
           .declare = declare_straightness};
 }

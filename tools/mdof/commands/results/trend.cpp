@@ -62,12 +62,12 @@ std::string sentence_of(const daemon::Trend& trend) {
   const auto& [figure, values, chart] = std::tie(trend.figure, trend.values, trend.chart);
   if (!chart)
     return figure + ": " + std::to_string(values.size()) +
-           " values, too few for limits, which take " + std::to_string(algo::kFewestOfBaseline) +
-           " and the one to be judged";
-  const std::string provisional =
-      chart->baseline < kFirmBaseline
-          ? "; limits of " + std::to_string(chart->baseline) + " values are provisional"
-          : "";
+           " values, too few for control limits (they need a baseline of at least " +
+           std::to_string(algo::kFewestOfBaseline) + " values and one more value to judge)";
+  const std::string provisional = chart->baseline < kFirmBaseline
+                                      ? "; the limits are provisional (baseline of " +
+                                            std::to_string(chart->baseline) + " values)"
+                                      : "";
   if (chart->moved) {
     const auto& since = values[chart->moved->since];
     return figure + " has moved by " + with_u(trend, chart->moved->by, chart->moved->u) + " " +
@@ -80,7 +80,7 @@ std::string sentence_of(const daemon::Trend& trend) {
   }
   if (!chart->outside.empty())
     return figure + ": run " + runs_of(values[chart->outside.back()]) +
-           " was outside the limits, later ones are not" + provisional;
+           " was outside the limits; later runs are inside" + provisional;
   return figure + " has not moved" + provisional;
 }
 
@@ -101,8 +101,8 @@ std::string text_of(const daemon::Trend& trend) {
            std::to_string(trend.chart->baseline) + " values (moving range)\n";
   out += table.text(terminal_columns());
   if (!trend.values.empty())
-    out += wrapped("± one standard uncertainty, " + trend.u_covers +
-                       "; the limits are of noise and repeatability",
+    out += wrapped("± is the standard uncertainty u (" + trend.u_covers +
+                       "). The control limits contain noise and repeatability only.",
                    terminal_columns()) +
            "\n";
   for (const std::string& why : trend.left_out)
@@ -118,7 +118,7 @@ bool any_noise_only(const std::vector<daemon::Trend>& trends) {
 std::string text_of(const std::vector<daemon::Trend>& trends) {
   std::string out;
   for (const daemon::Trend& trend : trends) out += (out.empty() ? "" : "\n") + text_of(trend);
-  if (out.empty()) return "no runs are stored that could be in a chart\n";
+  if (out.empty()) return "no stored run gives a value for a control chart\n";
   return noise_only_notice(any_noise_only(trends)) + out;
 }
 
@@ -224,9 +224,11 @@ Action declare_trend(CLI::App& command) {
   add_only_axis_option(command, o->axis);
   command.add_option("--figure", o->figure, "One figure, such as EYX_straightness_um or EC0Y_urad")
       ->type_name("NAME");
-  command.add_option("--baseline", o->baseline, "Limits of so many first runs [all but the last]")
+  command
+      .add_option("--baseline", o->baseline,
+                  "Calculate the limits from the first N values [default: all but the last]")
       ->check(CLI::Range(algo::kFewestOfBaseline, std::size_t{100'000}));
-  command.add_flag("--mixed", o->mixed, "Take runs of other rigs and models as well");
+  command.add_flag("--mixed", o->mixed, "Also use runs with other rigs and models");
   add_database_option(command, o->database);
   add_plot_option(command, o->plots);
   add_csv_and_json_flags(command, o->csv, o->json);
@@ -239,7 +241,7 @@ Command trend_command() {
   return {.name = "trend",
           .summary = "Chart squareness and other figures over the stored runs",
           .footer =
-              "Squareness is that of the stored fits (mdof squareness).\n"
+              "The squareness values are those of the stored fits (mdof squareness).\n"
               "Exit code 1: a figure has moved.\n"
               "Examples:\n"
               "  mdof trend --figure EC0Y_urad\n"

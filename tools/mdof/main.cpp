@@ -21,14 +21,14 @@ using namespace mdof::tools;
 constexpr const char* kExamples =
     "Examples:\n"
     "  mdof selftest\n"
-    "  mdof replay log_X.csv.gz --rig rig_X.toml     a recorded log becomes a stored run\n"
-    "  mdof show 1                                   its points with uncertainty and flags\n"
-    "  mdof squareness 1 2                           of the runs 1 (X) and 2 (Y)\n"
-    "  mdof compensation build 1                     a table for the controller\n"
-    "  mdof sensitivity --preset simulation-2        what mounting errors do to the result\n"
+    "  mdof replay log_X.csv.gz --rig rig_X.toml     evaluate a log and store it as a run\n"
+    "  mdof show 1                                   show the points of run 1 with uncertainty\n"
+    "  mdof squareness 1 2                           squareness from run 1 (X) and run 2 (Y)\n"
+    "  mdof compensation build 1                     build a table for the controller\n"
+    "  mdof sensitivity --preset simulation-2        effect of mounting errors on the result\n"
     "  mdof record --axis X --repeats 5 --from-mm 0 --to-mm 60 --interval-mm 5   measure\n"
-    "  mdof device probe --config mdofd.toml         does the wiring work?\n"
-    "  mdof live                                     the probes now, from mdofd\n"
+    "  mdof device probe --config mdofd.toml         check the devices and their wiring\n"
+    "  mdof live                                     show the present readings of the probes\n"
     "Exit codes: 0 ok, 1 a result fails its check, 2 usage, 3 bad input, 4 device or I/O.";
 
 void declare(CLI::App& app, Action& chosen) {

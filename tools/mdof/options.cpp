@@ -19,7 +19,7 @@ CLI::Validator number_that(const std::function<bool(double)>& right, const std::
                            const std::string& in_help) {
   return {[=](const std::string& word) {
             double x = std::numeric_limits<double>::quiet_NaN();
-            if (!CLI::detail::lexical_cast(word, x)) return "\"" + word + "\" is no number";
+            if (!CLI::detail::lexical_cast(word, x)) return "\"" + word + "\" is not a number";
             if (!std::isfinite(x)) return word + " is not a finite number";
             return right(x) ? std::string() : word + " must be " + must;
           },
@@ -38,7 +38,7 @@ void add_csv_and_json_flags(CLI::App& command, bool& csv, bool& json) {
 }
 
 void add_all_warnings_flag(CLI::App& command, bool& all) {
-  command.add_flag("--all-warnings", all, "Also those that are like three before");
+  command.add_flag("--all-warnings", all, "Print every warning; do not summarise repeated ones");
 }
 
 Result<algo::TableLimits> LimitOptions::limits() const {
@@ -48,12 +48,12 @@ Result<algo::TableLimits> LimitOptions::limits() const {
 void add_limit_options(CLI::App& command, LimitOptions& limits) {
   command
       .add_option("--limit-um", limits.um,
-                  "Largest value that is taken (angles: urad) [default: 1000 um, 10000 urad]")
+                  "Largest accepted value (angles: urad) [default: 1000 um, 10000 urad]")
       ->check(positive_number())
       ->type_name("UM");
   command
       .add_option("--limit-um-per-mm", limits.um_per_mm,
-                  "Largest slope that is taken (angles: urad/mm) [default: 50 um/mm, 500 urad/mm]")
+                  "Largest accepted slope (angles: urad/mm) [default: 50 um/mm, 500 urad/mm]")
       ->check(positive_number())
       ->type_name("UM");
 }
@@ -82,18 +82,19 @@ void add_socket_option(CLI::App& command, std::string& socket) {
 }
 
 void add_only_axis_option(CLI::App& command, std::string& axis) {
-  command.add_option("--axis", axis, "Only of this axis")->check(CLI::IsMember({"X", "Y", "Z"}));
+  command.add_option("--axis", axis, "Only this axis")->check(CLI::IsMember({"X", "Y", "Z"}));
 }
 
 void add_model_option(CLI::App& command, std::string& model) {
-  command.add_option("--model", model, "simplified, exact or rigid")
+  command.add_option("--model", model, "Model for the errors: simplified, exact or rigid")
       ->check(CLI::IsMember({"simplified", "exact", "rigid"}))
       ->type_name("MODEL")
       ->capture_default_str();
 }
 
 void add_plot_option(CLI::App& command, std::string& folder) {
-  command.add_option("--plot", folder, "Draw it as SVG into this folder, made where it is missing")
+  command
+      .add_option("--plot", folder, "Draw charts as SVG files in this folder (created if missing)")
       ->type_name("DIR");
 }
 
@@ -105,7 +106,7 @@ Status write_plots(const std::vector<charts::NamedChart>& charts, const std::str
 }
 
 void add_language_option(CLI::App& command, std::string& language) {
-  command.add_option("--language", language, "Of the labels: en or de")
+  command.add_option("--language", language, "Language of the text in the files: en or de")
       ->check(CLI::IsMember({"en", "de"}))
       ->type_name("NAME")
       ->capture_default_str();
@@ -114,7 +115,7 @@ void add_language_option(CLI::App& command, std::string& language) {
 CLI::Option* add_reference_option(CLI::App& command, std::string& reference) {
   return command
       .add_option("--reference", reference,
-                  "Where straightness is stated: fixture, carriage or tool")
+                  "Point at which straightness is stated: fixture, carriage or tool")
       ->check(CLI::IsMember({"fixture", "carriage", "tool"}))
       ->type_name("POINT");
 }

@@ -21,17 +21,17 @@ struct Group {
   const char *summary, *footer;
 };
 constexpr Group kGroups[] = {
-    {"calibrate", "Calibrate the fixture in place: records that a rig refers to", ""},
+    {"calibrate", "Calibrate the fixture on the machine; a rig refers to the records", ""},
     {"compensation", "Build, show and activate compensation tables", ""},
-    {"machine", "The machine as a chain: errors at the tool, maps, tests", ""},
+    {"machine", "Errors at the tool from the kinematic chain of a machine; maps, tests", ""},
     {"form", "Height maps of a surface: clamping, cutting, path of a fast tool servo", ""},
     {"separate", "Separate the machine's error from the shape of the target", ""},
-    {"encoder", "Where an axis stands whose encoder counts", ""},
-    {"device", "The devices: list, probe, monitor",
+    {"encoder", "Set the position of an axis with an incremental encoder", ""},
+    {"device", "List, probe and monitor the devices",
      "Examples:\n"
      "  mdof device list\n"
      "  mdof device probe capa-1 --config mdofd.toml\n"
-     "probe and monitor open the device themselves: stop mdofd first."},
+     "The commands probe and monitor open the device themselves; stop mdofd first."},
     {"setup", "Set up the service on this machine", ""},
 };
 

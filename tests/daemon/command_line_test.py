@@ -53,8 +53,8 @@ class Stop(CommandLine):
         self.assertNotEqual(self.client.call("run.get", run=stopped[0]["run"])["state"], "open")
 
     def test_without_a_run_it_is_an_error(self):
-        for words, message in (((), "no run is under way;"), (("--axis", "X"), "no run is under way of axis X"),
-                               (("--axis", "Z"), "mdofd measures no axis Z")):
+        for words, message in (((), "no run is in progress;"), (("--axis", "X"), "no run of axis X is in progress"),
+                               (("--axis", "Z"), "mdofd does not measure axis Z")):
             code, _, err = mdof("stop", *words, "--socket", self.daemon.socket)
             self.assertEqual(code, 3)
             self.assertIn(message, err)

@@ -80,8 +80,8 @@ class EncoderDatum(unittest.TestCase):
         code, out, err = self.mdof("encoder", "set", "X", position_mm, "--socket", self.daemon.socket)
         if code != 0:
             raise RpcError({"message": err, "code": code})
-        self.assertRegex(out, r'axis X stands at [\d.-]+ mm now; device "t7" counts from [\d.-]+ mm')
-        return float(re.search(r"from ([\d.-]+) mm", out).group(1))
+        self.assertRegex(out, r'axis X is now at [\d.-]+ mm; device "t7" now has the offset [\d.-]+ mm')
+        return float(re.search(r"offset ([\d.-]+) mm", out).group(1))
 
     def set_at_rest(self, wanted_mm, set_position):
         """Says where the axis stands, by which its count becomes `wanted_mm` of the machine. The axis goes on by

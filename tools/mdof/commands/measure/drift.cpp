@@ -30,7 +30,7 @@ Result<daemon::ParkedRequest> request_of(const DriftCommand& c) {
   for (const auto& x : {c.limit_nm_per_h, c.limit_urad_per_h, c.window_s})
     if (x && !std::isfinite(*x))
       return fail(ErrorCode::usage,
-                  "--limit-nm-per-h, --limit-urad-per-h and --window-s are finite");
+                  "--limit-nm-per-h, --limit-urad-per-h and --window-s must be finite numbers");
   daemon::ParkedRequest request;
   request.log = c.log;
   request.rig_source = c.rig;
@@ -61,17 +61,25 @@ Status drift(const DriftCommand& command) {
 
 Action declare_drift(CLI::App& command) {
   const auto o = std::make_shared<DriftCommand>();
-  command.add_option("LOG", o->log, "Log of an axis that stays where it is (CSV or .mdofrec)")
+  command.add_option("LOG", o->log, "Log of an axis at rest (CSV or .mdofrec)")
       ->required()
       ->type_name("");
-  command.add_option("--rig", o->rig, "Fixture; a recording has its own")->type_name("RIG.toml");
   command
-      .add_option("--limit-nm-per-h", o->limit_nm_per_h,
-                  "Most that probes and straightness errors may drift [default: of the rig]")
+      .add_option("--rig", o->rig,
+                  "Rig file of the fixture [default for a recording: the rig stored in it]")
+      ->type_name("RIG.toml");
+  command
+      .add_option(
+          "--limit-nm-per-h", o->limit_nm_per_h,
+          "Largest permitted drift of probes and straightness errors [default: from the rig]")
       ->check(positive_number());
-  command.add_option("--limit-urad-per-h", o->limit_urad_per_h, "Likewise the angles")
+  command
+      .add_option("--limit-urad-per-h", o->limit_urad_per_h,
+                  "Largest permitted drift of the angles [default: no limit]")
       ->check(positive_number());
-  command.add_option("--window-s", o->window_s, "Of each rate [default: a twelfth of the log]")
+  command
+      .add_option("--window-s", o->window_s,
+                  "Length of the window of each drift rate [default: a twelfth of the log]")
       ->check(positive_number());
   add_all_warnings_flag(command, o->all_warnings);
   add_json_flag(command, o->json);
@@ -81,12 +89,13 @@ Action declare_drift(CLI::App& command) {
 }  // namespace
 
 Command drift_command() {
-  return {.name = "drift",
-          .summary = "Find in a log of a parked axis when the system has warmed up",
-          .footer =
-              "Exit code 1: not ready yet. The drift of a run is in mdof analyse.\n"
-              "Example:\n  mdof drift parked.csv --rig rig_X.toml --limit-nm-per-h 100",
-          .declare = declare_drift};
+  return {
+      .name = "drift",
+      .summary = "Find in a log of a parked axis when the system has warmed up",
+      .footer =
+          "Exit code 1: the system has not warmed up yet. mdof analyse shows the drift of a run.\n"
+          "Example:\n  mdof drift parked.csv --rig rig_X.toml --limit-nm-per-h 100",
+      .declare = declare_drift};
 }
 
 }  // namespace mdof::tools

@@ -28,17 +28,20 @@ Status set(const EncoderCommand& command) {
   if (command.json) return write_line(reply);
   simdjson::dom::parser parser;
   const auto done = parser.parse(simdjson::padded_string(reply));
-  return write_line("axis " + command.axis + " stands at " + fixed(command.position_mm, 4) +
-                    " mm now; device \"" + text(done, "device") + "\" counts from " +
+  return write_line("axis " + command.axis + " is now at " + fixed(command.position_mm, 4) +
+                    " mm; device \"" + text(done, "device") + "\" now has the offset " +
                     fixed(number(done, "offset_mm"), 4) + " mm");
 }
 
 Action declare_encoder_set(CLI::App& command) {
   const auto o = std::make_shared<EncoderCommand>();
-  command.add_option("AXIS", o->axis, "Of the machine, at rest")
+  command.add_option("AXIS", o->axis, "Axis of the machine; it must be at rest")
       ->required()
       ->check(CLI::IsMember({"X", "Y", "Z"}));
-  command.add_option("POSITION_MM", o->position_mm, "By the machine's coordinates")->required();
+  command
+      .add_option("POSITION_MM", o->position_mm,
+                  "Present position of the axis in machine coordinates")
+      ->required();
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return set(*o); };
@@ -47,13 +50,14 @@ Action declare_encoder_set(CLI::App& command) {
 }  // namespace
 
 Command encoder_set_command() {
-  return {.name = "encoder set",
-          .summary = "Say where the axis stands now",
-          .footer =
-              "HAZARD: before the axis is driven to a known place with the fixture mounted, see\n"
-              "which motions drive the target into a probe: mdof clearance RIG.toml.\n"
-              "Example:\n  mdof encoder set X 12.5",
-          .declare = declare_encoder_set};
+  return {
+      .name = "encoder set",
+      .summary = "Set the present position of an axis with an incremental encoder",
+      .footer =
+          "HAZARD: before you drive the axis to a known position with the fixture mounted, run\n"
+          "mdof clearance RIG.toml to see which motions drive the target into a probe.\n"
+          "Example:\n  mdof encoder set X 12.5",
+      .declare = declare_encoder_set};
 }
 
 }  // namespace mdof::tools

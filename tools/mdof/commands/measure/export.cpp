@@ -78,8 +78,8 @@ class Export {
     const bool to_standard_output = command_.csv == kStandardOutput;
     if (!one && to_standard_output)
       return fail(ErrorCode::usage, command_.recording +
-                                        ": has several devices, each with its own times, and a "
-                                        "CSV file each; name one with --csv OUT.csv");
+                                        ": has several devices, and each device needs a CSV file "
+                                        "of its own; give --csv OUT.csv");
     std::size_t file = kToStandardOutput;
     if (!to_standard_output) {
       const std::string name = one ? command_.csv : file_of(command_.csv, block.device);
@@ -102,11 +102,13 @@ class Export {
   void report_missing_from_csv() const {
     if (marked_ > 0)
       warn(std::to_string(marked_) +
-           " values are over range, suspect or stale; a CSV log cannot say which");
+           " values are over range, suspect or stale; the CSV file does not mark them");
     if (lost_ > 0)
-      warn(std::to_string(lost_) + " scans were lost in recording; there the times have a gap");
+      warn(std::to_string(lost_) +
+           " scans were lost during the recording; the times have gaps there");
     if (file_of_.size() > 1)
-      say("a file each device: their times are of one clock, but mdof replay takes the recording");
+      say("one file for each device, with times of a common clock; for mdof replay use the "
+          "recording");
   }
 
   const ExportCommand& command_;
@@ -144,7 +146,9 @@ Status export_document(ExportCommand& command) {
 
 Status export_samples(ExportCommand& command) {
   if (command.sources.size() != 1)
-    return fail(ErrorCode::usage, "one recording at a time, FILE.mdofrec; runs take --format");
+    return fail(ErrorCode::usage,
+                "csv export takes exactly one recording (FILE.mdofrec); to export runs, give "
+                "--format dcc or --format qif");
   command.recording = command.sources.front();
   return export_recording(command);
 }
@@ -153,24 +157,26 @@ Action declare_export(CLI::App& command) {
   const auto o = std::make_shared<ExportCommand>();
   command
       .add_option("SOURCE", o->sources,
-                  "FILE.mdofrec; of a document the numbers of runs, or latest")
+                  "Recording FILE.mdofrec; with --format dcc or qif the numbers of runs, or latest")
       ->required()
       ->type_name("");
   command
       .add_option("--format", o->format,
-                  "csv: samples of a recording; of runs dcc: Digital Calibration Certificate "
-                  "3.3.0, qif: QIF 3.0 [csv]")
+                  "csv: samples of a recording; dcc (Digital Calibration Certificate 3.3.0) or qif "
+                  "(QIF 3.0): results of runs [csv]")
       ->check(CLI::IsMember({"csv", "dcc", "qif"}))
       ->type_name("TEXT:{csv,dcc,qif}");
-  auto* out = command.add_option("--out", o->out, "The document; a file of this name is replaced")
-                  ->type_name("FILE");
+  auto* out =
+      command.add_option("--out", o->out, "File of the document; an existing file is replaced")
+          ->type_name("FILE");
   add_report_options(command, o->request);
   command
       .add_option("--csv", o->csv,
-                  "Where to; of several devices each has a file, OUT-device.csv [default: "
+                  "CSV file to write; several devices give one file each, OUT-device.csv [default: "
                   "standard output]")
       ->type_name("OUT.csv");
-  command.add_option("--rig", o->rig, "Write its rig there, for mdof replay")
+  command
+      .add_option("--rig", o->rig, "Write the rig of the recording to this file, for mdof replay")
       ->type_name("RIG.toml")
       ->excludes(out);
   return [o] { return o->format == "csv" ? export_samples(*o) : export_document(*o); };
@@ -183,10 +189,10 @@ Command export_command() {
       .name = "export",
       .summary = "Write samples of a recording as CSV, or results of runs as DCC or QIF",
       .footer =
-          "A document is a test report: it says that it is no calibration certificate of an\n"
-          "accredited laboratory. What nobody stated reads \"not stated\"; of a DCC the country, "
-          "and\n"
-          "the date of a run from a CSV log, have to be stated (--set, or [report] of the rig).\n\n"
+          "A document is a test report; it states that it is not a calibration certificate of an\n"
+          "accredited laboratory. Missing entries read \"not stated\". A DCC needs the country "
+          "and,\n"
+          "for a run from a CSV log, the date; give them with --set or in [report] of the rig.\n\n"
           "Examples:\n"
           "  mdof export run-12.mdofrec --csv log_X.csv --rig rig_X.toml\n"
           "  mdof replay log_X.csv --rig rig_X.toml --no-store\n"

@@ -78,9 +78,9 @@ Status import(ImportCommand command) {
   show_notices(run.header.notices, true);
   if (run.header.provenance.model == positioning_name(run.header.axis) && command.sense.empty())
     say(run.header.provenance.model +
-        " is taken in the sense of the command (actual - commanded place in the controller's "
-        "coordinates), the default of the format; else --sense body");
-  say("stored; a table of it is made with: mdof compensation build " +
+        " is read as actual - commanded position in the controller's coordinates (default of the "
+        "format); give --sense body if the file states errors along + of the machine");
+  say("stored; build a compensation table with: mdof compensation build " +
       std::to_string(run.header.id));
   if (command.json) return write_line(stored_json(run));
   run.header.notices.clear();  // shown already
@@ -92,38 +92,43 @@ Action declare_import(CLI::App& command) {
   command.add_option("FILE", o->request.file, "CSV, ISO 230-2 series as CSV, or Renishaw .rtl")
       ->required()
       ->type_name("");
-  command.add_option("--axis", o->axis, "Of the machine")
+  command.add_option("--axis", o->axis, "Axis of the machine")
       ->required()
       ->check(CLI::IsMember({"X", "Y", "Z"}));
   command
       .add_option("--error", o->request.error,
-                  "What was measured, such as EYX [default: positioning, EXX of X]")
+                  "Measured error, such as EYX [default: positioning, such as EXX for X]")
       ->type_name("NAME");
-  command.add_option("--format", o->request.format, "[default: as in the file]")
+  command
+      .add_option("--format", o->request.format,
+                  "Format of the file [default: recognised from the file]")
       ->check(CLI::IsMember({"csv", "iso230-2", "rtl"}));
   command
       .add_option("--sense", o->sense,
-                  "Of positioning: command (actual - commanded place, as ISO 230-2; default), or "
-                  "body (along + of the machine)")
+                  "Sign of positioning: command (actual - commanded position, as in ISO 230-2; "
+                  "default) or body (along + of the machine)")
       ->check(CLI::IsMember({"command", "body"}));
   command
       .add_option("--travel", o->travel,
-                  "\"-\" where the body goes along - as the command grows [default: not known]")
+                  "Motion of the body for a growing command: + or - along the machine axis "
+                  "[default: unknown]")
       ->check(CLI::IsMember({"+", "-"}));
   command
       .add_option("--u-um", o->request.u_um,
                   "Standard uncertainty of each deviation (the laser, its alignment, temperature)")
       ->check(not_negative_number());
-  command.add_option("--u-urad", o->request.u_urad, "The same of an angle")
+  command
+      .add_option("--u-urad", o->request.u_urad,
+                  "Standard uncertainty of each deviation, for angular errors")
       ->check(not_negative_number());
-  command.add_option("--note", o->request.note, "Kept with the run; at most 1024 bytes")
+  command.add_option("--note", o->request.note, "Note stored with the run; at most 1024 bytes")
       ->type_name("TEXT")
       ->check([](const std::string& note) {
         return std::string(note.size() <= 1024 ? "" : "a note has at most 1024 bytes");
       });
   add_limit_options(command, o->limits);
   command.add_flag("--despite-warnings", o->request.despite_warnings,
-                   "Also a file that is doubtful");
+                   "Also import a file with doubtful notices");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
@@ -134,10 +139,11 @@ Action declare_import(CLI::App& command) {
 
 Command import_command() {
   return {.name = "import",
-          .summary = "Store positioning that was measured elsewhere as a run",
+          .summary = "Store errors that another instrument measured as a run",
           .footer =
-              "CSV has position_mm, deviation_um (or deviation_urad) and, where known, direction "
-              "(1 or -1) and run; an ISO 230-2 series target_mm, direction, run, deviation_um.\n"
+              "Columns of CSV: position_mm, deviation_um (or deviation_urad) and, if known, "
+              "direction (1 or -1) and run. Columns of an ISO 230-2 series: target_mm, direction, "
+              "run, deviation_um.\n"
               "Examples:\n"
               "  mdof import laser_X.rtl --axis X --u-um 0.3\n"
               "  mdof import errors_Y.csv --axis Y --sense body --travel -\n"

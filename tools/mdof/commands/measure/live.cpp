@@ -38,7 +38,7 @@ Status check_axis(rpc::Client& client, const std::string& axis) {
                 "live: mdofd measures no axis; its configuration needs an [[axis]]");
   if (axis.empty() || std::find(names.begin(), names.end(), axis) != names.end()) return {};
   return fail(ErrorCode::not_found,
-              "live: mdofd does not measure axis " + axis + "; there is " + joined(names));
+              "live: mdofd does not measure axis " + axis + "; it measures " + joined(names));
 }
 
 Result<rpc::Client> subscribe(const LiveCommand& command) {
@@ -108,17 +108,18 @@ Status live(const LiveCommand& command) {
 
 Action declare_live(CLI::App& command) {
   const auto o = std::make_shared<LiveCommand>();
-  command.add_option("--axis", o->axis, "Only this axis")->check(CLI::IsMember({"X", "Y", "Z"}));
-  command.add_option("--count", o->count, "End after so many updates [default: never]")
+  command.add_option("--axis", o->axis, "Show only this axis")
+      ->check(CLI::IsMember({"X", "Y", "Z"}));
+  command.add_option("--count", o->count, "End after this number of updates [default: never]")
       ->check(positive_number());
-  command.add_option("--interval-ms", o->interval_ms, "Between two updates")
+  command.add_option("--interval-ms", o->interval_ms, "Time between two updates")
       ->check(CLI::Range(20, 60000))
       ->capture_default_str();
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   command
       .add_flag("--ndjson", o->ndjson,
-                "Print a JSON object a line: updates, and what goes wrong (type \"trouble\")")
+                "Print one JSON object per line: updates, and device faults (type \"trouble\")")
       ->excludes("--json");
   return [o] { return live(*o); };
 }
@@ -127,7 +128,7 @@ Action declare_live(CLI::App& command) {
 
 Command live_command() {
   return {.name = "live",
-          .summary = "Watch the probes against their ranges",
+          .summary = "Show the readings of the probes and their ranges while mdofd measures",
           .footer =
               "Examples:\n"
               "  mdof live --axis X\n"

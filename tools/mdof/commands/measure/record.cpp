@@ -88,7 +88,7 @@ std::string progress_line(const auto& event) {
   std::string line = "point " + std::to_string(points);
   if (of) line += " of " + std::to_string(*of);
   if (all > points)
-    line += ", and " + std::to_string(all - points) + " not solved or more than asked for";
+    line += ", " + std::to_string(all - points) + " more were not solved or not requested";
   const double awaited_mm = number(event, "awaited_mm");
   return points == of || std::isnan(awaited_mm) ? line
                                                 : line + ", next " + fixed(awaited_mm, 3) + " mm";
@@ -131,10 +131,11 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
       stopped = now;
     }
     if (stopped && now - *stopped > kEndPatience)
-      return io_error("mdofd does not say that run " + std::to_string(run) +
-                      " has ended; see mdof status");
+      return io_error("mdofd has not reported the end of run " + std::to_string(run) +
+                      "; see mdof status");
     if (!client.connected())
-      return in_context("run " + std::to_string(run) + " is left to mdofd", notification.error());
+      return in_context("run " + std::to_string(run) + " is no longer watched by this command",
+                        notification.error());
   }
 }
 
@@ -149,15 +150,16 @@ Status print_result(rpc::Client& client, std::int64_t run, const std::string& re
   const std::string id = std::to_string(run);
   return fail(ErrorCode::check,
               "run " + id + " is " + state +
-                  (state == "partial" ? ": its notices say what is missing; continue it: mdof "
-                                        "record --resume " +
+                  (state == "partial" ? ": its notices list what is missing; continue the run "
+                                        "with: mdof record --resume " +
                                             id
-                                      : "; its notices say why"));
+                                      : "; its notices give the reason"));
 }
 
 Status record(RecordCommand command) {
   if (command.axis.empty() && command.resume == 0)
-    return fail(ErrorCode::usage, "record: --axis says what to measure; or --resume RUN");
+    return fail(ErrorCode::usage,
+                "record: missing option --axis AXIS, or --resume RUN to continue a run");
   MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
   MDOF_CHECK(client.call("live.subscribe", R"({"interval_ms":60000,"events":true})"));
   MDOF_TRY(const std::string reply, begin(client, command));
@@ -168,12 +170,13 @@ Status record(RecordCommand command) {
   for (const Notice& each : notices_of(started)) warn_wrapped(words::line(each));
   show_notes(started);
   say("run " + std::to_string(run) + " of axis " + command.axis +
-      " is measuring; Ctrl-C ends and evaluates it");
+      " is measuring; Ctrl-C ends the run and evaluates it");
   const Interrupt interrupt;
   MDOF_TRY(const std::int64_t id, follow(client, run, command));
   if (id != run)
-    say("run " + std::to_string(id) + " is the result, with targets numbered when all stops were " +
-        "known; it supersedes run " + std::to_string(run) + ", which mdof runs no longer lists");
+    say("run " + std::to_string(id) +
+        " is the result: its targets were renumbered after all stops were " +
+        "known. It supersedes run " + std::to_string(run) + ", which mdof runs no longer lists");
   JsonWriter params;
   params.begin_object().field("run", id).end_object();
   MDOF_TRY(const std::string result, client.call("run.get", params.text()));
@@ -182,25 +185,29 @@ Status record(RecordCommand command) {
 
 Action declare_record(CLI::App& command) {
   const auto o = std::make_shared<RecordCommand>();
-  auto* axis = command.add_option("--axis", o->axis, "Of the machine")
+  auto* axis = command.add_option("--axis", o->axis, "Axis of the machine")
                    ->check(CLI::IsMember({"X", "Y", "Z"}));
-  command.add_option("--targets-mm", o->targets_mm, "Targets, ascending")->delimiter(',');
-  command.add_option("--from-mm", o->from_mm, "Instead: first target");
-  command.add_option("--to-mm", o->to_mm, "No target beyond this");
-  command.add_option("--interval-mm", o->interval_mm, "Between two targets");
-  command.add_option("--jitter-mm", o->jitter_mm, "Each target is moved by up to this");
-  command.add_option("--seed", o->seed, "Of the jitter")
+  command.add_option("--targets-mm", o->targets_mm, "Targets in ascending order")->delimiter(',');
+  command.add_option("--from-mm", o->from_mm, "First target (instead of --targets-mm)");
+  command.add_option("--to-mm", o->to_mm, "Upper limit for the last target");
+  command.add_option("--interval-mm", o->interval_mm, "Interval between two targets");
+  command.add_option("--jitter-mm", o->jitter_mm, "Largest random shift of each target");
+  command.add_option("--seed", o->seed, "Seed of the random shifts")
       ->check(not_negative_number())
       ->capture_default_str();
   command.add_option("--scale-period-um", o->scale_period_um,
-                     "Signal period of the scale: warns where the intervals hide its error");
-  command.add_option("--resume", o->resume, "Goes on with this run, which ended early")
+                     "Signal period of the scale; warns if the target interval hides the periodic "
+                     "error of the scale");
+  command.add_option("--resume", o->resume, "Continue this run, which ended early")
       ->check(positive_number())
       ->excludes(axis);
-  command.add_option("--repeats", o->repeats, "Ends by itself after so many, both ways")
+  command
+      .add_option("--repeats", o->repeats,
+                  "End the run after this number of passes over the targets in each direction")
       ->check(CLI::Range(1, 10000));
-  command.add_option("--for-s", o->for_s, "Ends after so many seconds")->check(positive_number());
-  command.add_option("--note", o->note, "For people");
+  command.add_option("--for-s", o->for_s, "End the run after this number of seconds")
+      ->check(positive_number());
+  command.add_option("--note", o->note, "Note that is stored with the run");
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return record(*o); };
@@ -209,16 +216,17 @@ Action declare_record(CLI::App& command) {
 }  // namespace
 
 Command record_command() {
-  return {.name = "record",
-          .summary = "Measure a run with mdofd and watch it",
-          .footer =
-              "Without targets they are recognised from the dwells, or all is recorded freely.\n"
-              "Examples:\n"
-              "  mdof record --axis X --from-mm 0 --to-mm 60 --interval-mm 5 --jitter-mm 0.5 "
-              "--repeats 5\n"
-              "  mdof record --axis X --for-s 60 --note \"warm-up\"\n"
-              "  mdof record --resume 12",
-          .declare = declare_record};
+  return {
+      .name = "record",
+      .summary = "Measure a run with mdofd and watch it",
+      .footer =
+          "Without targets, mdofd records all samples and recognises the targets from the dwells.\n"
+          "Examples:\n"
+          "  mdof record --axis X --from-mm 0 --to-mm 60 --interval-mm 5 --jitter-mm 0.5 "
+          "--repeats 5\n"
+          "  mdof record --axis X --for-s 60 --note \"warm-up\"\n"
+          "  mdof record --resume 12",
+      .declare = declare_record};
 }
 
 }  // namespace mdof::tools

@@ -128,17 +128,20 @@ Action declare_replay(CLI::App& command) {
                   "Probe log (CSV, CSV.gz, - for standard input) or .mdofrec")
       ->required()
       ->type_name("");
-  command.add_option("--rig", o->rig, "Fixture; a recording has its own")->type_name("RIG.toml");
+  command
+      .add_option("--rig", o->rig,
+                  "Rig file of the fixture [default for a recording: the rig stored in it]")
+      ->type_name("RIG.toml");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);
   add_model_option(command, o->request.model);
   add_reference_option(command, o->reference)->capture_default_str();
-  command.add_option("--note", o->request.note, "Kept with the run; at most 1024 bytes")
+  command.add_option("--note", o->request.note, "Note stored with the run; at most 1024 bytes")
       ->type_name("TEXT")
       ->check([](const std::string& note) {
         return std::string(note.size() <= 1024 ? "" : "a note has at most 1024 bytes");
       });
-  command.add_flag("--no-store", o->keep_out, "Only show the result");
+  command.add_flag("--no-store", o->keep_out, "Show the result without storing it");
   command
       .add_option("--targets-mm", o->request.targets_mm,
                   "Nominal positions [default: as recorded, else recognised]")
@@ -156,7 +159,8 @@ Command replay_command() {
   return {.name = "replay",
           .summary = "Turn a recorded log into a stored run",
           .footer =
-              "A recording is measured as its run was asked for; an option changes that.\n"
+              "A recording is evaluated with the options of its original run; options given here "
+              "replace them.\n"
               "Example:\n  mdof replay log_X.csv.gz --rig rig_X.toml --json > run.json",
           .declare = declare_replay};
 }

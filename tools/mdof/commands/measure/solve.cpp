@@ -45,7 +45,7 @@ void warn_of_missing(const drivers::CsvRows& frames, const FrameSolver& solver) 
   show_notices(frames.notices(), true);
   if (solver.without_reading() == 0) return;
   warn(std::to_string(solver.without_reading()) + " of " + std::to_string(solver.rows()) +
-       " rows lack a probe that their errors need: these are empty");
+       " rows lack a probe reading; the errors that need this reading are empty");
 }
 
 Status judge(const FrameSolver& solver) {
@@ -55,7 +55,7 @@ Status judge(const FrameSolver& solver) {
   }
   if (solver.unsolved() == 0) return {};
   return fail(ErrorCode::check, std::to_string(solver.unsolved()) + " of " +
-                                    std::to_string(solver.rows()) + " rows are not solved, first " +
+                                    std::to_string(solver.rows()) + " rows are not solved; first " +
                                     solver.why_unsolved());
 }
 
@@ -80,13 +80,14 @@ Status solve(const SolveCommand& command) {
 Action declare_solve(CLI::App& command) {
   const auto o = std::make_shared<SolveCommand>();
   command
-      .add_option("FRAMES", o->frames,
-                  "CSV, CSV.gz, or - for standard input: encoder_mm and probes")
+      .add_option(
+          "FRAMES", o->frames,
+          "File with the columns encoder_mm and probes: CSV, CSV.gz, or - for standard input")
       ->required()
       ->type_name("");
-  command.add_option("--rig", o->rig, "Fixture")->required()->type_name("RIG.toml");
+  command.add_option("--rig", o->rig, "Rig file of the fixture")->required()->type_name("RIG.toml");
   add_model_option(command, o->model);
-  auto* csv = command.add_flag("--csv", o->csv, "Write CSV, as without it");
+  auto* csv = command.add_flag("--csv", o->csv, "Write CSV (the default)");
   command.add_flag("--json", o->json, "Write one JSON document")->excludes(csv);
   return [o] { return solve(*o); };
 }

@@ -36,16 +36,16 @@ Result<std::vector<UnderWay>> runs_under_way(const std::string& info, const std:
   }
   if (known) return runs;
   return fail(ErrorCode::not_found,
-              "mdofd measures no axis " + axis + "; mdof status shows those of its configuration");
+              "mdofd does not measure axis " + axis + "; mdof status lists the configured axes");
 }
 
 Result<std::vector<UnderWay>> stop_all(rpc::Client& client, const StopCommand& command) {
   MDOF_TRY(const std::string info, client.call("server.info"));
   MDOF_TRY(auto runs, runs_under_way(info, command.axis));
   if (runs.empty())
-    return fail(ErrorCode::not_found, "no run is under way" +
-                                          (command.axis.empty() ? "" : " of axis " + command.axis) +
-                                          "; mdof runs shows those that have ended");
+    return fail(ErrorCode::not_found,
+                "no run" + (command.axis.empty() ? "" : " of axis " + command.axis) +
+                    " is in progress; mdof runs lists the runs that have ended");
   for (UnderWay& run : runs) {
     JsonWriter params;
     params.begin_object().field("run", run.run).field("abort", command.abort).end_object();
@@ -79,7 +79,7 @@ Status stop(const StopCommand& command) {
 Action declare_stop(CLI::App& command) {
   const auto o = std::make_shared<StopCommand>();
   add_only_axis_option(command, o->axis);
-  command.add_flag("--abort", o->abort, "Mark them as aborted");
+  command.add_flag("--abort", o->abort, "Mark the runs as aborted");
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return stop(*o); };
@@ -89,7 +89,7 @@ Action declare_stop(CLI::App& command) {
 
 Command stop_command() {
   return {.name = "stop",
-          .summary = "End the runs under way; mdofd evaluates them",
+          .summary = "End the runs in progress; mdofd evaluates them",
           .footer = "Example:\n  mdof stop --axis X",
           .declare = declare_stop};
 }

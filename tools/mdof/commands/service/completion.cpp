@@ -119,7 +119,7 @@ Action declare_completion(CLI::App& command) {
 
 Command completion_command() {
   return {.name = "completion",
-          .summary = "Print the completion of commands and options for a shell",
+          .summary = "Print a script that completes commands and options in a shell",
           .footer =
               "Examples:\n"
               "  mdof completion bash > ~/.local/share/bash-completion/completions/mdof\n"

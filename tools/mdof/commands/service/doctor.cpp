@@ -42,13 +42,15 @@ Diagnosis diagnose(const drivers::DriverSpec& device) {
   for (const auto& channel : found.channels) {
     if (channel.values == 0)
       return {Level::bad,
-              what + ": channel " + channel.id + " gives no usable value, all are " + channel.worst,
-              "look at the sensor and its wiring: mdof device monitor " + device.name};
+              what + ": channel " + channel.id +
+                  " gives no usable value (worst quality: " + channel.worst + ")",
+              "check the sensor and its wiring; show its values with: mdof device monitor " +
+                  device.name};
   }
   return {
       found.lost > 0 ? Level::doubtful : Level::good,
       what + ": " + std::to_string(found.scans) + " scans, " + std::to_string(found.lost) + " lost",
-      found.lost > 0 ? "lower its rate, or find what keeps this machine busy" : ""};
+      found.lost > 0 ? "reduce the rate of the device, or the load of this computer" : ""};
 }
 
 // As mdofd says of one of its devices.
@@ -72,7 +74,8 @@ std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::strin
   simdjson::dom::parser parser;
   simdjson::dom::array devices;
   if (!list || parser.parse(simdjson::padded_string(*list))["devices"].get_array().get(devices)) {
-    all.push_back({Level::bad, "mdofd does not say how its devices are", "mdof device list"});
+    all.push_back({Level::bad, "mdofd does not report the state of its devices",
+                   "see the message of: mdof device list"});
     return all;
   }
   std::set<std::string> known;
@@ -83,13 +86,15 @@ std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::strin
   for (const auto& axis : config.axes)
     for (const auto& device : axis.devices)
       if (!known.contains(device.name))
-        all.push_back({Level::doubtful, "device " + device.name + ": mdofd does not have it",
-                       "it runs with another configuration: restart it with this one"});
+        all.push_back({Level::doubtful,
+                       "device " + device.name + " is not a device of the running mdofd",
+                       "mdofd runs with another configuration; restart mdofd with this one"});
   return all;
 }
 
 std::vector<Diagnosis> try_devices(const daemon::Config& config) {
-  std::vector<Diagnosis> all = {{Level::good, "mdofd is not running: devices are tried here", ""}};
+  std::vector<Diagnosis> all = {
+      {Level::good, "mdofd is not running: mdof opens the devices itself", ""}};
   const Interrupt interrupt;
   for (const auto& axis : config.axes)
     for (const auto& device : axis.devices)
@@ -100,8 +105,10 @@ std::vector<Diagnosis> try_devices(const daemon::Config& config) {
 std::vector<Diagnosis> check_devices(const daemon::Config& config, const std::string& socket) {
   const auto runs = daemon_runs(socket);
   if (!runs)
-    return {{Level::bad, "devices: not tried, as mdofd may hold them: " + words::text(runs.error()),
-             ""}};
+    return {
+        {Level::bad,
+         "devices: not checked, because mdofd may have opened them: " + words::text(runs.error()),
+         ""}};
   return *runs ? ask_daemon(config, socket) : try_devices(config);
 }
 
@@ -158,7 +165,7 @@ Status doctor(const DoctorCommand& command) {
                                  [](const Diagnosis& d) { return d.level == Level::bad; });
   if (bad == 0) return {};
   return fail(ErrorCode::check,
-              std::to_string(bad) + (bad == 1 ? " thing is" : " things are") + " wrong");
+              std::to_string(bad) + (bad == 1 ? " problem" : " problems") + " found");
 }
 
 Action declare_doctor(CLI::App& command) {
@@ -176,7 +183,7 @@ Action declare_doctor(CLI::App& command) {
 
 Command doctor_command() {
   return {.name = "doctor",
-          .summary = "Find what is wrong here, and the remedy",
+          .summary = "Check this computer, the configuration and the devices; print remedies",
           .footer = "Example:\n  mdof doctor --config mdofd.toml",
           .declare = declare_doctor};
 }

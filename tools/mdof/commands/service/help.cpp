@@ -15,8 +15,8 @@ Status help(CLI::App* app, const std::vector<std::string>& words) {
     const auto found =
         app->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
     if (found.empty())
-      return fail(ErrorCode::usage, "help: \"" + word + "\" is no command of " +
-                                        app->get_display_name() + "; mdof help lists them");
+      return fail(ErrorCode::usage, "help: \"" + word + "\" is not a command of " +
+                                        app->get_display_name() + "; mdof help lists the commands");
     app = found.front();
     name += " " + word;
   }
@@ -25,7 +25,8 @@ Status help(CLI::App* app, const std::vector<std::string>& words) {
 
 Action declare_help(CLI::App& command) {
   const auto words = std::make_shared<std::vector<std::string>>();
-  command.add_option("COMMAND", *words, "Such as replay, or compensation export")->type_name("");
+  command.add_option("COMMAND", *words, "Name of a command, such as replay or compensation export")
+      ->type_name("");
   return [app = command.get_parent(), words] { return help(app, *words); };
 }
 

@@ -55,7 +55,7 @@ Action declare_history(CLI::App& command) {
 
 Command history_command() {
   return {.name = "history",
-          .summary = "Who started, stopped, built, activated and set an encoder, newest first",
+          .summary = "List the recorded actions (who, what, when), newest first",
           .footer = "Example:\n  mdof history --count 10",
           .declare = declare_history};
 }

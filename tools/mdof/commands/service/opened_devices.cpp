@@ -7,7 +7,7 @@
 namespace mdof::tools {
 
 void add_device_choice(CLI::App& command, DeviceChoice& choice) {
-  command.add_option("NAME", choice.name, "Of the device [default: all]")->type_name("");
+  command.add_option("NAME", choice.name, "Name of the device [default: all]")->type_name("");
   command.add_option("--config", choice.config, "Configuration of mdofd")
       ->capture_default_str()
       ->type_name("FILE");
@@ -28,8 +28,9 @@ Result<std::vector<drivers::DriverSpec>> chosen_devices(const DeviceChoice& choi
     }
   }
   if (!chosen.empty()) return chosen;
-  return fail(ErrorCode::not_found, choice.config + ": no device is called \"" + choice.name +
-                                        "\"; there are " + (names.empty() ? "none" : names));
+  return fail(ErrorCode::not_found,
+              choice.config + ": no device is named \"" + choice.name +
+                  "\"; configured devices: " + (names.empty() ? "none" : names));
 }
 
 }  // namespace mdof::tools

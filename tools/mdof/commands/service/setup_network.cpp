@@ -22,7 +22,7 @@ Status network(const SetupCommand& command) {
   MDOF_TRY(const auto file, allow_address(command.units, address));
   if (!command.json)
     return write_line("wrote " + file.string() + ": mdofd may reach " + address +
-                      ". It holds after: " + kNext);
+                      ". To apply the change, run: " + kNext);
   JsonWriter json;
   json.begin_object()
       .field("file", file.string())
@@ -34,7 +34,9 @@ Status network(const SetupCommand& command) {
 
 Action declare_setup_network(CLI::App& command) {
   const auto o = std::make_shared<SetupCommand>();
-  command.add_option("ADDRESS", o->address, "Of the device, or its network: 192.168.0.0/24")
+  command
+      .add_option("ADDRESS", o->address,
+                  "Address of the device, or of its network, such as 192.168.0.0/24")
       ->required();
   command.add_option("--units", o->units, "Folder of systemd's units")
       ->capture_default_str()
@@ -47,7 +49,7 @@ Action declare_setup_network(CLI::App& command) {
 
 Command setup_network_command() {
   return {.name = "setup network",
-          .summary = "Let mdofd reach a device on a network",
+          .summary = "Allow mdofd to connect to a device on a network",
           .footer = "Example:\n  sudo mdof setup network 192.168.0.7",
           .declare = declare_setup_network};
 }

@@ -120,7 +120,7 @@ Action declare_status(CLI::App& command) {
 
 Command status_command() {
   return {.name = "status",
-          .summary = "What mdofd is doing",
+          .summary = "Show the state of mdofd: devices, compensation, runs",
           .footer = "Example:\n  mdof status --json",
           .declare = declare_status};
 }

@@ -40,8 +40,9 @@ Status verify_database(const std::string& option, const std::string& head, Sourc
   add(findings, check.findings);
   MDOF_TRY(const bool has_head, head.empty() ? Result<bool>(true) : store.has_hash(head));
   if (!has_head)
-    check.findings.push_back("the chain of hashes has no link of the hash " + head +
-                             " (--head): what was stored until then was cut off or changed");
+    check.findings.push_back(
+        "the chain of hashes has no link with the hash " + head +
+        " (--head): data that was stored up to this link was removed or changed");
   const auto sources = daemon::verify_sources(store);
   // A database that is damaged has said so above, and may not name its files.
   if (!sources) return findings.empty() ? Status(tl::unexpected(sources.error())) : Status();
@@ -99,24 +100,24 @@ Status verify(const VerifyCommand& command) {
   for (const auto& finding : check.findings) say(finding);
   if (!check.findings.empty())
     return fail(ErrorCode::check, "verify: " + std::to_string(check.findings.size()) +
-                                      " finding(s); restore what is named above from a copy");
+                                      " finding(s); restore the items named above from a backup");
   if (command.json) return {};
   if (head.link > 0) say("head of the chain of hashes: " + head_text(head));
-  return write_line("sound: every checksum and reference holds");
+  return write_line("sound: every checksum and reference is correct");
 }
 
 Action declare_verify(CLI::App& command) {
   const auto o = std::make_shared<VerifyCommand>();
   add_database_option(command, o->database);
-  auto* recording = command
-                        .add_option("--recording", o->recording,
-                                    "Check this recording instead (or, with --db, too)")
-                        ->type_name("FILE.mdofrec");
+  auto* recording =
+      command
+          .add_option("--recording", o->recording,
+                      "Check this recording instead of the database; with --db check both")
+          ->type_name("FILE.mdofrec");
   command
-      .add_option(
-          "--head", o->head,
-          "A hash that mdofd reported (journal, server.info): find out whether what was stored "
-          "until then was cut off or changed")
+      .add_option("--head", o->head,
+                  "Hash that mdofd reported (journal, server.info); checks that no data stored up "
+                  "to this hash was removed or changed")
       ->type_name("HASH")
       ->excludes(recording);
   add_json_flag(command, o->json);

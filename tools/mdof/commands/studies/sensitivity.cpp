@@ -106,8 +106,8 @@ std::string unsolved_output(const StudyResult& result) {
 Status not_solved(const Study& study, const std::string& key, std::uint64_t trials) {
   const Status first = study.slow() ? check_run_trial(*study.plan, 0) : Status();
   return fail(ErrorCode::check, key + ": none of the " + std::to_string(trials) +
-                                    " trials could be solved, there are no figures; " +
-                                    (first ? "see what one draws with --trial 0"
+                                    " trials could be solved, so there are no figures; " +
+                                    (first ? "show a trial with --trial 0"
                                            : "trial 0: " + words::text(first.error())));
 }
 
@@ -119,8 +119,8 @@ Status judge(const Study& study, const StudyResult& result, const StudyRecorder&
   }
   return fail(ErrorCode::check,
               "interrupted after " + std::to_string(result.trials) + " trials; " +
-                  (recorder.id() ? "go on with " + recorder.how_to_continue()
-                                 : std::string("with --db FILE it could be continued")));
+                  (recorder.id() ? "continue with " + recorder.how_to_continue()
+                                 : std::string("only a study with --db FILE can be continued")));
 }
 
 Status finish(const SensitivityCommand& command, Job& job, StudyState state,
@@ -181,7 +181,7 @@ Action declare_sensitivity(CLI::App& command) {
 
 Command sensitivity_command() {
   return {.name = "sensitivity",
-          .summary = "Find by Monte Carlo what mounting errors do to the measured errors",
+          .summary = "Find the effect of mounting errors on the measured errors (Monte Carlo)",
           .footer =
               "Examples:\n"
               "  mdof sensitivity --preset simulation-2 --radius-um 5 --plot plots\n"

@@ -24,8 +24,8 @@ Status show_study(const ShowStudyCommand& command) {
   const std::string id = std::to_string(command.study);
   if (!outcome)
     return fail(ErrorCode::not_found, "study " + id +
-                                          ": has no result yet; if it is not under "
-                                          "way, mdof sensitivity --continue " +
+                                          ": has no result yet; if the study is not running, "
+                                          "continue it with: mdof sensitivity --continue " +
                                           id);
   StudyResult result;
   MDOF_CHECK(read_study_figures(outcome->figures_json, "study " + id, result));
@@ -43,11 +43,14 @@ Status show_study(const ShowStudyCommand& command) {
 
 Action declare_study(CLI::App& command) {
   const auto o = std::make_shared<ShowStudyCommand>();
-  command.add_option("STUDY", o->study, "Its number, see mdof studies")->required()->type_name("");
+  command.add_option("STUDY", o->study, "Number of the study, see mdof studies")
+      ->required()
+      ->type_name("");
   add_database_option(command, o->database);
-  auto* csv = command.add_flag("--csv", o->csv, "Print one row an output and bin");
+  auto* csv = command.add_flag("--csv", o->csv, "Print CSV, one row for each output and bin");
   command.add_flag("--json", o->json, "Print one JSON document")->excludes(csv);
-  command.add_option("--plot", o->plots, "Draw it again as SVG")->type_name("DIR");
+  command.add_option("--plot", o->plots, "Draw the charts again as SVG files in this folder")
+      ->type_name("DIR");
   return [o] { return show_study(*o); };
 }
 

@@ -59,9 +59,9 @@ void add_limit_options(CLI::App& command, LimitOptions& limits) {
 }
 
 void add_consent_flags(CLI::App& command, daemon::Consent& consent, const std::string& what) {
-  command.add_flag("--simulated", consent.simulated, "Also " + what + " of simulated data");
+  command.add_flag("--simulated", consent.simulated, "Accept simulated data in " + what);
   command.add_flag("--despite-warnings", consent.despite_warnings,
-                   "Also " + what + " whose runs carry doubtful notices");
+                   "Accept doubtful notices about the runs of " + what);
 }
 
 void add_database_option(CLI::App& command, std::string& database) {

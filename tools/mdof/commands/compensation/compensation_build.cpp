@@ -79,14 +79,16 @@ Status choose_runs(BuildCommand& command) {
 Status check_kind(const BuildCommand& command) {
   if (!command.volume.asked()) {
     if (command.words.empty())
-      return fail(ErrorCode::usage, "which runs? Give their numbers; or --machine for a volume");
+      return fail(
+          ErrorCode::usage,
+          "missing runs; give their numbers, or --machine for a table of a plane or volume");
     return command.volume.check_unused();
   }
   if (!command.words.empty() || !command.axis.empty() || command.keep_slope || command.partial ||
       !command.reference.empty())
     return fail(ErrorCode::usage,
-                "with --machine its file names the runs: RUN, --axis, --keep-slope, --partial and "
-                "--reference are of tables of one axis");
+                "--machine takes the runs from the machine file; leave out RUN, --axis, "
+                "--keep-slope, --partial and --reference, which apply to tables of one axis");
   return {};
 }
 
@@ -108,22 +110,25 @@ Status build(const BuildCommand& asked) {
                           : write_out(table_text(table, 0)));
   const std::string named = std::to_string(table.id) + (table.simulated ? " --simulated" : "") +
                             (doubtful.empty() ? "" : " --despite-warnings");
-  say(table.has_positioning() ? "stored; a controller gets it by: mdof compensation export " + named
-                              : "stored; activate it with: mdof compensation activate " + named);
+  say(table.has_positioning()
+          ? "stored; write the files for a controller with: mdof compensation export " + named
+          : "stored; activate it with: mdof compensation activate " + named);
   return {};
 }
 
 Action declare_build(CLI::App& command) {
   const auto o = std::make_shared<BuildCommand>();
   add_database_option(command, o->database);
-  add_run_arguments(command, o->words, "Runs of one axis, the same targets; or latest")
+  add_run_arguments(command, o->words, "Runs of one axis with the same targets, or latest")
       ->required(false);
   add_axis_of_latest(command, o->axis);
   command.add_flag("--keep-slope", o->keep_slope,
-                   "Straightness as measured, not about its least-squares line");
+                   "Keep the slope of straightness; do not subtract the least-squares line");
   command.add_flag("--partial", o->partial, "Take partial runs as well");
   add_reference_option(command, o->reference)
-      ->description("fixture, carriage or tool [default: the rig's tool point, else the fixture]");
+      ->description(
+          "Point at which straightness is stated: fixture, carriage or tool [default: tool point "
+          "of the rig, else fixture]");
   add_limit_options(command, o->limits);
   add_volume_options(command, o->volume);
   add_socket_option(command, o->socket);
@@ -136,7 +141,7 @@ Action declare_build(CLI::App& command) {
 
 Command compensation_build_command() {
   return {.name = "compensation build",
-          .summary = "Table of the mean errors of an axis, or of a machine's volume",
+          .summary = "Build a table of the mean errors of an axis, or of a plane or volume",
           .footer =
               "Examples:\n"
               "  mdof compensation build 1 3 5\n"

@@ -21,10 +21,11 @@ Status check_tables(const CheckTablesCommand& command) {
                           : write_out(check_text(exported.check)));
   if (exported.check.errors.empty())
     return fail(ErrorCode::check,
-                "nothing could be judged: of no error it is known which way its "
-                "correction goes");
+                "nothing could be checked: the correction sign is unknown for every error");
   if (exported.check.passed()) return {};
-  return fail(ErrorCode::check, "the error does not vanish, or a mistake would not be seen");
+  return fail(
+      ErrorCode::check,
+      "the export does not cancel the error, or the check did not detect a simulated mistake");
 }
 
 Action declare_check_tables(CLI::App& command) {
@@ -37,14 +38,15 @@ Action declare_check_tables(CLI::App& command) {
 }  // namespace
 
 Command compensation_check_command() {
-  return {
-      .name = "compensation check",
-      .summary = "Apply an export to a simulated axis: does the error vanish",
-      .footer =
-          "The files are written in memory, read back by the controller's own rules and applied "
-          "to an axis that has the table's errors; a wrong sign and swapped approaches must be "
-          "seen.\nExample:\n  mdof compensation check 4 --format linuxcnc",
-      .declare = declare_check_tables};
+  return {.name = "compensation check",
+          .summary = "Apply an export to a simulated axis and check that the error is cancelled",
+          .footer =
+              "mdof writes the files in memory, reads them by the rules of the controller and "
+              "applies them to an axis with the errors of the table. The check must also detect a "
+              "wrong sign and swapped approaches.\n"
+              "Example:\n"
+              "  mdof compensation check 4 --format linuxcnc",
+          .declare = declare_check_tables};
 }
 
 }  // namespace mdof::tools

@@ -43,7 +43,7 @@ Status deactivate(const DeactivateCommand& command) {
 Action declare_deactivate(CLI::App& command) {
   const auto o = std::make_shared<DeactivateCommand>();
   add_database_option(command, o->database);
-  command.add_option("--axis", o->axis, "Of the machine, or its volume")
+  command.add_option("--axis", o->axis, "Axis whose table is deactivated, or volume")
       ->required()
       ->check(CLI::IsMember({"X", "Y", "Z", kVolume}));
   add_socket_option(command, o->socket);

@@ -65,7 +65,7 @@ Status check_free(const std::vector<fs::path>& files) {
   for (const fs::path& file : files)
     if (fs::exists(fs::symlink_status(file, ec)))
       return fail(ErrorCode::usage,
-                  file.string() + ": is there already; another --out, or --overwrite");
+                  file.string() + ": exists already; give another --out, or --overwrite");
   return {};
 }
 
@@ -123,7 +123,7 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
   text += std::string("sense: ") + exported.format->sense + "\n";
   for (const auto& written : exported.files.written)
     text += written.error + ": " + std::to_string(written.points) + " of " +
-            std::to_string(written.points_before) + " points, off by up to " +
+            std::to_string(written.points_before) + " points kept, largest deviation " +
             fixed(written.largest_deviation * 1e6, 4) +
             (is_angle(written.error) ? " µrad\n" : " µm\n");
   return text + "read back and applied to a simulated axis:\n" + check_text(exported.check);
@@ -132,14 +132,14 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
 Status export_tables(const ExportTablesCommand& command) {
   if (command.list)
     return command.json ? write_line(formats_json()) : write_out(formats_text(terminal_columns()));
-  if (command.folder.empty()) return fail(ErrorCode::usage, "where to? Give --out FOLDER");
+  if (command.folder.empty()) return fail(ErrorCode::usage, "missing option --out FOLDER");
   MDOF_TRY(const ExportedTables exported, exported_tables(command.request));
   for (const auto& mark : exported.options.marks) warn(mark);
   for (const auto& note : exported.files.notes) say("note: " + note);
   for (const auto& left : exported.files.left_out) say("left out: " + left);
   if (!exported.check.passed())
-    return fail(ErrorCode::check, "what would be written does not make the error vanish:\n" +
-                                      check_text(exported.check) + "nothing was written");
+    return fail(ErrorCode::check, "the files would not cancel the error:\n" +
+                                      check_text(exported.check) + "no file was written");
   MDOF_TRY(const auto names, write_files(command, exported.files));
   return command.json ? write_line(exported_json(exported, names))
                       : write_out(exported_text(exported, names));
@@ -148,12 +148,11 @@ Status export_tables(const ExportTablesCommand& command) {
 Action declare_export_tables(CLI::App& command) {
   const auto o = std::make_shared<ExportTablesCommand>();
   add_export_options(command, o->request);
-  command.add_option("--out", o->folder, "Folder of the files; made where it is not there")
+  command.add_option("--out", o->folder, "Folder for the files (created if missing)")
       ->type_name("FOLDER");
-  command.add_flag("--overwrite", o->overwrite, "Replace files that are there");
+  command.add_flag("--overwrite", o->overwrite, "Replace existing files");
   command.add_flag("--list", o->list,
-                   "The formats: what each holds, its sense and where that is "
-                   "known from");
+                   "List the formats: contents, limits, sign convention and its source");
   add_json_flag(command, o->json);
   return [o] { return export_tables(*o); };
 }

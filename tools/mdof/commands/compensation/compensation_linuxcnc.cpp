@@ -43,10 +43,13 @@ std::string live_text(const LiveCompensation& live, const std::string& file) {
     joints += std::string(joints.empty() ? "" : ", ") + joint.axis + " joint " +
               std::to_string(joint.joint);
   return file + "\n" + joints + "\nlargest correction     " + plain_number(live.max_offset) + unit +
-         " (" + live.offset_reason + ")\nlargest velocity of it " +
+         " (" + live.offset_reason +
+         ")\n"
+         "largest velocity of the correction " +
          plain_number(live.max_velocity) + unit + "/s (" + live.velocity_reason +
-         ")\nafter a change of tables it fades with " + plain_number(live.fade_velocity) + unit +
-         "/s\n";
+         ")\n"
+         "after a change of tables the correction fades at " +
+         plain_number(live.fade_velocity) + unit + "/s\n";
 }
 
 Status write_lines(const LinuxCncCommand& command) {
@@ -62,22 +65,24 @@ Status write_lines(const LinuxCncCommand& command) {
     MDOF_CHECK(write_file(path, live.hal, Existing::replace));
     file = path.string();
   }
-  say(std::string("in [HAL] of the ini, after all others: HALFILE = ") + kCompensationHal);
+  say(std::string(
+          "add this line to [HAL] of the INI file, after all other HALFILE lines: HALFILE = ") +
+      kCompensationHal);
   if (command.json) return write_line(live_json(live, file));
   return write_out(file.empty() ? live.hal : live_text(live, file));
 }
 
 Action declare_linuxcnc(CLI::App& command) {
   const auto o = std::make_shared<LinuxCncCommand>();
-  command.add_option("--ini", o->ini, "Of the machine")->required()->type_name("FILE");
+  command.add_option("--ini", o->ini, "INI file of the machine")->required()->type_name("FILE");
   command
       .add_option("--out", o->folder,
-                  "Folder of the ini: mdof_compensation.hal is written there [default: to the "
+                  "Folder of the INI file; mdof_compensation.hal is written there [default: "
                   "standard output]")
       ->type_name("FOLDER");
   command
       .add_option("--margin-mm", o->request.margin_mm,
-                  "How far the soft limits are from the stops: no correction may be larger")
+                  "Distance from the soft limits to the hard stops; no correction may be larger")
       ->check(positive_number())
       ->capture_default_str();
   add_consent_flags(command, o->consent, "a table");
@@ -90,9 +95,11 @@ Action declare_linuxcnc(CLI::App& command) {
 
 Command compensation_linuxcnc_command() {
   return {.name = "compensation linuxcnc",
-          .summary = "HAL lines for live compensation in a LinuxCNC",
+          .summary = "Write the HAL lines for live compensation in LinuxCNC",
           .footer =
-              "What cannot be safe with the ini is refused by its section and key.\nExample:\n"
+              "If the INI file does not allow a safe compensation, the error names its section and "
+              "key.\n"
+              "Example:\n"
               "  mdof compensation linuxcnc --ini mill.ini --out .",
           .declare = declare_linuxcnc};
 }

@@ -30,13 +30,12 @@ constexpr double kMostTolerance_um = 100;
 Status check_request(const ExportRequest& request) {
   if (request.format.empty())
     return fail(ErrorCode::usage,
-                "for which controller? Give --format; mdof compensation export "
-                "--list has them");
+                "missing option --format NAME; mdof compensation export --list shows the formats");
   if (!std::isfinite(request.tolerance_um) || !std::isfinite(request.home_mm))
     return fail(ErrorCode::usage, "--tolerance-um and --home-mm must be finite numbers");
   if (request.tolerance_um > kMostTolerance_um)
     return fail(ErrorCode::usage, "--tolerance-um " + plain_number(request.tolerance_um, 3) +
-                                      " leaves out the errors themselves; give at most " +
+                                      " would thin out the errors themselves; give at most " +
                                       plain_number(kMostTolerance_um, 3));
   if (!(request.residual_um > 0 && request.residual_um <= 1000))
     return fail(ErrorCode::usage, "--residual-um must be above 0 and at most 1000");
@@ -61,7 +60,7 @@ Status judge_active(std::int64_t table, std::int64_t generation, const ExportReq
   const std::string name = "table " + std::to_string(table);
   if (!request.not_in_force)
     return bad_input(name + " is not active; activate it (mdof compensation activate " +
-                     std::to_string(table) + "), or ask with --not-in-force");
+                     std::to_string(table) + "), or export it with --not-in-force");
   marks.push_back("NOT ACTIVE: " + name + " was not active when it was exported");
   return {};
 }
@@ -69,8 +68,9 @@ Status judge_active(std::int64_t table, std::int64_t generation, const ExportReq
 Status judge_table(store::Store& store, const CompensationTable& table,
                    const ExportRequest& request, ExportedTables& out) {
   if (table.without_stated_point)
-    return bad_input("table " + std::to_string(table.id) +
-                     " does not say at which point it holds; build it again from its runs");
+    return bad_input(
+        "table " + std::to_string(table.id) +
+        " does not state the point to which its errors refer; build the table again from its runs");
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   MDOF_CHECK(judge(judged, request, out));
   // Positioning is never active: mdofd does not serve it.
@@ -86,8 +86,8 @@ Status judge_sign(const controllers::Format& format, const ExportRequest& reques
   if (!request.unverified_sign)
     return fail(ErrorCode::usage, std::string("the sign of ") + format.name +
                                       " is not confirmed: " + why +
-                                      ". A wrong sign doubles the error; verify it on the machine "
-                                      "and ask with --unverified-sign");
+                                      ". A wrong sign doubles the error; verify the sign on the "
+                                      "machine, then give --unverified-sign");
   marks.push_back("SIGN NOT CONFIRMED: verify on the machine that the error becomes smaller");
   return {};
 }
@@ -95,8 +95,9 @@ Status judge_sign(const controllers::Format& format, const ExportRequest& reques
 // "X=0,Y=1,Y=3"
 Status take_joints(const ExportRequest& request, ExportedTables& out) {
   if ((!request.joints.empty() || request.units != "mm") && !out.format->takes_joints)
-    return fail(ErrorCode::usage,
-                request.format + " takes neither --joint nor --units; they are of linuxcnc");
+    return fail(
+        ErrorCode::usage,
+        request.format + " takes neither --joint nor --units; only linuxcnc has these options");
   out.options.inch = request.units == "inch";
   auto& joints = out.options.joints;
   std::istringstream words(request.joints);
@@ -107,10 +108,9 @@ Status take_joints(const ExportRequest& request, ExportedTables& out) {
                        std::from_chars(word.data() + 2, end, number).ptr == end && number >= 0 &&
                        number < 16;
     if (!right)
-      return fail(ErrorCode::usage,
-                  "--joint \"" + word +
-                      "\" must be an axis and its joint from 0 to 15, as X=0,Z=1; "
-                      "a gantry has two, as Y=1,Y=3");
+      return fail(ErrorCode::usage, "--joint \"" + word +
+                                        "\" must be an axis and its joint from 0 to 15, such as "
+                                        "X=0,Z=1; a gantry has two joints, such as Y=1,Y=3");
     for (const auto& joint : joints)
       if (joint.number == number)
         return fail(ErrorCode::usage, "--joint names joint " + std::to_string(number) + " twice");
@@ -128,13 +128,13 @@ Status take_one_approach(CompensationTable& table, const ExportRequest& request,
   const auto take = [&](const std::string& error, std::vector<double>& forward,
                         std::vector<double>& reverse) -> Status {
     if (has(forward) == has(reverse)) return {};
-    const std::string what = "table " + std::to_string(table.id) + " has " + error + " of the " +
-                             (has(forward) ? "forward" : "reverse") + " approach alone";
+    const std::string what = "table " + std::to_string(table.id) + " has " + error + " for the " +
+                             (has(forward) ? "forward" : "reverse") + " approach only";
     if (!request.one_approach)
       return bad_input(what +
-                       "; measure both, or take it for both with --one-approach, where a "
-                       "reversal is not corrected");
-    out.options.marks.push_back("ONE APPROACH: " + what + "; a reversal is not corrected");
+                       "; measure both approaches, or use these values for both with "
+                       "--one-approach, which does not correct a reversal error");
+    out.options.marks.push_back("ONE APPROACH: " + what + "; a reversal error is not corrected");
     (has(forward) ? reverse : forward) = has(forward) ? forward : reverse;
     return {};
   };
@@ -149,7 +149,7 @@ Result<std::int64_t> squareness_number(const std::string& word) {
   const char* const end = word.data() + word.size();
   if (std::from_chars(word.data(), end, number).ptr == end && number > 0) return number;
   return fail(ErrorCode::usage,
-              "--squareness takes the number of a squareness, or latest; \"" + word + "\" is none");
+              "--squareness \"" + word + "\" must be the number of a squareness, or latest");
 }
 
 }  // namespace
@@ -159,45 +159,50 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
       ->type_name("");
   command
       .add_option("--squareness", request.squareness,
-                  "Number of a squareness, or latest; for controllers that shear their commands")
+                  "Number of a squareness, or latest; for formats that correct squareness")
       ->type_name("NUMBER");
-  command.add_option("--format", request.format, "As of mdof compensation export --list")
+  command
+      .add_option("--format", request.format,
+                  "Name of the format, see mdof compensation export --list")
       ->type_name("NAME");
   command
       .add_option("--tolerance-um", request.tolerance_um,
-                  "Leave out points that straight lines come as near to as this (angles: urad)")
+                  "Thin the table: largest interpolation error (angles: urad)")
       ->check(not_negative_number());
   command
-      .add_option("--residual-um", request.residual_um,
-                  "Most that may be left of an error beside the tolerance (angles: urad)")
+      .add_option(
+          "--residual-um", request.residual_um,
+          "Largest permitted residual of an error in addition to --tolerance-um (angles: urad)")
       ->check(finite_number())
       ->capture_default_str();
   command
       .add_option("--residual-percent", request.residual_percent,
-                  "Most that may be left of an error, in percent of it")
+                  "Largest permitted residual of an error, in percent of the error")
       ->check(finite_number())
       ->capture_default_str();
   add_limit_options(command, request.limits);
-  auto* home = command.add_option("--home-mm", request.home_mm,
-                                  "Where the axis is homed: the correction is made 0 there");
+  auto* home =
+      command.add_option("--home-mm", request.home_mm,
+                         "Home position of the axis; the correction is shifted to 0 there");
   home->each([&request](const std::string&) { request.home_given = true; });
   command.add_flag("--cut-range", request.cut_range,
-                   "Of a table with missing values, the longest range without");
+                   "If values are missing, export the longest range without a gap");
   command.add_flag("--one-approach", request.one_approach,
-                   "What was measured in one approach alone holds in both");
+                   "Use values that were measured in one approach only for both approaches");
   command
       .add_option("--joint", request.joints,
-                  "Of linuxcnc: joints of the axes, as X=0,Z=1; of a gantry two, as Y=1,Y=3 "
-                  "[default: X=0,Y=1,Z=2]")
+                  "linuxcnc: joints of the axes, such as X=0,Z=1; two for a gantry, such as "
+                  "Y=1,Y=3 [default: X=0,Y=1,Z=2]")
       ->type_name("AXIS=N,…");
-  command.add_option("--units", request.units, "Of linuxcnc: of the rows, [TRAJ] LINEAR_UNITS")
+  command
+      .add_option("--units", request.units, "linuxcnc: unit of the rows, as in [TRAJ] LINEAR_UNITS")
       ->check(CLI::IsMember({"mm", "inch"}))
       ->capture_default_str();
-  add_consent_flags(command, request.consent, "a table, marked as such,");
+  add_consent_flags(command, request.consent, "a table; the files are marked");
   command.add_flag("--not-in-force", request.not_in_force,
-                   "Also a table that is not active, marked as such");
+                   "Also export a table that is not active; the files are marked");
   command.add_flag("--unverified-sign", request.unverified_sign,
-                   "Also where the sense of the controller's values is not confirmed");
+                   "Export although the sign convention of the controller is not confirmed");
   add_database_option(command, request.database);
 }
 
@@ -209,8 +214,9 @@ Status export_axes(store::Store& store, const ExportRequest& request,
   for (const std::int64_t id : request.tables) {
     MDOF_TRY(const bool volume, store.is_volumetric(id));
     if (volume)
-      return fail(ErrorCode::usage, "table " + std::to_string(id) + " is of a volume, and " +
-                                        out.format->name + " holds " + out.format->holds);
+      return fail(ErrorCode::usage, "table " + std::to_string(id) +
+                                        " is a table of a volume, but " + out.format->name +
+                                        " holds " + out.format->holds);
     MDOF_TRY(CompensationTable table, store.table(id));
     MDOF_CHECK(judge_table(store, table, request, out));
     MDOF_CHECK(algo::check_limits(table, limits));
@@ -235,9 +241,10 @@ Status export_volume(store::Store& store, const ExportRequest& request,
   const std::int64_t id = request.tables.front();
   MDOF_TRY(const bool volume, store.is_volumetric(id));
   if (!volume || request.tables.size() > 1)
-    return fail(ErrorCode::usage, std::string(out.format->name) +
-                                      " takes one volumetric table (mdof compensation build "
-                                      "--machine), and nothing else");
+    return fail(
+        ErrorCode::usage,
+        std::string(out.format->name) +
+            " takes exactly one volumetric table; build it with mdof compensation build --machine");
   MDOF_TRY(const VolumetricTable table, store.volumetric(id));
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   MDOF_CHECK(judge(judged, request, out));
@@ -265,7 +272,7 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
   const std::string name = "squareness " + std::to_string(stored.id);
   if (stored.axes != AxisPair{})
     return bad_input(name + " is " + squareness_name(stored.axes) +
-                     "; these controllers take the squareness of X and Y");
+                     "; the controllers of this format take the squareness of X and Y only");
   MDOF_TRY(const daemon::FittedSquareness fitted, daemon::stored_squareness(store, stored));
   MDOF_CHECK(
       judge({name, stored.simulated, daemon::without_information(fitted.notices)}, request, out));
@@ -274,7 +281,7 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
   if (!(x == y))
     return bad_input(name + ": the rigs of its runs " + std::to_string(stored.run_a) + " and " +
                      std::to_string(stored.run_b) +
-                     " have different machines; measure both on one");
+                     " have different machines; measure both runs on one machine");
   const controllers::SquareAxes axes{stored.id, fitted.squareness.error_rad, fitted.budgets.front(),
                                      x};
   out.squareness = stored.id;
@@ -291,13 +298,14 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   MDOF_TRY(out.format, controllers::format_named(request.format));
   const bool square = out.format->square.write != nullptr;
   if (square && (request.squareness.empty() || !request.tables.empty()))
-    return fail(ErrorCode::usage, request.format +
-                                      " holds the squareness alone: give --squareness NUMBER or "
-                                      "latest, and no table");
+    return fail(ErrorCode::usage,
+                request.format +
+                    " holds the squareness only; give --squareness NUMBER or latest, and no table");
   if (!square && !request.squareness.empty())
-    return fail(ErrorCode::usage, request.format + " takes tables, and no --squareness");
+    return fail(ErrorCode::usage, request.format + " takes tables; leave out --squareness");
   if (!square && request.tables.empty())
-    return fail(ErrorCode::usage, "which table? Give its number; mdof compensation list has them");
+    return fail(ErrorCode::usage,
+                "missing table; give its number (mdof compensation list shows the numbers)");
   out.tables = request.tables;
   out.options.tolerance_m = from_um(request.tolerance_um);
   out.options.residual_m = from_um(request.residual_um);
@@ -325,7 +333,7 @@ void write_control(JsonWriter& json, const CheckedError& e, const Control& contr
   json.field(e.angle ? "residual_urad" : "residual_um", control.residual * 1e6);
   json.field("detected", control.detected);
   if (!control.detected && control.too_small)
-    json.field("reason", "it changes no more than what is allowed");
+    json.field("reason", "the effect of the mistake is smaller than the allowed residual");
   json.end_object();
 }
 
@@ -353,13 +361,14 @@ std::string check_json(const controllers::Check& check) {
 }
 
 std::string check_text(const controllers::Check& check) {
-  TextTable table({"error", "before", "after", "allowed", "cancels", "mistakes seen"});
+  TextTable table(
+      {"error", "before", "after", "allowed", "cancels", "self-test: mistake detected"});
   for (const CheckedError& e : check.errors) {
     std::string seen;
     for (const Control& control : e.controls)
       seen += (seen.empty() ? "" : ", ") + control.name + ": " +
               (control.detected    ? "yes"
-               : control.too_small ? "too small to see"
+               : control.too_small ? "too small to detect"
                                    : "NO");
     table.add({e.error + (e.angle ? "/µrad" : "/µm") + (e.one_way ? ", mean" : ""),
                fixed(e.before * 1e6, 4), fixed(e.residual * 1e6, 4), fixed(e.bound * 1e6, 4),
@@ -368,9 +377,9 @@ std::string check_text(const controllers::Check& check) {
   std::string text = table.text() + "allowed: at most " +
                      plain_number(check.most_residual_m * 1e6) + " µm (µrad) and " +
                      plain_number(check.share * 100) +
-                     " % of before; --residual-um, --residual-percent\n";
+                     " % of the error before; see --residual-um and --residual-percent\n";
   for (const std::string& error : check.not_judged)
-    text += error + ": not judged: which way its correction goes is not known\n";
+    text += error + ": not checked, because the sign of its correction is unknown\n";
   return text;
 }
 

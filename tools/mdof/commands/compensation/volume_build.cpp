@@ -30,7 +30,8 @@ std::string axes_of(const VolumeOptions& o) {
 Status check_options(const VolumeOptions& o) {
   if (o.volume == !o.plane.empty())
     return fail(ErrorCode::usage, "--machine needs either --plane XY or --volume");
-  if (!o.step_mm) return fail(ErrorCode::usage, "--step-mm is missing: how far apart are nodes?");
+  if (!o.step_mm)
+    return fail(ErrorCode::usage, "missing option --step-mm (distance between two nodes)");
   return {};
 }
 
@@ -108,21 +109,25 @@ Status VolumeOptions::check_unused() const {
 
 void add_volume_options(CLI::App& command, VolumeOptions& o) {
   command
-      .add_option("--machine", o.machine,
-                  "MACHINE.toml: corrections of all its measured errors over a plane or a volume")
+      .add_option(
+          "--machine", o.machine,
+          "MACHINE.toml; builds corrections of its measured errors over a plane or a volume")
       ->type_name("FILE");
   command.add_option("--plane", o.plane, "The two axes of the grid")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
-  command.add_flag("--volume", o.volume, "All three axes");
-  command.add_option("--step-mm", o.step_mm, "Between two nodes, about")->check(positive_number());
-  command.add_option("--at", o.at, "Where the other axes stand, such as Z=30 [default: at 0]")
+  command.add_flag("--volume", o.volume, "Grid over all three axes");
+  command.add_option("--step-mm", o.step_mm, "Approximate distance between two nodes")
+      ->check(positive_number());
+  command.add_option("--at", o.at, "Positions of the other axes, such as Z=30 [default: 0]")
       ->type_name("AXIS=MM");
   command
-      .add_option("--approach", o.approach,
-                  "The way the axes come, where tables distinguish them [default: mean]")
+      .add_option(
+          "--approach", o.approach,
+          "Direction of approach, for errors that differ between approaches [default: mean]")
       ->check(CLI::IsMember({"mean", "forward", "reverse"}));
-  command.add_flag("--incomplete", o.incomplete,
-                   "Also where an error that would count was not measured; the table names it");
+  command.add_flag(
+      "--incomplete", o.incomplete,
+      "Build the table although it lacks errors that were not measured; the table lists them");
 }
 
 Status build_volume(const VolumeBuild& command) {

@@ -36,9 +36,9 @@ Result<std::vector<NamedLog>> logs_of(const std::string& clamping) {
   for (std::string word; std::getline(words, word, ',');) {
     const auto axis = axis_from(word.substr(0, 1));
     if (!axis || word.size() < 3 || word[1] != '=')
-      return fail(ErrorCode::usage, "\"" + word + "\" of \"" + clamping +
-                                        "\" is no log with its axis; give the logs of each "
-                                        "clamping as X=FILE,Y=FILE");
+      return fail(ErrorCode::usage, "\"" + word + "\" in \"" + clamping +
+                                        "\" does not have the form AXIS=FILE; give the logs of "
+                                        "each clamping as X=FILE,Y=FILE");
     logs.push_back({*axis, word.substr(2)});
   }
   return logs;
@@ -75,9 +75,9 @@ Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& 
   for (const Point& stop : found.stops)
     traverse.stops.push_back({sign * stop.position_m, stop.probe_m, stop.probe_u_m});
   if (traverse.stops.size() < 2)
-    return bad_input(log.file + ": has one stop only, which shows no slope. " +
+    return bad_input(log.file + ": has only one stop, from which no slope follows. " +
                      hazard_of(rig, log.axis) +
-                     "Stop at two places or more, as far apart as that allows");
+                     "Stop at two or more positions, as far apart as the clearance allows");
   return traverse;
 }
 
@@ -130,9 +130,9 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
 Status check_not_calibrated(const Rig& rig) {
   for (const CalibrationRecord& record : rig.records)
     if (record.kind == "mounting")
-      return bad_input(rig.source + ": refers to the calibration \"" + record.id +
-                       "\" of its mounting already; take it out of calibration = ..., measure, and "
-                       "refer to the new one");
+      return bad_input(rig.source + ": already uses the calibration \"" + record.id +
+                       "\" of the mounting; remove it from calibration = ..., calibrate, then add "
+                       "the new record");
   return {};
 }
 
@@ -145,8 +145,9 @@ Status calibrate(const MountingCommand& command) {
   const MountingCalibration& found = fit.found;
   if (!found.explained)
     warn(
-        "chi-square is more than the noise of the readings explains: a target that is not flat or "
-        "moved in its clamp, an axis that is not straight; the uncertainties are widened by it");
+        "chi-square is larger than the noise of the readings explains (possible causes: target not "
+        "flat, target moved in its clamp, axis not straight); the uncertainties are increased "
+        "accordingly");
   fill(record, found, rig, sources.files);
   if (!command.record.out.empty())
     MDOF_CHECK(write_record(command.record.out, record_text(record)));
@@ -155,23 +156,24 @@ Status calibrate(const MountingCommand& command) {
   MDOF_CHECK(write_out(mounting_text(found, rig, terminal_columns())));
   return command.record.out.empty()
              ? Status()
-             : write_line(command.record.out + " is written: put calibration = \"" +
-                          command.record.out + "\" into the rig");
+             : write_line(command.record.out + " is written; add calibration = \"" +
+                          command.record.out + "\" to the rig");
 }
 
 Action declare_mounting(CLI::App& command) {
   const auto o = std::make_shared<MountingCommand>();
   command
       .add_option("CLAMPING", o->clampings,
-                  "The logs of one clamping, with the axes that moved: X=FILE,Y=FILE")
+                  "Logs of one clamping, each with the axis that moved: X=FILE,Y=FILE")
       ->required()
       ->type_name("");
-  command.add_option("--rig", o->rig, "Fixture as it was meant to be")
+  command.add_option("--rig", o->rig, "Rig file with the nominal mounting of the probes")
       ->required()
       ->type_name("RIG.toml");
   command
       .add_option("--reversed", o->reversed,
-                  "Axes on which the target goes the other way as the encoder grows")
+                  "Axes on which the target moves opposite to the direction that the rig and the "
+                  "encoder give")
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
@@ -184,16 +186,17 @@ Action declare_mounting(CLI::App& command) {
 
 Command calibrate_mounting_command() {
   return {.name = "calibrate mounting",
-          .summary = "Find where the probes sit, from a target clamped at several tilts",
+          .summary = "Find positions and directions of the probes with a target at several tilts",
           .footer =
-              "HAZARD: a traverse along an axis along which probes measure drives the target's\n"
-              "face into them: on a rig of X, a traverse of Y into D and E, whose range may end\n"
-              "after 100 um. A tilt comes nearer by 1 um for each mm and mrad. First, for each\n"
-              "rig: mdof clearance RIG.toml. Take the probes that it names out of the way, or\n"
-              "leave that traverse out.\n"
-              "Clamp the target at three tilts or more, some mrad each, about different axes,\n"
-              "each tilt with its opposite. At each, move the axes that pass by all probes by\n"
-              "some mm with five stops or more, and record each traverse as a log of its own.\n"
+              "HAZARD: a traverse along the measuring direction of a probe drives the target into\n"
+              "the probe. On a rig of X, a traverse of Y drives it into D and E, whose range may\n"
+              "end after 100 um. A tilt of 1 mrad reduces a gap by 1 um for each mm of distance.\n"
+              "First run mdof clearance RIG.toml for each rig. Retract the probes that it names,\n"
+              "or leave out that traverse.\n"
+              "Clamp the target at three or more tilts of some mrad about different axes, each\n"
+              "tilt also in the opposite direction. At each tilt, move the axes that do not\n"
+              "approach a probe by some mm with five or more stops. Record each traverse as a log\n"
+              "of its own.\n"
               "Example:\n"
               "  mdof calibrate mounting X=x1.csv,Y=y1.csv X=x2.csv,Y=y2.csv X=x3.csv,Y=y3.csv \\\n"
               "    --rig rig_X.toml --out mounting.toml",

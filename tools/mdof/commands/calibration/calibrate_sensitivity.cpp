@@ -66,13 +66,14 @@ std::string not_in_u(const SensitivityCalibration& found) {
 }
 
 std::string text_of(const SensitivityCalibration& found, bool rig_declares) {
-  std::string text =
-      noise_only_notice(!rig_declares) + "probe " + found.id + ": " +
-      with_u(found.sensitivity_1, found.u_sensitivity_1, 6) + " of reading for displacement\n" +
-      std::to_string(found.stops) + " stops, readings from " + fixed(to_um(found.from_m), 3) +
-      " to " + fixed(to_um(found.to_m), 3) + " um; the line leaves " +
-      fixed(to_um(found.linearity_m), 4) + " um at most, sd " +
-      fixed(to_um(found.residual_sd_m), 4) + " um\n" + not_in_u(found) + "For the rig:\n";
+  std::string text = noise_only_notice(!rig_declares) + "probe " + found.id + ": sensitivity " +
+                     with_u(found.sensitivity_1, found.u_sensitivity_1, 6) +
+                     " (reading per displacement)\n" + std::to_string(found.stops) +
+                     " stops, readings from " + fixed(to_um(found.from_m), 3) + " to " +
+                     fixed(to_um(found.to_m), 3) + " um; residuals from the line: at most " +
+                     fixed(to_um(found.linearity_m), 4) + " um, standard deviation " +
+                     fixed(to_um(found.residual_sd_m), 4) + " um\n" + not_in_u(found) +
+                     "Lines for the rig file:\n";
   if (found.um_per_V) text += "um_per_V = " + plain_number(*found.um_per_V, 9) + "\n";
   if (found.um_per_V) text += "offset_um = " + plain_number(found.offset_um, 9) + "\n";
   text += "linearity = [";
@@ -127,13 +128,15 @@ Status calibrate(const SensitivityCommand& command) {
 Action declare_sensitivity(CLI::App& command) {
   const auto o = std::make_shared<SensitivityCommand>();
   command
-      .add_option("LOG", o->log, "Of the axis that moves the target along the probe's direction")
+      .add_option(
+          "LOG", o->log,
+          "Log of the axis that moves the target along the measuring direction of the probe")
       ->required()
       ->type_name("");
-  command.add_option("--rig", o->rig, "Fixture")->required()->type_name("RIG.toml");
-  command.add_option("--probe", o->probe, "Which probe")->required()->type_name("ID");
+  command.add_option("--rig", o->rig, "Rig file of the fixture")->required()->type_name("RIG.toml");
+  command.add_option("--probe", o->probe, "Probe to calibrate")->required()->type_name("ID");
   command.add_flag("--reversed", o->reversed,
-                   "The target goes the other way as the encoder of that axis grows");
+                   "The target moves opposite to the direction that the rig and the encoder give");
   add_record_options(command, o->record);
   add_json_flag(command, o->json);
   return [o] { return calibrate(*o); };
@@ -145,10 +148,11 @@ Command calibrate_sensitivity_command() {
   return {.name = "calibrate sensitivity",
           .summary = "Find a probe's sensitivity against the encoder of the approaching axis",
           .footer =
-              "HAZARD: the target is moved towards the probe itself: go by small steps, stay\n"
-              "within the range, and see where it ends first: mdof clearance RIG.toml, mdof live.\n"
-              "Move the target towards the probe in steps over its range, and stop at each.\n"
-              "What the encoder's scale is wrong by is in the result.\n"
+              "HAZARD: the target moves towards the probe. First see with mdof clearance RIG.toml\n"
+              "and mdof live where the range of the probe ends. Use small steps and stay within\n"
+              "the range.\n"
+              "Move the target towards the probe in steps over its range, and stop at each step.\n"
+              "The result contains the scale error of the encoder.\n"
               "Example:\n"
               "  mdof calibrate sensitivity z.csv --rig rig_X.toml --probe A --out A.toml",
           .declare = declare_sensitivity};

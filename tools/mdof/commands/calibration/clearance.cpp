@@ -42,19 +42,19 @@ Status clearance(const ClearanceCommand& command) {
   MDOF_TRY(const auto motions, algo::motion_clearances(rig));
   if (command.json) return write_line(clearance_json(motions));
   std::string text =
-      "Motions of the target against the fixture, from its nominal place, not tilted:\n";
+      "Motions of the target relative to the fixture, from its nominal position without tilt:\n";
   for (const auto& motion : motions)
     text += wrapped(algo::clearance_text(motion), terminal_columns(), 2) + "\n";
   return write_out(text +
-                   wrapped("Only the probes and the surfaces that they look at are looked "
-                           "at: no clamps, cables or corners of the target.",
+                   wrapped("Only the probes and the surfaces that they measure are considered, not "
+                           "clamps, cables or corners of the target.",
                            terminal_columns()) +
                    "\n");
 }
 
 Action declare_clearance(CLI::App& command) {
   const auto o = std::make_shared<ClearanceCommand>();
-  command.add_option("RIG", o->rig, "Fixture")->required()->type_name("");
+  command.add_option("RIG", o->rig, "Rig file of the fixture")->required()->type_name("");
   add_json_flag(command, o->json);
   return [o] { return clearance(*o); };
 }
@@ -63,7 +63,7 @@ Action declare_clearance(CLI::App& command) {
 
 Command clearance_command() {
   return {.name = "clearance",
-          .summary = "Which motions drive the target into a probe, and after how much travel",
+          .summary = "Show which motions drive the target into a probe, and after how much travel",
           .footer = "Example:\n  mdof clearance rig_X.toml",
           .declare = declare_clearance};
 }

@@ -23,7 +23,7 @@ Result<std::chrono::sys_days> day_of(const std::string& date) {
                     std::sscanf(date.c_str(), "%4d-%2u-%2u", &year, &month, &day) == 3;  // NOLINT
   const auto ymd = std::chrono::year{year} / std::chrono::month{month} / std::chrono::day{day};
   if (!read || !ymd.ok())
-    return fail(ErrorCode::usage, "--date \"" + date + "\" is no day; give it as YYYY-MM-DD");
+    return fail(ErrorCode::usage, "--date \"" + date + "\" is not a date; give it as YYYY-MM-DD");
   return std::chrono::sys_days(ymd);
 }
 
@@ -38,11 +38,17 @@ std::string text_of(std::chrono::sys_days day) {
 }  // namespace
 
 void add_record_options(CLI::App& command, RecordOptions& options) {
-  command.add_option("--out", options.out, "Write the calibration record, which a rig refers to")
+  command
+      .add_option("--out", options.out,
+                  "Write the calibration record to this file, to which a rig refers")
       ->type_name("FILE.toml");
-  command.add_option("--date", options.date, "Of the calibration [default: of the log, or today]")
+  command
+      .add_option("--date", options.date,
+                  "Date of the calibration [default: date of the log, or today]")
       ->type_name("YYYY-MM-DD");
-  command.add_option("--valid-days", options.valid_days, "For how long it holds")
+  command
+      .add_option("--valid-days", options.valid_days,
+                  "Number of days for which the calibration is valid")
       ->check(CLI::Range(1, kMostDays))
       ->capture_default_str();
 }
@@ -65,9 +71,9 @@ Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
 Status write_record(const std::string& file, const std::string& text) {
   std::error_code ec;
   if (std::filesystem::exists(std::filesystem::symlink_status(file, ec)))
-    return fail(ErrorCode::usage, file +
-                                      ": is there already, and a record is never changed; give "
-                                      "another name with --out");
+    return fail(
+        ErrorCode::usage,
+        file + ": exists already, and a record is never changed; give another name with --out");
   return write_file(file, text, Existing::refuse);
 }
 

@@ -82,7 +82,7 @@ std::string clamp_json(const Clamped& found, const FormClampCommand& o) {
   json.field("K", found.clamping.K)
       .field("K_source", !o.released.empty() ? "measured"
                          : o.K               ? "given"
-                                             : "assumed: all of the clamping springs back");
+                               : "assumed: the whole clamping deformation is elastic");
   if (found.clamping.K_unexplained_rms_m)
     json.field("K_unexplained_rms_um", to_um(*found.clamping.K_unexplained_rms_m));
   else
@@ -99,7 +99,8 @@ std::string clamp_json(const Clamped& found, const FormClampCommand& o) {
         .field("smooth_mm", o.smooth_mm);
   } else {
     json.key("stress_max_MPa").null();
-    json.field("stress_reason", "no plate: --thickness-mm, --young-GPa and --poisson");
+    json.field("stress_reason",
+               "the plate is unknown; give --thickness-mm, --young-GPa and --poisson");
   }
   json.key("is_elastic");
   if (found.is_elastic)
@@ -122,7 +123,7 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
   std::string text = table.text() + "K = " + plain_number(found.clamping.K) +
                      (!o.released.empty() ? ", measured"
                       : o.K               ? ", given"
-                                          : ", assumed: all of the clamping springs back") +
+                            : ", assumed: the whole clamping deformation is elastic") +
                      "; piston and tilt are removed\n";
   if (found.clamping.K_unexplained_rms_m)
     text += "plastic part that K does not explain: RMS " +
@@ -130,8 +131,8 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
   if (!found.stress) return text;
   text += "largest stress " + fixed(found.stress->max_Pa / kPaPerMPa, 3) +
           " MPa (von Mises) at x " + in_mm(found.stress->x_m) + " mm, y " +
-          in_mm(found.stress->y_m) + " mm; curvature over squares of " + plain_number(o.smooth_mm) +
-          " mm\n";
+          in_mm(found.stress->y_m) + " mm; curvature fitted over squares of " +
+          plain_number(o.smooth_mm) + " mm\n";
   if (found.is_elastic)
     text += std::string(*found.is_elastic ? "elastic: below" : "NOT ELASTIC: not below") +
             " the yield limit of " + plain_number(*o.yield_MPa) + " MPa\n";
@@ -141,10 +142,12 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
 Status form_clamp(const FormClampCommand& o) {
   MDOF_CHECK(check_plate(o));
   if (o.K && !o.released.empty())
-    return fail(ErrorCode::usage, "--K is measured where RELEASED is given; leave one of them out");
+    return fail(ErrorCode::usage, "RELEASED measures K; leave out RELEASED or --K");
   MDOF_TRY(const Clamped found, clamped(o));
   if (o.released.empty() && !o.K)
-    warn("no RELEASED and no --K: all of the clamping is taken as elastic (K = 0)");
+    warn(
+        "neither RELEASED nor --K is given: the whole clamping deformation is taken as elastic (K "
+        "= 0)");
   if (!o.out.empty()) MDOF_CHECK(save_map(found.clamping.elastic, o.out));
   MDOF_CHECK(plot_maps({{"clamping", "Deformation by clamping", found.clamping.clamping},
                         {"elastic", "Elastic part of the deformation", found.clamping.elastic},
@@ -152,30 +155,36 @@ Status form_clamp(const FormClampCommand& o) {
                        o.plots));
   MDOF_CHECK(o.json ? write_line(clamp_json(found, o)) : write_out(clamp_text(found, o)));
   if (!found.is_elastic || *found.is_elastic) return {};
-  return fail(ErrorCode::check, o.after + ": the stress of the clamping, " +
+  return fail(ErrorCode::check, o.after + ": the clamping stress of " +
                                     plain_number(found.stress->max_Pa / kPaPerMPa) +
-                                    " MPa, is not below the yield limit of " +
+                                    " MPa is not below the yield limit of " +
                                     plain_number(*o.yield_MPa) + " MPa; clamp with less force");
 }
 
 Action declare_form_clamp(CLI::App& command) {
   const auto o = std::make_shared<FormClampCommand>();
   command.add_option("BEFORE", o->before, "Height map before clamping")->required()->type_name("");
-  command.add_option("AFTER", o->after, "Clamped")->required()->type_name("");
-  command.add_option("RELEASED", o->released, "Released again: measures K")->type_name("");
-  command.add_option("--K", o->K, "Plastic over elastic deformation [default: 0]")
+  command.add_option("AFTER", o->after, "Height map of the clamped part")
+      ->required()
+      ->type_name("");
+  command.add_option("RELEASED", o->released, "Height map after release; measures K")
+      ->type_name("");
+  command.add_option("--K", o->K, "Ratio of plastic to elastic deformation [default: 0]")
       ->check(finite_number());
-  command.add_option("--thickness-mm", o->thickness_mm, "Of the part")->check(positive_number());
-  command.add_option("--young-GPa", o->young_GPa, "Its modulus of elasticity")
+  command.add_option("--thickness-mm", o->thickness_mm, "Thickness of the part")
       ->check(positive_number());
-  command.add_option("--poisson", o->poisson, "Its Poisson's ratio")->check(number_in(0, 0.5));
+  command.add_option("--young-GPa", o->young_GPa, "Modulus of elasticity of the part")
+      ->check(positive_number());
+  command.add_option("--poisson", o->poisson, "Poisson's ratio of the part")
+      ->check(number_in(0, 0.5));
   command
-      .add_option("--yield-MPa", o->yield_MPa, "Its yield limit; exit 1 if the stress reaches it")
+      .add_option("--yield-MPa", o->yield_MPa,
+                  "Yield limit of the part; exit code 1 if the stress reaches it")
       ->check(positive_number());
   command
       .add_option("--smooth-mm", o->smooth_mm,
-                  "Side of the square over which a curvature is fitted: noise of single pixels "
-                  "makes stress")
+                  "Side of the squares over which curvature is fitted; noise of pixels in small "
+                  "squares adds stress")
       ->check(positive_number())
       ->capture_default_str();
   command.add_option("--out", o->out, "Write the elastic part as a map (CSV)")->type_name("FILE");
@@ -189,7 +198,7 @@ Action declare_form_clamp(CLI::App& command) {
 
 Command form_clamp_command() {
   return {.name = "form clamp",
-          .summary = "Elastic and plastic deformation by clamping, and its stress",
+          .summary = "Elastic and plastic deformation by clamping, and the stress in the part",
           .footer =
               "Example:\n"
               "  mdof form clamp before.csv clamped.csv --thickness-mm 2.5 --young-GPa 70 "

@@ -49,9 +49,10 @@ std::string compare_text(const algo::Comparison& found, const FormCompareCommand
                      in_um(found.rms_m) + " µm about the mean, " + std::to_string(found.pixels) +
                      " pixels\n";
   if (o.register_how == "rigid")
-    text += "lies at x " + in_mm(found.pose.shift_x_m) + " mm, y " + in_mm(found.pose.shift_y_m) +
-            " mm, turned by " + fixed(found.pose.turn_rad * 180 / std::numbers::pi, 5) +
-            "° about (0, 0)\n";
+    text += "B is shifted by x " + in_mm(found.pose.shift_x_m) + " mm, y " +
+            in_mm(found.pose.shift_y_m) + " mm and turned by " +
+            fixed(found.pose.turn_rad * 180 / std::numbers::pi, 5) +
+            "° about (0, 0) relative to A\n";
   if (o.register_how != "none") text += "piston and tilt are removed\n";
   return text;
 }
@@ -73,10 +74,11 @@ Action declare_form_compare(CLI::App& command) {
   command.add_option("A", o->a, "Height map: CSV x_mm,y_mm,z_um, XYZ, .sdf, Zygo .dat")
       ->required()
       ->type_name("");
-  command.add_option("B", o->b, "Height map that is compared with it")->required()->type_name("");
+  command.add_option("B", o->b, "Height map that is compared with A")->required()->type_name("");
   command
       .add_option("--register", o->register_how,
-                  "What is removed before: rigid (shift, turn, piston, tilt), plane (piston, tilt)")
+                  "Removed from B before the comparison: rigid (shift, turn, piston, tilt), plane "
+                  "(piston, tilt) or none")
       ->check(CLI::IsMember({"rigid", "plane", "none"}))
       ->capture_default_str();
   command.add_option("--out", o->out, "Write the difference as a map (CSV)")->type_name("FILE");
@@ -92,7 +94,7 @@ Command form_compare_command() {
   return {.name = "form compare",
           .summary = "Difference of two height maps of a surface",
           .footer =
-              "The shift says where B lies against A.\n"
+              "The shift is the position of B relative to A.\n"
               "Examples:\n"
               "  mdof form compare before.csv after.csv\n"
               "  mdof form compare wanted.sdf cut.dat --register plane --json",

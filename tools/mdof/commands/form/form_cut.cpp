@@ -17,7 +17,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kOnePass =
-    "one pass: what of its error comes again is unknown; cut once more with the same path";
+    "one pass: the repeatable part of its error is unknown; cut once more with the same path";
 
 struct FormCutCommand {
   std::string wanted, gain = "1", out, plots;
@@ -75,28 +75,30 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
     table.add({std::to_string(k + 1), in_um(found.error[k].pv_m), in_um(found.error[k].rms_m)});
   std::string text = "error = cut - wanted\n" + table.text();
   if (found.factor)
-    text += "optimal gain: " + fixed(*found.factor, 4) + " of the mean of the passes\n";
+    text += "optimal gain: " + fixed(*found.factor, 4) + " times the mean error of the passes\n";
   if (found.left_by_smoothing_rms_m)
-    text += "smoothing over squares of " + plain_number(o.smooth_mm) +
-            " mm leaves out of the correction: RMS " + in_um(*found.left_by_smoothing_rms_m) +
-            " µm\n";
+    text += "error that smoothing (" + plain_number(o.smooth_mm) +
+            " mm squares) removes from the correction: RMS " +
+            in_um(*found.left_by_smoothing_rms_m) + " µm\n";
   if (!found.converges) return text + kOnePass + "\nnext path: " + o.out + "\n";
   text +=
-      "of it comes again: RMS " + in_um(*found.repeatable_rms_m) +
-      " µm; random: " + in_um(*found.random_rms_m) + " µm a pass\nfloor of further passes: RMS " +
-      in_um(*found.floor_gain_one_m) + " µm with gain 1, " + in_um(*found.floor_mean_m) +
-      " µm with the mean of all passes\n" +
-      (found.floor_optimal_m ? "with the optimal gain: " + in_um(*found.floor_optimal_m) + " µm\n"
-                             : "") +
-      (*found.converges ? "converges" : "DOES NOT CONVERGE") + "\nnext path: " + o.out + "\n";
+      "repeatable error: RMS " + in_um(*found.repeatable_rms_m) + " µm; random error: RMS " +
+      in_um(*found.random_rms_m) +
+      " µm per pass\n"
+      "lowest RMS that further passes can reach: " +
+      in_um(*found.floor_gain_one_m) + " µm (gain 1), " + in_um(*found.floor_mean_m) +
+      " µm (mean of all passes)" +
+      (found.floor_optimal_m ? ", " + in_um(*found.floor_optimal_m) + " µm (optimal gain)" : "") +
+      "\n" + (*found.converges ? "converges" : "DOES NOT CONVERGE") + "\nnext path: " + o.out +
+      "\n";
   return text;
 }
 
 Status form_cut(const FormCutCommand& o) {
   if (o.gain == "optimal" && !o.random_um && (!o.repeated || o.cuts.size() < 2))
     return fail(ErrorCode::usage,
-                "--gain optimal: the random share of a pass is unknown; state it with --random-um, "
-                "or give two --repeated passes and more");
+                "--gain optimal: the random error of a pass is unknown; give --random-um, or two "
+                "or more passes with --repeated");
   algo::CuttingPasses passes;
   MDOF_TRY(passes.wanted, load_map(o.wanted, o.maps));
   for (const std::string& file : o.cuts) {
@@ -117,30 +119,35 @@ Status form_cut(const FormCutCommand& o) {
 
 Action declare_form_cut(CLI::App& command) {
   const auto o = std::make_shared<FormCutCommand>();
-  command.add_option("WANTED", o->wanted, "Height map that was wanted, and path of the first pass")
+  command
+      .add_option("WANTED", o->wanted,
+                  "Nominal height map, which is also the path of the first pass")
       ->required()
       ->type_name("");
-  command.add_option("CUT", o->cuts, "Measured after each pass, in the order of passes")
+  command
+      .add_option("CUT", o->cuts,
+                  "Height maps measured after each pass, in the order of the passes")
       ->required()
       ->type_name("");
   command.add_flag("--repeated", o->repeated,
-                   "All passes were cut with the path of the first [default: each with the next]");
+                   "All passes used the path of the first pass [default: each pass used the path "
+                   "corrected for it]");
   command
       .add_option(
           "--gain", o->gain,
           "Correct by the error of the last pass (1), by the mean of all passes (mean), or by "
-          "the share of the mean that comes again (optimal)")
+          "the repeatable share of the mean (optimal)")
       ->check(CLI::IsMember({"1", "mean", "optimal"}))
       ->capture_default_str();
   command
       .add_option("--random-um", o->random_um,
-                  "RMS of the random share of a pass, for --gain optimal [default: what --repeated "
-                  "passes show]")
+                  "RMS of the random error of a pass, for --gain optimal [default: estimated from "
+                  "--repeated passes]")
       ->check(not_negative_number());
   command
       .add_option("--smooth-mm", o->smooth_mm,
-                  "Smooth the correction over squares of this side, so that noise of single pixels "
-                  "is not cut into the part; 0: do not")
+                  "Smooth the correction over squares of this side, so that pixel noise is not cut "
+                  "into the part; 0: no smoothing")
       ->check(not_negative_number())
       ->capture_default_str();
   command.add_option("--out", o->out, "Write the path of the next pass as a map (CSV)")
@@ -156,10 +163,10 @@ Action declare_form_cut(CLI::App& command) {
 
 Command form_cut_command() {
   return {.name = "form cut",
-          .summary = "Path of the next pass from what the passes before left",
+          .summary = "Path of the next pass from the errors of the previous passes",
           .footer =
-              "Passes that were not --repeated are taken as cut with the paths that this command "
-              "writes, with the same --gain, --random-um and --smooth-mm.\n"
+              "Without --repeated, mdof assumes that each pass was cut with the path that this "
+              "command wrote for it with the same --gain, --random-um and --smooth-mm.\n"
               "Example:\n"
               "  mdof form cut wanted.csv cut1.csv --out path2.csv",
           .declare = declare_form_cut};

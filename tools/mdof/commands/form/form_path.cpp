@@ -78,13 +78,13 @@ Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, doubl
   const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 7); };
   const double angle_deg =
       std::atan2(pixel.y_m - y_centre_m, pixel.x_m - x_centre_m) * 180 / std::numbers::pi;
-  return bad_input(
-      map.name +
-      ": no pixel of its edge has a height, so the part may be larger than what was measured; the "
-      "farthest measured pixel is at radius " +
-      mm(pixel.radius_m) + " mm, " + plain_number(angle_deg) +
-      " degrees; measure the edge, or say where the path begins: --outer-radius-mm " +
-      mm(pixel.radius_m));
+  return bad_input(map.name +
+                   ": no pixel at the edge of the map has a height, so the part may be larger than "
+                   "the measured area; the farthest measured pixel is at radius " +
+                   mm(pixel.radius_m) + " mm, " + plain_number(angle_deg) +
+                   " degrees; measure the edge, or give the radius at which the path begins with "
+                   "--outer-radius-mm " +
+                   mm(pixel.radius_m));
 }
 
 Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMap& map) {
@@ -102,7 +102,7 @@ Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMa
         std::sscanf(text.c_str(), "%lf %lf %c", &x, &y, &after) != 2 || !std::isfinite(x) ||
         !std::isfinite(y))
       return fail(ErrorCode::usage,
-                  "--centre-mm \"" + o.centre + "\": it must be two numbers, such as 0,-1.5");
+                  "--centre-mm \"" + o.centre + "\" must be two numbers, such as 0,-1.5");
     request.x_centre_m = from_mm(x);
     request.y_centre_m = from_mm(y);
   }
@@ -143,10 +143,10 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   found.duration_s = rates.t_s(found.counts.points - 1);
   if (o.bandwidth_hz) found.left_out = spectrum.left_out();
   if (spectrum.turns() == 0)
-    warn(o.out + ": has less than one turn, so that undulations are unknown");
+    warn(o.out + ": has less than one turn, so the undulations are unknown");
   if (found.counts.too_sharp > 0)
     warn(o.map + ": at " + std::to_string(found.counts.too_sharp) +
-         " points the surface is bent more sharply than the tool, which leaves material there");
+         " points the surface is curved more than the tool; the tool leaves material there");
   return found;
 }
 
@@ -191,18 +191,19 @@ std::string path_json(const FoundPath& found, const FormPathCommand& o) {
 
 std::string path_text(const FoundPath& found, const FormPathCommand& o) {
   const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 7); };
-  std::string text =
-      o.out + ": " + std::to_string(found.counts.points) + " points from radius " +
-      mm(found.request.outer_radius_m) + " mm in, about x = " + mm(found.request.x_centre_m) +
-      " mm, y = " + mm(found.request.y_centre_m) + " mm; " + plain_number(found.duration_s / 60) +
-      " min\n" + "measured " + std::to_string(found.counts.measured) + ", extended " +
-      std::to_string(found.counts.extended) + ", bridged " + std::to_string(found.counts.bridged) +
-      "\n";
-  text += std::to_string(found.undulations) + " undulations a turn, " +
+  std::string text = o.out + ": " + std::to_string(found.counts.points) + " points from radius " +
+                     mm(found.request.outer_radius_m) +
+                     " mm inwards, centre x = " + mm(found.request.x_centre_m) +
+                     " mm, y = " + mm(found.request.y_centre_m) + " mm; duration " +
+                     plain_number(found.duration_s / 60) + " min\n" + "measured " +
+                     std::to_string(found.counts.measured) + ", extended " +
+                     std::to_string(found.counts.extended) + ", bridged " +
+                     std::to_string(found.counts.bridged) + "\n";
+  text += std::to_string(found.undulations) + " undulations per turn, " +
           plain_number(found.frequency_hz) + " Hz; stroke " + in_um(found.stroke_m) +
           " µm; acceleration up to " + plain_number(found.acceleration_m_s2) + " m/s²\n";
   if (found.left_out)
-    text += "a low pass of " + plain_number(*o.bandwidth_hz) + " Hz leaves out: PV " +
+    text += "a low pass of " + plain_number(*o.bandwidth_hz) + " Hz removes: PV " +
             in_um(found.left_out->pv) + " µm, RMS " + in_um(found.left_out->rms) + " µm\n";
   if (found.request.tool_radius_m > 0) {
     const auto rough = algo::feed_roughness(found.request.tool_radius_m, found.request.feed_m);
@@ -217,12 +218,13 @@ Status form_path(const FormPathCommand& o) {
   MDOF_TRY(const FoundPath found, write_path(o, map));
   MDOF_CHECK(o.json ? write_line(path_json(found, o)) : write_out(path_text(found, o)));
   if (o.bandwidth_hz && found.frequency_hz > *o.bandwidth_hz)
-    return fail(ErrorCode::check, o.map + ": needs " + plain_number(found.frequency_hz) +
+    return fail(ErrorCode::check, o.map + ": the path needs a servo bandwidth of " +
+                                      plain_number(found.frequency_hz) +
                                       " Hz, above --bandwidth-hz " + plain_number(*o.bandwidth_hz) +
-                                      "; turn more slowly");
+                                      "; reduce --speed-rpm");
   if (o.stroke_limit_um && to_um(found.stroke_m) > *o.stroke_limit_um)
     return fail(ErrorCode::check,
-                o.map + ": needs a stroke of " + plain_number(to_um(found.stroke_m)) +
+                o.map + ": the path needs a stroke of " + plain_number(to_um(found.stroke_m)) +
                     " µm, above --stroke-limit-um " + plain_number(*o.stroke_limit_um));
   return {};
 }
@@ -230,46 +232,50 @@ Status form_path(const FormPathCommand& o) {
 Action declare_form_path(CLI::App& command) {
   const auto o = std::make_shared<FormPathCommand>();
   command.add_option("MAP", o->map, "Height map that is cut")->required()->type_name("");
-  command.add_option("--speed-rpm", o->speed_rpm, "Of the spindle")
+  command.add_option("--speed-rpm", o->speed_rpm, "Speed of the spindle")
       ->required()
       ->check(positive_number());
-  command.add_option("--feed-mm-min", o->feed_mm_min, "Towards the centre")
+  command.add_option("--feed-mm-min", o->feed_mm_min, "Feed towards the centre")
       ->required()
       ->check(positive_number());
   command
       .add_option("--out", o->out,
                   "Write t_s,rho_mm,theta_deg,z_um,on_part (1 measured, 2 extended, 0 bridged); "
-                  "G-code where it ends in .ngc, .nc, .gcode or .tap")
+                  "G-code if the name ends in .ngc, .nc, .gcode or .tap")
       ->required()
       ->type_name("FILE");
   command
       .add_option("--centre-mm", o->centre,
-                  "Axis of the spindle [default: middle of the measured part]")
+                  "Position of the spindle axis [default: middle of the measured part]")
       ->type_name("X,Y");
   command
-      .add_option(
-          "--outer-radius-mm", o->outer_radius_mm,
-          "Where it begins [default: the farthest measured pixel, where pixels of the map's "
-          "edge are measured]")
+      .add_option("--outer-radius-mm", o->outer_radius_mm,
+                  "Radius at which the path begins [default: farthest measured pixel, if the map "
+                  "has measured edge pixels]")
       ->check(positive_number());
-  command.add_option("--points-per-rev", o->points_per_rev, "Points a turn")
+  command.add_option("--points-per-rev", o->points_per_rev, "Points per turn")
       ->check(whole_number_in(4, 1'000'000))
       ->capture_default_str();
-  command.add_option("--tool-radius-mm", o->tool_radius_mm, "Of the round tool; 0: pointed")
+  command.add_option("--tool-radius-mm", o->tool_radius_mm, "Radius of the tool; 0: pointed tool")
       ->check(not_negative_number())
       ->capture_default_str();
-  command.add_option("--extend-pixels", o->extend_pixels, "The surface goes on beyond the edge by")
+  command
+      .add_option("--extend-pixels", o->extend_pixels,
+                  "Number of pixels by which the surface is extended beyond its edge")
       ->check(whole_number_in(0, 100))
       ->capture_default_str();
   command
       .add_option("--undulation-share", o->undulation_share,
-                  "Of the largest amplitude: what is below it is no undulation")
+                  "Smallest amplitude that counts as an undulation, as a share of the largest")
       ->check(number_in(1e-9, 1))
       ->capture_default_str();
-  command.add_option("--bandwidth-hz", o->bandwidth_hz, "Of the servo; exit 1 if it needs more")
+  command
+      .add_option("--bandwidth-hz", o->bandwidth_hz,
+                  "Bandwidth of the servo; exit code 1 if the path needs more")
       ->check(positive_number());
   command
-      .add_option("--stroke-limit-um", o->stroke_limit_um, "Of the servo; exit 1 if it needs more")
+      .add_option("--stroke-limit-um", o->stroke_limit_um,
+                  "Largest stroke of the servo; exit code 1 if the path needs more")
       ->check(positive_number());
   add_map_options(command, o->maps);
   add_json_flag(command, o->json);

@@ -15,10 +15,9 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kScanU =
-    "noise of the heights, as it differs from one to the next, and u of the axis' errors that were "
-    "taken out; without the probe's calibration, encoder and angle, errors of the spindle, and "
-    "noise "
-    "that neighbours share";
+    "noise between neighbouring heights, and u of the subtracted errors of the axis; without the "
+    "probe's calibration, encoder and angle, errors of the spindle, and noise that neighbours "
+    "share";
 
 struct FormScanCommand {
   std::vector<std::string> runs;
@@ -58,10 +57,12 @@ std::string scan_text(const daemon::RadialScan& scan) {
   return scan.map.name + ": PV " + in_um(figures.pv_m) + " µm, RMS " + in_um(figures.rms_m) +
          " µm about the mean, " + std::to_string(figures.pixels) + " pixels of " +
          in_mm(scan.pixel_m) + " mm from " + std::to_string(scan.points) +
-         " heights\nwhat the probe reads of the axis' motion is taken out: " +
+         " heights\n"
+         "subtracted error motion of the axis at the probe: " +
          in_um(scan.motion_pv_m) + " µm PV\nu of a height " +
          in_um(std::hypot(scan.u_noise_m, scan.u_motion_m)) + " µm (noise " +
-         in_um(scan.u_noise_m) + " µm, motion " + in_um(scan.u_motion_m) + " µm): " + kScanU + "\n";
+         in_um(scan.u_noise_m) + " µm, motion " + in_um(scan.u_motion_m) + " µm). u contains " +
+         kScanU + "\n";
 }
 
 Status form_scan(const FormScanCommand& o) {
@@ -79,10 +80,10 @@ Status form_scan(const FormScanCommand& o) {
 
 Action declare_form_scan(CLI::App& command) {
   const auto o = std::make_shared<FormScanCommand>();
-  add_run_arguments(command, o->runs,
-                    "Numbers of the runs, see mdof runs, or latest; together one part");
+  add_run_arguments(command, o->runs, "Runs of one part: numbers, see mdof runs, or latest");
   command
-      .add_option("--pixel-mm", o->pixel_mm, "Of the map [default: a hundredth of the diameter]")
+      .add_option("--pixel-mm", o->pixel_mm,
+                  "Pixel size of the map [default: a hundredth of the diameter]")
       ->check(positive_number());
   command.add_option("--out", o->out, "Write the map (CSV)")->type_name("FILE");
   add_database_option(command, o->database);
@@ -97,9 +98,9 @@ Command form_scan_command() {
   return {.name = "form scan",
           .summary = "Height map of a part on a spindle, from a probe beside the fixture",
           .footer =
-              "[scan] of the run's rig names the probe, where it stands, and the column of the "
-              "spindle's angle.\n"
-              "The other form commands take such a run by its number, too.\n"
+              "[scan] in the rig of the run gives the probe, its position, and the column of the "
+              "spindle angle.\n"
+              "The other form commands also accept the number of such a run.\n"
               "Examples:\n"
               "  mdof form scan 12 --out before.csv\n"
               "  mdof form compare 12 13",

@@ -37,7 +37,8 @@ class MapReader {
     }
     if (!is_complete_) return text_.feed(piece);
     if (whole_.size() + piece.size() > kMostBytes)
-      return bad_input(file_ + ": larger than 2 GiB; this is not the file meant");
+      return bad_input(
+          file_ + ": larger than 2 GiB, the limit of a height map; check the name of the file");
     whole_.append(piece);
     return {};
   }
@@ -68,8 +69,8 @@ std::optional<std::int64_t> run_of(const std::string& name) {
 void add_map_options(CLI::App& command, MapOptions& options) {
   command
       .add_option("--unit", options.unit,
-                  "Of maps without header (XYZ): m, mm, um or nm of all columns, or mm,um for x, y "
-                  "and for z [default: mm,um]")
+                  "Units of maps without header (XYZ): m, mm, um or nm for all columns, or two: x "
+                  "and y, z [default: mm,um]")
       ->type_name("NAME");
   add_database_option(command, options.database);
 }
@@ -81,10 +82,10 @@ Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
   if (scan.simulated) warn(scan.map.name + ": simulated data: no machine was measured");
   if (scan.beyond_targets > 0)
     warn(scan.map.name + ": " + std::to_string(scan.beyond_targets) +
-         " heights beyond the targets of their run are left out");
+         " heights are left out, because they are beyond the targets of their run");
   if (scan.without_height > 0)
     warn(scan.map.name + ": " + std::to_string(scan.without_height) +
-         " heights without encoder or angle at their time are left out");
+         " heights are left out, because they have no encoder or angle value");
   return scan;
 }
 

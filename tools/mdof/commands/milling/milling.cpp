@@ -77,7 +77,7 @@ void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
       .field("wear_offset_line", line_to_type(offset))
       .field("wear_offset_line_of",
              "Fanuc, mm; P: number of the offset; G90 sets the wear of the radius, G91 adds to it; "
-             "twice R where the control has diameters");
+             "give twice R if the control uses diameters");
 }
 
 void write_members(JsonWriter& json, const Milled& milled, const MillingCommand& o) {
@@ -141,8 +141,12 @@ std::string offset_text(const Milled& milled) {
   std::string text =
       "radius wear offset (" + std::string(to_string(milled.plan.deflection)) + "): " +
       (std::isnan(offset.u_m) ? in_um(offset.offset_m) : um_with_u(offset.offset_m, offset.u_m)) +
-      " µm, G41 and G42 alike\n  to type (Fanuc, mm): " + line_to_type(offset) +
-      "\n  G90 sets the wear of the radius, G91 adds to it; diameters take twice R\n";
+      " µm, with the same sign for G41 and G42\n"
+      "  to type (Fanuc, mm): " +
+      line_to_type(offset) +
+      "\n"
+      "  G90 sets the wear of the radius, G91 adds to it; give twice R if the control uses "
+      "diameters\n";
   if (offset.parts.empty())
     text += "  u is unknown: the plan declares no uncertainty, such as u_Kt_N_per_mm2\n";
   for (const auto& part : offset.parts)
@@ -178,8 +182,8 @@ std::string milling_text(const std::vector<Milled>& all) {
   std::string text = all.front().plan.name;
   text += (text.empty() ? "" : "\n") + table.text(terminal_columns()) +
           wrapped(
-              "x against the feed, y towards the wall of an up cut, on the tool; offset outward, "
-              "+ overcut; bending alone, shear would add " +
+              "force on the tool: x against the feed, y towards the wall of an up cut; wall "
+              "offset: + is an overcut; deflection by bending only, shear would add " +
                   fixed(100 * algo::shear_share(all.front().plan.sections), 1) + " %",
               terminal_columns()) +
           "\n";
@@ -219,24 +223,25 @@ Action declare_milling(CLI::App& command) {
   command.add_option("PLAN", o->plan, "PLAN.toml: tool, run-out, cut, force, model")->type_name("");
   command
       .add_option("--preset", o->preset,
-                  "The tool and cut of the paper, by its model and a steady cut")
+                  "Tool and cut of Huo et al. (2017), with their model and with a steady cut")
       ->check(CLI::IsMember({kPreset}));
   command.add_flag("--offset", o->offset,
-                   "Also the radius wear offset, with u where it is declared");
+                   "Also print the radius wear offset, with u if the plan declares uncertainties");
   auto* sensitivity = command.add_flag(
       "--sensitivity", o->sensitivity,
-      "Also what each input does to force and wall: by its u, or 1 % where none is declared");
+      "Also print the effect of each input on force and wall, for its u (1 % if not declared)");
   command
-      .add_option("--trials", o->trials,
-                  "Of the sensitivity; each solves the cut 2 times and once more for each input")
+      .add_option(
+          "--trials", o->trials,
+          "Trials of the sensitivity; each solves the cut 2 times, and once more for each input")
       ->needs(sensitivity)
       ->check(number_in(16, 1e6))
       ->capture_default_str();
-  command.add_option("--seed", o->seed, "Of its random numbers")
+  command.add_option("--seed", o->seed, "Seed of the random numbers")
       ->needs(sensitivity)
       ->check(number_in(0, 9e15))
       ->capture_default_str();
-  command.add_option("--threads", o->threads, "The figures do not depend on it")
+  command.add_option("--threads", o->threads, "Number of threads; the figures do not depend on it")
       ->needs(sensitivity)
       ->check(CLI::Range(1, 1024));
   add_json_flag(command, o->json);

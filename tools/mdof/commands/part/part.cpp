@@ -104,13 +104,16 @@ std::string part_text(const FoundPart& found) {
   std::string text =
       noise_only_notice(part.machine.noise_only) + simulated_notice(part.machine.simulated);
   if (!part.plan.name.empty()) text += part.plan.name + ": ";
-  text += "error of the part, " +
-          std::string(part.path.normal.empty() ? "length of its vector" : "along the normals") +
-          ", over " + std::to_string(part.path.at_m.size()) + " points\n95 % of them below " +
-          in_um(found.error.p95_m) + " µm (U = " + in_um(found.error.U_p95_m) + "), largest " +
-          in_um(found.error.max_m) + " µm (U = " + in_um(found.error.U_max_m) + ") at x " +
-          in_mm(worst(0)) + ", y " + in_mm(worst(1)) + ", z " + in_mm(worst(2)) + " mm\n";
-  TextTable layers({"layer", "share/%", "U/%", "RMS/µm", "U/µm", "left/µm", "taken out by"});
+  text +=
+      "error of the part, " +
+      std::string(part.path.normal.empty() ? "length of the error vector" : "along the normals") +
+      ", over " + std::to_string(part.path.at_m.size()) +
+      " points\n"
+      "95 % of the points have an error below " +
+      in_um(found.error.p95_m) + " µm (U = " + in_um(found.error.U_p95_m) + "), largest " +
+      in_um(found.error.max_m) + " µm (U = " + in_um(found.error.U_max_m) + ") at x " +
+      in_mm(worst(0)) + ", y " + in_mm(worst(1)) + ", z " + in_mm(worst(2)) + " mm\n";
+  TextTable layers({"layer", "share/%", "U/%", "RMS/µm", "U/µm", "left/µm", "corrected by"});
   for (const std::size_t k : found.layers) {
     const algo::PartShare& share = found.error.layers[k];
     layers.add({part.layers[k].plan.name, fixed(100 * share.share, 1),
@@ -123,7 +126,7 @@ std::string part_text(const FoundPart& found) {
                 fixed(100 * found.error.causes[k].share, 1),
                 fixed(100 * found.error.causes[k].U_share, 1), in_um(found.error.causes[k].rms_m)});
   return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
-         "share: of the sum of mean squares; left: RMS when it is compensated\n" +
+         "share: of the sum of the mean squares; left: RMS after compensation of the layer\n" +
          missing_text(part.not_measured, part.no_u, terminal_columns());
 }
 
@@ -156,7 +159,7 @@ Action declare_part(CLI::App& command) {
 
 Command part_command() {
   return {.name = "part",
-          .summary = "Error of a part along its path, what makes it and what takes it out",
+          .summary = "Error of a part along its path, with its causes and their compensation",
           .footer = "Example:\n  mdof part part.toml",
           .declare = declare_part};
 }

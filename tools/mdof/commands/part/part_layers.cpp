@@ -32,16 +32,18 @@ Result<algo::PartPath> load_path(const std::string& file) {
   const bool has_normals = !csv.columns[3].empty();
   for (std::size_t k = 4; k < 6; ++k)
     if (csv.columns[k].empty() == has_normals)
-      return bad_input(csv.source + ": has not all of nx, ny, nz; give all three or none");
-  if (csv.rows() < 2) return bad_input(csv.source + ": a path has at least two points");
+      return bad_input(csv.source +
+                       ": only some of the columns nx, ny, nz exist; give all three or none");
+  if (csv.rows() < 2)
+    return bad_input(csv.source + ": has fewer than two points; a path needs at least two");
   for (std::size_t k = 0; k < csv.rows(); ++k) {
     path.at_m.emplace_back(from_mm(csv.columns[0][k]), from_mm(csv.columns[1][k]),
                            from_mm(csv.columns[2][k]));
     if (!has_normals) continue;
     const Eigen::Vector3d n(csv.columns[3][k], csv.columns[4][k], csv.columns[5][k]);
     if (!(n.norm() > 0.5 && n.norm() < 2))
-      return bad_input(csv.where(k) + "nx, ny, nz has the length " + plain_number(n.norm()) +
-                       "; a normal has 1");
+      return bad_input(csv.where(k) + "the normal nx, ny, nz has the length " +
+                       plain_number(n.norm()) + "; it must be near 1 (0.5 to 2)");
     path.normal.push_back(n / n.norm());
   }
   return path;
@@ -60,7 +62,7 @@ Status add_table(Machine& machine, const CompensationTable& table, const std::st
       ErrorFunction& f = frame.error[k];
       if (f.known())
         return bad_input(from + ": " + error_name(frame, k) +
-                         " is in the machine's file too; give it once");
+                         " is also in the machine file; give it only once");
       for (std::size_t row = 0; row < table.position_m.size(); ++row) {
         const double forward = table.forward[named][row], reverse = table.reverse[named][row];
         const double value = std::isnan(reverse)   ? forward
@@ -78,8 +80,8 @@ Status add_table(Machine& machine, const CompensationTable& table, const std::st
     machine.noise_only = machine.noise_only || table.noise_only();
     return {};
   }
-  return bad_input(from + ": is of axis " + std::string(1, letter(table.axis)) +
-                   ", which the chain " + machine.chain.text + " has not");
+  return bad_input(from + ": is a table of axis " + std::string(1, letter(table.axis)) +
+                   ", which the chain " + machine.chain.text + " does not contain");
 }
 
 Status add_tables(LoadedPart& part, const PartLayer& layer, const std::string& database) {
@@ -90,8 +92,8 @@ Status add_tables(LoadedPart& part, const PartLayer& layer, const std::string& d
     MDOF_CHECK(add_table(part.machine, table, from));
     if (table.slope_removed)
       warn(from +
-           ": its straightness is about a line, so that its slopes (squareness) are not in "
-           "the error of the part; build it with --keep-slope to have them");
+           ": its straightness has no slope (a line was subtracted), so the error of the part does "
+           "not contain squareness; build the table with --keep-slope to include it");
   }
   return {};
 }
@@ -115,12 +117,11 @@ Result<algo::PartCause> form_cause(const LoadedPart& part, const PartLayer& laye
     cause.u_m[k](2) = layer.u_m.value_or(0);
   }
   if (off == part.path.at_m.size())
-    return bad_input(file + ": no point of the path " + part.plan.path +
-                     " is on it; both have the coordinates of the part");
+    return bad_input(file + ": the map covers no point of the path " + part.plan.path +
+                     "; map and path must both use the coordinates of the part");
   if (off > 0)
     warn(file + ": " + std::to_string(off) +
-         " points of the path are off the map; no spring-back "
-         "is counted there");
+         " points of the path are outside the map; their spring-back is taken as 0");
   return cause;
 }
 
@@ -193,11 +194,12 @@ Status add_machine_layers(LoadedPart& part, const std::string& database) {
   if (!axes && !budget) return {};
   const algo::MachineCauses found = algo::machine_causes(part.machine, part.path.at_m);
   if (axes && found.axes.empty())
-    return bad_input(part.plan.machine +
-                     ": has no measured error; layer axes needs some, or "
-                     "axes = \"table:N\"");
+    return bad_input(
+        part.plan.machine +
+        ": has no measured errors; the layer axes needs measured errors, or axes = \"table:N\"");
   if (budget && found.budget.empty())
-    return bad_input(part.plan.machine + ": has no [[source]]; layer budget needs some");
+    return bad_input(part.plan.machine +
+                     ": has no [[source]]; the layer budget needs at least one");
   part.not_measured = found.not_measured;
   warn_beyond(found.beyond);
   if (axes) {
@@ -207,9 +209,9 @@ Status add_machine_layers(LoadedPart& part, const std::string& database) {
   }
   if (budget) {
     if (budget->compensated)
-      return bad_input(part.plan.machine +
-                       ": layer budget cannot be compensated: its sources "
-                       "were not measured");
+      return bad_input(
+          part.plan.machine +
+          ": the layer budget cannot be compensated, because its sources were not measured");
     add_layer(part, *budget, "", found.budget);
   }
   return {};

@@ -29,7 +29,7 @@ double middle_of_target(const algo::SeparationRequest& request) {
 
 Status reversal(const ReversalCommand& command) {
   if (command.turned_at_mm && !std::isfinite(*command.turned_at_mm))
-    return fail(ErrorCode::usage, "--turned-at-mm must be a place in mm");
+    return fail(ErrorCode::usage, "--turned-at-mm must be a position in mm");
   MDOF_TRY(LoadedSources loaded, load_sources(command.of));
   const Axis motion = loaded.record.axis, normal = loaded.record.normal;
   algo::SetUp& turned = loaded.request.set_ups[1];
@@ -39,9 +39,10 @@ Status reversal(const ReversalCommand& command) {
         command.turned_at_mm ? from_mm(*command.turned_at_mm) : middle_of_target(loaded.request);
     turned.shift_m = 2 * at_m;
   } else if (command.turned_at_mm) {
-    return fail(ErrorCode::usage,
-                "--turned-at-mm is for a target that was turned end for end, about another axis "
-                "than the one that moves (--turned-about)");
+    return fail(
+        ErrorCode::usage,
+        "--turned-at-mm applies only to a target that was turned end for end; give --turned-about "
+        "with an axis other than the moving one, or leave out --turned-at-mm");
   }
   SeparationSource& source = loaded.record.sources[1];
   source.height_sign = turned.turn.height_sign;
@@ -54,15 +55,15 @@ Action declare_separate_reversal(CLI::App& command) {
   const auto o = std::make_shared<ReversalCommand>();
   command
       .add_option("SET_UP", o->of.sources,
-                  "Two runs, or two CSV files (position_mm, deviation_um, and u_um where it is "
-                  "known): the target as it lay first, then turned")
+                  "Two runs, or two CSV files (position_mm, deviation_um, and u_um if known): the "
+                  "first set-up, then the turned target")
       ->required()
       ->expected(2)
       ->type_name("");
   add_source_options(command, o->of);
   command.add_option("--turned-at-mm", o->turned_at_mm,
-                     "Where along the axis, in C, the axis of the turn stood that put it end for "
-                     "end [default: the middle of what is read]");
+                     "Position of the axis of an end-for-end turn along the moving axis, in "
+                     "carriage coordinates [default: middle of the readings]");
   add_output_options(command, o->output);
   return [o] { return reversal(*o); };
 }
@@ -71,10 +72,10 @@ Action declare_separate_reversal(CLI::App& command) {
 
 Command separate_reversal_command() {
   return {.name = "separate reversal",
-          .summary = "From two set-ups, the target turned by 180° in between",
+          .summary = "Use two set-ups, between which the target was turned by 180°",
           .footer =
-              "machine = (first + second)/2, target = (first - second)/2, each less a line, for a "
-              "target that was turned about the axis that moves.\n"
+              "machine = (first + second)/2, target = (first - second)/2, each minus a fitted "
+              "line, for a target that was turned about the moving axis.\n"
               "Examples:\n"
               "  mdof separate reversal 4 5 --surface side --probe D\n"
               "  mdof separate reversal a.csv b.csv --moves target --surface side --rig-toml \\\n"

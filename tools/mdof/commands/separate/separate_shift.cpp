@@ -24,11 +24,11 @@ Status check(const ShiftCommand& command) {
                                       " numbers for " + std::to_string(set_ups) +
                                       " set-ups; give one for each, 0 for the first");
   for (const double mm : command.shift_mm)
-    if (!std::isfinite(mm)) return fail(ErrorCode::usage, "--shift-mm must be lengths in mm");
+    if (!std::isfinite(mm))
+      return fail(ErrorCode::usage, "--shift-mm must be finite lengths in mm");
   if (command.shift_mm.front() != 0)
-    return fail(
-        ErrorCode::usage,
-        "the first set-up is where the target's places count from: its --shift-mm must be 0");
+    return fail(ErrorCode::usage,
+                "the first --shift-mm must be 0, because shifts are relative to the first set-up");
   for (const std::size_t number : command.turned)
     if (number < 2 || number > set_ups)
       return fail(ErrorCode::usage, "--turned takes numbers of set-ups from 2 to " +
@@ -59,20 +59,20 @@ Action declare_separate_shift(CLI::App& command) {
   const auto o = std::make_shared<ShiftCommand>();
   command
       .add_option("SET_UP", o->of.sources,
-                  "Runs, or CSV files (position_mm, deviation_um, and u_um where it is known)")
+                  "Runs, or CSV files (position_mm, deviation_um, and u_um if known)")
       ->required()
       ->expected(2, 64)
       ->type_name("");
   command
       .add_option("--shift-mm", o->shift_mm,
-                  "Of each set-up, how far the target lay along + of the axis: 0 for the first. Of "
-                  "one turned end for end, where its zero is")
+                  "Shift of the target along + of the axis, one number for each set-up, 0 for the "
+                  "first; if turned end for end, position of its zero")
       ->required()
       ->expected(2, 64)
       ->type_name("MM");
   command
       .add_option("--turned", o->turned,
-                  "Numbers of the set-ups in which the target lay turned by 180°")
+                  "Numbers of the set-ups in which the target was turned by 180°")
       ->type_name("NUMBER");
   add_source_options(command, o->of);
   add_output_options(command, o->output);
@@ -82,18 +82,18 @@ Action declare_separate_shift(CLI::App& command) {
 }  // namespace
 
 Command separate_shift_command() {
-  return {
-      .name = "separate shift",
-      .summary = "From set-ups in which the target was shifted, or shifted and turned",
-      .footer =
-          "Positions must be equally spaced, and shifts whole steps of them. Shifts alone do "
-          "not see a parabola, nor periods that divide all shifts; with one set-up turned about "
-          "the axis that moves, and not shifted, only offset and slope remain unseen.\n"
-          "Examples:\n"
-          "  mdof separate shift 4 5 6 --shift-mm 0 5 15 --surface top\n"
-          "  mdof separate shift a.csv b.csv c.csv --shift-mm 0 5 0 --turned 3 "
-          "--moves target --surface side --json",
-      .declare = declare_separate_shift};
+  return {.name = "separate shift",
+          .summary = "Use set-ups in which the target was shifted, or shifted and turned",
+          .footer =
+              "Positions must be equally spaced, and each shift must be a whole number of steps. "
+              "Shifts alone cannot separate a parabola, nor periods that divide all shifts. With "
+              "one set-up turned about the moving axis and not shifted, only offset and slope "
+              "cannot be separated.\n"
+              "Examples:\n"
+              "  mdof separate shift 4 5 6 --shift-mm 0 5 15 --surface top\n"
+              "  mdof separate shift a.csv b.csv c.csv --shift-mm 0 5 0 --turned 3 "
+              "--moves target --surface side --json",
+          .declare = declare_separate_shift};
 }
 
 }  // namespace mdof::tools

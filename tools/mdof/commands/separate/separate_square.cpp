@@ -29,7 +29,7 @@ struct SquareCommand {
 
 std::string covers_of(const SquareReversal& s) {
   return s.noise_only ? "noise and repeatability only"
-                      : "noise, and what the rigs declare as common to both set-ups";
+                      : "noise, and uncertainties that the rigs declare as common to both set-ups";
 }
 
 std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& run,
@@ -53,8 +53,8 @@ std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& 
 
 std::string text_of(const SquareReversal& s, bool simulated) {
   TextTable table({"", "EC0Y/µrad"});
-  table.add({"first set-up, square taken as true", in_urad(s.first_rad)});
-  table.add({"second set-up, square taken as true", in_urad(s.second_rad)});
+  table.add({"first set-up, square taken as exact", in_urad(s.first_rad)});
+  table.add({"second set-up, square taken as exact", in_urad(s.second_rad)});
   const auto angle = [&s](double angle_rad) {
     return with_u(urad_to_place(angle_rad, s.U_rad), urad_to_place(s.u_rad, s.u_rad));
   };
@@ -62,10 +62,13 @@ std::string text_of(const SquareReversal& s, bool simulated) {
          "\nEC0Y = " + angle(s.EC0Y_rad) +
          " µrad, expanded U = " + urad_to_place(s.U_rad, s.U_rad) +
          " (k = " + fixed(s.coverage_factor, 2) +
-         ", 95 %)\nthe angle from +X to +Y is 90° + EC0Y\nthe square encloses 90° + " +
+         ", 95 %)\n"
+         "the angle from +X to +Y is 90° + EC0Y\n"
+         "the angle of the square is 90° + " +
          angle(s.square_rad) + " µrad (artefact_angle_error_urad of a rig)\n" +
-         wrapped("± one standard uncertainty: " + covers_of(s) +
-                     ". Slopes at the fixture; the square is taken to be the same in both.",
+         wrapped("± is the standard uncertainty u. It contains " + covers_of(s) +
+                     ". Slopes are given at the fixture. The angle of the square is taken as equal "
+                     "in both set-ups.",
                  terminal_columns()) +
          "\n";
 }
@@ -104,10 +107,10 @@ Action declare_separate_square(CLI::App& command) {
 
 Command separate_square_command() {
   return {.name = "separate square",
-          .summary = "Squareness and the angle of the square, which was turned over in between",
+          .summary = "Find squareness and the angle of a square that was turned over between runs",
           .footer =
-              "EC0Y = (first + second)/2, and the square's own angle error is half of the "
-              "difference. The planes of the rigs decide its sign.\n"
+              "EC0Y = (first + second)/2. The angle error of the square is half of the difference; "
+              "the planes in the rigs determine its sign.\n"
               "Example:\n"
               "  mdof separate square 1 2 3 4",
           .declare = declare_separate_square};

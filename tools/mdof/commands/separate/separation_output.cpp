@@ -19,17 +19,17 @@ namespace {
 Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
                  const OutputOptions& options) {
   if (!options.rig_toml) return {};
-  if (Status passed = check_gate(judged, options.consent, "there is nothing to put into a rig");
+  if (Status passed = check_gate(judged, options.consent, "no height map for a rig is printed");
       !passed) {
     passed.error().code = ErrorCode::check;
     return passed;
   }
   if (options.despite_unseen || record.result.target.whole()) return {};
   return fail(ErrorCode::check,
-              "these set-ups do not see all of the target's height (" +
+              "these set-ups do not determine the whole height of the target (" +
                   unseen_text(record.result.target) +
-                  "), and a map without that would take it to be 0; measure once more with the "
-                  "target turned about the motion, or ask with --despite-unseen");
+                  "), and a map would contain 0 for the missing part; measure once more with the "
+                  "target turned about the moving axis, or give --despite-unseen");
 }
 
 // "set-up 2" is what the algorithm knows; people know their files and runs.
@@ -47,12 +47,12 @@ void add_output_options(CLI::App& command, OutputOptions& o) {
   add_all_warnings_flag(command, o.all_warnings);
   add_csv_and_json_flags(command, o.csv, o.json);
   auto* toml = command.add_flag("--rig-toml", o.rig_toml,
-                                "Print the target's height as a [[plane]] of a rig");
+                                "Print the height of the target as a [[plane]] of a rig");
   toml->excludes(command.get_option("--csv"))->excludes(command.get_option("--json"));
   add_consent_flags(command, o.consent, "a map");
   command
       .add_flag("--despite-unseen", o.despite_unseen,
-                "Print it though more than offset and slope is unseen")
+                "Print the height map although more than offset and slope is undetermined")
       ->needs(toml);
 }
 

@@ -57,8 +57,8 @@ Status add_file(const SourceOptions& options, const std::string& file, LoadedSou
   SeparationSource source{file, sha256_hex(bytes)};
   for (const SeparationSource& before : loaded.record.sources)
     if (before.sha256 == source.sha256)
-      return bad_input(file + ": has the same bytes as " + before.name +
-                       "; readings that count twice separate nothing: give each set-up its own");
+      return bad_input(file + ": is identical to " + before.name +
+                       "; give each set-up its own file");
   algo::SetUp set_up;
   for (const double x : csv.columns[0]) set_up.position_m.push_back(from_mm(x));
   for (const double x : csv.columns[1]) set_up.error_m.push_back(from_um(x));
@@ -73,7 +73,8 @@ Status add_file(const SourceOptions& options, const std::string& file, LoadedSou
 
 Result<LoadedSources> load_files(const SourceOptions& options) {
   if (!options.probe.empty())
-    return fail(ErrorCode::usage, "--probe is for runs; a file has one series only");
+    return fail(ErrorCode::usage,
+                "--probe applies to runs only, because a file has one series; leave out --probe");
   if (options.moves.empty())
     return fail(ErrorCode::usage,
                 "missing option --moves: a file does not say which body the axis moves, target or "
@@ -91,20 +92,18 @@ Status check_alike(const Run& first, const Run& run) {
   if (first.header.axis == run.header.axis && first.header.sides == run.header.sides) return {};
   return bad_input("runs " + std::to_string(first.header.id) + " and " +
                    std::to_string(run.header.id) +
-                   " are of other axes, or of rigs that differ in moves or travel; take runs of "
-                   "one axis of one machine");
+                   " have different axes, or rigs that differ in moves or travel; give runs of one "
+                   "axis of one machine");
 }
 
 Status check_without_map(const Run& run, const Rig& rig) {
   for (const TargetPlane& plane : rig.planes)
     if (!plane.flatness.empty())
-      return bad_input("run " + std::to_string(run.header.id) +
-                       ": its rig subtracts the height "
-                       "map of plane \"" +
-                       plane.id +
-                       "\" already, so that the target's shape is "
-                       "no longer in it; replay its log with a rig without flatness_um, or take "
-                       "one probe's own readings with --probe");
+      return bad_input(
+          "run " + std::to_string(run.header.id) +
+          ": its rig already subtracts the height map of plane \"" + plane.id +
+          "\", so the run no longer contains the shape of the target; replay its log with a rig "
+          "without flatness_um, or use the readings of one probe with --probe");
   return {};
 }
 
@@ -122,12 +121,13 @@ Status check_places(const std::vector<Vec3>& at, const SourceOptions& options,
       if (i == static_cast<std::size_t>(loaded.record.normal) ||
           std::abs(at[k][i] - at[0][i]) <= match_m)
         continue;
-      const std::string differ = "probe \"" + options.probe + "\" stands at " + at_text(at[0]) +
+      const std::string differ = "probe \"" + options.probe + "\" is at " + at_text(at[0]) +
                                  " in " + loaded.record.sources[0].name + " and at " +
                                  at_text(at[k]) + " in " + loaded.record.sources[k].name;
       if (i == static_cast<std::size_t>(loaded.record.axis))
-        return bad_input(differ + ": it must be the same along " + letter(loaded.record.axis) +
-                         ", or another place of the target is read");
+        return bad_input(differ + "; its position must be the same along " +
+                         letter(loaded.record.axis) +
+                         ", otherwise the probe reads another place of the target");
       loaded.notices.push_back(notice(NoticeCode::places_differ, "", {{"difference", differ}}));
     }
   return {};
@@ -171,7 +171,8 @@ Result<std::vector<Run>> runs_of(store::Store& store, const SourceOptions& optio
 Result<LoadedSources> load_runs(const SourceOptions& options) {
   if (options.sides_given)
     return fail(ErrorCode::usage,
-                "--moves, --travel, --at-mm and --u-um are for files; a run has its rig's");
+                "--moves, --travel, --at-mm and --u-um apply to files only; a run takes these "
+                "values from its rig");
   MDOF_TRY(store::Store store, open_to_read(options.database));
   MDOF_TRY(const auto runs, runs_of(store, options));
   LoadedSources loaded = nothing_yet(options, runs.front().header.moving());
@@ -196,37 +197,39 @@ Result<LoadedSources> load_runs(const SourceOptions& options) {
 void add_source_options(CLI::App& command, SourceOptions& o) {
   command
       .add_option("--surface", o.surface,
-                  "That was looked at: side (its height is along y of the axis' local frame) or "
-                  "top (along z)")
+                  "Measured surface of the target: side (height along y of the axis' local frame) "
+                  "or top (along z)")
       ->required()
       ->check(CLI::IsMember({"side", "top"}));
   command
-      .add_option("--turned-about", o.turned_about,
-                  "Machine axis about which the target was turned by 180° [default: the axis that "
-                  "moves]")
+      .add_option(
+          "--turned-about", o.turned_about,
+          "Machine axis about which the target was turned by 180° [default: the moving axis]")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
-  command.add_option("--probe", o.probe, "Of runs the readings of this probe alone")
+  command.add_option("--probe", o.probe, "Use only the readings of this probe (for runs)")
       ->type_name("ID");
   command
       .add_option("--axis", o.axis,
-                  "Of files: the axis that moves [default: X]; of latest: its runs")
+                  "For files: the moving axis [default: X]; for latest: axis of the run")
       ->check(CLI::IsMember({"X", "Y", "Z"}))
       ->each([&o](const std::string&) { o.axis_given = true; });
   const auto of_files = [&o](CLI::Option* option) {
     return option->each([&o](const std::string&) { o.sides_given = true; });
   };
   of_files(command.add_option("--moves", o.moves,
-                              "Of files, which body the axis moves: target or fixture"))
+                              "For files: the body that the axis moves, target or fixture"))
       ->check(CLI::IsMember({"target", "fixture"}));
-  of_files(command.add_option("--travel", o.travel, "Of files, as in a rig: + or -"))
+  of_files(command.add_option("--travel", o.travel, "For files: travel as in a rig, + or -"))
       ->check(CLI::IsMember({"+", "-"}))
       ->capture_default_str();
   of_files(
-      command.add_option("--at-mm", o.at_mm, "Of files: where along the axis the indicator stands"))
+      command.add_option("--at-mm", o.at_mm, "For files: position of the indicator along the axis"))
       ->capture_default_str();
   of_files(command.add_option("--u-um", o.u_um,
                               "Standard uncertainty of each reading of a file without u_um"));
-  command.add_option("--match-mm", o.match_mm, "Positions and places that lie so close are one")
+  command
+      .add_option("--match-mm", o.match_mm,
+                  "Positions that differ by at most this are the same position")
       ->capture_default_str();
   command.add_flag("--partial", o.partial, "Take partial runs as well");
   add_database_option(command, o.database);
@@ -239,8 +242,8 @@ Result<LoadedSources> load_sources(const SourceOptions& options) {
   if (runs == 0) return load_files(options);
   if (runs == static_cast<std::ptrdiff_t>(options.sources.size())) return load_runs(options);
   return fail(ErrorCode::usage,
-              "files and runs cannot be mixed; give runs only, or files only (a file that is named "
-              "like a number as ./7)");
+              "files and runs cannot be mixed; give runs only, or files only (write a file whose "
+              "name is a number as ./7)");
 }
 
 Axis turned_about(const SourceOptions& options, Axis motion) {

@@ -15,11 +15,14 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kNothingDeclared =
-    "nothing is declared: MACHINE.toml has no [[source]] that acts and no u of a measured error";
+    "no uncertainty is declared: MACHINE.toml has no [[source]] that acts on the tool, and no u of "
+    "a measured error";
 constexpr const char* kDirections[] = {"x", "y", "z"};
 constexpr const char* kNotKept =
-    "the measured errors alone exceed the target, whatever the causes are";
-constexpr const char* kFactorRule = "all u times one factor";
+    "the measured errors alone exceed the target; the target is not met even if every declared "
+    "source has "
+    "u = 0";
+constexpr const char* kFactorRule = "all u multiplied by one factor";
 
 // The largest contribution to u_x² + u_y² + u_z² first.
 std::vector<std::size_t> by_size(const algo::BudgetModel& model) {
@@ -134,7 +137,7 @@ std::string stage_text(const FoundStage& stage) {
                fixed(output.sd, 4), fixed(output.symmetric.low, 4),
                fixed(output.symmetric.high, 4)});
   }
-  return table.text(terminal_columns()) + "95 % of the volume is within " +
+  return table.text(terminal_columns()) + "95 % of the error vectors are shorter than " +
          fixed(stage.volume_p95_um, 4) + " µm\n";
 }
 
@@ -167,16 +170,19 @@ std::string measured_text(const FoundMachineBudget& found) {
                e.has_design ? fixed(e.measured_effect_m / e.designed_effect_m, 2) : "-"});
   std::string text = "\n" + table.text(terminal_columns()) +
                      wrapped(
-                         "root mean square over the table, at the tool; the first row is what "
-                         "to rework first",
+                         "Values are the RMS effect of each error at the tool, over its error "
+                         "table. Rework the error in the first row first.",
                          terminal_columns()) +
                      "\n";
   if (!found.now.model.replaced.empty())
-    text += wrapped("replaced by measurement: " + joined(found.now.model.replaced),
+    text += wrapped("sources replaced by measured errors: " + joined(found.now.model.replaced),
                     terminal_columns()) +
             "\n";
   if (found.designed)
-    text += "\nas designed, without what is measured:\n" + stage_text(*found.designed);
+    text +=
+        "\n"
+        "as designed, without the measured errors:\n" +
+        stage_text(*found.designed);
   return text;
 }
 
@@ -221,10 +227,12 @@ std::string machine_budget_text(const Machine& machine, const BudgetRequest& req
   if (!found.now.outputs.empty()) text += contributions_text(found);
   if (found.allocation)
     text +=
-        wrapped("allowed u: with all of them together 95 % of the volume is within " +
-                    plain_number(*request.target_um, 6) + " µm (" + kFactorRule + ", " +
-                    fixed(found.allocation->common_factor, 4) + "); alone: the others as declared",
-                terminal_columns()) +
+        wrapped(
+            "allowed u: with all of these u together, 95 % of the error vectors are shorter than " +
+                plain_number(*request.target_um, 6) + " µm (" + kFactorRule + ", " +
+                fixed(found.allocation->common_factor, 4) +
+                "); alone: allowed u if only this u changes and the others stay as declared",
+            terminal_columns()) +
         "\n";
   if (const auto& names = found.now.model.not_declared; !names.empty())
     text += wrapped("no cause is declared for " + std::to_string(names.size()) +

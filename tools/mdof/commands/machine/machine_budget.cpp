@@ -79,28 +79,33 @@ Action declare_machine_budget(CLI::App& command) {
   const auto o = std::make_shared<MachineBudgetCommand>();
   command.add_option("MACHINE", o->file, "MACHINE.toml with [[source]] tables, or measured errors")
       ->type_name("");
-  command.add_option("--preset", o->preset, "The machine of the paper")
+  command.add_option("--preset", o->preset, "Machine of Wang, Ye and Gunawan (2021)")
       ->check(CLI::IsMember({"co-planar"}));
-  command.add_option("--at", o->at, "Commands in mm, as X=10,Y=20 (rotary: degrees); others are 0")
+  command
+      .add_option(
+          "--at", o->at,
+          "Commanded positions in mm, such as X=10,Y=20 (rotary axes: degrees); the others are 0")
       ->type_name("X=…,Y=…");
   add_approach_option(command, o->approach);
   command
-      .add_option("--run", o->runs,
-                  "Stored runs, numbers or latest: their errors replace what sources assume")
+      .add_option(
+          "--run", o->runs,
+          "Stored runs (numbers or latest) whose errors replace the sources of these errors")
       ->check(run_word_error)
       ->type_name("RUN");
   add_database_option(command, o->database);
   command.add_option("--trials", o->trials, "Number of trials")
       ->check(number_in(1000, kMostTrials))
       ->capture_default_str();
-  command.add_option("--seed", o->seed, "Of the random numbers")
+  command.add_option("--seed", o->seed, "Seed of the random numbers")
       ->check(number_in(0, kMostSeed))
       ->capture_default_str();
-  command.add_option("--threads", o->threads, "The figures do not depend on it")
+  command.add_option("--threads", o->threads, "Number of threads; the figures do not depend on it")
       ->check(CLI::Range(1, 1024));
   command
-      .add_option("--target-um", o->target_um,
-                  "Also the tolerances with which 95 % of the volume is within this")
+      .add_option(
+          "--target-um", o->target_um,
+          "Also print the tolerances with which 95 % of the error vectors are shorter than this")
       ->check(positive_number());
   add_json_flag(command, o->json);
   return [o] { return machine_budget(*o); };
@@ -109,16 +114,18 @@ Action declare_machine_budget(CLI::App& command) {
 }  // namespace
 
 Command machine_budget_command() {
-  return {.name = "machine budget",
-          .summary = "Error budget of a machine: causes, tolerances, what to rework first",
-          .footer =
-              "u is the linear form (GUM); intervals and the volume are by Monte Carlo with the\n"
-              "exact product of rotations. Measured errors replace what sources assume of them.\n"
-              "Examples:\n"
-              "  mdof machine budget --preset co-planar --at X=60,Y=40\n"
-              "  mdof machine budget machine.toml --target-um 0.8\n"
-              "  mdof machine budget machine.toml --run 1 --run 2",
-          .declare = declare_machine_budget};
+  return {
+      .name = "machine budget",
+      .summary = "Error budget of a machine: causes, tolerances, what to rework first",
+      .footer =
+          "u is calculated by linear propagation (GUM), intervals and lengths of error vectors by\n"
+          "Monte Carlo with the exact product of rotations. Measured errors replace their "
+          "sources.\n"
+          "Examples:\n"
+          "  mdof machine budget --preset co-planar --at X=60,Y=40\n"
+          "  mdof machine budget machine.toml --target-um 0.8\n"
+          "  mdof machine budget machine.toml --run 1 --run 2",
+      .declare = declare_machine_budget};
 }
 
 }  // namespace mdof::tools

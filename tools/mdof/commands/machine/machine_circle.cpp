@@ -115,7 +115,7 @@ std::string circle_json(const MachineCircleCommand& o, const FoundCircles& found
   json.field("plane", o.plane).field("simulated", found.simulated);
   json.field("sense",
              "actual radius - nominal radius, about the least-squares centre of all paths");
-  json.field("u_reason", "no uncertainty is stated: a prediction and readings alone");
+  json.field("u_reason", "no uncertainty is calculated for the prediction and the readings");
   write_strings(json, "not_measured", found.not_measured);
   write_strings(json, "beyond_tables", found.beyond);
   write_circle(json, "predicted", found.predicted);
@@ -167,19 +167,20 @@ std::string circle_text(const MachineCircleCommand& o, const FoundCircles& found
                      (o.radius_mm ? ", radius " + in_mm(from_mm(*o.radius_mm)) + " mm" : "") +
                      "\n" + table.text(terminal_columns()) +
                      wrapped(
-                         "G about the least-squares circle of each path, the others about that "
-                         "of all; no uncertainty is stated",
+                         "G refers to the least-squares circle of each path, the other figures to "
+                         "the circle of all paths; no uncertainty is stated",
                          terminal_columns()) +
                      "\n";
   if (found.largest_difference_m)
-    text += "measured - predicted: at most " + fixed(to_um(*found.largest_difference_m), 3) +
-            " µm at an angle\n";
+    text += "largest difference, measured - predicted: " +
+            fixed(to_um(*found.largest_difference_m), 3) + " µm\n";
   return text + missing_text(found.not_measured, {}, terminal_columns()) +
-         "The angles: --csv or --json\n";
+         "Values at each angle: --csv or --json\n";
 }
 
 Status predict(const MachineCircleCommand& o, Machine& machine, FoundCircles& found) {
-  if (!o.radius_mm) return fail(ErrorCode::usage, "--radius-mm is missing: which circle?");
+  if (!o.radius_mm)
+    return fail(ErrorCode::usage, "missing option --radius-mm (radius of the circle)");
   MDOF_TRY(machine, load_machine(o.file, o.database));
   algo::CircleRequest request;
   request.first = std::string("XYZ").find(o.plane[0]);
@@ -225,25 +226,28 @@ Status machine_circle(const MachineCircleCommand& o) {
 Action declare_machine_circle(CLI::App& command) {
   const auto o = std::make_shared<MachineCircleCommand>();
   command
-      .add_option("FILE", o->file,
-                  "MACHINE.toml, whose errors predict the test; or a measured path, CSV: angle_deg "
-                  "from the first axis towards the second, ccw_um and cw_um (radial deviations)")
+      .add_option(
+          "FILE", o->file,
+          "MACHINE.toml, to predict the test from its errors; or CSV of a measured path: angle_deg "
+          "from the first axis towards the second, ccw_um and cw_um (radial deviations)")
       ->required()
       ->type_name("");
-  command.add_option("--plane", o->plane, "The two axes")
+  command.add_option("--plane", o->plane, "The two axes of the circle")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}))
       ->capture_default_str();
-  command.add_option("--radius-mm", o->radius_mm, "Of the circle; needed for MACHINE.toml")
+  command
+      .add_option("--radius-mm", o->radius_mm, "Radius of the circle; required with MACHINE.toml")
       ->check(positive_number());
   command
       .add_option("--centre", o->centre,
-                  "Commands at the centre, and where the other axes stand, as X=20,Y=30 [default: "
-                  "at 0]")
+                  "Commanded positions of all axes at the centre, such as X=20,Y=30 [default: 0]")
       ->type_name("AXIS=MM");
-  command.add_option("--angles", o->angles, "Number of angles that are predicted")
+  command.add_option("--angles", o->angles, "Number of predicted angles")
       ->check(CLI::Range(8, 100'000))
       ->capture_default_str();
-  command.add_option("--measured", o->measured, "A measured path as FILE.csv, to compare")
+  command
+      .add_option("--measured", o->measured,
+                  "CSV of a measured path to compare with the prediction")
       ->type_name("FILE");
   add_database_option(command, o->database);
   add_csv_and_json_flags(command, o->csv, o->json);

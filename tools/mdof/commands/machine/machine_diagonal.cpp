@@ -48,8 +48,8 @@ Result<Compared> compared(const algo::Diagonal& d, std::size_t number,
     if (csv.columns[0][i] != static_cast<double>(number)) continue;
     const double at = from_mm(csv.columns[1][i]);
     if (!(at >= -1e-9 && at <= d.position_m.back() + 1e-6))
-      return bad_input(csv.where(i) + "beyond the diagonal, which is " +
-                       in_mm(d.position_m.back()) + " mm long");
+      return bad_input(csv.where(i) + "position_mm is not on the diagonal (from 0 to " +
+                       in_mm(d.position_m.back()) + " mm)");
     if (c.readings == 0) {
       zero = from_um(csv.columns[2][i]);
       predicted_zero = at_position(d, at);
@@ -109,9 +109,9 @@ std::string diagonals_text(const Machine& machine, const std::vector<algo::Diago
                there ? in_um(measured[i].largest_difference_m) : ""});
   }
   return simulated_notice(machine.simulated) + machine.name +
-         ": diagonals as its errors predict them, deviation of the tool along the diagonal\n" +
+         ": diagonals predicted from its errors; deviation of the tool along the diagonal\n" +
          table.text(terminal_columns()) +
-         "range: largest less smallest deviation (ISO 230-6); difference: the largest, measured - "
+         "range: largest minus smallest deviation (ISO 230-6); difference: largest measured - "
          "predicted\n" +
          missing_text(diagonals.front().not_measured, {}, terminal_columns());
 }
@@ -146,8 +146,8 @@ Result<algo::DiagonalLines> lines_of(const drivers::CsvTable& csv, double u_um) 
     const double line = csv.columns[0][i];
     if (!(line == 1 || line == 2 || line == 3 || line == 4))
       return bad_input(csv.where(i) +
-                       "column line must be 1 or 2 (along the first and the second axis), 3 (the "
-                       "diagonal that both go up) or 4 (the other one)");
+                       "column line must be 1 or 2 (along the first and the second axis), 3 "
+                       "(diagonal along which both axes increase) or 4 (other diagonal)");
     of[static_cast<std::size_t>(line) - 1]->length_m.push_back(from_mm(csv.columns[1][i]) +
                                                                from_um(csv.columns[2][i]));
   }
@@ -190,36 +190,41 @@ Status squareness(const MachineDiagonalCommand& o) {
       " µrad, U = " + urad_to_place(s->U_rad, s->U_rad) + " (k = " + fixed(s->k, 2) +
       ", 95 %)\nfrom " +
       (s->two_diagonals ? "both diagonals" : "one diagonal and the lengths of both axes") +
-      "; u: of repetition " + urad_to_place(s->u_repeat_rad, s->u_repeat_rad) + " µrad" +
-      (o.u_um > 0 ? " and the declared u of each line" : ", no u of the lines is declared") +
-      "\na scale that all lines have in common does not count\n");
+      "; u contains repeatability (" + urad_to_place(s->u_repeat_rad, s->u_repeat_rad) + " µrad)" +
+      (o.u_um > 0 ? " and the declared u of each line" : " only (no u of the lines is declared)") +
+      "\n"
+      "a scale error that all lines have in common has no effect\n");
 }
 
 Status machine_diagonal(const MachineDiagonalCommand& o) {
   if (!std::isfinite(o.u_um)) return fail(ErrorCode::usage, "--u-um must be a finite number");
   const bool machine = o.file.size() > 5 && o.file.substr(o.file.size() - 5) == ".toml";
   if (!machine && !o.measured.empty())
-    return fail(ErrorCode::usage, "--measured is compared with what a MACHINE.toml predicts");
+    return fail(ErrorCode::usage,
+                "--measured needs MACHINE.toml as FILE, because the readings are compared with its "
+                "prediction");
   return machine ? predict(o) : squareness(o);
 }
 
 Action declare_machine_diagonal(CLI::App& command) {
   const auto o = std::make_shared<MachineDiagonalCommand>();
   command
-      .add_option("FILE", o->file,
-                  "MACHINE.toml, or a CSV of measured lines: line (1 first axis, 2 second, 3 "
-                  "diagonal, 4 the other), length_mm, deviation_um; rows repeat a line")
+      .add_option(
+          "FILE", o->file,
+          "MACHINE.toml, or a CSV of measured lines: line (1 first axis, 2 second, 3 "
+          "diagonal, 4 other diagonal), length_mm, deviation_um; repeated lines as further rows")
       ->required()
       ->type_name("");
-  command.add_option("--plane", o->plane, "The two axes, of a MACHINE.toml")
+  command.add_option("--plane", o->plane, "The two axes (with MACHINE.toml)")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}))
       ->capture_default_str();
-  command.add_option("--steps", o->steps, "Of each predicted diagonal")
+  command.add_option("--steps", o->steps, "Number of steps along each predicted diagonal")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}))
       ->capture_default_str();
   command
-      .add_option("--measured", o->measured,
-                  "CSV to compare with: diagonal (1, 2), position_mm, deviation_um")
+      .add_option(
+          "--measured", o->measured,
+          "CSV of measured diagonals to compare: diagonal (1, 2), position_mm, deviation_um")
       ->type_name("FILE.csv");
   command.add_option("--u-um", o->u_um, "Standard uncertainty of each measured line")
       ->check(not_negative_number());
@@ -233,7 +238,7 @@ Action declare_machine_diagonal(CLI::App& command) {
 
 Command machine_diagonal_command() {
   return {.name = "machine diagonal",
-          .summary = "Diagonals as the chain predicts them; squareness from measured ones",
+          .summary = "Predict the diagonals of a machine, or find squareness from measured ones",
           .footer =
               "Examples:\n"
               "  mdof machine diagonal machine.toml --measured diagonals.csv\n"

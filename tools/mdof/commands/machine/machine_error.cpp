@@ -57,7 +57,9 @@ std::string error_json(const Machine& machine, const FoundError& found,
       .field("noise_only", machine.noise_only)
       .field("approach", approach);
   write_command(json, "at", machine, found.at);
-  json.field("sense", "error of the tool against the work, actual - nominal, in its coordinates");
+  json.field(
+      "sense",
+      "error of the tool relative to the workpiece, actual - nominal, in workpiece coordinates");
   write_components(json, "error", e.exact);
   write_components(json, "u", e.u);
   write_components(json, "linear", e.linear);
@@ -77,7 +79,7 @@ std::string error_json(const Machine& machine, const FoundError& found,
 
 std::string compensating_text(const Machine& machine, const FoundError& found) {
   const auto& c = found.compensating;
-  std::string text = "the tool reaches the nominal position with";
+  std::string text = "the tool reaches the nominal position with the commands";
   for (const MachineFrame& frame : machine.frames)
     if (frame.kind == FrameKind::linear) {
       const double to = algo::command_of(frame, c.command);
@@ -85,9 +87,10 @@ std::string compensating_text(const Machine& machine, const FoundError& found) {
               fixed(to_um(to - algo::command_of(frame, found.at)), 4) + " µm)";
     }
   return text + "; residual " + fixed(to_um(c.residual_m.norm()), 6) + " µm\n" +
-         (c.converged ? "" : "NOT CONVERGED: errors this steep have no compensating command\n") +
-         "angles stay: " + in_urad(c.angles_rad[0]) + ", " + in_urad(c.angles_rad[1]) + ", " +
-         in_urad(c.angles_rad[2]) + " µrad about X, Y, Z\n";
+         (c.converged ? ""
+                      : "NOT CONVERGED: the errors are too steep for a compensating command\n") +
+         "angular errors that remain: " + in_urad(c.angles_rad[0]) + ", " +
+         in_urad(c.angles_rad[1]) + ", " + in_urad(c.angles_rad[2]) + " µrad about X, Y, Z\n";
 }
 
 std::string error_text(const Machine& machine, const FoundError& found) {
@@ -106,7 +109,7 @@ std::string error_text(const Machine& machine, const FoundError& found) {
       if (std::find(no_u.begin(), no_u.end(), name) == no_u.end()) no_u.push_back(name);
   return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
          machine.name + ", " + machine.chain.text +
-         ": error of the tool against the work, actual - nominal\n" +
+         ": error of the tool relative to the workpiece, actual - nominal\n" +
          table.text(terminal_columns()) + "without: errors that were not measured\n" +
          missing_text({}, no_u, terminal_columns()) +
          wrapped(compensating_text(machine, found), terminal_columns());
@@ -140,7 +143,7 @@ Action declare_machine_error(CLI::App& command) {
 
 Command machine_error_command() {
   return {.name = "machine error",
-          .summary = "Error of the tool against the work, and the command that compensates it",
+          .summary = "Error of the tool relative to the workpiece, and the compensating command",
           .footer = "Example:\n  mdof machine error machine.toml --at 10,20,30",
           .declare = declare_machine_error};
 }

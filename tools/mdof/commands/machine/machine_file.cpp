@@ -24,7 +24,7 @@ Result<double> number_in(const std::string& text, const std::string& whole) {
   const auto [last, error] = std::from_chars(text.data(), end, x);
   if (error == std::errc() && last == end && std::isfinite(x) && std::abs(x) < 1e6) return x;
   return fail(ErrorCode::usage, "\"" + whole +
-                                    "\" is no place; write X,Y,Z in mm, such as 10,20,30, or "
+                                    "\" is not a position; write X,Y,Z in mm, such as 10,20,30, or "
                                     "X=10,C=90 (rotary axes in degrees)");
 }
 
@@ -68,7 +68,7 @@ void add_machine_argument(CLI::App& command, std::string& file) {
 void add_approach_option(CLI::App& command, std::string& approach) {
   command
       .add_option("--approach", approach,
-                  "The way the axes have come, where tables distinguish them")
+                  "Direction of approach, for errors that differ between approaches")
       ->check(CLI::IsMember({"mean", "forward", "reverse"}))
       ->capture_default_str();
 }
@@ -92,7 +92,7 @@ Result<algo::Command> command_from(const Machine& machine, const std::string& te
     const MachineFrame* frame = machine.find(letter);
     if (!frame || frame->kind == FrameKind::fixed)
       return bad_input("the chain " + machine.chain.text + " has no axis " + letter +
-                       "; name those that it has, such as X=10,Y=20");
+                       "; give only axes of the chain, such as X=10,Y=20");
     if (given.find(letter) != std::string::npos)
       return fail(ErrorCode::usage,
                   "\"" + text + "\" gives axis " + letter + " twice; give it once");
@@ -120,7 +120,8 @@ void write_command(JsonWriter& json, const char* key, const Machine& machine,
 
 void warn_beyond(const std::vector<std::string>& names) {
   if (!names.empty())
-    warn("beyond the ends of the tables of " + joined(names) + ": the value of the end is held");
+    warn("positions are beyond the ends of the error tables of " + joined(names) +
+         ": the values at the ends are used");
 }
 
 std::string missing_text(const std::vector<std::string>& not_measured,
@@ -128,8 +129,11 @@ std::string missing_text(const std::vector<std::string>& not_measured,
   std::string text;
   if (!not_measured.empty())
     text +=
-        wrapped("not measured, and not in these figures: " + joined(not_measured), width) + "\n";
-  text += no_u.empty() ? "" : wrapped("u is without that of: " + joined(no_u), width) + "\n";
+        wrapped("not measured, so not contained in these figures: " + joined(not_measured), width) +
+        "\n";
+  text += no_u.empty()
+              ? ""
+              : wrapped("no u is declared, so u does not include: " + joined(no_u), width) + "\n";
   return text;
 }
 

@@ -56,7 +56,7 @@ Result<Four> values(const Side& side, const std::string& option, const std::stri
     const auto [last, error] =
         assigned ? std::from_chars(word.data() + 2, end, x) : std::from_chars_result{end, {}};
     if (!assigned || error != std::errc() || last != end || !std::isfinite(x))
-      return fail(ErrorCode::usage, option + ": \"" + word + "\" is no value; write " +
+      return fail(ErrorCode::usage, option + ": \"" + word + "\" is not a value; write " +
                                         side.letters[0] + "=1,…," + side.letters[3] + "=2" +
                                         (side.last_turns ? " (mm, B in degrees)" : " (mm)"));
     if (seen.find(word[0]) != std::string::npos)
@@ -209,7 +209,7 @@ std::string motion_text(const KinematicsCommand& o, const Found& f) {
 }
 
 std::string kinematics_text(const KinematicsCommand& o, const Found& f) {
-  TextTable ratios({"of one screw", "at the platform (X, Z)", "at the spindle seat (Y)"});
+  TextTable ratios({"one screw", "at the platform (X, Z)", "at the spindle seat (Y)"});
   ratios.add({"step " + plain_number(o.screw_resolution_nm, 6) + " nm",
               fixed(f.platform_resolution_nm, 1) + " nm",
               fixed(f.spindle_resolution_nm, 1) + " nm"});
@@ -222,9 +222,9 @@ std::string kinematics_text(const KinematicsCommand& o, const Found& f) {
     travels.add({std::string(1, kPlatform.letters[i]),
                  plain_number(kTravel[i] / kPlatform.unit(i)) + (i == 3 ? "°" : " mm"),
                  fixed(to_mm(f.travel[i].position), 2)});
-  std::string turns = "one step turns the platform by";
+  std::string turns = "one screw step turns the platform by";
   for (std::size_t i = 0; i < kTurns_deg.size(); ++i)
-    turns += (i == 0 ? " " : ", ") + fixed(f.rotation_resolution_deg[i], 5) + "° from " +
+    turns += (i == 0 ? " " : ", ") + fixed(f.rotation_resolution_deg[i], 5) + "° at " +
              plain_number(kTurns_deg[i]) + "°";
   return "co-planar tilt drive, tilt " + plain_number(o.tilt_deg, 6) + "°, arm " +
          plain_number(o.arm_mm, 6) + " mm\n" + ratios.text(terminal_columns()) + "\n" +
@@ -242,21 +242,28 @@ Action declare_machine_kinematics(CLI::App& command) {
   const auto number = [&](const char* name, double& value, const char* help) {
     command.add_option(name, value, help)->check(finite_number())->capture_default_str();
   };
-  command.add_option("--preset", o->preset, "The machine")
+  command.add_option("--preset", o->preset, "Machine with the tilt drive")
       ->check(CLI::IsMember({"co-planar"}))
       ->capture_default_str();
   number("--tilt-deg", o->tilt_deg, "Angle between a screw and its sliding rod");
-  number("--arm-mm", o->arm_mm, "From the platform's centre to the rods that turn it");
-  number("--screw-resolution-nm", o->screw_resolution_nm, "One step of a screw");
+  number("--arm-mm", o->arm_mm,
+         "Distance from the centre of the platform to the rods that turn the platform");
+  number("--screw-resolution-nm", o->screw_resolution_nm, "Length of one step of a screw");
   number("--screw-error-um", o->screw_error_um, "Error of a screw along its axis");
   number("--tilt-error-deg", o->tilt_error_deg, "Error of the tilt angle");
   const auto values = [&](const char* name, std::string& value, const char* help) {
     command.add_option(name, value, help)->type_name("");
   };
-  values("--platform", o->platform, "X=…,Y=…,Z=…,B=… (mm, degrees): print the screws for it");
-  values("--screws", o->screws, "A=…,B=…,C=…,D=… (mm): print the platform for them");
-  values("--velocity", o->velocity, "Of the side that is given, in mm/s and degrees/s");
-  values("--acceleration", o->acceleration, "Of the side that is given, in mm/s² and degrees/s²");
+  values("--platform", o->platform,
+         "Position of the platform, X=…,Y=…,Z=…,B=… (mm, degrees); prints the screw positions");
+  values("--screws", o->screws,
+         "Positions of the screws, A=…,B=…,C=…,D=… (mm); prints the position of the platform");
+  values("--velocity", o->velocity,
+         "Velocity of the platform (with --platform) or of the screws (with --screws), in mm/s and "
+         "degrees/s");
+  values("--acceleration", o->acceleration,
+         "Acceleration of the platform (with --platform) or of the screws (with --screws), in "
+         "mm/s² and degrees/s²");
   add_json_flag(command, o->json);
   return [o] { return machine_kinematics(*o); };
 }
@@ -267,7 +274,7 @@ Command machine_kinematics_command() {
   return {.name = "machine kinematics",
           .summary = "Steps, errors and motion of a co-planar tilt drive",
           .footer =
-              "Values that --platform or --screws leave out are 0.\n"
+              "Axes or screws that --platform or --screws do not name are at 0.\n"
               "Examples:\n"
               "  mdof machine kinematics --preset co-planar --tilt-deg 25.84\n"
               "  mdof machine kinematics --platform X=10,Y=5,Z=-10,B=30 --velocity B=10",

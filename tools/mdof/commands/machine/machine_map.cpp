@@ -187,11 +187,13 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
   }
   return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
          machine.name + ", " + machine.chain.text + ": " + std::to_string(first.points.size()) +
-         " points of the plane " + o.plane + ", error of the tool against the work\n" +
+         " points of the plane " + o.plane + ", error of the tool relative to the workpiece\n" +
          table.text(terminal_columns()) +
-         (o.without_angles ? "of positions, straightness and squareness; no angles\n" : "") +
+         (o.without_angles ? "the figures contain positioning, straightness and squareness, but no "
+                             "angular errors\n"
+                           : "") +
          missing_text(first.not_measured, first.no_u, terminal_columns()) +
-         "The points: --csv or --json\n";
+         "All points: --csv or --json\n";
 }
 
 Status draw_maps(const Machine& machine, const MachineMapCommand& o,
@@ -202,9 +204,9 @@ Status draw_maps(const Machine& machine, const MachineMapCommand& o,
     const std::size_t points = found.map.points.size();
     if (points > charts::kMostArrows)
       return fail(ErrorCode::usage, "--plot: " + std::to_string(points) +
-                                        " points are too many for a picture, which has at most " +
+                                        " points are too many for a chart (at most " +
                                         std::to_string(charts::kMostArrows) +
-                                        "; give a larger --step-mm");
+                                        "); give a larger --step-mm");
     drawn.push_back(
         {"map-" + o.plane + "-" + found.approach + ".svg",
          charts::plane_map_svg(
@@ -238,7 +240,8 @@ Status machine_map(const MachineMapCommand& o) {
   MDOF_CHECK(draw_maps(machine, o, maps));
   if (o.csv || o.json) {
     if (o.csv && !maps.front().map.not_measured.empty())
-      warn("not measured, and not in these figures: " + joined(maps.front().map.not_measured));
+      warn("not measured, so not contained in these figures: " +
+           joined(maps.front().map.not_measured));
     return o.csv ? write_csv(machine, maps) : write_line(map_json(machine, o, maps));
   }
   return write_out(map_text(machine, o, maps));
@@ -247,17 +250,18 @@ Status machine_map(const MachineMapCommand& o) {
 Action declare_machine_map(CLI::App& command) {
   const auto o = std::make_shared<MachineMapCommand>();
   add_machine_argument(command, o->file);
-  command.add_option("--plane", o->plane, "The two axes")
+  command.add_option("--plane", o->plane, "The two axes of the plane")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}))
       ->capture_default_str();
-  command.add_option("--step-mm", o->step_mm, "Between two points, about")->capture_default_str();
-  command.add_option("--at", o->at, "Where the other axes stand, such as Z=30 [default: at 0]")
+  command.add_option("--step-mm", o->step_mm, "Approximate distance between two points")
+      ->capture_default_str();
+  command.add_option("--at", o->at, "Positions of the other axes, such as Z=30 [default: 0]")
       ->type_name("AXIS=MM");
   add_approach_option(command, o->approach);
-  command.add_flag("--bidirectional", o->bidirectional, "Both approaches, one map each")
+  command.add_flag("--bidirectional", o->bidirectional, "One map for each of the two approaches")
       ->excludes("--approach");
   command.add_flag("--without-angles", o->without_angles,
-                   "Positions, straightness and squareness alone");
+                   "Only positioning, straightness and squareness, no angular errors");
   add_database_option(command, o->database);
   add_plot_option(command, o->plots);
   add_csv_and_json_flags(command, o->csv, o->json);
@@ -268,7 +272,7 @@ Action declare_machine_map(CLI::App& command) {
 
 Command machine_map_command() {
   return {.name = "machine map",
-          .summary = "Errors of the tool over a plane of two axes, and the largest",
+          .summary = "Errors of the tool over a plane of two axes, and their largest values",
           .footer = "Example:\n  mdof machine map machine.toml --plane XY --step-mm 20 --csv",
           .declare = declare_machine_map};
 }

@@ -35,12 +35,12 @@ std::string counted_text(const algo::Perpendicularity& p) {
   std::string text;
   if (!p.tilt_known)
     text +=
-        "The table's tilt motion is not given (EAC_urad, EBC_urad): its part that goes twice a "
-        "turn counts as a tilt.\n";
+        "EA0C and EB0C contain a part of the tilt error motion of the table (2 cycles per turn), "
+        "because EAC_urad and EBC_urad are not given.\n";
   if (!p.axes_known)
     text +=
-        "The errors of X and Y are not given (axes_um): what of them goes once a turn counts as "
-        "a tilt.\n";
+        "EA0C and EB0C contain a part of the errors of X and Y (1 cycle per turn), because axes_um "
+        "is not given.\n";
   return text;
 }
 
@@ -55,7 +55,9 @@ std::string perpendicularity_json(const algo::Perpendicularity& p, double radius
       .field("k", p.k)
       .field("nu", p.freedom)
       .field("size_urad", to_urad(p.size_rad))
-      .field("sense", "turns of the table's axis about X and Y against the normal of the XY plane")
+      .field("sense",
+             "EA0C, EB0C: rotation of the table axis about X and Y, relative to the normal of the "
+             "XY plane")
       .field("u_covers", "noise of the readings only")
       .field("noise_only", true)
       .field("radius_mm", radius_mm)
@@ -89,9 +91,10 @@ std::string perpendicularity_text(const algo::Perpendicularity& p, bool simulate
          " µrad, EB0C = " + tilt(p.EB0C_rad) +
          " µrad, expanded U of each = " + urad_to_place(p.U_rad, p.U_rad) +
          " (k = " + fixed(p.k, 2) + ", 95 %)\n" +
-         "squareness of the table axis to the XY plane: " + urad_to_place(p.size_rad, p.U_rad) +
-         " µrad off its normal\n" + table.text(terminal_columns()) + "residual " +
-         in_um(p.residual_sd_m) + " µm; ± one standard uncertainty, of the readings' noise\n" +
+         "angle between the table axis and the normal of the XY plane: " +
+         urad_to_place(p.size_rad, p.U_rad) + " µrad\n" + table.text(terminal_columns()) +
+         "residual " + in_um(p.residual_sd_m) +
+         " µm; ± is the standard uncertainty u, which contains the noise of the readings only\n" +
          counted_text(p);
 }
 
@@ -120,15 +123,15 @@ Action declare_machine_perpendicularity(CLI::App& command) {
   const auto o = std::make_shared<PerpendicularityCommand>();
   command
       .add_option("FILE", o->file,
-                  "CSV: angle_deg of the spot about the table's axis from +X to +Y, height_um of "
-                  "the table, + towards +Z; where known EAC_urad, EBC_urad (its tilt motion), "
-                  "axes_um (height by X and Y)")
+                  "CSV: angle_deg of the spot about the table axis from +X to +Y, height_um of the "
+                  "table, + towards +Z; if known EAC_urad, EBC_urad (tilt error motion of the "
+                  "table), axes_um (height error of X and Y)")
       ->required()
       ->type_name("");
-  command.add_option("--radius-mm", o->radius_mm, "Of the circle")
+  command.add_option("--radius-mm", o->radius_mm, "Radius of the circle")
       ->required()
       ->check(positive_number());
-  command.add_option("--harmonics", o->harmonics, "Number of harmonics that are separated")
+  command.add_option("--harmonics", o->harmonics, "Number of harmonics in the fit")
       ->check(CLI::Range(1, 50))
       ->capture_default_str();
   add_json_flag(command, o->json);

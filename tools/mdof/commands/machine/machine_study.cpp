@@ -105,7 +105,8 @@ std::string grooving_json(const algo::GroovingStudy& s) {
       .field("tilt_urad", to_urad(s.instruments.tilt_rad))
       .field("repeats", static_cast<std::uint64_t>(s.instruments.repeats))
       .end_object();
-  json.field("sense", "ranges: largest less smallest, over 400 mm x 400 mm or along a diagonal");
+  json.field("sense",
+             "ranges: largest minus smallest value, over 400 mm x 400 mm or along a diagonal");
   write_grooving_state(json, "before", s.before, kPaperBefore);
   write_grooving_state(json, "after", s.after, kPaperAfter);
   json.key("corrections").begin_object();
@@ -136,10 +137,10 @@ std::string grooving_plane_text(const algo::GroovingStudy& s) {
              range_um(b.estimated.x_m), number(kPaperAfter.x_um)});
   table.add({"2-D errors along Y, by Eq. 1", range_um(a.estimated.y_m), number(kPaperBefore.y_um),
              range_um(b.estimated.y_m), number(kPaperAfter.y_um)});
-  table.add({"2-D errors along X, of the machine", range_um(a.actual.x_m), "",
-             range_um(b.actual.x_m), ""});
-  table.add({"2-D errors along Y, of the machine", range_um(a.actual.y_m), "",
-             range_um(b.actual.y_m), ""});
+  table.add(
+      {"2-D errors along X, true value", range_um(a.actual.x_m), "", range_um(b.actual.x_m), ""});
+  table.add(
+      {"2-D errors along Y, true value", range_um(a.actual.y_m), "", range_um(b.actual.y_m), ""});
   for (std::size_t i = 0; i < a.diagonals.size(); ++i) {
     const std::string name = "diagonal " + a.diagonals[i].name;
     table.add({name + ", predicted", range_um(a.diagonals[i].predicted_m), "",
@@ -165,9 +166,9 @@ std::string grooving_square_text(const algo::GroovingStudy& s) {
                   urad_to_place(g.u_angle_rad, g.u_angle_rad));
   };
   table.add({"straightness and optical square", in_the_middle(s.before), in_the_middle(s.after)});
-  table.add({"Eq. 2 of one diagonal", angle_urad(s.before.angle_of_one_diagonal_rad),
+  table.add({"Eq. 2, one diagonal", angle_urad(s.before.angle_of_one_diagonal_rad),
              angle_urad(s.after.angle_of_one_diagonal_rad)});
-  table.add({"Eq. 2 of both", both(s.before.square), both(s.after.square)});
+  table.add({"Eq. 2, both diagonals", both(s.before.square), both(s.after.square)});
   return table.text(terminal_columns());
 }
 
@@ -177,14 +178,14 @@ std::string grooving_rotary_text(const algo::GroovingTable& t) {
     table.add({name, angle_urad(p.EA0C_rad), angle_urad(p.EB0C_rad), angle_urad(p.u_rad)});
   };
   add("readings alone", t.raw);
-  add("tilt of the table taken out", t.without_tilt);
-  add("errors of X and Y taken out too", t.without_both);
-  table.add({"of the simulated machine", angle_urad(t.EA0C_rad), angle_urad(t.EB0C_rad), ""});
+  add("tilt of the table removed", t.without_tilt);
+  add("errors of X and Y removed too", t.without_both);
+  table.add({"true value (simulated machine)", angle_urad(t.EA0C_rad), angle_urad(t.EB0C_rad), ""});
   return table.text(terminal_columns()) +
          wrapped("height over a turn at " + in_mm(t.radius_m) + " mm: range " +
                      range_um(t.range_m) + " µm; without the tilt of the table " +
                      range_um(t.range_without_tilt_m) + " µm; without the perpendicularity " +
-                     range_um(t.range_left_m) + " µm, which is left to X and Y",
+                     range_um(t.range_left_m) + " µm (remaining errors of X and Y)",
                  terminal_columns()) +
          "\n";
 }
@@ -201,17 +202,17 @@ std::string grooving_text(const algo::GroovingStudy& s) {
                  terminal_columns()) +
          "\n\n" + grooving_plane_text(s) + "\n" + grooving_square_text(s) +
          wrapped(
-             "± one standard uncertainty; the diagonals go through the corners, the "
-             "straightness through the middle: the yaw of Y is between them",
+             "± is the standard uncertainty u. The diagonals go through the corners, the "
+             "straightness lines through the middle; the yaw of Y makes their results differ.",
              terminal_columns()) +
          "\n\n" + grooving_rotary_text(s.table) +
          wrapped(
-             "A range is the largest less the smallest. The sizes of the machine's errors, the yaw "
-             "of "
-             "Y among them, are chosen so that its plane and its diagonals are near the paper's: "
-             "they show the method, and nothing of the paper's machine. Corrections: " +
+             "A range is the largest minus the smallest value. The errors of the simulated "
+             "machine, also the yaw of Y, are chosen so that the ranges before the correction are "
+             "near those of the paper; the study shows the method, not the machine of the paper. "
+             "Corrections: " +
                  std::to_string(s.corrections.nodes()) +
-                 " nodes; --out writes them and what was measured.",
+                 " nodes; --out writes the corrections and the measured errors.",
              terminal_columns()) +
          "\n";
 }
@@ -268,7 +269,7 @@ std::string corrections_csv(const VolumetricTable& table) {
 Status write_grooving_files(const algo::GroovingStudy& study, const std::string& folder) {
   std::error_code ec;
   std::filesystem::create_directories(folder, ec);
-  if (ec) return io_error(folder + ": cannot be made: " + ec.message());
+  if (ec) return io_error(folder + ": cannot be created: " + ec.message());
   const std::filesystem::path to = folder;
   OutputFiles out(Existing::refuse);
   MDOF_TRY(const std::size_t machine, out.add(to / "machine.toml"));
@@ -276,7 +277,8 @@ Status write_grooving_files(const algo::GroovingStudy& study, const std::string&
   MDOF_TRY(const std::size_t corrections, out.add(to / "corrections.csv"));
   MDOF_CHECK(out.write(corrections, corrections_csv(study.corrections)));
   MDOF_CHECK(out.publish());
-  say((to / "machine.toml").string() + ": errors as measured; a table of them for a controller: " +
+  say((to / "machine.toml").string() +
+      ": the measured errors; build a table for a controller with: " +
       "mdof compensation build --machine " + (to / "machine.toml").string() +
       " --plane XY --step-mm 20 --incomplete");
   return {};
@@ -296,13 +298,13 @@ Action declare_machine_study(CLI::App& command) {
       ->required()
       ->type_name("")
       ->check(CLI::IsMember({"grooving"}));
-  command.add_option("--seed", o->seed, "Of the instruments' noise")
+  command.add_option("--seed", o->seed, "Seed of the noise of the instruments")
       ->check(tools::number_in(0, kMostStudySeed))
       ->capture_default_str();
   command
-      .add_option("--out", o->folder,
-                  "Folder for machine.toml (what was measured) and corrections.csv; made where it "
-                  "is missing")
+      .add_option(
+          "--out", o->folder,
+          "Folder for machine.toml (measured errors) and corrections.csv (created if missing)")
       ->type_name("DIR");
   add_json_flag(command, o->json);
   return [o] { return machine_study(*o); };
@@ -314,9 +316,10 @@ Command machine_study_command() {
   return {.name = "machine study",
           .summary = "A published study of a machine, measured and compensated in simulation",
           .footer =
-              "Positions, straightness and squareness make the 2-D errors (Eq. 1), diagonals the "
-              "squareness (Eq. 2) and the check (ISO 230-6); the commands are corrected and all is "
-              "measured again; a circle shows how the rotary table is tilted.\n"
+              "The 2-D errors (Eq. 1) follow from positioning, straightness and squareness. "
+              "Diagonals give the squareness (Eq. 2) and a check (ISO 230-6). Then the commands "
+              "are corrected and everything is measured again. A circle gives the perpendicularity "
+              "of the rotary table.\n"
               "Examples:\n"
               "  mdof machine study grooving\n"
               "  mdof machine study grooving --seed 7 --out study --json",

@@ -82,7 +82,7 @@ TEST_F(CheckUsb, ADeviceThatTheKernelDidNotTakeSaysSo) {
   plug("1-2", "1dc3", "1001", "PoLabs");
   const auto found = check_usb(machine);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].what, "USB: PoKeys, serial 77: Linux shows no /dev/hidraw of it");
+  EXPECT_EQ(found[0].what, "USB: PoKeys, serial 77: Linux has no /dev/hidraw for the device");
 }
 
 // As the udev rules leave the file, and as it is without them.

@@ -84,7 +84,7 @@ Status read_for(drivers::Driver& driver, double for_s, const StopAsked& stop,
     if (state && *state == drivers::ReadState::end) break;
   }
   finish(finding, running, span);
-  if (status && finding.scans == 0) return io_error("open, but no sample came");
+  if (status && finding.scans == 0) return io_error("the device was opened, but it sent no sample");
   return status;
 }
 
@@ -120,8 +120,9 @@ std::string finding_text(const DeviceFinding& f) {
       f.name + " (" + f.driver + ")" + (f.description.empty() ? "" : ": " + f.description) + "\n";
   if (!f.error.empty()) text += "  ERROR: " + f.error + "\n";
   if (f.scans == 0) return text + "\n";
-  text += "  " + std::to_string(f.scans) + " scans, " + fixed(f.rate_hz, 2) + " a second (stated " +
-          fixed(f.stated_rate_hz, 2) + "), " + std::to_string(f.lost) + " lost\n";
+  text += "  " + std::to_string(f.scans) + " scans, " + fixed(f.rate_hz, 2) +
+          " per second (stated " + fixed(f.stated_rate_hz, 2) + "), " + std::to_string(f.lost) +
+          " lost\n";
   if (f.clock)
     text += "  clock " + std::string(f.clock->settled ? "" : "(not settled) ") + "drift " +
             fixed(f.clock->drift_ppm, 1) + " ppm, jitter " +

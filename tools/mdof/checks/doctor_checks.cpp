@@ -87,13 +87,15 @@ Diagnosis check_usb_device(const Machine& machine, const fs::path& device,
                                                           : node_below(machine, device, usb);
   if (node.empty())
     return {Level::bad,
-            what + ": Linux shows no " +
-                (usb.node == drivers::UsbNode::tty ? "serial port" : "/dev/hidraw") + " of it",
-            "plug it in again; sudo dmesg says what the kernel did with it"};
+            what + ": Linux has no " +
+                (usb.node == drivers::UsbNode::tty ? "serial port" : "/dev/hidraw") +
+                " for the device",
+            "unplug the device and plug it in again; sudo dmesg prints the messages of the kernel "
+            "about it"};
   if (::access(node.c_str(), R_OK | W_OK) == 0) return {Level::good, what, ""};
   return {Level::bad, what + ": no permission for " + node.string(),
-          "install the udev rules (above) and plug it in again, or add yourself to the "
-          "group: sudo usermod -aG mdof $USER, then log in anew"};
+          "install the udev rules (above) and plug the device in again, or add yourself to the "
+          "group mdof (sudo usermod -aG mdof $USER) and log in again"};
 }
 
 Diagnosis check_class_device(const Machine& machine, const std::string& device,
@@ -134,9 +136,10 @@ std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const driver
       Level::doubtful,
       what + ": " + (service ? "the group mdof" : "this user") + " may not write " +
           closed->string() + ", which " + of.key + " of mdofd.toml needs",
-      std::string("install the udev rules (60-mdof.rules, above), which give it to the group mdof; "
-                  "where the device was there before them: sudo udevadm control --reload && sudo "
-                  "udevadm trigger --action=add --subsystem-match=") +
+      std::string(
+          "install the udev rules (60-mdof.rules, above), which give the file to the group mdof; "
+          "if the device was connected before, then run: sudo udevadm control --reload && sudo "
+          "udevadm trigger --action=add --subsystem-match=") +
           of.subsystem};
 }
 
@@ -145,12 +148,12 @@ std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const driver
 Diagnosis check_clock(const Machine& machine) {
   const std::string source =
       first_line(machine.at("sys/devices/system/clocksource/clocksource0/current_clocksource"));
-  if (source.empty()) return {Level::doubtful, "clock source: not known", ""};
+  if (source.empty()) return {Level::doubtful, "clock source: unknown", ""};
   for (const char* slow : {"hpet", "acpi_pm", "jiffies", "pit"}) {
     if (source == slow)
       return {Level::doubtful, "clock source: " + source + ", slow to read and coarse",
-              "add tsc=reliable clocksource=tsc to the kernel's command line if the processor has "
-              "a constant TSC"};
+              "if the processor has a constant TSC, add tsc=reliable clocksource=tsc to the "
+              "command line of the kernel"};
   }
   return {Level::good, "clock source: " + source, ""};
 }
@@ -173,11 +176,13 @@ Diagnosis check_storage(const daemon::Config& config) {
   while (!folder.empty() && !fs::exists(folder, ec)) folder = folder.parent_path();
   const std::string what = "storage: " + config.database.string();
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    return {Level::doubtful, what + ": this user may not write in " + folder.string(),
-            "right for mdofd's own user is enough; run mdof doctor as that user to be sure"};
+    return {
+        Level::doubtful, what + ": this user may not write in " + folder.string(),
+        "only the user of mdofd needs this permission; run mdof doctor as that user to check it"};
   const auto room = fs::space(folder, ec);
   if (!ec && static_cast<double>(room.available) < kLittleRoom)
-    return {Level::bad, what + ": less than 1 GB of room", "make room, or move the database"};
+    return {Level::bad, what + ": less than 1 GB is free",
+            "free space on the disk, or move the database"};
   return {Level::good, what, ""};
 }
 
@@ -232,30 +237,27 @@ std::vector<Diagnosis> check_sysfs_files(const Machine& machine, std::optional<g
 Diagnosis check_set_up(const Rig& rig) {
   const std::string what = "set-up of axis " + std::string(1, letter(rig.axis)) + ": ";
   const char* const remedy =
-      "check it by hand once: push the target towards each probe in turn (that probe alone must "
-      "change, with the sign of its direction, by the size of the push); tilt the target by a "
-      "known "
-      "angle about each axis; move the axis by a known length (the encoder must count it, in its "
-      "sense); to see a drift locked to travel, measure again with other dwell times, or in "
-      "another "
-      "order of targets";
+      "check the set-up by hand once: push the target towards each probe in turn (only this probe "
+      "may change, with the sign of its direction, by the length of the push); tilt the target by "
+      "a known angle about each axis; move the axis by a known length (the encoder must show this "
+      "length and direction); to find a drift that follows the travel, measure again with other "
+      "dwell times, or with another order of targets";
   const std::string locked =
-      "what drifts with the position of the axis (heat of its drive or scale, cables that pull) "
-      "repeats in each run and is in the errors and not in u: no run shows it apart";
+      "a drift that follows the position of the axis (heat of drive or scale, pull of cables) "
+      "repeats in each run: the errors contain it, u does not, and no run can separate it";
   if (rig.probes.size() > 5)
-    return {
-        Level::good,
-        what + std::to_string(rig.probes.size()) +
-            " probes contradict each other where one is exchanged, turned or has a wrong gain or "
-            "position, and the run warns; a reversed encoder, the sign or gain of all probes and "
-            "a common factor of all lengths remain unseen; " +
-            locked,
-        remedy};
+    return {Level::good,
+            what + std::to_string(rig.probes.size()) +
+                " probes contradict each other if one is exchanged, turned, or has a wrong gain or "
+                "position, and the run warns; a run does not detect a reversed encoder, a wrong "
+                "sign or gain of all probes, and a common factor of all lengths; " +
+                locked,
+            remedy};
   return {Level::good,
           what +
               "five probes never contradict each other: exchanged or turned probes, a wrong sign "
               "or gain (of one or of all), wrong positions, the rig of another axis and a reversed "
-              "encoder give other errors without any warning; " +
+              "encoder give wrong errors without a warning; " +
               locked,
           remedy};
 }

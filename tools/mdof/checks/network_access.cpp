@@ -102,14 +102,15 @@ std::string address_of(const drivers::DriverSpec& device) {
 Result<std::string> network_address(const std::string& text) {
   const auto block = parsed(text);
   if (!block)
-    return fail(ErrorCode::usage,
-                "\"" + text +
-                    "\" is no address: give that of the device, as 192.168.0.7, or of its network, "
-                    "as 192.168.0.0/24 (names are not known to systemd here)");
+    return fail(
+        ErrorCode::usage,
+        "\"" + text +
+            "\" is not an IP address; give the address of the device, such as 192.168.0.7, or of "
+            "its network, such as 192.168.0.0/24 (systemd does not accept host names here)");
   if (block->bits == 0)
     return fail(ErrorCode::usage, "\"" + text +
-                                      "\" is every address there is; give that of the device or of "
-                                      "its network, as 192.168.0.0/24");
+                                      "\" contains every address; give the address of the device, "
+                                      "or of its network, such as 192.168.0.0/24");
   return text;
 }
 
@@ -131,7 +132,7 @@ Result<fs::path> allow_address(const fs::path& units, const std::string& address
                          Existing::replace);
   if (written) return file;
   return io_error(written.error().message +
-                  "; systemd's folder belongs to root: sudo mdof setup network " + address);
+                  "; only root may write in this folder; run: sudo mdof setup network " + address);
 }
 
 std::vector<Diagnosis> check_network(const Machine& machine, const daemon::Config& config) {
@@ -144,8 +145,8 @@ std::vector<Diagnosis> check_network(const Machine& machine, const daemon::Confi
       const auto one = parsed(address);
       if (device.of_other_axis || !one || may_reach(words, *one)) continue;
       all.push_back({Level::bad,
-                     "network: the service mdofd may not reach " + address + " (device " +
-                         device.name + "): its IPAddressDeny=any holds",
+                     "network: the service mdofd may not connect to " + address + " (device " +
+                         device.name + "), because its unit has IPAddressDeny=any",
                      "sudo mdof setup network " + address +
                          " && sudo systemctl daemon-reload && sudo systemctl restart mdofd"});
     }

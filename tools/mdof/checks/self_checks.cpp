@@ -90,7 +90,7 @@ Result<Worst> there_and_back(const Rig& rig, Model model) {
 void check_model(const Rig& rig, Model model, std::vector<SelfCheck>& checks) {
   const bool simplified = model == Model::simplified;
   const auto worst = there_and_back(rig, model);
-  const std::string name = std::string("model ") + to_string(model) + " there and back";
+  const std::string name = std::string("model ") + to_string(model) + " round trip";
   const std::string problem = worst ? "" : words::text(worst.error());
   const Worst w = worst.value_or(Worst{});
   checks.push_back({name + ", straightness", w.straightness_um,
@@ -178,7 +178,7 @@ void check_detection(const Result<Run>& run, std::vector<SelfCheck>& checks) {
       missed += !p.errors.valid;
     }
   }
-  checks.push_back({"synthetic log, stops missed or invented", missed, 0, "", problem});
+  checks.push_back({"synthetic log, stops missed or added", missed, 0, "", problem});
   checks.push_back({"synthetic log, straightness", worst.straightness_um, 1e-6, "um", problem});
   checks.push_back({"synthetic log, angles", worst.angle_urad, 1e-6, "urad", problem});
 }
@@ -207,7 +207,9 @@ class TemporaryFolder {
 // Findings after writing, closing, reading back and verifying.
 Result<double> store_and_read_back(const Run& run) {
   const TemporaryFolder folder;
-  if (folder.path().empty()) return io_error("no temporary folder can be made; set TMPDIR");
+  if (folder.path().empty())
+    return io_error(
+        "a temporary folder cannot be created; set TMPDIR to a folder that you may write to");
   const auto file = folder.path() / "mdof.db";
   std::int64_t id = 0;
   {
@@ -223,7 +225,7 @@ Result<double> store_and_read_back(const Run& run) {
 
 void check_store(const Result<Run>& run, std::vector<SelfCheck>& checks) {
   const auto wrong = run ? store_and_read_back(*run) : tl::unexpected(run.error());
-  checks.push_back({"store, rows that do not come back bit for bit", wrong.value_or(1), 0, "",
+  checks.push_back({"store, rows that differ after reading back", wrong.value_or(1), 0, "",
                     wrong ? "" : words::text(wrong.error())});
 }
 

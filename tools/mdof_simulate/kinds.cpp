@@ -20,7 +20,8 @@ std::string known_kinds() {
 void check_inputs(TomlTable& table, const std::vector<std::string>& inputs, std::size_t most_inputs,
                   const Rig& rig) {
   if (inputs.size() > most_inputs)
-    table.reject("inputs", "are more than " + std::to_string(most_inputs));
+    table.reject("inputs", "has more entries than the device has inputs (" +
+                               std::to_string(most_inputs) + ")");
   for (const auto& input : inputs) {
     if (!input.empty() && input != kEncoderChannel && !rig.probe_index(input))
       table.reject("inputs",
@@ -35,7 +36,7 @@ Result<std::unique_ptr<drivers::SimulatedDevice>> make_device(
     TomlTable& table) {
   const drivers::SimulatedKind* kind = find_kind(name);
   if (!kind) {
-    table.reject("kind", "\"" + name + "\" is none; known are:" + known_kinds());
+    table.reject("kind", "\"" + name + "\" is not a known kind; known kinds:" + known_kinds());
     MDOF_CHECK(table.finish());
     return bad_input("unknown kind");
   }

@@ -30,14 +30,18 @@ mdof::Status serve(const std::string& plan, const std::string& host) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  CLI::App app{"Simulated devices on TCP ports, for those who have none.", "mdof-simulate"};
+  CLI::App app{"Simulated devices on TCP ports, serial lines and USB, for tests without hardware.",
+               "mdof-simulate"};
   app.set_version_flag("--version", mdof::daemon::kVersion);
   std::string plan, host = "127.0.0.1";
-  app.add_option("PLAN", plan, "The machine and its devices, TOML")->required()->type_name("");
+  app.add_option("PLAN", plan, "TOML file with the machine and its devices")
+      ->required()
+      ->type_name("");
   app.add_option("--host", host, "Address to listen on")->capture_default_str();
   app.footer(
-      "Example:\n  mdof-simulate devices.toml\nThe keys: mdof-simulate(1) or "
-      "tools/mdof_simulate/README.md");
+      "Example:\n"
+      "  mdof-simulate devices.toml\n"
+      "mdof-simulate(1) and tools/mdof_simulate/README.md describe the keys of the file.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -63,7 +63,7 @@ Result<Line> open_line() {
   const int fd = line.device_end.get();
   if (fd < 0 || ::grantpt(fd) != 0 || ::unlockpt(fd) != 0 ||
       ::ptsname_r(fd, name.data(), name.size()) != 0)
-    return io_error(std::string("a pseudo-terminal: ") + std::strerror(errno));
+    return io_error(std::string("a pseudo-terminal cannot be opened: ") + std::strerror(errno));
   line.path = name.data();
   line.host_end = Descriptor(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
   termios raw{};
@@ -87,7 +87,7 @@ Result<Listener> listen_on(const std::string& host, int tcp_port) {
   address.sin_port = htons(static_cast<std::uint16_t>(tcp_port));
   const std::string place = host + ":" + std::to_string(tcp_port);
   if (::inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1)
-    return bad_input(host + ": is no IPv4 address");
+    return bad_input(host + ": is not an IPv4 address");
   const int yes = 1;
   ::setsockopt(listener.socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   socklen_t size = sizeof address;

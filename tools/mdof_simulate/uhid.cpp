@@ -111,11 +111,12 @@ class UhidPort final : public UsbPort {
 
 Result<std::unique_ptr<UsbPort>> plug_into_uhid(drivers::usb::SimulatedUsb& device) {
   const auto pipes = pipes_of(device.identity().configuration);
-  if (!pipes) return bad_input("has no HID interface that takes reports; bus must be \"usb\"");
+  if (!pipes) return bad_input("has no HID interface that accepts reports; set bus = \"usb\"");
   Descriptor file(::open(kPath, O_RDWR | O_NONBLOCK | O_CLOEXEC));
   if (file.get() < 0)
-    return io_error(std::string(kPath) + ": " + std::strerror(errno) +
-                    (errno == EACCES ? "; run as root" : "; as root: modprobe uhid"));
+    return io_error(
+        std::string(kPath) + ": " + std::strerror(errno) +
+        (errno == EACCES ? "; run as root" : "; load the module as root with: modprobe uhid"));
   auto port = std::make_unique<UhidPort>(device, std::move(file), *pipes);
   if (!port->create()) return io_error(std::string(kPath) + ": " + std::strerror(errno));
   return port;

@@ -22,15 +22,15 @@ Result<int> free_port() {
   std::ifstream status(kController + "status");
   if (!status)
     return io_error(kController +
-                    "status: is not there; as root: modprobe vhci-hcd (needs a kernel with "
-                    "CONFIG_USBIP_VHCI_HCD)");
+                    "status: does not exist; load the module as root with: modprobe vhci-hcd "
+                    "(needs a kernel with CONFIG_USBIP_VHCI_HCD)");
   std::string line, hub;
   while (std::getline(status, line)) {
     std::istringstream words(line);
     int port = 0, state = 0;
     if (words >> hub >> port >> state && hub == "hs" && state == 4) return port;
   }
-  return io_error(kController + "status: no port is free");
+  return io_error(kController + "status: no port is free; end another simulated USB device");
 }
 
 Status attach(int port, int fd, drivers::usb::Speed speed) {

@@ -128,7 +128,8 @@ std::string finding_text(const DeviceFinding& f) {
             fixed(f.clock->drift_ppm, 1) + " ppm, jitter " +
             fixed(static_cast<double>(f.clock->jitter_ns) * 1e-6, 3) + " ms, " +
             std::to_string(f.clock->steps) + " jumps\n";
-  TextTable table({"channel", "unit", "mean", "sd", "lowest", "highest", "unusable", "worst"});
+  TextTable table(
+      {"channel", "unit", "mean", "sd", "lowest", "highest", "unusable", "worst quality"});
   for (const auto& c : f.channels)
     table.add({c.id, c.unit, value_text(c.mean, c.unit), value_text(c.sd, c.unit),
                value_text(c.low, c.unit), value_text(c.high, c.unit), std::to_string(c.unusable),

@@ -47,7 +47,7 @@ std::string formats_text(std::size_t width) {
     for (const auto& [label, what] : {std::pair{"holds   ", f.holds},
                                       {"limits  ", f.limits},
                                       {"sense   ", f.sense},
-                                      {"known   ", f.source}})
+                                      {"source  ", f.source}})
       text += "  " + wrapped(std::string(label) + what, width - 2, 10) + "\n";
     if (!f.sign_confirmed) text += "  SIGN NOT CONFIRMED: needs --unverified-sign\n";
   }
@@ -76,7 +76,7 @@ Result<std::vector<std::string>> write_files(const ExportTablesCommand& command,
   if (!command.overwrite) MDOF_CHECK(check_free(paths));
   std::error_code ec;
   fs::create_directories(command.folder, ec);
-  if (ec) return io_error(command.folder + ": cannot be made: " + ec.message());
+  if (ec) return io_error(command.folder + ": cannot be created: " + ec.message());
   OutputFiles out(command.overwrite ? Existing::replace : Existing::refuse);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < paths.size(); ++i) {

@@ -154,7 +154,7 @@ std::string circle_text(const MachineCircleCommand& o, const FoundCircles& found
   using Figures = algo::CircularFigures;
   add("G, counter-clockwise", [](const Figures& f) { return f.G_ccw_m; });
   add("G, clockwise", [](const Figures& f) { return f.G_cw_m; });
-  add("G(b), both ways", [](const Figures& f) { return f.Gb_m; });
+  add("G(b), both directions", [](const Figures& f) { return f.Gb_m; });
   add("H, hysteresis", [](const Figures& f) { return f.H_m; });
   add("D, mean radius", [](const Figures& f) { return f.D_m; });
   add("F max, counter-clockwise", [](const Figures& f) { return f.F_ccw_m[0]; });
@@ -217,7 +217,7 @@ Status machine_circle(const MachineCircleCommand& o) {
     found.largest_difference_m = largest_difference(*found.measured, *found.predicted);
   warn_beyond(found.beyond);
   if (o.csv && !found.not_measured.empty())
-    warn("not measured, and not in these figures: " + joined(found.not_measured));
+    warn("not measured, so not contained in these figures: " + joined(found.not_measured));
   return o.csv    ? write_out(circle_csv(found))
          : o.json ? write_line(circle_json(o, found))
                   : write_out(circle_text(o, found));

@@ -95,7 +95,7 @@ std::string compensating_text(const Machine& machine, const FoundError& found) {
 
 std::string error_text(const Machine& machine, const FoundError& found) {
   const algo::ToolError& e = found.error;
-  TextTable table({"", "error", "u", "linear", "difference", "without"});
+  TextTable table({"", "error", "u", "linear", "difference", "missing"});
   const char* const labels[] = {"x/µm", "y/µm", "z/µm", "a/µrad", "b/µrad", "c/µrad"};
   for (int k = 0; k < 6; ++k) {
     const auto& without = e.not_measured[static_cast<std::size_t>(k)];
@@ -110,7 +110,7 @@ std::string error_text(const Machine& machine, const FoundError& found) {
   return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
          machine.name + ", " + machine.chain.text +
          ": error of the tool relative to the workpiece, actual - nominal\n" +
-         table.text(terminal_columns()) + "without: errors that were not measured\n" +
+         table.text(terminal_columns()) + "missing: errors that were not measured\n" +
          missing_text({}, no_u, terminal_columns()) +
          wrapped(compensating_text(machine, found), terminal_columns());
 }

@@ -218,7 +218,7 @@ Action declare_record(CLI::App& command) {
 Command record_command() {
   return {
       .name = "record",
-      .summary = "Measure a run with mdofd and watch it",
+      .summary = "Measure a run with mdofd and show its progress",
       .footer =
           "Without targets, mdofd records all samples and recognises the targets from the dwells.\n"
           "Examples:\n"

@@ -167,9 +167,9 @@ std::string milling_text(const std::vector<Milled>& all) {
   };
   using R = const algo::MillingResult&;
   row("force x, largest/N", [](R r) { return fixed(r.x_max_N, 4); });
-  row("  of a rigid tool/N", [](R r) { return fixed(r.x_max_rigid_N, 4); });
+  row("  with a rigid tool/N", [](R r) { return fixed(r.x_max_rigid_N, 4); });
   row("force y, largest/N", [](R r) { return fixed(r.y_max_N, 4); });
-  row("  of a rigid tool/N", [](R r) { return fixed(r.y_max_rigid_N, 4); });
+  row("  with a rigid tool/N", [](R r) { return fixed(r.y_max_rigid_N, 4); });
   row("deflection of the tip/µm", [](R r) { return fixed(to_um(r.deflection_m), 3); });
   row("entry/°", [](R r) { return fixed(deg(r.entry_rad), 2); });
   row("exit/°", [](R r) { return fixed(deg(r.exit_rad), 2); });
@@ -227,9 +227,9 @@ Action declare_milling(CLI::App& command) {
       ->check(CLI::IsMember({kPreset}));
   command.add_flag("--offset", o->offset,
                    "Also print the radius wear offset, with u if the plan declares uncertainties");
-  auto* sensitivity = command.add_flag(
-      "--sensitivity", o->sensitivity,
-      "Also print the effect of each input on force and wall, for its u (1 % if not declared)");
+  auto* sensitivity = command.add_flag("--sensitivity", o->sensitivity,
+                                       "Also print the effect of each input on force and wall, for "
+                                       "a change by its u (1 % if not declared)");
   command
       .add_option(
           "--trials", o->trials,

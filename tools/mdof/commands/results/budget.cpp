@@ -41,8 +41,8 @@ Status check_options(const BudgetCommand& command) {
     return fail(ErrorCode::usage, "--tolerance applies to one figure; give --figure NAME");
   if (!command.run_b.empty() && (!command.figure.empty() || command.at_mm))
     return fail(ErrorCode::usage,
-                "two runs have the budget of their squareness only; leave out --figure and --at, "
-                "or the second run");
+                "with two runs, mdof budget shows their squareness only; leave out --figure and "
+                "--at, or RUN_B");
   if (!command.run_b.empty() && command.reference != "fixture")
     return fail(ErrorCode::usage, "squareness is stated at the fixture; leave out --reference");
   if (!command.figure.empty() && command.at_mm)

@@ -80,7 +80,7 @@ Status iso230_of_run(const Iso230Command& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
   MDOF_TRY(const Run run, daemon::run_stated_at(store, id, reference));
-  MDOF_CHECK(check_measured(run.header, "--run (give the file itself to mdof iso230-2)"));
+  MDOF_CHECK(check_measured(run.header, "--run (for imported data give the file instead)"));
   MDOF_TRY(const RunPositioning found,
            run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
   show_notices(found.notices, command.all_warnings);

@@ -28,7 +28,7 @@ std::string actions_json(const std::vector<HistoryEntry>& actions, std::int64_t 
 }
 
 std::string actions_text(const std::vector<HistoryEntry>& actions, std::int64_t total) {
-  TextTable table({"when", "what", "of", "id", "by", "detail"});
+  TextTable table({"when", "action", "subject", "id", "by", "detail"});
   for (const HistoryEntry& action : actions)
     table.add({action.utc, action.name, action.subject, std::to_string(action.row),
                daemon::actor_text(action.by), action.detail});

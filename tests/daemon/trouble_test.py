@@ -311,7 +311,7 @@ class Trouble(unittest.TestCase):
         begin = time.monotonic()
         code, _, err = self.mdof("live", "--axis", "Y", "--socket", self.daemon.socket)
         self.assertEqual(code, 3)
-        self.assertIn("does not measure axis Y; there is X", err)
+        self.assertIn("does not measure axis Y; it measures X", err)
         self.assertLess(time.monotonic() - begin, 5)
 
     def test_ndjson_is_an_object_a_line(self):

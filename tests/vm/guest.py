@@ -76,7 +76,7 @@ class Simulate:
     def known(self):
         """Whether mdof-simulate has such devices."""
         done = subprocess.run(["timeout", "5", "mdof-simulate", self.plan], capture_output=True, text=True)
-        return "known are" not in done.stderr
+        return "known kinds" not in done.stderr
 
     def kill(self):
         self.process.kill()

@@ -43,6 +43,10 @@ double linearity_of(const Calibration& c, double displacement_m, bool in_it) {
   return sign * from_um(correction_um);
 }
 
+std::string closed_gap_text(const std::string& probe) {
+  return "the gap of probe " + probe + " is closed by its standoff_um and sensing_radius_mm: ";
+}
+
 }  // namespace
 
 void LargestChange::add(double change_m, const std::string& of_probe) {
@@ -169,8 +173,8 @@ void PointCorrections::report_failures(Run& run) const {
   std::string first;
   for (const MeasuredPoint& p : run.points) {
     without_air += algo::has_flag(p.point, Flag::no_air) ? 1 : 0;
-    if (!channel_of(p.point, Flag::gap_closed)) continue;
-    if (closed++ == 0) first = cause_of(p.point);
+    const auto probe = channel_of(p.point, Flag::gap_closed);
+    if (probe && closed++ == 0) first = closed_gap_text(*probe);
   }
   if (closed > 0)
     run.header.notices.push_back(
@@ -183,8 +187,7 @@ void PointCorrections::report_failures(Run& run) const {
 std::string cause_of(const Point& point) {
   if (const auto frozen = channel_of(point, Flag::frozen))
     return "probe " + *frozen + " no longer changes: ";
-  if (const auto closed = channel_of(point, Flag::gap_closed))
-    return "the gap of probe " + *closed + " is closed by its standoff_um and sensing_radius_mm: ";
+  if (const auto closed = channel_of(point, Flag::gap_closed)) return closed_gap_text(*closed);
   if (algo::has_flag(point, Flag::no_air)) return "the ambient conditions are unknown: ";
   return "";
 }

@@ -250,6 +250,7 @@ Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& reque
   for (Trend& trend : out) {
     std::vector<algo::ChartValue> values;
     for (const TrendValue& v : trend.values) values.push_back({v.value, v.u_random});
+    trend.baseline = request.baseline;
     trend.chart = algo::control_chart(values, request.baseline);
   }
   return out;

@@ -30,6 +30,7 @@ struct TrendValue {
 };
 struct Trend {
   std::string figure;
+  std::size_t baseline = 0;           // as it was asked for
   std::vector<TrendValue> values;     // in time
   std::optional<algo::Chart> chart;   // none: too few values
   std::vector<std::string> left_out;  // sentences: which runs, and why

@@ -62,8 +62,10 @@ std::string sentence_of(const daemon::Trend& trend) {
   const auto& [figure, values, chart] = std::tie(trend.figure, trend.values, trend.chart);
   if (!chart)
     return figure + ": " + std::to_string(values.size()) +
-           " values, too few for control limits (they need a baseline of at least " +
-           std::to_string(algo::kFewestOfBaseline) + " values and one more value to judge)";
+           " values, too few for control limits (they need a baseline of " +
+           (trend.baseline > 0 ? std::to_string(trend.baseline) + " values)"
+                               : "at least " + std::to_string(algo::kFewestOfBaseline) +
+                                     " values and one more value to judge)");
   const std::string provisional = chart->baseline < kFirmBaseline
                                       ? "; the limits are provisional (baseline of " +
                                             std::to_string(chart->baseline) + " values)"

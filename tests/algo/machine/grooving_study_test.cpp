@@ -320,5 +320,53 @@ TEST(GroovingStudy, ItsMachineIsAboutThatOfThePaper) {
     for (std::size_t k = 0; k < kBodyErrors; ++k) EXPECT_TRUE(frame.error[k].known());
 }
 
+// The machine that README and CAMPAIGNS give figures of: slope over the travel, and waves of size,
+// length (m, or turns of a circle) and phase (turns).
+struct Shape {
+  std::string axis;
+  std::size_t k;
+  double slope;
+  std::vector<Three> waves;
+};
+TEST(GroovingStudy, ItsMachineHasTheseErrors) {
+  const Machine machine = grooving_machine();
+  const Shape shapes[] = {{"X", 0, 9.7e-6, {{0.5e-6, 0.19, 0.2}}},
+                          {"X", 1, 0, {{0.8e-6, 0.41, 0.1}, {0.12e-6, 0.13, 0.4}}},
+                          {"X", 2, 0, {{0.3e-6, 0.3, 0.3}}},
+                          {"X", 3, 0, {{1e-6, 0.35, 0}}},
+                          {"X", 4, 0, {{1.2e-6, 0.35, 0.3}}},
+                          {"X", 5, 0, {{1.5e-6, 0.35, 0.6}}},
+                          {"Y", 0, 0, {{0.9e-6, 0.43, 0.35}, {0.1e-6, 0.12, 0.1}}},
+                          {"Y", 1, -4.6e-6, {{0.45e-6, 0.17, 0.6}}},
+                          {"Y", 2, 0, {{0.25e-6, 0.28, 0.15}}},
+                          {"Y", 3, 0, {{0.9e-6, 0.37, 0.2}}},
+                          {"Y", 4, 0, {{0.8e-6, 0.4, 0.5}}},
+                          {"Y", 5, 0, {{2.6e-6, 0.4, 0.75}}},
+                          {"C", 3, 0, {{1.5e-6, 0.5, 0.6}, {0.4e-6, 1. / 3, 0}}},
+                          {"C", 4, 0, {{1.2e-6, 0.5, 0.35}, {0.5e-6, 1. / 3, 0.2}}}};
+  for (const Shape& shape : shapes) {
+    const bool turns = shape.axis == "C";
+    const ErrorFunction& f = machine.find(shape.axis)->error[shape.k];
+    ASSERT_EQ(f.position.size(), turns ? 361U : 201U);
+    for (std::size_t i = 0; i < f.position.size(); ++i) {
+      const double part = static_cast<double>(i) / static_cast<double>(f.position.size() - 1);
+      double value = shape.slope * (part - 0.5);
+      for (const auto& [size, length, phase] : shape.waves)
+        value +=
+            size * std::sin(2 * std::numbers::pi * (part * (turns ? 1 : kWidth) / length + phase));
+      EXPECT_NEAR(f.forward[i], value, 1e-18) << shape.axis << shape.k;
+      EXPECT_NEAR(f.position[i], part * (turns ? 2 * std::numbers::pi : kWidth), 1e-12);
+    }
+  }
+  EXPECT_EQ(machine.find("X")->location[5].value, 22.8e-6);
+  EXPECT_EQ(machine.find("C")->location[3].value, 12e-6);
+  EXPECT_EQ(machine.find("C")->location[4].value, -8e-6);
+  EXPECT_EQ(machine.find("Y")->location[5].value, 0);
+  EXPECT_EQ(machine.find("C")->at_m, (Vec3{kMiddle, kMiddle, 0}));
+  EXPECT_EQ((*machine.find("C")->range)[1], 2 * std::numbers::pi);
+  EXPECT_EQ((*machine.find("Y")->range)[1], kWidth);
+  EXPECT_EQ((*machine.find("Y")->range)[0], 0);
+}
+
 }  // namespace
 }  // namespace mdof::algo

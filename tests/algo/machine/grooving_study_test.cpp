@@ -301,6 +301,17 @@ TEST(GroovingStudy, TheNoiseOfEachInstrumentIsInWhatItReads) {
   const Off level = off(by, 30);
   EXPECT_LT(rms(level.raw) + rms(level.readings), kStill);
   EXPECT_NEAR(rms(level.tilted), 1e-6 * std::sqrt(2. / 72), 0.35e-6 * std::sqrt(2. / 72));
+
+  // Those of the header: 50 nm, 0.3 µrad, 100 nm, 20 nm and 0.1 µrad, five times each.
+  const Off typical = off({}, 30);
+  const double of_lines = 100e-9 / std::sqrt(5.) / kWidth;
+  const double of_heights = 20e-9 / kArm * std::sqrt(2. / 72);
+  EXPECT_NEAR(rms(typical.both), of_lines, 0.35 * of_lines);
+  EXPECT_NEAR(rms(typical.raw), of_heights, 0.35 * of_heights);
+  const double with_level = std::hypot(of_heights, 0.1e-6 * std::sqrt(2. / 72));
+  EXPECT_NEAR(rms(typical.tilted), with_level, 0.35 * with_level);
+  EXPECT_NEAR(grooving_study(1, {})->before.u_angle_rad,
+              std::hypot(0.3e-6, 2 * 50e-9 / std::sqrt(5.) / kWidth), 1e-15);
 }
 
 // About the machine of the paper: 11.59, 12.33 and 17.3 µm before the corrections.

@@ -89,7 +89,8 @@ VisitScatter::Pooled VisitScatter::pooled(const std::vector<Errors5>& values, do
     if (freedom_of_passes > 0) fourths += fourth_by(of_passes / freedom, freedom_of_passes);
     if (freedom > freedom_of_passes)
       fourths += fourth_by((all[k] - of_passes) / freedom, freedom - freedom_of_passes);
-    pooled.freedom[k] = effective_freedom(pooled.variance[k], fourths);
+    // Where passes take all degrees of freedom, what lies within them has none of its own.
+    pooled.freedom[k] = std::min(freedom, effective_freedom(pooled.variance[k], fourths));
   }
   return pooled;
 }

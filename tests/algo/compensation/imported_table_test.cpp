@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 namespace mdof::algo {
 namespace {
@@ -140,6 +142,26 @@ TEST(ImportedTable, TheNearestTarget) {
                               {.position_m = 10.00005e-3},
                               {.position_m = 10.0002e-3}}),
             (std::vector<double>{0, 10e-3, 10.0002e-3}));
+}
+
+// A machine whose table goes back as the command grows counts the readings of a body with -.
+TEST(ImportedTable, GoesWithTheTravelOfTheMachine) {
+  const auto built = [](const char* options, std::optional<bool> against) {
+    mdof::Run run = imported(7, 1);
+    run.header.provenance.options_json = options;
+    return build_positioning_table({run}, against);
+  };
+  for (const bool against : {false, true}) {
+    const auto stated = built(against ? R"({"travel":"-"})" : R"({"travel":"+"})", against);
+    EXPECT_TRUE(stated) << stated.error().message;
+    EXPECT_TRUE(built("{}", against));
+    const auto other = built(against ? R"({"travel":"+"})" : R"({"travel":"-"})", against);
+    ASSERT_FALSE(other);
+    EXPECT_NE(other.error().message.find("run 7 was imported with travel \"" +
+                                         std::string(against ? "+" : "-") + "\""),
+              std::string::npos)
+        << other.error().message;
+  }
 }
 
 }  // namespace

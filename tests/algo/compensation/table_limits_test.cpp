@@ -75,5 +75,19 @@ TEST(TableLimits, HoldForEachErrorOfATableBothWays) {
               {"EXX reverse: changes by 60 um/mm"});
 }
 
+// Each option is for itself, and for lengths and angles alike.
+TEST(TableLimits, AreInMicrometresAndMicrometresPerMillimetre) {
+  const TableLimits usual;
+  const double um = 20, slope = 80;
+  const auto value = TableLimits::asked(&um, nullptr), steep = TableLimits::asked(nullptr, &slope);
+  ASSERT_TRUE(value && steep);
+  EXPECT_DOUBLE_EQ(value->length_m, 20e-6);
+  EXPECT_DOUBLE_EQ(value->angle_rad, 20e-6);
+  EXPECT_EQ(value->length_slope, usual.length_slope);
+  EXPECT_DOUBLE_EQ(steep->length_slope, 0.08);
+  EXPECT_DOUBLE_EQ(steep->angle_slope_rad_per_m, 0.08);
+  EXPECT_EQ(steep->length_m, usual.length_m);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -106,5 +106,18 @@ TEST(WarmUp, SlopeOverTemperature) {
   EXPECT_TRUE(std::isnan(w.with_temperature[0].correlation));
 }
 
+TEST(WarmUp, ATemperatureThatIsMissingTakesItsReadingWithIt) {
+  auto r = readings(40, 30, 100, [](double s) { return -30 * std::sin(s / 200); });
+  for (std::size_t i = 0; i < 40; ++i)
+    r.temperature_C.push_back(20 + std::sin(static_cast<double>(i) * 30 / 200));
+  for (const std::size_t i : {0U, 7U, 39U}) {
+    r.temperature_C[i] = std::nan("");
+    r.series[0].value[i] += 1e-3;  // nobody knows at what temperature
+  }
+  const WarmUp w = warm_up(r);
+  EXPECT_NEAR(w.with_temperature[0].slope_per_K, -30e-9, 1e-15);
+  EXPECT_NEAR(w.with_temperature[0].correlation, -1, 1e-12);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "algo/points/flags.h"
 #include "algo/points/frame_rows.h"
 #include "tests/algo/stepping_log.h"
 #include "tests/shown.h"
@@ -198,6 +199,32 @@ TEST(OnTheFlyRun, ExplainsFromTheMeanSpeedWhereverTheAxisBegins) {
   ASSERT_FALSE(why);
   expect_in(why.error().message, "at 6.6");
   expect_in(why.error().message, "mm/s and 1000 Hz a bin of 0.02 mm has 3");
+}
+
+// One on the way out, before the period of the scans is known, and two on the way back.
+TEST(OnTheFlyRun, CountsTheGapsOfEveryPass) {
+  const OnTheFly run = measured({.scanned = [](std::int64_t ms) {
+    for (const std::int64_t begin : {1160, 3000, 4000})
+      if (ms >= begin && ms < begin + 35) return false;
+    return ms % 1000 != 500;  // one scan that is lost is no gap
+  }});
+  EXPECT_EQ(run.summary().gaps, 3U);
+}
+
+// A probe that stays at one reading from 8 mm on; before that it had changed all the time.
+TEST(OnTheFlyRun, FlagsThePointsOfAProbeThatStands) {
+  FrameBlock frames = MotionLog().frames();
+  for (std::size_t i = 800; i < frames.size(); ++i) frames.probe_m[0][i] = frames.probe_m[0][800];
+  OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
+  ASSERT_TRUE(run.push(frames));
+  run.flush();
+  std::size_t flagged = 0;
+  for (const MeasuredPoint& p : run.sequence().points) {
+    const bool frozen = has_flag(p.point, Flag::frozen, "A");
+    if (p.point.direction > 0 && p.target < 8) EXPECT_FALSE(frozen) << p.target;
+    flagged += frozen ? 1 : 0;
+  }
+  EXPECT_GT(flagged, 28U);
 }
 
 }  // namespace

@@ -78,5 +78,12 @@ TEST(TargetGridLimits, ARangeIsKnownWhole) {
   EXPECT_TRUE(TargetGrid(grid(1, 0, 0), {}).known().empty());
 }
 
+// What a run stores of them.
+TEST(TargetGridOptions, AreWrittenWithTheRangeThatIsGiven) {
+  EXPECT_EQ(OnTheFlyOptions().json(), R"({"interval_mm":1,"bin_mm":0})");
+  EXPECT_EQ(grid(2.5, 0.5, -3).json(), R"({"interval_mm":2.5,"bin_mm":0.5,"from_mm":-3})");
+  EXPECT_EQ(grid(2, 1, {}, 40).json(), R"({"interval_mm":2,"bin_mm":1,"to_mm":40})");
+}
+
 }  // namespace
 }  // namespace mdof::algo

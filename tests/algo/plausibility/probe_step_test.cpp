@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace mdof::algo {
@@ -128,6 +129,32 @@ TEST(ProbeStepRule, OfReadingsThatAreGoodOnly) {
     EXPECT_EQ(marked.steps().size(), 0u) << bad;
     EXPECT_EQ(marked.steps(1, 10, 20, kRows - 1).size(), 1u) << bad;
   }
+}
+
+// The encoder's noise is 2 um: an axis that moves by more beside the step has moved the probe.
+TEST(ProbeStepRule, AnAxisThatStaysWithinItsNoiseStands) {
+  for (const auto& [by_m, count] : {std::pair(1.9e-6, 1U), {2.1e-6, 0U}}) {
+    Rows rows;
+    for (std::size_t i = kAt; i < kRows; ++i) rows.frames.encoder_m[i] = by_m;
+    EXPECT_EQ(rows.steps().size(), count) << by_m;
+    Rows restless;  // and twice what it does around
+    restless.shake(restless.frames.encoder_m, 0.5e-6, 21, kRows);
+    for (std::size_t i = kAt; i < kRows; ++i) restless.frames.encoder_m[i] += by_m + 1e-6;
+    EXPECT_EQ(restless.steps().size(), count) << by_m;
+  }
+}
+
+// Of three readings on either side the middle one, whatever their order.
+TEST(ProbeStepRule, OneOfThreeReadingsMayBeOff) {
+  for (const std::size_t at : {kAt + 1, kAt + 2, kAt + 3, kAt - 4, kAt - 3, kAt - 2})
+    for (const double off_m : {-0.1e-6, 0.1e-6}) {
+      Rows rows;
+      rows.frames.probe_m[1][at] += off_m;
+      const auto found = rows.steps();
+      ASSERT_EQ(found.size(), 1U) << at;
+      EXPECT_NEAR(found[0].size_m, 1e-6, 1e-18) << at;
+      EXPECT_EQ(found[0].row, kAt);
+    }
 }
 
 }  // namespace

@@ -110,5 +110,16 @@ TEST(BuildTable, RefusesRunsThatDoNotBelongTogether) {
   EXPECT_NE(refusal({few}).find("2 solved targets"), std::string::npos);
 }
 
+TEST(BuildTable, SaysWhereAndOfWhatItsValuesAre) {
+  const auto table = built({run_by_hand(1), run_by_hand(2)}, true);
+  EXPECT_EQ(table.stated, kAtCarriage);
+  EXPECT_TRUE(table.slope_removed);
+  EXPECT_FALSE(built({run_by_hand(1)}, false).slope_removed);
+  EXPECT_EQ(table.runs, (std::vector<std::int64_t>{1, 2}));
+  TableOptions options;
+  options.stated = kAtFixture;
+  EXPECT_EQ(build_table({run_by_hand(1)}, options)->stated, kAtFixture);
+}
+
 }  // namespace
 }  // namespace mdof::algo

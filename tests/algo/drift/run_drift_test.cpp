@@ -371,5 +371,29 @@ TEST(DriftDesign, CriticalTIsThatOfTheTables) {
   EXPECT_NEAR(critical_t(0.05, 10), 2.228, 0.001);
 }
 
+// One that falls, and one that goes up by 120 nm and back to -40 nm: highest less lowest.
+TEST(RunDrift, ItsRangeIsFromTheLowestToTheHighest) {
+  Log log;
+  log.noise_m = 0.1 * kNoise;
+  log.drift = [&](double t) { return -200e-9 * t / log.length_s(); };
+  SeriesDrift found = DriftOfRun(log.points()).found().errors[kDy];
+  EXPECT_NEAR(found.range, 200e-9, 5e-9);
+  EXPECT_NEAR(found.change, -200e-9, 5e-9);
+  log.drift = [&](double t) {  // 4 h x (1 - x) less 40 nm at the end
+    const double x = t / log.length_s();
+    return 480e-9 * x * (1 - x) - 40e-9 * x;
+  };
+  found = DriftOfRun(log.points()).found().errors[kDy];
+  EXPECT_NEAR(found.range, 480e-9 * 0.25 * std::pow(1 - 4. / 48, 2) + 40e-9, 6e-9);
+  EXPECT_NEAR(found.change, -40e-9, 5e-9);
+  // Where there is none, all of it is 0.
+  found = DriftOfRun(Log().points()).found().errors[kDz];
+  EXPECT_EQ(found.order, 0);
+  EXPECT_EQ(found.change, 0);
+  EXPECT_EQ(found.u_change, 0);
+  EXPECT_EQ(found.range, 0);
+  EXPECT_FALSE(found.steps);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -123,5 +123,24 @@ TEST(BinFit, OfFewerThanEightReadingsIsEmpty) {
   EXPECT_NEAR(enough.fit().value, 1e-6, 1e-18);
 }
 
+// A reading among four neighbours of one value is off by all of its height; the two at either end,
+// whose neighbours stand on one side, count half. The limit is 50 nm.
+TEST(BinFit, AtTheEndsASpikeIsTwiceAsHigh) {
+  constexpr int kReadings = 21;
+  for (int at = 0; at < kReadings; ++at) {
+    const bool is_end = at < 2 || at >= kReadings - 2;
+    for (const double height_m : {45e-9, 55e-9, 95e-9, 105e-9})
+      for (const double sign : {1.0, -1.0}) {
+        BinReadings bin(kReadings, [](double) { return 3e-6; });
+        bin.reading[static_cast<std::size_t>(at)] += sign * height_m;
+        const BinFit found = bin.fit();
+        const bool is_spike = height_m > (is_end ? 100e-9 : 50e-9);
+        EXPECT_EQ(found.rejected, is_spike ? 1U : 0U) << at << " " << height_m;
+        EXPECT_EQ(found.used, is_spike ? 20U : 21U);
+        if (is_spike) EXPECT_NEAR(found.value, 3e-6, 1e-18);
+      }
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -221,7 +221,7 @@ TEST(OnTheFlyRun, FlagsThePointsOfAProbeThatStands) {
   std::size_t flagged = 0;
   for (const MeasuredPoint& p : run.sequence().points) {
     const bool frozen = has_flag(p.point, Flag::frozen, "A");
-    if (p.point.direction > 0 && p.target < 8) EXPECT_FALSE(frozen) << p.target;
+    EXPECT_FALSE(frozen && p.point.direction > 0 && p.target < 8) << p.target;
     flagged += frozen ? 1 : 0;
   }
   EXPECT_GT(flagged, 28U);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace mdof::algo {
 namespace {
@@ -80,6 +81,25 @@ TEST(Separable, APlaneHasTheTablesOfItsAxes) {
   EXPECT_EQ(sum.products.size(), 1U);
   EXPECT_LT(largest_left(t, sum), 1e-15);
   EXPECT_EQ(separate(t, 0, 1e-12).left_m, 0);  // nothing at all
+}
+
+// Two nodes of each axis: mean, half differences, and a quarter of the alternating sum.
+TEST(Separable, TwoNodesOfEachAxisAreEnough) {
+  const auto t =
+      table_of_function([](double x, double y, double) { return 1e-3 * x * y; }, 2, 2, 1);
+  const auto sum = separate(t, 1, 1e-12);
+  ASSERT_EQ(sum.products.size(), 1U);
+  EXPECT_NEAR(sum.products[0].of_first[1] * sum.products[0].of_second[1], 1e-7 / 4, 1e-20);
+  EXPECT_LT(largest_left(t, sum), 1e-20);
+  for (const auto& [nx, ny] : {std::pair<std::size_t, std::size_t>{2, 1}, {1, 2}})
+    EXPECT_TRUE(separate(table_of_function([](double x, double y, double z) { return x + y + z; },
+                                           nx, ny, 2),
+                         1, 1e-12)
+                    .products.empty());
+  const auto upright = table_of_function(
+      [](double x, double y, double z) { return 1e-3 * (x * z + y * z); }, 2, 2, 2);
+  EXPECT_EQ(separate(upright, 1, 1e-12).products.size(), 2U);
+  EXPECT_LT(separate(upright, 1, 1e-12).left_m, 1e-20);
 }
 
 }  // namespace

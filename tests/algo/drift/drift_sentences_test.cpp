@@ -87,5 +87,31 @@ TEST(DriftSentences, NameTheProbesAboveTheLimit) {
   EXPECT_EQ(test::shown(over_limit(drift, rig)), "");
 }
 
+// Local εx is EAX of X and -EBY of Y, and so on: each error has its own sign and size.
+TEST(DriftSentences, NameAllFiveErrors) {
+  RunDrift drift;
+  drift.length_s = 60;
+  const double changes[] = {1e-6, 2e-6, 3e-6, 4e-6, 5e-6};  // m; rad
+  for (std::size_t k = 0; k < 5; ++k) {
+    drift.errors[k].order = 1;
+    drift.errors[k].change = changes[k];
+    drift.errors[k].u_change = 0.1e-6;
+  }
+  const std::string end = " from the first point to the last (1 min)";
+  EXPECT_EQ(changes_text(drift, {Axis::x, {}}, false),
+            "EYX +1.00 ± 0.10 µm, EZX +2.00 ± 0.10 µm, EAX +3.00 ± 0.10 µrad, EBX +4.00 ± 0.10 "
+            "µrad, ECX +5.00 ± 0.10 µrad" +
+                end);
+  EXPECT_EQ(changes_text(drift, {Axis::x, {.fixture_moves = true}}, false),
+            "EYX -1.00 ± 0.10 µm, EZX -2.00 ± 0.10 µm, EAX -3.00 ± 0.10 µrad, EBX -4.00 ± 0.10 "
+            "µrad, ECX -5.00 ± 0.10 µrad" +
+                end);
+  // X is -local y, Y local x: EXY = -δy, EAY (about X) = -εy, EBY (about Y) = εx.
+  EXPECT_EQ(changes_text(drift, {Axis::y, {}}, false),
+            "EXY -1.00 ± 0.10 µm, EZY +2.00 ± 0.10 µm, EAY -4.00 ± 0.10 µrad, EBY +3.00 ± 0.10 "
+            "µrad, ECY +5.00 ± 0.10 µrad" +
+                end);
+}
+
 }  // namespace
 }  // namespace mdof::algo

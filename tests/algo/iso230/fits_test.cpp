@@ -344,5 +344,16 @@ TEST(LineFit, OfTwoPointsOrThroughTheEndsHasNoUncertainty) {
   }
 }
 
+TEST(Artefact, NamesTheRigWhoseFaceIsNotClear) {
+  const std::string three = "artefact_angle_error_urad = 3\nu_artefact_angle_urad = 0.5";
+  const auto [x, at_0] = rigs_at(15, 0, three, three);
+  const auto refused = artefact_of(x, at_0, {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("rig_Y: its probes do not show"), std::string::npos);
+  EXPECT_NE(refused.error().message.find("across X lies"), std::string::npos);
+  const auto [x_at_0, y] = rigs_at(0, -15, three, three);
+  EXPECT_NE(artefact_of(x_at_0, y, {}).error().message.find("across Y lies"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -342,5 +342,19 @@ TEST(MachineBudget, DesignedAgainstMeasuredByHand) {
   EXPECT_NEAR(rows[1].measured_effect_m, rows[1].measured_u, 1e-18);  // it moves the tool as it is
 }
 
+// EC0Y is known to be 5 urad, u 2: of an error of a line its square and that of its u.
+TEST(MachineBudget, ALineIsMeasuredWithItsUncertainty) {
+  auto machine = parse_machine(co_planar_machine(), "co-planar").value();
+  const auto y = static_cast<std::size_t>(machine.find("Y") - machine.frames.data());
+  machine.frames[y].location[5] = {5e-6, 2e-6};
+  auto rows = designed_against_measured(machine, {});
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].name, "EC0Y");
+  EXPECT_NEAR(rows[0].measured_u, std::sqrt(29.) * 1e-6, 1e-18);
+  machine.frames[y].location[5].u = std::nullopt;
+  rows = designed_against_measured(machine, {});
+  EXPECT_NEAR(rows[0].measured_u, 5e-6, 1e-18);
+}
+
 }  // namespace
 }  // namespace mdof::algo

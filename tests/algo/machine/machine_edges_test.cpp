@@ -306,5 +306,19 @@ TEST(CompensatingEdges, APerfectMachineTakesOneStep) {
   EXPECT_EQ(found->command, (Command{0.1, 0.2}));
 }
 
+// Known at one place only: the same all along, and said to be beyond it elsewhere.
+TEST(MachineEdges, AnErrorOfOnePlaceHoldsThere) {
+  auto machine = parse_machine(co_planar_machine(), "co-planar").value();
+  MachineFrame& x =
+      machine.frames[static_cast<std::size_t>(machine.find("X") - machine.frames.data())];
+  x.error[0] = {{0.01}, {5e-6}, {}, {}, {}};
+  for (const double at : {0.0, 0.01, 0.02}) {
+    Command command{};
+    command[x.direction] = at;
+    const ToolError found = tool_error(machine, command, MachineApproach::mean);
+    EXPECT_EQ(found.beyond.empty(), at == 0.01) << at;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

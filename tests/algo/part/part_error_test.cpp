@@ -207,5 +207,39 @@ TEST(PartError, UncertaintyOfAShareInClosedForm) {
   EXPECT_EQ(found.layers[1].U_rms_m, 0);
 }
 
+// The turn of the body of Y and that of its line have one letter and two effects: both by the arm
+// of the tool about Z, the line's by the travel of Y.
+TEST(MachineCauses, ABodyAndItsLineAreTwo) {
+  const auto machine = parse_machine(R"(name = "m"
+machine = {chain = "w-Y-b-X-t"}
+tool = {point_mm = [0, 0, 0]}
+[[axis]]
+id = "X"
+holds_at_mm = [0, 0, 0]
+point = "moving"
+[[axis]]
+id = "Y"
+holds_at_mm = [0, 0, 0]
+point = "standing"
+ECY_urad = 10
+u_ECY_urad = 2
+EC0Y_urad = 25
+u_EC0Y_urad = 3
+)",
+                                     "m.toml");
+  ASSERT_TRUE(machine) << machine.error().message;
+  const MachineCauses found = machine_causes(*machine, {{0.05, 0, 0}, {0.05, 0.04, 0}});
+  ASSERT_EQ(found.axes.size(), 2U);
+  const PartCause &body = found.axes[0], &line = found.axes[1];
+  EXPECT_EQ(body.name, "ECY");
+  EXPECT_EQ(line.name, "EC0Y");
+  for (const std::size_t p : {0U, 1U}) {
+    EXPECT_NEAR(std::abs(body.value_m[p](1)), 10e-6 * 0.05, 1e-11);
+    EXPECT_NEAR(std::abs(body.u_m[p](1)), 2e-6 * 0.05, 1e-11);
+    EXPECT_NEAR(std::abs(line.value_m[p](0)), p == 0 ? 0 : 25e-6 * 0.04, 1e-11);
+    EXPECT_NEAR(std::abs(line.u_m[p](0)), p == 0 ? 0 : 3e-6 * 0.04, 1e-11);
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

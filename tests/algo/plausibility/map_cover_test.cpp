@@ -89,5 +89,21 @@ TEST(MapCover, TravelIsThatOfTheTargetAndOfPointsWithErrors) {
   EXPECT_TRUE(map_notices(mapped.rig, mapped.fixture, std::vector<MeasuredPoint>(2)).empty());
 }
 
+// A plane across the motion has y and z, wherever the axis goes.
+TEST(MapCover, APlaneAcrossTheMotionHasYAndZ) {
+  Mapped mapped({-11e-3, 11e-3}, {4e-3, 6e-3});
+  for (FixtureProbe& probe : mapped.fixture.probes) {
+    probe.n_C = {-1, 0, 0};
+    probe.p_MP.z() = 5e-3;
+  }
+  EXPECT_TRUE(mapped.said(0, 60e-3).empty());
+  mapped.fixture.probes[0].p_MP.z() = 7e-3;
+  const auto high = mapped.said(0, 60e-3);
+  ASSERT_EQ(high.size(), 1U);
+  EXPECT_NE(test::shown(high).find("flatness_second_mm"), std::string::npos);
+  mapped.fixture.probes[0].p_MP = {0, 12e-3, 5e-3};
+  EXPECT_NE(test::shown(mapped.said(0, 60e-3)).find("flatness_first_mm"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -46,7 +46,7 @@ def manual():
 def home():
     manual()
     do(command.home, -1)
-    wait_until(lambda: state.homed[:3] == (1, 1, 1))
+    wait_until(lambda: all(state.homed[:state.joints]))
 
 
 def ask_home():
@@ -54,13 +54,13 @@ def ask_home():
     do(command.home, -1)
     time.sleep(0.3)
     state.poll()
-    return list(state.homed[:3])
+    return list(state.homed[:state.joints])
 
 
 def unhome():
     manual()
     do(command.unhome, -1)
-    wait_until(lambda: not any(state.homed[:3]))
+    wait_until(lambda: not any(state.homed[:state.joints]))
 
 
 def mdi(text):
@@ -121,7 +121,7 @@ def get(*pins):
 
 def homed():
     state.poll()
-    return list(state.homed[:3])
+    return list(state.homed[:state.joints])
 
 
 def halcmd(*words):

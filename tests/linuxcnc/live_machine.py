@@ -23,18 +23,22 @@ COLUMNS = [f"{pin}_{axis}" for pin in ("at", "in", "out") for axis in "xyz"]
 
 HAL = """loadrt [KINS]KINEMATICS
 loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS
-loadrt comp count=3
-loadrt sampler depth=20000 cfg=fffffffff
+loadrt comp count=[KINS]JOINTS
 addf motion-command-handler servo-thread
 addf motion-controller servo-thread
-""" + "".join(f"net drive-{k} joint.{k}.motor-pos-cmd => joint.{k}.motor-pos-fb\n" for k in range(3)) + """net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in
+net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in
 net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
 net change iocontrol.0.tool-change => iocontrol.0.tool-changed
 """
 # Drives that are where they are told to be; a period later the feedback shows it. Home switches at -3 mm of the drive.
-DRIVES = "".join(f"net drive-{k} => sampler.0.pin.{6 + k} comp.{k}.in0\nsetp comp.{k}.in1 [JOINT_{k}]HOME_OFFSET\nnet switch-{k} comp.{k}.out => joint.{k}.home-sw-in\n"
+DRIVES = "".join(f"net drive-{k} => sampler.0.pin.{6 + k}\n"
                  f"net mdof-{axis}-position => sampler.0.pin.{k}\nnet mdof-{axis}-command => sampler.0.pin.{3 + k}\n"
                  for k, axis in enumerate("xyz"))
+SWITCH = ("net drive-{0} => comp.{0}.in0\nsetp comp.{0}.in1 {1}\nnet switch-{0} comp.{0}.out => joint.{0}.home-sw-in\n"
+          "addf comp.{0} servo-thread\n")
+# Two joints of Y, whose switches are RACKED_MM apart, so that the drives' positions differ by that.
+GANTRY, RACKED_MM = "XYZY", 0.25
+SECOND = "net drive-3 => sampler.0.pin.10\nnet mdof-y2-command => sampler.0.pin.9\n"
 
 
 def missing():
@@ -55,18 +59,19 @@ def skip_where_missing():
         sys.exit(SKIPPED)
 
 
-def ini(limits, velocity, acceleration, min_ferror=0.02, inch=False):
-    """All in mm."""
+def ini(limits, velocity, acceleration, min_ferror=0.02, inch=False, joints="XYZ"):
+    """All in mm. joints: the axis of each; a second joint of an axis is as the first."""
     if inch:
         limits, (velocity, acceleration, min_ferror) = [(low / 25.4, high / 25.4) for low, high in limits], [
             x / 25.4 for x in (velocity, acceleration, min_ferror)]
     mm = 1 / 25.4 if inch else 1
     axes = "".join(f"[AXIS_{axis}]\nMIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\n"
                    f"MAX_ACCELERATION = {acceleration}\n" for axis, (low, high) in zip("XYZ", limits))
-    joints = "".join(f"[JOINT_{k}]\nTYPE = LINEAR\nHOME = 0\nHOME_SEQUENCE = 0\nHOME_OFFSET = {-3 * mm}\n"
+    sequence = lambda axis: -1 if joints.count(axis) > 1 else 0  # joints that home together
+    sections = "".join(f"[JOINT_{k}]\nTYPE = LINEAR\nHOME = 0\nHOME_SEQUENCE = {sequence(axis)}\nHOME_OFFSET = {-3 * mm}\n"
                      f"HOME_SEARCH_VEL = {-20 * mm}\nHOME_LATCH_VEL = {-0.2 * mm}\nFERROR = {0.5 * mm}\nMIN_FERROR = {min_ferror}\n"
                      f"MIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\nMAX_ACCELERATION = {acceleration}\n"
-                     for k, (low, high) in enumerate(limits))
+                     for k, axis in enumerate(joints) for low, high in [limits["XYZ".index(axis)]])
     return f"""[EMC]
 VERSION = 1.1
 MACHINE = live
@@ -90,28 +95,33 @@ HALFILE = machine.hal
 HALFILE = mdof_compensation.hal
 HALFILE = drives.hal
 [TRAJ]
-COORDINATES = XYZ
+COORDINATES = {joints}
 LINEAR_UNITS = {"inch" if inch else "mm"}
 ANGULAR_UNITS = degree
 MAX_LINEAR_VELOCITY = {velocity * 2}
 DEFAULT_LINEAR_VELOCITY = {velocity}
 NO_FORCE_HOMING = 0
 [KINS]
-JOINTS = 3
-KINEMATICS = trivkins coordinates=XYZ
-{axes}{joints}"""
+JOINTS = {len(joints)}
+KINEMATICS = trivkins coordinates={joints}{" kinstype=BOTH" if len(joints) > 3 else ""}
+{axes}{sections}"""
 
 
 class LinuxCnc:
-    def __init__(self, folder, text, mdofd, plant=("", "")):
-        """plant: a mistake in the component, which the test has to see; what is replaced, by what."""
+    def __init__(self, folder, text, mdofd, plant=("", ""), words=()):
+        """plant: a mistake in the component, which the test has to see; what is replaced, by what. words: options of
+        mdof compensation linuxcnc."""
         self.folder = folder
         folder.mkdir()
-        for name, content in (("machine.ini", text), ("machine.hal", HAL),
-                              ("drives.hal", DRIVES + "".join(f"addf comp.{k} servo-thread\n" for k in range(3)) +
-                               "addf sampler.0 servo-thread\n"), ("tools.tbl", "")):
+        count = text.count("[JOINT_")
+        drives = DRIVES + (SECOND if count > 3 else "") + "".join(
+            SWITCH.format(k, f"[JOINT_{k}]HOME_OFFSET" if k < 3 else -3 + RACKED_MM) for k in range(count))
+        hal = (HAL + f"loadrt sampler depth=20000 cfg={'f' * (11 if count > 3 else 9)}\n"
+               + "".join(f"net drive-{k} joint.{k}.motor-pos-cmd => joint.{k}.motor-pos-fb\n" for k in range(count)))
+        for name, content in (("machine.ini", text), ("machine.hal", hal),
+                              ("drives.hal", drives + "addf sampler.0 servo-thread\n"), ("tools.tbl", "")):
             (folder / name).write_text(content)
-        mdofd.mdof("compensation", "linuxcnc", "--ini", folder / "machine.ini", "--out", folder, "--margin-mm", 0.15)
+        mdofd.mdof("compensation", "linuxcnc", "--ini", folder / "machine.ini", "--out", folder, "--margin-mm", 0.15, *words)
         shutil.copy(HERE / "display.py", folder)
         component = (FROM / "mdof_compensation.comp").read_text()
         if plant[0] not in component:
@@ -180,7 +190,7 @@ class LinuxCnc:
         self.from_byte = (self.folder / "samples").stat().st_size
 
     def sampled(self):
-        """Rows [number, at x y z, in x y z, out x y z] since sample()."""
+        """Rows [number, at x y z, in x y z, out x y z] since sample(); of a gantry also in and out of the second joint."""
         time.sleep(0.3)
         with open(self.folder / "samples") as samples:
             samples.seek(self.from_byte)

@@ -4,17 +4,18 @@ component mdof_compensation "Compensation of X, Y and Z by the volumetric table 
 description """
 Stands after motion and before the drives. Adds to the commands of three linear joints the correction of the
 table at the commanded position, and takes it off the feedback again, so that planner and display do not see
-it. The position always passes: a fault holds the offset, then lets it fade.
+it. The position always passes: a fault holds the offset, then lets it fade. A second joint of an axis, as of a
+gantry, has the same offset: the pins 3 to 5.
 
 The table comes from mdof_compensation_loader. See tools/linuxcnc/README.md of mdof.""";
 
-pin in float pos_in_#[3] "Of X, Y, Z: joint.N.motor-pos-cmd";
-pin out float pos_out_#[3] "To the drive";
-pin in float fb_in_#[3] "From the drive";
-pin out float fb_out_#[3] "joint.N.motor-pos-fb";
-pin in float joint_pos_#[3] "joint.N.pos-cmd: where the table is looked up";
-pin out float offset_#[3] "What is added";
-pin in bit homing_#[3] "joint.N.homing";
+pin in float pos_in_#[6] "Of X, Y, Z, then of their second joints: joint.N.motor-pos-cmd";
+pin out float pos_out_#[6] "To the drive";
+pin in float fb_in_#[6] "From the drive";
+pin out float fb_out_#[6] "joint.N.motor-pos-fb";
+pin in float joint_pos_#[3] "joint.N.pos-cmd of X, Y, Z: where the table is looked up";
+pin out float offset_#[3] "What is added, to X, Y, Z";
+pin in bit homing_#[6] "joint.N.homing";
 pin in bit all_homed "motion.is-all-homed";
 pin in bit machine_on "motion.motion-enabled: while it is off the offset stands";
 pin in bit enable = 1 "Off: the offset fades to 0";
@@ -58,6 +59,7 @@ include <rtapi_slab.h>;
 ;;
 #define MOST_RECORDS 64 /* taken in one servo period */
 #define NEAR_ZERO 1e-7
+#define JOINTS 6 /* joint j is of axis j % 3 */
 
 static hal_stream_t stream;
 static struct mdof_table tables[2];
@@ -131,7 +133,7 @@ static void judge(struct __comp_state* __comp_inst, const double position[3], do
 }
 
 FUNCTION(feedback) {
-  for (int k = 0; k < 3; ++k) fb_out(k) = fb_in(k) - offsets[k].value;
+  for (int j = 0; j < JOINTS; ++j) fb_out(j) = fb_in(j) - offsets[j % 3].value;
 }
 
 FUNCTION(command) {
@@ -141,7 +143,8 @@ FUNCTION(command) {
   double before[3] = {0, 0, 0}, now[3] = {0, 0, 0};
   receive(__comp_inst);
   judge(__comp_inst, position, seconds);
-  const bool asked = in_force && enable && all_homed && !homing(0) && !homing(1) && !homing(2);
+  bool asked = in_force && enable && all_homed;
+  for (int j = 0; j < JOINTS; ++j) asked = asked && !homing(j);
   const bool stands = asked && (machine_on ? fault && fault_s <= hold_s : true);
   active = asked && !stands && !fault;
   inside = 0;
@@ -156,7 +159,7 @@ FUNCTION(command) {
     if (mdof_follow(&offsets[k], before[k], now[k], &limits, seconds)) limited = 1;
     if (fabs(offsets[k].value) > NEAR_ZERO) homing_inhibit = 1;
     offset(k) = offsets[k].value;
-    pos_out(k) = pos_in(k) + offsets[k].value;
     if (fault_code != 3) last_position[k] = position[k];
   }
+  for (int j = 0; j < JOINTS; ++j) pos_out(j) = pos_in(j) + offsets[j % 3].value;
 }

@@ -67,7 +67,7 @@ class Judge {
     unit_ = live_.inch ? 1 / kMmPerInch : 1;
   }
 
-  // trivkins alone says which joint is which axis, one joint each.
+  // trivkins alone says which joint is which axis.
   void read_joints() {
     const std::string text = ini_.value("KINS", "KINEMATICS");
     const auto words = words_of(text);
@@ -82,15 +82,45 @@ class Judge {
       if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
     const double count = needed("KINS", "JOINTS");
     for (const char axis : std::string_view("XYZ")) {
-      const std::size_t joint = letters.find(axis);
-      if (joint == std::string::npos || static_cast<double>(joint) >= count) continue;
-      if (letters.find(axis, joint + 1) != std::string::npos)
-        refuse(std::string("[KINS]KINEMATICS: axis ") + axis +
-               " has two joints, which the component does not move together");
-      live_.joints.push_back({axis, static_cast<int>(joint)});
-      check_joint(section_of(live_.joints.back()));
+      std::vector<LiveJoint> joints;
+      for (std::size_t joint = letters.find(axis);
+           joint != std::string::npos && static_cast<double>(joint) < count;
+           joint = letters.find(axis, joint + 1))
+        joints.push_back({axis, static_cast<int>(joint), !joints.empty()});
+      if (joints.size() > 2)
+        refuse(std::string("[KINS]KINEMATICS: axis ") + axis + " has " +
+               std::to_string(joints.size()) +
+               " joints; the component moves at most two of an axis");
+      for (const LiveJoint& joint : joints) check_joint(section_of(joint));
+      if (joints.size() == 2) check_pair(section_of(joints[0]), section_of(joints[1]), axis);
+      live_.joints.insert(live_.joints.end(), joints.begin(), joints.end());
     }
     if (live_.joints.empty()) refuse("[KINS]KINEMATICS: has none of X, Y, Z");
+  }
+
+  // Both joints have the same offset at the same position, in machine units. A motor that is
+  // mounted the other way round has the same SCALE with the other sign, which comes behind the
+  // component.
+  void check_pair(const std::string& first, const std::string& second, char axis) {
+    const auto differ = [&](const char* key, double of_first, double of_second) {
+      if (of_first == of_second) return;
+      refuse("[" + second + "]" + key + " = " + plain_number(of_second) + " and [" + first + "]" +
+             key + " = " + plain_number(of_first) + ": both joints of axis " + axis +
+             " get one offset, so they must be alike");
+    };
+    for (const char* key : {"HOME", "MIN_LIMIT", "MAX_LIMIT", "MAX_VELOCITY", "MAX_ACCELERATION"})
+      differ(key, number(first, key).value_or(0), number(second, key).value_or(0));
+    for (const char* key : {"SCALE", "STEP_SCALE", "OUTPUT_SCALE", "INPUT_SCALE", "ENCODER_SCALE"})
+      differ(key, std::abs(first_number(first, key)), std::abs(first_number(second, key)));
+  }
+
+  // Of "SCALE = 1000 0", whose second number is an offset.
+  double first_number(const std::string& section, const std::string& key) {
+    const std::string text = ini_.value(section, key);
+    const auto words = words_of(text);
+    double x = 0;
+    if (!words.empty()) parse_double(words[0].data(), words[0].data() + words[0].size(), x);
+    return x;
   }
 
   static std::string section_of(const LiveJoint& joint) {
@@ -216,20 +246,21 @@ class Judge {
 
   void write_joint(const LiveJoint& joint, const std::string& unseen) {
     const std::string of = "joint." + std::to_string(joint.joint) + ".";
-    const std::string k(1, static_cast<char>('0' + joint.axis - 'X'));
-    const std::string name = std::string("mdof-") + static_cast<char>(joint.axis - 'X' + 'x');
+    const std::string k(1, static_cast<char>('0' + joint.axis - 'X' + (joint.second ? 3 : 0)));
+    const std::string name = std::string("mdof-") + static_cast<char>(joint.axis - 'X' + 'x') +
+                             (joint.second ? "2" : "");
     const std::string command = wiring_.signal(of + "motor-pos-cmd", "");
     const std::string feedback = wiring_.signal(of + "motor-pos-fb", "");
     for (const auto& [pin, signal] :
          {std::pair{"motor-pos-cmd", command}, {"motor-pos-fb", feedback}})
       if (signal.empty()) refuse("[HAL]HALFILE: nothing nets " + of + pin + unseen);
-    live_.hal += std::string("# ") + joint.axis + "\nunlinkp " + of + "motor-pos-cmd\nunlinkp " +
-                 of + "motor-pos-fb\nnet " + name + "-command " + of +
-                 "motor-pos-cmd => mdof-compensation.pos-in-" + k + "\nnet " + command +
-                 " mdof-compensation.pos-out-" + k + "\nnet " + feedback +
+    live_.hal += std::string("# ") + joint.axis + (joint.second ? ", second joint" : "") +
+                 "\nunlinkp " + of + "motor-pos-cmd\nunlinkp " + of + "motor-pos-fb\nnet " + name +
+                 "-command " + of + "motor-pos-cmd => mdof-compensation.pos-in-" + k + "\nnet " +
+                 command + " mdof-compensation.pos-out-" + k + "\nnet " + feedback +
                  " => mdof-compensation.fb-in-" + k + "\nnet " + name +
                  "-feedback mdof-compensation.fb-out-" + k + " => " + of + "motor-pos-fb\n";
-    net(name + "-position", of + "pos-cmd", "joint-pos-" + k);
+    if (!joint.second) net(name + "-position", of + "pos-cmd", "joint-pos-" + k);
     net(name + "-homing", of + "homing", "homing-" + k);
   }
 
@@ -242,7 +273,8 @@ class Judge {
     }
     live_.hal += " --socket " + request_.socket + (live_.inch ? " --inch" : "") +
                  (request_.simulated ? " --simulated" : "") +
-                 (request_.despite_warnings ? " --despite-warnings" : "") + "\n";
+                 (request_.despite_warnings ? " --despite-warnings" : "") +
+                 (request_.one_approach ? " --one-approach" : "") + "\n";
   }
 
   const LinuxCncIni& ini_;

@@ -15,6 +15,7 @@ inline constexpr const char* kCompensationHal = "mdof_compensation.hal";
 struct LiveJoint {
   char axis = 'X';
   int joint = 0;
+  bool second = false;  // of an axis with two joints, as of a gantry
 };
 
 // In machine units, s.
@@ -30,6 +31,7 @@ struct LiveRequest {
   double margin_mm = 0.1;  // between soft limits and stops
   std::string socket;
   bool simulated = false, despite_warnings = false;
+  bool one_approach = false;  // a table of one approach holds in both
 };
 
 // Errors: bad_input with all that cannot be safe, each by its section and key.

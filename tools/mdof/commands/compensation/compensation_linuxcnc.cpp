@@ -24,7 +24,11 @@ struct LinuxCncCommand {
 std::string live_json(const LiveCompensation& live, const std::string& file) {
   JsonWriter json;
   json.begin_object().field("units", live.inch ? "inch" : "mm").key("joints").begin_object();
-  for (const LiveJoint& joint : live.joints) json.field(std::string(1, joint.axis), joint.joint);
+  for (const bool second : {false, true}) {
+    if (second) json.end_object().key("second_joints").begin_object();
+    for (const LiveJoint& joint : live.joints)
+      if (joint.second == second) json.field(std::string(1, joint.axis), joint.joint);
+  }
   json.end_object();
   json.field("max_offset", live.max_offset).field("max_offset_from", live.offset_reason);
   json.field("max_velocity", live.max_velocity).field("max_velocity_from", live.velocity_reason);
@@ -86,6 +90,10 @@ Action declare_linuxcnc(CLI::App& command) {
       ->check(positive_number())
       ->capture_default_str();
   add_consent_flags(command, o->consent, "a table");
+  command.add_flag(
+      "--one-approach", o->request.one_approach,
+      "A table of the forward or the reverse approach holds in both; a reversal is not "
+      "corrected");
   add_socket_option(command, o->request.socket);
   add_json_flag(command, o->json);
   return [o] { return write_lines(*o); };

@@ -65,8 +65,8 @@ class Fit {
       if (size < kStepDone) return {};
     }
     return fail(ErrorCode::check,
-                "no mounting and tilts of the target give these readings; check that each log is "
-                "of one clamping, of its axis, and which way the target goes on it",
+                "no mounting and no target tilts explain these readings; check that each log holds "
+                "one clamping and the stated axis, and check in which direction the target moves",
                 Remedy::reverse_target);
   }
 
@@ -256,9 +256,10 @@ Status check_places(const Rig& rig, const MountingFit& fit) {
     if (away_m <= kFarthest_m) continue;
     return fail(ErrorCode::check,
                 rig.source + ": probe \"" + rig.probes[k].id + "\" would be " +
-                    plain_number(to_mm(away_m), 3) +
-                    " mm from its position_mm, more than any clamping leaves: an axis on which the "
-                    "target goes the other way, probes exchanged, or position_mm wrong",
+                    plain_number(to_mm(away_m), 3) + " mm from its position_mm (limit " +
+                    plain_number(to_mm(kFarthest_m), 3) +
+                    " mm); check position_mm, whether probes are exchanged, and in which direction "
+                    "the target moves",
                 Remedy::reverse_target);
   }
   return {};
@@ -268,11 +269,12 @@ Status check_seen(const MountingFit& fit) {
   const auto& probes = fit.found.probes;
   if (std::any_of(probes.begin(), probes.end(), [](const auto& p) { return p.position_seen; }))
     return {};
-  return fail(ErrorCode::check,
-              "these clampings show the place of no probe: the tilts of the target differ by " +
-                  plain_number(fit.found.tilt_rad * 1e3, 3) +
-                  " mrad at most; clamp it at three tilts or more that differ by some mrad about "
-                  "each of two axes, not all in a line");
+  return fail(
+      ErrorCode::check,
+      "these clampings determine the position of no probe: the target tilts differ by at most " +
+          plain_number(fit.found.tilt_rad * 1e3, 3) +
+          " mrad; clamp the target at three or more tilts that differ by several mrad about two "
+          "axes, not only about one");
 }
 
 }  // namespace
@@ -280,9 +282,8 @@ Status check_seen(const MountingFit& fit) {
 Result<MountingFit> fit_mounting(const Rig& rig, const std::vector<Clamping>& clampings) {
   MDOF_TRY(MountingModel model, MountingModel::create(rig, clampings));
   if (model.readings().empty())
-    return fail(
-        ErrorCode::check,
-        "no probe has a reading that can be used in any stop; check range_um and the zeros");
+    return fail(ErrorCode::check,
+                "no probe has a usable reading at any stop; check range_um and the zeros");
   Fit fit(std::move(model));
   MDOF_CHECK(fit.run(rig.uncertainty.encoder.u));
   MountingFit result = fit.result(rig, clampings);

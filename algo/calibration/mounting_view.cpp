@@ -98,10 +98,11 @@ class Naming {
     double& u_axis = out_.u_together_m[axis];
     u_axis = std::isnan(u_m) || std::isnan(u_axis) ? std::nan("") : std::max(u_axis, u_m);
     out_.sentences.push_back(
-        "where " + ids_of(model_, group) + " are together along " + std::string(1, "XYZ"[axis]) +
-        ": a clamping moves the target as well; their mean stays that of the rig, " +
-        (declared ? "known to " + plain_number(to_um(u_m), 3) + " um"
-                  : "and the rig does not say how well it is known (u_position_mm)"));
+        "the common position of " + ids_of(model_, group) + " along " +
+        std::string(1, "XYZ"[axis]) +
+        " (clamping moves the target too): the mean position of the rig is kept; " +
+        (declared ? "its u is " + plain_number(to_um(u_m), 3) + " um"
+                  : "the rig does not declare its u (u_position_mm)"));
   }
 
   void together_zero(const Group& group) {
@@ -113,8 +114,8 @@ class Naming {
     }
     double length = 0;
     if (is_unseen(zero, length))
-      out_.sentences.push_back("the zeros of " + ids_of(model_, group) +
-                               " together: their mean stays that of the rig");
+      out_.sentences.push_back("the common zero of " + ids_of(model_, group) +
+                               ": the mean zero of the rig is kept");
   }
 
   void find_apart() {
@@ -136,17 +137,16 @@ class Naming {
     for (std::size_t j = 0; j < 2; ++j)
       if (unseen(unknown_of(k, j == 0 ? kPlace1 : kPlace2)))
         out_.sentences.push_back(
-            "the place of " + id + " along " +
+            "the position of " + id + " along " +
             std::string(1, "XYZ"[largest(machine(model_, model_.along(k, j)))]) +
-            " beside the others: clamp the target at more, and more different, tilts");
+            " relative to the other probes: clamp the target at more tilts, which differ more");
     if (unseen(unknown_of(k, kZero)))
-      out_.sentences.push_back("the zero of " + id + " beside the others");
+      out_.sentences.push_back("the zero of " + id + " relative to the other probes");
     if (unseen(unknown_of(k, kTowards1)) || unseen(unknown_of(k, kTowards2)))
-      out_.sentences.push_back("the direction of " + id +
-                               ", at tilts and readings as small as these");
+      out_.sentences.push_back("the direction of " + id + ": the tilts and readings are too small");
     if (unseen(unknown_of(k, kScale)))
       out_.sentences.push_back("the sensitivity of " + id +
-                               " (a calibration of the sensitivity shows it)");
+                               ": it needs a calibration of the sensitivity");
   }
 
   const MountingModel& model_;

@@ -85,13 +85,13 @@ SlopeUncertainty slope_uncertainty(const std::vector<std::vector<Reading>>& plac
 
 std::vector<std::string> blind_to(const Rig& rig) {
   std::vector<std::string> sentences = {
-      "the scale of the encoder: its error is in the sensitivity as it is",
-      "the squareness of the axis to the plane and the tilt of the target: 1 mrad by 5 mrad is 5 "
-      "ppm"};
+      "the scale error of the encoder: the sensitivity contains all of it",
+      "the squareness of the axis to the plane together with the tilt of the target: 1 mrad and 5 "
+      "mrad change the sensitivity by 5 ppm"};
   if (!rig.uncertainty.encoder.declared())
     sentences.insert(sentences.begin(),
-                     "an error of the encoder that repeats at each place, beyond what the line "
-                     "leaves: the rig does not declare [encoder] u_um");
+                     "encoder errors that repeat at each place, except those that the residuals of "
+                     "the line show: the rig does not declare [encoder] u_um");
   return sentences;
 }
 
@@ -117,12 +117,10 @@ std::vector<Reading> places_of(std::vector<Reading> all, double apart_m) {
 Status check(const Probe& probe, const Line& line) {
   if (line.slope >= kLeast && line.slope <= kMost) return {};
   const std::string wrong = "probe \"" + probe.id + "\" would read " + plain_number(line.slope, 4) +
-                            " um for a um of travel, which no probe does";
+                            " um for 1 um of travel (limits " + plain_number(kLeast, 3) + " and " +
+                            plain_number(kMost, 3) + ")";
   if (line.slope < 0)
-    return fail(ErrorCode::check,
-                wrong +
-                    ": the target goes the other way on this axis, or the rig's reads or "
-                    "measures is wrong",
+    return fail(ErrorCode::check, wrong + "; check reads and measures of this probe in the rig",
                 Remedy::reverse_target);
   return fail(ErrorCode::check, wrong + "; check the rig's um_per_V and the unit of the encoder");
 }
@@ -168,11 +166,11 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   const auto places = places_of(all, kOnePlace * own.range_m);
   const double way_m = places.empty() ? 0 : places.back().read_m - places.front().read_m;
   if (places.size() < kFewest || way_m < kShortest * own.range_m)
-    return fail(ErrorCode::check, "probe \"" + own.id + "\" was read at " +
-                                      std::to_string(places.size()) + " places over " +
-                                      plain_number(to_um(way_m)) +
-                                      " um; stop at three or more, over as much of its range of " +
-                                      plain_number(to_um(own.range_m)) + " um as it is used");
+    return fail(ErrorCode::check,
+                "probe \"" + own.id + "\" was read at " + std::to_string(places.size()) +
+                    " places over " + plain_number(to_um(way_m)) +
+                    " um; stop at three or more places, over all of its range of " +
+                    plain_number(to_um(own.range_m)) + " um that is used");
   std::vector<double> x, y;
   for (const Reading& reading : all) {
     x.push_back(reading.true_m - all.front().true_m);

@@ -143,15 +143,14 @@ bool measured_there(const CompensationTable& table, double position_m, TableSide
 Status add_sources(const std::vector<Run>& runs, CompensationTable& table) {
   for (const Run& run : runs) {
     if (run.header.axis != table.axis) {
-      return bad_input("run " + std::to_string(run.header.id) + " is of axis " +
+      return bad_input("run " + std::to_string(run.header.id) + " measures axis " +
                        letter(run.header.axis) + ", run " + std::to_string(runs.front().header.id) +
-                       " of " + letter(table.axis) + "; a table is of one axis");
+                       " axis " + letter(table.axis) + "; build a table from runs of one axis");
     }
     if (run.header.sides != table.sides) {
-      return bad_input("the rig of run " + std::to_string(run.header.id) +
-                       " has other sides (moves, travel) than that of run " +
+      return bad_input("the rigs of run " + std::to_string(run.header.id) + " and run " +
                        std::to_string(runs.front().header.id) +
-                       "; build one table from runs of one set-up");
+                       " differ in moves or travel; build a table from runs of one set-up");
     }
     table.runs.push_back(run.header.id);
     table.simulated = table.simulated || run.header.simulated;
@@ -218,7 +217,8 @@ Result<Notices> uneven_visits_of(const std::vector<Run>& runs) {
   MDOF_TRY(const auto points, on_one_grid(runs, positions(first)));
   Notices found;
   for (Notice& each : uneven_visits(points))
-    found.push_back(inherited("over all runs, counted on from one to the next", std::move(each)));
+    found.push_back(inherited("all runs together (repetitions are counted on from run to run)",
+                              std::move(each)));
   return found;
 }
 

@@ -50,7 +50,9 @@ Result<std::map<std::string, PartsOfRuns>> all_contributors(const std::vector<Ri
   std::size_t points = 0, parts_in_all = 0;
   for (const Run& run : runs) points += run.points.size();
   const auto too_many = [] {
-    return bad_input("the runs have too many points for what their rigs declare");
+    return bad_input(
+        "the runs have too many points for the number of uncertainties that their rigs declare; "
+        "leave some runs out");
   };
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!rigs[r].declares_uncertainty() && !asked_to_remove_drift(runs[r].header)) continue;

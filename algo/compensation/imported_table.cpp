@@ -34,20 +34,21 @@ Status check_one(const Run& run, const Run& first) {
   const Axis axis = first.header.axis;
   if (!is_imported(run.header))
     return bad_input(name_of(run) + " was measured by mdof and " + name_of(first) +
-                     " is imported; build a table of each");
+                     " is imported; build a separate table from each");
   const std::string& error = run.header.provenance.model;
   if (run.header.axis != axis)
-    return bad_input(name_of(run) + " is of axis " + letter(run.header.axis) + ", " +
-                     name_of(first) + " of " + letter(axis) + "; a table is of one axis");
+    return bad_input(name_of(run) + " measures axis " + letter(run.header.axis) + ", " +
+                     name_of(first) + " axis " + letter(axis) +
+                     "; build a table from runs of one axis");
   if (error != positioning_name(axis))
     return bad_input(
         name_of(run) + " is an imported " + error +
-        ", of which nobody knows at which point it holds; a table is built of imported "
-        "positioning (" +
+        ", and the point at which it holds is unknown; a table needs imported positioning (" +
         positioning_name(axis) + ")");
   if (run.header.simulated != first.header.simulated)
-    return bad_input(name_of(run.header.simulated ? run : first) +
-                     " is simulated and the other measured: no table is made of both");
+    return bad_input(name_of(run.header.simulated ? run : first) + " is simulated and " +
+                     name_of(run.header.simulated ? first : run) +
+                     " is measured; build a table from one kind of data");
   return {};
 }
 
@@ -56,10 +57,9 @@ Status check_sources(const std::vector<Run>& runs) {
     MDOF_CHECK(check_one(runs[i], runs.front()));
     for (std::size_t j = 0; j < i; ++j)
       if (runs[i].header.provenance.recording_sha256 == runs[j].header.provenance.recording_sha256)
-        return bad_input(
-            name_of(runs[j]) + " and " + name_of(runs[i]) +
-            " are of the same file: readings that count twice make the uncertainty too "
-            "small; leave one out");
+        return bad_input(name_of(runs[j]) + " and " + name_of(runs[i]) +
+                         " were imported from the same file, and readings that count twice make "
+                         "the uncertainty too small; leave one run out");
   }
   return {};
 }
@@ -76,8 +76,8 @@ Result<std::vector<double>> signs_of(const std::vector<Run>& runs,
     if (stated.sense == PositioningSense::body && !against)
       return bad_input(
           name_of(run) +
-          " has errors of the body and no travel, so that the sign for the command is not "
-          "known; import the file again with the travel of its axis");
+          " was imported with the sense \"body\" but without a travel, so the sign for the command "
+          "is unknown; import the file again with the travel of its axis");
     signs.push_back(stated.sense == PositioningSense::body && *against ? -1 : 1);
   }
   return signs;
@@ -95,8 +95,8 @@ Result<std::vector<std::vector<double>>> readings_of(const std::vector<Run>& run
       const std::size_t i = target_at(grid, p.target_m);
       if (std::abs(grid[i] - p.target_m) > kSamePosition_m)
         return bad_input(name_of(run) + " has a target at " + plain_number(to_mm(p.target_m), 9) +
-                         " mm and " + name_of(runs.front()) +
-                         " none; build one table from runs of the same targets");
+                         " mm, and " + name_of(runs.front()) +
+                         " has none there; build a table from runs with the same targets");
       if (p.point.direction == direction || p.point.direction == 0)
         at[i].push_back(signs[r] * p.point.probe_m.at(0));
     }
@@ -156,8 +156,9 @@ Status check_travel(const RunHeader& run, bool against_command) {
   const auto stated = imported_sense(run).against_command;
   if (!stated || *stated == against_command) return {};
   return bad_input("run " + std::to_string(run.id) + " was imported with travel \"" +
-                   (*stated ? "-" : "+") + "\", the machine says the other for axis " +
-                   letter(run.axis) + "; correct the one that is wrong");
+                   (*stated ? "-" : "+") + "\", but the machine file states travel \"" +
+                   (*stated ? "+" : "-") + "\" for axis " + letter(run.axis) +
+                   "; correct the wrong one");
 }
 
 Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs,
@@ -199,12 +200,12 @@ std::vector<std::string> positioning_notes(const std::vector<Run>& runs) {
                                      [](const auto& p) { return p.point.direction == 0; });
     if (unknown)
       notes.push_back(name_of(run) +
-                      " does not say from which side its targets were approached: forward and "
-                      "reverse are alike, and a reversal is not corrected");
+                      " does not state from which side its targets were approached: the table is "
+                      "the same for forward and reverse and does not correct a reversal");
     one_reading = one_reading || run.points.size() == targets_of(run).size();
   }
   if (runs.size() == 1 && one_reading)
-    notes.push_back("one reading a target: its repeatability is not known, and u is null");
+    notes.push_back("one reading per target: the repeatability is unknown, so u is null");
   return notes;
 }
 

@@ -55,8 +55,8 @@ Status check_limits(const std::string& name, bool angle, const std::vector<doubl
     if (std::isnan(values[i])) continue;
     if (!(std::abs(values[i]) <= most))
       return bad_input(name + ": " + value_text(values[i], angle) + " at " + mm_of(position_m[i]) +
-                           " is more than " + value_text(most, angle) +
-                           ", the limit: are they in " + (angle ? "urad?" : "um?"),
+                           " exceeds the limit of " + value_text(most, angle) +
+                           "; check that the values are in " + (angle ? "urad" : "um"),
                        Remedy::raise_value_limit);
     if (before < values.size()) {
       const double slope = (values[i] - values[before]) / (position_m[i] - position_m[before]);
@@ -64,7 +64,7 @@ Status check_limits(const std::string& name, bool angle, const std::vector<doubl
         return bad_input(name + ": changes by " + slope_text(slope, angle) + " from " +
                              mm_of(position_m[before]) + " to " + mm_of(position_m[i]) +
                              ", the limit is " + slope_text(steepest, angle) +
-                             ": are value and position in their units?",
+                             "; check the units of values and positions",
                          Remedy::raise_slope_limit);
     }
     before = i;

@@ -18,9 +18,10 @@ Status check_input(const std::vector<double>& x, const Columns& columns, double 
     return bad_input("the tolerance must be a finite number and not negative");
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!std::isfinite(x[i]) || (i > 0 && !(x[i] > x[i - 1])))
-      return bad_input("position " + std::to_string(i + 1) + " is not beyond the one before");
+      return bad_input("position " + std::to_string(i + 1) +
+                       " is not greater than the position before");
   for (const auto& y : columns) {
-    if (y.size() != x.size()) return bad_input("there is not one value for each position");
+    if (y.size() != x.size()) return bad_input("the numbers of positions and values differ");
     for (std::size_t i = 0; i < y.size(); ++i)
       if (!std::isfinite(y[i]))
         return bad_input("position " + std::to_string(i + 1) + " has no value");

@@ -57,7 +57,7 @@ Notices removal_notices(const RunDrift& drift, const MovingAxis& moving) {
   const std::string left = changes_text(drift, moving, true);
   Notices found;
   found.push_back(removed.empty() ? notice(NoticeCode::drift_not_removed, "",
-                                           {{"reason", "none is significant"}})
+                                           {{"reason", "no change is significant"}})
                                   : notice(NoticeCode::drift_removed, "", {{"changes", removed}}));
   if (!left.empty())
     found.push_back(notice(NoticeCode::steps_not_removed, "", {{"changes", left}}));

@@ -166,7 +166,7 @@ bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
 }
 
 std::string why_not_seen(const DriftDesign& design) {
-  if (design.visits().empty()) return "no point has errors and a known approach";
+  if (design.visits().empty()) return "no solved point has a known approach direction";
   return "too few targets were visited again from the same side, so that a drift cannot be "
          "separated from the form and slope of the axis; measure two runs or more";
 }

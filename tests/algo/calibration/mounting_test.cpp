@@ -82,8 +82,8 @@ TEST(Mounting, NoisyReadingsGiveThemWithinTheirUncertainties) {
     for (const double u : probe.u_position_m) EXPECT_LT(u, 2.5e-6);
   }
   for (const char* says :
-       {"A, B, C are together along X", "A, B, C are together along Y", "D, E are together along X",
-        "D, E are together along Z", "the zeros of A, B, C together", "the zeros of D, E together",
+       {"position of A, B, C along X", "position of A, B, C along Y", "position of D, E along X",
+        "position of D, E along Z", "the common zero of A, B, C", "the common zero of D, E",
         "the direction of A", "the direction of E"})
     EXPECT_TRUE(std::any_of(found.not_seen.begin(), found.not_seen.end(), [&](const auto& line) {
       return line.find(says) != std::string::npos;
@@ -179,13 +179,13 @@ TEST(Mounting, WhatTheClampingsDoNotShowIsNotMadeUp) {
   const auto once = fit_mounting(rig, target.logs(rng));
   ASSERT_FALSE(once);
   EXPECT_EQ(once.error().code, ErrorCode::check);
-  EXPECT_NE(once.error().message.find("clamp it at three tilts"), std::string::npos);
+  EXPECT_NE(once.error().message.find("clamp the target at three"), std::string::npos);
   // Two tilts show each probe along one direction only.
   target.clamp(2, kTilt_rad, rng);
   target.clampings.erase(target.clampings.begin());
   const auto twice = fit_mounting(rig, target.logs(rng));
   ASSERT_FALSE(twice);
-  EXPECT_NE(twice.error().message.find("the place of no probe"), std::string::npos);
+  EXPECT_NE(twice.error().message.find("the position of no probe"), std::string::npos);
 }
 
 TEST(Mounting, AnAxisThatGoesTheOtherWayIsFound) {

@@ -49,18 +49,20 @@ TEST(MountingView, NamesAProbeBesideTheOthers) {
     return unseen.sentences;
   };
   using Sentences = std::vector<std::string>;
-  EXPECT_EQ(sentences(1, kZero), Sentences{"the zero of B beside the others"});
+  EXPECT_EQ(sentences(1, kZero), Sentences{"the zero of B relative to the other probes"});
   for (const auto which : {kTowards1, kTowards2})
     EXPECT_EQ(sentences(4, which),
-              Sentences{"the direction of E, at tilts and readings as small as these"});
+              Sentences{"the direction of E: the tilts and readings are too small"});
   EXPECT_EQ(sentences(3, algo::kScale),
-            Sentences{"the sensitivity of D (a calibration of the sensitivity shows it)"});
+            Sentences{"the sensitivity of D: it needs a calibration of the sensitivity"});
   // D looks along Y.
   for (const auto which : {kPlace1, kPlace2}) {
     const bool is_x = std::abs(model.along(3, which == kPlace1 ? 0 : 1).x()) > 0.5;
-    EXPECT_EQ(sentences(3, which),
-              Sentences{std::string("the place of D along ") + (is_x ? "X" : "Z") +
-                        " beside the others: clamp the target at more, and more different, tilts"});
+    EXPECT_EQ(
+        sentences(3, which),
+        Sentences{
+            std::string("the position of D along ") + (is_x ? "X" : "Z") +
+            " relative to the other probes: clamp the target at more tilts, which differ more"});
   }
   // A sensitivity that is exact is not one of the unknowns.
   EXPECT_TRUE(named(model, {unit(model, 0, algo::kScale)}).sentences.empty());
@@ -73,8 +75,8 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
   // Two places that are known to 20 um each have a mean that is known to 20 um / sqrt(2).
   ASSERT_EQ(both.sentences.size(), 2u);
   for (const auto& sentence : both.sentences)
-    EXPECT_NE(sentence.find("where D, E are together along "), std::string::npos) << sentence;
-  EXPECT_NE(both.sentences[0].find("known to 14.1 um"), std::string::npos) << both.sentences[0];
+    EXPECT_NE(sentence.find("the common position of D, E along "), std::string::npos) << sentence;
+  EXPECT_NE(both.sentences[0].find("its u is 14.1 um"), std::string::npos) << both.sentences[0];
   EXPECT_NEAR(both.u_together_m[0], 20e-6 / std::sqrt(2.0), 1e-12);
   EXPECT_EQ(both.u_together_m[1], 0);
   EXPECT_NEAR(both.u_together_m[2], 20e-6 / std::sqrt(2.0), 1e-12);
@@ -84,9 +86,9 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
       Eigen::VectorXd(unit(model, 0, kZero) + unit(model, 1, kZero) + unit(model, 2, kZero));
   const Unseen zero = named(model, {zeros, unit(model, 4, kZero)});
   EXPECT_EQ(zero.sentences,
-            (std::vector<std::string>{"the zeros of A, B, C together: their mean stays that of the "
-                                      "rig",
-                                      "the zero of E beside the others"}));
+            (std::vector<std::string>{"the common zero of A, B, C: the mean zero of the "
+                                      "rig is kept",
+                                      "the zero of E relative to the other probes"}));
   EXPECT_EQ(zero.apart.cols(), 1);
 }
 
@@ -100,9 +102,8 @@ TEST(MountingView, TogetherIsNotKnownWhereOneIsNot) {
       together(model, {0, 1, 2}, kPlace1).cwiseQuotient(model.scale().cwiseMax(1e-12));
   const Unseen unseen = named(model, {scaled});
   ASSERT_EQ(unseen.sentences.size(), 1u);
-  EXPECT_NE(unseen.sentences[0].find("where A, B, C are together along "), std::string::npos);
-  EXPECT_NE(unseen.sentences[0].find("the rig does not say how well it is known"),
-            std::string::npos);
+  EXPECT_NE(unseen.sentences[0].find("the common position of A, B, C along "), std::string::npos);
+  EXPECT_NE(unseen.sentences[0].find("the rig does not declare its u"), std::string::npos);
   const std::size_t axis = std::abs(model.along(0, 0).x()) > 0.5 ? 0 : 1;
   EXPECT_TRUE(std::isnan(unseen.u_together_m[axis]));
   EXPECT_EQ(unseen.u_together_m[2], 0);
@@ -132,8 +133,9 @@ TEST(MountingView, NamesAPlaceByTheNearestAxisOfTheMachine) {
         Eigen::Index nearest = 0;
         machine.cwiseAbs().maxCoeff(&nearest);
         const Unseen unseen = named(model, {unit(model, k, which)});
-        const std::string expected = "the place of " + rig.probes[k].id + " along " +
-                                     std::string(1, "XYZ"[nearest]) + " beside the others";
+        const std::string expected = "the position of " + rig.probes[k].id + " along " +
+                                     std::string(1, "XYZ"[nearest]) +
+                                     " relative to the other probes";
         ASSERT_EQ(unseen.sentences.size(), 1u) << expected;
         EXPECT_EQ(unseen.sentences[0].substr(0, expected.size()), expected);
         ++named_places;

@@ -89,7 +89,7 @@ TEST(Sensitivity, WhatItCannotSeeIsSaid) {
     return all;
   };
   const std::string bare = says(test::rig_x());
-  for (const char* what : {"scale of the encoder", "squareness", "[encoder] u_um"})
+  for (const char* what : {"scale error of the encoder", "squareness", "[encoder] u_um"})
     EXPECT_NE(bare.find(what), std::string::npos) << what;
   EXPECT_EQ(says(test::rig_x_with("", "", "[encoder]\nu_um = 0.1\n")).find("u_um"),
             std::string::npos);
@@ -134,8 +134,8 @@ TEST(Sensitivity, WhatCannotBeIsRefused) {
     EXPECT_NE(found.error().message.find(what), std::string::npos) << found.error().message;
   };
   says(along_z([](double z) { return z; }, 2), "at 2 places");
-  says(along_z([](double z) { return z; }, 11, 1e-6), "as much of its range");
-  says(along_z([](double z) { return -z; }), "goes the other way");
+  says(along_z([](double z) { return z; }, 11, 1e-6), "over all of its range");
+  says(along_z([](double z) { return -z; }), "check reads and measures");
   says(along_z([](double z) { return 2.5 * z; }), "um_per_V");
   says(along_z([](double) { return std::nan(""); }), "at 0 places over 0 um");
   EXPECT_EQ(approaching_axis(rig, kA).value(), Axis::z);

@@ -62,7 +62,7 @@ TEST(ImportedTable, OneReadingHasNoRepeatability) {
   EXPECT_TRUE(std::isnan(table->positioning.reverse[0]));
   EXPECT_TRUE(table->positioning.u_declared.empty());
   ASSERT_EQ(positioning_notes({run}).size(), 1U);
-  EXPECT_NE(positioning_notes({run})[0].find("repeatability is not known"), std::string::npos);
+  EXPECT_NE(positioning_notes({run})[0].find("repeatability is unknown"), std::string::npos);
   for (MeasuredPoint& p : run.points) p.point.direction = 0;
   EXPECT_NE(positioning_notes({run})[0].find("from which side"), std::string::npos);
   const auto unknown = build_positioning_table({run});
@@ -84,7 +84,7 @@ TEST(ImportedTable, RefusesRunsThatDoNotGoTogether) {
   EXPECT_TRUE(simulated->simulated);
   other = second;
   other.header.axis = Axis::y;
-  EXPECT_NE(refusal({first, other}).find("run 2 is of axis Y"), std::string::npos);
+  EXPECT_NE(refusal({first, other}).find("run 2 measures axis Y"), std::string::npos);
   other = second;
   other.header.provenance.model = "EYX";
   EXPECT_NE(refusal({first, other}).find("imported EYX"), std::string::npos);
@@ -93,7 +93,7 @@ TEST(ImportedTable, RefusesRunsThatDoNotGoTogether) {
   EXPECT_NE(refusal({first, other}).find("measured by mdof"), std::string::npos);
   other = second;
   other.header.provenance.recording_sha256 = "1";
-  EXPECT_NE(refusal({first, other}).find("run 1 and run 2 are of the same file"),
+  EXPECT_NE(refusal({first, other}).find("run 1 and run 2 were imported from the same file"),
             std::string::npos);
   other = second;
   other.points[1].target_m = 10.001e-3;

@@ -65,7 +65,7 @@ TEST(DriftSentences, SayWhatWasRemovedAndWhatWasNot) {
   EXPECT_EQ(both.find("drift_removed changes=EYX +0.2500"), 0U) << both;
   EXPECT_NE(both.find("\nsteps_not_removed changes=EZX +0.5000"), std::string::npos) << both;
   EXPECT_EQ(test::shown(removal_notices(RunDrift{}, {Axis::x, {}})),
-            "drift_not_removed reason=none is significant\n");
+            "drift_not_removed reason=no change is significant\n");
   drift.not_seen = "too few";
   EXPECT_EQ(test::shown(removal_notices(drift, {Axis::x, {}})),
             "drift_not_removed reason=too few\n");

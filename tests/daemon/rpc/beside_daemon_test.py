@@ -127,7 +127,7 @@ class BesideDaemon(unittest.TestCase):
 
     def test_a_file_that_mdofd_refuses(self):
         for name, text, reason in (("none.csv", "position_mm\n1\n", "deviation_um"),
-                                   ("mm.csv", "position_mm,deviation_um\n0,0\n1,2000\n", "are they in um?")):
+                                   ("mm.csv", "position_mm,deviation_um\n0,0\n1,2000\n", "check that the values are in um")):
             path = os.path.join(self.folder, name)
             with open(path, "w") as file:
                 file.write(text)

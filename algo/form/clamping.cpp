@@ -47,7 +47,7 @@ Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const Surfac
   keep_common(result.plastic, result.clamping);
   if (result.clamping.measured() < 4)
     return bad_input(before.name + ", " + after.name + " and " + released.name +
-                     " have less than 4 pixels in common; give all in the same coordinates");
+                     " have fewer than 4 pixels in common; give all maps in the same coordinates");
   remove_plane(result.clamping);
   remove_plane(result.plastic);
   result.elastic = result.clamping;
@@ -60,7 +60,7 @@ Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const Surfac
   }
   if (!(square > 0))
     return bad_input(after.name + " and " + released.name +
-                     " are the same: nothing sprang back, so K is unknown");
+                     " are identical: there is no springback, so K cannot be calculated");
   result.K = product / square;
   SurfaceMap left = result.plastic;
   for (std::size_t k = 0; k < left.z_m.size(); ++k) left.z_m[k] -= result.K * result.elastic.z_m[k];

@@ -270,7 +270,7 @@ Status check_overlap(const SurfaceMap& a, const SurfaceMap& b, std::size_t pixel
                    std::to_string(measured) +
                    " pixels of the first have a counterpart in the "
                    "second (" +
-                   extent(a) + "; " + extent(b) + "); give both in the same coordinates");
+                   extent(a) + "; " + extent(b) + "); give both maps in the same coordinates");
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ ScanMap without_empty_edges(ScanMap scan) {
 }  // namespace
 
 Result<ScanMap> scan_map(const ScanPoints& points, double pixel_m) {
-  if (points.z_m.empty()) return bad_input("the scan has no height");
+  if (points.z_m.empty()) return bad_input("the scan contains no heights");
   ScanMap scan;
   SurfaceMap& map = scan.map;
   map.dx_m = map.dy_m = pixel_m;
@@ -163,8 +163,9 @@ Result<ScanMap> scan_map(const ScanPoints& points, double pixel_m) {
   set_range(points.y_m, pixel_m, map.y0_m, ny);
   constexpr std::size_t kMostScanPixels = kMostPixels / (kCellsOfPixel * kCellsOfPixel);
   if (!(nx * ny <= static_cast<double>(kMostScanPixels)))
-    return bad_input("pixels of " + std::to_string(pixel_m * 1e3) + " mm are more than " +
-                     std::to_string(kMostScanPixels) + " over this scan; take larger ones");
+    return bad_input("pixels of " + std::to_string(pixel_m * 1e3) + " mm give more than " +
+                     std::to_string(kMostScanPixels) +
+                     " pixels over this scan; take larger pixels");
   map.nx = static_cast<std::size_t>(nx);
   map.ny = static_cast<std::size_t>(ny);
   map.z_m.assign(map.nx * map.ny, SurfaceMap::kMissing);
@@ -185,7 +186,7 @@ Result<ScanMap> scan_map(const ScanPoints& points, double pixel_m) {
   for (double& u : scan.u.z_m) u *= scan.noise_m;
   if (map.measured() > 0) return without_empty_edges(std::move(scan));
   return bad_input("no pixel of " + std::to_string(pixel_m * 1e3) +
-                   " mm has heights enough around it; take larger pixels, or scan more densely");
+                   " mm has enough heights around it; take larger pixels, or scan more densely");
 }
 
 }  // namespace mdof::algo

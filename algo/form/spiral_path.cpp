@@ -39,9 +39,10 @@ Result<SpiralPath> SpiralPath::over(const SurfaceMap& map, const SpiralRequest& 
   const double steps =
       request.outer_radius_m / request.feed_m * static_cast<double>(request.points_per_turn);
   if (!(steps < kMostPoints))
-    return fail(ErrorCode::usage, "a path of " + plain_number(steps) +
-                                      " points; take a smaller radius, a larger feed or fewer "
-                                      "points a turn");
+    return fail(ErrorCode::usage,
+                "the path would have " + plain_number(steps) + " points (limit " +
+                    plain_number(kMostPoints) +
+                    "); take a smaller radius, a larger feed or fewer points per turn");
   SpiralPath path(map, request);
   // A radius that is a whole number of turns ends in the centre, whatever was rounded.
   path.points_ = static_cast<std::size_t>(std::floor(steps * (1 + 1e-12) + 1e-9)) + 1;

@@ -49,20 +49,21 @@ Status common_travel(const ReferenceLines& a, const ReferenceLines& b, Paralleli
   found.to_m = std::min(a.last_m, b.last_m);
   const double longer = std::max(a.last_m - a.first_m, b.last_m - b.first_m);
   if (found.to_m - found.from_m >= kLeastShare * longer) return {};
-  return bad_input("run " + std::to_string(found.run_a) + " goes from " +
+  return bad_input("run " + std::to_string(found.run_a) + " covers " +
                    in_mm_text(a.first_m, a.last_m) + " and run " + std::to_string(found.run_b) +
-                   " from " + in_mm_text(b.first_m, b.last_m) +
-                   ": they have less than half of the travel in common; measure both over one");
+                   " covers " + in_mm_text(b.first_m, b.last_m) +
+                   "; the travel in common is less than half of the longer one: measure both over "
+                   "the same travel");
 }
 
 }  // namespace
 
 Result<Parallelism> parallelism(const Run& run_a, const Run& run_b, bool take_partial) {
   if (run_a.header.axis != run_b.header.axis)
-    return bad_input("run " + std::to_string(run_a.header.id) + " is of axis " +
+    return bad_input("run " + std::to_string(run_a.header.id) + " measures axis " +
                          letter(run_a.header.axis) + " and run " + std::to_string(run_b.header.id) +
-                         " of axis " + letter(run_b.header.axis) +
-                         ": parallelism is that of two motions along one axis",
+                         " axis " + letter(run_b.header.axis) +
+                         ", but parallelism compares two motions along one axis",
                      Remedy::compare_two_axes);
   MDOF_CHECK(check_usable({&run_a, &run_b}, take_partial, "a parallelism"));
   Parallelism found;

@@ -30,8 +30,8 @@ Status check_reading(const PositioningReading& reading) {
                      "or leave the reading out");
   if (reading.direction == 1 || reading.direction == -1) return {};
   return bad_input(place_of(reading.target_m) + ", run " + std::to_string(reading.run) +
-                   ": direction " + std::to_string(reading.direction) +
-                   "; it is 1 where the target was approached in the + sense, else -1");
+                   ": the direction is " + std::to_string(reading.direction) +
+                   "; it must be 1 (target approached in the + sense) or -1");
 }
 
 Result<ByTarget> by_target(const std::vector<PositioningReading>& readings) {
@@ -43,7 +43,8 @@ Result<ByTarget> by_target(const std::vector<PositioningReading>& readings) {
   }
   if (targets.size() >= 2) return targets;
   return bad_input(std::to_string(targets.size()) +
-                   " targets: the parameters of ISO 230-2 need at least two, its plan five");
+                   " targets: the parameters of ISO 230-2 need at least two targets, and its test "
+                   "plan needs five");
 }
 
 // One reading has no standard deviation; one everywhere is a single run, which has means.
@@ -53,11 +54,11 @@ Status check_count(double target_m, const char* approach, std::size_t count, boo
   const std::string place = place_of(target_m) + ": ";
   if (count == 0)
     return bad_input(place + "no reading in " + approach +
-                     " direction, which other targets have; measure it, or leave out the target or "
-                     "that direction");
+                     " direction, although other targets have one; measure it, or leave out the "
+                     "target or that direction");
   return bad_input(place + "one reading in " + approach +
-                   " direction: repeatability needs at least two runs, ISO 230-2 five; measure "
-                   "more or leave it out");
+                   " direction: repeatability needs at least two runs, and ISO 230-2 needs five; "
+                   "measure more runs, or leave out this target");
 }
 
 Status check_counts(const ByTarget& targets) {

@@ -91,8 +91,8 @@ Result<ReferenceLines> reference_lines(std::span<const double> positions_m,
   if (lines.positions < 3)
     return bad_input(std::to_string(lines.readings) + " readings at " +
                      std::to_string(lines.positions) +
-                     " different positions: straightness needs at least three, for a line goes "
-                     "through any two; measure at more positions");
+                     " different positions: straightness needs at least three positions; measure "
+                     "at more positions");
   lines.first_m = series.x.front();
   lines.last_m = series.x.back();
   lines.end_point = stated(through_ends(series), series);

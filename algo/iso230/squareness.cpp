@@ -52,7 +52,8 @@ std::string in_urad(double rad) {
 tl::unexpected<Error> contradiction(const Rig& x, const Rig& y, const char* key, double of_x,
                                     double of_y, Remedy remedy) {
   return bad_input(std::string(key) + " is " + in_urad(of_x) + " in " + x.source + " and " +
-                       in_urad(of_y) + " in " + y.source + ": both runs look at one square",
+                       in_urad(of_y) + " in " + y.source +
+                       ", although both runs measure one square",
                    remedy);
 }
 
@@ -135,10 +136,10 @@ double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint
 Result<AxisPair> pair_of(const Run& a, const Run& b) {
   if (a.header.axis < b.header.axis) return AxisPair{a.header.axis, b.header.axis};
   const auto of = [](const Run& run) {
-    return "run " + std::to_string(run.header.id) + " is of axis " + letter(run.header.axis);
+    return "run " + std::to_string(run.header.id) + " measures axis " + letter(run.header.axis);
   };
   return bad_input(of(a) + " and " + of(b) +
-                   ": squareness needs runs of two axes, in the order X, Y, Z");
+                   "; squareness needs runs of two axes, in the order X, Y, Z");
 }
 
 Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t named) {
@@ -189,10 +190,10 @@ Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const Art
   artefact.corner = face_a * face_b;
   if (artefact.angle_error_rad == 0 || artefact.corner != 0) return artefact;
   const Rig &unclear = face_a == 0 ? rig_a : rig_b, &other = face_a == 0 ? rig_b : rig_a;
-  return bad_input(unclear.source + ": its probes do not show on which side of the fixture the " +
-                   "face of the square across " + letter(other.axis) +
-                   " lies, so that the sign of " + kAngle +
-                   " is not known; give the face's place in position_mm of these probes, or as "
+  return bad_input(unclear.source + ": the side of the fixture on which the " +
+                   "square's face normal to " + letter(other.axis) +
+                   " lies is not stated, so the sign of " + kAngle +
+                   " is unknown; state it by position_mm of the probes at this face, or by "
                    "offset_mm of its [[plane]]");
 }
 

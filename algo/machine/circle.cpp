@@ -71,13 +71,13 @@ Status check_path(const CircularPath& path) {
     return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
   };
   if ((path.ccw_m.empty() && path.cw_m.empty()) || !fits(path.ccw_m) || !fits(path.cw_m))
-    return bad_input("a circular path needs a deviation for each angle, in one direction at least");
+    return bad_input("a circular path needs a deviation for each angle in at least one direction");
   if (!finite(path.angle_rad) || !finite(path.ccw_m) || !finite(path.cw_m))
     return bad_input("a circular path: every angle and deviation must be a finite number");
   if (n < kFewestAngles || largest_gap(path.angle_rad) > kLargestGap_rad + 1e-9)
     return bad_input(
-        "a circular path needs 8 angles and no gap of more than a quarter: an arc has "
-        "no centre of its own");
+        "a circular path needs at least 8 angles and no gap of more than 90 degrees, because an "
+        "arc does not determine the centre");
   return {};
 }
 
@@ -103,12 +103,12 @@ Status check_request(const Machine& machine, const CircleRequest& request) {
     const std::string name(1, "XYZ"[axis]);
     if (!machine.find(name))
       return bad_input("the chain " + machine.chain.text + " has no axis " + name +
-                       "; ask for axes that it has");
+                       "; name axes of this chain");
   }
   if (!(request.radius_m > 0 && request.radius_m <= kMostRadius_m))
     return bad_input("the radius of a circle must be above 0 and at most 10 m");
   if (request.angles >= kFewestAngles && request.angles <= kMostAngles) return {};
-  return bad_input("a circle is predicted at 8 to 100,000 angles");
+  return bad_input("the number of angles of a circle must be from 8 to 100,000");
 }
 
 }  // namespace

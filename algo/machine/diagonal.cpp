@@ -111,7 +111,7 @@ Result<std::vector<Diagonal>> plane_diagonals(const Machine& machine, std::size_
 Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines) {
   if (lines.first.length_m.empty() || lines.second.length_m.empty() ||
       lines.diagonal.length_m.empty())
-    return bad_input("lines 1 and 2, along the axes, and 3, the diagonal, are needed");
+    return bad_input("lines 1 and 2 (along the axes) and line 3 (the diagonal) are needed");
   if (!usable(lines.first) || !usable(lines.second) || !usable(lines.diagonal) ||
       !usable(lines.other))
     return bad_input("every length must be a number above 0");
@@ -125,8 +125,8 @@ Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines
                             : (d.mean * d.mean - x.mean * x.mean - y.mean * y.mean) / product;
   if (!(std::abs(cosine) < 0.1))
     return bad_input(
-        "no two axes that are nearly square have lines of these lengths; are they in "
-        "the right order and unit?");
+        "lines of these lengths do not fit two axes that are nearly square; check the order and "
+        "the unit of the lines");
   s.angle_error_rad = -std::asin(cosine);  // acos(c) - 90°
   const double by_sine = 1 / std::sqrt(1 - cosine * cosine);
   // ∂θ/∂length = -∂cos/∂length / sin θ.

@@ -40,7 +40,7 @@ Status check(const CircleReadings& r, int highest) {
                      ", or fewer harmonics");
   if (widest_gap(r.angle_rad) > kWidestGap_rad)
     return bad_input(
-        "the readings leave out more than 60° of the circle: the first harmonic is not "
+        "the readings leave out more than 60° of the circle, so the first harmonic cannot be "
         "separated from the others; measure a whole turn");
   return {};
 }
@@ -67,7 +67,7 @@ Result<Perpendicularity> perpendicularity(const CircleReadings& r, int highest) 
   }
   const Eigen::LDLT<Eigen::MatrixXd> normal(A.transpose() * A);
   if (normal.rcond() < 1e-9)
-    return bad_input("these angles do not separate so many harmonics; ask for fewer");
+    return bad_input("these angles do not separate so many harmonics; give fewer harmonics");
   const Eigen::VectorXd x = normal.solve(A.transpose() * h);
   const Eigen::MatrixXd covariance = normal.solve(Eigen::MatrixXd::Identity(A.cols(), A.cols()));
   Perpendicularity p;

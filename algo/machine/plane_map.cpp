@@ -15,7 +15,7 @@ Result<const MachineFrame*> linear_axis(const Machine& machine, std::size_t dire
   const MachineFrame* frame = machine.find(kAxes.substr(direction, 1));
   if (frame) return frame;
   return bad_input("the chain " + machine.chain.text + " has no axis " +
-                   std::string(kAxes.substr(direction, 1)) + "; ask for axes that it has");
+                   std::string(kAxes.substr(direction, 1)) + "; name axes of this chain");
 }
 
 void add_points(const Machine& machine, const PlaneMapRequest& request, PlaneMap& map) {
@@ -67,7 +67,7 @@ Result<std::array<double, 2>> range_of(const MachineFrame& frame) {
   }
   if (range[0] < range[1] && std::isfinite(range[0])) return range;
   return bad_input("axis " + frame.id +
-                   ": neither range_mm nor tables that have positions in common; add range_mm = "
+                   " has neither range_mm nor tables with positions in common; add range_mm = "
                    "[from, to] to its [[axis]]");
 }
 
@@ -86,7 +86,7 @@ Result<PlaneMap> plane_map(const Machine& machine, const PlaneMapRequest& reques
     return (r[1] - r[0]) / request.step_m + 2;
   };
   if (!(count(first_range) * count(second_range) < static_cast<double>(kMostPoints)))
-    return bad_input("a map of a million points or more; take a larger step");
+    return bad_input("the map would have a million points or more; take a larger step");
   PlaneMap map{request.first,
                request.second,
                steps_over(first_range, request.step_m),

@@ -24,7 +24,7 @@ Result<Motion> arm_angle(double arm_m, const Motion& end) {
   const double s = end.position / arm_m;
   if (!(std::abs(s) < 1))
     return bad_input("screws A and C: sin B would be " + std::to_string(s) +
-                     "; their difference times cos(tilt) must be below twice the arm");
+                     " (limit 1); their difference times cos(tilt) must be below twice the arm");
   const double b = std::asin(s), c = std::cos(b), speed = end.velocity / (arm_m * c);
   return Motion{b, speed, (end.acceleration / arm_m + speed * speed * s) / c};
 }
@@ -41,7 +41,7 @@ double spindle_ratio(const CoPlanarDrive& drive) {
 Result<ScrewMotion> screws_for(const CoPlanarDrive& drive, const PlatformMotion& platform) {
   const double quarter_turn = std::acos(0.0);
   if (!(std::abs(platform[kPlatformB].position) < quarter_turn))
-    return bad_input("B: the arms turn the platform by less than 90 degrees");
+    return bad_input("B: must be between -90 and 90 degrees, the range of the arms");
   const Motion end = arm_end(drive.arm_m, platform[kPlatformB]);
   const double per_screw = 1 / platform_ratio(drive);
   ScrewMotion screws;
@@ -67,8 +67,9 @@ Result<double> rotation_step(const CoPlanarDrive& drive, double angle_rad, doubl
   const double step = screw_step_m * platform_ratio(drive) / drive.arm_m;
   const double end = std::sin(angle_rad) + step;
   if (!(std::abs(end) <= 1))
-    return bad_input("one step of the platform is longer than the arm can turn from " +
-                     std::to_string(angle_rad * 90 / std::acos(0.0)) + " degrees on");
+    return bad_input(
+        "at " + std::to_string(angle_rad * 90 / std::acos(0.0)) +
+        " degrees one more step of the screws is beyond the end of the arm's turn, 90 degrees");
   return std::asin(end) - angle_rad;
 }
 

@@ -57,15 +57,15 @@ std::string clearance_text(const MotionClearance& motion) {
   const std::string axis(1, letter(motion.axis));
   if (motion.probes.empty())
     return axis +
-           " passes by all probes: a target that is tilted by 1 mrad comes nearer to them by "
-           "1 um for each mm of travel";
+           " drives the target towards no probe; a target tilt of 1 mrad changes the gaps by 1 um "
+           "for each mm of travel";
   std::string ids, senses, contact;
   double least_m = motion.probes.front().range_m;
   for (const ProbeInTheWay& probe : motion.probes) {
     ids += (ids.empty() ? "" : ", ") + probe.id;
     least_m = std::min(least_m, probe.range_m);
     senses += (senses.empty() ? "" : ", ") + probe.id +
-              (probe.towards == 0  ? " either way"
+              (probe.towards == 0  ? " in both directions"
                : probe.towards > 0 ? " along +" + axis
                                    : " along -" + axis);
     if (probe.contact_m)
@@ -74,7 +74,7 @@ std::string clearance_text(const MotionClearance& motion) {
   }
   return "HAZARD: " + axis + " drives the target's face into the probes " + ids + " (" + senses +
          "): the range ends after " + um(least_m) + contact +
-         "; do not move further, or take them out of the way first";
+         "; do not move further, or remove these probes first";
 }
 
 }  // namespace mdof::algo

@@ -42,7 +42,7 @@ Result<const TargetPlane*> named_plane(const Rig& rig, const Probe& probe) {
   for (const auto& plane : rig.planes)
     if (plane.id == probe.plane) return &plane;
   return bad_input(rig.source + ": probe \"" + probe.id + "\": plane = \"" + probe.plane +
-                   "\" is the id of no [[plane]]; there are " +
+                   "\" is not the id of a [[plane]]; ids of the rig: " +
                    (rig.planes.empty() ? "none" : ids_of(rig)));
 }
 
@@ -63,13 +63,11 @@ Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
   if (cosine(*best, probe) <= kLooksAt)
     return bad_input(rig.source + ": probe \"" + probe.id +
                      "\" looks at none of the [[plane]] tables (its direction is more than 60° "
-                     "from every normal); add the plane it measures");
+                     "from every normal); add the [[plane]] that it measures");
   if (second && cosine(*second, probe) > cosine(*best, probe) - kMargin)
-    return bad_input(
-        rig.source + ": probe \"" + probe.id + "\" may look at the plane \"" + best->id +
-        "\" or at \"" + second->id +
-        "\": its direction fits more than one plane; say which with plane = \"...\" in its "
-        "[[probe]]");
+    return bad_input(rig.source + ": probe \"" + probe.id +
+                     "\": its direction fits two planes, \"" + best->id + "\" and \"" + second->id +
+                     "\"; state one with plane = \"...\" in its [[probe]]");
   return best;
 }
 
@@ -82,11 +80,11 @@ constexpr double kOnPlane_m = 1e-6;
 // The position is where the probe's line meets the nominal surface: it lies on the plane.
 Status check_on_plane(const Rig& rig, const FixtureProbe& probe, const TargetPlane& plane) {
   if (std::abs(probe.plane_offset_m - *plane.offset_m) <= kOnPlane_m) return {};
-  return bad_input(rig.source + ": probe \"" + probe.id + "\": its position_mm lies at " +
+  return bad_input(rig.source + ": probe \"" + probe.id +
+                   "\": its position_mm, where the probe's line meets the plane, is at " +
                    in_mm(probe.plane_offset_m) + " along the normal of the plane \"" + plane.id +
-                   "\", whose offset_mm is " + in_mm(*plane.offset_m) +
-                   ": the position is the point where the probe's line meets that plane; correct "
-                   "one of the two, or name another plane");
+                   "\", but offset_mm of that plane is " + in_mm(*plane.offset_m) +
+                   "; correct one of the two, or name another plane");
 }
 
 // Probes of one plane, and without [[plane]] probes that look the same way, meet one surface.
@@ -101,10 +99,10 @@ Status check_common_planes(const Rig& rig, const Fixture& fixture,
       const double of_b = way > 0 ? b.plane_offset_m : -b.plane_offset_m;
       if (std::abs(a.plane_offset_m - of_b) <= kOnPlane_m) continue;
       return bad_input(rig.source + ": probes \"" + a.id + "\" and \"" + b.id +
-                       "\" look at one plane, and their position_mm put it at " +
+                       "\" look at one plane, but their position_mm place it at " +
                        in_mm(a.plane_offset_m) + " and at " + in_mm(of_b) +
                        "; correct position_mm, or declare two [[plane]] tables with offset_mm and "
-                       "name each probe's with plane = \"...\"");
+                       "state plane = \"...\" in each [[probe]]");
     }
   }
   return {};

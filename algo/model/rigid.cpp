@@ -95,8 +95,8 @@ AxisErrors solve_rigid(const Fixture& fixture, double travel_m,
                         std::abs(e[kEz]) < kSmallAngleMax_rad;
     if (!inside) {
       result.reason =
-          "the readings ask for a rotation beyond 0.25 rad; check the rig's positions, "
-          "directions and units";
+          "the readings give a rotation above 0.25 rad; check the rig's positions, directions and "
+          "units";
       return result;
     }
     done = std::abs(step(0)) <= kStepDone_m && std::abs(step(1)) <= kStepDone_m &&
@@ -104,8 +104,8 @@ AxisErrors solve_rigid(const Fixture& fixture, double travel_m,
   }
   if (!done) {
     result.reason =
-        "the model does not settle at any errors for these readings; check the height maps of the "
-        "rig's planes: flatness_um is in um, flatness_first_mm and flatness_second_mm in mm";
+        "the solution does not converge for these readings; check the height maps of the rig's "
+        "planes (flatness_um is in um, flatness_first_mm and flatness_second_mm in mm)";
     return result;
   }
   double sum = 0, count = 0;

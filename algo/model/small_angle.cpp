@@ -40,12 +40,12 @@ Result<Roles> find_roles(const Fixture& fixture) {
     } else if (std::abs(probe.u_M.y()) > kAlong) {
       roles.side.push_back(i);
     } else {
-      return not_of_this_kind("probe " + probe.id + " measures along neither");
+      return not_of_this_kind("probe " + probe.id + " measures along neither ±z nor ±y");
     }
   }
   if (roles.top.size() != 3 || roles.side.size() != 2) {
-    return not_of_this_kind("this rig has " + std::to_string(roles.top.size()) + " and " +
-                            std::to_string(roles.side.size()));
+    return not_of_this_kind("this rig has " + std::to_string(roles.top.size()) + " along ±z and " +
+                            std::to_string(roles.side.size()) + " along ±y");
   }
   return roles;
 }
@@ -96,7 +96,7 @@ Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {
     f.x[k] = probe.p_MP.x();
     f.across[k] = top ? probe.p_MP.y() : probe.p_MP.z();
     if (top && std::abs(probe.p_MP.z()) > kSamePlane_m) {
-      return not_of_this_kind("probe " + probe.id + " meets its target off z = 0");
+      return not_of_this_kind("probe " + probe.id + " does not meet its target at z = 0");
     }
   }
   f.h = fixture.probes[f.probe[3]].p_MP.y();
@@ -105,7 +105,8 @@ Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {
   }
   if (!top_weights(f)) return not_of_this_kind("the three top probes are in a line");
   const double span = f.x[4] - f.x[3];
-  if (span < 1e-5) return not_of_this_kind("the two side probes are not apart along the motion");
+  if (span < 1e-5)
+    return not_of_this_kind("the two side probes are at the same place along the motion");
   f.side_per_m = 1.0 / span;
   f.side_rise = (f.across[4] - f.across[3]) / span;
   f.x_D = f.x[3];

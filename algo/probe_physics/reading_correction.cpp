@@ -85,8 +85,8 @@ CorrectedReadings ReadingCorrection::correct(double travel_m, const std::vector<
   for (double change_m = 1; change_m > kDone_m; ++out.rounds) {
     if (out.rounds == kMostRounds) {
       out.why_not =
-          "the correction of the tilt does not settle: its angles are too large for the "
-          "gaps; correct sensing_radius_mm, tilt_factor or standoff_um in the rig";
+          "the tilt correction does not converge, because the angles are too large for the gaps; "
+          "correct sensing_radius_mm, tilt_factor or standoff_um in the rig";
       out.readings_m.assign(readings_m.size(), kNaN);
       return out;
     }

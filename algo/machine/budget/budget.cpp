@@ -108,8 +108,7 @@ Status check_sizes(const BudgetModel& model) {
             if (most <= (k < 3 ? kMostShift_m : kMostTurn_rad)) continue;
             return bad_input("source \"" + cause.name + "\": at this command its u makes " +
                              name_of(model.machine.frames[i], k, of_line) + " larger than " +
-                             (k < 3 ? "10 mm" : "0.1 rad") +
-                             "; are u, factor and their units right?");
+                             (k < 3 ? "10 mm" : "0.1 rad") + "; check u, factor and their units");
           }
       }
   return {};

@@ -146,7 +146,7 @@ TEST(Squareness, NamesTheRunOfTheWrongAxis) {
   const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um);
   const auto refused = squareness(x, x, {});
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("run 1 is of axis X"), std::string::npos);
+  EXPECT_NE(refused.error().message.find("run 1 measures axis X"), std::string::npos);
 }
 
 // Side faces at y = face_x of the X rig and at x = face_y of the Y rig, mm.
@@ -201,7 +201,7 @@ TEST(Artefact, IsRefusedWhereTheRigsDifferOrTellNoCorner) {
   for (const double no_u : {-1e-9, 1e302, std::nan("")})
     EXPECT_FALSE(artefact_of(same_x, same_y, {.angle_error_rad = {}, .u_rad = no_u}));
   EXPECT_TRUE(artefact_of(same_x, same_y, {.angle_error_rad = -0.01, .u_rad = 0.01}));
-  EXPECT_NE(artefact_of(at_0, other, {}).error().message.find("rig_X: its probes do not show"),
+  EXPECT_NE(artefact_of(at_0, other, {}).error().message.find("rig_X: the side of the fixture"),
             std::string::npos);
   const auto [no_angle, needs_none] = rigs_at(0, -15);
   EXPECT_EQ(artefact_of(no_angle, needs_none, {})->corner, 0);

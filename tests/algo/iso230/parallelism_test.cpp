@@ -128,7 +128,7 @@ TEST(ParallelismByHand, TakesTravelsThatHaveHalfInCommon) {
   EXPECT_TRUE(parallelism(over(1, 2), over(2, 0)));
   const auto less = parallelism(over(1, 0), over(2, 3));
   ASSERT_FALSE(less);
-  EXPECT_NE(less.error().message.find("run 1 goes from 0 to 31.25 mm and run 2 from 23.4375"),
+  EXPECT_NE(less.error().message.find("run 1 covers 0 to 31.25 mm and run 2 covers 23.4375"),
             std::string::npos)
       << less.error().message;
   EXPECT_FALSE(parallelism(over(1, 3), over(2, 0)));
@@ -146,7 +146,7 @@ TEST(ParallelismByHand, RefusesWhatIsNoPairOfMotions) {
   const auto two_axes = parallelism(run_of_motion(motion_a()), run_of_motion(y));
   ASSERT_FALSE(two_axes);
   EXPECT_EQ(two_axes.error().remedy, Remedy::compare_two_axes);
-  EXPECT_NE(two_axes.error().message.find("run 11 is of axis X and run 12 of axis Y"),
+  EXPECT_NE(two_axes.error().message.find("run 11 measures axis X and run 12 axis Y"),
             std::string::npos);
   MotionByHand two = motion_b();
   two.x_m.resize(2);

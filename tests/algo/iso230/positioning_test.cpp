@@ -94,7 +94,7 @@ TEST(Positioning, RefusesWhatHasNoFigures) {
   EXPECT_NE(refused({{0, 1, 1, 1}, {0, 1, 2, 2}}).find("1 targets"), std::string::npos);
   auto readings = two_targets();
   readings[1].direction = 0;
-  EXPECT_NE(refused(readings).find("target 0 mm, run 1: direction 0"), std::string::npos);
+  EXPECT_NE(refused(readings).find("target 0 mm, run 1: the direction is 0"), std::string::npos);
   for (const double bad : {std::nan(""), 1e300, -std::numeric_limits<double>::infinity()}) {
     readings = two_targets();
     readings[3].deviation = bad;
@@ -111,8 +111,9 @@ TEST(Positioning, NamesTheTargetThatLacksReadings) {
   EXPECT_NE(refused(readings).find("target 1000 mm: one reading in reverse direction"),
             std::string::npos);
   readings.erase(readings.begin());
-  EXPECT_NE(refused(readings).find("target 1000 mm: no reading in reverse direction, which other"),
-            std::string::npos);
+  EXPECT_NE(
+      refused(readings).find("target 1000 mm: no reading in reverse direction, although other"),
+      std::string::npos);
 }
 
 // Limits of ±2√3 µm are 4 µm with k = 2; a drift of 5 µm is 3 µm.

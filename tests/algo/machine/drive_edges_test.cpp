@@ -65,7 +65,7 @@ TEST(PerpendicularityEdges, SevenPlacesDoNotTellFiveHarmonics) {
   }
   const auto five = perpendicularity(r, 5);
   ASSERT_FALSE(five);
-  EXPECT_NE(five.error().message.find("ask for fewer"), std::string::npos);
+  EXPECT_NE(five.error().message.find("give fewer"), std::string::npos);
   EXPECT_TRUE(perpendicularity(r, 3));
 }
 

@@ -71,7 +71,7 @@ TEST(Fixture, AsksForThePlaneWhereTheDirectionLeavesADoubt) {
   const std::string tilted =
       replaced(test::rig_x_toml() + kPlanes, "measures = \"+Y\"", "direction = [0, 1, 1]");
   EXPECT_TRUE(
-      says(refusal(tilted), {"\"D\"", "\"top\"", "\"side\"", "more than one plane", "plane ="}));
+      says(refusal(tilted), {"\"D\"", "\"top\"", "\"side\"", "fits two planes", "plane ="}));
   const std::string named =
       replaced(tilted, "direction = [0, 1, 1]", "direction = [0, 1, 1]\nplane = \"side\"");
   EXPECT_EQ(refusal(named), "");

@@ -278,7 +278,7 @@ TEST(RigidModel, RefusesEachAngleBeyondAQuarter) {
       const Eigen::VectorXd model = rigid_readings(solver.fixture(), 0.02, e);
       const AxisErrors got = solver.solve(0.02, {model.begin(), model.end()}, {});
       EXPECT_EQ(got.valid, std::abs(angle) < 0.25) << k << " " << angle;
-      EXPECT_EQ(got.reason.find("rotation beyond 0.25 rad") != std::string::npos, !got.valid);
+      EXPECT_EQ(got.reason.find("rotation above 0.25 rad") != std::string::npos, !got.valid);
     }
   }
 }

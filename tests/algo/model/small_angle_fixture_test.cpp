@@ -33,14 +33,15 @@ TEST(SmallAngleFixture, HasThreeTopProbesAndTwoSideProbes) {
   for (const std::size_t more : {0u, 3u}) {
     Fixture fixture = fixture_of_five();
     fixture.probes.push_back(fixture.probes[more]);
-    EXPECT_TRUE(says(refused(fixture), more == 0 ? "has 4 and 2" : "has 3 and 3"));
+    EXPECT_TRUE(says(refused(fixture), more == 0 ? "has 4 along ±z and 2 along ±y"
+                                                 : "has 3 along ±z and 3 along ±y"));
   }
   Fixture fixture = fixture_of_five();
   fixture.probes.pop_back();
-  EXPECT_TRUE(says(refused(fixture), "has 3 and 1"));
+  EXPECT_TRUE(says(refused(fixture), "has 3 along ±z and 1 along ±y"));
   fixture = fixture_of_five();
   fixture.probes.erase(fixture.probes.begin());
-  EXPECT_TRUE(says(refused(fixture), "has 2 and 2"));
+  EXPECT_TRUE(says(refused(fixture), "has 2 along ±z and 2 along ±y"));
 }
 
 TEST(SmallAngleFixture, LooksAlongTheAxes) {

@@ -144,7 +144,7 @@ Sequence OnTheFly::sequence() const {
       const auto found = number.find(bin.place);
       if (found == number.end()) {
         sequence.left_out.push_back({bin.point.position_m, bin.point.begin_ns,
-                                     "fewer than half of the passes took it at a steady speed"});
+                                     "fewer than half of the passes crossed it at a steady speed"});
         continue;
       }
       visits.push_back({found->second, pass.direction});

@@ -125,10 +125,11 @@ Status OnTheFly::explain_nothing() const {
   const double travel_m = summary_.encoder_max_m - summary_.encoder_min_m;
   const std::string travel = plain_number(to_mm(summary_.encoder_min_m), 6) + " to " +
                              plain_number(to_mm(summary_.encoder_max_m), 6) + " mm";
-  if (summary_.scans == 0) return bad_input("no scan has a position of the encoder");
+  if (summary_.scans == 0) return bad_input("no scan has an encoder position");
   if (passes_.empty())
-    return bad_input("the axis goes from " + travel + ", and no whole bin of " +
-                         plain_number(to_mm(grid_.bin_m())) + " mm about a target lies within",
+    return bad_input("the axis travels from " + travel +
+                         ", and this travel contains no whole bin of " +
+                         plain_number(to_mm(grid_.bin_m())) + " mm about a target",
                      Remedy::smaller_bins);
   std::size_t bins = 0;
   double way_m = 0, passed_s = 0;
@@ -145,15 +146,13 @@ Status OnTheFly::explain_nothing() const {
     return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz a bin of " +
                          plain_number(to_mm(grid_.bin_m())) + " mm has " +
                          plain_number(grid_.bin_m() / speed_m_s * rate_hz, 3) +
-                         " scans, needed are " + std::to_string(kFewestOfBin),
+                         " scans, but needs " + std::to_string(kFewestOfBin),
                      Remedy::larger_bins, plain_number(to_mm(needed_m), 3));
   }
-  return bad_input(
-      "in none of " + std::to_string(bins) + " bins from " + travel + " (" +
-          plain_number(to_mm(travel_m), 4) +
-          " mm) does the axis go on at a steady speed: it stops or changes its speed all "
-          "the way",
-      Remedy::replay_with_stops);
+  return bad_input("the axis moves at a steady speed in none of " + std::to_string(bins) +
+                       " bins from " + travel + " (" + plain_number(to_mm(travel_m), 4) +
+                       " mm): it stops or changes its speed in each",
+                   Remedy::replay_with_stops);
 }
 
 Notices OnTheFly::notices() const {

@@ -25,8 +25,8 @@ double tolerance_of(double u, int digits) {
 Result<AdaptiveRule> AdaptiveRule::create(const std::vector<std::string>& outputs,
                                           const AdaptiveTolerance& tolerance) {
   if (tolerance.digits < 1 || tolerance.digits > 6) {
-    return bad_input("digits " + std::to_string(tolerance.digits) +
-                     ": 1 to 6 significant digits of the standard uncertainty can be asked for");
+    return bad_input("digits is " + std::to_string(tolerance.digits) +
+                     "; the significant digits of the standard uncertainty must be from 1 to 6");
   }
   AdaptiveRule rule;
   rule.digits_ = tolerance.digits;
@@ -36,7 +36,7 @@ Result<AdaptiveRule> AdaptiveRule::create(const std::vector<std::string>& output
     if (found == outputs.end()) {
       std::string known;
       for (const std::string& output : outputs) known += (known.empty() ? "" : ", ") + output;
-      return bad_input("tolerance of \"" + key + "\": no such output; there are " + known);
+      return bad_input("tolerance of \"" + key + "\": no such output; the outputs are " + known);
     }
     if (!(value > 0) || !std::isfinite(value)) {
       return bad_input("tolerance of \"" + key + "\": must be above zero");

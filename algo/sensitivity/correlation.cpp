@@ -18,8 +18,8 @@ tl::unexpected<Error> not_positive_definite(const PlannedCorrelation& group, dou
   std::string names;
   for (const auto& name : group.quantities) names += (names.empty() ? "" : ", ") + name;
   return bad_input(group.where + ": the correlation matrix of " + names +
-                   " is not positive definite: its smallest eigenvalue is " + number.data() +
-                   "; no random numbers are correlated like this, lower its coefficients");
+                   " is not positive definite (its smallest eigenvalue is " + number.data() +
+                   "), so no random numbers can have these correlations; reduce the coefficients");
 }
 
 }  // namespace

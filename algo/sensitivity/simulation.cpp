@@ -42,7 +42,8 @@ Status check(const SimulationOptions& o) {
     if (!std::isfinite(value)) return refused(name, "must be a number");
   }
   if (o.angle_range_urad > 100'000) {
-    return refused("angle_range_urad", "the small-angle model ends at 100 000 µrad");
+    return refused("angle_range_urad",
+                   "must be at most 100 000 µrad, the limit of the small-angle model");
   }
   if (!(o.l_mm > 0)) return refused("l_mm", "must be above 0");
   if (o.travel_to_mm < o.travel_from_mm) {

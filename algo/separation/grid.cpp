@@ -50,10 +50,11 @@ Result<double> put_on_steps(std::vector<double>& position_m, double match_m) {
   for (double& x : position_m) {
     const double on = first + std::round((x - first) / step) * step;
     if (std::abs(x - on) > match_m)
-      return bad_input("the positions are not equally spaced (" + in_mm(x) + " is " +
-                           in_mm(std::abs(x - on)) + " off steps of " + in_mm(step) +
-                           "), so that no place of the shifted target comes back under the probe",
-                       Remedy::measure_equal_intervals);
+      return bad_input(
+          "the positions are not equally spaced (" + in_mm(x) + " is " + in_mm(std::abs(x - on)) +
+              " away from a multiple of the step, " + in_mm(step) +
+              "), so the probe does not read the same places of the shifted target again",
+          Remedy::measure_equal_intervals);
     x = on;
   }
   return step;
@@ -68,8 +69,9 @@ Result<long> step_on_target(const ReadAt& at, const SetUp& set_up, std::size_t n
   const double off = (steps - std::round(steps)) * grid.step_m;
   if (std::abs(off) <= match_m) return std::lround(steps);
   return bad_input("set-up " + std::to_string(number) + ": its shift of " + in_mm(set_up.shift_m) +
-                       " is " + in_mm(std::abs(off)) + " off whole steps of " + in_mm(grid.step_m) +
-                       ", so that it reads other places of the target than the first set-up",
+                       " is " + in_mm(std::abs(off)) + " away from a multiple of the step, " +
+                       in_mm(grid.step_m) +
+                       ", so it reads other places of the target than the first set-up",
                    Remedy::shift_by_intervals);
 }
 
@@ -118,8 +120,8 @@ Result<Grid> grid_of(const ReadAt& at, const std::vector<SetUp>& set_ups, double
   grid.position_m = clusters.at;
   grid.at_position = clusters.of;
   if (grid.position_m.size() < 3)
-    return bad_input("there are " + std::to_string(grid.position_m.size()) +
-                         " different positions: a line goes through any two",
+    return bad_input("the set-ups have " + std::to_string(grid.position_m.size()) +
+                         " different positions, but at least 3 are needed",
                      Remedy::measure_three_positions);
   if (std::none_of(set_ups.begin(), set_ups.end(), moved_along)) {
     add_unshifted_places(at, grid);

@@ -15,7 +15,7 @@ Status check_set_up(const SetUp& set_up, std::size_t number) {
   const auto wrong = [](double x) { return !(std::abs(x) <= kMost_m); };
   if (set_up.position_m.size() < 3)
     return bad_input(of + std::to_string(set_up.position_m.size()) +
-                     " readings; a line goes through any two: measure at three or more positions");
+                     " readings, but at least 3 are needed; measure at three or more positions");
   for (const auto* values : {&set_up.position_m, &set_up.error_m, &set_up.u_m})
     if (std::any_of(values->begin(), values->end(), wrong))
       return bad_input(of + "a value is not a finite number below 1000 km; check the units");
@@ -49,8 +49,9 @@ Status check_request(const SeparationRequest& request) {
                      std::to_string(kMostReadings) + " can be separated at once; leave some out");
   if (!all_alike(request)) return {};
   return bad_input(
-      "the target lay alike in all set-ups, which cannot separate the machine from it; "
-      "say which was turned or how far it was shifted, or measure so");
+      "the target has the same place and orientation in all set-ups, so the machine cannot be "
+      "separated from it; state in which set-up it was turned or how far it was shifted, or "
+      "measure such a set-up");
 }
 
 Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups) {

@@ -109,13 +109,13 @@ Result<ProbeSeries> probe_series(const Run& run, const Rig& rig, const std::stri
   if (!index) {
     std::string ids;
     for (const Probe& p : rig.probes) ids += (ids.empty() ? "" : ", ") + p.id;
-    return bad_input(rig.source + ": has no probe \"" + probe + "\" but " + ids);
+    return bad_input(rig.source + ": has no probe \"" + probe + "\"; its probes are " + ids);
   }
   const Probe& found = rig.probes[*index];
   const double along = found.direction[static_cast<std::size_t>(normal)];
   if (std::abs(along) < 1 - kAcross)
     return bad_input(rig.source + ": probe \"" + probe + "\" does not look along " +
-                         letter(normal) + ", across this surface",
+                         letter(normal) + ", the normal of this surface",
                      Remedy::take_other_surface);
   const double sense = along > 0 ? 1.0 : -1.0;
   ProbeSeries series{series_of(run, with_reading(run, *index, sense), 0), found.position_m};

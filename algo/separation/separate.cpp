@@ -158,8 +158,8 @@ double chi_square_of(const Equations& e, const Solution& solution, const VectorX
 }
 
 std::string declared_text(const Separation& result, const Equations& e) {
-  if (e.declared.cols() > 0) return ", and what is declared";
-  return result.noise_only ? ": noise and repeatability only, no uncertainties are declared" : "";
+  if (e.declared.cols() > 0) return " and the declared uncertainties";
+  return result.noise_only ? " (noise and repeatability only: no uncertainties are declared)" : "";
 }
 
 // u of each reading, by which u of the results is made.
@@ -168,19 +168,19 @@ VectorXd judge(const Equations& e, const Solution& solution, Separation& result)
   const std::size_t freedom = result.freedom();
   if (freedom > 0) result.residual_m = std::sqrt(left.squaredNorm() / static_cast<double>(freedom));
   if (e.u.allFinite()) {
-    result.u_reason = "u of the readings, propagated" + declared_text(result, e);
+    result.u_reason = "the propagated u of the readings" + declared_text(result, e);
     const double chi_square = chi_square_of(e, solution, left);
     if (freedom > 0 && chi_square > chi_square_limit(static_cast<int>(freedom)))
       result.notices.push_back(notice(NoticeCode::set_ups_contradict, "",
                                       {{"chi_square", chi_square}, {"freedom", freedom}}));
     return e.u;
   }
-  result.u_reason =
-      freedom > 0 ? "the scatter about the fit, " + std::to_string(freedom) +
-                        " degrees of freedom; no u above 0 of all readings is given" +
-                        declared_text(result, e)
-                  : "not known: no u above 0 of all readings is given, and nothing is left over to "
-                    "estimate it from; give u_um";
+  result.u_reason = freedom > 0
+                        ? "the scatter about the fit (" + std::to_string(freedom) +
+                              " degrees of freedom)" + declared_text(result, e) +
+                              "; not every reading has a u above 0"
+                        : "unknown: not every reading has a u above 0, and the fit has no degrees "
+                          "of freedom to estimate it; give u_um";
   return VectorXd::Constant(e.u.size(), result.residual_m);
 }
 

@@ -15,10 +15,9 @@ Status check_state(const Run& run, bool take_partial, const std::string& what) {
   if (state == RunState::complete || (take_partial && state == RunState::partial)) return {};
   const std::string is = name_of(run) + " is " + to_string(state);
   if (state == RunState::partial)
-    return bad_input(is + ", and " + what +
-                         " is built from complete runs: its notices say what is "
-                         "missing",
-                     Remedy::take_partial_runs);
+    return bad_input(
+        is + ", but " + what + " needs complete runs; the notices of the run say what is missing",
+        Remedy::take_partial_runs);
   return bad_input(is + "; build " + what + " from complete runs");
 }
 
@@ -47,10 +46,12 @@ std::string in_common(const Run& a, const Run& b) {
   const std::string& sha256 = a.header.provenance.recording_sha256;
   if (a.header.id != 0 && a.header.id == b.header.id) return name_of(a) + " is given twice";
   if (!sha256.empty() && sha256 == b.header.provenance.recording_sha256)
-    return name_of(a) + " and " + name_of(b) + " are of the same recording (" +
+    return name_of(a) + " and " + name_of(b) + " come from the same recording (" +
            b.header.provenance.recording_path + ")";
-  if (continues_from(b, a)) return name_of(b) + " goes on from " + name_of(a) + " and holds it";
-  if (continues_from(a, b)) return name_of(a) + " goes on from " + name_of(b) + " and holds it";
+  if (continues_from(b, a))
+    return name_of(b) + " continues " + name_of(a) + " and contains its readings";
+  if (continues_from(a, b))
+    return name_of(a) + " continues " + name_of(b) + " and contains its readings";
   if (share_a_reading(a, b)) return name_of(a) + " and " + name_of(b) + " have readings in common";
   return "";
 }
@@ -59,14 +60,14 @@ Status check_independent(const Run& a, const Run& b) {
   const std::string common = in_common(a, b);
   if (common.empty()) return {};
   return bad_input(common +
-                   ": readings that count twice make the uncertainty too small; leave one out");
+                   ": readings that count twice make the uncertainty too small; leave one run out");
 }
 
 Status check_one_kind(const Run& a, const Run& b) {
   if (a.header.simulated == b.header.simulated) return {};
   const Run &simulated = a.header.simulated ? a : b, &measured = a.header.simulated ? b : a;
   return bad_input(name_of(simulated) + " is simulated and " + name_of(measured) +
-                   " measured: no figure is made of both");
+                   " is measured; give runs of one kind");
 }
 
 }  // namespace

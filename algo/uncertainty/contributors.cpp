@@ -338,8 +338,8 @@ Status check_run(const Basis& basis) {
   for (std::size_t j = 0; j < basis.points.size(); ++j)
     if (basis.points[j].valid && !is_small(basis.points[j].carriage))
       return bad_input(run + ": at target " + std::to_string(basis.run.points[j].target) +
-                       " an angle is over 250 mrad, where the model of a mounting ends, so that no "
-                       "budget can be made; is the rig right?");
+                       " an angle exceeds 250 mrad, the limit of the mounting model, so no budget "
+                       "can be calculated; check the rig");
   return {};
 }
 
@@ -350,15 +350,15 @@ Status check_angles(const Rig& rig) {
   for (const double u : rig.uncertainty.installation_angle.u) small = small && fits(u);
   if (small) return {};
   return bad_input(rig.source +
-                   ": a declared u_direction_mrad or u_angle_mrad is over 125 mrad, where the "
-                   "model ends; give it in mrad");
+                   ": a declared u_direction_mrad or u_angle_mrad exceeds 125 mrad, the limit of "
+                   "the model; check that it is in mrad");
 }
 
 }  // namespace
 
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   if (run.points.empty())
-    return bad_input(name_of(run) + " has no points, so that there is nothing to budget");
+    return bad_input(name_of(run) + " has no points, so no budget can be calculated");
   std::vector<Contributor> own = removed_drift(run);  // what does not need the rig to declare it
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);

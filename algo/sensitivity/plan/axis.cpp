@@ -84,14 +84,15 @@ Status check_forward(const StudyPlan& plan, const Fixture& fixture) {
                                [](const FixtureProbe& p) { return !p.flatness.empty(); });
   if (map && plan.forward == Forward::small_angle)
     return bad_input(plan.source +
-                     ": forward = \"small-angle\" knows no flatness map, and the rig " +
-                     "has one; use forward = \"rigid\"");
+                     ": forward = \"small-angle\" cannot use the flatness map of the rig; " +
+                     "use forward = \"rigid\"");
   for (const auto& quantity : plan.quantities) {
     const bool fixture_K = quantity.name == "temperature.fixture_K";
     if ((fixture_K && plan.fixture_per_K == 0) ||
         (quantity.name == "temperature.target_K" && plan.target_per_K == 0))
       return bad_input(quantity.where + ": " + quantity.name + " has no effect without " +
-                       (fixture_K ? "fixture" : "target") + "_ppm_per_K in [expansion]; give it");
+                       (fixture_K ? "fixture" : "target") +
+                       "_ppm_per_K in [expansion]; add that key");
     if (quantity.name.ends_with("map_percent") && !map)
       return bad_input(quantity.where + ": the rig has no flatness map for " + quantity.name +
                        "; add flatness_um to its [[plane]], or use flatness_um here");
@@ -126,10 +127,10 @@ Result<PlanAxis> PlanAxis::create(const StudyPlan& plan, const Rig& rig, const s
   auto solver = Solver::create(rig, plan.model);
   if (!solver) return in_context(plan.source + ": rig", solver.error());
   if (rig.sides != Sides{})
-    return bad_input(
-        plan.source + ": a plan takes rigs with moves = \"target\" and travel = \"+\"; " +
-        rig.source + " has others. What an error of the rig does is of the same size " +
-        "with them: leave the two keys out of a copy of the rig");
+    return bad_input(plan.source +
+                     ": a plan needs a rig with moves = \"target\" and travel = \"+\"; " +
+                     rig.source + " states others. Use a copy of the rig without these two keys; " +
+                     "the effects of rig errors have the same size");
   MDOF_CHECK(check_forward(plan, solver->fixture()));
   const std::size_t positions = series ? plan.series_positions : 0;
   MDOF_TRY(PlanDraws draws, PlanDraws::create(plan, rig, prefix, 1 + positions, causes));
@@ -140,8 +141,9 @@ Result<PlanAxis> PlanAxis::create(const StudyPlan& plan, const Rig& rig, const s
   axis.positions_ = positions;
   const auto [low_mm, high_mm] = travel_range(plan);
   if (series && !(high_mm > low_mm))
-    return bad_input(plan.source +
-                     ": travel_mm: a series needs a travel that varies; give it a range");
+    return bad_input(
+        plan.source +
+        ": travel_mm must be a range [from, to], because a series needs different positions");
   axis.from_m_ = from_mm(low_mm);
   axis.to_m_ = from_mm(high_mm);
   axis.period_m_ =

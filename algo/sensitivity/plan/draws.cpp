@@ -88,14 +88,13 @@ Status PlanDraws::add_group(const PlannedCorrelation& planned) {
   if (group.members.empty()) return {};
   if (group.members.size() != planned.quantities.size())
     return bad_input(planned.where +
-                     ": some of these quantities are of one rig and some of the "
-                     "other; correlate those of one rig");
+                     ": these quantities belong to two rigs; correlate only quantities of one rig");
   for (const std::size_t m : group.members) {
     if (drawn_[m].readings != drawn_[group.members[0]].readings)
-      return bad_input(planned.where +
-                       ": noise is drawn anew each reading and cannot be "
-                       "correlated with " +
-                       drawn_[group.members[0]].target.name);
+      return bad_input(
+          planned.where + ": " + drawn_[m].target.name + " and " +
+          drawn_[group.members[0]].target.name +
+          " cannot be correlated, because one of them is noise, which is drawn for each reading");
   }
   groups_.push_back(std::move(group));
   return {};

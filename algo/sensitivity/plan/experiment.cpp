@@ -87,7 +87,8 @@ class PlanExperiment final : public PlanExperimentBase {
 Result<std::unique_ptr<ScalableExperiment>> PlanExperiment::create(const StudyPlan& plan,
                                                                    const Rig& rig) {
   if (plan.whole_run)
-    return bad_input(plan.source + ": output_of: a whole run is no point experiment");
+    return bad_input(plan.source +
+                     ": output_of = \"run\" does not fit an experiment of single points");
   std::unique_ptr<PlanExperiment> e(new PlanExperiment(plan));
   const auto asks = [&](auto... kinds) {
     return std::any_of(plan.outputs.begin(), plan.outputs.end(),

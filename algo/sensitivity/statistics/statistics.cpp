@@ -120,7 +120,7 @@ tl::unexpected<Error> coverage_too_high(double coverage) {
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), coverage);
   return bad_input(
       "coverage " + std::string(digits.data(), end.ptr) +
-          ": adaptive trials come in blocks of 100 / (1 - coverage), here more than 1e7",
+          ": a block of adaptive trials, 100 / (1 - coverage), would have more than 1e7",
       Remedy::fix_number_of_trials);
 }
 

@@ -121,18 +121,19 @@ std::string StudyStatistics::serialise() const {
 Result<StudyStatistics> StudyStatistics::parse(std::string_view bytes, const Experiment& shape,
                                                InstructionSet set) {
   const std::string what = "statistics of a study: ";
-  if (!bytes.starts_with(kMagic)) return bad_input(what + "not such bytes (no MDOFSTAT in front)");
+  if (!bytes.starts_with(kMagic)) return bad_input(what + "the data do not begin with MDOFSTAT");
   ByteReader in(bytes.substr(kMagic.size()));
   if (const auto version = in.number<std::uint32_t>(); version != kVersion) {
-    return bad_input(what + "version " + std::to_string(version) + ", this program reads " +
-                     std::to_string(kVersion) + "; continue it with the program that wrote it");
+    return bad_input(what + "version " + std::to_string(version) +
+                     ", but this program reads version " + std::to_string(kVersion) +
+                     "; continue the study with the program that wrote them");
   }
   const auto outputs = in.number<std::uint64_t>(), bins = in.number<std::uint64_t>();
   StudyStatistics s(shape, StudyScale(shape.outputs().size()), set);
   if (outputs != s.parts_->outputs.size() || bins != s.parts_->binned.bins) {
     return bad_input(what + std::to_string(outputs) + " outputs in " + std::to_string(bins) +
-                     " bins, the study has " + std::to_string(s.parts_->outputs.size()) + " in " +
-                     std::to_string(s.parts_->binned.bins));
+                     " bins, but the study has " + std::to_string(s.parts_->outputs.size()) +
+                     " in " + std::to_string(s.parts_->binned.bins));
   }
   s.parts_->trials = in.number<std::uint64_t>();
   bool good = read_scale(in, s.parts_->scale);

@@ -42,7 +42,7 @@ TEST(TargetGridLimits, EachKeyIsNamed) {
   EXPECT_EQ(refusal_of(grid(1, 0, 0, 9999)), "");
   EXPECT_NE(refusal_of(grid(1, 0, 0, 10000)).find("more than 10000 targets"), std::string::npos);
   EXPECT_EQ(refusal_of(grid(2, 2)), "");
-  EXPECT_NE(refusal_of(grid(2, 2.1)).find("bin_mm must not be longer than the 2 mm"),
+  EXPECT_NE(refusal_of(grid(2, 2.1)).find("bin_mm must not exceed the target interval of 2 mm"),
             std::string::npos);
   EXPECT_EQ(refusal_of(grid(0.001)), "");
   EXPECT_NE(refusal_of(grid(0.0009)).find("must be 0.001 or more"), std::string::npos);

@@ -31,8 +31,9 @@ TEST(SeparationGrid, AShiftOffTheStepsIsTakenWithinTheMatch) {
   EXPECT_NEAR(grid->place_m[5] - grid->place_m[0], 50e-3, 1e-15);
   const auto refused = grid_of({}, set_ups, 0.39e-3);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("set-up 2: its shift of 20.4 mm is 0.4 mm off whole steps "
-                                         "of 10 mm"),
+  EXPECT_NE(refused.error().message.find(
+                "set-up 2: its shift of 20.4 mm is 0.4 mm away from a multiple of the "
+                "step, 10 mm"),
             std::string::npos)
       << refused.error().message;
 }

@@ -311,8 +311,8 @@ TEST(Separation, WhatCannotBeIsRefusedWithARemedy) {
     EXPECT_NE(found.error().message.find(words), std::string::npos) << found.error().message;
   };
   says(request_of(world, {{}}), "one set-up");
-  says(request_of(world, {{}, {}}), "lay alike");
-  says(request_of(world, {{}, {false, false, 4 * kMm}}), "off whole steps of 10 mm");
+  says(request_of(world, {{}, {}}), "has the same place and orientation");
+  says(request_of(world, {{}, {false, false, 4 * kMm}}), "away from a multiple of the step, 10 mm");
   says(request_of(world, {{}, {false, false, 70 * kMm}}), "no place of the target in common");
   says(request_of({{}, 0, {0, 10e-3, 21e-3, 30e-3}}, {{}, {false, false, 10 * kMm}}),
        "not equally spaced");

@@ -157,7 +157,8 @@ TEST(UnevenVisits, ATableOfRunsWithOtherTargetsHasNoStep) {
   }
   EXPECT_EQ(test::shown(uneven_visits_of({longer, longer}).value()), "");
   EXPECT_EQ(test::shown(uneven_visits_of({longer, shorter}).value()),
-            "over all runs, counted on from one to the next: run_lacks_visits runs=run 2\n");
+            "all runs together (repetitions are counted on from run to run): run_lacks_visits "
+            "runs=run 2\n");
 }
 
 TEST(UnevenVisits, NoTargetFromBothSidesIsNoticed) {

@@ -88,8 +88,8 @@ TEST(UsableRuns, TheSameRecordingCountsOnce) {
     return run_of(id, RunState::complete, recording);
   };
   const std::string why = refusal({run(1, "a"), run(2, "b"), run(5, "a")});
-  EXPECT_TRUE(contains(why, "run 1 and run 5 are of the same recording")) << why;
-  EXPECT_TRUE(contains(why, "leave one out") && contains(why, "/data/log.mdofrec")) << why;
+  EXPECT_TRUE(contains(why, "run 1 and run 5 come from the same recording")) << why;
+  EXPECT_TRUE(contains(why, "leave one run out") && contains(why, "/data/log.mdofrec")) << why;
   EXPECT_EQ(refusal({run(1, "a"), run(2, "b")}), "");
   EXPECT_EQ(refusal({run(1, ""), run(2, "")}), "");  // not known to be the same
   EXPECT_TRUE(contains(refusal({run(1, ""), run(1, "")}), "run 1 is given twice"));

@@ -53,9 +53,9 @@ Status OnTheFlyRun::check_room() {
   for (; passes_seen_ < passes.size(); ++passes_seen_)
     points_ += passes[passes_seen_].bins.size() + passes[passes_seen_].left_out.size();
   if (points_ <= options_.most_stops) return {};
-  return bad_input("more than " + std::to_string(options_.most_stops) +
-                       " points on the fly, the most that a run holds",
-                   Remedy::larger_interval);
+  return bad_input(
+      "more than " + std::to_string(options_.most_stops) + " points on the fly, the limit of a run",
+      Remedy::larger_interval);
 }
 
 // Unlike a stop, a bin has its place from each of its scans.

@@ -62,7 +62,7 @@ class ParkedReader {
       MDOF_TRY(const auto state, log.driver().read(block, kParkedTimeout));
       if (block.scans() > 0) MDOF_CHECK(push(block));
       if (progress && !progress(log.progress()))
-        return io_error(log.path() + ": given up before its end");
+        return io_error(log.path() + ": cancelled before the end of the log");
       if (state != drivers::ReadState::end) continue;
       aligner_.flush(frames_);
       take_frames();
@@ -110,7 +110,7 @@ Result<Rig> rig_of(const ParkedRequest& request, const ReplayLog& log) {
   if (!request.rig_source.empty()) return parse_rig(request.rig_text, request.rig_source);
   const std::string text = log.rig_text();
   if (!text.empty()) return parse_rig(text, request.log + " (its rig)");
-  return fail(ErrorCode::usage, request.log + ": is a CSV log, which has no rig in it",
+  return fail(ErrorCode::usage, request.log + ": is a CSV log, which contains no rig",
               Remedy::give_rig);
 }
 
@@ -123,11 +123,11 @@ Status check_parked(const std::string& path, const std::vector<double>& encoder_
     high = any ? std::max(high, x) : x;
     any = true;
   }
-  if (!any) return bad_input(path + ": no scan has a position of the encoder");
+  if (!any) return bad_input(path + ": no scan has an encoder position");
   if (high - low <= kMostTravel_m) return {};
-  return bad_input(path + ": the axis went from " + plain_number(to_mm(low), 7) + " to " +
+  return bad_input(path + ": the axis moved from " + plain_number(to_mm(low), 7) + " to " +
                        plain_number(to_mm(high), 7) +
-                       " mm; a warm-up test needs an axis that stays where it is",
+                       " mm, but a warm-up test needs an axis that stands still",
                    Remedy::park_axis);
 }
 
@@ -186,8 +186,8 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
                                           static_cast<double>(reader.encoder.size() + 1)));
   const std::size_t steps = reader.encoder.size() / together;
   if (steps < algo::kStepsOfWindow)
-    return bad_input(log.path() + ": has " + plain_number(parked.length_s) +
-                         " s, and a window takes " +
+    return bad_input(log.path() + ": the log lasts " + plain_number(parked.length_s) +
+                         " s, but a window needs " +
                          plain_number(std::max(per_step, kShortStep_s) *
                                       static_cast<double>(algo::kStepsOfWindow)) +
                          " s",

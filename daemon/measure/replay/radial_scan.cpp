@@ -96,7 +96,8 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
       MDOF_CHECK(calibrator.apply(block));
       MDOF_CHECK(take_block(block, scan, from.recording_path, columns));
       if (columns.height_m.value.size() > kMostScanPoints)
-        return bad_input(from.recording_path + ": more heights than a scan may have");
+        return bad_input(from.recording_path + ": has more than " +
+                         std::to_string(kMostScanPoints) + " heights, the limit of a scan");
     }
     if (state == drivers::ReadState::end) break;
   }
@@ -106,8 +107,8 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
   for (const auto& [name, series] :
        {std::pair(scan.probe, &columns.height_m), std::pair(scan.angle, &columns.angle_deg)})
     if (series->value.empty())
-      return bad_input(from.recording_path + ": has no value in the column " + name +
-                       " that [scan] of its rig names");
+      return bad_input(from.recording_path + ": the column " + name +
+                       ", which [scan] of the rig names, has no value");
   columns.angle_deg.unwind();
   return columns;
 }
@@ -179,7 +180,7 @@ Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
   std::sort(sorted.begin(), sorted.end());
   if (sorted.size() < 2)
     return bad_input("run " + std::to_string(run.header.id) +
-                     ": has errors at fewer than two targets; a scan needs them along the radius");
+                     ": fewer than two targets are solved; a scan needs errors along the radius");
   Motion motion;
   for (const auto& [target, sum] : targets)
     motion.u_m += sum.variance / (sum.n * sum.n) / static_cast<double>(targets.size());
@@ -220,8 +221,8 @@ Status add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points, R
   MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
   MDOF_TRY(const auto scan, scan_of_rig(run.header.provenance.rig_text, rig.axis, name));
   if (!scan)
-    return bad_input(name +
-                     ": is no scan: its rig has no [scan] that names the probe over the part");
+    return bad_input(
+        name + ": is not a scan, because its rig has no [scan] that names the probe over the part");
   out.simulated = out.simulated || run.header.simulated;
   MDOF_TRY(const Motion motion, motion_of(run, rig, *scan));
   const auto [least, most] = std::minmax_element(motion.reading_m.begin(), motion.reading_m.end());

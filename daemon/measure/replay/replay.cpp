@@ -32,10 +32,10 @@ Status check_unit(const std::string& source, const std::vector<Channel>& channel
                   const std::string& probe) {
   for (const Channel& c : channels) {
     if (c.id != probe || (c.unit != Unit::other && c.unit != Unit::deg_c)) continue;
-    return bad_input(source + ": column \"" + column_name(c) + "\" is of the probe \"" + probe +
-                     "\", but " + (c.unit == Unit::other ? "has no unit" : "is in °C") +
+    return bad_input(source + ": column \"" + column_name(c) + "\" belongs to the probe \"" +
+                     probe + "\", but " + (c.unit == Unit::other ? "has no unit" : "is in °C") +
                      "; name it " + probe + "_um, " + probe + "_mm or " + probe +
-                     "_V, whichever it is in");
+                     "_V, by its unit");
   }
   return {};
 }
@@ -47,7 +47,7 @@ Status check_encoder(const std::string& source, const std::vector<Channel>& chan
     if (c.id != kEncoderChannel || c.unit != Unit::volt || rig.encoder_um_per_V) continue;
     return bad_input(source + ": column \"" + column_name(c) +
                      "\" is the axis position in volts, and " + rig.source +
-                     " does not say their scale; give it there ([encoder] um_per_V), or convert "
+                     " does not state the scale; add [encoder] um_per_V to that rig, or convert "
                      "the column and name it encoder_mm");
   }
   return {};
@@ -64,7 +64,7 @@ Status check_air(const std::string& source, const std::vector<Channel>& channels
       continue;
     return bad_input(source + ": has no column " + key +
                      ", which [corrections] dielectric = true of " + rig.source +
-                     " needs; log it, or declare " + key + " of the run in [air]");
+                     " needs; log this quantity, or declare " + key + " of the run in [air]");
   }
   return {};
 }
@@ -91,7 +91,7 @@ Status read_through(ReplayLog& log, Measuring& pipeline, const ProgressCallback&
         return in_context(log.path(), taken.error());
     }
     if (progress && !progress(log.progress()))
-      return io_error(log.path() + ": given up before its end; replay it again");
+      return io_error(log.path() + ": cancelled before the end of the log; replay it again");
     if (state == ReadState::end) return {};
   }
 }
@@ -154,7 +154,7 @@ Result<AskedFor> ReplayLog::asked_for() const {
   if (!recording_) return AskedFor{};
   MDOF_TRY(const auto measure, measure_options(recording_->header().configuration));
   auto asked = read_request_json(recording_->header().request, measure);
-  if (!asked) return in_context(path_ + ": what was asked of its run", asked.error());
+  if (!asked) return in_context(path_ + ": stored request of the run", asked.error());
   return asked;
 }
 
@@ -183,8 +183,8 @@ Status check_axis(const std::string& source, const std::vector<std::string>& com
                   const Rig& rig) {
   const std::string stated = stated_axis(comments), of_rig(1, letter(rig.axis));
   if (stated.empty() || stated == of_rig) return {};
-  return bad_input(source + ": is of the axis " + stated + ", and the rig " + rig.source +
-                   " is for the axis " + of_rig + "; give the rig of " + stated);
+  return bad_input(source + ": is a log of axis " + stated + ", but the rig " + rig.source +
+                   " is for axis " + of_rig + "; give the rig of axis " + stated);
 }
 
 Status check_channels(const std::string& source, const std::vector<Channel>& channels,
@@ -196,7 +196,7 @@ Status check_channels(const std::string& source, const std::vector<Channel>& cha
     if (has_channel(channels, probe.id)) continue;
     return bad_input(source + ": has no column of the probe \"" + probe.id + "\" of " + rig.source +
                      " (" + probe.id + "_um or " + probe.id + "_V); its columns are " + columns +
-                     ". Correct the rig or the header");
+                     "; correct the rig or the header");
   }
   MDOF_CHECK(check_air(source, channels, rig));
   if (has_channel(channels, kEncoderChannel)) return check_encoder(source, channels, rig);

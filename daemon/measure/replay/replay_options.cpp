@@ -35,27 +35,27 @@ std::string ReplayOption::command_line_name() const {
 const std::vector<ReplayOption>& replay_options() {
   static const std::vector<ReplayOption> options{
       {"tolerance_um", &Request::tolerance_um, Range::not_negative, Of::dwells,
-       "Encoder at rest [0: by itself]"},
+       "Encoder change up to which the axis is at rest [0: automatic]"},
       {"settle_s", &Request::settle_s, Range::not_negative, Of::dwells,
-       "Left out at the start of a stop [0.1]"},
+       "Time left out at the start of each stop [0.1]"},
       {"min_length_s", &Request::min_length_s, Range::positive, Of::dwells,
-       "Averaged of a stop at least [0.1]"},
+       "Least averaging time of a stop [0.1]"},
       {"max_gap_s", &Request::max_gap_s, Range::positive, Of::each_run,
-       "No interpolation into a longer gap [0.05]"},
+       "Longest gap between samples that is interpolated [0.05]"},
       {"lag_bound_s", &Request::lag_bound_s, Range::positive, Of::each_run,
-       "A probe silent for longer is given up [3]"},
+       "Longest silence of a probe; then its readings are missing [3]"},
       {"remove_drift", &Request::remove_drift, Range::any, Of::each_run,
-       "Take a significant drift from the errors; its uncertainty is added"},
+       "Remove a significant drift from the errors and add its uncertainty"},
       {"on_the_fly", &Request::on_the_fly, Range::any, Of::each_run,
-       "The axis moves all the time: each point is of the readings about its target"},
+       "For an axis that never stops: each point is fitted to the readings about its target"},
       {"interval_mm", &Request::interval_mm, Range::positive, Of::motion,
-       "On the fly: from target to target [1]"},
+       "On the fly: distance between targets [1]"},
       {"bin_mm", &Request::bin_mm, Range::not_negative, Of::motion,
-       "On the fly: length about a target [0: the interval, at most 1]"},
+       "On the fly: length about a target that is used [0: the interval, at most 1]"},
       {"from_mm", &Request::from_mm, Range::any, Of::motion,
-       "On the fly: the first target [as the axis goes]"},
+       "On the fly: the first target [start of the travel]"},
       {"to_mm", &Request::to_mm, Range::any, Of::motion,
-       "On the fly: no target beyond [as the axis goes]"}};
+       "On the fly: no target lies beyond this [end of the travel]"}};
   return options;
 }
 
@@ -64,12 +64,12 @@ Status check_replay_options(const ReplayRequest& request) {
     if (!is_given(option, request)) continue;
     MDOF_CHECK(check_range(option, *(request.*std::get<ReplayOption::Number>(option.member))));
     if (option.of == Of::motion && !request.on_the_fly)
-      return fail(ErrorCode::usage,
-                  std::string(option.name) + " is of a run on the fly; ask for that, too");
+      return fail(ErrorCode::usage, std::string(option.name) +
+                                        " applies only to a run on the fly; give on_the_fly too");
     if (option.of == Of::dwells && request.on_the_fly)
-      return fail(
-          ErrorCode::usage,
-          std::string(option.name) + " is of dwells, and a run on the fly has none; leave it out");
+      return fail(ErrorCode::usage,
+                  std::string(option.name) +
+                      " applies to stops, and a run on the fly has none; leave this option out");
   }
   return {};
 }

@@ -21,8 +21,8 @@ Status check_request(const ReplayRequest& request) {
   const bool of_grid = request.interval_mm || request.from_mm || request.to_mm;
   if (!request.targets_mm.empty() && of_grid)
     return fail(ErrorCode::usage,
-                "targets_mm and interval_mm, from_mm, to_mm both say where the targets are; give "
-                "one of them");
+                "targets_mm and the interval (interval_mm, from_mm, to_mm) both define the "
+                "targets; give one of the two");
   return {};
 }
 
@@ -57,7 +57,7 @@ Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog
   std::sort(targets_m.begin(), targets_m.end());
   if (const auto twice = std::adjacent_find(targets_m.begin(), targets_m.end());
       twice != targets_m.end())
-    return fail(ErrorCode::usage, "targets_mm has " + plain_number(to_mm(*twice), 9) +
+    return fail(ErrorCode::usage, "targets_mm contains " + plain_number(to_mm(*twice), 9) +
                                       " mm twice; give each target once");
   MDOF_CHECK(ask_on_the_fly(request, options));
   return options;
@@ -84,7 +84,7 @@ Result<Rig> rig_of(const ReplayRequest& request, const ReplayLog& log) {
   if (!request.rig_source.empty()) return parse_rig(request.rig_text, request.rig_source);
   const std::string text = log.rig_text();
   if (!text.empty()) return parse_rig(text, request.log + " (its rig)");
-  return fail(ErrorCode::usage, request.log + ": is a CSV log, which has no rig in it",
+  return fail(ErrorCode::usage, request.log + ": is a CSV log, which contains no rig",
               Remedy::give_rig);
 }
 

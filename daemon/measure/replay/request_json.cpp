@@ -32,9 +32,10 @@ class Members {
     for (const auto member : object_.get_object()) {
       if (!asked_.contains(member.key))
         reject(member.key,
-               "is not known to this mdof; use a newer one, or restore it from a backup");
+               "is unknown to this version of mdof; use a newer version, or restore the file from "
+               "a backup");
       else if (!seen.insert(member.key).second)
-        reject(member.key, "is there twice");
+        reject(member.key, "occurs twice");
     }
     return status_;
   }
@@ -201,7 +202,7 @@ Result<PipelineOptions> read_options(element object, PipelineOptions options) {
 Result<element> parsed(simdjson::dom::parser& parser, const std::string& text) {
   element root;
   if (parser.parse(simdjson::padded_string(text)).get(root) || !root.is_object())
-    return bad_input("is no JSON object");
+    return bad_input("is not a JSON object; it is damaged or was not written by mdof");
   return root;
 }
 

@@ -66,15 +66,15 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
   std::error_code ec;
   if (!std::filesystem::exists(path, ec)) {
     check.findings.push_back(
-        of + ": the file " + path + " is gone" +
+        of + ": the file " + path + " is missing" +
         (expected.empty() ? std::string() : " (its sha256 was " + expected + ")") +
-        "; put it back, or a link to it, so that the run can be replayed");
+        "; put back the file or a link to it, so that the run can be replayed");
     return;
   }
   const bool recording = drivers::is_recording(path);
   if (expected.empty() && !recording) {
     check.notes.push_back(of + ": " + path +
-                          " was not read to its end, so there is no hash to check it by");
+                          " was not read to its end, so there is no hash to check against");
     return;
   }
   const auto actual = recording ? sha256_of_recording(path) : sha256_of_file(path);
@@ -82,8 +82,8 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
     check.findings.push_back(of + ": " + words::text(actual.error()));
   } else if (!expected.empty() && *actual != expected) {
     check.findings.push_back(of + ": the file " + path +
-                             " is not the one that was measured: its sha256 is " + *actual +
-                             ", expected is " + expected + "; restore it from a copy");
+                             " is not the file that was measured (its sha256 is " + *actual +
+                             ", expected " + expected + "); restore it from a copy");
   }
 }
 
@@ -91,7 +91,8 @@ void add_source(const RunHeader& run, Sources& sources, SourceCheck& check) {
   const Provenance& from = run.provenance;
   const std::string of = "run " + std::to_string(run.id);
   if (run.state == RunState::open) {
-    check.notes.push_back(of + ": is being measured; its recording is checked once it has ended");
+    check.notes.push_back(
+        of + ": the run is being measured; its recording can be checked after its end");
   } else if (from.recording_path == "-") {
     check.notes.push_back(of + ": its log came from the standard input and cannot be read again");
   } else if (from.recording_path.empty()) {

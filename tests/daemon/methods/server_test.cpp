@@ -142,7 +142,7 @@ TEST_F(ServerMethods, ALogIsReplayedForWhoMayReadIt) {
   EXPECT_EQ(call("run.get", R"({"run":2})").number("/result/points_total"), 2) << by_target.text();
   EXPECT_HAS(call("run.replay", replay_of(log, R"(,"model":"elastic")")).message(), "model");
   EXPECT_HAS(call("run.replay", replay_of(log, R"(,"min_length_s":0)")).message(), "min_length_s");
-  EXPECT_HAS(call("run.replay", R"({"path":")" + log + "\"}").message(), "has no rig");
+  EXPECT_HAS(call("run.replay", R"({"path":")" + log + "\"}").message(), "contains no rig");
   const Answer no_rig = call("run.replay", R"({"path":")" + log + R"(","rig":"name = 1"})");
   EXPECT_EQ(no_rig.code(), rpc::kBadInput) << no_rig.text();
 }

@@ -96,8 +96,8 @@ TEST(RequestJson, WhatIsNotSaidStaysAsItWas) {
 
 TEST(RequestJson, WhatCannotBeReadIsNamed) {
   const std::pair<const char*, const char*> cases[] = {
-      {"{", "no JSON"},
-      {"[]", "no JSON object"},
+      {"{", "not a JSON"},
+      {"[]", "not a JSON object"},
       {R"({"note":5})", "note"},
       {R"({"warnings":[1]})", "warnings"},
       {R"({"options":{"model":"magic"}})", "model"},
@@ -117,13 +117,12 @@ TEST(RequestJson, WhatCannotBeReadIsNamed) {
       {R"({"options":{"encoder_datum":7}})", "options.encoder_datum"},
       {R"({"options":{"encoder_datum":{"kind":"guessed"}}})", "options.encoder_datum.kind"},
       {R"({"options":{"encoder_datum":{"by":"anna"}}})", "options.encoder_datum.kind"},
-      {R"({"notes":""})", "\"notes\" is not known"},
-      {R"({"options":{"new":[1]}})", "\"options.new\" is not known"},
-      {R"({"options":{"align":{"max_gap":1}}})", "\"options.align.max_gap\" is not known"},
-      {R"({"options":{"dwell":{"settle":1}}})", "\"options.dwell.settle\" is not known"},
-      {R"({"options":{"encoder_datum":{"kind":"set","kindt_mm":12.5}}})",
-       "kindt_mm\" is not known"},
-      {R"({"options":{"repeats":1,"repeats":2}})", "\"options.repeats\" is there twice"},
+      {R"({"notes":""})", "\"notes\" is unknown"},
+      {R"({"options":{"new":[1]}})", "\"options.new\" is unknown"},
+      {R"({"options":{"align":{"max_gap":1}}})", "\"options.align.max_gap\" is unknown"},
+      {R"({"options":{"dwell":{"settle":1}}})", "\"options.dwell.settle\" is unknown"},
+      {R"({"options":{"encoder_datum":{"kind":"set","kindt_mm":12.5}}})", "kindt_mm\" is unknown"},
+      {R"({"options":{"repeats":1,"repeats":2}})", "\"options.repeats\" occurs twice"},
   };
   for (const auto& [text, says] : cases) {
     const auto back = read_request_json(text, {});

@@ -28,7 +28,7 @@ constexpr std::size_t kMostCost = 250'000;  // a second; 11 targets and all decl
 Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t id, double at_m) {
   const auto& targets = run.means().targets;  // ascending
   if (targets.empty())
-    return bad_input("the run has no target with errors, so that there is nothing to budget");
+    return bad_input("the run has no solved target, so no budget can be calculated");
   double interval_m = 0;
   const algo::TargetMean* nearest = &targets.front();
   for (std::size_t i = 1; i < targets.size(); ++i) {
@@ -39,8 +39,8 @@ Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t i
   const double first_m = targets.front().position_m, last_m = targets.back().position_m;
   if (at_m >= first_m - interval_m / 2 && at_m <= last_m + interval_m / 2) return *nearest;
   return bad_input(plain_number(to_mm(at_m)) + " mm is beyond the travel of run " +
-                   std::to_string(id) + ", whose targets are from " + plain_number(to_mm(first_m)) +
-                   " to " + plain_number(to_mm(last_m)) + " mm; give a position between them");
+                   std::to_string(id) + " (targets from " + plain_number(to_mm(first_m)) + " to " +
+                   plain_number(to_mm(last_m)) + " mm); give a position within this range");
 }
 
 Result<std::vector<algo::Figure>> chosen_figures(std::vector<algo::Figure> all,
@@ -52,7 +52,7 @@ Result<std::vector<algo::Figure>> chosen_figures(std::vector<algo::Figure> all,
     names += (names.empty() ? "" : ", ") + figure.name;
   }
   return fail(ErrorCode::usage,
-              "\"" + name + "\" is no figure of a run of this axis; there are " + names);
+              "\"" + name + "\" is not a figure of a run of this axis; the figures are " + names);
 }
 
 // A run whose rig cannot be had.
@@ -68,8 +68,10 @@ StatedFigures stated_figures(const Run& run, const Result<algo::RunBudgets>& of_
   if (!of_run) return {{}, words::text(of_run.error())};
   if (of_run->cost() > kMostCost)
     return {{},
-            "it takes more than a second for " + std::to_string(of_run->means().targets.size()) +
-                " targets and all that the rig declares; " + words::remedy(Remedy::budget_run)};
+            "the uncertainty was not calculated, because it would take more than 1 s (" +
+                std::to_string(of_run->means().targets.size()) +
+                " targets, declared uncertainties of the rig); " +
+                words::remedy(Remedy::budget_run)};
   StatedFigures stated{of_run->of(algo::figures_of_run(run.header.axis)), ""};
   std::erase_if(stated.budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
   if (stated.budgets.empty()) stated.why = "the run has too few solved targets for any figure";
@@ -124,10 +126,10 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
     found.budgets.push_back(std::move(budgets[f]));
   }
   if (found.budgets.empty())
-    return bad_input("run " + std::to_string(request.run) +
-                         " has too few solved targets for any figure, so that there is nothing to "
-                         "budget",
-                     Remedy::show_points);
+    return bad_input(
+        "run " + std::to_string(request.run) +
+            " has too few solved targets for any figure, so no budget can be calculated",
+        Remedy::show_points);
   return found;
 }
 

@@ -55,8 +55,9 @@ std::optional<gid_t> group_of(TomlTable& table, const char* key) {
   const std::string name = table.string(key);
   const struct group* entry = ::getgrnam(name.c_str());
   if (entry != nullptr) return entry->gr_gid;
-  table.reject(key, "there is no group \"" + name + "\" on this machine; make it (sudo groupadd " +
-                        name + ") or name another");
+  table.reject(key, "there is no group \"" + name +
+                        "\" on this machine; create it (sudo groupadd " + name +
+                        ") or name another group");
   return std::nullopt;
 }
 
@@ -92,10 +93,8 @@ void read_rpc(TomlTable& root, Config& config) {
   config.socket = table->string("socket", config.socket);
   constexpr std::size_t kLongest = sizeof(sockaddr_un::sun_path) - 1;
   if (config.socket.size() > kLongest)
-    table->reject("socket", "has " + std::to_string(config.socket.size()) +
-                                " bytes, and a socket's "
-                                "path at most " +
-                                std::to_string(kLongest) + "; choose a shorter one");
+    table->reject("socket", "has " + std::to_string(config.socket.size()) + " bytes (limit " +
+                                std::to_string(kLongest) + "); choose a shorter path");
   read_access(*table, config.access);
   if (!table->has("tcp_port")) return;
   const auto port = table->integer("tcp_port");
@@ -201,7 +200,7 @@ Status check_together(TomlTable& table, const AxisConfig& axis) {
   std::map<std::string, std::string> source;
   for (const auto& device : axis.devices) {
     if (axis.devices.size() > 1 && (!device.live || device.simulated)) {
-      table.reject("device", "\"" + device.name + "\" gives all channels by itself; it must be " +
+      table.reject("device", "\"" + device.name + "\" provides all channels, so it must be " +
                                  "the only device of its axis");
       return {};
     }
@@ -229,14 +228,15 @@ Status check_names(TomlTable& table, const AxisConfig& axis, const Config& confi
   for (const auto& other : config.axes) {
     if (other.rig.axis == axis.rig.axis) {
       table.reject("rig", std::string("a second rig for axis ") + letter(axis.rig.axis) +
-                              "; one [[axis]] an axis");
+                              "; give one [[axis]] for each axis");
     }
     for (const auto& device : other.devices) names.insert(device.name);
   }
   for (const auto& device : axis.devices) {
     if (device.of_other_axis) continue;
     if (!names.insert(device.name).second)
-      table.reject("device", "two devices are called \"" + device.name + "\"; name them");
+      table.reject("device",
+                   "two devices are called \"" + device.name + "\"; give each its own name");
   }
   return {};
 }
@@ -247,13 +247,14 @@ void take_machine(TomlTable& table, const Chain& machine, Rig& rig) {
   const std::string axis(1, letter(rig.axis));
   const ChainAxis* in_chain = machine.find(axis[0]);
   if (rig.machine.known() && rig.machine != machine) {
-    table.reject("rig", rig.source + " has another [machine] than this file; keep one of the two");
+    table.reject(
+        "rig", rig.source + " states a [machine] that differs from this file; keep one of the two");
   } else if (!in_chain) {
-    table.reject("rig",
-                 "is of the axis " + axis + ", which the chain " + machine.text + " has not");
+    table.reject(
+        "rig", "is for axis " + axis + ", but the chain " + machine.text + " has no axis " + axis);
   } else if (in_chain->against_command != rig.sides.against_encoder) {
     table.reject("rig", "has travel = \"" + std::string(rig.sides.travel()) +
-                            "\", and [machine] travel." + axis + " says otherwise");
+                            "\", but [machine] travel." + axis + " states the opposite");
   } else {
     rig.machine = machine;
   }

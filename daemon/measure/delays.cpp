@@ -24,14 +24,14 @@ std::string delay_problem(const std::string& id, const Rig& rig) {
   for (const Probe& probe : rig.probes) known.push_back(probe.id);
   if (std::find(known.begin(), known.end(), id) != known.end()) return "";
   const std::string near = nearest_of(id, known);
-  return "\"" + id + "\" is no probe of " + rig.source + " and not \"" + kEncoderChannel + "\"" +
+  return "\"" + id + "\" is neither a probe of " + rig.source + " nor \"" + kEncoderChannel + "\"" +
          (near.empty() ? "" : "; did you mean \"" + near + "\"?");
 }
 
 std::string too_long(double delay_s, double settle_s) {
-  return "readings that come " + plain_number(delay_s, kDigits) +
-         " s late are of the way to a stop for longer than settle_s = " +
-         plain_number(settle_s, kDigits) + " s";
+  return "a delay of " + plain_number(delay_s, kDigits) +
+         " s is longer than settle_s = " + plain_number(settle_s, kDigits) +
+         " s, so readings of the motion would count to the stop";
 }
 
 }  // namespace
@@ -45,9 +45,8 @@ void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDela
       channel.reject("id", problem);
     if (!(delay_us >= 0 && delay_us <= kMost_us)) {
       channel.reject("delay_us", "must be from 0 to " + plain_number(kMost_us, kDigits) +
-                                     ": by how much later than its time stamp says this channel "
-                                     "is read; what is earlier than the others gets 0, and the "
-                                     "others the difference");
+                                     "; give 0 to the channel with the shortest delay, and to the "
+                                     "others their difference from it");
     } else if (delay_us / 1e6 > settle_s) {
       channel.reject("delay_us", too_long(delay_us / 1e6, settle_s), Remedy::raise_settle,
                      plain_number(delay_us / 1e6, kDigits));

@@ -80,8 +80,8 @@ Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& ru
   const std::set<std::int64_t> different(runs.begin(), runs.end());
   if (different.size() < runs.size())
     return bad_input(
-        "a run is given twice: readings that count twice make the uncertainty too small; give each "
-        "run once");
+        "a run is given twice, and readings that count twice make the uncertainty too small; give "
+        "each run once");
   std::int64_t points = 0;
   for (const std::int64_t run : runs) {
     MDOF_TRY(const std::int64_t of_run, store.count_points(run));
@@ -89,8 +89,8 @@ Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& ru
   }
   if (points <= kMostPoints) return {};
   return bad_input("these runs have " + std::to_string(points) +
-                   " points together, and a table is built from at most " +
-                   std::to_string(kMostPoints) + "; leave some out");
+                   " points together (limit of a table: " + std::to_string(kMostPoints) +
+                   "); leave some runs out");
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   if (table.has_positioning())
     return fail(ErrorCode::conflict,
                 "table " + std::to_string(table.id) + " holds " + positioning_name(table.axis) +
-                    ", which mdofd does not serve: the controller has it from a file",
+                    ", which mdofd does not serve; the controller reads it from a file",
                 Remedy::export_table);
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);
@@ -239,9 +239,9 @@ Status check_axes(const SquarenessRequest& request, const Run& a, const Run& b) 
   const std::pair<const Run*, Axis> asked[] = {{&a, request.axes->a}, {&b, request.axes->b}};
   for (const auto& [run, axis] : asked)
     if (run->header.axis != axis)
-      return bad_input("run " + std::to_string(run->header.id) + " is of axis " +
-                       letter(run->header.axis) + ", not of axis " + letter(axis) +
-                       "; give a run of it");
+      return bad_input("run " + std::to_string(run->header.id) + " measures axis " +
+                       letter(run->header.axis) + ", not axis " + letter(axis) +
+                       "; give a run of axis " + letter(axis));
   return {};
 }
 

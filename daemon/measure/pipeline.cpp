@@ -219,15 +219,15 @@ bool Pipeline::moved() const {
 Status Pipeline::explain_nothing() const {
   const auto& s = dwell_.summary();
   if (s.scans == 0 && s.unplaced > 0)
-    return bad_input("none of " + std::to_string(s.unplaced) +
-                     " scans has a position of the encoder; check the encoder, its cable and its "
-                     "channel");
-  if (s.scans == 0) return bad_input("no samples of the rig's probes and the encoder came");
+    return bad_input(
+        "none of " + std::to_string(s.unplaced) +
+        " scans has an encoder position; check the encoder, its cable and its channel");
+  if (s.scans == 0) return bad_input("no samples arrived from the rig's probes and the encoder");
   if (!moved()) {
     const double travel_m = s.encoder_max_m - s.encoder_min_m;
     return bad_input("the encoder stays at " + plain_number(to_mm(s.encoder_min_m), 7) + " mm" +
                      " (within " + plain_number(to_um(travel_m)) + " um" +
-                     "): the axis did not move or encoder_mm is not its position; check the "
+                     "): the axis did not move, or encoder_mm is not the axis position; check the "
                      "encoder's channel and unit");
   }
   if (unplaced_ > 0 && unplaced_ == found_.size()) return bad_input(words::text(not_placed()));
@@ -240,7 +240,7 @@ Status Pipeline::explain_nothing() const {
                        plain_number(to_mm(s.encoder_min_m), 6) + " to " +
                        plain_number(to_mm(s.encoder_max_m), 6) + " mm" + ": the longest stop was " +
                        plain_number(s.longest_still_s) + " s" + " within " +
-                       plain_number(to_um(s.tolerance_m)) + " um" + ", needed are " +
+                       plain_number(to_um(s.tolerance_m)) + " um" + ", but a stop must last " +
                        plain_number(options_.dwell.shortest_s()) + " s" +
                        (problem ? "; " + words::text(*problem) : ""),
                    Remedy::stop_longer);

@@ -31,16 +31,16 @@ Result<Source> source_of(TomlTable& table, const std::vector<AxisConfig>& above)
       known += (known.empty() ? "" : ", ") + device.name;
     }
   }
-  return bad_input(table.where("same_as") + ": no device of an [[axis]] above is called \"" + name +
-                   "\"; there are: " + (known.empty() ? "none" : known));
+  return bad_input(table.where("same_as") + ": no [[axis]] above has a device named \"" + name +
+                   "\"; devices above: " + (known.empty() ? "none" : known));
 }
 
 // Whose samples can go to two axes: of hardware, with channels that are known before it is open.
 Status check_source(const TomlTable& table, const drivers::DriverSpec& device) {
   if (device.live && device.recorded && !device.simulated && !device.part.empty()) return {};
-  return bad_input(table.where("same_as") + ": \"" + device.name + "\" (" + device.driver +
-                   ") is of one axis alone, as it lists no channels; give this axis a device of "
-                   "its own");
+  return bad_input(
+      table.where("same_as") + ": \"" + device.name + "\" (" + device.driver +
+      ") can serve only one axis, because it lists no channels; give this axis its own device");
 }
 
 }  // namespace
@@ -67,9 +67,8 @@ Status leave_part(drivers::DriverSpec& device, std::vector<drivers::FurtherAxis>
       others.push_back(drivers::further_id(id, axis.rig.axis));
       if (has(device.channels, others.back())) continue;
       return bad_input(axis.table.where("channel") + ": a " + device.driver +
-                       " gives no channels to a second axis but the probes that both have; take "
-                       "\"" +
-                       id + "\" from another device ([[axis.device]])");
+                       " shares only its probes with a second axis; take \"" + id +
+                       "\" from another device ([[axis.device]])");
     }
   }
   std::erase_if(device.channels, [&](const std::string& id) { return has(others, id); });
@@ -96,8 +95,9 @@ Result<drivers::DriverSpec> read_same_as(TomlTable& table, const std::vector<Axi
     if (delay != source.axis->delays.end()) axis.delays[probe.id] = delay->second;
   }
   if (device.channels.empty())
-    return bad_input(table.where("same_as") + ": \"" + device.name + "\" gives no probe of " +
-                     axis.rig.source + ", and no channel of its own is given here");
+    return bad_input(table.where("same_as") + ": \"" + device.name + "\" has no probe of " +
+                     axis.rig.source +
+                     ", and this entry lists no channel; correct same_as or add channels");
   const auto encoder =
       device.further_encoders.find(drivers::further_id(kEncoderChannel, axis.rig.axis));
   device.encoder =

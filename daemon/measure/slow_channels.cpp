@@ -24,13 +24,13 @@ Status check_rate(const drivers::DeviceInfo& device, const algo::AlignOptions& a
   const std::string who = "device \"" + device.name + "\" gives a sample every " +
                           plain_number(interval_s) + " s, and ";
   if (gap_given && align.max_gap_s < interval_s)
-    return bad_input(who + "nothing is interpolated into more than max_gap_s = " +
-                     plain_number(align.max_gap_s) +
-                     " s: all its values would be missing; leave max_gap_s of [measure] out (it "
-                     "then follows the rate), or sample faster");
+    return bad_input(who + "gaps longer than max_gap_s = " + plain_number(align.max_gap_s) +
+                     " s are not interpolated, so all its values would be missing; remove "
+                     "max_gap_s from [measure] (it then follows the rate), or sample faster");
   if (align.lag_bound_s < 2 * interval_s)
-    return bad_input(who + "a probe is given up after lag_bound_s = " +
-                     plain_number(align.lag_bound_s) + " s: set lag_bound_s of [measure] to " +
+    return bad_input(who +
+                     "a probe that is silent for lag_bound_s = " + plain_number(align.lag_bound_s) +
+                     " s is left out; set lag_bound_s of [measure] to " +
                      plain_number(2 * interval_s) + " or more, or sample faster");
   return {};
 }

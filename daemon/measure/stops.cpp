@@ -19,8 +19,9 @@ Status check_log(ReplayLog& log, Axis axis, const Rig& rig) {
   Rig moved = rig;
   moved.axis = axis;
   if (!check_axis(log.path(), log.comments(), moved))
-    return bad_input(log.path() + ": says that it is of another axis than " +
-                     std::string(1, letter(axis)) + ", of which a log is needed here; give that");
+    return bad_input(log.path() + ": the log states another axis than " +
+                     std::string(1, letter(axis)) + "; give a log of axis " +
+                     std::string(1, letter(axis)));
   return check_channels(log.path(), log.driver().info().channels, rig);
 }
 
@@ -66,9 +67,9 @@ Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) 
   dwell.mark(found.stops);
   if (found.stops.empty())
     return bad_input(path + ": no stop found; the longest was " +
-                     plain_number(dwell.summary().longest_still_s) + " s, needed are " +
+                     plain_number(dwell.summary().longest_still_s) + " s, but a stop must last " +
                      plain_number(algo::DwellOptions().shortest_s()) +
-                     " s; let the axis stand longer at each place");
+                     " s; stop longer at each place");
   for (Point& stop : found.stops) leave_out(stop, rig);
   found.sha256 = log.sha256();
   found.started_utc = log.started_utc();

@@ -44,7 +44,8 @@ double linearity_of(const Calibration& c, double displacement_m, bool in_it) {
 }
 
 std::string closed_gap_text(const std::string& probe) {
-  return "the gap of probe " + probe + " is closed by its standoff_um and sensing_radius_mm: ";
+  return "the gap of probe " + probe +
+         " is closed according to standoff_um and sensing_radius_mm; ";
 }
 
 }  // namespace
@@ -186,9 +187,9 @@ void PointCorrections::report_failures(Run& run) const {
 // The solver only knows that a reading is not there.
 std::string cause_of(const Point& point) {
   if (const auto frozen = channel_of(point, Flag::frozen))
-    return "probe " + *frozen + " no longer changes: ";
+    return "probe " + *frozen + " no longer changes; ";
   if (const auto closed = channel_of(point, Flag::gap_closed)) return closed_gap_text(*closed);
-  if (algo::has_flag(point, Flag::no_air)) return "the ambient conditions are unknown: ";
+  if (algo::has_flag(point, Flag::no_air)) return "the ambient conditions are unknown; ";
   return "";
 }
 

@@ -71,18 +71,18 @@ Result<Judged> judged_table(store::Store& store, const CompensationTable& table)
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence) {
   if (judged.simulated && !consent.simulated)
     return fail(ErrorCode::conflict,
-                judged.what + " is simulated: no machine was measured, so that " + consequence,
+                judged.what + " is simulated (no machine was measured), so " + consequence,
                 Remedy::allow_simulated);
   const auto wrong = std::find_if(judged.doubtful.begin(), judged.doubtful.end(),
                                   [](const Notice& n) { return n.severity == Severity::invalid; });
   if (wrong != judged.doubtful.end())
-    return fail(ErrorCode::conflict, judged.what + " is invalid, so that " + consequence + ": " +
-                                         words::text(*wrong) + ". No option allows it");
+    return fail(ErrorCode::conflict, judged.what + " is invalid, so " + consequence + ": " +
+                                         words::text(*wrong) + ". No option permits this");
   if (judged.doubtful.empty() || consent.despite_warnings) return {};
   const std::size_t n = judged.doubtful.size();
   return fail(ErrorCode::conflict,
               judged.what + " is doubtful (" + std::to_string(n) +
-                  (n == 1 ? " notice), so that " : " notices), so that ") + consequence + ": " +
+                  (n == 1 ? " notice), so " : " notices), so ") + consequence + ": " +
                   words::text(judged.doubtful.front()) + (n > 1 ? "; and more" : ""),
               Remedy::allow_doubtful);
 }

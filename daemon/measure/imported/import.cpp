@@ -112,9 +112,8 @@ Result<Run> imported_run(const ImportRequest& request) {
   if (error.named && (request.sense || request.against_command))
     return fail(ErrorCode::usage,
                 error.name +
-                    " is an error of the body; the sense and the travel are given of "
-                    "positioning (" +
-                    positioning_name(request.axis) + ") alone");
+                    " is an error of the body; give sense and travel only for positioning (" +
+                    positioning_name(request.axis) + ")");
   MDOF_TRY(const ImportedSeries series,
            drivers::read_imported_file(request.file, request.format, error.angle, request.opened));
   Run run;

@@ -91,7 +91,7 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
     const std::string where = csv.source + ": " + error_name(frame, k);
     ErrorFunction& f = frame.error[k];
     if (f.known() || !f.file.empty())
-      return bad_input(where + " is in MACHINE.toml too; give it once");
+      return bad_input(where + " is also in MACHINE.toml; give the error once");
     f.position = positions_of(frame, csv.columns[0]);
     f.forward = forward;
     f.reverse = column(2);
@@ -102,8 +102,8 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
   machine.simulated = machine.simulated || csv.simulated;
   machine.noise_only = machine.noise_only || csv.noise_only;
   if (any) return {};
-  return bad_input(csv.source + ": no column of an error of axis " + frame.id + ", such as " +
-                   names[0] + "; add it or rename the one that holds it");
+  return bad_input(csv.source + ": has no column with an error of axis " + frame.id + ", such as " +
+                   names[0] + "; add that column, or rename the column that holds the error");
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ Status take(MachineFrame& frame, std::size_t k, ErrorFunction function) {
   if (function.forward.empty()) return {};
   const std::string name = error_name(frame, k);
   if (frame.error[k].known() || !frame.error[k].file.empty())
-    return bad_input(axis_of(frame) + name + " is given twice; give it once");
+    return bad_input(axis_of(frame) + name + " is given twice; give the error once");
   MDOF_CHECK(check_function(function, k, axis_of(frame) + name));
   frame.error[k] = std::move(function);
   return {};
@@ -58,18 +58,19 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
   const std::string of = axis_of(frame);
   if (table.without_stated_point || table.stated.reference == Reference::carriage)
     return bad_input(of +
-                     "its table is stated at no point that stays with the fixture; build one "
-                     "that is stated at the fixture");
+                     "its table holds at a point that does not stay with the fixture, or at an "
+                     "unknown point; build a table that is stated at the fixture");
   if (table.sides.fixture_moves != frame.point_moves)
     return bad_input(of + "point must be \"" + (frame.point_moves ? "standing" : "moving") +
-                     "\": the rig says that the " + table.sides.moves() + " moves");
+                     "\", because the rig states that the " + table.sides.moves() + " moves");
   if (table.sides.against_encoder != frame.against_command)
-    return bad_input(of + "the rig says travel \"" + table.sides.travel() +
-                     "\", the machine the other; correct the one that is wrong");
+    return bad_input(of + "the rig states travel \"" + table.sides.travel() +
+                     "\", but the machine file states the opposite; correct the wrong one");
   if (table.machine.known() && table.machine != machine.chain)
-    return bad_input(of + "the rig says the chain " + table.machine.text + " (" +
-                     travels_of(table.machine) + "), the machine " + machine.chain.text + " (" +
-                     travels_of(machine.chain) + "); correct the one that is wrong");
+    return bad_input(of + "the rig states the chain " + table.machine.text + " (" +
+                     travels_of(table.machine) + "), but the machine file states " +
+                     machine.chain.text + " (" + travels_of(machine.chain) +
+                     "); correct the wrong one");
   return {};
 }
 
@@ -85,12 +86,14 @@ Status check_slope(const MachineFrame& frame, const StatedAxes& stated) {
   for (const StatedStraightness& s : stated) {
     if (s.axis != frame.id) continue;
     if (s.reference != Reference::fixture)
-      return bad_input(axis_of(frame) + "its table is stated at the " + to_string(s.reference) +
-                       ", the squareness at the fixture; build the table at the fixture");
+      return bad_input(
+          axis_of(frame) + "its table is stated at the " + to_string(s.reference) +
+          ", but the squareness at the fixture; build a table that is stated at the fixture");
     if (!s.slope_removed)
       return bad_input(axis_of(frame) +
-                       "its table has the slope of the straightness, and the squareness has it "
-                       "again; take one of them out");
+                       "its table contains the straightness slope, which the squareness contains "
+                       "too, so the slope would count twice; build the table without the slope, or "
+                       "remove the squareness from the machine file");
   }
   return {};
 }
@@ -212,7 +215,7 @@ Result<std::vector<std::int64_t>> latest_runs(store::Store& store, const Machine
     if (id) ids.push_back(*id);
   if (!ids.empty()) return ids;
   return fail(ErrorCode::not_found, store.file().string() + ": has no complete run of axis " +
-                                        frame.id + ", whose latest the machine names");
+                                        frame.id + ", but the machine file asks for the latest");
 }
 
 Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all,
@@ -228,8 +231,8 @@ Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, Sto
   for (const std::int64_t id : ids) {
     MDOF_TRY(const RunHeader header, store.run_header(id));
     if (letter(header.axis) != frame.id[0] || frame.kind != FrameKind::linear)
-      return bad_input(axis_of(frame) + "run " + std::to_string(id) + " is of axis " +
-                       letter(header.axis) + "; name runs of the axis");
+      return bad_input(axis_of(frame) + "run " + std::to_string(id) + " measures axis " +
+                       letter(header.axis) + "; name runs of axis " + frame.id);
     (is_imported(header) ? imported : measured).runs.push_back(id);
   }
   for (const TableRequest* request : {&measured, &imported}) {
@@ -248,8 +251,8 @@ Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, S
   for (const std::int64_t id : frame.tables.ids) {
     MDOF_TRY(const CompensationTable table, store.table(id));
     if (letter(table.axis) != frame.id[0] || frame.kind != FrameKind::linear)
-      return bad_input(axis_of(frame) + "table " + std::to_string(id) + " is of axis " +
-                       letter(table.axis) + "; name tables of the axis");
+      return bad_input(axis_of(frame) + "table " + std::to_string(id) + " is for axis " +
+                       letter(table.axis) + "; name tables for axis " + frame.id);
     MDOF_TRY(Notices doubtful, doubtful_notices(store, table));
     append(all.doubtful, std::move(doubtful));
     MDOF_CHECK(take_table(store, machine, frame, table, taken));
@@ -274,7 +277,8 @@ Result<std::optional<Squareness>> newest_squareness(store::Store& store, Predica
 }
 
 std::string no_axes(AxisPair axes) {
-  return std::string("; fit one of a run of ") + letter(axes.a) + " and a run of " + letter(axes.b);
+  return std::string("; fit one from a run of axis ") + letter(axes.a) + " and a run of axis " +
+         letter(axes.b);
 }
 
 // The newest of each two axes, of runs that the axes name; of a machine without runs of any.
@@ -295,8 +299,8 @@ Result<std::vector<Squareness>> latest_squareness(store::Store& store, const Mac
   return fail(ErrorCode::not_found,
               store.file().string() + ": has no squareness" +
                   (runs.empty() ? no_axes({})
-                                : " of the runs that the machine names; fit one of runs of two "
-                                  "axes among them"));
+                                : " of the runs that the machine file names; fit one from two of "
+                                  "these runs that measure different axes"));
 }
 
 Result<std::vector<Squareness>> squareness_of(store::Store& store, const Machine& machine,
@@ -313,8 +317,8 @@ Result<std::vector<Squareness>> squareness_of(store::Store& store, const Machine
 Result<MachineFrame*> frame_of(Machine& machine, AxisPair axes, Axis axis) {
   for (MachineFrame& frame : machine.frames)
     if (frame.id == std::string(1, letter(axis))) return &frame;
-  return bad_input("squareness of the machine: the chain " + machine.chain.text + " has not both " +
-                   letter(axes.a) + " and " + letter(axes.b));
+  return bad_input("squareness of the machine: the chain " + machine.chain.text +
+                   " does not have both axes, " + letter(axes.a) + " and " + letter(axes.b));
 }
 
 Status take_squareness(store::Store& store, Machine& machine, const Squareness& stored,
@@ -325,7 +329,7 @@ Status take_squareness(store::Store& store, Machine& machine, const Squareness& 
   if (a->location[about].value || b->location[about].value)
     return bad_input("squareness of the machine: " + with_unit(location_name(*b, about), about) +
                      " or " + with_unit(location_name(*a, about), about) +
-                     " is given too; give one");
+                     " is given as well as the squareness; give one of them");
   MDOF_CHECK(check_slope(*a, stated));
   MDOF_CHECK(check_slope(*b, stated));
   MDOF_TRY(const FittedSquareness fitted, stored_squareness(store, stored));

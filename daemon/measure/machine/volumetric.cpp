@@ -74,7 +74,8 @@ Result<store::Marks> check_volumetric_activation(store::Store& store, std::int64
     if (!active) return tl::unexpected(active.error());
     return fail(ErrorCode::conflict,
                 std::string("table ") + std::to_string(active->table.id) + " of axis " +
-                    letter(axis) + " is active, and a controller that applies both corrects twice",
+                    letter(axis) +
+                    " is active, and a controller that applies both tables corrects twice",
                 Remedy::deactivate_axis, std::string(1, letter(axis)));
   }
   MDOF_TRY(const Judged judged, judged_table(store, table));
@@ -89,7 +90,7 @@ Status check_no_volumetric(store::Store& store) {
   if (!active) return tl::unexpected(active.error());
   return fail(ErrorCode::conflict,
               "the volumetric table " + std::to_string(active->table.id) +
-                  " is active, and a controller that applies both corrects twice",
+                  " is active, and a controller that applies both tables corrects twice",
               Remedy::deactivate_volume);
 }
 

@@ -63,7 +63,7 @@ std::vector<std::string> differences(const Run& before, const Run& after) {
   };
   if (std::abs(a.first - b.first) > kSameEnd_m || std::abs(a.second - b.second) > kSameEnd_m)
     notes.push_back("the travel differs: " + text(a) + " before, " + text(b) +
-                    " after; straightness and ranges grow with it");
+                    " after; straightness and ranges increase with the travel");
   if (before.header.provenance.rig_text != after.header.provenance.rig_text)
     notes.emplace_back("the rigs differ: fixture, calibration or declared uncertainties");
   if (before.header.provenance.model != after.header.provenance.model)
@@ -88,13 +88,13 @@ const char* to_string(Effect effect) {
 Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request) {
   if (request.before == request.after)
     return fail(ErrorCode::usage, "run " + std::to_string(request.before) +
-                                      " is named twice; compare two runs of one axis");
+                                      " is named twice; name two runs of one axis");
   MDOF_TRY(const Run before, store.run(request.before));
   MDOF_TRY(const Run after, store.run(request.after));
   if (before.header.axis != after.header.axis)
-    return bad_input("run " + std::to_string(request.before) + " is along " +
+    return bad_input("run " + std::to_string(request.before) + " measures axis " +
                      letter(before.header.axis) + " and run " + std::to_string(request.after) +
-                     " along " + letter(after.header.axis) + "; compare two runs of one axis");
+                     " axis " + letter(after.header.axis) + "; compare two runs of one axis");
   MDOF_TRY(auto first, run_budgets(store, {request.before, request.reference, "", {}, {}}));
   MDOF_TRY(auto second, run_budgets(store, {request.after, request.reference, "", {}, {}}));
   Comparison found{request.before,

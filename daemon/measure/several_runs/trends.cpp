@@ -82,8 +82,8 @@ void choose_kind(Chosen& chosen, bool mixed) {
     return;
   }
   leave_out(chosen.left_out, others,
-            "another rig, model or treatment of drift, or on the fly, other than " + newest + " (" +
-                words::remedy(Remedy::mix_runs) + ")");
+            "rig, model, treatment of drift or on-the-fly measurement differs from " + newest +
+                " (" + words::remedy(Remedy::mix_runs) + ")");
   std::erase_if(chosen.runs, [&](const RunHeader& run) { return kind_of(run) != kind; });
 }
 
@@ -112,11 +112,11 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
     }
     if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
   }
-  leave_out(chosen.left_out, imported, "imported: it has no figures of a run");
+  leave_out(chosen.left_out, imported, "imported, without figures of a run");
   leave_out(chosen.left_out, simulated, "simulated");
   leave_out(chosen.left_out, partial, "not complete");
   leave_out(chosen.left_out, superseded, "superseded");
-  leave_out(chosen.left_out, again, "of a recording of which a newer run is there");
+  leave_out(chosen.left_out, again, "a newer run of the same recording exists");
   std::sort(chosen.runs.begin(), chosen.runs.end(), earlier);
   choose_kind(chosen, mixed);
   return chosen;
@@ -203,7 +203,7 @@ Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& re
   }
   if (!others.empty())
     trend.left_out.push_back(std::to_string(others.size()) +
-                             " fits with another artefact angle than the newest (" +
+                             " fits whose artefact angle or corner differs from the newest fit (" +
                              words::remedy(Remedy::mix_runs) + ")");
   const auto started = [&](const Squareness& s) {
     return std::max(allowed[s.run_a]->started_utc, allowed[s.run_b]->started_utc);
@@ -234,7 +234,8 @@ Status check_figure(const TrendRequest& request) {
     }
   }
   if (request.figure.empty()) return {};
-  return fail(ErrorCode::usage, "\"" + request.figure + "\" is no figure here; there are " + names);
+  return fail(ErrorCode::usage,
+              "\"" + request.figure + "\" is not a figure here; the figures are " + names);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(Delays, WhatCannotBeIsRefusedWithTheRemedy) {
       {"id = \"A\", delay_us = 100_001",
        "longer than settle_s = 0.1 s; set settle_s in [measure] to 0.100001 or more"},
       {"id = \"encodr\", delay_us = 1", "did you mean \"encoder\"?"},
-      {"id = \"Z\", delay_us = 1", "is no probe of rig.toml"},
+      {"id = \"Z\", delay_us = 1", "is neither a probe of rig.toml"},
       {"id = \"A\", delay_ms = 1", "did you mean \"delay_us\"?"},
   };
   for (const auto& [channel, says] : cases) {

@@ -198,7 +198,7 @@ TEST(Pipeline, NothingMeasuredIsAnErrorWithItsReason) {
     const auto run = measured(axis, five_probe_rig(), options);
     return run ? "measured" : run.error().message;
   };
-  EXPECT_SAYS(refusal(TestAxis()), "no samples of the rig's probes and the encoder came");
+  EXPECT_SAYS(refusal(TestAxis()), "no samples arrived from the rig's probes and the encoder");
   TestAxis parked(12.5);
   parked.stand(3);
   EXPECT_SAYS(refusal(parked), "the encoder stays at 12.5 mm (within 0 um)");

@@ -123,20 +123,21 @@ TEST_F(SameDevice, EachMistakeIsNamedWithLineAndRemedy) {
     std::string text, says;
   } cases[] = {
       {kX + axis_y("same_as = \"t8\"\n" + kEncoderY),
-       "mdofd.toml:18: axis[2].device.same_as: no device of an [[axis]] above is called \"t8\"; "
-       "there are: t7"},
-      {axis_y(kSame + kEncoderY) + kX, "is called \"t7\"; there are: none"},
+       "mdofd.toml:18: axis[2].device.same_as: no [[axis]] above has a device named \"t8\"; "
+       "devices above: t7"},
+      {axis_y(kSame + kEncoderY) + kX, "a device named \"t7\"; devices above: none"},
       {kX + axis_y(kSame), "no device gives channel \"encoder\""},
       {kX + axis_y(kSame + encoder("DIO0")), "input \"DIO0\" is already used by \"encoder\""},
       {kX + axis_y(kSame + encoder("DIO4")), "mdofd.toml:19: axis[2].device.channel"},
       {kX + axis_y(kSame + "rate_hz = 5\n" + kEncoderY), "rate_hz: unknown key"},
-      {kX + axis_y(kSame + "channel = [{ id = \"encodr\", input = \"DIO2\" }]\n"), "probe of"},
+      {kX + axis_y(kSame + "channel = [{ id = \"encodr\", input = \"DIO2\" }]\n"),
+       "is neither a probe of"},
       {kX + axis_y(kSame + "channel = [{ id = \"encoder\", input = \"DIO2\" }]\n"),
        "needs um_per_count"},
-      {simulated + axis_y("same_as = \"sim\"\n"), "(simulator) is of one axis alone"},
+      {simulated + axis_y("same_as = \"sim\"\n"), "(simulator) can serve only one axis"},
       {counter + axis_y("same_as = \"c\"\n" + encoder("count1")),
-       "a linux_counter gives no channels to a second axis"},
-      {counter + axis_y("same_as = \"c\"\n"), "\"c\" gives no probe of"},
+       "a linux_counter shares only its probes with a second axis"},
+      {counter + axis_y("same_as = \"c\"\n"), "\"c\" has no probe of"},
   };
   for (const auto& c : cases)
     EXPECT_NE(refusal(c.text).find(c.says), std::string::npos) << c.says << "\n" << refusal(c.text);

@@ -148,7 +148,7 @@ TEST(Datum, AFirstScanWithoutPositionFailsNoRun) {
       EXPECT_EQ(run->points.size(), 12u);
     } else {
       ASSERT_FALSE(run);
-      EXPECT_NE(run.error().message.find("has a position of the encoder"), std::string::npos);
+      EXPECT_NE(run.error().message.find("has an encoder position"), std::string::npos);
     }
   }
 }

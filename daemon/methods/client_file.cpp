@@ -32,21 +32,21 @@ bool may_read(const FileUser& user, const struct stat& file) {
 
 tl::unexpected<Error> cannot_open(const std::string& path, int why) {
   return io_error(path + ": " + rpc::system_error_text(why) +
-                  "; mdofd reads the log itself: put it where its user can read it");
+                  "; mdofd itself reads the log, so put it where the user of mdofd can read it");
 }
 
 Status check_file(const FileUser& user, const std::string& path, int place) {
   struct stat file {};
   if (::fstat(place, &file) != 0) return cannot_open(path, errno);
   if (S_ISLNK(file.st_mode))
-    return bad_input(path + ": is a link; give the path of the file that it leads to");
-  if (!S_ISREG(file.st_mode)) return bad_input(path + ": is no file");
+    return bad_input(path + ": is a link; give the path of the file itself");
+  if (!S_ISREG(file.st_mode)) return bad_input(path + ": is not a regular file");
   if (sqlite::is_open_for_writing(file))
     return fail(ErrorCode::conflict, path +
-                                         ": mdofd itself is writing this file (its database, or a "
+                                         ": mdofd is writing this file (its database, or a "
                                          "recording under way); replay a recording that has ended");
   if (may_read(user, file)) return {};
-  return io_error(path + ": is not yours to read; check its owner and mode");
+  return io_error(path + ": you have no permission to read this file; check its owner and mode");
 }
 
 // First the place alone (O_PATH), which reads nothing, waits for nobody and is not what a program

@@ -46,17 +46,17 @@ void set_encoder(Methods& m, const Params& params, Reply reply) {
 
 void add_encoder_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "encoder.set",
-             .summary = "Says where an axis stands now, of which the encoder counts from wherever "
-                        "it was switched on; until its device has been without power.",
+             .summary = "Sets the present position of an axis with an incremental encoder; it "
+                        "holds until the device of the encoder loses power.",
              .params = {{"axis", ParamType::string, "X, Y or Z", true},
                         {"position_mm",
                          ParamType::number,
-                         "where it stands, still, by the machine's coordinates",
+                         "present position in machine coordinates; the axis must stand still",
                          true,
                          {},
                          {.least = -kFarthest_mm, .most = kFarthest_mm}}},
-             .result = "axis, device, position_mm, offset_mm: what is added to what the device "
-                       "shows, utc",
+             .result = "axis, device, position_mm, offset_mm (added to the position that the "
+                       "device shows), utc",
              .example = R"({"axis": "X", "position_mm": 12.5})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { set_encoder(m, p, std::move(r)); }});

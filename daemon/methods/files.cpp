@@ -84,9 +84,12 @@ void store_run(Methods& m, const Params& params, Result<Request> request, MakeRu
                const char* method, Reply reply) {
   const auto who = params.caller().credentials();
   if (!who)
-    return reply(fail(ErrorCode::usage, std::string(method) + ": only over the Unix socket"));
+    return reply(
+        fail(ErrorCode::usage, std::string(method) + " is available only over the Unix socket"));
   if (!request) return reply(tl::unexpected(request.error()));
-  if (!m.replayer) return reply(io_error("this daemon reads no files"));
+  if (!m.replayer)
+    return reply(io_error(std::string(method) +
+                          " is not available: this mdofd replays and imports no files"));
   auto shared = std::make_shared<Reply>(std::move(reply));
   const FileUser user{who->uid, who->gid, params.caller().further_groups()};
   m.replayer->start([request = std::move(*request), user, make](
@@ -109,7 +112,7 @@ rpc::Param param_of(const ReplayOption& option) {
 }
 
 rpc::Param path_param() {
-  return {"path", ParamType::string, "absolute; a file that caller and daemon may read", true,
+  return {"path", ParamType::string, "absolute path of a file that caller and mdofd may read", true,
           {},     {.bytes = 4096}};
 }
 
@@ -118,14 +121,14 @@ std::vector<rpc::Param> replay_params() {
       path_param(),
       {"rig",
        ParamType::string,
-       "as TOML; of a recording its own by default",
+       "rig as TOML text; by default the rig in the recording",
        false,
        "\"\"",
        {.bytes = 60'000}},
-      {"rig_source", ParamType::string, "its file name, for messages", false},
+      {"rig_source", ParamType::string, "file name of the rig, for messages", false},
       {"model", ParamType::string, "simplified, exact or rigid", false, "\"\""},
       {"targets_mm", ParamType::array, "nominal positions", false, "[]", {.items = 10'000}},
-      {"note", ParamType::string, "for people", false, "\"\""}};
+      {"note", ParamType::string, "free text, stored with the run", false, "\"\""}};
   for (const ReplayOption& option : replay_options()) params.push_back(param_of(option));
   return params;
 }
@@ -135,24 +138,30 @@ std::vector<rpc::Param> import_params() {
   std::vector<rpc::Param> params{
       path_param(),
       {"axis", ParamType::string, "X, Y or Z", true},
-      {"error", ParamType::string, "what was measured, such as EYX [positioning, EXX of X]", false,
-       "\"\""},
+      {"error", ParamType::string,
+       "error that was measured, such as EYX [positioning: EXX for axis X]", false, "\"\""},
       {"format", ParamType::string, "csv, iso230-2 or rtl [as in the file]", false, "\"\""},
       {"sense", ParamType::string,
-       "of positioning: command (actual - commanded place) or body (along + of the machine) "
-       "[command]",
+       "sense of positioning: command (actual - commanded position) or body (along + of the "
+       "machine) [command]",
        false},
       {"travel", ParamType::string,
-       "- where the body goes along - as the command grows [not known]", false},
+       "+ if the body moves along + when the command increases, - if it moves along - [unknown]",
+       false},
       {"u_um",
        ParamType::number,
-       "standard uncertainty of each deviation",
+       "standard uncertainty of each deviation, for lengths",
        false,
        {},
        not_negative},
-      {"u_urad", ParamType::number, "the same of an angle", false, {}, not_negative},
-      {"note", ParamType::string, "for people", false, "\"\""},
-      {"despite_warnings", ParamType::boolean, "also a file that is doubtful", false, "false"}};
+      {"u_urad",
+       ParamType::number,
+       "standard uncertainty of each deviation, for angles",
+       false,
+       {},
+       not_negative},
+      {"note", ParamType::string, "free text, stored with the run", false, "\"\""},
+      {"despite_warnings", ParamType::boolean, "also accept a doubtful file", false, "false"}};
   for (rpc::Param& limit : limit_params()) params.push_back(std::move(limit));
   return params;
 }
@@ -160,19 +169,20 @@ std::vector<rpc::Param> import_params() {
 }  // namespace
 
 void add_files_methods(rpc::MethodTable& table, Methods& m) {
-  table.add({.name = "run.replay",
-             .summary = "Replays a log or a recording and stores its run, one at a time.",
-             .params = replay_params(),
-             .result = "run: its id, once it is stored; a long log takes long",
-             .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
-             .writes = true,
-             .handler = [&m](const Params& p, Reply r) {
-               store_run(m, p, read_replay_request(p), replayed, "run.replay", std::move(r));
-             }});
+  table.add(
+      {.name = "run.replay",
+       .summary = "Replays a log or a recording and stores the run; mdofd replays one at a time.",
+       .params = replay_params(),
+       .result = "run: id of the run, sent once the run is stored (a long log takes long)",
+       .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) {
+         store_run(m, p, read_replay_request(p), replayed, "run.replay", std::move(r));
+       }});
   table.add({.name = "run.import",
-             .summary = "Stores what another instrument measured, a file, as a run.",
+             .summary = "Stores a file with measurements of another instrument as a run.",
              .params = import_params(),
-             .result = "run: its id, once it is stored",
+             .result = "run: id of the run, sent once the run is stored",
              .example = R"({"path": "/var/lib/mdof/laser_X.rtl", "axis": "X", "u_um": 0.3})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) {

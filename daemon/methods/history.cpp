@@ -29,16 +29,15 @@ Result<QueryThread::Work> list_history(Methods&, const Params& params) {
 }  // namespace
 
 void add_history_methods(rpc::MethodTable& table, Methods& m) {
-  table.add({.name = "history.list",
-             .summary = "Who did what with runs, squareness, tables and encoders: newest first, a "
-                        "page at a time.",
-             .params = {offset_param(), count_param(kMaxActionsPage)},
-             .result =
-                 "total, history: deed (run.start, compensation.activate, ...), of and id "
-                 "(what it was done to), utc, uid, gid, pid, user; detail, where there is more "
-                 "to say",
-             .example = R"({"offset": 0, "count": 20})",
-             .handler = on_query(m, list_history)});
+  table.add(
+      {.name = "history.list",
+       .summary = "Lists recorded actions on runs, squareness, tables and encoders (who, what, "
+                  "when), newest first, in pages.",
+       .params = {offset_param(), count_param(kMaxActionsPage)},
+       .result = "total, history: deed (run.start, compensation.activate, ...), of and id (object "
+                 "of the action), utc, uid, gid, pid, user; detail, where there are details",
+       .example = R"({"offset": 0, "count": 20})",
+       .handler = on_query(m, list_history)});
 }
 
 }  // namespace mdof::daemon

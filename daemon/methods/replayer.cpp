@@ -53,7 +53,7 @@ void Replayer::Shared::store(Result<Run> run, const HistoryEntry& action, const 
       keeper.post([whole, action, done, uncertainty = uncertainty_of(*whole)](store::Store& store) {
         done(store.add_run(*whole, action, uncertainty));
       });
-  if (!posted) done(io_error("the store is behind with its work; try again"));
+  if (!posted) done(io_error("too many writes to the database are pending; try again"));
 }
 
 Replayer::Replayer(Storekeeper& keeper) : shared_(std::make_shared<Shared>(keeper)) {}
@@ -79,7 +79,7 @@ bool Replayer::was_left_behind() {
 void Replayer::start(Make make, const HistoryEntry& action, Done done) {
   if (shared_->busy.exchange(true))
     return done(fail(ErrorCode::conflict,
-                     "another log is being replayed or imported; try again when it is done"));
+                     "mdofd is replaying or importing another log; try again when that has ended"));
   if (thread_.joinable()) thread_.join();  // it has done its work, or is about to have
   {
     const std::lock_guard lock(shared_->mutex);

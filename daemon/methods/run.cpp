@@ -60,12 +60,12 @@ Result<std::vector<double>> read_targets(const Params& params) {
   if (!params.has("from_mm") && !params.has("to_mm") && !params.has("interval_mm"))
     return params.numbers("targets_mm");
   if (params.has("targets_mm"))
-    return fail(ErrorCode::usage, "targets_mm and from_mm: give one or the other");
+    return fail(ErrorCode::usage, "targets_mm and from_mm are both given; give one of them");
   for (const char* key : {"from_mm", "to_mm", "interval_mm"})
     if (!params.has(key))
-      return fail(ErrorCode::usage, std::string(key) +
-                                        " is missing beside the other two of "
-                                        "from_mm, to_mm and interval_mm");
+      return fail(
+          ErrorCode::usage,
+          std::string(key) + " is missing; give all three of from_mm, to_mm and interval_mm");
   const TargetSpacing spacing{params.number("from_mm"), params.number("to_mm"),
                               params.number("interval_mm"), params.number("jitter_mm", 0),
                               params.integer("seed", 1)};
@@ -80,17 +80,18 @@ Result<RunRequest> read_run_request(const Params& params) {
   request.repeats = static_cast<int>(params.integer("repeats", 0));
   MDOF_TRY(const auto targets_mm, read_targets(params));
   if (targets_mm.size() > kMaxTargets)
-    return fail(ErrorCode::usage, "interval_mm makes " + std::to_string(targets_mm.size()) +
-                                      " targets; a run may have at most " +
-                                      std::to_string(kMaxTargets));
+    return fail(ErrorCode::usage, "interval_mm gives " + std::to_string(targets_mm.size()) +
+                                      " targets (limit " + std::to_string(kMaxTargets) +
+                                      "); give a larger interval_mm");
   for (const double target_mm : targets_mm) {
     if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
-      return fail(ErrorCode::usage, "targets_mm must ascend");
+      return fail(ErrorCode::usage, "targets_mm must be in ascending order");
     }
     request.targets_m.push_back(from_mm(target_mm) + 0.0);  // -0 is 0, as a replay reads it
   }
   if (request.repeats > 0 && request.targets_m.empty()) {
-    return fail(ErrorCode::usage, "repeats goes with targets_mm, or with from_mm and to_mm");
+    return fail(ErrorCode::usage,
+                "repeats needs targets; give targets_mm, or from_mm, to_mm and interval_mm");
   }
   if (auto hidden = scale_period_notice(targets_mm, params.number("scale_period_um", 0)))
     request.notices.push_back(std::move(*hidden));
@@ -134,13 +135,12 @@ Status check_probes_free(const Methods& m, const Station& station) {
     if (other.get() == &station || run == 0) continue;
     const std::string device = same_probes(station.config(), other->config());
     if (device.empty()) continue;
-    return fail(ErrorCode::conflict,
-                "the probes of device \"" + device + "\" are at axis " +
-                    letter(other->config().rig.axis) + ", " +
-                    (run > 0 ? "of which run " + std::to_string(run) +
-                                   " is under way; stop it with run.stop first"
-                             : "of which a run is about to begin or where it stands is being "
-                               "stored; try again"));
+    return fail(
+        ErrorCode::conflict,
+        "the probes of device \"" + device + "\" are in use for axis " +
+            letter(other->config().rig.axis) + ": " +
+            (run > 0 ? "run " + std::to_string(run) + " is under way; stop it with run.stop first"
+                     : "a run is about to begin, or the axis position is being stored; try again"));
   }
   return {};
 }
@@ -189,8 +189,8 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
     return station->stop_run(abort, action_of(params, abort ? "run.abort" : "run.stop"),
                              answer_with_run(std::move(reply), station->config().rig.axis));
   }
-  reply(fail(ErrorCode::not_found,
-             "run " + std::to_string(id) + " is not under way; server.info lists those that are"));
+  reply(fail(ErrorCode::not_found, "run " + std::to_string(id) +
+                                       " is not under way; server.info lists the runs under way"));
 }
 
 // A run that stands as open though nobody measures it says why.
@@ -289,79 +289,81 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param run{"run", ParamType::integer, "id of the run", true};
   const rpc::Param offset = offset_param();
   const rpc::Param reference{"reference", ParamType::string,
-                             "where errors are stated: fixture, carriage or tool", false,
+                             "point at which errors are stated: fixture, carriage or tool", false,
                              "\"fixture\""};
   table.add(
       {.name = "run.start",
-       .summary = "Starts a run of an axis: its samples are recorded, its dwells become points.",
-       .params = {axis,
-                  {"targets_mm",
-                   ParamType::array,
-                   "nominal positions, ascending; without "
-                   "them targets are recognised",
-                   false,
-                   "[]",
-                   {.items = kMaxTargets}},
-                  {"from_mm", ParamType::number, "instead: the first target", false},
-                  {"to_mm", ParamType::number, "the last one is not beyond this", false},
-                  {"interval_mm", ParamType::number, "between two targets", false},
-                  {"jitter_mm", ParamType::number, "each is moved by up to this", false, "0"},
-                  {"seed", ParamType::integer, "of the jitter", false, "1", {.least = 0}},
-                  {"scale_period_um",
-                   ParamType::number,
-                   "signal period of the encoder's scale: a warning where the intervals hide its "
-                   "error",
-                   false,
-                   "0",
-                   {.least = 0}},
-                  {"repeats",
-                   ParamType::integer,
-                   "with targets_mm: the run is complete after "
-                   "so many, both ways: the axis must overrun both ends; 0: until run.stop",
-                   false,
-                   "0",
-                   {.least = 0, .most = 10'000}},
-                  {"note", ParamType::string, "for people", false, "\"\""}},
-       .result = "run, axis, targets_mm, notices, notes: the run is on the disk and measuring",
+       .summary = "Starts a run of an axis: mdofd records the samples and calculates a point from "
+                  "each stop.",
+       .params =
+           {axis,
+            {"targets_mm",
+             ParamType::array,
+             "nominal positions, ascending; without targets mdofd finds them from the stops",
+             false,
+             "[]",
+             {.items = kMaxTargets}},
+            {"from_mm", ParamType::number, "first target, instead of targets_mm", false},
+            {"to_mm", ParamType::number, "end of the targets; the last target is not beyond it",
+             false},
+            {"interval_mm", ParamType::number, "distance between targets", false},
+            {"jitter_mm", ParamType::number, "largest random shift of a target", false, "0"},
+            {"seed", ParamType::integer, "seed of the random shifts", false, "1", {.least = 0}},
+            {"scale_period_um",
+             ParamType::number,
+             "signal period of the encoder's scale; mdofd warns if the intervals hide the periodic "
+             "error of the scale",
+             false,
+             "0",
+             {.least = 0}},
+            {"repeats",
+             ParamType::integer,
+             "passes over the targets in each direction after which the run is complete (the axis "
+             "must overrun both ends); 0: until run.stop",
+             false,
+             "0",
+             {.least = 0, .most = 10'000}},
+            {"note", ParamType::string, "free text, stored with the run", false, "\"\""}},
+       .result =
+           "run, axis, targets_mm, notices, notes; sent once the run is on the disk and measures",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});
   table.add({.name = "run.resume",
-             .summary = "Goes on with a run that was cut off, as a new run that supersedes it: "
-                        "what was recorded is its beginning.",
+             .summary = "Continues a run that was cut off, as a new run that supersedes it and "
+                        "begins with its recorded samples.",
              .params = {run},
-             .result = "as of run.start",
+             .result = "the members of the result of run.start",
              .example = R"({"run": 1})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { resume_run(m, p, std::move(r)); }});
   table.add({.name = "run.stop",
              .summary = "Ends the run under way and evaluates it.",
              .params = {run, {"abort", ParamType::boolean, "mark it as aborted", false, "false"}},
-             .result = "run: the one to read, which supersedes the one asked for where the "
-                       "sequence turned out otherwise",
+             .result = "run: id of the evaluated run; it is a new run, which supersedes this one, "
+                       "if the sequence of targets was found to be different",
              .example = R"({"run": 1})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { stop_run(m, p, std::move(r)); }});
   table.add({.name = "run.list",
-             .summary = "Runs, newest first, a page at a time.",
+             .summary = "Lists runs, newest first, in pages.",
              .params = {offset,
                         count_param(kMaxRunsPage),
-                        {"axis", ParamType::string, "of this axis only", false}},
+                        {"axis", ParamType::string, "list only runs of this axis", false}},
              .result = "total, runs: header and provenance of each",
              .example = R"({"offset": 0, "count": 10})",
              .handler = on_query(m, list_runs)});
   table.add({.name = "run.get",
-             .summary = "A run without its points: header, provenance, straightness, angles, "
-                        "plausibility, who started and stopped it.",
+             .summary = "Returns a run without its points: header, provenance, straightness, "
+                        "angles, plausibility, who started and stopped it.",
              .params = {run, reference},
-             .result =
-                 "the run; straightness in um, slopes and angles in urad; n_ij is null where it "
-                 "is too long for a reply",
+             .result = "the run; straightness in um, slopes and angles in urad; n_ij is null if it "
+                       "is too long for a reply",
              .example = R"({"run": 1})",
              .handler = on_query(m, get_run)});
   table.add(
       {.name = "run.points",
-       .summary = "The points of a run in the order measured, a page at a time.",
+       .summary = "Returns the points of a run in the order measured, in pages.",
        .params = {run, offset, count_param(kMaxPointsPage), reference},
        .result = "total, u_covers, points: position_mm, five errors in um and urad, u, u_random, "
                  "U, k, nu_eff (null: infinite), flags",

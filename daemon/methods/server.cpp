@@ -121,7 +121,7 @@ Result<algo::TableLimits> limits_param(const Params& params) {
 Result<Axis> axis_param(const Params& params) {
   if (const auto axis = axis_from(params.string("axis"))) return *axis;
   return fail(ErrorCode::usage,
-              "axis \"" + std::string(params.string("axis")) + "\" is none of X, Y, Z");
+              "axis \"" + std::string(params.string("axis")) + "\" must be X, Y or Z");
 }
 
 Result<Reference> reference_param(const Params& params) {
@@ -130,7 +130,7 @@ Result<Reference> reference_param(const Params& params) {
   const std::string name(params.string("reference"));
   if (reference_from(name, reference)) return reference;
   return fail(ErrorCode::usage,
-              "reference \"" + name + "\" is none of \"fixture\", \"carriage\", \"tool\"");
+              "reference \"" + name + "\" must be \"fixture\", \"carriage\" or \"tool\"");
 }
 
 Result<Station*> station_of(Methods& m, Axis axis) {
@@ -163,9 +163,9 @@ Result<ActiveTables> load_active(store::Store& store) {
     }
     if (active && active->table.without_stated_point) {
       std::fprintf(stderr,
-                   "compensation table %lld of axis %c was built before tables said at which point "
-                   "they hold and which way a correction goes; it is not served: build it again "
-                   "from its runs and activate that\n",
+                   "compensation table %lld of axis %c does not state at which point it holds and "
+                   "what sign a correction has (older version), so it is not served; build a new "
+                   "table from its runs and activate that\n",
                    static_cast<long long>(active->table.id), letter(axis));
       continue;
     }
@@ -212,32 +212,30 @@ Change change_active(Methods& m, std::string reply_members,
 
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
-             .summary = "Version, uptime, axes and the compensation generation.",
-             .result = "identity of the daemon; chain: link and sha256 of the head of the chain of "
-                       "hashes, which a later check may name; axes with their devices, the run "
-                       "under way and what "
-                       "the positions of the encoder are counted from: datum (absolute, none, "
-                       "configured, set, index), offset_mm, note",
+             .summary = "Returns version, uptime, axes and the compensation generation.",
+             .result = "identity of the daemon; chain: link and sha256 of the newest entry of the "
+                       "chain of hashes (a later check can name it); axes with their devices, the "
+                       "run under way and the datum of the encoder positions: datum (absolute, "
+                       "none, configured, set, index), offset_mm, note",
              .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add({.name = "device.list",
-             .summary = "Every device with its axis, state, last error, channels and counts.",
+             .summary = "Lists the devices with axis, state, last error, channels and counts.",
              .result = "devices",
              .handler = [&m](const Params&) -> Result<std::string> { return device_list(m); }});
-  table.add(
-      {.name = "live.subscribe",
-       .summary = "Sends live.update notifications, newest value wins, and run.event for "
-                  "each step of a run once it is on the disk, and when another compensation table "
-                  "is active (type compensation, generation).",
-       .params = {{"interval_ms",
-                   ParamType::integer,
-                   "least time between two updates",
-                   false,
-                   "100",
-                   {.least = 20, .most = 3'600'000}},
-                  {"events", ParamType::boolean, "whether run.event comes too", false, "true"}},
-       .result = "the subscription as it holds",
-       .example = R"({"interval_ms": 200})",
-       .handler = [](const Params& params) { return subscribe(params); }});
+  table.add({.name = "live.subscribe",
+             .summary = "Subscribes to the notifications live.update (always the newest values) "
+                        "and run.event (each step of a run, once it is on the disk, and each "
+                        "change of the active compensation table: type compensation, generation).",
+             .params = {{"interval_ms",
+                         ParamType::integer,
+                         "shortest time between two updates",
+                         false,
+                         "100",
+                         {.least = 20, .most = 3'600'000}},
+                        {"events", ParamType::boolean, "also send run.event", false, "true"}},
+             .result = "the settings of the subscription",
+             .example = R"({"interval_ms": 200})",
+             .handler = [](const Params& params) { return subscribe(params); }});
   table.add({.name = "live.unsubscribe",
              .summary = "Ends both subscriptions of this connection.",
              .result = "an empty object",

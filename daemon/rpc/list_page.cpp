@@ -3,12 +3,16 @@
 namespace mdof::rpc {
 
 Param offset_param() {
-  return {"offset", ParamType::integer, "items to leave out", false, "0", {.least = 0}};
+  return {"offset", ParamType::integer, "number of items to skip", false, "0", {.least = 0}};
 }
 
 Param count_param(std::int64_t most) {
-  return {"count", ParamType::integer,   "items at the most; fewer come where a line holds no more",
-          false,   std::to_string(most), {.least = 1, .most = static_cast<double>(most)}};
+  return {"count",
+          ParamType::integer,
+          "largest number of items; fewer are sent if the reply line is full",
+          false,
+          std::to_string(most),
+          {.least = 1, .most = static_cast<double>(most)}};
 }
 
 ListPage list_page_of(const Params& params, std::int64_t most) {

@@ -150,7 +150,7 @@ class Database(unittest.TestCase):
         recording = self.client.call("run.get", run=run)["recording"]["path"]
         for path in (*(self.daemon.database + end for end in ("", "-wal", "-shm")), hard, soft, recording, recording + "-shm"):
             with open(RIG["X"]) as rig:
-                reason = "" if path == soft else "mdofd itself is writing this file"  # a link may be refused as such
+                reason = "" if path == soft else "mdofd is writing this file"  # a link may be refused as such
                 self.refused(reason, "run.replay", path=path, rig=rig.read())
         os.remove(hard)
         self.client.call("run.stop", run=run, abort=True)

@@ -236,7 +236,7 @@ class EndToEnd(unittest.TestCase):
     def test_bad_calls_say_what_is_wrong(self):
         for method, params, words in (
                 ("run.start", {"axis": "Z"}, "no rig is configured"),
-                ("run.start", {"axis": "Q"}, "none of X, Y, Z"),
+                ("run.start", {"axis": "Q"}, "must be X, Y or Z"),
                 ("run.start", {"axis": "X", "targets_mm": [2, 1]}, "ascend"),
                 ("run.start", {"axis": "X", "tagets_mm": [1]}, "targets_mm"),
                 ("run.get", {"run": 4711}, "4711"),

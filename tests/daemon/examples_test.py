@@ -149,7 +149,7 @@ class Examples(unittest.TestCase):
             return value
 
         def refused(run):
-            with self.assertRaisesRegex(RpcError, f'device "t7" are at axis X, of which run {run} is under way') as no:
+            with self.assertRaisesRegex(RpcError, f'device "t7" are in use for axis X: run {run} is under way') as no:
                 client.call("run.start", axis="Y")
             self.assertEqual(no.exception.code, -32001)
 

@@ -68,7 +68,7 @@ TEST_F(ClientFiles, ALinkIsRefused) {
 TEST_F(ClientFiles, APipeIsRefusedAtOnce) {
   const std::string path = (folder_ / "pipe").string();
   ASSERT_EQ(::mkfifo(path.c_str(), 0666), 0);
-  EXPECT_NE(refusal(path).find("is no file"), std::string::npos) << refusal(path);
+  EXPECT_NE(refusal(path).find("is not a regular file"), std::string::npos) << refusal(path);
 }
 
 TEST_F(ClientFiles, AFileWithALeaseIsNotWaitedFor) {
@@ -88,9 +88,11 @@ TEST_F(ClientFiles, TheRightsAreThoseOfAllGroupsOfTheUser) {
   ASSERT_EQ(::chown(path.c_str(), 2001, 3001), 0);
   ASSERT_EQ(::chmod(path.c_str(), 0640), 0);
   EXPECT_EQ(refusal(path, {2002, 3002, {5, 3001}}), "");
-  EXPECT_NE(refusal(path, {2002, 3002, {5}}).find("is not yours to read"), std::string::npos);
+  EXPECT_NE(refusal(path, {2002, 3002, {5}}).find("you have no permission to read"),
+            std::string::npos);
   ASSERT_EQ(::chmod(path.c_str(), 0604), 0);
-  EXPECT_NE(refusal(path, {2002, 3002, {5, 3001}}).find("is not yours"), std::string::npos)
+  EXPECT_NE(refusal(path, {2002, 3002, {5, 3001}}).find("you have no permission"),
+            std::string::npos)
       << "a member of the group without the right";
 }
 

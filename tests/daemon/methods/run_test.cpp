@@ -68,7 +68,7 @@ TEST_F(RunMethods, TheProbesOfADeviceMeasureOneAxisAtATime) {
   ASSERT_EQ(call("run.start", R"({"axis":"X"})").at("/result/run"), "1");
   const Answer refused = call("run.start", R"({"axis":"Y"})");
   EXPECT_EQ(refused.code(), rpc::kChanged) << refused.text();
-  EXPECT_TEXT(refused.message(), "device \\\"daq\\\" are at axis X, of which run 1 is under way");
+  EXPECT_TEXT(refused.message(), "device \\\"daq\\\" are in use for axis X: run 1 is under way");
   EXPECT_EQ(bench_->stations[1]->run(), 0);
   ASSERT_EQ(call("run.stop", R"({"run":1})").at("/result/run"), "1");
   EXPECT_EQ(call("run.start", R"({"axis":"Y"})").at("/result/run"), "2");
@@ -106,18 +106,18 @@ TEST_F(RunMethods, IntervalsThatHideTheScalesErrorAreWarnedOf) {
 
 TEST_F(RunMethods, WhatCannotBeMeasuredIsRefusedByItsKey) {
   add_axis();
-  EXPECT_TEXT(refused_start(R"("targets_mm":[0,5,5])"), "targets_mm must ascend");
-  EXPECT_TEXT(refused_start(R"("targets_mm":[5,0])"), "targets_mm must ascend");
+  EXPECT_TEXT(refused_start(R"("targets_mm":[0,5,5])"), "targets_mm must be in ascending order");
+  EXPECT_TEXT(refused_start(R"("targets_mm":[5,0])"), "targets_mm must be in ascending order");
   EXPECT_TEXT(refused_start(R"("targets_mm":[0,"1"])"), "targets_mm");
-  EXPECT_TEXT(refused_start(R"("targets_mm":[0,1],"from_mm":0)"), "give one or the other");
+  EXPECT_TEXT(refused_start(R"("targets_mm":[0,1],"from_mm":0)"), "give one of them");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":5)"), "interval_mm is missing");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"interval_mm":5)"), "to_mm is missing");
   EXPECT_TEXT(refused_start(R"("to_mm":0,"interval_mm":5)"), "from_mm is missing");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":5,"interval_mm":0)"), "interval_mm");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":5,"interval_mm":1,"jitter_mm":9)"), "jitter_mm");
-  EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":1500,"interval_mm":1)"), "at most 1500");
-  EXPECT_TEXT(refused_start(R"("repeats":2)"), "repeats goes with targets_mm");
-  EXPECT_TEXT(call("run.start", R"({"axis":"W"})").message(), "none of X, Y, Z");
+  EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":1500,"interval_mm":1)"), "limit 1500");
+  EXPECT_TEXT(refused_start(R"("repeats":2)"), "repeats needs targets; give targets_mm");
+  EXPECT_TEXT(call("run.start", R"({"axis":"W"})").message(), "must be X, Y or Z");
   const Answer other = call("run.start", R"({"axis":"Y"})");
   EXPECT_EQ(other.code(), rpc::kNotFound);
   EXPECT_TEXT(other.message(), "no rig is configured for axis Y");

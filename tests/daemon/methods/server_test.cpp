@@ -160,7 +160,7 @@ TEST_F(ServerMethods, ALogThatTheCallerMayNotReadIsNotReadForIt) {
     bench_->caller.who = rpc::Credentials{uid, gid, 42};
     const Answer answer = call("run.replay", replay_of(log));
     if (answer.code() != 0) {
-      EXPECT_HAS(answer.message(), "is not yours to read");
+      EXPECT_HAS(answer.message(), "you have no permission to read");
     }
     return answer.code() == 0;
   };
@@ -184,7 +184,7 @@ TEST_F(ServerMethods, APathThatIsNoLogIsRefused) {
   bench_->methods.replayer = bench_->replayer.get();
   EXPECT_HAS(call("run.replay", replay_of("log.csv")).message(), "must be absolute");
   EXPECT_HAS(call("run.replay", replay_of("/nowhere/log.csv")).message(), "No such file");
-  EXPECT_HAS(call("run.replay", replay_of(folder_.string())).message(), "is no file");
+  EXPECT_HAS(call("run.replay", replay_of(folder_.string())).message(), "is not a regular file");
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ class Stop(unittest.TestCase):
         pipe = os.path.join(self.folder.name, "log.csv")
         os.mkfifo(pipe)
         client = self.daemon.start()
-        with self.assertRaisesRegex(RpcError, "is no file"):
+        with self.assertRaisesRegex(RpcError, "is not a regular file"):
             client.call("run.replay", path=pipe)
         log = os.path.join(self.folder.name, "good.csv")
         write_log(log)
@@ -97,7 +97,7 @@ class Stop(unittest.TestCase):
         asked.start()
         while os.read(held, 4096) == b"":  # mdofd is opening it
             time.sleep(0.01)
-        with self.assertRaisesRegex(RpcError, "another log is being replayed"):
+        with self.assertRaisesRegex(RpcError, "is replaying or importing another log"):
             client.call("run.replay", path=log)
         run = client.call("run.start", axis="X")["run"]
         self.assertEqual(client.call("server.info")["axes"][0]["run"], run)

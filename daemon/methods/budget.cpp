@@ -18,8 +18,8 @@ Status check_size(store::Store& store, std::int64_t run) {
   MDOF_TRY(const std::int64_t points, store.count_points(run));
   if (points <= kMostPoints) return {};
   return bad_input("run " + std::to_string(run) + " has " + std::to_string(points) +
-                       " points, too many for a budget by a call (at most " +
-                       std::to_string(kMostPoints) + ")",
+                       " points, but a call calculates a budget of at most " +
+                       std::to_string(kMostPoints) + " points",
                    Remedy::budget_run);
 }
 
@@ -72,53 +72,53 @@ Result<QueryThread::Work> compare(Methods&, const Params& params) {
 
 void add_budget_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param reference{"reference", ParamType::string,
-                             "where errors are stated: fixture, carriage or tool", false,
+                             "point at which errors are stated: fixture, carriage or tool", false,
                              "\"fixture\""};
   const std::string result =
-      "figures: value, u, u_random, nu_eff (null: infinite), k, U for 95 %, not_declared, and "
-      "contributors, the largest first";
+      "figures: for each figure value, u, u_random, nu_eff (null: infinite), k, U for 95 %, "
+      "not_declared, and contributors, the largest first";
   table.add({.name = "run.budget",
-             .summary = "The uncertainty budget of a figure of a run.",
+             .summary = "Calculates the uncertainty budget of a figure of a run.",
              .params = {{"run", ParamType::integer, "id of the run", true},
                         {"figure", ParamType::string,
-                         "such as EYX_straightness_um, EYX_slope_urad, EAX_range_urad; with at_mm "
-                         "such as EYX_um",
+                         "name of the figure, such as EYX_straightness_um, EYX_slope_urad, "
+                         "EAX_range_urad; with at_mm such as EYX_um",
                          true},
                         {"at_mm", ParamType::number,
-                         "of the error at the target nearest to this position", false},
+                         "position; the figure is the error at the nearest target", false},
                         reference},
              .result = result,
              .example = R"({"run": 1, "figure": "EYX_straightness_um"})",
              .handler = on_query(m, run_budget)});
-  table.add({.name = "run.compare",
-             .summary = "The figures of two runs of one axis, before and after a compensation.",
-             .params = {{"before", ParamType::integer, "id of the run before", true},
-                        {"after", ParamType::integer, "id of the run after", true},
-                        reference},
-             .result = "figures: of each before, after and change (|after| - |before|) with value, "
-                       "u, u_random, nu_eff, k, U for 95 %; effect: reduced, increased, or not "
-                       "shown, where the change is within its U; notes: what makes the runs differ "
-                       "beside",
-             .example = R"({"before": 1, "after": 2})",
-             .handler = on_query(m, compare)});
+  table.add(
+      {.name = "run.compare",
+       .summary = "Compares the figures of two runs of one axis, before and after a compensation.",
+       .params = {{"before", ParamType::integer, "id of the run before", true},
+                  {"after", ParamType::integer, "id of the run after", true},
+                  reference},
+       .result = "figures: for each figure before, after and change (|after| - |before|), each "
+                 "with value, u, u_random, nu_eff, k, U for 95 %; effect: reduced, increased, or "
+                 "not shown (change within its U); notes: other differences between the runs",
+       .example = R"({"before": 1, "after": 2})",
+       .handler = on_query(m, compare)});
   table.add({.name = "squareness.budget",
-             .summary =
-                 "The uncertainty budget of the squareness of two axes (EC0Y, EB0Z or EA0Z) from a "
-                 "run along each; the artefact is that of the rigs.",
+             .summary = "Calculates the uncertainty budget of the squareness of two axes (EC0Y, "
+                        "EB0Z or EA0Z) from a run along each axis; the rigs state the artefact.",
              .params = squareness_params(),
              .result = result,
              .example = R"({"run_x": 1, "run_y": 2})",
              .handler = on_query(m, squareness_budget)});
   table.add(
       {.name = "parallelism.fit",
-       .summary = "Parallelism of two motions along one axis (ISO 230-1), the angle between the "
-                  "reference lines of their straightness, with its budgets. Nothing is stored.",
+       .summary =
+           "Calculates the parallelism of two motions along one axis (ISO 230-1): the angle "
+           "between the reference lines of their straightness, with budgets. Nothing is stored.",
        .params = {{"run_a", ParamType::integer, "id of the run that is the datum", true},
                   {"run_b", ParamType::integer,
                    "id of the run along the same axis that is compared with it", true},
-                  {"partial", ParamType::boolean, "take partial runs as well", false, "false"}},
-       .result = "parallelism: for both straightness errors and each reference line angle_urad = "
-                 "slope of B - slope of A; from_mm, to_mm: the travel in common; " +
+                  {"partial", ParamType::boolean, "also accept partial runs", false, "false"}},
+       .result = "parallelism: for both straightness errors and each reference line, angle_urad = "
+                 "slope of B - slope of A; from_mm, to_mm: the common travel; " +
                  result,
        .example = R"({"run_a": 1, "run_b": 2})",
        .handler = on_query(m, parallelism)});

@@ -26,9 +26,8 @@ using rpc::ParamType;
 using rpc::Reply;
 
 constexpr const char* kSense =
-    "error = actual - nominal of the body that moves; correction is added to the command of the "
-    "axis "
-    "of its second letter (EYX: Y)";
+    "error = actual - nominal position of the moving body; the correction is added to the command "
+    "of the axis that the error's second letter names (EYX: Y)";
 constexpr std::int64_t kMaxGridPage = 100;
 
 Result<const store::ActiveTable*> active_table(const Methods& m, const Params& params) {
@@ -178,7 +177,7 @@ void write_correction(JsonWriter& json, const CompensationTable& table, const Er
 Result<std::string> at(const Methods& m, const Params& params) {
   if (is_volume(params)) return volume_at(m, params);
   if (!params.has("position_mm"))
-    return fail(ErrorCode::usage, "position_mm is missing: where on the axis?");
+    return fail(ErrorCode::usage, "position_mm is missing; give the position on the axis");
   MDOF_TRY(const auto* active, active_table(m, params));
   const std::int64_t direction = params.integer("direction", 0);
   if (direction < -1 || direction > 1) {
@@ -201,7 +200,8 @@ Result<std::string> at(const Methods& m, const Params& params) {
   write_correction(json, table, value.error);
   write_values(json, "u", table.axis, value.u);
   write_values(json, "u_interpolation", table.axis, value.u_interpolation);
-  write_covers(json, covers_text(table) + "; between targets interpolation", table.not_declared);
+  write_covers(json, covers_text(table) + "; between targets also the interpolation",
+               table.not_declared);
   json.field("inside", value.inside)
       .field("simulated", table.simulated)
       .field("doubtful", active->doubtful)
@@ -218,84 +218,90 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
   std::vector<rpc::Param> build_params{
       {"runs", ParamType::array, "ids of runs of one axis and the same targets", true},
       {"keep_slope", ParamType::boolean,
-       "leave the slope in the straightness (by default squareness holds it)", false, "false"},
-      {"partial", ParamType::boolean, "take partial runs as well", false, "false"},
+       "keep the slope in the straightness (by default the slope belongs to squareness)", false,
+       "false"},
+      {"partial", ParamType::boolean, "also accept partial runs", false, "false"},
       {"reference", ParamType::string,
-       "where straightness is stated: fixture, carriage or tool [the rig's tool point, "
+       "point at which straightness is stated: fixture, carriage or tool [the rig's tool point, "
        "else the fixture]",
        false}};
   for (rpc::Param& limit : limit_params()) build_params.push_back(std::move(limit));
-  table.add({.name = "compensation.build",
-             .summary = "Builds and stores a one-axis table from runs; it is not yet active.",
-             .params = std::move(build_params),
-             .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
-                       "simulated, doubtful, notices, notes",
-             .example = R"({"runs": [1]})",
-             .writes = true,
-             .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
+  table.add(
+      {.name = "compensation.build",
+       .summary = "Builds and stores a table of one axis from runs; the table is not yet active.",
+       .params = std::move(build_params),
+       .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
+                 "simulated, doubtful, notices, notes",
+       .example = R"({"runs": [1]})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
   table.add(
       {.name = "compensation.activate",
-       .summary = "Activates a stored table on its axis, or on the volume, at once and for "
-                  "everybody.",
+       .summary =
+           "Activates a stored table on its axis, or on the volume, at once and for all clients.",
        .params = {{"table", ParamType::integer, "id of the table", true},
-                  {"simulated", ParamType::boolean, "also one of simulated data", false, "false"},
+                  {"simulated", ParamType::boolean, "also accept a table of simulated data", false,
+                   "false"},
                   {"despite_warnings", ParamType::boolean,
-                   "also one whose runs carry doubtful notices", false, "false"}},
-       .result = "table, generation, changed: false where it was active already; "
-                 "simulated, doubtful",
+                   "also accept a table whose runs have doubtful notices", false, "false"}},
+       .result =
+           "table, generation, changed: false if the table was already active; simulated, doubtful",
        .example = R"({"table": 1})",
        .writes = true,
        .approves = true,
        .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
-  table.add({.name = "compensation.deactivate",
-             .summary = "Deactivates the table of an axis or of the volume: none is active from "
-                        "then on.",
-             .params = {axis},
-             .result = "axis, generation, changed: false where none was active",
-             .example = R"({"axis": "X"})",
-             .writes = true,
-             .approves = true,
-             .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
+  table.add(
+      {.name = "compensation.deactivate",
+       .summary =
+           "Deactivates the table of an axis or of the volume; no table is active afterwards.",
+       .params = {axis},
+       .result = "axis, generation, changed: false if no table was active",
+       .example = R"({"axis": "X"})",
+       .writes = true,
+       .approves = true,
+       .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
   table.add(
       {.name = "compensation.status",
-       .summary = "The active tables by axis, with the generation, which grows with each change.",
-       .result = "generation; axes: table, runs, range, sense, simulated, doubtful, who and "
-                 "when; volume: the same of the volumetric table, null without one",
+       .summary = "Lists the active tables by axis, with the generation, which increases with each "
+                  "change.",
+       .result = "generation; axes: table, runs, range, sense, simulated, doubtful, who activated "
+                 "it and when; volume: the same members for the volumetric table, or null",
        .handler = [&m](const Params&) -> Result<std::string> { return status(m); }});
   table.add(
       {.name = "compensation.grid",
-       .summary = "The grid of the active table, a page at a time: of an axis errors, forward "
-                  "and reverse apart; of the volume corrections.",
+       .summary = "Returns the grid of the active table, in pages. Axis: errors, forward and "
+                  "reverse separately. Volume: corrections.",
        .params = {axis,
                   offset_param(),
                   count_param(kMaxNodesPage),
                   {"generation", ParamType::integer,
-                   "of the pages before: error -32001 if it has changed", false},
-                  {"u_parts", ParamType::boolean, "of the volume: u_common and u_independent too",
-                   false, "false"}},
-       .result = "table members, doubtful, generation, points: errors (actual - nominal) in um and "
-                 "urad; of the volume nodes: each X, Y, Z in mm, their three corrections and three "
-                 "u in um, with u_parts three u_common and three u_independent",
+                   "generation of the pages already read: error -32001 if it has changed", false},
+                  {"u_parts", ParamType::boolean,
+                   "for the volume: also return u_common and u_independent of each node", false,
+                   "false"}},
+       .result =
+           "members of the table, doubtful, generation; for an axis points: errors (actual - "
+           "nominal) in um and urad; for the volume nodes: for each X, Y, Z in mm, three "
+           "corrections and three u in um, with u_parts three u_common and three u_independent",
        .example = R"({"axis": "X", "offset": 0, "count": 20})",
        .handler = [&m](const Params& p) { return grid(m, p); }});
-  table.add(
-      {.name = "compensation.at",
-       .summary = "The correction at a position: linear between grid points, the end value "
-                  "outside, and it says so.",
-       .params = {axis,
-                  {"position_mm", ParamType::number, "of the axis; needed for one", false},
-                  {"X_mm", ParamType::number, "command, of the volume", false, "0"},
-                  {"Y_mm", ParamType::number, "command, of the volume", false, "0"},
-                  {"Z_mm", ParamType::number, "command, of the volume", false, "0"},
-                  {"direction", ParamType::integer, "1 forward, -1 reverse, 0 their mean", false,
-                   "0"}},
-       .result =
-           "error in um and urad; correction, to be added to the command, null with "
-           "correction_reason where its sign is not known; u; inside: that approach was "
-           "measured there; simulated; doubtful: its runs carry doubtful notices; generation; of "
-           "the volume correction, u, u_common and u_independent by axis",
-       .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
-       .handler = [&m](const Params& p) { return at(m, p); }});
+  table.add({.name = "compensation.at",
+             .summary = "Returns the correction at a position: linear between grid points, outside "
+                        "the grid the end value (inside is then false).",
+             .params = {axis,
+                        {"position_mm", ParamType::number,
+                         "position on the axis; required for an axis", false},
+                        {"X_mm", ParamType::number, "command of X, for the volume", false, "0"},
+                        {"Y_mm", ParamType::number, "command of Y, for the volume", false, "0"},
+                        {"Z_mm", ParamType::number, "command of Z, for the volume", false, "0"},
+                        {"direction", ParamType::integer,
+                         "1 forward, -1 reverse, 0 the mean of both", false, "0"}},
+             .result = "axis: error in um and urad; correction, to be added to the command (null "
+                       "with correction_reason if its sign is unknown); u; inside: this approach "
+                       "was measured there; simulated; doubtful: its runs have doubtful notices; "
+                       "generation. Volume: correction, u, u_common and u_independent by axis",
+             .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
+             .handler = [&m](const Params& p) { return at(m, p); }});
 }
 
 }  // namespace mdof::daemon

@@ -21,7 +21,7 @@ constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad
 Status check_no_files(const Machine& machine) {
   if (!names_files(machine)) return {};
   return bad_input(
-      "machine.at reads no files; give the tables in the text, as EXX_um = [[…]], or by runs and "
+      "machine.at reads no files; give the tables in the text, as EXX_um = [[…]], or name runs and "
       "tables of the database");
 }
 
@@ -42,7 +42,8 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
   json.key("u").begin_object();
   for (int k = 0; k < 3; ++k) json.field(kComponents[k], model.causes.empty() ? kNaN : to_um(u[k]));
   json.end_object();
-  if (model.causes.empty()) json.field("u_reason", "no source and no u of an error is declared");
+  if (model.causes.empty())
+    json.field("u_reason", "neither a source nor the u of an error is declared");
   std::vector<std::string> missing;
   for (const auto& names : error.not_measured) algo::add_new(names, missing);
   write_strings(json, "not_measured", missing);
@@ -74,10 +75,16 @@ Result<Machine> machine_param(const Params& params) {
 }
 
 std::vector<rpc::Param> machine_params() {
-  return {
-      {"machine", ParamType::string, "MACHINE.toml as text", true, {}, {.bytes = 60'000}},
-      {"machine_source", ParamType::string,
-       "its file name, for messages; absolute where it names files, which stand beside it", false}};
+  return {{"machine",
+           ParamType::string,
+           "machine file (MACHINE.toml) as text",
+           true,
+           {},
+           {.bytes = 60'000}},
+          {"machine_source", ParamType::string,
+           "file name of the machine file, for messages; an absolute path if it names files, which "
+           "are read from its folder",
+           false}};
 }
 
 Result<algo::Command> command_of(const Params& params, const Machine& machine) {
@@ -108,13 +115,12 @@ void add_machine_methods(rpc::MethodTable& table, Methods& m) {
   for (rpc::Param& each : command_params("command of the axis")) params.push_back(std::move(each));
   table.add(
       {.name = "machine.at",
-       .summary = "The error of the tool against the work at a command of a machine, with "
-                  "its u. Nothing is stored.",
+       .summary = "Calculates the error of the tool relative to the work at a command of a "
+                  "machine, with u. Nothing is stored.",
        .params = params,
-       .result =
-           "error: x_um, y_um, z_um, a_urad, b_urad, c_urad, actual - nominal, by the "
-           "exact product; u of the place by the linear form; not_measured, "
-           "beyond_tables: names of errors; notices of the stored runs that the machine names",
+       .result = "error (actual - nominal, by the exact product): x_um, y_um, z_um, a_urad, "
+                 "b_urad, c_urad; u of x, y and z (linear form); not_measured, beyond_tables: "
+                 "names of errors; notices of the stored runs that the machine names",
        .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
                   R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
                   R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",

@@ -37,11 +37,11 @@ constexpr std::array kRunKeys = {"run_x", "run_y", "run_z"};
 }  // namespace
 
 std::vector<rpc::Param> squareness_params(std::vector<rpc::Param> more) {
-  std::vector<rpc::Param> all = {
-      {"run_x", ParamType::integer, "id of the run along X; of run_x, run_y, run_z two", false},
-      {"run_y", ParamType::integer, "id of the run along Y", false}};
+  std::vector<rpc::Param> all = {{"run_x", ParamType::integer,
+                                  "id of the run along X; give two of run_x, run_y, run_z", false},
+                                 {"run_y", ParamType::integer, "id of the run along Y", false}};
   all.insert(all.end(), more.begin(), more.end());
-  all.push_back({"partial", ParamType::boolean, "take partial runs as well", false, "false"});
+  all.push_back({"partial", ParamType::boolean, "also accept partial runs", false, "false"});
   all.push_back({"run_z", ParamType::integer, "id of the run along Z", false});
   return all;
 }
@@ -51,7 +51,8 @@ Result<SquarenessRequest> squareness_param(const Params& params) {
   for (std::size_t axis = 0; axis < kRunKeys.size(); ++axis)
     if (params.has(kRunKeys[axis])) given.push_back(axis);
   if (given.size() != 2)
-    return fail(ErrorCode::usage, "squareness is of two axes: give two of run_x, run_y and run_z");
+    return fail(ErrorCode::usage,
+                "squareness needs runs of two axes; give two of run_x, run_y and run_z");
   SquarenessRequest request;
   request.axes = {static_cast<Axis>(given[0]), static_cast<Axis>(given[1])};
   request.run_a = params.integer(kRunKeys[given[0]]);
@@ -63,27 +64,27 @@ Result<SquarenessRequest> squareness_param(const Params& params) {
 void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
   std::vector<rpc::Param> fit =
       squareness_params({{"artefact_angle_error_urad", ParamType::number,
-                          "of the square: the material encloses 90 deg + this at the corner of its "
-                          "two faces; from the rigs if not given",
+                          "angle error of the square: its material encloses 90 deg + this value at "
+                          "the corner of its two faces [as stated in the rigs]",
                           false},
                          {"u_artefact_urad",
                           ParamType::number,
-                          "its standard uncertainty; from the rigs if not given",
+                          "standard uncertainty of the square's angle [as stated in the rigs]",
                           false,
                           {},
                           {.least = 0}}});
-  table.add(
-      {.name = "squareness.fit",
-       .summary = "Squareness of two axes from a run along each, stored with its standard "
-                  "uncertainty: EC0Y of X and Y, EB0Z of X and Z, EA0Z of Y and Z. The same fit is "
-                  "stored once.",
-       .params = std::move(fit),
-       .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), or those of EB0Z "
-                 "or EA0Z; form_urad (residual straightness of both axes) and both slopes, at "
+  table.add({.name = "squareness.fit",
+             .summary = "Calculates the squareness of two axes from a run along each and stores it "
+                        "with its standard uncertainty: EC0Y for X and Y, EB0Z for X and Z, EA0Z "
+                        "for Y and Z. The same fit is stored once.",
+             .params = std::move(fit),
+             .result =
+                 "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), or the same for "
+                 "EB0Z or EA0Z; form_urad (residual straightness of both axes) and both slopes, at "
                  "the fixture; sense; notices",
-       .example = R"({"run_x": 1, "run_y": 2})",
-       .writes = true,
-       .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});
+             .example = R"({"run_x": 1, "run_y": 2})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});
 }
 
 }  // namespace mdof::daemon

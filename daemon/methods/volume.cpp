@@ -24,7 +24,7 @@ constexpr std::string_view kAxes = "XYZ";
 Result<const store::ActiveVolumetric*> active_volume(const Methods& m) {
   if (m.active.volume) return m.active.volume.get();
   return fail(ErrorCode::not_found,
-              "no volumetric table is active; build one of a machine with "
+              "no volumetric table is active; build one from a machine file with "
               "compensation.build_volume and activate it");
 }
 
@@ -35,8 +35,7 @@ Result<algo::VolumetricRequest> read_grid(const Params& params, const Machine& m
   for (const char axis : axes) {
     const std::size_t k = kAxes.find(axis);
     if (k == std::string_view::npos || grid.along[k])
-      return fail(ErrorCode::usage,
-                  "axes \"" + axes + "\" must name axes of the grid once each: XYZ, XY, XZ, YZ");
+      return fail(ErrorCode::usage, "axes \"" + axes + "\" must be XYZ, XY, XZ or YZ");
     grid.along[k] = true;
   }
   if (axes.size() < 2) return fail(ErrorCode::usage, "axes must be two or three of X, Y, Z");
@@ -45,7 +44,7 @@ Result<algo::VolumetricRequest> read_grid(const Params& params, const Machine& m
   const std::string approach(params.string("approach", "mean"));
   if (approach != "mean" && approach != "forward" && approach != "reverse")
     return fail(ErrorCode::usage,
-                "approach \"" + approach + "\" is none of \"mean\", \"forward\", \"reverse\"");
+                "approach \"" + approach + "\" must be \"mean\", \"forward\" or \"reverse\"");
   grid.approach = approach == "forward"   ? algo::MachineApproach::forward
                   : approach == "reverse" ? algo::MachineApproach::reverse
                                           : algo::MachineApproach::mean;
@@ -80,8 +79,8 @@ struct ClientFiles {
     if (!user || !source.starts_with('/'))
       return fail(ErrorCode::usage,
                   source +
-                      ": names tables in files; over the Unix socket give machine_source as an "
-                      "absolute path, beside which they stand, or give the tables in the text");
+                      ": names tables in files; give machine_source as an absolute path in the "
+                      "folder of these files (Unix socket only), or give the tables in the text");
     std::vector<ClientFile> open;
     const FindFile beside = files_beside(source);
     MDOF_TRY(
@@ -209,24 +208,26 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
 
 void add_volume_methods(rpc::MethodTable& table, Methods& m) {
   std::vector<rpc::Param> params = machine_params();
-  params.push_back({"axes", ParamType::string, "of the grid: XYZ, XY, XZ or YZ", true});
+  params.push_back({"axes", ParamType::string, "axes of the grid: XYZ, XY, XZ or YZ", true});
   params.push_back({"step_mm",
                     ParamType::number,
-                    "between two nodes, about",
+                    "approximate distance between nodes",
                     true,
                     {},
                     {.least = 1e-3, .most = 1e6}});
-  for (rpc::Param& each : command_params("where an axis stands that the grid has not"))
+  for (rpc::Param& each : command_params("command of the axis if it is not an axis of the grid"))
     params.push_back(std::move(each));
-  params.push_back({"approach", ParamType::string, "mean, forward or reverse", false, "\"mean\""});
+  params.push_back({"approach", ParamType::string, "approach direction: mean, forward or reverse",
+                    false, "\"mean\""});
   params.push_back({"incomplete", ParamType::boolean,
-                    "also where an error that would count was not measured", false, "false"});
+                    "also build if an error that acts at the tool was not measured", false,
+                    "false"});
   for (rpc::Param& limit : limit_params()) params.push_back(std::move(limit));
   table.add({.name = "compensation.build_volume",
              .summary = "Builds and stores a table of corrections over a plane or a volume of a "
-                        "machine with its measured errors; it is not yet active.",
+                        "machine with its measured errors; the table is not yet active.",
              .params = std::move(params),
-             .result = "table, machine, commands of the nodes, interpolation, what stays, "
+             .result = "table, machine, commands of the nodes, interpolation, residual errors, "
                        "not_measured, simulated, doubtful, notices",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-Y-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"

@@ -150,7 +150,7 @@ TEST_F(VolumeMethods, WhatCannotBeBuiltIsRefused) {
     EXPECT_SAYS(build(more, machine).message(), part);
   };
   says(R"("axes": "XQ", "step_mm": 5)", "axes");
-  says(R"("axes": "XX", "step_mm": 5)", "once each");
+  says(R"("axes": "XX", "step_mm": 5)", "must be XYZ");
   says(R"("axes": "X", "step_mm": 5)", "two or three");
   says(R"("axes": "XYZ", "step_mm": 5)", "no axis Z");
   says(R"("axes": "XY", "step_mm": 0)", "step_mm");
